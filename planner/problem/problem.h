@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision/geometry/mesh_file.h"
+#include "collision/motion/rigid_motion.h"
+
+namespace corridor {
+
+enum class RigidSpace { SE2, SE3 };
+
+/// A mesh of a problem as it is used: scale, up-axis turn, local pose and (for a robot) the shift to the reference point
+/// are already in the vertices.
+struct ProblemMesh {
+  std::string name;             ///< "table"; a robot's shapes: "piano", or "piano/lid" where there are several
+  std::filesystem::path file;
+  MeshFile source;              ///< format and rules; `mesh` is the final one
+};
+
+/// A rigid-body planning problem, checked and complete: what `problem.yaml` or an OMPL.app `.cfg` says.
+/// Lengths in metres, angles in radians.
+struct Problem {
+  std::filesystem::path file;
+  std::string name;
+  std::string digest;  ///< SHA-256, hex, of the problem file, the robot file and every mesh file, in that order
+  RigidSpace space = RigidSpace::SE3;
+
+  std::vector<ProblemMesh> robot;
+  std::vector<ProblemMesh> world;
+  std::vector<std::string> notes;  ///< what the reader decided and a user may want to know (units, recentring, …)
+
+  RigidPose start, goal;   ///< quaternions as given; SE2: see startYaw
+  double startYaw = 0, goalYaw = 0;  ///< SE2 only
+  struct GoalRegion { double position = 0, angle = 0; };  ///< metres, radians of rotation; 0: the goal state itself
+  std::optional<GoalRegion> goalRegion;
+  std::optional<double> goalThreshold;  ///< .cfg only: in the state space's distance
+
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< bounds of the reference point; SE2: x and y
+  double rotationWeight = 1;  ///< SE3: of the quaternion angle (half the rotation angle); SE2: of the yaw, default 0.5
+
+  double margin = 0;
+  std::optional<Tube> tube;  ///< unset: rounding only, 2^-40 of each coordinate's range
+
+  struct PlannerSpec {
+    std::string name = "RRTConnect";
+    double time = 20;                          ///< seconds
+    std::optional<bool> stopAtFirst;           ///< unset: first for planners that find, time for those that optimise
+    std::map<std::string, std::string> params; ///< OMPL's own names
+  } planner;
+  std::string sampler = "uniform";             ///< uniform, gaussian, obstacle_based, bridge_test, max_clearance
+  std::optional<std::string> objective;        ///< .cfg only: "length", "max_min_clearance", "mechanical_work"
+  double objectiveThreshold = 0;
+  bool simplify = true;
+  struct CheckerSpec {
+    std::string edges = "certified";           ///< or "discrete"
+    double resolution = 0.01;                  ///< discrete: OMPL's longest_valid_segment_fraction
+    std::optional<double> tolerance;           ///< metres; unset: 1e-7 of the smaller side's bounding radius
+    std::string fit = "triangles";             ///< of the OBBs: vertices, triangles, hull
+  } checker;
+  std::uint64_t seed = 1;
+};
+
+/// Reads a problem: a `problem.yaml`, a folder that holds one, or an OMPL.app `.cfg`.
+/// @throws InputError with all faults of the file at once.
+Problem readProblem(const std::filesystem::path& path);
+
+}  // namespace corridor
