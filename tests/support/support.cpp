@@ -1,0 +1,36 @@
+#include "tests/support/support.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace corridor::test {
+namespace {
+
+std::optional<std::filesystem::path> folderFrom(const char* variable) {
+  const char* value = std::getenv(variable);
+  if (value && std::filesystem::is_directory(value)) return value;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> dataFolder() {
+  if (auto folder = folderFrom("CORRIDOR_DATA")) return folder;
+  const std::filesystem::path beside = std::filesystem::path(CORRIDOR_SOURCE_DIR) / ".." / "shared" / "data";
+  if (std::filesystem::is_directory(beside)) return beside;
+  return std::nullopt;
+}
+
+std::optional<std::filesystem::path> omplAppFolder() { return folderFrom("CORRIDOR_OMPLAPP"); }
+
+bool stressAsked() { return std::getenv("CORRIDOR_STRESS") != nullptr; }
+
+std::uint64_t testSeed(std::uint64_t fallback) {
+  const char* value = std::getenv("CORRIDOR_SEED");
+  const std::uint64_t seed = value ? std::stoull(value) : fallback;
+  std::cout << "seed " << seed << " (set CORRIDOR_SEED to repeat another)\n";
+  return seed;
+}
+
+}  // namespace corridor::test
