@@ -1,0 +1,166 @@
+#include "collision/predicates/triangle_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "collision/core/rounding.h"
+#include "tests/support/rational_contact.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+bool touch(const Triangle& a, const Triangle& b, const Transform& X_WA = {}, const Transform& X_WB = {}) {
+  Counters counters;
+  const bool answer = trianglesTouch(a, X_WA, b, X_WB, counters);
+  EXPECT_EQ(answer, trianglesTouchExact(a, X_WA, b, X_WB));
+  EXPECT_EQ(answer, trianglesTouch(b, X_WB, a, X_WA, counters)) << "not symmetric";
+  return answer;
+}
+
+TEST(TriangleContact, SharedData) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "no shared data (set CORRIDOR_DATA)";
+  int files = 0, pairs = 0, wrong = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(*data / "collision" / "tripairs")) {
+    std::ifstream in(entry.path());
+    ++files;
+    for (std::string line; std::getline(in, line);) {
+      if (line.empty() || line[0] == '#') continue;
+      std::istringstream numbers(line);
+      int hit;
+      Triangle a, b;
+      numbers >> hit;
+      for (Triangle* t : {&a, &b})
+        for (Vec3& v : *t) {
+          std::string word;  // iostreams refuse denormals
+          for (int i = 0; i < 3; ++i) numbers >> word, v[i] = std::strtod(word.c_str(), nullptr);
+        }
+      ASSERT_TRUE(numbers) << entry.path() << ": " << line;
+      ++pairs;
+      if (touch(a, b) != (hit == 1)) {
+        ++wrong;
+        ADD_FAILURE() << entry.path() << ": " << line;
+      }
+    }
+  }
+  EXPECT_GT(files, 5);
+  EXPECT_GT(pairs, 10'000);
+  EXPECT_EQ(wrong, 0);
+  std::cout << files << " files, " << pairs << " pairs\n";
+}
+
+/// Triangles and maps that meet degenerate positions often, against rationals that share no code with the predicates.
+class Random : public testing::TestWithParam<const char*> {};
+
+TEST_P(Random, AgreesWithRationals) {
+  const std::string kind = GetParam();
+  std::mt19937_64 random(test::testSeed(20261121));
+  const auto integer = [&](int n) { return static_cast<double>(std::uniform_int_distribution(-n, n)(random)); };
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  const auto rotation = [&] {
+    return Mat3(Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix());
+  };
+  const int cases = test::stressAsked() ? 200'000 : 1'000;
+  int touching = 0;
+  for (int n = 0; n < cases; ++n) {
+    Triangle a, b;
+    Transform X_WA, X_WB;
+    for (Triangle* t : {&a, &b})
+      for (Vec3& v : *t) v = kind == "grid" ? Vec3(integer(2), integer(2), integer(2)) : Vec3(real(), real(), real());
+    if (kind == "common corner, moved together") {  // contact by construction in b's own frame, then rounded maps
+      b[0] = a[0];
+      X_WA = X_WB = {rotation(), {real() * 1e6, real(), real()}};
+    } else if (kind == "maps nearly rigid") {
+      X_WA = {rotation() * (1 + 1e-9 * real()), {real(), real(), real()}};
+      X_WB = {Mat3(rotation() + 1e-9 * Mat3::Random()), {real(), real(), real()}};
+    } else if (kind == "flat and far") {
+      for (Triangle* t : {&a, &b})
+        for (Vec3& v : *t) v = Vec3(1e6 + integer(3), 1e-9 * integer(2), 1e6 + integer(3));
+      X_WB.m(1, 0) = 1e-15 * integer(1);
+    } else if (kind == "exponents apart") {
+      for (Triangle* t : {&a, &b})
+        for (Vec3& v : *t) v = Vec3(std::ldexp(real(), static_cast<int>(integer(500))), integer(1), integer(1) * 0x1p-1060);
+    } else if (kind == "denormal") {
+      for (Triangle* t : {&a, &b})
+        for (Vec3& v : *t) v = Vec3(integer(2), integer(2), integer(2)) * 0x1p-1074;
+      X_WB.m = 0.5 * Mat3::Identity();
+    }
+    const bool expected = test::rationalContact(a, X_WA, b, X_WB);
+    touching += expected;
+    ASSERT_EQ(touch(a, b, X_WA, X_WB), expected) << kind << ", case " << n;
+  }
+  EXPECT_GT(touching, cases / 100) << "the generator must make both answers";
+  EXPECT_LT(touching, kind == "common corner, moved together" ? cases + 1 : cases);
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, Random,
+                         testing::Values("grid", "common corner, moved together", "maps nearly rigid", "flat and far",
+                                         "exponents apart", "denormal"),
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
+                           std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+                           return name;
+                         });
+
+TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
+  const Triangle face = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  const auto point = [](double x, double y, double z) { return Triangle{Vec3(x, y, z), Vec3(x, y, z), Vec3(x, y, z)}; };
+  EXPECT_TRUE(touch(face, point(1, 1, 0)));
+  EXPECT_TRUE(touch(face, point(2, 2, 0)));
+  EXPECT_FALSE(touch(face, point(std::nextafter(2.0, 3.0), 2, 0)));
+  EXPECT_FALSE(touch(face, point(1, 1, 0x1p-1074)));
+  EXPECT_TRUE(touch(point(3, 5, 7), point(3, 5, 7)));
+  EXPECT_FALSE(touch(point(3, 5, 7), point(3, 5, std::nextafter(7.0, 8.0))));
+  const Triangle segment = {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(1, 1, 0.25)};
+  EXPECT_TRUE(touch(face, segment));
+  EXPECT_TRUE(touch(segment, point(1, 1, 0.5)));
+  EXPECT_FALSE(touch(segment, point(1, 1, 1.5)));
+  const Triangle collinear = {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 2)};
+  EXPECT_TRUE(touch(segment, collinear));
+}
+
+/// Contact by the exact maps only: the rounded corners would say the opposite.
+TEST(TriangleContact, TheMapsAreExactNotTheirRoundedImages) {
+  const Triangle floor = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
+  const Triangle tip = {Vec3(0, 0, 1), Vec3(1, 0, 2), Vec3(-1, 0, 2)};
+  // z = 1·m − m' for numbers whose product needs more than 53 bits.
+  const double m = 1 + 0x1p-30, v = 1 + 0x1p-31;
+  Triangle scaled = tip;
+  scaled[0][2] = v;
+  Transform X_WB;
+  X_WB.m(2, 2) = m;
+  X_WB.t[2] = -(m * v);  // the rounded product: m·v − fl(m·v) = 2^-61 > 0
+  EXPECT_FALSE(touch(floor, scaled, {}, X_WB));
+  X_WB.t[2] = std::nextafter(X_WB.t[2], -10);
+  EXPECT_TRUE(touch(floor, scaled, {}, X_WB));
+}
+
+TEST(TriangleContact, VerdictsSurviveExactRotationsAndScaling) {
+  std::mt19937_64 random(test::testSeed(7));
+  const auto integer = [&](int n) { return static_cast<double>(std::uniform_int_distribution(-n, n)(random)); };
+  for (int n = 0; n < 300; ++n) {
+    Triangle a, b;
+    for (Triangle* t : {&a, &b})
+      for (Vec3& v : *t) v = Vec3(integer(3), integer(3), integer(3)) / 3;
+    const bool answer = touch(a, b);
+    int order[3] = {0, 1, 2};
+    do {
+      for (int signs = 0; signs < 8; ++signs) {
+        Transform X;
+        X.m.setZero();
+        for (int i = 0; i < 3; ++i) X.m(i, order[i]) = std::ldexp(signs >> i & 1 ? -1 : 1, 40 - n % 80);
+        ASSERT_EQ(touch(a, b, X, X), answer);
+      }
+    } while (std::next_permutation(order, order + 3));
+  }
+}
+
+}  // namespace
+}  // namespace corridor
