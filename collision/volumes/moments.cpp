@@ -1,0 +1,71 @@
+#include "collision/volumes/moments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace corridor {
+namespace {
+
+/// Coordinates about a local origin and in a power-of-two unit near their size: offsets of 10^6 don't cancel, and squares
+/// neither over- nor underflow. Both are exact to undo.
+struct LocalUnit {
+  Vec3 origin;
+  double unit = 1;
+
+  explicit LocalUnit(std::span<const Triangle> triangles) {
+    Vec3 low = triangles[0][0], high = low;
+    for (const Triangle& t : triangles)
+      for (const Vec3& p : t) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+    origin = low + 0.5 * (high - low);
+    const double size = (high - low).maxCoeff();
+    if (size > 0 && std::isfinite(size)) unit = std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
+  }
+  Vec3 operator()(const Vec3& p) const { return (p - origin) / unit; }
+  Moments global(Moments local) const {
+    local.mean = origin + unit * local.mean;  // the covariance keeps the local unit: only its axes are used
+    return local;
+  }
+};
+
+}  // namespace
+
+Moments vertexMoments(std::span<const Triangle> triangles) {
+  const LocalUnit local(triangles);
+  Moments m;
+  Mat3 second = Mat3::Zero();
+  for (const Triangle& t : triangles)
+    for (const Vec3& corner : t) {
+      const Vec3 p = local(corner);
+      m.mean += p;
+      second += p * p.transpose();
+    }
+  m.weight = 3.0 * static_cast<double>(triangles.size());
+  m.mean /= m.weight;
+  m.covariance = second / m.weight - m.mean * m.mean.transpose();
+  return local.global(m);
+}
+
+Moments surfaceMoments(std::span<const Triangle> triangles) {
+  const LocalUnit local(triangles);
+  Moments m;
+  Mat3 second = Mat3::Zero();
+  for (const Triangle& t : triangles) {
+    const Vec3 p = local(t[0]), q = local(t[1]), r = local(t[2]);
+    const double area = 0.5 * (q - p).cross(r - p).norm();
+    const Vec3 c = (p + q + r) / 3;
+    m.weight += area;
+    m.mean += area * c;
+    second += area / 12 * (9 * c * c.transpose() + p * p.transpose() + q * q.transpose() + r * r.transpose());
+  }
+  if (!(m.weight > 0)) return {};
+  m.mean /= m.weight;
+  m.covariance = second / m.weight - m.mean * m.mean.transpose();
+  return local.global(m);
+}
+
+}  // namespace corridor

@@ -1,0 +1,138 @@
+#include "collision/hierarchy/obb_tree.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/core/query_context.h"
+#include "collision/queries/interference.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+class Fits : public testing::TestWithParam<ObbFit> {};
+
+void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
+  mesh.triangles.push_back({n, n + 1, n + 2});
+}
+
+TEST_P(Fits, ContainsItsTrianglesInRationals) {
+  std::mt19937_64 random(test::testSeed(1));
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  for (const double offset : {0.0, 1e6, 1e12}) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 c(offset + real(), real(), -offset + real());
+      const double s = std::exp(3 * real() - 3);
+      add(mesh, c, c + s * Vec3(real(), real(), real()), c + s * Vec3(real(), real(), real() * (i % 3)));
+    }
+    EXPECT_EQ(ObbTree(mesh, {GetParam()}).check(), std::nullopt) << offset;
+  }
+}
+
+TEST_P(Fits, SharedMeshes) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "no shared data (set CORRIDOR_DATA)";
+  for (const char* name : {"pqp_bunny", "slivers_A", "soup_far_A", "soup_tiny_B", "touching_boxes_B", "panda_hand"}) {
+    const ObbTree tree(test::plainObj(*data / "collision" / "meshes" / (std::string(name) + ".obj")), {GetParam()});
+    EXPECT_EQ(tree.check(), std::nullopt) << name;
+  }
+}
+
+/// Triangles of size 2^-i around a point: a tree about as deep as it has triangles.
+TEST_P(Fits, DeepTreesNeedNoCallStack) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 1'000; ++i) {
+    const double s = std::ldexp(1.0, -i);
+    add(mesh, Vec3(s, 0, 0), Vec3(s, s / 4, 0), Vec3(s, 0, s / 4));
+  }
+  const ObbTree tree(mesh, {GetParam()});
+  EXPECT_GT(tree.depth(), 100U);
+  QueryContext context;
+  EXPECT_TRUE(interference(tree, {}, tree, {}, context));
+  EXPECT_FALSE(interference(tree, {}, tree, {Mat3::Identity(), Vec3(0, 0, 2)}, context));
+}
+
+TEST_P(Fits, IdenticalTrianglesAreOneLeaf) {
+  TriangleMesh mesh;
+  mesh.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  mesh.triangles.assign(10'000, {0, 1, 2});
+  const ObbTree tree(mesh, {GetParam()});
+  EXPECT_EQ(tree.nodes().size(), 1U);
+  EXPECT_TRUE(tree.node(0).isLeaf());
+}
+
+TEST_P(Fits, SinglePointAndSegment) {
+  TriangleMesh point;
+  add(point, Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3));
+  const ObbTree tree(point, {GetParam()});
+  EXPECT_EQ(tree.check(), std::nullopt);
+  EXPECT_LT(tree.node(0).radius, 1e-14);
+  TriangleMesh segment;
+  add(segment, Vec3(0, 0, 0), Vec3(3, 4, 0), Vec3(3, 4, 0));
+  EXPECT_EQ(ObbTree(segment, {GetParam()}).check(), std::nullopt);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Fits, testing::Values(ObbFit::vertices, ObbFit::triangles, ObbFit::hull),
+                         [](const auto& p) {
+                           return p.param == ObbFit::vertices ? "vertices" : p.param == ObbFit::triangles ? "triangles" : "hull";
+                         });
+
+/// A box is fitted to the shape, not to its tessellation: refining one face of a cube a thousandfold changes the moments of neither
+/// the surface nor the hull.
+TEST(ObbFrame, MomentsIgnoreTessellation) {
+  const Vec3 size(4, 2, 1);
+  const auto cube = [&](int n) {  // the face x = 4 in n × n cells, the others in one
+    std::vector<Triangle> all;
+    const auto quad = [&](Vec3 p, Vec3 u, Vec3 v) {
+      all.push_back({p, p + u, p + u + v});
+      all.push_back({p, p + u + v, p + v});
+    };
+    const Vec3 x(size[0], 0, 0), y(0, size[1], 0), z(0, 0, size[2]), o(0, 0, 0);
+    quad(o, x, y), quad(z, x, y), quad(o, x, z), quad(y, x, z), quad(o, y, z);
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) quad(x + y * i / n + z * k / n, y / n, z / n);
+    return all;
+  };
+  for (const ObbFit fit : {ObbFit::triangles, ObbFit::hull}) {
+    const ObbFrame coarse = fitFrame(cube(1), fit), fine = fitFrame(cube(32), fit);
+    EXPECT_LT((coarse.mean - fine.mean).norm(), 1e-13);
+    for (int k = 0; k < 3; ++k) EXPECT_GT(std::abs(coarse.axes.col(k).dot(fine.axes.col(k))), 1 - 1e-13);
+    EXPECT_GT(std::abs(fine.axes(0, 0)), 1 - 1e-13) << "longest axis first";
+  }
+  // What the vertex fit is known for: it is pulled towards the fine face.
+  EXPECT_GT((fitFrame(cube(1), ObbFit::vertices).mean - fitFrame(cube(32), ObbFit::vertices).mean).norm(), 1.0);
+}
+
+/// Inner geometry misleads the moments of the triangles, not those of the hull.
+TEST(ObbFrame, HullIgnoresInnerGeometry) {
+  std::mt19937_64 random(test::testSeed(2));
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  std::vector<Triangle> shell;
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k < i; ++k)
+      shell.push_back({Vec3(i & 1 ? 3 : -3, i & 2 ? 2 : -2, i & 4 ? 1 : -1), Vec3(k & 1 ? 3 : -3, k & 2 ? 2 : -2, k & 4 ? 1 : -1),
+                       Vec3(0, 0, 0)});
+  std::vector<Triangle> filled = shell;
+  for (int i = 0; i < 500; ++i)  // a dense needle along z inside
+    filled.push_back({Vec3(0.1 * real(), 0.1 * real(), real()), Vec3(0.1 * real(), 0.1 * real(), real()), Vec3(0, 0, real())});
+  const ObbFrame a = fitFrame(shell, ObbFit::hull), b = fitFrame(filled, ObbFit::hull);
+  for (int k = 0; k < 3; ++k) EXPECT_GT(std::abs(a.axes.col(k).dot(b.axes.col(k))), 1 - 1e-9);
+  EXPECT_GT(std::abs(b.axes(0, 0)), 1 - 1e-9);
+}
+
+TEST(ObbFrame, FlatInputFallsBack) {
+  std::vector<Triangle> flat;
+  for (int i = 0; i < 10; ++i) flat.push_back({Vec3(i, 0, 5), Vec3(i + 1, 0, 5), Vec3(i, 1, 5)});
+  const ObbFrame frame = fitFrame(flat, ObbFit::hull);
+  EXPECT_GT(std::abs(frame.axes(0, 0)), 0.99);
+  EXPECT_LT(enclosingObb(flat, frame.axes).half[2], 1e-12);
+}
+
+}  // namespace
+}  // namespace corridor

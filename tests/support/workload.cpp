@@ -1,0 +1,72 @@
+#include "tests/support/workload.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace corridor::test {
+namespace {
+
+std::ifstream opened(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  return in;
+}
+
+}  // namespace
+
+TriangleMesh plainObj(const std::filesystem::path& file) {
+  std::ifstream in = opened(file);
+  TriangleMesh mesh;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string key, x, y, z;
+    words >> key >> x >> y >> z;
+    if (key == "v") mesh.vertices.emplace_back(std::stod(x), std::stod(y), std::stod(z));
+    if (key == "f")
+      mesh.triangles.push_back({static_cast<std::uint32_t>(std::stoul(x) - 1), static_cast<std::uint32_t>(std::stoul(y) - 1),
+                                static_cast<std::uint32_t>(std::stoul(z) - 1)});
+  }
+  return mesh;
+}
+
+std::vector<std::string> workloadNames(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (std::filesystem::exists(entry.path() / "poses.txt")) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Workload loadWorkload(const std::filesystem::path& folder, const std::string& name) {
+  Workload w;
+  w.name = name;
+  std::ifstream pair = opened(folder / name / "pair.txt");
+  for (std::string which, file; pair >> which >> file;) (which == "A" ? w.a : w.b) = plainObj(folder / file);
+  const auto lines = [&](const char* file, auto take) {
+    std::ifstream in = opened(folder / name / file);
+    for (std::string line; std::getline(in, line);) {
+      if (line.empty() || line[0] == '#') continue;
+      std::istringstream words(line);
+      take(words);
+    }
+  };
+  lines("poses.txt", [&](std::istream& in) {
+    Transform X;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) in >> X.m(i, k);
+    for (int i = 0; i < 3; ++i) in >> X.t[i];
+    if (!in) throw std::runtime_error(name + ": bad pose");
+    w.poses.push_back(X);
+  });
+  lines("truth.txt", [&](std::istream& in) {
+    int hit;
+    in >> hit;
+    w.hit.push_back(hit);
+  });
+  if (w.poses.size() != w.hit.size()) throw std::runtime_error(name + ": poses and truths differ in number");
+  return w;
+}
+
+}  // namespace corridor::test
