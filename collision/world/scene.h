@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "collision/core/counters.h"
+#include "collision/core/query_context.h"
 #include "collision/geometry/triangle_mesh.h"
+#include "collision/hierarchy/obb_tree.h"
+#include "collision/motion/certify_motion.h"
 #include "collision/motion/rigid_motion.h"
 
 namespace corridor {
 
-class QueryContext;
-class ObbTree;
-
 /// A named mesh whose tree is built when a query first needs it (thread-safe). Immutable otherwise.
 class Body {
  public:
-  Body(std::string name, TriangleMesh mesh);
+  /// @throws std::invalid_argument if the mesh has no triangle, or `checkMesh` complains.
+  Body(std::string name, TriangleMesh mesh, const ObbTreeParams& params = {});
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
@@ -27,9 +27,12 @@ class Body {
   const TriangleMesh& mesh() const;
   const ObbTree& tree() const;  ///< builds it if nobody has
   bool treeBuilt() const;
-  /// Smallest sphere about `origin` (the body's reference point) that holds the mesh, rounded up.
+  /// Radius about the origin (the body's reference point) of all corners, rounded up.
   double radius() const;
-  const Vec3& lower() const;  ///< axis-aligned bounds of the vertices
+  /// A sphere around all corners: centre, and radius rounded up.
+  const Vec3& sphereCenter() const;
+  double sphereRadius() const;
+  const Vec3& lower() const;  ///< axis-aligned bounds of the corners
   const Vec3& upper() const;
 
  private:
@@ -37,39 +40,8 @@ class Body {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One contact of a static query.
-struct Contact {
-  std::size_t movingBody = 0, fixedBody = 0;          ///< indices into the scene's lists
-  std::uint32_t movingTriangle = 0, fixedTriangle = 0;
-};
-
-enum class MotionVerdict { free, contact, undecided };
-enum class UndecidedReason { none, clearance, workLimit, ambiguous };
-
-/// The answer of a motion query (design: contract 2).
-struct MotionResult {
-  MotionVerdict verdict = MotionVerdict::free;
-  UndecidedReason reason = UndecidedReason::none;
-  /// [0, certifiedUntil] is proved free (for `free`: 1). If the query did not ask for the earliest contact it is 0.
-  double certifiedUntil = 1;
-  double contactTime = -1;       ///< t1 of `contact`, else −1; for `undecided` the middle of the undecided interval
-  bool grazing = false;          ///< `contact`, and the clearance stays under the tolerance over [certifiedUntil, contactTime]
-  std::optional<Contact> pair;   ///< of `contact` and `undecided` (not for `ambiguous`)
-  double gap = 0;                ///< `undecided`: distance of that pair found at contactTime, metres
-};
-
-/// Parameters of a motion query.
-struct MotionOptions {
-  double tolerance = 0;      ///< metres; below this clearance the answer may be `undecided`. Must be > 0.
-  double margin = 0;         ///< metres kept from every obstacle; 0: touching is contact
-  Tube tube;                 ///< what the proof covers beside the nominal curve
-  bool earliest = false;     ///< find `certifiedUntil` too, not just the verdict
-  double timeTolerance = 1.0 / 1024;  ///< of [0, 1]; how narrow a bracket `earliest` asks for
-  std::uint64_t workLimit = 20'000'000;  ///< box and triangle tests, after which the answer is `undecided`
-};
-
-/// One rigid body of several meshes, `moving`, among `fixed` ones, which are at the identity. All const after
-/// construction, trees apart (built at first need): one QueryContext a thread makes every query safe to call in parallel.
+/// One rigid body of several meshes, `moving`, among `fixed` ones, which are at the identity. All const after construction, trees apart
+/// (built at first need): with one QueryContext a thread every query may be called in parallel.
 class Scene {
  public:
   Scene(std::vector<Body> moving, std::vector<Body> fixed);
@@ -78,7 +50,7 @@ class Scene {
   const std::vector<Body>& fixed() const { return fixed_; }
   /// Radius about the reference point of all moving meshes.
   double movingRadius() const { return movingRadius_; }
-  /// 1e-7 of the smaller bounding radius of the two sides.
+  /// 1e-7 of the smaller of the two sides' radii (each side's bodies in one sphere).
   double defaultTolerance() const;
 
   /// Exact: do closed triangles of the two sides share a point, with the moving side under X_WB? First contact found.
@@ -87,15 +59,15 @@ class Scene {
   /// Is the motion from `from` to `to` free: straight line and slerp by the shorter arc (design: «What an edge is»)?
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context) const;
-  /// The same in the plane: yaw angles in radians, the shorter way round, z = 0.
-  MotionResult certifyEdgePlanar(const Eigen::Vector3d& fromXyYaw, const Eigen::Vector3d& toXyYaw,
-                                 const MotionOptions& options, QueryContext& context) const;
+  /// The same in the plane: (x, y, yaw), metres and radians, the shorter way round, z = 0.
+  MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options, QueryContext& context) const;
   /// An edge of zero length.
   MotionResult certifyState(const RigidPose& pose, const MotionOptions& options, QueryContext& context) const;
-  MotionResult certifyStatePlanar(const Eigen::Vector3d& xyYaw, const MotionOptions& options,
-                                  QueryContext& context) const;
+  MotionResult certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options, QueryContext& context) const;
 
  private:
+  MotionResult certify(const RigidMotion& motion, const MotionOptions& options, QueryContext& context) const;
+
   std::vector<Body> moving_, fixed_;
   double movingRadius_ = 0;
 };
