@@ -66,14 +66,16 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   return result;
 }
 
-void requireSound(const TriangleMesh& mesh, MeshFaults& faults) {
+void requireSound(const TriangleMesh& mesh, MeshFaults& faults, const char* hint = "") {
   if (mesh.triangles.empty()) {
     faults.fail(
         0,
         "the mesh has no faces; triangles or polygons are needed, lines and points are not read");
   }
-  if (const auto complaint = checkMesh(mesh)) faults.fail(0, *complaint);
+  if (const auto complaint = checkMesh(mesh)) faults.fail(0, *complaint + hint);
 }
+
+constexpr const char* floatHint = " (this format is read in float, whose numbers end at 3.4e38)";
 
 StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
                        bool unitGiven, MeshFaults& faults) {
@@ -82,7 +84,7 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
     faults.fail(0, "the format has a unit, which assimp does not hand on: state the unit");
   }
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::stored);
-  requireSound(import.mesh, faults);
+  requireSound(import.mesh, faults, floatHint);
   StoredMesh stored;
   stored.file.mesh = welded(import.mesh);
   stored.file.format = std::move(import.format);
@@ -163,7 +165,7 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   MeshFaults faults(file.string());
   requireMeshFile(file);
   const AssimpImport import = readWithAssimp(file.string(), AssimpRules::omplApp);
-  requireSound(import.mesh, faults);
+  requireSound(import.mesh, faults, floatHint);
   OmplAppMesh result;
   result.importedVertices = static_cast<int>(import.mesh.vertices.size());
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;

@@ -36,13 +36,15 @@ class MeshFileTest : public testing::Test {
   }
 
   /// The message of the InputError that reading throws, with the folder taken out of it.
-  std::string complaint(const std::filesystem::path& file, const MeshFileOptions& options = {}) const {
+  std::string complaint(const std::filesystem::path& file,
+                        const MeshFileOptions& options = {}) const {
     try {
       readMeshFile(file, options);
     } catch (const InputError& error) {
       std::string text = error.what();
       const std::string prefix = folder_.string() + '/';
-      for (auto at = text.find(prefix); at != text.npos; at = text.find(prefix)) text.erase(at, prefix.size());
+      for (auto at = text.find(prefix); at != text.npos; at = text.find(prefix))
+        text.erase(at, prefix.size());
       return text;
     }
     return "no complaint";
@@ -75,15 +77,20 @@ std::string bytesOf(T value, bool bigEndian = false) {
 
 /// A tetrahedron in each format.
 inline const char* const objTetrahedron =
-    "# a comment\nmtllib missing.mtl\no thing\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\nvn 0 0 1\n"
+    "# a comment\nmtllib missing.mtl\no thing\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\nvn 0 0 "
+    "1\n"
     "v 0 0 1\nf 1 3 2\nf 1/1 2/2 4/3\nf 2//1 3//1 4//1\nf -4/1/1 -1/1/1 -2/1/1\n";
 
 inline std::string asciiStlTetrahedron() {
   return "solid a tetrahedron\n"
-         "facet normal 0 0 -1\n outer loop\n  vertex 0 0 0\n  vertex 0 1 0\n  vertex 1 0 0\n endloop\nendfacet\n"
-         "facet normal 0 -1 0\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 0 1\n endloop\nendfacet\n"
-         "facet normal nan nan nan\n outer loop\n  vertex 1 0 0\n  vertex 0 1 0\n  vertex 0 0 1\n endloop\nendfacet\n"
-         "facet normal -1 0 0\n outer loop\n  vertex 0 0 0\n  vertex 0 0 1\n  vertex -0 1 0\n endloop\nendfacet\n"
+         "facet normal 0 0 -1\n outer loop\n  vertex 0 0 0\n  vertex 0 1 0\n  vertex 1 0 0\n "
+         "endloop\nendfacet\n"
+         "facet normal 0 -1 0\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 0 1\n "
+         "endloop\nendfacet\n"
+         "facet normal nan nan nan\n outer loop\n  vertex 1 0 0\n  vertex 0 1 0\n  vertex 0 0 1\n "
+         "endloop\nendfacet\n"
+         "facet normal -1 0 0\n outer loop\n  vertex 0 0 0\n  vertex 0 0 1\n  vertex -0 1 0\n "
+         "endloop\nendfacet\n"
          "endsolid a tetrahedron\n";
 }
 
@@ -105,18 +112,21 @@ inline std::string binaryStlTetrahedron(std::string header = "solid, but binary"
 }
 
 inline const char* const asciiPlyTetrahedron =
-    "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty "
+    "float y\n"
     "property float z\nproperty uchar red\nelement face 4\nproperty list uchar int vertex_indices\n"
     "element edge 1\nproperty int vertex1\nproperty list uchar float weights\nend_header\n"
     "0 0 0 255\n1 0 0 255\n0 1 0 255\n0 0 1 255\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n0 2 0.5 nan\n";
 
 inline std::string binaryPlyTetrahedron(bool bigEndian) {
-  std::string bytes = std::string("ply\nformat ") + (bigEndian ? "binary_big_endian" : "binary_little_endian") +
-                      " 1.0\nobj_info by hand\nelement material 1\nproperty list ushort short numbers\n"
-                      "element vertex 4\nproperty double x\nproperty int16 unused\nproperty float y\n"
-                      "property int z\nelement face 4\nproperty uchar flag\n"
-                      "property list uint8 ushort vertex_index\nend_header\n";
-  bytes += bytesOf<std::uint16_t>(2, bigEndian) + bytesOf<std::int16_t>(-1, bigEndian) + bytesOf<std::int16_t>(7, bigEndian);
+  std::string bytes =
+      std::string("ply\nformat ") + (bigEndian ? "binary_big_endian" : "binary_little_endian") +
+      " 1.0\nobj_info by hand\nelement material 1\nproperty list ushort short numbers\n"
+      "element vertex 4\nproperty double x\nproperty int16 unused\nproperty float y\n"
+      "property int z\nelement face 4\nproperty uchar flag\n"
+      "property list uint8 ushort vertex_index\nend_header\n";
+  bytes += bytesOf<std::uint16_t>(2, bigEndian) + bytesOf<std::int16_t>(-1, bigEndian) +
+           bytesOf<std::int16_t>(7, bigEndian);
   const int vertices[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const auto& v : vertices) {
     bytes += bytesOf(static_cast<double>(v[0]), bigEndian) + bytesOf<std::int16_t>(-9, bigEndian) +
