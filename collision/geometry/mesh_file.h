@@ -12,28 +12,34 @@ namespace corridor {
 struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit where its format has one, else 1.
   std::optional<double> metresPerUnit;
-  /// The file's up-axis ('x', 'y' or 'z'), which is to be turned to z. Unset: coordinates as stored.
+  /// The file's up-axis ('x', 'y' or 'z'), which is to be turned to z. Unset: coordinates as
+  /// stored.
   std::optional<char> up;
 };
 
 /// A mesh and how it was read.
 struct MeshFile {
   TriangleMesh mesh;
-  std::string format;    ///< "OBJ", "STL (binary)", "STL (ASCII)", "PLY (…)", or assimp's name of the format
+  std::string
+      format;  ///< "OBJ", "STL (binary)", "STL (ASCII)", "PLY (…)", or assimp's name of the format
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which turn was applied, and why
-  bool floatVertices = false;  ///< read by assimp, so the vertices are those of the file rounded to float
+  bool floatVertices =
+      false;  ///< read by assimp, so the vertices are those of the file rounded to float
 };
 
-/// Reads a mesh file. OBJ, STL and PLY are read in double by our own readers; anything else by assimp, whose module is
-/// loaded at the first such file. Scale and turn are applied here, once: what comes back is the model.
-/// @throws InputError naming file and line, face or byte: unreadable, no faces, non-finite, index out of range, truncated …
+/// Reads a mesh file. OBJ, STL and PLY are read in double by our own readers; anything else by
+/// assimp, whose module is loaded at the first such file. Scale and turn are applied here, once:
+/// what comes back is the model.
+/// @throws InputError naming file and line, face or byte: unreadable, no faces, non-finite, index
+/// out of range, truncated …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
 /// A mesh as OMPL.app places it: read with its import steps, node transforms and Y-up turn applied.
 struct OmplAppMesh {
   TriangleMesh mesh;
-  Vec3 vertexAverage = Vec3::Zero();  ///< of all imported vertices, each as often as assimp keeps it
+  Vec3 vertexAverage =
+      Vec3::Zero();  ///< of all imported vertices, each as often as assimp keeps it
   int importedVertices = 0;
 };
 /// @throws InputError as `readMeshFile`.

@@ -1,0 +1,131 @@
+#include "collision/geometry/assimp_plugin.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <exception>
+#include <memory>
+#include <string_view>
+
+#include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+namespace corridor {
+namespace {
+
+Eigen::Affine3d toDouble(const aiMatrix4x4& m) {
+  Eigen::Affine3d map;
+  map.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, 0, 0, 0,
+      1;
+  return map;
+}
+
+void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to) {
+  const auto first = static_cast<std::uint32_t>(to.vertices.size());
+  for (unsigned i = 0; i < from.mNumVertices; ++i) {
+    const aiVector3D& v = from.mVertices[i];
+    to.vertices.push_back(map * Vec3(v.x, v.y, v.z));
+  }
+  for (unsigned i = 0; i < from.mNumFaces; ++i) {
+    const aiFace& face = from.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // lines and points
+    to.triangles.push_back(
+        {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+  }
+}
+
+void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& parent,
+             TriangleMesh& to) {
+  const Eigen::Affine3d map = parent * toDouble(node.mTransformation);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], map, to);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], map, to);
+}
+
+/// The number that was most likely written where assimp keeps a float: the shortest decimal that
+/// rounds to it.
+double shortestDecimal(float value) {
+  char text[32];
+  const char* const end = std::to_chars(text, text + sizeof text, value).ptr;
+  double written = value;
+  std::from_chars(text, end, written);
+  return written;
+}
+
+/// The unit in metres where the format has one. For Collada it is taken out of the root's
+/// transform, where assimp puts it.
+double takeFileUnit(aiScene& scene, const std::string& format) {
+  if (format.starts_with("Collada")) {
+    aiMatrix4x4& root = scene.mRootNode->mTransformation;
+    const float unit = root.a1;
+    if (!(unit > 0) || root != aiMatrix4x4(unit, 0, 0, 0, 0, unit, 0, 0, 0, 0, unit, 0, 0, 0, 0, 1))
+      return 1;
+    root = aiMatrix4x4();
+    return shortestDecimal(unit);
+  }
+  if (format.starts_with("glTF")) return 1;
+  if (double factor = 0; scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", factor)) {
+    return factor / 100;  // FBX counts in centimetres
+  }
+  if (float factor = 0; scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", factor)) {
+    return shortestDecimal(factor) / 100;
+  }
+  return 0;
+}
+
+std::string oneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+void read(const char* file, AssimpRules rules, AssimpImport& result) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
+                           rules == AssimpRules::stored);
+  const unsigned steps = rules == AssimpRules::stored
+                             ? unsigned{aiProcess_Triangulate}
+                             : aiProcess_GenNormals | aiProcess_Triangulate |
+                                   aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
+                                   aiProcess_OptimizeGraph;
+  importer.ReadFile(file, steps);
+  const aiScene* const scene = importer.GetScene();
+  if (!scene || !scene->mRootNode) {
+    result.error = oneLine(importer.GetErrorString());
+    if (result.error.empty()) result.error = "assimp finds no scene in it";
+    return;
+  }
+  const aiImporterDesc* const description = importer.GetImporterInfo(
+      static_cast<std::size_t>(importer.GetPropertyInteger("importerIndex", -1)));
+  result.format = description ? description->mName : "unknown";
+  if (const auto end = result.format.find(" Importer"); end != std::string::npos)
+    result.format.resize(end);
+  result.isCollada = result.format.starts_with("Collada");
+  if (rules == AssimpRules::stored) {
+    const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
+    result.fileUnit = takeFileUnit(*own, result.format);
+    addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result.mesh);
+  } else {
+    addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.mesh);
+  }
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) void corridorReadWithAssimp(
+    const char* file, AssimpRules rules, AssimpImport& result) {
+  try {
+    read(file, rules, result);
+  } catch (const std::exception& error) {
+    result.error = oneLine(error.what());
+  } catch (...) {
+    result.error = "assimp gave up without a reason";
+  }
+}
+
+}  // namespace corridor

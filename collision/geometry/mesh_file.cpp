@@ -1,0 +1,177 @@
+#include "collision/geometry/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "collision/geometry/assimp_module.h"
+#include "collision/geometry/mesh_health.h"
+#include "collision/geometry/mesh_readers.h"
+#include "collision/geometry/vertex_welder.h"
+
+namespace corridor {
+namespace {
+
+std::string shortest(double value) {
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+std::string lowerExtension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {
+  if (options.metresPerUnit &&
+      !(std::isfinite(*options.metresPerUnit) && *options.metresPerUnit > 0)) {
+    faults.add(
+        0, "metres per unit are a finite number above 0, not " + shortest(*options.metresPerUnit));
+  }
+  if (options.up && *options.up != 'x' && *options.up != 'y' && *options.up != 'z') {
+    faults.add(0, "the up-axis is x, y or z, not " + inQuotes(std::string(1, *options.up)));
+  }
+  faults.throwIfAny();
+}
+
+/// As read: no scale, no turn.
+struct StoredMesh {
+  MeshFile file;
+  double fileUnit = 0;  ///< metres; 0: the format has none
+  bool isCollada = false;
+};
+
+StoredMesh readOwn(std::string_view bytes, const std::string& extension, MeshFaults& faults) {
+  const auto reader = extension == ".obj" ? readObj : extension == ".stl" ? readStl : readPly;
+  ReadMesh read = reader(bytes, faults);
+  StoredMesh stored;
+  stored.file.mesh = std::move(read.mesh);
+  stored.file.format = std::move(read.format);
+  return stored;
+}
+
+/// Turns the vertices that triangles use into one index each; assimp repeats a vertex for each of
+/// its normals.
+TriangleMesh welded(const TriangleMesh& mesh) {
+  VertexWelder welder(mesh.vertices.size());
+  TriangleMesh result;
+  result.triangles = mesh.triangles;
+  for (auto& triangle : result.triangles) {
+    for (std::uint32_t& corner : triangle) corner = welder.index(mesh.vertices[corner]);
+  }
+  result.vertices = welder.takePoints();
+  return result;
+}
+
+void requireSound(const TriangleMesh& mesh, MeshFaults& faults, const char* hint = "") {
+  if (mesh.triangles.empty()) {
+    faults.fail(
+        0,
+        "the mesh has no faces; triangles or polygons are needed, lines and points are not read");
+  }
+  if (const auto complaint = checkMesh(mesh)) faults.fail(0, *complaint + hint);
+}
+
+constexpr const char* floatHint = " (this format is read in float, whose numbers end at 3.4e38)";
+
+StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
+                       bool unitGiven, MeshFaults& faults) {
+  requireMeshFile(file);
+  if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
+    faults.fail(0, "the format has a unit, which assimp does not hand on: state the unit");
+  }
+  AssimpImport import = readWithAssimp(file.string(), AssimpRules::stored);
+  requireSound(import.mesh, faults, floatHint);
+  StoredMesh stored;
+  stored.file.mesh = welded(import.mesh);
+  stored.file.format = std::move(import.format);
+  stored.file.floatVertices = true;
+  stored.fileUnit = import.fileUnit;
+  stored.isCollada = import.isCollada;
+  return stored;
+}
+
+/// The rotation that takes the up-axis to z, as Collada has it (its "right" and "in" axes go to x
+/// and -y).
+Vec3 turned(char up, const Vec3& p) {
+  switch (up) {
+    case 'x':
+      return {-p.y(), -p.z(), p.x()};
+    case 'y':
+      return {p.x(), -p.z(), p.y()};
+    default:
+      return p;
+  }
+}
+
+std::string unitRule(const MeshFileOptions& options, double fileUnit) {
+  if (options.metresPerUnit) {
+    return shortest(*options.metresPerUnit) + " m per unit, as asked" +
+           (fileUnit > 0 ? ", instead of the file's own " + shortest(fileUnit) + " m" : "");
+  }
+  if (fileUnit > 0) return shortest(fileUnit) + " m per unit, by the file or its format";
+  return "1 m per unit, since the format states none and none was asked for";
+}
+
+std::string upRule(const MeshFileOptions& options, bool isCollada) {
+  std::string rule;
+  switch (options.up.value_or(' ')) {
+    case 'x':
+      rule = "x is up, as asked: turned by (x, y, z) -> (-y, -z, x)";
+      break;
+    case 'y':
+      rule = "y is up, as asked: turned by (x, y, z) -> (x, -z, y)";
+      break;
+    case 'z':
+      rule = "z is up, as asked: not turned";
+      break;
+    default:
+      rule = "coordinates as stored, since no up-axis was asked for";
+      break;
+  }
+  return rule + (isCollada ? "; the file's own <up_axis> is not applied (ROS's rule)" : "");
+}
+
+}  // namespace
+
+MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options) {
+  MeshFaults faults(file.string());
+  checkOptions(options, faults);
+  const std::string extension = lowerExtension(file);
+  const bool own = extension == ".obj" || extension == ".stl" || extension == ".ply";
+  StoredMesh stored = own ? readOwn(readWholeFile(file), extension, faults)
+                          : readForeign(file, extension, options.metresPerUnit.has_value(), faults);
+  MeshFile result = std::move(stored.file);
+  requireSound(result.mesh, faults);
+
+  const double scale = options.metresPerUnit.value_or(stored.fileUnit > 0 ? stored.fileUnit : 1);
+  const char up = options.up.value_or('z');
+  if (scale != 1 || up != 'z') {
+    for (Vec3& vertex : result.mesh.vertices) vertex = turned(up, scale * vertex);
+    if (checkMesh(result.mesh)) {
+      faults.fail(
+          0, "its coordinates times " + shortest(scale) + " m per unit are too large for a double");
+    }
+  }
+  result.unitRule = unitRule(options, stored.fileUnit);
+  result.upRule = upRule(options, stored.isCollada);
+  return result;
+}
+
+OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
+  MeshFaults faults(file.string());
+  requireMeshFile(file);
+  const AssimpImport import = readWithAssimp(file.string(), AssimpRules::omplApp);
+  requireSound(import.mesh, faults, floatHint);
+  OmplAppMesh result;
+  result.importedVertices = static_cast<int>(import.mesh.vertices.size());
+  for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;
+  result.vertexAverage /= result.importedVertices;
+  result.mesh = welded(import.mesh);
+  return result;
+}
+
+}  // namespace corridor

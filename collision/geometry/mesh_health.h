@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "collision/geometry/triangle_mesh.h"
+
+namespace corridor {
+
+/// What is worth knowing about a mesh before trusting it. None of it is an error: any soup is
+/// legal.
+///
+/// Corners are identified by exact position, whatever their indices. A triangle is *degenerate*
+/// when two of its corners are equal or its area is at most 1e-12 of the squared diagonal of the
+/// mesh's bounds; a *sliver* when it is not, and its height over its longest edge is under 1e-3 of
+/// that edge. (Both are for people: no verdict depends on them.)
+struct MeshHealth {
+  std::size_t triangles = 0;
+  std::size_t distinctTriangles =
+      0;  ///< those with the same three corners, in any order, count once
+  std::size_t degenerateTriangles = 0;
+  std::size_t sliverTriangles = 0;
+  std::size_t boundaryEdges = 0;     ///< used by one distinct triangle that is not degenerate
+  std::size_t nonManifoldEdges = 0;  ///< used by three or more of them
+  std::size_t components = 0;  ///< sets of triangles that are connected through shared corners
+  /// Every edge is used by exactly two triangles, in opposite directions (triangles with two equal
+  /// corners aside).
+  bool watertight = false;
+  std::optional<double>
+      volume;  ///< m³, where watertight; negative where the triangles face inwards. Rounded.
+  Vec3 min = Vec3::Zero();  ///< of the corners of triangles, metres
+  Vec3 max = Vec3::Zero();
+};
+
+/// @pre `checkMesh` has nothing to complain of.
+MeshHealth inspectMesh(const TriangleMesh& mesh);
+
+/// For meshes made in memory: the first thing that makes the mesh illegal (a vertex that is not
+/// finite, an index out of range), as a sentence; nullopt if it is sound.
+std::optional<std::string> checkMesh(const TriangleMesh& mesh);
+
+}  // namespace corridor

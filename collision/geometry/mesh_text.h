@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "collision/core/error.h"
+
+/// What the mesh readers share: the file as text, words and numbers in it, and the faults found.
+namespace corridor {
+
+/// @throws InputError: missing, a directory, not a regular file, unreadable, empty.
+void requireMeshFile(const std::filesystem::path& file);
+
+/// The bytes of a file. @throws InputError as `requireMeshFile`.
+std::string readWholeFile(const std::filesystem::path& file);
+
+/// For messages: the word in double quotes, shortened and with unprintable bytes shown as '?'.
+std::string inQuotes(std::string_view word);
+
+/// Collects the faults of one mesh file; gives up at the tenth, since the rest rarely says anything
+/// new.
+class MeshFaults {
+ public:
+  explicit MeshFaults(std::string file) : file_(std::move(file)) {}
+
+  void add(int line, std::string text);
+  /// For faults that leave a reader without a place to go on from.
+  [[noreturn]] void fail(int line, std::string text);
+  void throwIfAny() const;
+
+ private:
+  std::string file_;
+  std::vector<Fault> faults_;
+};
+
+/// Reads a whole word as a finite coordinate. @returns a complaint, or nullopt and `value` set.
+/// Numbers too small for a double become 0, the nearest double.
+std::optional<std::string> parseCoordinate(std::string_view word, double& value);
+
+/// Reads a whole word as a decimal integer of 64 bits; false where it is none.
+bool parseInteger(std::string_view word, std::int64_t& value);
+
+inline bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// Walks through a text by words, counting lines from 1.
+class TextCursor {
+ public:
+  explicit TextCursor(std::string_view text, int line = 1) : rest_(text), line_(line) {}
+
+  /// The next word of this line; empty at its end.
+  std::string_view wordInLine();
+  /// The next word of this or a later line; empty at the end of the text. `line()` is the line that
+  /// it stands in.
+  std::string_view word();
+  /// Goes to the start of the next line; false at the end of the text.
+  bool nextLine();
+
+  int line() const { return line_; }
+  std::size_t bytesLeft() const { return rest_.size(); }
+
+ private:
+  std::string_view rest_;
+  int line_;
+};
+
+}  // namespace corridor

@@ -1,0 +1,128 @@
+#include <cstdint>
+
+#include "collision/geometry/mesh_readers.h"
+
+namespace corridor {
+namespace {
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view text, MeshFaults& faults) : cursor_(text), faults_(faults) {}
+
+  ReadMesh read() {
+    do {
+      continued_ = false;
+      const std::string_view keyword = nextWord();
+      if (keyword == "v") {
+        readVertex();
+      } else if (keyword == "f") {
+        readFace();
+      }
+      // Everything else (normals, groups, materials, lines, points …) says nothing about the
+      // surface.
+    } while (cursor_.nextLine());
+    for (const LateCorner& late : lateCorners_) {
+      if (late.number > count()) outOfRange(late.line, late.number);
+    }
+    faults_.throwIfAny();
+    return {std::move(mesh_), "OBJ"};
+  }
+
+ private:
+  struct LateCorner {  ///< refers to a vertex that had not been read yet
+    std::int64_t number;
+    int line;
+  };
+
+  std::int64_t count() const { return static_cast<std::int64_t>(mesh_.vertices.size()); }
+
+  /// The next word of the logical line: a backslash at a line's end continues it, '#' ends it.
+  std::string_view nextWord() {
+    std::string_view word = cursor_.wordInLine();
+    while (word == "\\" || (word.empty() && continued_)) {
+      continued_ = false;
+      if (!cursor_.nextLine()) return {};
+      word = cursor_.wordInLine();
+    }
+    continued_ = !word.empty() && word.back() == '\\';
+    if (continued_) word.remove_suffix(1);
+    return word.substr(0, word.starts_with('#') ? 0 : word.npos);
+  }
+
+  void readVertex() {
+    Vec3 vertex = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = nextWord();
+      if (word.empty()) {
+        faults_.add(cursor_.line(), "a vertex has 3 coordinates, found " + std::to_string(i));
+        break;
+      }
+      if (const auto complaint = parseCoordinate(word, vertex[i])) {
+        faults_.add(cursor_.line(), *complaint);
+        break;
+      }
+    }
+    mesh_.vertices.push_back(vertex);  // a faulty one too: the numbers of the others stay right
+  }
+
+  void readFace() {
+    std::array<std::uint32_t, 3> triangle{};
+    int corners = 0;
+    for (std::string_view word = nextWord(); !word.empty(); word = nextWord()) {
+      triangle[corners < 2 ? corners : 2] = corner(word);
+      if (++corners < 3) continue;
+      mesh_.triangles.push_back(triangle);
+      triangle[1] = triangle[2];
+    }
+    if (corners < 3) {
+      faults_.add(cursor_.line(),
+                  "a face has at least 3 corners, found " + std::to_string(corners));
+    }
+  }
+
+  std::uint32_t corner(std::string_view word) {
+    const std::size_t slash = word.find('/');
+    std::int64_t number = 0;
+    if (!parseInteger(word.substr(0, slash), number) ||
+        (slash != word.npos && word.find_first_not_of("0123456789/+-", slash) != word.npos)) {
+      faults_.add(cursor_.line(),
+                  "face corner " + inQuotes(word) + " is not of the form 1, 1/2, 1/2/3 or 1//3");
+      return 0;
+    }
+    if (number == 0) {
+      faults_.add(cursor_.line(), "face corner 0: vertices count from 1, and back from -1");
+      return 0;
+    }
+    if (number < -count()) {
+      faults_.add(cursor_.line(), "face corner " + std::to_string(number) + " is out of range: " +
+                                      std::to_string(count()) + " vertices stand above it");
+      return 0;
+    }
+    if (number < 0) return static_cast<std::uint32_t>(count() + number);
+    if (number > UINT32_MAX) {
+      outOfRange(cursor_.line(), number);
+      return 0;
+    }
+    if (number > count()) lateCorners_.push_back({number, cursor_.line()});
+    return static_cast<std::uint32_t>(number - 1);
+  }
+
+  void outOfRange(int line, std::int64_t number) {
+    faults_.add(line, "face corner " + std::to_string(number) + " is out of range: the file has " +
+                          std::to_string(count()) + " vertices");
+  }
+
+  TextCursor cursor_;
+  MeshFaults& faults_;
+  bool continued_ = false;
+  TriangleMesh mesh_;
+  std::vector<LateCorner> lateCorners_;
+};
+
+}  // namespace
+
+ReadMesh readObj(std::string_view text, MeshFaults& faults) {
+  return ObjReader(text, faults).read();
+}
+
+}  // namespace corridor

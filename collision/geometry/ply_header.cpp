@@ -1,0 +1,188 @@
+#include "collision/geometry/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace corridor {
+namespace {
+
+std::optional<PlyType> typeOf(std::string_view word) {
+  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> names{{
+      {"char", PlyType::int8},
+      {"int8", PlyType::int8},
+      {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},
+      {"short", PlyType::int16},
+      {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},
+      {"uint16", PlyType::uint16},
+      {"int", PlyType::int32},
+      {"int32", PlyType::int32},
+      {"uint", PlyType::uint32},
+      {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},
+      {"float32", PlyType::float32},
+      {"double", PlyType::float64},
+      {"float64", PlyType::float64},
+  }};
+  for (const auto& [name, type] : names) {
+    if (word == name) return type;
+  }
+  return std::nullopt;
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view bytes, MeshFaults& faults)
+      : cursor_(bytes), bytes_(bytes), faults_(faults) {}
+
+  PlyHeader read() {
+    if (cursor_.wordInLine() != "ply") fail("a PLY file begins with the line \"ply\"");
+    bool hasFormat = false;
+    while (cursor_.nextLine()) {
+      const std::string_view keyword = cursor_.wordInLine();
+      if (keyword == "format") {
+        readFormat();
+        hasFormat = true;
+      } else if (keyword == "element") {
+        readElement();
+      } else if (keyword == "property") {
+        readProperty();
+      } else if (keyword == "end_header") {
+        if (!hasFormat) fail("the header has no line \"format\"");
+        // The body begins right after this line's end, whatever its first bytes are.
+        if (!cursor_.nextLine()) fail("the file ends after its header: it is cut short");
+        header_.size = bytes_.size() - cursor_.bytesLeft();
+        header_.lines = cursor_.line() - 1;
+        check();
+        return std::move(header_);
+      } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+        fail("unknown keyword " + inQuotes(keyword) +
+             "; right are element, property and end_header");
+      }
+    }
+    fail("the file ends where end_header should come: it is cut short");
+  }
+
+ private:
+  [[noreturn]] void fail(std::string text) { faults_.fail(cursor_.line(), std::move(text)); }
+
+  void readFormat() {
+    const std::string_view word = cursor_.wordInLine();
+    if (word == "ascii") {
+      header_.encoding = PlyEncoding::ascii;
+    } else if (word == "binary_little_endian") {
+      header_.encoding = PlyEncoding::littleEndian;
+    } else if (word == "binary_big_endian") {
+      header_.encoding = PlyEncoding::bigEndian;
+    } else {
+      fail("unknown format " + inQuotes(word) +
+           "; right are ascii, binary_little_endian and binary_big_endian");
+    }
+    if (const std::string_view version = cursor_.wordInLine(); version != "1.0") {
+      fail("unknown version " + inQuotes(version) + "; 1.0 is known");
+    }
+  }
+
+  void readElement() {
+    PlyElement element;
+    element.name = cursor_.wordInLine();
+    const std::string_view word = cursor_.wordInLine();
+    std::int64_t count = 0;
+    if (!parseInteger(word, count) || count < 0) {
+      fail("element " + inQuotes(element.name) + ": its count " + inQuotes(word) +
+           " is not an integer from 0");
+    }
+    element.count = static_cast<std::uint64_t>(count);
+    for (const PlyElement& other : header_.elements) {
+      if (other.name == element.name) fail("element " + inQuotes(element.name) + " is there twice");
+    }
+    header_.elements.push_back(std::move(element));
+  }
+
+  PlyType readType() {
+    const std::string_view word = cursor_.wordInLine();
+    const auto type = typeOf(word);
+    if (!type) {
+      fail("unknown type " + inQuotes(word) +
+           "; right are char, uchar, short, ushort, int, uint, float, double, and int8 to float64");
+    }
+    return *type;
+  }
+
+  void readProperty() {
+    if (header_.elements.empty()) fail("a property stands before the first element");
+    PlyProperty property{};
+    TextCursor ahead = cursor_;
+    if (ahead.wordInLine() == "list") {
+      cursor_ = ahead;
+      property.countType = readType();
+      if (!isInteger(*property.countType)) fail("the count of a list is of an integer type");
+    }
+    property.type = readType();
+    property.name = cursor_.wordInLine();
+    if (property.name.empty()) fail("a property needs a name");
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  /// The element, or a complaint that it is missing.
+  const PlyElement& find(std::string_view name) {
+    const auto found =
+        std::find_if(header_.elements.begin(), header_.elements.end(),
+                     [&](const PlyElement& element) { return element.name == name; });
+    if (found == header_.elements.end()) {
+      faults_.fail(0, "the header has no element \"" + std::string(name) + "\"");
+    }
+    return *found;
+  }
+
+  void check() {
+    const auto& vertex = find("vertex").properties;
+    for (const std::string_view axis : {"x", "y", "z"}) {
+      const auto same = [&](const PlyProperty& p) { return p.name == axis && !p.countType; };
+      if (std::count_if(vertex.begin(), vertex.end(), same) != 1) {
+        faults_.fail(0, "element \"vertex\" needs one property \"" + std::string(axis) + "\"");
+      }
+    }
+    const auto& face = find("face").properties;
+    const auto corners = [](const PlyProperty& p) {
+      return isCornerList(p) && p.countType && isInteger(p.type);
+    };
+    if (std::count_if(face.begin(), face.end(), corners) != 1 ||
+        std::count_if(face.begin(), face.end(), isCornerList) != 1) {
+      faults_.fail(0, "element \"face\" needs one list \"vertex_indices\" of an integer type");
+    }
+  }
+
+  TextCursor cursor_;
+  std::string_view bytes_;
+  MeshFaults& faults_;
+  PlyHeader header_;
+};
+
+}  // namespace
+
+int plySize(PlyType type) {
+  switch (type) {
+    case PlyType::int8:
+    case PlyType::uint8:
+      return 1;
+    case PlyType::int16:
+    case PlyType::uint16:
+      return 2;
+    case PlyType::int32:
+    case PlyType::uint32:
+    case PlyType::float32:
+      return 4;
+    case PlyType::float64:
+      return 8;
+  }
+  return 0;
+}
+
+PlyHeader readPlyHeader(std::string_view bytes, MeshFaults& faults) {
+  return HeaderReader(bytes, faults).read();
+}
+
+}  // namespace corridor

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "collision/geometry/mesh_text.h"
+
+namespace corridor {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+int plySize(PlyType type);
+inline bool isInteger(PlyType type) {
+  return type < PlyType::float32;
+}
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;
+  std::optional<PlyType>
+      countType;  ///< set for lists: a count of this type, then so many of `type`
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+enum class PlyEncoding { ascii, littleEndian, bigEndian };
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::ascii;
+  std::vector<PlyElement> elements;
+  std::size_t size = 0;  ///< bytes before the first element
+  int lines = 0;
+};
+
+/// Reads the header, and checks that there are vertices with scalar x, y, z and faces with a list
+/// of integer indices.
+PlyHeader readPlyHeader(std::string_view bytes, MeshFaults& faults);
+
+/// The names that the list of a face's corners goes by.
+inline bool isCornerList(const PlyProperty& property) {
+  return property.name == "vertex_indices" || property.name == "vertex_index";
+}
+
+}  // namespace corridor

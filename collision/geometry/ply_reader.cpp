@@ -1,0 +1,256 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "collision/geometry/mesh_readers.h"
+#include "collision/geometry/ply_header.h"
+
+namespace corridor {
+namespace {
+
+/// Where a body's reader is, for messages.
+struct Place {
+  const PlyElement* element = nullptr;
+  std::uint64_t index = 0;
+
+  std::string str() const {
+    return element->name + ' ' + std::to_string(index + 1) + " of " +
+           std::to_string(element->count);
+  }
+};
+
+/// The values of an ASCII body: words.
+class AsciiBody {
+ public:
+  AsciiBody(std::string_view body, const PlyHeader& header, MeshFaults& faults)
+      : cursor_(body, header.lines + 1), faults_(faults) {}
+
+  static std::uint64_t leastSize(PlyType) { return 2; }  // a digit and a blank
+  /// One more than there are: the last word needs no blank after it.
+  std::uint64_t bytesLeft() const { return cursor_.bytesLeft() + 1; }
+
+  double coordinate(PlyType) {
+    double value = 0;
+    if (const auto complaint = parseCoordinate(word(), value)) add(*complaint);
+    return value;
+  }
+
+  std::int64_t integer(PlyType) {
+    std::int64_t value = 0;
+    const std::string_view text = word();
+    if (!parseInteger(text, value)) fail(inQuotes(text) + " is not an integer");
+    return value;
+  }
+
+  void skip(PlyType, std::uint64_t times) {
+    for (std::uint64_t i = 0; i < times; ++i) word();
+  }
+
+  void expectEnd() {
+    const std::string_view text = cursor_.word();
+    if (text.empty()) return;
+    faults_.fail(cursor_.line(),
+                 inQuotes(text) + " comes after the last element: the header's counts are wrong");
+  }
+
+  void add(const std::string& text) { faults_.add(cursor_.line(), place.str() + ": " + text); }
+  [[noreturn]] void fail(const std::string& text) {
+    faults_.fail(cursor_.line(), place.str() + ": " + text);
+  }
+
+  Place place;
+
+ private:
+  std::string_view word() {
+    const std::string_view text = cursor_.word();
+    if (text.empty()) fail("the file ends here: it is cut short");
+    return text;
+  }
+
+  TextCursor cursor_;
+  MeshFaults& faults_;
+};
+
+/// The values of a binary body.
+class BinaryBody {
+ public:
+  BinaryBody(std::string_view body, const PlyHeader& header, MeshFaults& faults)
+      : rest_(body),
+        size_(header.size + body.size()),
+        swapped_((header.encoding == PlyEncoding::bigEndian) !=
+                 (std::endian::native == std::endian::big)),
+        faults_(faults) {}
+
+  static std::uint64_t leastSize(PlyType type) { return static_cast<std::uint64_t>(plySize(type)); }
+  std::uint64_t bytesLeft() const { return rest_.size(); }
+
+  double coordinate(PlyType type) {
+    if (isInteger(type)) return static_cast<double>(integer(type));
+    const double value = type == PlyType::float32 ? take<float>() : take<double>();
+    if (!std::isfinite(value)) add("a coordinate is not finite");
+    return value;
+  }
+
+  std::int64_t integer(PlyType type) {
+    switch (type) {
+      case PlyType::int8:
+        return take<std::int8_t>();
+      case PlyType::uint8:
+        return take<std::uint8_t>();
+      case PlyType::int16:
+        return take<std::int16_t>();
+      case PlyType::uint16:
+        return take<std::uint16_t>();
+      case PlyType::int32:
+        return take<std::int32_t>();
+      default:
+        return take<std::uint32_t>();  // the header lets no other type through
+    }
+  }
+
+  void skip(PlyType type, std::uint64_t times) {
+    if (times > rest_.size() / leastSize(type)) cutShort();
+    rest_.remove_prefix(times * leastSize(type));
+  }
+
+  void expectEnd() {
+    if (rest_.find_first_not_of(" \t\r\n") == rest_.npos) return;
+    faults_.fail(0, std::to_string(rest_.size()) +
+                        " bytes come after the last element: the header's counts are wrong");
+  }
+
+  void add(const std::string& text) { faults_.add(0, where() + text); }
+  [[noreturn]] void fail(const std::string& text) { faults_.fail(0, where() + text); }
+
+  Place place;
+
+ private:
+  std::string where() const {
+    return place.str() + " (byte " + std::to_string(size_ - rest_.size()) + "): ";
+  }
+  [[noreturn]] void cutShort() { fail("the file ends here: it is cut short"); }
+
+  template <class T>
+  T take() {
+    if (rest_.size() < sizeof(T)) cutShort();
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), rest_.data(), sizeof(T));
+    rest_.remove_prefix(sizeof(T));
+    if (swapped_) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+  }
+
+  std::string_view rest_;
+  std::size_t size_;
+  bool swapped_;
+  MeshFaults& faults_;
+};
+
+template <class Body>
+class BodyReader {
+ public:
+  BodyReader(const PlyHeader& header, Body body, MeshFaults& faults)
+      : header_(header), body_(std::move(body)), faults_(faults) {}
+
+  TriangleMesh read() {
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") vertexCount_ = element.count;
+    }
+    for (const PlyElement& element : header_.elements) {
+      if (element.properties.empty()) continue;  // takes no room, whatever its count
+      checkRoom(element);
+      if (element.name == "vertex") mesh_.vertices.reserve(element.count);
+      if (element.name == "face") mesh_.triangles.reserve(element.count);
+      for (std::uint64_t i = 0; i < element.count; ++i) {
+        body_.place = {&element, i};
+        readElement(element);
+      }
+    }
+    body_.expectEnd();
+    faults_.throwIfAny();
+    return std::move(mesh_);
+  }
+
+ private:
+  /// Counts are believed (and memory taken for them) only where the file has the bytes for them.
+  void checkRoom(const PlyElement& element) {
+    std::uint64_t size = 0;
+    for (const PlyProperty& p : element.properties)
+      size += Body::leastSize(p.countType.value_or(p.type));
+    if (element.count <= body_.bytesLeft() / size) return;
+    faults_.fail(0, "the header promises " + std::to_string(element.count) + " of element \"" +
+                        element.name + "\", at least " + std::to_string(size) +
+                        " bytes each, but " + std::to_string(body_.bytesLeft()) +
+                        " bytes are left: the file is cut short");
+  }
+
+  void readElement(const PlyElement& element) {
+    const bool isVertex = element.name == "vertex";
+    const bool isFace = element.name == "face";
+    Vec3 vertex = Vec3::Zero();
+    for (const PlyProperty& p : element.properties) {
+      if (p.countType) {
+        const std::int64_t count = body_.integer(*p.countType);
+        if (count < 0)
+          body_.fail("a list of " + std::to_string(count) + " items; counts are at least 0");
+        if (isFace && isCornerList(p)) {
+          readCorners(p.type, count);
+        } else {
+          body_.skip(p.type, static_cast<std::uint64_t>(count));
+        }
+      } else if (isVertex && (p.name == "x" || p.name == "y" || p.name == "z")) {
+        vertex[p.name[0] - 'x'] = body_.coordinate(p.type);
+      } else {
+        body_.skip(p.type, 1);
+      }
+    }
+    if (isVertex) mesh_.vertices.push_back(vertex);
+  }
+
+  void readCorners(PlyType type, std::int64_t count) {
+    if (count < 3) body_.add("a face has at least 3 corners, found " + std::to_string(count));
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::int64_t i = 0; i < count; ++i) {
+      const std::int64_t corner = body_.integer(type);
+      if (corner < 0 || static_cast<std::uint64_t>(corner) >= vertexCount_) {
+        body_.add("corner " + std::to_string(corner) + " is out of range: the file has " +
+                  std::to_string(vertexCount_) + " vertices, counted from 0");
+      }
+      triangle[i < 2 ? i : 2] = static_cast<std::uint32_t>(corner);
+      if (i < 2) continue;
+      mesh_.triangles.push_back(triangle);
+      triangle[1] = triangle[2];
+    }
+  }
+
+  const PlyHeader& header_;
+  Body body_;
+  MeshFaults& faults_;
+  std::uint64_t vertexCount_ = 0;
+  TriangleMesh mesh_;
+};
+
+template <class Body>
+TriangleMesh readBody(std::string_view body, const PlyHeader& header, MeshFaults& faults) {
+  return BodyReader<Body>(header, Body(body, header, faults), faults).read();
+}
+
+}  // namespace
+
+ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
+  const PlyHeader header = readPlyHeader(bytes, faults);
+  const std::string_view body = bytes.substr(header.size);
+  switch (header.encoding) {
+    case PlyEncoding::ascii:
+      return {readBody<AsciiBody>(body, header, faults), "PLY (ASCII)"};
+    case PlyEncoding::littleEndian:
+      return {readBody<BinaryBody>(body, header, faults), "PLY (binary, little endian)"};
+    case PlyEncoding::bigEndian:
+      break;
+  }
+  return {readBody<BinaryBody>(body, header, faults), "PLY (binary, big endian)"};
+}
+
+}  // namespace corridor

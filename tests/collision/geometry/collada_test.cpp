@@ -1,0 +1,121 @@
+#include <cmath>
+
+#include "collision/geometry/mesh_health.h"
+#include "tests/collision/geometry/mesh_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+/// A triangle and a quad, twice scaled by their nodes, and a line, which no mesh has.
+std::string collada(const std::string& asset, const std::string& first = "0.1") {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset>)" +
+         asset + R"(</asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="15">)" +
+         first + R"( 2 3  1 2 3  1 5 3  0 5 3  -1 9 3</float_array>
+<technique_common><accessor source="#pa" count="5" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="2"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4 3</vcount><p>0 1 2 3 3 2 4</p></polylist>
+<lines count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 4</p></lines>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">
+<node id="a"><translate>10 0 0</translate><node id="b"><scale>2 2 2</scale><instance_geometry url="#g"/></node></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+)";
+}
+
+class Collada : public MeshFileTest {
+ protected:
+  static void expectBounds(const TriangleMesh& mesh, const Vec3& min, const Vec3& max) {
+    const MeshHealth health = inspectMesh(mesh);
+    EXPECT_EQ(health.triangles, 3u);
+    EXPECT_LT((health.min - min).norm(), 1e-14);
+    EXPECT_LT((health.max - max).norm(), 1e-14);
+  }
+};
+
+TEST_F(Collada, NodesAndUnitCountTheUpAxisDoesNot) {
+  for (const char* const up : {"X_UP", "Y_UP", "Z_UP"}) {
+    SCOPED_TRACE(up);
+    const MeshFile file = read(
+        "a.dae", collada("<unit meter=\"0.0254\"/><up_axis>" + std::string(up) + "</up_axis>"));
+    expectBounds(file.mesh, 0.0254 * Vec3(8, 4, 6), 0.0254 * Vec3(12, 18, 6));
+    EXPECT_TRUE(file.floatVertices);
+    EXPECT_EQ(file.format, "Collada");
+    EXPECT_EQ(file.unitRule, "0.0254 m per unit, by the file or its format");
+    EXPECT_EQ(file.upRule,
+              "coordinates as stored, since no up-axis was asked for; the file's own <up_axis> is "
+              "not applied "
+              "(ROS's rule)");
+    EXPECT_EQ(file.mesh.vertices.size(), 5u);
+  }
+}
+
+TEST_F(Collada, TheVerticesAreFloatsThatBecameDoubles) {
+  const MeshFile file = read("a.dae", collada("<up_axis>Z_UP</up_axis>"));
+  double least = 100;
+  for (const Vec3& v : file.mesh.vertices) {
+    if (v.x() > 10) least = std::min(least, v.x());
+  }
+  EXPECT_EQ(least, 10 + 2 * static_cast<double>(0.1f));
+}
+
+TEST_F(Collada, UnitAndUpAxisAsked) {
+  const MeshFile file =
+      read("a.dae", collada("<unit meter=\"0.0254\"/><up_axis>Z_UP</up_axis>"), {0.5, 'y'});
+  expectBounds(file.mesh, Vec3(4, -3, 2), Vec3(6, -3, 9));
+  EXPECT_EQ(file.unitRule, "0.5 m per unit, as asked, instead of the file's own 0.0254 m");
+  EXPECT_EQ(file.upRule,
+            "y is up, as asked: turned by (x, y, z) -> (x, -z, y); the file's own <up_axis> is not "
+            "applied "
+            "(ROS's rule)");
+}
+
+TEST_F(Collada, OmplAppTurnsToYUp) {
+  OmplAppMesh read = readOmplAppMesh(write("z.dae", collada("<up_axis>Z_UP</up_axis>")));
+  expectBounds(read.mesh, Vec3(8, 6, -18), Vec3(12, 6, -4));
+  read = readOmplAppMesh(write("y.dae", collada("<up_axis>Y_UP</up_axis>")));
+  expectBounds(read.mesh, Vec3(8, 4, 6), Vec3(12, 18, 6));
+  read = readOmplAppMesh(write("x.dae", collada("<up_axis>X_UP</up_axis>")));
+  expectBounds(read.mesh, Vec3(-18, 8, 6), Vec3(-4, 12, 6));
+}
+
+TEST_F(Collada, OmplAppAveragesAllVerticesThoseOfLinesToo) {
+  const OmplAppMesh read = readOmplAppMesh(write("y.dae", collada("<up_axis>Y_UP</up_axis>", "0")));
+  // All faces are in one plane, so the five vertices are kept once; the two of the line come again.
+  EXPECT_EQ(read.importedVertices, 7);
+  EXPECT_LT((read.vertexAverage - Vec3(10, 2 * 34.0 / 7, 6)).norm(), 1e-5)
+      << read.vertexAverage.transpose();
+}
+
+TEST_F(Collada, Complaints) {
+  const std::string unreadable =
+      ": cannot be read as a mesh (OBJ, STL, PLY, or a format of assimp): ";
+  EXPECT_EQ(complaint("a.nothing", "hello"),
+            "a.nothing" + unreadable +
+                "No suitable reader found for the file format of file \"a.nothing\".");
+  EXPECT_EQ(complaint("a.dae", "hello"),
+            "a.dae" + unreadable + "Unable to read file, malformed XML");
+  EXPECT_EQ(complaint("a.dae", collada("", "nan")),
+            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, whose numbers "
+            "end at 3.4e38)");
+  EXPECT_EQ(complaint("a.dae", collada("", "1e39")),
+            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, whose numbers "
+            "end at 3.4e38)");
+  EXPECT_EQ(complaint("a.3mf", "hello"),
+            "a.3mf: the format has a unit, which assimp does not hand on: state the unit");
+  std::string noMesh = collada("");
+  const auto at = noMesh.find("<polylist");
+  noMesh.erase(at, noMesh.find("<lines") - at);
+  EXPECT_EQ(complaint("a.dae", noMesh),
+            "a.dae: the mesh has no faces; triangles or polygons are needed, lines and points are "
+            "not read");
+}
+
+}  // namespace
+}  // namespace corridor::test
