@@ -24,7 +24,7 @@ enum class UndecidedReason { none, clearance, workLimit, ambiguous };
 struct MotionResult {
   MotionVerdict verdict = MotionVerdict::free;
   UndecidedReason reason = UndecidedReason::none;
-  /// [0, certifiedUntil] is proved free (for `free`: 1). If the query did not ask for the earliest contact it is 0.
+  /// [0, certifiedUntil] is proved free (for `free`: 1), but where it is 0, which claims nothing. Not asked for: 0.
   double certifiedUntil = 1;
   double contactTime = -1;      ///< t1 of `contact`, else −1; for `undecided` the middle of the undecided interval
   bool grazing = false;         ///< `contact`, and the clearance stays under the tolerance over [certifiedUntil, contactTime]
