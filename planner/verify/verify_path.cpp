@@ -18,9 +18,13 @@ using namespace verify;
 constexpr std::size_t kFindings = 100;
 /// Halvings of an edge: t keeps 60 bits, which EdgeCurve's count of roundings allows.
 constexpr int kDepth = 60;
-/// Once all is proved, the bound of the clearance may take this many queries more, and as many
-/// again as the proof.
-constexpr std::uint64_t kRefinement = 2000;
+/// Every edge is first looked at in 2^kCoarse parts, the worst first, so that a deep collision is
+/// found at once. Then the deepest part is next, so that a place that can't be decided is found
+/// without halving all others as far.
+constexpr int kCoarse = 5;
+/// Once all is proved, the bound of the clearance may take this many queries more, and four times
+/// those of the proof.
+constexpr std::uint64_t kRefinement = 4000;
 constexpr Real kRefined = 0.9L;
 
 std::vector<SoupTriangle> soupOf(const std::vector<VerifyBody>& bodies) {
@@ -65,8 +69,18 @@ struct Interval {
   Real middle = 0, half = 0;
   Real bound = 0;  ///< proved: the clearance of every curve in the tube, all over the interval
   SoupGap gap;     ///< at the middle
+};
 
-  bool operator<(const Interval& other) const { return bound > other.bound; }  // the worst on top
+struct WorstOnTop {
+  bool operator()(const Interval& a, const Interval& b) const { return a.bound > b.bound; }
+};
+
+struct NextOnTop {
+  bool operator()(const Interval& a, const Interval& b) const {
+    const bool coarseA = a.depth < kCoarse, coarseB = b.depth < kCoarse;
+    if (coarseA != coarseB) return coarseB;
+    return coarseA || a.depth == b.depth ? a.bound > b.bound : a.depth < b.depth;
+  }
 };
 
 class Verifier {
@@ -109,7 +123,10 @@ class Verifier {
   void close(const Interval& part, PathVerdict verdict, const std::string& reason);
   void closeInvalid(int edge, const PathState& state, const std::string& reason);
   bool closed(int edge) const { return findings_.count(edge) > 0; }
-  bool bisect();
+  /// Halves `part` and keeps the halves, unless they refute the edge.
+  void bisect(const Interval& part);
+  void keep(const Interval& part);
+  void prove();
   void refine();
   Real travel(const Interval& part) const { return curves_[part.edge].travel(part.half, reach_); }
 
@@ -119,7 +136,8 @@ class Verifier {
   SoupDistance distance_;
   Real reach_ = 0, fixedSize_ = 0, tolerance_ = 0, tube_ = 0;
   std::vector<EdgeCurve> curves_;
-  std::priority_queue<Interval> open_;
+  std::priority_queue<Interval, std::vector<Interval>, NextOnTop> open_;
+  std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;
   std::map<int, PathFinding> findings_;
   std::optional<Vec3> contact_;  ///< of the last measurement
   Real smallest_ = std::numeric_limits<Real>::infinity();
@@ -202,10 +220,15 @@ void Verifier::measure(Interval& part, TrianglePair guess, Real atLeast) {
   }
 }
 
-/// Halves the worst part.
-bool Verifier::bisect() {
-  const Interval part = open_.top();
-  open_.pop();
+void Verifier::keep(const Interval& part) {
+  if (part.bound > problem_.margin) {
+    proved_.push(part);
+  } else {
+    open_.push(part);
+  }
+}
+
+void Verifier::bisect(const Interval& part) {
   for (const int side : {-1, 1}) {
     Interval child;
     child.edge = part.edge;
@@ -213,21 +236,12 @@ bool Verifier::bisect() {
     child.half = part.half / 2;
     child.middle = part.middle + side * child.half;
     measure(child, part.gap.pair, part.bound);
-    if (closed(part.edge)) return false;
-    open_.push(child);
-  }
-  return true;
-}
-
-void Verifier::refine() {
-  const std::uint64_t limit = 2 * queries_ + kRefinement;
-  while (queries_ < limit && open_.top().bound < kRefined * (smallest_ - tube_) &&
-         travel(open_.top()) > tolerance_ && open_.top().depth < kDepth) {
-    bisect();
+    if (closed(part.edge)) return;
+    keep(child);
   }
 }
 
-PathReport Verifier::run() {
+void Verifier::prove() {
   const Real nothingKnown = -std::numeric_limits<Real>::infinity();
   for (int edge = 0; edge < static_cast<int>(curves_.size()); ++edge) {
     // The states first: bisection alone comes only close to them.
@@ -241,33 +255,44 @@ PathReport Verifier::run() {
     whole.edge = edge;
     whole.middle = whole.half = 0.5L;
     if (!closed(edge)) measure(whole, {}, nothingKnown);
-    if (!closed(edge)) open_.push(whole);
+    if (!closed(edge)) keep(whole);
   }
   while (!open_.empty()) {
-    const Interval& worst = open_.top();
-    if (closed(worst.edge)) {
-      open_.pop();
-    } else if (worst.bound > problem_.margin) {
-      break;  // so are all others
-    } else if (travel(worst) <= tolerance_ || worst.depth >= kDepth) {
-      contact_.reset();
-      close(worst, PathVerdict::undecided, "clearance below the tolerance");
+    const Interval part = open_.top();
+    open_.pop();
+    if (closed(part.edge)) continue;
+    contact_.reset();
+    if (travel(part) <= tolerance_ || part.depth >= kDepth) {
+      close(part, PathVerdict::undecided, "clearance below the tolerance");
     } else if (queries_ >= problem_.workLimit) {
-      contact_.reset();
-      close(worst, PathVerdict::undecided, "work limit reached");
+      close(part, PathVerdict::undecided, "work limit reached");
     } else {
-      bisect();
+      bisect(part);
     }
   }
+}
 
+void Verifier::refine() {
+  const std::uint64_t limit = 5 * queries_ + kRefinement;
+  while (queries_ < limit) {
+    const Interval worst = proved_.top();
+    const bool fine = worst.bound >= kRefined * (smallest_ - tube_);
+    if (fine || travel(worst) <= tolerance_ || worst.depth >= kDepth) break;
+    proved_.pop();
+    bisect(worst);
+  }
+}
+
+PathReport Verifier::run() {
+  prove();
   PathReport report;
   report.edges = static_cast<int>(curves_.size());
   report.edgesProved = report.edges - static_cast<int>(findings_.size());
   if (findings_.empty()) {
     refine();
-    report.provenClearance = static_cast<double>(open_.top().bound);
+    report.provenClearance = static_cast<double>(proved_.top().bound);
     // To the nearest double: down, if that was up.
-    if (report.provenClearance > open_.top().bound) {
+    if (report.provenClearance > proved_.top().bound) {
       report.provenClearance = std::nextafter(report.provenClearance, 0);
     }
   }
