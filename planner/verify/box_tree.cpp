@@ -6,6 +6,13 @@
 #include <utility>
 
 namespace corridor::verify {
+namespace {
+
+/// Of the distance found: what comes no closer isn't looked at. Less than 1, since many triangles
+/// share the closest vertex or edge, and their bounds round to either side of it.
+constexpr Real kSame = 1 - 0x1p-30L;
+
+}  // namespace
 
 BoxTree::BoxTree(std::vector<SoupTriangle> soup) : soup_(std::move(soup)) {
   if (soup_.empty()) return;
@@ -60,12 +67,18 @@ SoupDistance::SoupDistance(const BoxTree& moving, const BoxTree& fixed)
 
 const SoupDistance::Box& SoupDistance::movingBox(std::uint32_t node) {
   Box& box = movingBoxes_[node];
-  if (stamps_[node] != stamp_) {
+  if (stamps_[node] == stamp_) return box;
+  stamps_[node] = stamp_;
+  if (const std::uint32_t leaf = moving_.node(node).leaf; leaf != BoxTree::noLeaf) {
+    const auto t = image(leaf);
+    const RealVec lower = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+    const RealVec upper = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+    box = {(lower + upper) / 2, (upper - lower) / 2};
+  } else {
     const RealVec lower = moving_.node(node).lower.cast<Real>();
     const RealVec upper = moving_.node(node).upper.cast<Real>();
     box.centre = placement_.rotation * ((lower + upper) / 2) + placement_.position;
     box.half = placement_.rotation.cwiseAbs() * ((upper - lower) / 2);
-    stamps_[node] = stamp_;
   }
   return box;
 }
@@ -77,17 +90,27 @@ Real SoupDistance::boxGap(std::uint32_t moving, std::uint32_t fixed) {
     const Real gap = std::abs(a.centre[i] - b.centre[i]) - a.half[i] - b.half[i];
     if (gap > 0) square += gap * gap;
   }
-  return std::sqrt(square);
+  const Real slab =
+      direction_.dot(b.centre - a.centre) - direction_.cwiseAbs().dot(a.half + b.half);
+  return std::max(std::sqrt(square), slab);
 }
 
-TriangleGap SoupDistance::gap(TrianglePair pair) const {
-  RealVec a[3], b[3];
+std::array<RealVec, 3> SoupDistance::image(std::uint32_t triangle) const {
+  std::array<RealVec, 3> result;
   for (int i = 0; i < 3; ++i) {
-    a[i] = placement_.rotation * moving_.triangle(pair.moving).corners[i].cast<Real>() +
-           placement_.position;
-    b[i] = fixed_.triangle(pair.fixed).corners[i].cast<Real>();
+    result[i] = placement_.rotation * moving_.triangle(triangle).corners[i].cast<Real>() +
+                placement_.position;
   }
-  return triangleGap(a, b);
+  return result;
+}
+
+TriangleGap SoupDistance::gap(TrianglePair pair, Real enough) const {
+  const auto a = image(pair.moving);
+  const Corners& fixed = fixed_.triangle(pair.fixed).corners;
+  const RealVec b[3] = {fixed[0].cast<Real>(), fixed[1].cast<Real>(), fixed[2].cast<Real>()};
+  TriangleGap cheap;
+  cheap.lower = slabWidth(a.data(), b, direction_);
+  return cheap.lower >= enough ? cheap : triangleGap(a.data(), b);
 }
 
 SoupGap SoupDistance::measure(const Placement& placement, TrianglePair guess, Real doubt,
@@ -96,13 +119,18 @@ SoupGap SoupDistance::measure(const Placement& placement, TrianglePair guess, Re
   if (moving_.empty() || fixed_.empty()) return best;
   placement_ = placement;
   ++stamp_;
+  direction_.setZero();
+  Real enough = best.upper;
   const auto test = [&](TrianglePair pair) {
-    const TriangleGap found = gap(pair);
+    const TriangleGap found = gap(pair, enough);
     best.lower = std::min(best.lower, found.lower);
     if (found.upper < best.upper) {
       best.upper = found.upper;
       best.pair = pair;
       best.onFixed = found.onB;
+      enough = std::max(kSame * best.upper,
+                        std::nextafter(doubt, std::numeric_limits<Real>::infinity()));
+      direction_ = (found.onB - found.onA).normalized();
     }
     if (found.lower > doubt || !touches(pair)) return false;
     best = {0, 0, pair, found.onB, true};
@@ -114,7 +142,7 @@ SoupGap SoupDistance::measure(const Placement& placement, TrianglePair guess, Re
   while (!stack_.empty()) {
     const Item item = stack_.back();
     stack_.pop_back();
-    if (item.lower >= best.upper && item.lower > doubt) {
+    if (item.lower >= enough) {
       best.lower = std::min(best.lower, item.lower);
       continue;
     }

@@ -88,11 +88,15 @@ class SoupDistance {
   };
   const Box& movingBox(std::uint32_t node);
   Real boxGap(std::uint32_t moving, std::uint32_t fixed);
-  TriangleGap gap(TrianglePair pair) const;
+  std::array<RealVec, 3> image(std::uint32_t triangle) const;  ///< of a moving one
+  /// Only a lower bound, where that is cheap and `enough`.
+  TriangleGap gap(TrianglePair pair, Real enough) const;
 
   const BoxTree& moving_;
   const BoxTree& fixed_;
   Placement placement_;
+  RealVec direction_;  ///< of the closest points so far, unit or zero: slabs along it are bounds,
+                       ///< for boxes too
   std::vector<Box> movingBoxes_, fixedBoxes_;
   std::vector<std::uint64_t> stamps_;  ///< of movingBoxes_: the measurement that made them
   std::uint64_t stamp_ = 0;

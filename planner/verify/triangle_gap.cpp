@@ -41,14 +41,6 @@ bool footInside(const RealVec& p, const RealVec t[3], RealVec& foot) {
   return true;
 }
 
-Real slabWidth(const RealVec a[3], const RealVec b[3], const RealVec& direction) {
-  const Real length = direction.norm();
-  if (!(length > 0)) return 0;
-  const Real nearA = std::max({direction.dot(a[0]), direction.dot(a[1]), direction.dot(a[2])});
-  const Real nearB = std::min({direction.dot(b[0]), direction.dot(b[1]), direction.dot(b[2])});
-  return (nearB - nearA) / length;
-}
-
 /// The widest slab along the normals, the products of edges and the edges' normals in the planes:
 /// for triangles so thin that their closest points come out wrong.
 Real widestSlab(const RealVec a[3], const RealVec b[3]) {
@@ -73,6 +65,14 @@ Real widestSlab(const RealVec a[3], const RealVec b[3]) {
 }
 
 }  // namespace
+
+Real slabWidth(const RealVec a[3], const RealVec b[3], const RealVec& direction) {
+  const Real length = direction.norm();
+  if (!(length > 0)) return 0;
+  const Real nearA = std::max({direction.dot(a[0]), direction.dot(a[1]), direction.dot(a[2])});
+  const Real nearB = std::min({direction.dot(b[0]), direction.dot(b[1]), direction.dot(b[2])});
+  return (nearB - nearA) / length;
+}
 
 TriangleGap triangleGap(const RealVec a[3], const RealVec b[3]) {
   TriangleGap best;

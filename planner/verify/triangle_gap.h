@@ -33,6 +33,9 @@ struct TriangleGap {
   RealVec onA = RealVec::Zero(), onB = RealVec::Zero();
 };
 
+/// The width of the slab along `direction`, of any length; 0 for none.
+Real slabWidth(const RealVec a[3], const RealVec b[3], const RealVec& direction);
+
 TriangleGap triangleGap(const RealVec a[3], const RealVec b[3]);
 
 }  // namespace corridor::verify

@@ -43,10 +43,10 @@ struct PathProblem {
 };
 
 enum class PathVerdict {
-  proved,   ///< every curve in the tube keeps more than the margin, everywhere; never wrong
-  refuted,  ///< some finding is: a contact at a pose within rounding of the path (relative 2^-50),
-            ///< a point closer than margin or tube allow, an ambiguous half turn, or a state that
-            ///< is no state
+  proved,    ///< every curve in the tube keeps more than the margin, everywhere; never wrong
+  refuted,   ///< some finding is: a contact at a pose within rounding of the path (relative 2^-50),
+             ///< a point closer than margin or tube allow, an ambiguous half turn, or a state that
+             ///< is no state
   undecided  ///< neither: the clearance left is somewhere less than twice the tolerance, or the
              ///< work limit was reached
 };
