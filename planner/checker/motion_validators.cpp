@@ -22,6 +22,11 @@ bool RigidMotionValidator::count(bool valid) const {
   return valid;
 }
 
+std::uint64_t RigidMotionValidator::checkedMotions() const {
+  return std::uint64_t{std::atomic_ref(valid_).load(std::memory_order_relaxed)} +
+         std::atomic_ref(invalid_).load(std::memory_order_relaxed);
+}
+
 bool RigidMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) const {
   return count(isFree(readState(checker_.space(), s1), readState(checker_.space(), s2)));
 }

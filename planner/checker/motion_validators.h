@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include <ompl/base/MotionValidator.h>
@@ -19,6 +20,8 @@ class RigidMotionValidator : public ompl::base::MotionValidator {
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const final;
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                    std::pair<ompl::base::State*, double>& lastValid) const final;
+  /// As getCheckedMotionCount, which isn't safe to call while motions are checked.
+  std::uint64_t checkedMotions() const;
 
  protected:
   RigidMotionValidator(const ompl::base::SpaceInformationPtr& si, const RigidChecker& checker);
