@@ -16,7 +16,7 @@ struct Place {
   std::uint64_t index = 0;
 
   std::string str() const {
-    return element->name + ' ' + std::to_string(index + 1) + " of " +
+    return printable(element->name) + ' ' + std::to_string(index + 1) + " of " +
            std::to_string(element->count);
   }
 };
@@ -180,8 +180,8 @@ class BodyReader {
     for (const PlyProperty& p : element.properties)
       size += Body::leastSize(p.countType.value_or(p.type));
     if (element.count <= body_.bytesLeft() / size) return;
-    faults_.fail(0, "the header promises " + std::to_string(element.count) + " of element \"" +
-                        element.name + "\", at least " + std::to_string(size) +
+    faults_.fail(0, "the header promises " + std::to_string(element.count) + " of element " +
+                        inQuotes(element.name) + ", at least " + std::to_string(size) +
                         " bytes each, but " + std::to_string(body_.bytesLeft()) +
                         " bytes are left: the file is cut short");
   }
