@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "collision/core/error.h"
+
+namespace corridor {
+
+/// Collects the faults of an input and of the files that it names, so that its user sees all of
+/// them at once.
+class FaultList {
+ public:
+  void add(std::string file, int line, std::string text);
+  void add(const InputError& error);
+
+  std::size_t size() const { return faults_.size(); }
+
+  /// @throws InputError with all faults, if there are any: files in the order in which they came
+  /// up, each by line.
+  void throwIfAny() const;
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+/// The bytes of a text file. @param what "a problem", for the message.
+/// @throws InputError: no such file, a folder, unreadable, empty.
+std::string readTextFile(const std::filesystem::path& file, const std::string& what);
+
+/// What keeps a path from being an ordinary file ("no such file …"), or "".
+std::string whyNoFile(const std::filesystem::path& file);
+
+}  // namespace corridor

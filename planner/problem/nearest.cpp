@@ -1,0 +1,73 @@
+#include "planner/problem/nearest.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace corridor {
+namespace {
+
+std::string lowered(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  // Rows i − 2, i − 1 and i of the table of distances between prefixes.
+  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = last;
+    last = row;
+  }
+  return last[b.size()];
+}
+
+std::optional<std::string> nearest(std::string_view word,
+                                   const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 100;  // no key is; keeps a hostile file from costing time
+  if (word.size() > longest) return std::nullopt;
+  std::optional<std::string> best;
+  std::size_t bestDistance = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = editDistance(lowered(word), lowered(candidate));
+    const std::size_t limit = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
+    if (distance <= limit && (!best || distance < bestDistance)) {
+      best = candidate;
+      bestDistance = distance;
+    }
+  }
+  return best;
+}
+
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
+  const auto near = nearest(word, candidates);
+  return near ? "; did you mean \"" + *near + "\"?" : "";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string quoted(std::string_view word) {
+  constexpr std::size_t longest = 60;
+  std::size_t end = std::min(word.size(), longest);
+  while (end < word.size() && end > 0 && (word[end] & 0xC0) == 0x80)
+    --end;  // not within a letter of UTF-8
+  std::string text = "\"";
+  for (const char c : word.substr(0, end))
+    text += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+  return text + (end < word.size() ? "…\"" : "\"");
+}
+
+}  // namespace corridor

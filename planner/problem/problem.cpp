@@ -1,0 +1,38 @@
+#include "planner/problem/problem.h"
+
+#include "planner/problem/fault_list.h"
+#include "planner/problem/omplapp_cfg.h"
+#include "planner/problem/problem_yaml.h"
+#include "planner/problem/sha256.h"
+
+namespace corridor {
+
+Problem readProblem(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path))
+    return path.extension() == ".cfg" ? readOmplAppCfg(path) : readProblemYaml(path);
+  const std::filesystem::path file = path / "problem.yaml";
+  if (!std::filesystem::exists(file))
+    throw InputError(Fault{path.string(), 0, "no problem.yaml in this folder"});
+  return readProblemYaml(file);
+}
+
+Fault Problem::faultAt(std::string_view key, std::string text) const {
+  for (std::string_view around = key;; around = around.substr(0, around.rfind('.'))) {
+    const auto found = lines.find(std::string(around));
+    if (found != lines.end()) return {file.string(), found->second, std::move(text)};
+    if (around.find('.') == around.npos) return {file.string(), 0, std::move(text)};
+  }
+}
+
+std::string digestOfFiles(const std::vector<std::filesystem::path>& files) {
+  Sha256 all;
+  for (const std::filesystem::path& file : files) {
+    Sha256 one;
+    one.update(readTextFile(file, "an input"));
+    const auto digest = one.finish();
+    all.update({reinterpret_cast<const char*>(digest.data()), digest.size()});
+  }
+  return toHex(all.finish());
+}
+
+}  // namespace corridor

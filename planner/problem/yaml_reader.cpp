@@ -1,0 +1,214 @@
+#include "planner/problem/yaml_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "planner/problem/nearest.h"
+
+namespace corridor {
+
+std::string shortest(double value) {
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+std::string described(const YamlValue& value) {
+  switch (value.kind) {
+    case YamlValue::Kind::Scalar:
+      return quoted(value.text);
+    case YamlValue::Kind::List:
+      return "a list";
+    case YamlValue::Kind::Map:
+      return "a map";
+    default:
+      return "nothing";
+  }
+}
+
+std::string parseNumber(std::string_view text, Range range, double& value) {
+  for (const char* name :
+       {".nan", ".NaN", ".NAN", ".inf", "-.inf", "+.inf", ".Inf", "-.Inf", ".INF", "-.INF"})
+    if (text == name) return "a finite number is needed, not " + quoted(text);
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* const begin = text.data() + (plus ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  double number = 0;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  if (stop != end || error == std::errc::invalid_argument)
+    return "a number is needed, not " + quoted(text);
+  // Too large or too small: strtod, unlike from_chars, says which.
+  if (error == std::errc::result_out_of_range)
+    number = std::strtod(std::string(begin, end).c_str(), nullptr);
+  if (!std::isfinite(number)) return "a finite number is needed, not " + quoted(text);
+  if (range == Range::NotNegative && number < 0)
+    return "must be 0 or more, not " + std::string(text);
+  if (range == Range::Positive && !(number > 0)) return "must be above 0, not " + std::string(text);
+  if (range == Range::Fraction && !(number > 0 && number < 1))
+    return "must lie between 0 and 1, not at " + std::string(text);
+  value = number;
+  return "";
+}
+
+YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source)
+    : path_(std::move(path)), source_(&source), line_(value.line) {
+  if (value.kind != YamlValue::Kind::Map) {
+    source.fault(line_, (path_.empty() ? "" : path_ + ": ") + "a map (key: value) is needed, not " +
+                            described(value));
+    explainsMissing_ = true;
+    return;
+  }
+  const std::string in = path_.empty() ? "" : " in " + path_;
+  for (const YamlValue::Entry& entry : value.entries) {
+    if (const auto first = std::find_if(entries_.begin(), entries_.end(),
+                                        [&](const auto* e) { return e->key == entry.key; });
+        first != entries_.end()) {
+      source.fault(entry.line, "duplicate key " + quoted(entry.key) + in + ", first on line " +
+                                   std::to_string((*first)->line));
+      continue;
+    }
+    if (keys && std::find(keys->legal.begin(), keys->legal.end(), entry.key) == keys->legal.end()) {
+      const auto later = std::find_if(keys->later.begin(), keys->later.end(),
+                                      [&](const LaterKey& l) { return l.key == entry.key; });
+      if (later != keys->later.end()) {
+        source.fault(entry.line,
+                     quoted(entry.key) + in + " is not supported yet; " + later->instead);
+        explainsMissing_ = true;
+        continue;
+      }
+      if (const auto near = nearest(entry.key, keys->legal)) missed_.insert(*near);
+      source.fault(entry.line, "unknown key " + quoted(entry.key) + in +
+                                   didYouMean(entry.key, keys->legal) +
+                                   " (known: " + joined(keys->legal) + ")");
+      continue;
+    }
+    entries_.push_back(&entry);
+    source.lines.emplace(pathOf(entry.key), entry.line);
+  }
+}
+
+std::string YamlMap::pathOf(std::string_view key) const {
+  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
+void YamlMap::fault(std::string_view key, const std::string& text) const {
+  int line = line_;
+  for (const auto* entry : entries_)
+    if (entry->key == key) line = entry->line;
+  source_->fault(line, pathOf(key) + ": " + text);
+}
+
+const YamlValue* YamlMap::find(std::string_view key) const {
+  for (const auto* entry : entries_)
+    if (entry->key == key) return &entry->value;
+  return nullptr;
+}
+
+const YamlValue* YamlMap::require(std::string_view key, const std::string& purpose) const {
+  const YamlValue* value = find(key);
+  if (!value && !explainsMissing_ && !missed_.contains(std::string(key)))
+    source_->fault(path_.empty() ? 0 : line_, "missing key \"" + std::string(key) + "\"" +
+                                                  (path_.empty() ? "" : " in " + path_) + ": " +
+                                                  purpose);
+  return value;
+}
+
+std::optional<double> YamlMap::number(std::string_view key, Range range) const {
+  const YamlValue* value = find(key);
+  if (!value) return std::nullopt;
+  double result = 0;
+  const std::string complaint = value->kind == YamlValue::Kind::Scalar && value->isPlain
+                                    ? parseNumber(value->text, range, result)
+                                    : "a number is needed, not " + described(*value);
+  if (complaint.empty()) return result;
+  fault(key, complaint);
+  return std::nullopt;
+}
+
+std::optional<std::uint64_t> YamlMap::wholeNumber(std::string_view key) const {
+  const YamlValue* value = find(key);
+  if (!value) return std::nullopt;
+  std::uint64_t result = 0;
+  const char* const end = value->text.data() + value->text.size();
+  const auto [stop, error] = std::from_chars(value->text.data(), end, result);
+  if (value->kind == YamlValue::Kind::Scalar && value->isPlain && stop == end &&
+      error == std::errc())
+    return result;
+  fault(key, "a whole number from 0 to 2^64 - 1 is needed, not " + described(*value));
+  return std::nullopt;
+}
+
+std::optional<bool> YamlMap::boolean(std::string_view key) const {
+  const YamlValue* value = find(key);
+  if (!value) return std::nullopt;
+  if (value->isPlain && value->text == "true") return true;
+  if (value->isPlain && value->text == "false") return false;
+  fault(key, "true or false is needed, not " + described(*value));
+  return std::nullopt;
+}
+
+std::optional<std::string> YamlMap::text(std::string_view key) const {
+  const YamlValue* value = find(key);
+  if (!value) return std::nullopt;
+  if (value->kind == YamlValue::Kind::Scalar && !value->text.empty()) return value->text;
+  fault(key, "a word is needed, not " +
+                 (value->kind == YamlValue::Kind::Scalar ? "nothing" : described(*value)));
+  return std::nullopt;
+}
+
+std::optional<std::string> YamlMap::choice(std::string_view key,
+                                           const std::vector<std::string>& of) const {
+  const YamlValue* value = find(key);
+  if (!value) return std::nullopt;
+  if (value->kind == YamlValue::Kind::Scalar &&
+      std::find(of.begin(), of.end(), value->text) != of.end())
+    return value->text;
+  const std::string hint =
+      value->kind == YamlValue::Kind::Scalar ? didYouMean(value->text, of) : std::string();
+  fault(key, "one of " + joined(of) + " is needed, not " + described(*value) + hint);
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
+                                               const std::string& path, const YamlSource& source) {
+  if (value.kind != YamlValue::Kind::List || value.items.size() != count) {
+    source.fault(value.line, path + ": a list of " + std::to_string(count) +
+                                 " numbers is needed, not " + described(value) +
+                                 (value.kind == YamlValue::Kind::List
+                                      ? " of " + std::to_string(value.items.size())
+                                      : ""));
+    return std::nullopt;
+  }
+  std::vector<double> numbers(count);
+  bool sound = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const YamlValue& item = value.items[i];
+    const std::string complaint = item.kind == YamlValue::Kind::Scalar && item.isPlain
+                                      ? parseNumber(item.text, Range::Any, numbers[i])
+                                      : "a number is needed, not " + described(item);
+    if (complaint.empty()) continue;
+    source.fault(item.line, path + ": " + complaint);
+    sound = false;
+  }
+  return sound ? std::optional(numbers) : std::nullopt;
+}
+
+std::optional<std::vector<double>> YamlMap::numbers(std::string_view key, std::size_t count) const {
+  const YamlValue* value = find(key);
+  return value ? readNumbers(*value, count, pathOf(key), *source_) : std::nullopt;
+}
+
+std::optional<double> YamlMap::angle(const std::string& key, Range range) const {
+  const std::string degrees = key + "_deg";
+  if (find(key) && find(degrees)) {
+    fault(degrees, "say " + key + " (radians) or " + degrees + " (degrees), not both");
+    return std::nullopt;
+  }
+  if (find(key)) return number(key, range);
+  const auto value = number(degrees, range);
+  return value ? std::optional(*value * (std::numbers::pi / 180)) : std::nullopt;
+}
+
+}  // namespace corridor

@@ -1,0 +1,122 @@
+#include "planner/problem/yaml_value.h"
+
+#include <sstream>
+#include <utility>
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include "collision/core/error.h"
+
+namespace corridor {
+namespace {
+
+/// Builds the tree from the parser's events: yaml-cpp's own nodes would hide repeated keys.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
+
+  YamlValue take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+    put(value(YamlValue::Kind::Null, mark));
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    fail(mark, "aliases (*name) are not read here; write the value out");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& text) override {
+    YamlValue scalar = value(YamlValue::Kind::Scalar, mark);
+    scalar.text = text;
+    scalar.isPlain = tag == "?";  // yaml-cpp: "?" plain, "!" quoted, else a tag of the file's own
+    put(std::move(scalar));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    open(value(YamlValue::Kind::List, mark));
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    open(value(YamlValue::Kind::Map, mark));
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    YamlValue value;
+    bool keyIsNext = true;  ///< Map: what comes is a key
+  };
+
+  static YamlValue value(YamlValue::Kind kind, const YAML::Mark& mark) {
+    YamlValue result;
+    result.kind = kind;
+    result.line = mark.line + 1;
+    return result;
+  }
+
+  [[noreturn]] void fail(const YAML::Mark& mark, std::string text) const {
+    throw InputError(Fault{file_, mark.line + 1, std::move(text)});
+  }
+
+  void open(YamlValue value) {
+    requireNoKey(value);
+    open_.push_back({std::move(value), true});
+  }
+
+  void close() {
+    YamlValue done = std::move(open_.back().value);
+    open_.pop_back();
+    put(std::move(done));
+  }
+
+  void requireNoKey(const YamlValue& value) const {
+    if (!open_.empty() && open_.back().value.kind == YamlValue::Kind::Map && open_.back().keyIsNext)
+      throw InputError(Fault{file_, value.line, "a key must be a word"});
+  }
+
+  void put(YamlValue value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return;
+    }
+    Open& parent = open_.back();
+    if (parent.value.kind == YamlValue::Kind::List) {
+      parent.value.items.push_back(std::move(value));
+      return;
+    }
+    if (parent.keyIsNext) {
+      if (value.kind != YamlValue::Kind::Scalar) requireNoKey(value);
+      parent.value.entries.push_back({std::move(value.text), value.line, {}});
+    } else {
+      parent.value.entries.back().value = std::move(value);
+    }
+    parent.keyIsNext = !parent.keyIsNext;
+  }
+
+  std::string file_;
+  YamlValue root_;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+YamlValue parseYaml(const std::string& file, const std::string& text) {
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    TreeBuilder first(file), second(file);
+    parser.HandleNextDocument(first);
+    if (parser.HandleNextDocument(second))
+      throw InputError(Fault{file, 0, "has more than one YAML document (---); one is read"});
+    return first.take();
+  } catch (const YAML::Exception& error) {
+    throw InputError(Fault{file, error.mark.line + 1, "is not YAML: " + error.msg});
+  }
+}
+
+}  // namespace corridor
