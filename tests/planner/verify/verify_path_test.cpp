@@ -1,0 +1,333 @@
+// Paths whose clearance is known in closed form, and random ones against dense sampling.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/verify/exact_contact.h"
+#include "tests/planner/verify/meshes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::boxMesh;
+using test::oneTriangle;
+using test::poseOf;
+
+constexpr double kPi = std::numbers::pi;
+
+/// A body among obstacles; owns the meshes.
+struct World {
+  TriangleMesh body, obstacle;
+  PathProblem problem;
+
+  World(TriangleMesh b, TriangleMesh o) : body(std::move(b)), obstacle(std::move(o)) {
+    problem.moving = {{"body", &body}};
+    problem.fixed = {{"obstacle", &obstacle}};
+  }
+  World(const World&) = delete;
+  template <class State>
+  PathReport verify(const std::vector<State>& states) const {
+    return verifyPath(problem, states);
+  }
+};
+
+const TriangleMesh kCube = boxMesh(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5));
+
+TEST(VerifyPath, BoxPastAWall) {
+  for (const double clearance : {0.25, 1e-2, 1e-3}) {
+    World world(kCube, boxMesh(Vec3(-3, 0.5 + clearance, -1), Vec3(3, 2, 1)));
+    const PathReport report = world.verify<RigidPose>({poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
+    EXPECT_EQ(report.verdict, PathVerdict::proved);
+    EXPECT_EQ(report.edgesProved, 1);
+    EXPECT_TRUE(report.findings.empty());
+    EXPECT_NEAR(report.smallestDistanceMet, clearance, 1e-12);
+    EXPECT_LE(report.provenClearance, clearance);
+    EXPECT_GE(report.provenClearance, (clearance < 0.1 ? 0.6 : 0.89) * clearance);  // the cap
+  }
+}
+
+TEST(VerifyPath, ExactTouchingIsRefuted) {
+  World world(kCube, boxMesh(Vec3(-3, 0.5, -1), Vec3(3, 2, 1)));
+  const PathReport report = world.verify<RigidPose>({poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  ASSERT_EQ(report.findings.size(), 1u);
+  const PathFinding& finding = report.findings[0];
+  EXPECT_EQ(finding.reason, "contact");
+  EXPECT_EQ(finding.moving, "body");
+  EXPECT_EQ(finding.fixed, "obstacle");
+  EXPECT_EQ(finding.edge, 0);
+  EXPECT_EQ(finding.gap, 0);
+  EXPECT_EQ(finding.point.y(), 0.5);
+  EXPECT_EQ(report.provenClearance, 0);
+  // It is what it says: exact, at the pose reported, between the triangles reported.
+  const auto corners = [](const TriangleMesh& mesh, std::uint32_t i) {
+    return verify::Corners{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
+  };
+  EXPECT_TRUE(verify::exactContact(finding.pose, corners(world.body, finding.movingTriangle),
+                                   corners(world.obstacle, finding.fixedTriangle)));
+}
+
+TEST(VerifyPath, TouchingAtTheGoalIsRefuted) {
+  World world(kCube, boxMesh(Vec3(1, -1, -1), Vec3(2, 1, 1)));
+  const PathReport report =
+      world.verify<RigidPose>({poseOf({-5, 0, 0}), poseOf({-4, 0, 0}), poseOf({0.5, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  EXPECT_EQ(report.edgesProved, 1);
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].edge, 1);
+  EXPECT_EQ(report.findings[0].t, 1);
+  EXPECT_EQ(report.findings[0].reason, "contact");
+}
+
+TEST(VerifyPath, OneStateIsCheckedAsItIs) {
+  World world(kCube, boxMesh(Vec3(1, -1, -1), Vec3(2, 1, 1)));
+  PathReport report = world.verify<RigidPose>({poseOf({0, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_NEAR(report.provenClearance, 0.5, 1e-12);
+  EXPECT_EQ(world.verify<RigidPose>({poseOf({0.5, 0, 0})}).verdict, PathVerdict::refuted);
+  EXPECT_EQ(world.verify<RigidPose>({poseOf({0.5 - 1e-6, 0, 0})}).verdict, PathVerdict::proved);
+}
+
+// A blade from the reference point to radius 1 turns past the point at radius 1 + gap, by an angle
+// that has the closest pose at an odd t. With a reach of half the truth this is proved at once, for
+// the middle pose is far from the point.
+TEST(VerifyPath, BladePastAPoint) {
+  for (const double angle : {0.31, 0.77, 1.9}) {
+    for (const double gap : {1e-1, 1e-3, 1e-4, 1e-5, 1e-6, -1e-6, -1e-5, -1e-4, -1e-3, -1e-1}) {
+      const double r = 1 + gap;
+      const Vec3 tip(r * std::cos(angle), r * std::sin(angle), 0);
+      World world(oneTriangle({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}),
+                  oneTriangle(tip, tip + Vec3(0, 0, 1), tip + Vec3(0, 0, -1)));
+      const PathReport report =
+          world.verify<RigidPose>({poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
+      EXPECT_EQ(report.verdict, gap > 0 ? PathVerdict::proved : PathVerdict::undecided)
+          << angle << " " << gap;  // a segment meets a segment exactly at no rounded pose
+      // Given a width, the blade meets it.
+      World wide(boxMesh({0, -1e-3, -0.1}, {1, 1e-3, 0.1}), world.obstacle);
+      const PathReport second =
+          wide.verify<RigidPose>({poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
+      // its corners reach sqrt(1 + 1e-6): 5e-7 further
+      EXPECT_EQ(second.verdict, gap > 6e-7 ? PathVerdict::proved : PathVerdict::refuted)
+          << angle << " " << gap;
+      if (gap > 0) {
+        EXPECT_LE(report.provenClearance, gap * (1 + 1e-9));
+        EXPECT_GE(report.provenClearance, 0.85 * gap - 2e-7);
+      }
+    }
+  }
+}
+
+TEST(VerifyPath, TranslationsOfAWideEdgeAreNotJumped) {
+  // The middle pose is 0.45 from the plate, which the body passes at a quarter of the way: half a
+  // bound would prove it.
+  World world(boxMesh(Vec3(-0.005, 0, 0), Vec3(0.005, 0.01, 0.01)),
+              boxMesh(Vec3(-0.47, -1, -1), Vec3(-0.46, 1, 1)));
+  const PathReport report = world.verify<RigidPose>({poseOf({-0.9, 0, 0}), poseOf({0.9, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+}
+
+TEST(VerifyPath, ThinPlateIsNotJumped) {
+  World world(kCube, boxMesh(Vec3(3.33, -5, -5), Vec3(3.3301, 5, 5)));
+  world.body = boxMesh(Vec3(-0.01, -0.01, -0.01), Vec3(0.01, 0.01, 0.01));
+  const PathReport report = world.verify<RigidPose>(
+      {poseOf({0, 0, 0}), poseOf({-4, 0, 0}), poseOf({10, 0, 0}, 1), poseOf({11, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  EXPECT_EQ(report.edgesProved, 2);
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].edge, 1);
+  EXPECT_NEAR(report.findings[0].point.x(), 3.33, 0.02);
+  EXPECT_NEAR(report.findings[0].pose.p.x(), 3.33, 0.02);
+}
+
+TEST(VerifyPath, RodThroughASlot) {
+  // A plate with a square hole of edge 0.2 and a rod of 1 % play, that turns about its axis' normal
+  // by a little.
+  World world(boxMesh(Vec3(-1, -0.099, -0.099), Vec3(1, 0.099, 0.099)),
+              boxMesh(Vec3(-0.05, 0.1, -1), Vec3(0.05, 1, 1)));
+  const TriangleMesh below = boxMesh(Vec3(-0.05, -1, -1), Vec3(0.05, -0.1, 1));
+  const TriangleMesh left = boxMesh(Vec3(-0.05, -0.1, -1), Vec3(0.05, 0.1, -0.1));
+  const TriangleMesh right = boxMesh(Vec3(-0.05, -0.1, 0.1), Vec3(0.05, 0.1, 1));
+  for (const TriangleMesh* part : {&below, &left, &right}) {
+    world.problem.fixed.push_back({"part", part});
+  }
+  PathReport report = world.verify<RigidPose>({poseOf({-3, 0, 0}), poseOf({3, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_NEAR(report.smallestDistanceMet, 0.001, 1e-12);
+  EXPECT_GE(report.provenClearance, 0.0006);
+  // Turned by 0.03 about y: inside the plate of half thickness 0.05 the rod rises by 0.05·tan 0.03
+  // > 0.001.
+  report = world.verify<RigidPose>(
+      {poseOf({-3, 0, 0}, 0.03, Vec3::UnitZ()), poseOf({3, 0, 0}, 0.03, Vec3::UnitZ())});
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_THAT(report.findings[0].fixed, testing::AnyOf("part", "obstacle"));
+}
+
+TEST(VerifyPath, MarginJustBelowAndAboveTheClearance) {
+  World world(kCube, boxMesh(Vec3(-3, 0.75, -1), Vec3(3, 2, 1)));
+  const std::vector<RigidPose> path = {poseOf({-0.002, 0, 0}), poseOf({0.003, 0, 0})};
+  world.problem.margin = 0.25 - 1e-6;
+  const PathReport report = world.verify(path);
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_GT(report.provenClearance, world.problem.margin);
+  for (const double margin : {0.25, 0.25 + 1e-6}) {
+    world.problem.margin = margin;
+    const PathReport violated = world.verify(path);
+    EXPECT_EQ(violated.verdict, PathVerdict::refuted);
+    ASSERT_EQ(violated.findings.size(), 1u);
+    EXPECT_EQ(violated.findings[0].reason, "closer than the margin");
+    EXPECT_EQ(violated.findings[0].gap, 0.25);
+  }
+}
+
+TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
+  World world(kCube, boxMesh(Vec3(-3, 0.75, -1), Vec3(3, 2, 1)));
+  const std::vector<RigidPose> path = {poseOf({-5, 0, 0}), poseOf({5, 0, 0})};
+  const auto verdict = [&](double position, double rotation, double margin) {
+    world.problem.tube = {position, rotation};
+    world.problem.margin = margin;
+    return world.verify(path).verdict;
+  };
+  const double reach = std::sqrt(0.75);
+  EXPECT_EQ(verdict(0.249 / std::sqrt(3), 0, 0), PathVerdict::proved);
+  EXPECT_NE(verdict(0.2501 / std::sqrt(3), 0, 0), PathVerdict::proved);
+  EXPECT_EQ(verdict(0.25, 0, 0), PathVerdict::refuted);  // displaced by 0.25 it touches
+  EXPECT_EQ(verdict(0, 0.249 / reach, 0), PathVerdict::proved);
+  EXPECT_NE(verdict(0, 0.2501 / reach, 0), PathVerdict::proved);
+  EXPECT_EQ(verdict(0.049 / std::sqrt(3), 0.1 / reach, 0.1), PathVerdict::proved);
+  EXPECT_NE(verdict(0.0501 / std::sqrt(3), 0.1 / reach, 0.1), PathVerdict::proved);
+  // What is proved is said of the whole tube.
+  world.problem.tube = {0.1 / std::sqrt(3), 0};
+  world.problem.margin = 0;
+  const PathReport report = world.verify(path);
+  EXPECT_LE(report.provenClearance, 0.15);
+  EXPECT_GE(report.provenClearance, 0.13);
+}
+
+TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
+  // From 3 to −3 through π: the blade never points to +x, where the obstacle is.
+  const TriangleMesh blade = boxMesh(Vec3(0, -0.01, -0.1), Vec3(1, 0.01, 0.1));
+  World front(blade, boxMesh(Vec3(0.9, -0.1, -1), Vec3(1.1, 0.1, 1)));
+  World back(blade, boxMesh(Vec3(-1.1, -0.01, -1), Vec3(-0.9, 0.01, 1)));
+  using Planar = std::vector<Eigen::Vector3d>;
+  const Planar path = {{0, 0, 3}, {0, 0, -3}};
+  EXPECT_EQ(front.verify(path).verdict, PathVerdict::proved);
+  const PathReport report = back.verify(path);
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_NEAR(std::abs(report.findings[0].yaw), kPi, 0.1);
+  // Out of range is the same angle.
+  EXPECT_EQ(front.verify(Planar{{0, 0, 3 + 20 * kPi}, {0, 0, -3 - 8 * kPi}}).verdict,
+            PathVerdict::proved);
+  EXPECT_EQ(front.verify(Planar{{0, 0, 3}, {0, 0, 1}, {0, 0, -1}}).verdict, PathVerdict::refuted);
+  // z is 0, and the tube has no z.
+  World above(kCube, boxMesh(Vec3(-3, -3, 0.6), Vec3(3, 3, 1)));
+  above.problem.tube.position = 0.099 / std::sqrt(2);
+  EXPECT_EQ(above.verify(Planar{{-1, 0, 0}, {1, 0, 1}}).verdict, PathVerdict::proved);
+}
+
+TEST(VerifyPath, HalfTurnsAreAmbiguous) {
+  World world(kCube, boxMesh(Vec3(5, 5, 5), Vec3(6, 6, 6)));
+  const auto reason = [](const PathReport& report) {
+    return report.findings.empty() ? "" : report.findings[0].reason;
+  };
+  for (const double offset : {0.0, 9e-10, -9e-10}) {
+    EXPECT_EQ(reason(world.verify<Eigen::Vector3d>({{0, 0, 1}, {0, 0, 1 + kPi + offset}})),
+              "ambiguous half turn");
+    const PathReport report = world.verify<RigidPose>(
+        {poseOf({0, 0, 0}), poseOf({1, 0, 0}, kPi + offset, Vec3(1, 2, 3))});
+    EXPECT_EQ(reason(report), "ambiguous half turn");
+    EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  }
+  for (const double offset : {1.1e-9, -1.1e-9}) {
+    EXPECT_EQ(reason(world.verify<Eigen::Vector3d>({{0, 0, 1}, {0, 0, 1 + kPi + offset}})), "");
+    EXPECT_EQ(reason(world.verify<RigidPose>(
+                  {poseOf({0, 0, 0}), poseOf({1, 0, 0}, kPi + offset, Vec3(1, 2, 3))})),
+              "");
+  }
+  // q and −q are one rotation.
+  RigidPose negative = poseOf({1, 0, 0}, 0.1);
+  negative.q.coeffs() *= -2.5;
+  EXPECT_EQ(world.verify<RigidPose>({poseOf({0, 0, 0}), negative}).verdict, PathVerdict::proved);
+}
+
+TEST(VerifyPath, GapUnderTheToleranceIsUndecided) {
+  World world(kCube, boxMesh(Vec3(-3, 0.5 + 1e-9, -1), Vec3(3, 2, 1)));
+  const std::vector<RigidPose> path = {poseOf({-5, 0, 0}), poseOf({5, 0, 0})};
+  const PathReport report = world.verify(path);
+  EXPECT_EQ(report.verdict, PathVerdict::undecided);
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].reason, "clearance below the tolerance");
+  EXPECT_NEAR(report.findings[0].gap, 1e-9, 1e-15);
+  world.problem.workLimit = 10;
+  EXPECT_EQ(world.verify(path).findings.at(0).reason, "work limit reached");
+}
+
+TEST(VerifyPath, BadStatesAndProblems) {
+  World world(kCube, boxMesh(Vec3(5, 5, 5), Vec3(6, 6, 6)));
+  RigidPose zero, infinite;
+  zero.q.coeffs().setZero();
+  infinite.p.x() = std::numeric_limits<double>::infinity();
+  for (const RigidPose& bad : {zero, infinite}) {
+    const PathReport report = world.verify<RigidPose>({RigidPose{}, RigidPose{}, bad});
+    EXPECT_EQ(report.verdict, PathVerdict::refuted);
+    ASSERT_EQ(report.findings.size(), 1u);
+    EXPECT_EQ(report.findings[0].edge, 1);
+    EXPECT_EQ(report.findings[0].reason, "not a state");
+  }
+  EXPECT_THROW(world.verify<RigidPose>({}), std::invalid_argument);
+  world.problem.margin = -1;
+  EXPECT_THROW(world.verify<RigidPose>({RigidPose{}}), std::invalid_argument);
+  world.problem.margin = 0;
+  world.problem.tube.rotation = std::nan("");
+  EXPECT_THROW(world.verify<RigidPose>({RigidPose{}}), std::invalid_argument);
+  world.problem.tube.rotation = 0;
+  world.problem.fixed.clear();
+  const PathReport report = world.verify<RigidPose>({RigidPose{}, poseOf({1, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_EQ(report.provenClearance, std::numeric_limits<double>::infinity());
+}
+
+/// Smallest distance over `samples` + 1 even poses, by checks of single states.
+double sampledDistance(const World& world, const RigidPose& from, const RigidPose& to,
+                       int samples) {
+  double smallest = std::numeric_limits<double>::infinity();
+  const Eigen::Quaterniond q0 = from.q.normalized(), q1 = to.q.normalized();
+  for (int i = 0; i <= samples; ++i) {
+    const double t = static_cast<double>(i) / samples;
+    const RigidPose pose{from.p + t * (to.p - from.p), q0.slerp(t, q1)};
+    smallest = std::min(smallest, world.verify<RigidPose>({pose}).smallestDistanceMet);
+  }
+  return smallest;
+}
+
+TEST(VerifyPath, RandomPathsAgainstDenseSampling) {
+  std::mt19937_64 random(test::testSeed(4));
+  const int paths = test::stressAsked() ? 400 : 60;
+  int proved = 0, refuted = 0;
+  for (int i = 0; i < paths; ++i) {
+    World world(test::randomSoup(random, 8, 0.3, 0.2), test::randomSoup(random, 30, 1.5, 0.2));
+    for (Vec3& v : world.body.vertices) v += Vec3(0.4, 0, 0);  // the reference point is outside
+    RigidPose from = test::randomPose(random, 1.5), to = test::randomPose(random, 1.5);
+    const PathReport report = world.verify<RigidPose>({from, to});
+    const double sampled = sampledDistance(world, from, to, 400);
+    if (report.verdict == PathVerdict::proved) {
+      ++proved;
+      EXPECT_GE(sampled, report.provenClearance) << i;
+      EXPECT_GE(report.smallestDistanceMet, report.provenClearance) << i;
+    } else {
+      refuted += report.verdict == PathVerdict::refuted;
+    }
+    if (sampled == 0) {
+      EXPECT_EQ(report.verdict, PathVerdict::refuted) << i;
+    }
+    // Reversed, it is the same curve.
+    EXPECT_EQ(world.verify<RigidPose>({to, from}).verdict, report.verdict) << i;
+  }
+  EXPECT_GT(proved, paths / 10);
+  EXPECT_GT(refuted, paths / 10);
+  EXPECT_GE(proved + refuted, paths - 1);
+}
+
+}  // namespace
+}  // namespace corridor
