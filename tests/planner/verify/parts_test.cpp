@@ -195,8 +195,8 @@ TEST(SoupDistance, EqualsTheDoubleLoop) {
     }
     const SoupGap found = distance.measure(placement, guess, 0, [](TrianglePair) { return false; });
     // Pairs within 2^-30 of the closest may stand for it.
-    EXPECT_NEAR(static_cast<double>(found.upper / upper), 1, 0x1p-29);
-    EXPECT_NEAR(static_cast<double>(found.lower / lower), 1, 0x1p-29);
+    EXPECT_LE(std::abs(found.upper - upper), 0x1p-29L * upper);
+    EXPECT_LE(std::abs(found.lower - lower), 0x1p-29L * upper);
     EXPECT_FALSE(found.touching);
     guess = found.pair;
   }
