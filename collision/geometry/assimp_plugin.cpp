@@ -87,8 +87,8 @@ void read(const char* file, AssimpRules rules, AssimpImport& result) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
-                           rules == AssimpRules::stored);
-  const unsigned steps = rules == AssimpRules::stored
+                           rules == AssimpRules::Stored);
+  const unsigned steps = rules == AssimpRules::Stored
                              ? unsigned{aiProcess_Triangulate}
                              : aiProcess_GenNormals | aiProcess_Triangulate |
                                    aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
@@ -106,7 +106,7 @@ void read(const char* file, AssimpRules rules, AssimpImport& result) {
   if (const auto end = result.format.find(" Importer"); end != std::string::npos)
     result.format.resize(end);
   result.isCollada = result.format.starts_with("Collada");
-  if (rules == AssimpRules::stored) {
+  if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
     result.fileUnit = takeFileUnit(*own, result.format);
     addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result.mesh);

@@ -11,9 +11,9 @@
 namespace corridor {
 
 enum class AssimpRules {
-  stored,   ///< coordinates as the file has them: Collada's up-axis is not applied, its unit is
+  Stored,   ///< coordinates as the file has them: Collada's up-axis is not applied, its unit is
             ///< handed back
-  omplApp,  ///< OMPL.app's: its import steps, and Collada's up-axis and unit applied as assimp does
+  OmplApp,  ///< OMPL.app's: its import steps, and Collada's up-axis and unit applied as assimp does
 };
 
 struct AssimpImport {

@@ -83,7 +83,7 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
     faults.fail(0, "the format has a unit, which assimp does not hand on: state the unit");
   }
-  AssimpImport import = readWithAssimp(file.string(), AssimpRules::stored);
+  AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
   requireSound(import.mesh, faults, floatHint);
   StoredMesh stored;
   stored.file.mesh = welded(import.mesh);
@@ -164,7 +164,7 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   MeshFaults faults(file.string());
   requireMeshFile(file);
-  const AssimpImport import = readWithAssimp(file.string(), AssimpRules::omplApp);
+  const AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
   requireSound(import.mesh, faults, floatHint);
   OmplAppMesh result;
   result.importedVertices = static_cast<int>(import.mesh.vertices.size());

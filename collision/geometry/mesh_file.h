@@ -12,16 +12,15 @@ namespace corridor {
 struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit where its format has one, else 1.
   std::optional<double> metresPerUnit;
-  /// The file's up-axis ('x', 'y' or 'z'), which is to be turned to z. Unset: coordinates as
-  /// stored.
+  /// The file's up-axis ('x', 'y' or 'z'), turned to z by a rotation: 'y' takes (x, y, z) to
+  /// (x, -z, y), 'x' to (-y, -z, x), as Collada's axes do. Unset: coordinates as stored.
   std::optional<char> up;
 };
 
 /// A mesh and how it was read.
 struct MeshFile {
   TriangleMesh mesh;
-  std::string
-      format;  ///< "OBJ", "STL (binary)", "STL (ASCII)", "PLY (…)", or assimp's name of the format
+  std::string format;  ///< "OBJ", "STL (binary)", "PLY (ASCII)" …, or assimp's name of the format
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which turn was applied, and why
   bool floatVertices =

@@ -13,7 +13,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-enum class Quality { fair, sliver, degenerate };
+enum class Quality { Fair, Sliver, Degenerate };
 
 /// `diagonal` of the mesh's bounds: lengths are taken in it, so that nothing over- or underflows.
 Quality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, double diagonal) {
@@ -21,10 +21,10 @@ Quality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, double diagonal) 
   const Vec3 ab = b / diagonal - a / diagonal, ac = c / diagonal - a / diagonal,
              bc = c / diagonal - b / diagonal;
   const double doubleArea = ab.cross(ac).norm();
-  if (a == b || b == c || c == a || !(doubleArea / 2 > degenerateArea)) return Quality::degenerate;
+  if (a == b || b == c || c == a || !(doubleArea / 2 > degenerateArea)) return Quality::Degenerate;
   const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
-  return doubleArea < sliverRatio * longest ? Quality::sliver
-                                            : Quality::fair;  // height = doubleArea / longest edge
+  return doubleArea < sliverRatio * longest ? Quality::Sliver
+                                            : Quality::Fair;  // height = doubleArea / longest edge
 }
 
 Triangle sorted(Triangle t) {
@@ -127,10 +127,10 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   std::vector<Triangle> all, fair;  // corners sorted; then made distinct
   for (const Triangle& t : triangles) {
     const Quality quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], diagonal);
-    health.degenerateTriangles += quality == Quality::degenerate;
-    health.sliverTriangles += quality == Quality::sliver;
+    health.degenerateTriangles += quality == Quality::Degenerate;
+    health.sliverTriangles += quality == Quality::Sliver;
     all.push_back(sorted(t));
-    if (quality != Quality::degenerate) fair.push_back(all.back());
+    if (quality != Quality::Degenerate) fair.push_back(all.back());
   }
   const auto makeDistinct = [](std::vector<Triangle>& list) {
     std::sort(list.begin(), list.end());

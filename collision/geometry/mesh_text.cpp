@@ -38,11 +38,15 @@ std::string readWholeFile(const std::filesystem::path& file) {
   return bytes;
 }
 
-std::string inQuotes(std::string_view word) {
+std::string printable(std::string_view word) {
   constexpr std::size_t longest = 32;
-  std::string text = "\"";
+  std::string text;
   for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > longest ? "…\"" : "\"");
+  return word.size() > longest ? text + "..." : text;
+}
+
+std::string inQuotes(std::string_view word) {
+  return '"' + printable(word) + '"';
 }
 
 void MeshFaults::add(int line, std::string text) {
@@ -90,13 +94,13 @@ bool parseInteger(std::string_view word, std::int64_t& value) {
 }
 
 std::string_view TextCursor::wordInLine() {
-  std::size_t i = 0;
-  while (i < rest_.size() && isBlank(rest_[i])) ++i;
-  const std::size_t start = i;
-  while (i < rest_.size() && !isBlank(rest_[i]) && rest_[i] != '\n') ++i;
-  const std::string_view word = rest_.substr(start, i - start);
-  rest_.remove_prefix(i);
-  return word;
+  const char* start = rest_.data();
+  const char* const end = start + rest_.size();
+  while (start != end && isBlank(*start)) ++start;
+  const char* stop = start;
+  while (stop != end && (*stop > ' ' || (!isBlank(*stop) && *stop != '\n'))) ++stop;
+  rest_ = {stop, static_cast<std::size_t>(end - stop)};
+  return {start, static_cast<std::size_t>(stop - start)};
 }
 
 std::string_view TextCursor::word() {

@@ -18,7 +18,9 @@ void requireMeshFile(const std::filesystem::path& file);
 /// The bytes of a file. @throws InputError as `requireMeshFile`.
 std::string readWholeFile(const std::filesystem::path& file);
 
-/// For messages: the word in double quotes, shortened and with unprintable bytes shown as '?'.
+/// For messages: the word, shortened and with unprintable bytes shown as '?'.
+std::string printable(std::string_view word);
+/// The same in double quotes.
 std::string inQuotes(std::string_view word);
 
 /// Collects the faults of one mesh file; gives up at the tenth, since the rest rarely says anything
@@ -44,6 +46,7 @@ std::optional<std::string> parseCoordinate(std::string_view word, double& value)
 /// Reads a whole word as a decimal integer of 64 bits; false where it is none.
 bool parseInteger(std::string_view word, std::int64_t& value);
 
+/// Blanks within a line.
 inline bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }

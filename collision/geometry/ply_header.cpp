@@ -9,22 +9,22 @@ namespace {
 
 std::optional<PlyType> typeOf(std::string_view word) {
   static constexpr std::array<std::pair<std::string_view, PlyType>, 16> names{{
-      {"char", PlyType::int8},
-      {"int8", PlyType::int8},
-      {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},
-      {"short", PlyType::int16},
-      {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16},
-      {"uint16", PlyType::uint16},
-      {"int", PlyType::int32},
-      {"int32", PlyType::int32},
-      {"uint", PlyType::uint32},
-      {"uint32", PlyType::uint32},
-      {"float", PlyType::float32},
-      {"float32", PlyType::float32},
-      {"double", PlyType::float64},
-      {"float64", PlyType::float64},
+      {"char", PlyType::Int8},
+      {"int8", PlyType::Int8},
+      {"uchar", PlyType::UInt8},
+      {"uint8", PlyType::UInt8},
+      {"short", PlyType::Int16},
+      {"int16", PlyType::Int16},
+      {"ushort", PlyType::UInt16},
+      {"uint16", PlyType::UInt16},
+      {"int", PlyType::Int32},
+      {"int32", PlyType::Int32},
+      {"uint", PlyType::UInt32},
+      {"uint32", PlyType::UInt32},
+      {"float", PlyType::Float32},
+      {"float32", PlyType::Float32},
+      {"double", PlyType::Float64},
+      {"float64", PlyType::Float64},
   }};
   for (const auto& [name, type] : names) {
     if (word == name) return type;
@@ -71,11 +71,11 @@ class HeaderReader {
   void readFormat() {
     const std::string_view word = cursor_.wordInLine();
     if (word == "ascii") {
-      header_.encoding = PlyEncoding::ascii;
+      header_.encoding = PlyEncoding::Ascii;
     } else if (word == "binary_little_endian") {
-      header_.encoding = PlyEncoding::littleEndian;
+      header_.encoding = PlyEncoding::LittleEndian;
     } else if (word == "binary_big_endian") {
-      header_.encoding = PlyEncoding::bigEndian;
+      header_.encoding = PlyEncoding::BigEndian;
     } else {
       fail("unknown format " + inQuotes(word) +
            "; right are ascii, binary_little_endian and binary_big_endian");
@@ -165,17 +165,17 @@ class HeaderReader {
 
 int plySize(PlyType type) {
   switch (type) {
-    case PlyType::int8:
-    case PlyType::uint8:
+    case PlyType::Int8:
+    case PlyType::UInt8:
       return 1;
-    case PlyType::int16:
-    case PlyType::uint16:
+    case PlyType::Int16:
+    case PlyType::UInt16:
       return 2;
-    case PlyType::int32:
-    case PlyType::uint32:
-    case PlyType::float32:
+    case PlyType::Int32:
+    case PlyType::UInt32:
+    case PlyType::Float32:
       return 4;
-    case PlyType::float64:
+    case PlyType::Float64:
       return 8;
   }
   return 0;

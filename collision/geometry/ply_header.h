@@ -10,11 +10,11 @@
 
 namespace corridor {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
 int plySize(PlyType type);
 inline bool isInteger(PlyType type) {
-  return type < PlyType::float32;
+  return type < PlyType::Float32;
 }
 
 struct PlyProperty {
@@ -30,10 +30,10 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
-enum class PlyEncoding { ascii, littleEndian, bigEndian };
+enum class PlyEncoding { Ascii, LittleEndian, BigEndian };
 
 struct PlyHeader {
-  PlyEncoding encoding = PlyEncoding::ascii;
+  PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
   std::size_t size = 0;  ///< bytes before the first element
   int lines = 0;

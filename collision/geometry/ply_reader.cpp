@@ -16,7 +16,7 @@ struct Place {
   std::uint64_t index = 0;
 
   std::string str() const {
-    return element->name + ' ' + std::to_string(index + 1) + " of " +
+    return printable(element->name) + ' ' + std::to_string(index + 1) + " of " +
            std::to_string(element->count);
   }
 };
@@ -79,7 +79,7 @@ class BinaryBody {
   BinaryBody(std::string_view body, const PlyHeader& header, MeshFaults& faults)
       : rest_(body),
         size_(header.size + body.size()),
-        swapped_((header.encoding == PlyEncoding::bigEndian) !=
+        swapped_((header.encoding == PlyEncoding::BigEndian) !=
                  (std::endian::native == std::endian::big)),
         faults_(faults) {}
 
@@ -88,22 +88,22 @@ class BinaryBody {
 
   double coordinate(PlyType type) {
     if (isInteger(type)) return static_cast<double>(integer(type));
-    const double value = type == PlyType::float32 ? take<float>() : take<double>();
+    const double value = type == PlyType::Float32 ? take<float>() : take<double>();
     if (!std::isfinite(value)) add("a coordinate is not finite");
     return value;
   }
 
   std::int64_t integer(PlyType type) {
     switch (type) {
-      case PlyType::int8:
+      case PlyType::Int8:
         return take<std::int8_t>();
-      case PlyType::uint8:
+      case PlyType::UInt8:
         return take<std::uint8_t>();
-      case PlyType::int16:
+      case PlyType::Int16:
         return take<std::int16_t>();
-      case PlyType::uint16:
+      case PlyType::UInt16:
         return take<std::uint16_t>();
-      case PlyType::int32:
+      case PlyType::Int32:
         return take<std::int32_t>();
       default:
         return take<std::uint32_t>();  // the header lets no other type through
@@ -159,8 +159,7 @@ class BodyReader {
       if (element.name == "vertex") vertexCount_ = element.count;
     }
     for (const PlyElement& element : header_.elements) {
-      if (element.properties.empty()) continue;  // takes no room, whatever its count
-      checkRoom(element);
+      if (!hasRoom(element)) continue;
       if (element.name == "vertex") mesh_.vertices.reserve(element.count);
       if (element.name == "face") mesh_.triangles.reserve(element.count);
       for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -175,13 +174,15 @@ class BodyReader {
 
  private:
   /// Counts are believed (and memory taken for them) only where the file has the bytes for them.
-  void checkRoom(const PlyElement& element) {
+  /// False for elements without properties: they take no room, whatever their count.
+  bool hasRoom(const PlyElement& element) {
     std::uint64_t size = 0;
     for (const PlyProperty& p : element.properties)
       size += Body::leastSize(p.countType.value_or(p.type));
-    if (element.count <= body_.bytesLeft() / size) return;
-    faults_.fail(0, "the header promises " + std::to_string(element.count) + " of element \"" +
-                        element.name + "\", at least " + std::to_string(size) +
+    if (size == 0) return false;
+    if (element.count <= body_.bytesLeft() / size) return true;
+    faults_.fail(0, "the header promises " + std::to_string(element.count) + " of element " +
+                        inQuotes(element.name) + ", at least " + std::to_string(size) +
                         " bytes each, but " + std::to_string(body_.bytesLeft()) +
                         " bytes are left: the file is cut short");
   }
@@ -243,11 +244,11 @@ ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
   const PlyHeader header = readPlyHeader(bytes, faults);
   const std::string_view body = bytes.substr(header.size);
   switch (header.encoding) {
-    case PlyEncoding::ascii:
+    case PlyEncoding::Ascii:
       return {readBody<AsciiBody>(body, header, faults), "PLY (ASCII)"};
-    case PlyEncoding::littleEndian:
+    case PlyEncoding::LittleEndian:
       return {readBody<BinaryBody>(body, header, faults), "PLY (binary, little endian)"};
-    case PlyEncoding::bigEndian:
+    case PlyEncoding::BigEndian:
       break;
   }
   return {readBody<BinaryBody>(body, header, faults), "PLY (binary, big endian)"};

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -46,12 +45,11 @@ ReadMesh readBinary(std::string_view bytes, MeshFaults& faults) {
   return {std::move(mesh), "STL (binary)"};
 }
 
-/// `word` is lower case.
-bool sameWord(std::string_view a, std::string_view word) {
-  return a.size() == word.size() &&
-         std::equal(a.begin(), a.end(), word.begin(), [](char x, char y) {
-           return std::tolower(static_cast<unsigned char>(x)) == y;
-         });
+/// Whether `a` is the keyword (lower-case letters) in any case. Setting bit 5 turns capitals into
+/// small letters and nothing else into a letter.
+bool sameWord(std::string_view a, std::string_view keyword) {
+  return a.size() == keyword.size() && std::equal(a.begin(), a.end(), keyword.begin(),
+                                                  [](char x, char y) { return (x | 0x20) == y; });
 }
 
 class AsciiStl {

@@ -14,7 +14,7 @@ std::uint64_t mixed(std::uint64_t h) {  // the finaliser of MurmurHash3
 }  // namespace
 
 VertexWelder::VertexWelder(std::size_t expectedPoints)
-    : slots_(std::bit_ceil(2 * expectedPoints + 16), none) {
+    : slots_(std::bit_ceil(2 * expectedPoints + 16), none_) {
   points_.reserve(expectedPoints);
 }
 
@@ -22,20 +22,20 @@ std::size_t VertexWelder::slotOf(const Vec3& point) const {
   std::uint64_t hash = 0;
   for (int i = 0; i < 3; ++i) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(point[i]));
   std::size_t slot = hash & (slots_.size() - 1);
-  while (slots_[slot] != none && points_[slots_[slot]] != point)
+  while (slots_[slot] != none_ && points_[slots_[slot]] != point)
     slot = (slot + 1) & (slots_.size() - 1);
   return slot;
 }
 
 void VertexWelder::grow() {
-  slots_.assign(2 * slots_.size(), none);
+  slots_.assign(2 * slots_.size(), none_);
   for (std::uint32_t i = 0; i < points_.size(); ++i) slots_[slotOf(points_[i])] = i;
 }
 
 std::uint32_t VertexWelder::index(const Vec3& point) {
   const Vec3 p(point.x() + 0.0, point.y() + 0.0, point.z() + 0.0);
   std::size_t slot = slotOf(p);
-  if (slots_[slot] != none) return slots_[slot];
+  if (slots_[slot] != none_) return slots_[slot];
   if (2 * (points_.size() + 1) > slots_.size()) {
     grow();
     slot = slotOf(p);

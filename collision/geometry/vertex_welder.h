@@ -20,7 +20,7 @@ class VertexWelder {
   std::vector<Vec3> takePoints() { return std::move(points_); }
 
  private:
-  static constexpr std::uint32_t none = UINT32_MAX;
+  static constexpr std::uint32_t none_ = UINT32_MAX;
 
   std::size_t slotOf(const Vec3& point) const;  ///< where the point is or belongs
   void grow();

@@ -103,7 +103,7 @@ class Certifier {
       BoxTravel travel;
       travel.linear = window.linear + lever;
       travel.angular = window.angular;
-      travel.remainder = roundedUp(window.remainder(turn));
+      travel.curvature = roundedUp(window.curvature(turn));
       travel.cap = roundedUp(window.speed + turn);
       const double pad = roundedUp(options_.margin + window.fixedError + window.reachError * reach);
       ++counters_.boxTests;
@@ -111,7 +111,7 @@ class Certifier {
 
       // Time before space where the window's travel dominates the boxes. The factors are measured, soundness does not need them.
       const double size = std::max(na.radius, nb.radius);
-      if (travel.cap > options_.tolerance && (4 * travel.remainder > size || 0.2 * travel.cap > size)) {
+      if (travel.cap > options_.tolerance && (4 * travel.curvature * window.angle > size || 0.2 * travel.cap > size)) {
         context_.pending.push_back(pair);
       } else if (na.isLeaf() && nb.isLeaf()) {
         const Descent leaf = leafPair(pair, window, h);

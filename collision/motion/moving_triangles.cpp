@@ -38,9 +38,11 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
     const double turn = spin.norm();
     const double reach = lever[i].norm();
     const double cap = window.speed + turn * (1 + 8 * kUnit) + 8 * kUnit * window.angle * reach;
-    // The products' own rounding, relative to their terms: 16u of |v| + α|y|.
-    const double directional = std::abs(n.dot(window.linear + spin)) + window.remainder(turn) +
-                               16 * kUnit * (window.speed + window.angle * reach);
+    // Second order as in `MotionWindow`, but along n itself: ½|n·(ω × (ω × y))| + (α²/6)|n·(ω × y)|. The products' own rounding,
+    // relative to their terms (α ≤ π/2): 32u of |v| + α|y|.
+    const double directional = std::abs(n.dot(window.linear + spin)) + 0.5 * std::abs(n.dot(window.angular.cross(spin))) +
+                               window.angle * window.angle / 6 * std::abs(n.dot(spin)) +
+                               32 * kUnit * (window.speed + window.angle * reach);
     const double travel = roundedUp(std::min(cap, directional));
     const double error = roundedUp(window.fixedError + window.reachError * reach);
     const double along = n.dot(posed[i]);

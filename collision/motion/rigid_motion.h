@@ -22,8 +22,9 @@ struct Tube {
 
 /// What a moving rigid body does in a window of time [t − h, t + h], told from its middle. With x_B a point of the body, y = R x_B its
 /// lever from the reference point, and |s| ≤ 1 the place in the window, the point is displaced from the middle by
-///   s·(linear + angular × y) + remainder,  |remainder| ≤ (1 − cos α)·r + (α − sin α)·r,  never more than |linear| + α·r,
-/// α = |angular|, r the distance of y from the axis (numerics: directional bounds; Rodrigues' formula about the middle).
+///   s·(linear + angular × y) + (1 − cos sα)·k × (k × y) + (sin sα − sα)·k × y,
+/// α = |angular|, k the axis (Rodrigues' formula about the middle), and never by more than |linear| + α·r, r the distance of y from the axis.
+/// Along a unit vector n the last two terms are below (α²/2 + α³/6)·r·|n × k| (numerics: directional bounds).
 struct MotionWindow {
   Transform X_WB;                  ///< the pose at the middle, rounded
   Vec3 linear = Vec3::Zero();      ///< half of the window's displacement of the reference point, metres
@@ -34,8 +35,8 @@ struct MotionWindow {
   double fixedError = 0;
   double reachError = 0;
 
-  /// Bound of the remainder for points at most r from the axis: 1 − cos α ≤ α²/2, α − sin α ≤ α³/6. (`turn` = α·r.)
-  double remainder(double turn) const { return angle * turn * (0.5 + angle / 6); }
+  /// With `turn` = α·r: the second-order terms along a vector n are below curvature(turn)·|n × angular|.
+  double curvature(double turn) const { return turn * (0.5 + angle / 6); }
 };
 
 /// The motion of an edge (design: «What an edge is»): the reference point on a straight line at constant speed, the orientation by

@@ -47,15 +47,19 @@ inline BoxPairMargins boxPairMargins(double defectA, double reachA, double defec
 }
 
 /// How box b moves while the map is the one at the middle of a window of time (collision/motion): box b's points go from
-/// x to x + s·(linear + angular × (x − c_B)) + remainder, |s| ≤ 1, |remainder| ≤ `remainder`, and never by more than `cap`.
+/// x to x + s·(linear + angular × (x − c_B)) + remainder, |s| ≤ 1, with |L·remainder| ≤ curvature·|L × angular| for any vector L, and
+/// never by more than `cap`.
 struct BoxTravel {
   Vec3 linear = Vec3::Zero();   ///< of b's centre, in a's frame, metres
   Vec3 angular = Vec3::Zero();  ///< in a's frame, radians
-  double remainder = 0;         ///< metres
+  double curvature = 0;         ///< metres
   double cap = 0;               ///< metres: the isotropic bound
 };
 
 namespace internal {
+
+/// std::hypot guards against overflow at ten times the price; the entries here are of rotations.
+inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// The pair in the coordinates of box a.
 struct BoxPair {
@@ -76,13 +80,13 @@ struct NoTravel {
 };
 
 /// First order exact, second order bounded, never more than the isotropic cap (numerics: directional bounds). For a unit-ish L a
-/// point c_B + Σ x_k u_k of b moves along L by at most |L·v| + Σ b_k |u_k·(L × ω)| + remainder·|L|.
+/// point c_B + Σ x_k u_k of b moves along L by at most |L·v| + Σ b_k |u_k·(L × ω)| + curvature·|L × ω|.
 struct DirectionalTravel {
   const Mat3& R;
   const Vec3& b;
   Vec3 v, w;       // in coordinates of box a
   Vec3 wB;         // u_k·ω
-  double remainder, cap, sum;
+  double curvature, cap, sum;
 
   DirectionalTravel(const BoxPair& pair, const Obb& a, const Obb& box, const BoxTravel& travel)
       : R(pair.R),
@@ -90,27 +94,32 @@ struct DirectionalTravel {
         v(a.axes.transpose() * travel.linear),
         w(a.axes.transpose() * travel.angular),
         wB(pair.R.transpose() * w),
-        remainder(travel.remainder),
+        curvature(travel.curvature),
         cap(travel.cap),
-        sum(v.cwiseAbs().sum() + 2 * w.cwiseAbs().sum() * b.sum()) {}
+        sum(v.cwiseAbs().sum() + 2 * w.cwiseAbs().sum() * (b.sum() + curvature)) {}  // 3η_R of the terms that use R's orthonormality
 
   double magnitude() const { return sum; }
   double alongFaceA(int i) const {  // u_k·(e_i × ω) = R_(i+2)k ω_(i+1) − R_(i+1)k ω_(i+2)
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-    double s = std::abs(v[i]) + remainder;
+    double s = std::abs(v[i]) + curvature * length(w[i1], w[i2]);
     for (int k = 0; k < 3; ++k) s += b[k] * std::abs(R(i2, k) * w[i1] - R(i1, k) * w[i2]);
     return std::min(s, cap);
   }
   double alongFaceB(int j) const {  // u_k·(u_j × ω) = ±u_l·ω
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    const double s = std::abs(v.dot(R.col(j))) + b[j1] * std::abs(wB[j2]) + b[j2] * std::abs(wB[j1]) + remainder;
+    const double s = std::abs(v.dot(R.col(j))) + b[j1] * std::abs(wB[j2]) + b[j2] * std::abs(wB[j1]) +
+                     curvature * length(wB[j1], wB[j2]);
     return std::min(s, cap);
   }
   double alongEdges(int i1, int i2, int i, int j) const {  // L × ω = u_j (e_i·ω) − e_i (u_j·ω)
-    const double length = std::hypot(R(i1, j), R(i2, j));  // |e_i × u_j|
-    double s = std::abs(v[i2] * R(i1, j) - v[i1] * R(i2, j)) + remainder * length;
-    for (int k = 0; k < 3; ++k) s += b[k] * std::abs((k == j ? w[i] : 0) - R(i, k) * wB[j]);
-    return std::min(s, cap * length);
+    double s = std::abs(v[i2] * R(i1, j) - v[i1] * R(i2, j));
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double along = (k == j ? w[i] : 0) - R(i, k) * wB[j];  // u_k·(L × ω)
+      s += b[k] * std::abs(along);
+      square += along * along;
+    }
+    return std::min(s + curvature * std::sqrt(square), cap * length(R(i1, j), R(i2, j)));
   }
 };
 
@@ -137,7 +146,7 @@ bool separated(const BoxPair& pair, const Vec3& a, const Vec3& b, const BoxPairM
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const double gap = std::abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
                          (a[i1] * Q(i2, j) + a[i2] * Q(i1, j) + b[j1] * Q(i, j2) + b[j2] * Q(i, j1)) - slack;
-      if (gap > 0 && gap > ball * std::hypot(R(i1, j), R(i2, j)) + travel.alongEdges(i1, i2, i, j)) return true;
+      if (gap > 0 && gap > ball * length(R(i1, j), R(i2, j)) + travel.alongEdges(i1, i2, i, j)) return true;
     }
   }
   return false;

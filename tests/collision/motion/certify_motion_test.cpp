@@ -226,9 +226,11 @@ struct Grazing {
     const ReferenceMotion motion(from, to);
     known = true;
     const auto heights = [&](long double t) {
+      const auto R = motion.rotation(t);
+      const auto nL = n.cast<long double>().eval();
+      const long double base = (motion.position(t) / size - x.cast<long double>()).dot(nL);
       long double lowest = 1e300L;
-      for (const Vec3& p : moving.vertices)
-        lowest = std::min(lowest, (motion.point(t, p) / size - x.cast<long double>()).dot(n.cast<long double>()));
+      for (const Vec3& p : moving.vertices) lowest = std::min(lowest, base + nL.dot(R * p.cast<long double>()) / size);
       return lowest;
     };
     for (int i = 0; i <= 200 && known && !slides; ++i) known = heights(i / 200.0L) >= heights(1) - 1e-17L;

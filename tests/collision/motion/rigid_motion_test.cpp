@@ -78,7 +78,7 @@ TEST(RigidMotion, WindowsBoundTheTravel) {
       const double cap = w.speed + spin.norm();
       ASSERT_LE(travel, cap + error) << "case " << n;
       const double along = std::abs(static_cast<double>(moved.dot(direction.cast<long double>())));
-      const double directional = std::abs(direction.dot(w.linear + spin)) + w.remainder(spin.norm());
+      const double directional = std::abs(direction.dot(w.linear + spin)) + w.curvature(spin.norm()) * direction.cross(w.angular).norm();
       ASSERT_LE(along, directional + error) << "case " << n;
       if (travel > 1e-3) tightest = std::max(tightest, travel / cap);
       if (along > 1e-3) tightestDirectional = std::max(tightestDirectional, along / directional);

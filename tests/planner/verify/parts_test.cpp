@@ -195,8 +195,8 @@ TEST(SoupDistance, EqualsTheDoubleLoop) {
     }
     const SoupGap found = distance.measure(placement, guess, 0, [](TrianglePair) { return false; });
     // Pairs within 2^-30 of the closest may stand for it.
-    EXPECT_NEAR(static_cast<double>(found.upper / upper), 1, 0x1p-29);
-    EXPECT_NEAR(static_cast<double>(found.lower / lower), 1, 0x1p-29);
+    EXPECT_LE(std::abs(found.upper - upper), 0x1p-29L * upper);
+    EXPECT_LE(std::abs(found.lower - lower), 0x1p-29L * upper);
     EXPECT_FALSE(found.touching);
     guess = found.pair;
   }
@@ -227,9 +227,10 @@ TEST(EdgeCurve, FollowsTheShorterArcAndStaysWithinItsTravel) {
     } else {
       EXPECT_NEAR(std::remainder(curve.at(1).yaw - to.xyYaw.z(), 2 * std::numbers::pi), 0, 1e-14);
     }
-    // The rotation and the pose rounded to doubles are the same map.
+    // The rotation and the pose rounded to doubles are the same map: 9 entries of about 16
+    // roundings of 2^-53.
     const EdgeCurve::At at = curve.at(0.3L);
-    EXPECT_LT((placementOf(at.pose).rotation - at.placement.rotation).norm(), 1e-15L);
+    EXPECT_LT((placementOf(at.pose).rotation - at.placement.rotation).norm(), 0x1p-47L);
     Real length = 0;
     for (int k = 0; k < 64; ++k) {
       const Real step = (image((k + 1) / 64.0L) - image(k / 64.0L)).norm();
