@@ -16,8 +16,8 @@ class QueryContext {
   struct NodePair {
     std::uint32_t a, b, bodies;
   };
-  std::vector<NodePair> stack;    ///< of the traversal under way
-  std::vector<NodePair> pending;  ///< what motion queries hand down to shorter windows of time
+  std::vector<NodePair> stack;          ///< of the traversal under way
+  std::vector<NodePair> pending, next;  ///< what motion queries hand down to shorter windows of time
 };
 
 }  // namespace corridor

@@ -32,7 +32,7 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
   const Vec3 n = (closest.b - closest.a) / distance;  // NaN where they meet: nothing is separated then
 
   MovingTrianglesAnswer answer;
-  double lowest = std::numeric_limits<double>::infinity(), lowestMid = lowest, off = 0;
+  double lowest = std::numeric_limits<double>::infinity(), lowestMid = lowest, lowestStill = lowest;
   for (int i = 0; i < 3; ++i) {
     const Vec3 spin = window.angular.cross(lever[i]);
     const double turn = spin.norm();
@@ -48,12 +48,13 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
     const double along = n.dot(posed[i]);
     lowest = std::min(lowest, along - travel - error);
     lowestMid = std::min(lowestMid, along);
-    off = std::max(off, error);
+    lowestStill = std::min(lowestStill, along - error);
     answer.travel = std::max(answer.travel, roundedUp(cap));
   }
   const double highest = std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
   // |n| ≤ 1 + 4u: the margin and errors, lengths along a unit vector, shrink by less than `slack` covers of their size.
-  if (lowest - highest > margin + slack + 4 * kUnit * margin) {
+  const double needed = margin + slack + 4 * kUnit * margin;
+  if (lowest - highest > needed) {
     answer.separated = true;
     return answer;
   }
@@ -65,6 +66,7 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
     answer.contact = trianglesTouch(a, {}, b, window.X_WB, counters);
     --counters.triangleTests;  // the same pair
   }
+  answer.stuck = !answer.contact && !(lowestStill - highest > needed);
   return answer;
 }
 

@@ -10,6 +10,7 @@ namespace corridor {
 struct MovingTrianglesAnswer {
   bool separated = false;  ///< proved farther apart than the margin, all along the window
   bool contact = false;    ///< at the rounded pose of the middle: exactly touching, or proved within the margin
+  bool stuck = false;      ///< neither, and rounding and the tube alone forbid a proof at the middle: no shorter window has one
   double travel = 0;       ///< bound of how far a corner of b goes from the middle, metres
   double gap = 0;          ///< distance at the middle beyond the margin, where neither; rounded, for reports
 };

@@ -22,19 +22,12 @@ double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Tra
   return shrink > 0.5 ? roundedUp(error / shrink) : HUGE_VAL;
 }
 
-}  // namespace
-
-std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
-                                         const Transform& X_WB, QueryContext& context) {
-  ++context.counters.states;
-  const Transform X_AB = rigidInverse(X_WA) * X_WB;
-  BoxPairMargins margins =
-      boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(), b.centerReach(), X_AB);
-  margins.absolute += relativePoseError(X_WA, X_AB, X_WB, b.reach());
-
+std::optional<TrianglePair> walk(const ObbTree& a, const Transform& X_WA, const ObbTree& b, const Transform& X_WB,
+                                 const Transform& X_AB, const BoxPairMargins& margins, const QueryContext::NodePair& root,
+                                 QueryContext& context) {
   auto& stack = context.stack;
   stack.clear();
-  stack.push_back({0, 0, 0});
+  stack.push_back(root);
   while (!stack.empty()) {
     const auto [i, j, unused] = stack.back();
     stack.pop_back();
@@ -55,6 +48,26 @@ std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA
     }
   }
   return std::nullopt;
+}
+
+BoxPairMargins marginsOf(const ObbTree& a, const ObbTree& b, const Transform& X_AB) {
+  return boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(), b.centerReach(), X_AB);
+}
+
+}  // namespace
+
+std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
+                                         const Transform& X_WB, QueryContext& context) {
+  ++context.counters.states;
+  const Transform X_AB = rigidInverse(X_WA) * X_WB;
+  BoxPairMargins margins = marginsOf(a, b, X_AB);
+  margins.absolute += relativePoseError(X_WA, X_AB, X_WB, b.reach());
+  return walk(a, X_WA, b, X_WB, X_AB, margins, {0, 0, 0}, context);
+}
+
+std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b, const Transform& X_AB,
+                                              const QueryContext::NodePair& nodes, QueryContext& context) {
+  return walk(a, {}, b, X_AB, X_AB, marginsOf(a, b, X_AB), nodes, context);
 }
 
 }  // namespace corridor

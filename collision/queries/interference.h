@@ -21,4 +21,8 @@ struct TrianglePair {
 std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
                                          const Transform& X_WB, QueryContext& context);
 
+/// The same for the triangles below one pair of nodes, with a at the identity.
+std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b, const Transform& X_AB,
+                                              const QueryContext::NodePair& nodes, QueryContext& context);
+
 }  // namespace corridor
