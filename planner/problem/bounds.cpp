@@ -54,7 +54,7 @@ std::string whyOutside(const Problem& problem, const RigidPose& pose) {
   for (int k = 0; k < dimensions(problem); ++k) {
     const double lower = problem.lower[k], upper = problem.upper[k];
     if (lower <= pose.p[k] && pose.p[k] <= upper) continue;
-    return std::string("is outside of the bounds: ") + "xyz"[k] + " = " + shortest(pose.p[k]) +
+    return std::string("outside of the bounds: ") + "xyz"[k] + " = " + shortest(pose.p[k]) +
            " is not in [" + shortest(lower) + ", " + shortest(upper) + "]";
   }
   return "";

@@ -16,8 +16,7 @@ bool enlargeBounds(Problem& problem);
 /// What is wrong with the bounds themselves, or "".
 std::string whyBadBounds(const Problem& problem);
 
-/// Why a pose's position is outside of the bounds ("[9, 0, 0] is outside of the bounds: x is not in
-/// [0, 1]"), or "".
+/// Why a pose's position is no legal one ("outside of the bounds: x = 9 is not in [0, 1]"), or "".
 std::string whyOutside(const Problem& problem, const RigidPose& pose);
 
 }  // namespace corridor

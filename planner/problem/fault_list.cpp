@@ -18,7 +18,7 @@ void FaultList::add(const InputError& error) {
 
 void FaultList::throwIfAny() const {
   if (faults_.empty()) return;
-  std::vector<std::string> files;
+  std::vector<std::string> files{mainFile_};
   for (const Fault& fault : faults_)
     if (std::find(files.begin(), files.end(), fault.file) == files.end())
       files.push_back(fault.file);

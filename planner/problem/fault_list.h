@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision/core/error.h"
@@ -12,16 +13,19 @@ namespace corridor {
 /// them at once.
 class FaultList {
  public:
+  /// @param mainFile whose faults come first.
+  explicit FaultList(std::string mainFile) : mainFile_(std::move(mainFile)) {}
   void add(std::string file, int line, std::string text);
   void add(const InputError& error);
 
   std::size_t size() const { return faults_.size(); }
 
-  /// @throws InputError with all faults, if there are any: files in the order in which they came
-  /// up, each by line.
+  /// @throws InputError with all faults, if there are any: the main file's first, then those of
+  /// others in the order in which they came up, each by line.
   void throwIfAny() const;
 
  private:
+  std::string mainFile_;
   std::vector<Fault> faults_;
 };
 

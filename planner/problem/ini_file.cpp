@@ -31,7 +31,7 @@ IniFile::IniFile(std::string file, const std::string& text, FaultList& faults)
     const auto equals = content.find('=');
     const std::string key = trimmed(std::string_view(content).substr(0, equals));
     if (equals == content.npos || key.empty()) {
-      fault(line, "[section] or key = value is needed, not " + quoted(content));
+      fault(line, "[section] or key = value is needed, not " + quotedWord(content));
       continue;
     }
     entries_.push_back(

@@ -40,7 +40,7 @@ std::optional<std::string> nearest(std::string_view word,
   for (const std::string& candidate : candidates) {
     const std::size_t distance = editDistance(lowered(word), lowered(candidate));
     const std::size_t limit = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
-    if (distance <= limit && (!best || distance < bestDistance)) {
+    if (distance <= limit && distance < word.size() && (!best || distance < bestDistance)) {
       best = candidate;
       bestDistance = distance;
     }
@@ -59,7 +59,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string quoted(std::string_view word) {
+std::string quotedWord(std::string_view word) {
   constexpr std::size_t longest = 60;
   std::size_t end = std::min(word.size(), longest);
   while (end < word.size() && end > 0 && (word[end] & 0xC0) == 0x80)

@@ -13,7 +13,7 @@ std::size_t editDistance(std::string_view a, std::string_view b);
 
 /// The candidate that a user may have meant: the first of those with the least distance, capitals
 /// and small letters alike, if it takes at most a third of the longer word's letters (but always
-/// one change).
+/// one change, of a word of more letters).
 std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates);
 
@@ -24,6 +24,6 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 std::string joined(const std::vector<std::string>& words);
 
 /// For messages: in double quotes, shortened, control characters shown as '?'.
-std::string quoted(std::string_view word);
+std::string quotedWord(std::string_view word);
 
 }  // namespace corridor

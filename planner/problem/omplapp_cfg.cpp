@@ -117,7 +117,7 @@ std::optional<OmplAppMesh> readMesh(const IniFile& ini, const std::string& key, 
   problem.lines[key] = entry->line;
   const std::filesystem::path path = problem.file.parent_path() / entry->value;
   if (const std::string why = whyNoFile(path); !why.empty()) {
-    ini.fault(*entry, quoted(path.string()) + " " + why);
+    ini.fault(*entry, path.string() + ": " + why);
     return std::nullopt;
   }
   try {
@@ -154,7 +154,7 @@ void readObjective(const IniFile& ini, Problem& problem) {
     for (const std::string& name : known)
       if (entry->value.starts_with(name)) problem.objective = name;
     if (!problem.objective)
-      ini.fault(*entry, "one of " + joined(known) + " is needed, not " + quoted(entry->value));
+      ini.fault(*entry, "one of " + joined(known) + " is needed, not " + quotedWord(entry->value));
   }
   problem.objectiveThreshold = ini.number("problem.objective.threshold").value_or(0);
   problem.goalThreshold = ini.number("problem.threshold", Range::NotNegative);
@@ -162,11 +162,11 @@ void readObjective(const IniFile& ini, Problem& problem) {
 
 void rejectDynamics(const IniFile& ini) {
   if (const auto* entry = ini.find("problem.control"))
-    ini.fault(*entry, quoted(entry->value) +
+    ini.fault(*entry, quotedWord(entry->value) +
                           " is not supported: Corridor plans for rigid bodies without dynamics");
   if (const auto* entry = ini.find("problem.statespace"))
     ini.fault(*entry,
-              quoted(entry->value) +
+              quotedWord(entry->value) +
                   " is not supported: Corridor plans in SE2 and SE3, where edges are straight");
 }
 
@@ -174,7 +174,8 @@ void faultDuplicates(const IniFile& ini) {
   std::set<std::string> seen;
   for (const IniFile::Entry& entry : ini.entries())
     if (!entry.key.starts_with("planner.") && !seen.insert(entry.key).second)
-      ini.fault(entry.line, "duplicate key " + quoted(entry.key.substr(entry.key.find('.') + 1)) +
+      ini.fault(entry.line, "duplicate key " +
+                                quotedWord(entry.key.substr(entry.key.find('.') + 1)) +
                                 ", first on line " + std::to_string(ini.find(entry.key)->line));
 }
 
@@ -225,7 +226,7 @@ void readSettings(const IniFile& ini, Problem& problem) {
 }  // namespace
 
 Problem readOmplAppCfg(const std::filesystem::path& file) {
-  FaultList faults;
+  FaultList faults(file.string());
   const IniFile ini(file.string(),
                     readTextFile(file, "a problem ([problem], robot = …, world = …)"), faults);
   faultDuplicates(ini);

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "planner/problem/keys.h"
-#include "planner/problem/nearest.h"
 
 namespace corridor {
 namespace {
@@ -198,7 +197,7 @@ std::optional<ProblemMesh> readPlacedMesh(const YamlMap& map, const std::string&
 
   ProblemMesh result{name, folder / *file, {}};
   if (const std::string why = whyNoFile(result.file); !why.empty()) {
-    map.fault("mesh", quoted(result.file.string()) + " " + why);
+    map.fault("mesh", result.file.string() + ": " + why);
     return std::nullopt;
   }
   try {

@@ -1,5 +1,7 @@
 #include "planner/problem/problem.h"
 
+#include <system_error>
+
 #include "planner/problem/fault_list.h"
 #include "planner/problem/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
@@ -8,10 +10,11 @@
 namespace corridor {
 
 Problem readProblem(const std::filesystem::path& path) {
-  if (!std::filesystem::is_directory(path))
+  std::error_code none;  // what can't be looked at is faulted by who reads it
+  if (!std::filesystem::is_directory(path, none))
     return path.extension() == ".cfg" ? readOmplAppCfg(path) : readProblemYaml(path);
   const std::filesystem::path file = path / "problem.yaml";
-  if (!std::filesystem::exists(file))
+  if (!std::filesystem::exists(file, none))
     throw InputError(Fault{path.string(), 0, "no problem.yaml in this folder"});
   return readProblemYaml(file);
 }

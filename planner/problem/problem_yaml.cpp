@@ -27,7 +27,7 @@ std::optional<RigidSpace> readRobot(const YamlMap& file, Problem& problem,
   if (!name) return std::nullopt;
   const std::filesystem::path path = problem.file.parent_path() / *name;
   if (const std::string why = whyNoFile(path); !why.empty()) {
-    file.fault("robot", "\"" + path.string() + "\" " + why);
+    file.fault("robot", path.string() + ": " + why);
     return std::nullopt;
   }
   files.push_back(path);
@@ -82,13 +82,17 @@ void readPoses(const YamlMap& file, RigidSpace space, Problem& problem, bool& st
   }
 }
 
+const char* boundsForm(RigidSpace space) {
+  return space == RigidSpace::SE3 ? "at: [[x, y, z], [x, y, z]]" : "at: [[x, y], [x, y]]";
+}
+
 /// @returns whether the bounds are given and sound.
 bool readBounds(const YamlMap& file, Problem& problem) {
   const YamlValue* value = file.find("bounds");
   if (!value) return false;
   const YamlMap map(*value, "bounds", keysOf("bounds"), file.source());
   const std::size_t count = problem.space == RigidSpace::SE3 ? 3 : 2;
-  const std::string form = count == 3 ? "at: [[x, y, z], [x, y, z]]" : "at: [[x, y], [x, y]]";
+  const std::string form = boundsForm(problem.space);
   const YamlValue* at = map.require("at", "the lower and the upper corner, " + form);
   if (!at) return false;
   if (at->kind != YamlValue::Kind::List || at->items.size() != 2) {
@@ -113,11 +117,13 @@ void defaultBounds(Problem& problem, YamlSource& source) {
   enlargeBounds(problem);
   if (whyBadBounds(problem).empty()) {
     problem.notes.push_back("bounds: those of the world, start and goal, since none are given");
-  } else {
-    source.fault(0,
-                 "missing key \"bounds\": world, start and goal lie in a plane, so bounds: {at: "
-                 "[[…], [… ]]} is needed");
+    return;
   }
+  int flat = 0;
+  while (problem.lower[flat] < problem.upper[flat]) ++flat;
+  source.fault(0, std::string("missing key \"bounds\": world, start and goal lie in a plane (") +
+                      "xyz"[flat] + " = " + shortest(problem.lower[flat]) + "), so bounds: {" +
+                      boundsForm(problem.space) + "} is needed");
 }
 
 void readTube(const YamlMap& file, Problem& problem) {
@@ -160,7 +166,7 @@ void readChecker(const YamlMap& file, Problem& problem) {
 Problem readProblemYaml(const std::filesystem::path& file) {
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "a problem (format: corridor-problem-1)"));
-  FaultList faults;
+  FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
   if (!hasFormat(document, "corridor-problem-1", source)) faults.throwIfAny();
   const YamlMap map(document, "", &problemKeys().at(""), source);

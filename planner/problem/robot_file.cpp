@@ -49,7 +49,7 @@ bool readShapes(const YamlMap& file, RobotFile& robot, const std::filesystem::pa
                       &robotKeys().at("shapes[]"), file.source());
     const std::string own = map.text("name").value_or(std::to_string(i + 1));
     if (std::find(names.begin(), names.end(), own) != names.end())
-      map.fault("name", quoted(own) + " is the name of another shape");
+      map.fault("name", quotedWord(own) + " is the name of another shape");
     names.push_back(own);
     if (auto mesh = readPlacedMesh(
             map, shapes->items.size() == 1 ? robot.name : robot.name + "/" + own, folder))

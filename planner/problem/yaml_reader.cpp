@@ -18,7 +18,7 @@ std::string shortest(double value) {
 std::string described(const YamlValue& value) {
   switch (value.kind) {
     case YamlValue::Kind::Scalar:
-      return quoted(value.text);
+      return quotedWord(value.text);
     case YamlValue::Kind::List:
       return "a list";
     case YamlValue::Kind::Map:
@@ -31,18 +31,18 @@ std::string described(const YamlValue& value) {
 std::string parseNumber(std::string_view text, Range range, double& value) {
   for (const char* name :
        {".nan", ".NaN", ".NAN", ".inf", "-.inf", "+.inf", ".Inf", "-.Inf", ".INF", "-.INF"})
-    if (text == name) return "a finite number is needed, not " + quoted(text);
+    if (text == name) return "a finite number is needed, not " + quotedWord(text);
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const char* const begin = text.data() + (plus ? 1 : 0);
   const char* const end = text.data() + text.size();
   double number = 0;
   const auto [stop, error] = std::from_chars(begin, end, number);
   if (stop != end || error == std::errc::invalid_argument)
-    return "a number is needed, not " + quoted(text);
+    return "a number is needed, not " + quotedWord(text);
   // Too large or too small: strtod, unlike from_chars, says which.
   if (error == std::errc::result_out_of_range)
     number = std::strtod(std::string(begin, end).c_str(), nullptr);
-  if (!std::isfinite(number)) return "a finite number is needed, not " + quoted(text);
+  if (!std::isfinite(number)) return "a finite number is needed, not " + quotedWord(text);
   if (range == Range::NotNegative && number < 0)
     return "must be 0 or more, not " + std::string(text);
   if (range == Range::Positive && !(number > 0)) return "must be above 0, not " + std::string(text);
@@ -65,7 +65,7 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
     if (const auto first = std::find_if(entries_.begin(), entries_.end(),
                                         [&](const auto* e) { return e->key == entry.key; });
         first != entries_.end()) {
-      source.fault(entry.line, "duplicate key " + quoted(entry.key) + in + ", first on line " +
+      source.fault(entry.line, "duplicate key " + quotedWord(entry.key) + in + ", first on line " +
                                    std::to_string((*first)->line));
       continue;
     }
@@ -74,12 +74,12 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
                                       [&](const LaterKey& l) { return l.key == entry.key; });
       if (later != keys->later.end()) {
         source.fault(entry.line,
-                     quoted(entry.key) + in + " is not supported yet; " + later->instead);
+                     quotedWord(entry.key) + in + " is not supported yet; " + later->instead);
         explainsMissing_ = true;
         continue;
       }
       if (const auto near = nearest(entry.key, keys->legal)) missed_.insert(*near);
-      source.fault(entry.line, "unknown key " + quoted(entry.key) + in +
+      source.fault(entry.line, "unknown key " + quotedWord(entry.key) + in +
                                    didYouMean(entry.key, keys->legal) +
                                    " (known: " + joined(keys->legal) + ")");
       continue;

@@ -1,0 +1,317 @@
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "tests/planner/problem/problem_fixture.h"
+#include "tests/support/support.h"
+
+namespace corridor::test {
+namespace {
+
+class OmplAppCfg : public ProblemTest {
+ protected:
+  std::filesystem::path cfg(const std::string& text) const { return write("problem.cfg", text); }
+  /// Lines 1 to 3.
+  inline static const std::string meshes = "[problem]\nrobot = wedge.obj\nworld=wedge.obj\n";
+  /// Lines 4 to 9.
+  inline static const std::string planar =
+      "start.x = 5\nstart.y = 0\nstart.theta = 7\ngoal.x = 0\ngoal.y = 5\ngoal.theta = 0\n";
+  inline static const std::string spatial =
+      planar +
+      "start.z = 1\nstart.axis.x = 0\nstart.axis.y = 0\nstart.axis.z = 2\n"
+      "goal.z = 1\ngoal.axis.x = 0\ngoal.axis.y = 0\ngoal.axis.z = 0\n";
+};
+
+TEST_F(OmplAppCfg, PlanarProblem) {
+  const Problem p = readProblem(cfg(meshes + planar));
+  EXPECT_EQ(p.name, "problem");
+  EXPECT_EQ(p.space, RigidSpace::SE2);
+  EXPECT_EQ(p.rotationWeight, 0.5);
+  EXPECT_EQ(p.start.p, Vec3(5, 0, 0));
+  EXPECT_DOUBLE_EQ(p.startYaw, 7 - 2 * std::numbers::pi);
+  EXPECT_EQ(p.lines.at("start"), 4);
+  EXPECT_EQ(p.lower, Vec3(0, 0, 0)) << "the world's box";
+  EXPECT_EQ(p.upper, Vec3(5, 5, 0)) << "enlarged to hold start and goal";
+  double lowest = 1;
+  for (const Vec3& v : p.robot[0].source.mesh.vertices) lowest = std::min(lowest, v.z());
+  EXPECT_EQ(lowest, 0) << "z is not recentred in the plane";
+}
+
+TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
+  const Problem p = readProblem(cfg(
+      meshes + spatial +
+      "name = Wedges # comment\nthreshold = 0.1\nobjective = length_of_path\nobjective.threshold = "
+      "3\n"
+      "sampler = gaussian\nlongest_valid_segment_fraction = 0.02\nprojection.cellsize_factor = 2\n"
+      "volume.min.x = -1\nvolume.min.y = -1\nvolume.min.z = -1\n"
+      "volume.max.x = 4\nvolume.max.y = 9\nvolume.max.z = 9\n"
+      "[benchmark]\ntime_limit = 3.5\nmem_limit = 100\n[planner]\naps=\nRRT=\nrrt.range=0.25"));
+  EXPECT_EQ(p.name, "Wedges");
+  EXPECT_EQ(p.space, RigidSpace::SE3);
+  EXPECT_EQ(p.rotationWeight, 1);
+  EXPECT_DOUBLE_EQ(p.start.q.w(), std::cos(3.5));
+  EXPECT_DOUBLE_EQ(p.start.q.z(), std::sin(3.5)) << "the axis is normalised";
+  EXPECT_EQ(p.goal.q.coeffs(), Eigen::Vector4d(0, 0, 0, 1)) << "a zero axis turns nothing";
+  EXPECT_EQ(p.goalThreshold, 0.1);
+  EXPECT_EQ(p.objective, "length");
+  EXPECT_EQ(p.objectiveThreshold, 3);
+  EXPECT_EQ(p.sampler, "gaussian");
+  EXPECT_EQ(p.checker.resolution, 0.02);
+  EXPECT_EQ(p.lower, Vec3(-1, -1, -1));
+  EXPECT_EQ(p.upper, Vec3(5, 9, 9));
+  EXPECT_EQ(p.planner.time, 3.5);
+  EXPECT_EQ(p.planner.name, "RRT");
+  EXPECT_EQ(p.planner.params, (std::map<std::string, std::string>{{"range", "0.25"}}));
+  EXPECT_EQ(p.lines.at("planner.params.range"), 37);
+  EXPECT_THAT(p.notes,
+              testing::IsSupersetOf(
+                  {testing::Eq("bounds: enlarged to contain start and goal"),
+                   testing::Eq("not used: problem.projection.cellsize_factor, benchmark.mem_limit"),
+                   testing::Eq("planners that OMPL does not have are skipped: aps")}));
+}
+
+TEST_F(OmplAppCfg, PlannersAreChosenOnlyWhereThereIsOne) {
+  const Problem p =
+      readProblem(cfg(meshes + planar + "[planner]\nprm=\nrrt=\nrrt=\nrrt.range=3\n"));
+  EXPECT_EQ(p.planner.name, "RRTConnect");
+  EXPECT_TRUE(p.planner.params.empty());
+  EXPECT_THAT(p.notes, testing::Contains(
+                           "planner: RRTConnect, since the file lists several (prm, rrt, rrt)"));
+}
+
+TEST_F(OmplAppCfg, IncompleteVolumeIsIgnored) {
+  const Problem p = readProblem(cfg(meshes + planar + "volume.min.x = -100\n"));
+  EXPECT_EQ(p.lower, Vec3(0, 0, 0));
+  EXPECT_THAT(p.notes,
+              testing::Contains("bounds: those of the world, since volume is not given whole"));
+}
+
+TEST_F(OmplAppCfg, Faults) {
+  EXPECT_EQ(complaint(cfg("")),
+            "problem.cfg: is empty; a problem ([problem], robot = …, world = …) is needed");
+  EXPECT_EQ(complaint(cfg("[problem]\n")),
+            "problem.cfg: start and goal need x, y, theta (2D), or x, y, z, theta, axis.x, axis.y, "
+            "axis.z (3D); missing: start.x, "
+            "start.y, start.theta, goal.x, goal.y, goal.theta\n"
+            "problem.cfg: missing key \"robot\": a mesh file in the folder of this file\n"
+            "problem.cfg: missing key \"world\": a mesh file in the folder of this file");
+  EXPECT_EQ(complaint(cfg(meshes + planar + "start.z = 1\n")),
+            "problem.cfg: start and goal need x, y, theta (2D), or x, y, z, theta, axis.x, axis.y, "
+            "axis.z (3D); missing: start.axis.x, "
+            "start.axis.y, start.axis.z, goal.z, goal.axis.x, goal.axis.y, goal.axis.z");
+  EXPECT_EQ(complaint(cfg("[problem]\nrobot = gone.dae\nworld = wedge.obj\n" + planar +
+                          "goal.x = 7\nnonsense\n"
+                          "control = dynamic_car\nstatespace = dubins\nobjective = "
+                          "beauty\nthreshold = -1\n[benchmark]\ntime_limit = soon\n")),
+            "problem.cfg:2: robot: gone.dae: no such file\n"
+            "problem.cfg:10: duplicate key \"goal.x\", first on line 7\n"
+            "problem.cfg:11: [section] or key = value is needed, not \"nonsense\"\n"
+            "problem.cfg:12: control: \"dynamic_car\" is not supported: Corridor plans for rigid "
+            "bodies without dynamics\n"
+            "problem.cfg:13: statespace: \"dubins\" is not supported: Corridor plans in SE2 and "
+            "SE3, where edges are straight\n"
+            "problem.cfg:14: objective: one of length, max_min_clearance, mechanical_work is "
+            "needed, not \"beauty\"\n"
+            "problem.cfg:15: threshold: must be 0 or more, not -1\n"
+            "problem.cfg:17: time_limit: a number is needed, not \"soon\"");
+  EXPECT_EQ(complaint(cfg(meshes + "start.x = 5,0\nstart.y = nan\nstart.theta = 0\ngoal.x = "
+                                   "0\ngoal.y = 5\ngoal.theta = 1 2\n")),
+            "problem.cfg:4: start.x: a number is needed, not \"5,0\"\n"
+            "problem.cfg:5: start.y: a finite number is needed, not \"nan\"\n"
+            "problem.cfg:9: goal.theta: a number is needed, not \"1 2\"");
+  EXPECT_EQ(
+      complaint(cfg(meshes + planar +
+                    "volume.min.x = 3\nvolume.min.y = 0\nvolume.max.x = 2\nvolume.max.y = 1\n")),
+      "problem.cfg:10: volume.min.x: 3 is above volume.max.x, 2");
+}
+
+/// OMPL.app's own problems, against figures worked out by an independent reading of its files.
+struct Reference {
+  const char* file;
+  RigidSpace space;
+  std::size_t robotTriangles, worldTriangles;
+  int importedVertices;
+  Vec3 centre;    ///< of the robot, in its file
+  Vec3 robotMin;  ///< of the robot's bounding box, before recentring
+  Vec3 worldMin, worldMax;
+};
+
+const std::vector<Reference>& references() {
+  static const std::vector<Reference> all{{"2D/BugTrap_planar.cfg",
+                                           RigidSpace::SE2,
+                                           28,
+                                           264,
+                                           56,
+                                           {0.0250001, 0, 0},
+                                           {-2.475, -1.25, 0},
+                                           {-55, -55.01, -0.001485},
+                                           {55, 55.011, 8.1695}},
+                                          {"2D/Maze_planar.cfg",
+                                           RigidSpace::SE2,
+                                           40,
+                                           1892,
+                                           80,
+                                           {0.00999999, -0.15, 0},
+                                           {-1.99, -2, 0},
+                                           {-55, -55, 0},
+                                           {55, 55, 10.63}},
+                                          {"3D/Abstract.cfg",
+                                           RigidSpace::SE3,
+                                           48,
+                                           1400,
+                                           112,
+                                           {-8.01944, 0, -7.835296},
+                                           {-25.791, -9.4488, -34.962},
+                                           {-233.12, -222.2, -3.9451},
+                                           {239.92, 250.74, 468.98}},
+                                          {"3D/Easy.cfg",
+                                           RigidSpace::SE3,
+                                           56,
+                                           176,
+                                           112,
+                                           {270.4043, 160.6562, -297.8237},
+                                           {251.12, 142.75, -322.66},
+                                           {14.46, -24.25, -504.86},
+                                           {457.96, 321.25, -72.855}},
+                                          {"3D/Home.cfg",
+                                           RigidSpace::SE3,
+                                           120,
+                                           696,
+                                           280,
+                                           {-0.04602013, 0.05111809, 9.192626},
+                                           {-23.541, -35.433, -12.58},
+                                           {-383.8, -371.47, -0.19685},
+                                           {325, 337.89, 142.33}},
+                                          {"3D/Twistycool.cfg",
+                                           RigidSpace::SE3,
+                                           56,
+                                           176,
+                                           112,
+                                           {270.4043, 160.6562, -297.8237},
+                                           {251.12, 142.75, -322.66},
+                                           {14.46, -24.25, -504.86},
+                                           {457.96, 321.25, -72.855}},
+                                          {"3D/alpha-1.5.cfg",
+                                           RigidSpace::SE3,
+                                           2016,
+                                           2016,
+                                           10248,
+                                           {-21.90987, -11.10698, -14.13554},
+                                           {-73.176, -59.949, -102.64},
+                                           {-131.87, -42.493, -91.763},
+                                           {106.82, 125.33, -3.0743}},
+                                          {"3D/cubicles.cfg",
+                                           RigidSpace::SE3,
+                                           40,
+                                           626,
+                                           72,
+                                           {-4.958012, -40.62011, 70.56501},
+                                           {-27.2, -87.356, 55.692},
+                                           {-508.88, -230.13, -123.75},
+                                           {319.62, 531.87, 101}},
+                                          {"3D/cubicles_opt.cfg",
+                                           RigidSpace::SE3,
+                                           40,
+                                           626,
+                                           72,
+                                           {-4.958012, -40.62011, 70.56501},
+                                           {-27.2, -87.356, 55.692},
+                                           {-508.88, -230.13, -123.75},
+                                           {319.62, 531.87, 101}}};
+  return all;
+}
+
+/// The figures have five digits.
+void expectNear(const Vec3& a, const Vec3& b, const std::string& what) {
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(a[k], b[k], 1e-4 * std::max(1.0, std::abs(b[k]))) << what << " "
+                                                                  << "xyz"[k];
+}
+
+std::pair<Vec3, Vec3> boundsOf(const TriangleMesh& mesh) {
+  Vec3 low = mesh.corner(0, 0), high = low;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i)
+      low = low.cwiseMin(mesh.corner(t, i)), high = high.cwiseMax(mesh.corner(t, i));
+  return {low, high};
+}
+
+double numberOf(const std::filesystem::path& cfg, const std::string& key) {
+  std::ifstream stream(cfg);
+  for (std::string word, equals; stream >> word;)
+    if (word == key && stream >> equals) {
+      double value;
+      if (stream >> value) return value;
+    }
+  ADD_FAILURE() << key << " is not in " << cfg;
+  return 0;
+}
+
+TEST(OmplAppProblems, AgreeWithTheReference) {
+  const auto folder = omplAppFolder();
+  if (!folder) GTEST_SKIP() << "CORRIDOR_OMPLAPP is not set to OMPL.app's folder resources";
+  for (const Reference& r : references()) {
+    SCOPED_TRACE(r.file);
+    const Problem p = readProblem(*folder / r.file);
+    EXPECT_EQ(p.space, r.space);
+    const TriangleMesh &robot = p.robot.at(0).source.mesh, &world = p.world.at(0).source.mesh;
+    EXPECT_EQ(robot.triangles.size(), r.robotTriangles);
+    EXPECT_EQ(world.triangles.size(), r.worldTriangles);
+    const auto [worldMin, worldMax] = boundsOf(world);
+    expectNear(worldMin, r.worldMin, "world's lower corner");
+    expectNear(worldMax, r.worldMax, "world's upper corner");
+    // The centre: what recentring took from the robot as its file has it.
+    const OmplAppMesh file = readOmplAppMesh(p.robot[0].file);
+    EXPECT_EQ(file.importedVertices, r.importedVertices);
+    const Vec3 centre = boundsOf(file.mesh).first - boundsOf(robot).first;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(centre[k], r.centre[k], 1e-5 * std::max(1.0, std::abs(r.centre[k])));
+    expectNear(boundsOf(file.mesh).first, r.robotMin, "robot's lower corner");
+
+    const auto number = [&](const std::string& key) { return numberOf(*folder / r.file, key); };
+    const bool spatial = r.space == RigidSpace::SE3;
+    EXPECT_EQ(p.start.p,
+              Vec3(number("start.x"), number("start.y"), spatial ? number("start.z") : 0));
+    EXPECT_EQ(p.goal.p, Vec3(number("goal.x"), number("goal.y"), spatial ? number("goal.z") : 0));
+    if (spatial) {
+      const Eigen::Quaterniond q(Eigen::AngleAxisd(
+          number("goal.theta"),
+          Vec3(number("goal.axis.x"), number("goal.axis.y"), number("goal.axis.z")).normalized()));
+      EXPECT_LT((p.goal.q.coeffs() - q.coeffs()).norm(), 1e-15);
+    } else {
+      EXPECT_EQ(p.goalYaw, number("goal.theta"));
+    }
+    EXPECT_EQ(p.lower, Vec3(number("volume.min.x"), number("volume.min.y"),
+                            spatial ? number("volume.min.z") : 0));
+    EXPECT_EQ(p.upper, Vec3(number("volume.max.x"), number("volume.max.y"),
+                            spatial ? number("volume.max.z") : 0));
+    EXPECT_EQ(p.planner.name, "RRTConnect");
+    EXPECT_FALSE(p.goalThreshold);
+  }
+  EXPECT_EQ(readProblem(*folder / "3D/alpha-1.5.cfg").sampler, "obstacle_based");
+  EXPECT_EQ(readProblem(*folder / "3D/Home.cfg").objective, "length");
+  EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").planner.time, 300);
+}
+
+TEST(OmplAppProblems, EveryOtherOneIsReadOrSaysWhyNot) {
+  const auto folder = omplAppFolder();
+  if (!folder) GTEST_SKIP() << "CORRIDOR_OMPLAPP is not set to OMPL.app's folder resources";
+  int read = 0, dynamic = 0;
+  for (const char* part : {"2D", "3D"})
+    for (const auto& entry : std::filesystem::directory_iterator(*folder / part)) {
+      if (entry.path().extension() != ".cfg") continue;
+      try {
+        readProblem(entry.path());
+        ++read;
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::AnyOf(testing::HasSubstr("without dynamics"),
+                                                 testing::HasSubstr("no such file")));
+        ++dynamic;
+      }
+    }
+  std::cout << read << " read, " << dynamic << " refused\n";
+  EXPECT_GE(read, 9);
+}
+
+}  // namespace
+}  // namespace corridor::test

@@ -1,0 +1,356 @@
+#include <random>
+
+#include "tests/planner/problem/problem_fixture.h"
+#include "tests/support/support.h"
+
+namespace corridor::test {
+namespace {
+
+/// The text of every message, whole. Users read these: change them with care.
+class ProblemFaults : public ProblemTest {
+ protected:
+  /// Of a spatial problem with these lines, from line 8, added.
+  std::string with(const std::string& lines) const { return complaintOf(head + poses + lines); }
+};
+
+constexpr const char* topKeys =
+    " (known: format, robot, world, start, goal, bounds, margin, tube, planner, sampler, simplify, "
+    "checker, seed)";
+
+TEST_F(ProblemFaults, Files) {
+  EXPECT_EQ(complaint(folder_ / "nowhere.yaml"), "nowhere.yaml: no such file");
+  EXPECT_EQ(complaint(folder_), folder_.string() + ": no problem.yaml in this folder");
+  EXPECT_EQ(complaintOf(""),
+            "problem.yaml: is empty; a problem (format: corridor-problem-1) is needed");
+  EXPECT_EQ(complaintOf(" \n\n"),
+            "problem.yaml: is empty; a problem (format: corridor-problem-1) is needed");
+  EXPECT_EQ(complaintOf("# nothing\n"),
+            "problem.yaml: a map (key: value) that begins with \"format: corridor-problem-1\" is "
+            "needed, not nothing");
+  EXPECT_EQ(complaintOf("[1, 2]"),
+            "problem.yaml:1: a map (key: value) that begins with \"format: corridor-problem-1\" is "
+            "needed, not a list");
+  EXPECT_EQ(complaint(folder_ / "robot.yaml"),
+            "robot.yaml:1: format: corridor-problem-1 is needed here, not \"corridor-robot-1\"");
+}
+
+TEST_F(ProblemFaults, Syntax) {
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
+            "problem.yaml:3: is not YAML: end of sequence flow not found");
+  EXPECT_EQ(with("margin: *m\n"),
+            "problem.yaml:8: is not YAML: the referenced anchor is not defined");
+  EXPECT_EQ(with("margin: &m 1\nseed: *m\n"),
+            "problem.yaml:9: aliases (*name) are not read here; write the value out");
+  EXPECT_EQ(with("[1]: 2\n"), "problem.yaml:8: a key must be a word");
+  EXPECT_EQ(with("---\na: 1\n"),
+            "problem.yaml: has more than one YAML document (---); one is read");
+}
+
+TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
+  EXPECT_EQ(
+      with("checkr: {edges: certified}\n"),
+      std::string("problem.yaml:8: unknown key \"checkr\"; did you mean \"checker\"?") + topKeys);
+  EXPECT_EQ(with("colour: red\n"), std::string("problem.yaml:8: unknown key \"colour\"") + topKeys);
+  EXPECT_EQ(with("checker: {edges: discrete, rezolution: 0.1}\n"),
+            "problem.yaml:8: unknown key \"rezolution\" in checker; did you mean \"resolution\"? "
+            "(known: edges, resolution, tolerance, fit)");
+  EXPECT_EQ(with("seed: 1\nmargin: 0\nseed: 2\n"),
+            "problem.yaml:10: duplicate key \"seed\", first on line 8");
+  EXPECT_EQ(with("planner:\n  params:\n    range: 1\n    range: 2\n"),
+            "problem.yaml:11: duplicate key \"range\" in planner.params, first on line 10");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  a: {mesh: "
+                        "wedge.obj}\n  a: {mesh: wedge.obj}\n" +
+                        poses),
+            "problem.yaml:5: duplicate key \"a\" in world, first on line 4");
+}
+
+TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
+  EXPECT_EQ(
+      complaintOf("format: corridor-problem-1\nrobto: robot.yaml\nworld: {a: {mehs: wedge.obj}}\n" +
+                  poses),
+      std::string("problem.yaml:2: unknown key \"robto\"; did you mean \"robot\"?") + topKeys +
+          "\nproblem.yaml:3: unknown key \"mehs\" in world.a; did you mean \"mesh\"? (known: mesh, "
+          "unit, up, at, "
+          "rpy_deg, rpy, quat_xyzw)");
+}
+
+TEST_F(ProblemFaults, MissingKeys) {
+  EXPECT_EQ(
+      complaintOf("seed: 1\n"),
+      "problem.yaml: missing key \"format\": the file begins with format: corridor-problem-1\n"
+      "problem.yaml: missing key \"robot\": the robot's file, such as robot: "
+      "../../robots/piano/robot.yaml\n"
+      "problem.yaml: missing key \"world\": the obstacles, such as world: {table: {mesh: "
+      "table.obj, unit: m}}");
+  EXPECT_EQ(complaintOf(head),
+            "problem.yaml: missing key \"start\": the robot's pose, such as start: {at: [0, 0, 1], "
+            "rpy_deg: [0, 0, 90]}\n"
+            "problem.yaml: missing key \"goal\": the robot's pose, such as goal: {at: [0, 0, 1], "
+            "rpy_deg: [0, 0, 90]}");
+  EXPECT_EQ(complaintOf(planarHead + "start: {at: [0, 0]}\n"),
+            "problem.yaml: missing key \"goal\": the robot's pose, such as goal: {at: [0, 0], "
+            "yaw_deg: 90}");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {}\n" + poses),
+            "problem.yaml:3: world: at least one obstacle is needed");
+  EXPECT_EQ(
+      complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {a: {unit: m}}\n" + poses),
+      "problem.yaml:3: missing key \"mesh\" in world.a: the shape's file, such as mesh: table.obj");
+}
+
+TEST_F(ProblemFaults, WrongTypes) {
+  EXPECT_EQ(with("margin: wide\n"), "problem.yaml:8: margin: a number is needed, not \"wide\"");
+  EXPECT_EQ(with("margin: '0.1'\n"), "problem.yaml:8: margin: a number is needed, not \"0.1\"");
+  EXPECT_EQ(with("margin: 0.1m\n"), "problem.yaml:8: margin: a number is needed, not \"0.1m\"");
+  EXPECT_EQ(with("margin: [1]\n"), "problem.yaml:8: margin: a number is needed, not a list");
+  EXPECT_EQ(with("margin:\n"), "problem.yaml:8: margin: a number is needed, not nothing");
+  EXPECT_EQ(with("planner: RRT\n"),
+            "problem.yaml:8: planner: a map (key: value) is needed, not \"RRT\"");
+  EXPECT_EQ(with("planner: {params: {range: [1]}}\n"),
+            "problem.yaml:8: planner.params.range: a word is needed, not a list");
+  EXPECT_EQ(with("simplify: yes\n"),
+            "problem.yaml:8: simplify: true or false is needed, not \"yes\"");
+  EXPECT_EQ(with("seed: -1\n"),
+            "problem.yaml:8: seed: a whole number from 0 to 2^64 - 1 is needed, not \"-1\"");
+  EXPECT_EQ(with("seed: 1.5\n"),
+            "problem.yaml:8: seed: a whole number from 0 to 2^64 - 1 is needed, not \"1.5\"");
+  EXPECT_EQ(with("seed: 18446744073709551616\n"),
+            "problem.yaml:8: seed: a whole number from 0 to 2^64 - 1 is needed, not "
+            "\"18446744073709551616\"");
+  EXPECT_EQ(with("checker: {edges: certain}\n"),
+            "problem.yaml:8: checker.edges: one of certified, discrete is needed, not \"certain\"");
+  EXPECT_EQ(with("checker: {fit: triangle}\n"),
+            "problem.yaml:8: checker.fit: one of vertices, triangles, hull is needed, not "
+            "\"triangle\"; did you mean \"triangles\"?");
+  EXPECT_EQ(with("planner: {stop: never}\n"),
+            "problem.yaml:8: planner.stop: one of first, time is needed, not \"never\"");
+  EXPECT_EQ(complaintOf(head + "start: {at: [1, 2, 3, 4]}\ngoal: {at: [1, x, 3]}\n"),
+            "problem.yaml:5: start.at: a list of 3 numbers is needed, not a list of 4\n"
+            "problem.yaml:6: goal.at: a number is needed, not \"x\"");
+}
+
+TEST_F(ProblemFaults, Ranges) {
+  EXPECT_EQ(with("margin: .nan\n"),
+            "problem.yaml:8: margin: a finite number is needed, not \".nan\"");
+  EXPECT_EQ(with("margin: nan\n"),
+            "problem.yaml:8: margin: a finite number is needed, not \"nan\"");
+  EXPECT_EQ(with("margin: .inf\n"),
+            "problem.yaml:8: margin: a finite number is needed, not \".inf\"");
+  EXPECT_EQ(with("margin: 1e999\n"),
+            "problem.yaml:8: margin: a finite number is needed, not \"1e999\"");
+  EXPECT_EQ(with("margin: 1e-999\n"), "no complaint");
+  EXPECT_EQ(with("margin: -0.1\n"), "problem.yaml:8: margin: must be 0 or more, not -0.1");
+  EXPECT_EQ(with("tube: {position: -1, rotation: -2}\n"),
+            "problem.yaml:8: tube.position: must be 0 or more, not -1\n"
+            "problem.yaml:8: tube.rotation: must be 0 or more, not -2");
+  EXPECT_EQ(with("tube: {rotation: 1, rotation_deg: 2}\n"),
+            "problem.yaml:8: tube.rotation_deg: say rotation (radians) or rotation_deg (degrees), "
+            "not both");
+  EXPECT_EQ(with("planner: {time: 0}\n"), "problem.yaml:8: planner.time: must be above 0, not 0");
+  EXPECT_EQ(with("checker: {tolerance: 0}\n"),
+            "problem.yaml:8: checker.tolerance: must be above 0, not 0");
+  EXPECT_EQ(with("checker: {resolution: 1}\n"),
+            "problem.yaml:8: checker.resolution: must lie between 0 and 1, not at 1");
+  EXPECT_EQ(
+      complaintOf(head + "start: {at: [5, .nan, 0]}\ngoal: {at: [0, 5, 0], within: {at: -1}}\n"),
+      "problem.yaml:5: start.at: a finite number is needed, not \".nan\"\n"
+      "problem.yaml:6: goal.within.at: must be 0 or more, not -1");
+}
+
+TEST_F(ProblemFaults, Rotations) {
+  const auto start = [&](const std::string& rotation) {
+    return complaintOf(head + "start: {at: [5, 0, 0], " + rotation + "}\ngoal: {at: [0, 5, 0]}\n");
+  };
+  EXPECT_EQ(start("quat_xyzw: [0, 0, 0, 0]"),
+            "problem.yaml:5: start.quat_xyzw: a quaternion of zeros is no rotation; [0, 0, 0, 1] "
+            "turns nothing");
+  EXPECT_EQ(start("quat_xyzw: [0, 0, 1, 1]"),
+            "problem.yaml:5: start.quat_xyzw: [x, y, z, w] of norm 1 is needed, not of norm "
+            "1.4142135623730951; a mistyped number?");
+  EXPECT_EQ(start("quat_xyzw: [1e200, 0, 0, 0]"),
+            "problem.yaml:5: start.quat_xyzw: [x, y, z, w] of norm 1 is needed, not of norm "
+            "1e+200; a mistyped number?");
+  EXPECT_EQ(start("quat_xyzw: [0, 0, 0.707, 0.707]"), "no complaint");
+  EXPECT_EQ(start("rpy_deg: [0, 0]"),
+            "problem.yaml:5: start.rpy_deg: a list of 3 numbers is needed, not a list of 2");
+  EXPECT_EQ(start("rpy_deg: [0, 0, 0], rpy: [0, 0, 0]"),
+            "problem.yaml:5: start.rpy: one rotation is needed, and rpy_deg says it already");
+  EXPECT_EQ(start("within: {at: 1}"),
+            "problem.yaml:5: unknown key \"within\" in start (known: at, rpy_deg, rpy, quat_xyzw, "
+            "yaw_deg, yaw)");
+}
+
+TEST_F(ProblemFaults, PosesOfTheWrongKind) {
+  const std::string spatial =
+      "goal of the wrong kind: the robot moves in SE3 (rigid: SE3), so {at: [x, y, z], rpy_deg: "
+      "[roll, pitch, yaw]} is needed";
+  for (const char* goal : {"{at: [0, 5]}", "{at: [0, 5], yaw: 1}", "{at: [0, 5, 0], yaw_deg: 1}",
+                           "ready", "{pan_deg: 30}", "[0, 5, 0]"})
+    EXPECT_EQ(complaintOf(head + "start: {at: [5, 0, 0]}\ngoal: " + goal + "\n"),
+              "problem.yaml:6: " + spatial)
+        << goal;
+  const std::string planar =
+      "goal of the wrong kind: the robot moves in SE2 (rigid: SE2), so {at: [x, y], yaw_deg: yaw} "
+      "is needed";
+  for (const char* goal : {"{at: [0, 5, 0]}", "{at: [0, 5], rpy_deg: [0, 0, 90]}", "ready",
+                           "{quat_xyzw: [0, 0, 0, 1]}"})
+    EXPECT_EQ(complaintOf(planarHead + "start: {at: [5, 0]}\ngoal: " + goal + "\n"),
+              "problem.yaml:6: " + planar)
+        << goal;
+  EXPECT_EQ(
+      complaintOf(planarHead + "start: {at: [5, 0], yaw: 1, yaw_deg: 2}\ngoal: {at: [0, 5]}\n"),
+      "problem.yaml:5: start.yaw_deg: say yaw (radians) or yaw_deg (degrees), not both");
+}
+
+TEST_F(ProblemFaults, Bounds) {
+  const std::string start = head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, -20]}\n";
+  EXPECT_EQ(complaintOf(start + "bounds: {at: [[0, 0, 0], [1, 5, 1]]}\n"),
+            "problem.yaml:5: start: outside of the bounds: x = 5 is not in [0, 1]\n"
+            "problem.yaml:6: goal: outside of the bounds: z = -20 is not in [0, 1]");
+  EXPECT_EQ(
+      complaintOf(start + "bounds: {at: [[0, 3, 0], [9, 2, 1]]}\n"),
+      "problem.yaml:7: bounds.at: lower corner first, then the upper one: in y, 3 is not below 2");
+  EXPECT_EQ(complaintOf(start + "bounds: {at: [[0, 0], [9, 9]]}\n"),
+            "problem.yaml:7: bounds.at: a list of 3 numbers is needed, not a list of 2\n"
+            "problem.yaml:7: bounds.at: a list of 3 numbers is needed, not a list of 2");
+  EXPECT_EQ(complaintOf(start + "bounds: {at: [0, 0, 0]}\n"),
+            "problem.yaml:7: bounds.at: the lower and the upper corner are needed, at: [[x, y, z], "
+            "[x, y, z]], not a list");
+  EXPECT_EQ(complaintOf(start + "bounds: [[0, 0, 0], [1, 1, 1]]\n"),
+            "problem.yaml:7: bounds: a map (key: value) is needed, not a list");
+  EXPECT_EQ(complaintOf(
+                planarHead +
+                "start: {at: [5, 0]}\ngoal: {at: [0, 5]}\nbounds: {at: [[0, 0, 0], [9, 9, 9]]}\n"),
+            "problem.yaml:7: bounds.at: a list of 2 numbers is needed, not a list of 3\n"
+            "problem.yaml:7: bounds.at: a list of 2 numbers is needed, not a list of 3");
+  write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(complaintOf(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\n"),
+            "problem.yaml: missing key \"bounds\": world, start and goal lie in a plane (z = 0), "
+            "so bounds: {at: [[x, y, z], [x, y, z]]} is needed");
+}
+
+TEST_F(ProblemFaults, WhatIsNotSupportedYetSaysWhatIs) {
+  const std::string meshes = "shapes are meshes, as in {mesh: table.obj, unit: m, at: [0, 0, 0]}";
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  a: {box: [1, 1, "
+                        "1], at: [0, 0, 0]}\n"
+                        "  b: {mesh: wedge.obj, solid: true}\n" +
+                        poses),
+            "problem.yaml:4: \"box\" in world.a is not supported yet; " + meshes +
+                "\nproblem.yaml:5: \"solid\" in world.b is not supported yet; meshes are surfaces, "
+                "and touching them is contact");
+  EXPECT_EQ(with("base: {at: [0, 0, 0]}\nallow: [[a, b]]\n"),
+            "problem.yaml:8: \"base\" is not supported yet; rigid robots move freely: their place "
+            "is given by start and goal\n"
+            "problem.yaml:9: \"allow\" is not supported yet; every part of the robot is kept from "
+            "every obstacle");
+  EXPECT_EQ(with("tube: {joints: 0.1}\nchecker: {volume: sphere}\n"),
+            "problem.yaml:8: \"joints\" in tube is not supported yet; rigid bodies have position "
+            "(m) and rotation or rotation_deg\n"
+            "problem.yaml:9: \"volume\" in checker is not supported yet; trees are of oriented "
+            "boxes; leave it out");
+  EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\nname: arm\nurdf: arm.urdf\n"),
+            "robot.yaml:3: \"urdf\" is not supported yet; robots are rigid bodies: rigid: SE3 (or "
+            "SE2) and shapes: [{mesh: robot.obj, unit: m}]");
+}
+
+TEST_F(ProblemFaults, Meshes) {
+  const auto rock = [&](const std::string& entry) {
+    return complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  rock: " + entry +
+                       "\n" + poses);
+  };
+  EXPECT_EQ(rock("{mesh: no.obj}"), "problem.yaml:4: world.rock.mesh: no.obj: no such file");
+  EXPECT_EQ(rock("{mesh: .}"), "problem.yaml:4: world.rock.mesh: .: is a folder; a file is needed");
+  EXPECT_EQ(rock("{mesh: wedge.obj, unit: inch}"),
+            "problem.yaml:4: world.rock.unit: one of m, cm, mm, in is needed, not \"inch\"");
+  EXPECT_EQ(rock("{mesh: wedge.obj, unit: 0.001}"),
+            "problem.yaml:4: world.rock.unit: one of m, cm, mm, in is needed, not \"0.001\"");
+  EXPECT_EQ(rock("{mesh: wedge.obj, up: w}"),
+            "problem.yaml:4: world.rock.up: one of x, y, z is needed, not \"w\"");
+  EXPECT_EQ(rock("{mesh: wedge.obj, at: [1e308, 0, 0]}"), "no complaint");
+  write("bad.obj", "v 0 0 nan\nv 1 0 0\nf 1 2 9\n");
+  EXPECT_THAT(rock("{mesh: bad.obj}"), testing::StartsWith("bad.obj:1: "))
+      << "a mesh's faults name the mesh";
+}
+
+TEST_F(ProblemFaults, Robots) {
+  EXPECT_EQ(
+      complaintOf("format: corridor-problem-1\nrobot: no.yaml\nworld: {a: {mesh: wedge.obj}}\n" +
+                  poses),
+      "problem.yaml:2: robot: no.yaml: no such file");
+  EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\n"),
+            "robot.yaml: missing key \"rigid\": SE3 (moves and turns freely) or SE2 (moves in x "
+            "and y, turns about z)\n"
+            "robot.yaml: missing key \"shapes\": the robot's meshes, such as shapes: [{mesh: "
+            "piano.obj, unit: m}]");
+  EXPECT_EQ(
+      complaintOfRobot("format: corridor-robot-1\nrigid: SE4\nshapes: []\n"),
+      "robot.yaml:2: rigid: one of SE3, SE2 is needed, not \"SE4\"; did you mean \"SE3\"?\n"
+      "robot.yaml:3: shapes: a list of at least one {mesh: FILE} is needed, not an empty one");
+  EXPECT_EQ(
+      complaintOfRobot(std::string(robot3) + "reference: middle\nweights: {rotation: 0}\n"),
+      "robot.yaml:5: reference: a point [x, y, z] or the word centroid is needed, not \"middle\"\n"
+      "robot.yaml:6: weights.rotation: must be above 0, not 0");
+  EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\nrigid: SE3\nshapes:\n  - {mesh: wedge.obj, "
+                             "name: a}\n  - {mesh: wedge.obj, name: a}\n"),
+            "robot.yaml:5: shapes[1].name: \"a\" is the name of another shape");
+  EXPECT_EQ(complaintOfRobot("rigid: {\n"), "robot.yaml:2: is not YAML: end of map flow not found");
+}
+
+TEST_F(ProblemFaults, AllOfAFileAndOfItsRobotAtOnce) {
+  write("robot.yaml",
+        "format: corridor-robot-1\nrigid: SE3\nshapes: [{mesh: gone.stl, unti: mm}]\n");
+  EXPECT_EQ(
+      complaintOf(head + "start: {at: [1, 2]}\ngoal: {at: [0, 0, 0], quat_xyzw: [0, 0, 0, 0]}\n"
+                         "margin: -1\nsimplfy: true\nseed: x\n"),
+      std::string("problem.yaml:5: start of the wrong kind: the robot moves in SE3 (rigid: "
+                  "SE3), so {at: [x, y, z], rpy_deg: [roll, pitch, yaw]} is needed\n"
+                  "problem.yaml:6: goal.quat_xyzw: a quaternion of zeros is no rotation; "
+                  "[0, 0, 0, 1] turns nothing\n"
+                  "problem.yaml:7: margin: must be 0 or more, not -1\n"
+                  "problem.yaml:8: unknown key \"simplfy\"; did you mean \"simplify\"?") +
+          topKeys +
+          "\nproblem.yaml:9: seed: a whole number from 0 to 2^64 - 1 is needed, not \"x\"\n"
+          "robot.yaml:3: unknown key \"unti\" in shapes[0]; did you mean \"unit\"? (known: "
+          "mesh, unit, up, at, rpy_deg, rpy, quat_xyzw, name)\n"
+          "robot.yaml:3: shapes[0].mesh: gone.stl: no such file");
+}
+
+/// Files with a letter changed, lost or doubled are read or refused, and nothing else.
+TEST_F(ProblemFaults, DamagedFilesAreRefusedInWords) {
+  const std::string whole =
+      head + poses +
+      "margin: 0.005\ntube: {position: 1e-3, rotation_deg: 1}\nplanner: {name: "
+      "RRT, time: 2, stop: time, params: {range: 0.6}}\nchecker:\n  edges: "
+      "discrete\n  resolution: 0.02\nseed: 7\n";
+  std::mt19937_64 random(testSeed(1));
+  int refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = whole;
+    for (int changes = 1 + static_cast<int>(random() % 3); changes > 0; --changes) {
+      const std::size_t at = random() % text.size();
+      switch (random() % 3) {
+        case 0:
+          text[at] = "{}[]:,-#&*!|>'\"%@ \n\t0aA\xff"[random() % 24];
+          break;
+        case 1:
+          text.erase(at, 1 + random() % 4);
+          break;
+        default:
+          text.insert(at, text.substr(random() % text.size(), 1 + random() % 4));
+      }
+    }
+    const std::string said = complaintOf(text);
+    refused += said != "no complaint";
+    ASSERT_FALSE(said.empty()) << text;
+  }
+  EXPECT_GT(refused, 1000);
+}
+
+TEST_F(ProblemFaults, HostileFilesEnd) {
+  EXPECT_THAT(complaintOf(std::string(100000, '[')), testing::StartsWith("problem.yaml:1: "));
+  EXPECT_THAT(complaintOf(std::string("format: \0x", 10) + "\n"),
+              testing::StartsWith("problem.yaml"));
+  EXPECT_THAT(complaintOf(std::string(200, '\xff')), testing::StartsWith("problem.yaml"));
+}
+
+}  // namespace
+}  // namespace corridor::test

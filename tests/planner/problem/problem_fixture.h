@@ -1,0 +1,76 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/problem/problem.h"
+
+namespace corridor::test {
+
+/// Tests that write small problems into a folder of their own, with a robot and a mesh beside them.
+class ProblemTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              ("corridor_" + std::string(info->test_suite_name()) + '_' + info->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    write("robot.yaml", robot3);
+    write("flat.yaml", robot2);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
+
+  Problem read(const std::string& text) const { return readProblem(write("problem.yaml", text)); }
+
+  /// What reading complains of, with the folder taken out.
+  std::string complaint(const std::filesystem::path& path) const {
+    try {
+      readProblem(path);
+    } catch (const InputError& error) {
+      std::string text = error.what();
+      const std::string prefix = folder_.string() + '/';
+      for (auto at = text.find(prefix); at != text.npos; at = text.find(prefix))
+        text.erase(at, prefix.size());
+      return text;
+    }
+    return "no complaint";
+  }
+  std::string complaintOf(const std::string& text) const {
+    return complaint(write("problem.yaml", text));
+  }
+  std::string complaintOfRobot(const std::string& text) const {
+    write("robot.yaml", text);
+    return complaintOf(head + poses);
+  }
+
+  static constexpr const char* robot3 =
+      "format: corridor-robot-1\nname: wedge\nrigid: SE3\nshapes: [{mesh: wedge.obj}]\n";
+  static constexpr const char* robot2 =
+      "format: corridor-robot-1\nrigid: SE2\nshapes: [{mesh: wedge.obj}]\n";
+  /// Lines 1 to 4.
+  inline static const std::string head =
+      "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  rock: {mesh: wedge.obj}\n";
+  inline static const std::string planarHead =
+      "format: corridor-problem-1\nrobot: flat.yaml\nworld:\n  rock: {mesh: wedge.obj}\n";
+  /// Lines 5 to 7.
+  inline static const std::string poses =
+      "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\nbounds: {at: [[-9, -9, -9], [9, 9, 9]]}\n";
+  inline static const std::string planarPoses =
+      "start: {at: [5, 0]}\ngoal: {at: [0, 5]}\nbounds: {at: [[-9, -9], [9, 9]]}\n";
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace corridor::test

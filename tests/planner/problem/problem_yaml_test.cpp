@@ -1,0 +1,238 @@
+#include <cmath>
+#include <numbers>
+
+#include "planner/problem/keys.h"
+#include "planner/problem/placement.h"
+#include "planner/problem/sha256.h"
+#include "tests/planner/problem/problem_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ProblemYaml : public ProblemTest {};
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Says every legal key of a spatial problem.
+const char* const everything = R"(format: corridor-problem-1
+robot: robot.yaml
+world:
+  rock: {mesh: wedge.obj, unit: cm, up: y, at: [1, 2, 3], rpy_deg: [0, 0, 90]}
+  stone: {mesh: wedge.obj, quat_xyzw: [0, 0, 1, 0]}
+start: {at: [5, 0, 0], rpy_deg: [10, 20, 30]}
+goal: {at: [0, 5, 0], quat_xyzw: [0, 0.6, 0, 0.8], within: {at: 0.05, angle_deg: 5}}
+bounds: {at: [[-9, -9, -9], [9, 8, 7]]}
+margin: 0.005
+tube: {position: 0.001, rotation_deg: 1}
+planner:
+  name: RRT
+  time: 2.5
+  stop: time
+  params:
+    range: 0.6
+    goal_bias: "0.1"
+sampler: gaussian
+simplify: false
+checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, fit: hull}
+seed: 18446744073709551615
+)";
+
+TEST_F(ProblemYaml, EveryKeyIsRead) {
+  const Problem p = read(everything);
+  EXPECT_EQ(p.space, RigidSpace::SE3);
+  ASSERT_EQ(p.robot.size(), 1u);
+  EXPECT_EQ(p.robot[0].name, "wedge");
+  EXPECT_EQ(p.robot[0].source.mesh.triangles.size(), 4u);
+  ASSERT_EQ(p.world.size(), 2u);
+  EXPECT_EQ(p.world[0].name, "rock");
+  EXPECT_EQ(p.world[1].name, "stone");
+  EXPECT_EQ(p.start.p, Vec3(5, 0, 0));
+  const Eigen::Quaterniond q = Eigen::AngleAxisd(30 * degree, Vec3::UnitZ()) *
+                               Eigen::AngleAxisd(20 * degree, Vec3::UnitY()) *
+                               Eigen::AngleAxisd(10 * degree, Vec3::UnitX());
+  EXPECT_LT((p.start.q.coeffs() - q.coeffs()).norm(), 1e-15);
+  EXPECT_EQ(p.goal.q.coeffs(), Eigen::Vector4d(0, 0.6, 0, 0.8));
+  ASSERT_TRUE(p.goalRegion);
+  EXPECT_EQ(p.goalRegion->position, 0.05);
+  EXPECT_DOUBLE_EQ(p.goalRegion->angle, 5 * degree);
+  EXPECT_FALSE(p.goalThreshold);
+  EXPECT_EQ(p.lower, Vec3(-9, -9, -9));
+  EXPECT_EQ(p.upper, Vec3(9, 8, 7));
+  EXPECT_EQ(p.margin, 0.005);
+  ASSERT_TRUE(p.tube);
+  EXPECT_EQ(p.tube->position, 0.001);
+  EXPECT_DOUBLE_EQ(p.tube->rotation, degree);
+  EXPECT_EQ(p.planner.name, "RRT");
+  EXPECT_EQ(p.planner.time, 2.5);
+  EXPECT_EQ(p.planner.stopAtFirst, false);
+  EXPECT_EQ(p.planner.params,
+            (std::map<std::string, std::string>{{"range", "0.6"}, {"goal_bias", "0.1"}}));
+  EXPECT_EQ(p.sampler, "gaussian");
+  EXPECT_FALSE(p.simplify);
+  EXPECT_EQ(p.checker.edges, "discrete");
+  EXPECT_EQ(p.checker.resolution, 0.02);
+  EXPECT_EQ(p.checker.tolerance, 1e-5);
+  EXPECT_EQ(p.checker.fit, "hull");
+  EXPECT_EQ(p.seed, 18446744073709551615u);
+  for (const std::string& key : problemKeys().at("").legal)
+    EXPECT_TRUE(p.lines.contains(key)) << key << " is missing in this test";
+}
+
+TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
+  const Problem p = read(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\n");
+  EXPECT_EQ(p.name, folder_.filename());
+  EXPECT_EQ(p.planner.name, "RRTConnect");
+  EXPECT_EQ(p.planner.time, 20);
+  EXPECT_FALSE(p.planner.stopAtFirst);
+  EXPECT_EQ(p.sampler, "uniform");
+  EXPECT_EQ(p.checker.edges, "certified");
+  EXPECT_EQ(p.margin, 0);
+  EXPECT_FALSE(p.tube);
+  EXPECT_TRUE(p.simplify);
+  EXPECT_EQ(p.seed, 1u);
+  EXPECT_EQ(p.rotationWeight, 1);  // of the quaternion angle: half a metre per radian of rotation
+  EXPECT_EQ(p.lower, Vec3(0, 0, 0));
+  EXPECT_EQ(p.upper, Vec3(5, 5, 3));
+  EXPECT_THAT(p.notes,
+              ElementsAre("bounds: those of the world, start and goal, since none are given"));
+  EXPECT_EQ(readProblem(folder_).digest, p.digest) << "the folder stands for its problem.yaml";
+}
+
+TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
+  const Problem p = read(everything);
+  EXPECT_EQ(p.lines.at("planner.name"), 12);
+  EXPECT_EQ(p.lines.at("planner.params.range"), 16);
+  EXPECT_EQ(p.lines.at("start"), 6);
+  EXPECT_EQ(p.lines.at("checker.edges"), 20);
+  const std::string file = (folder_ / "problem.yaml").string();
+  EXPECT_EQ(p.faultAt("planner.params.rnage", "no").str(), file + ":15: no");
+  EXPECT_EQ(p.faultAt("elsewhere.key", "no").str(), file + ": no");
+}
+
+TEST_F(ProblemYaml, MeshesArePlacedOnceInDouble) {
+  const Problem p = read(everything);
+  const auto& rock = p.world[0].source.mesh.vertices;
+  // (0, 2, 0) in cm, y up: (0, 0, 0.02); a quarter turn about z leaves it; then the shift.
+  EXPECT_EQ(rock[2], Vec3(1, 2, 3 + 0.01 * 2));
+  // (1, 0, 0) in cm: x goes to y, and not a last bit goes elsewhere.
+  EXPECT_EQ(rock[1], Vec3(1, 2 + 0.01, 3));
+  const auto& stone = p.world[1].source.mesh.vertices;
+  EXPECT_EQ(stone[1], Vec3(-1, 0, 0));
+  EXPECT_EQ(stone[3], Vec3(0, 0, 3));
+}
+
+TEST_F(ProblemYaml, PlanarPosesAndWrappedYaws) {
+  const std::string bounds = "bounds: {at: [[-9, -9], [9, 9]]}\n";
+  Problem p = read(planarHead + "start: {at: [5, 0], yaw_deg: 270}\ngoal: {at: [0, 5], yaw: -1}\n" +
+                   bounds);
+  EXPECT_EQ(p.space, RigidSpace::SE2);
+  EXPECT_EQ(p.robot[0].name, "flat") << "an unnamed robot is called by its file";
+  EXPECT_EQ(p.start.p, Vec3(5, 0, 0));
+  EXPECT_EQ(p.startYaw, -90 * degree);
+  EXPECT_EQ(p.goalYaw, -1);
+  EXPECT_DOUBLE_EQ(p.goal.q.z(), std::sin(-0.5));
+  EXPECT_EQ(p.rotationWeight, 0.5);
+  EXPECT_THAT(
+      p.notes,
+      ElementsAre("start.yaw_deg: 270 is read as -90, which is the same but for full turns"));
+  p = read(planarHead + "start: {at: [5, 0], yaw_deg: -180}\ngoal: {at: [0, 5], yaw: 10}\n" +
+           bounds);
+  EXPECT_EQ(p.startYaw, std::numbers::pi);
+  EXPECT_DOUBLE_EQ(p.goalYaw, 10 - 4 * std::numbers::pi);
+  EXPECT_EQ(p.notes.size(), 2u);
+}
+
+TEST_F(ProblemYaml, RobotOfSeveralShapesAboutItsCentroid) {
+  write("robot.yaml", R"(format: corridor-robot-1
+name: twins
+rigid: SE3
+shapes:
+  - {mesh: wedge.obj, name: left}
+  - {mesh: wedge.obj, at: [0, 0, 0]}
+  - {mesh: wedge.obj, at: [4, 0, 0]}
+reference: centroid
+weights: {rotation: 3}
+)");
+  const Problem p = read(head + poses);
+  ASSERT_EQ(p.robot.size(), 3u);
+  EXPECT_EQ(p.robot[0].name, "twins/left");
+  EXPECT_EQ(p.robot[1].name, "twins/2");
+  // Eight distinct vertices: the repeated shape does not count twice.
+  const Vec3 centroid(2.25, 0.5, 0.75);
+  EXPECT_EQ(p.robot[0].source.mesh.vertices[3], Vec3(0, 0, 3) - centroid);
+  EXPECT_EQ(p.robot[2].source.mesh.vertices[0], Vec3(4, 0, 0) - centroid);
+  EXPECT_EQ(p.rotationWeight, 6) << "3 metres per radian of rotation, twice the quaternion angle";
+  EXPECT_THAT(
+      p.notes,
+      ElementsAre("reference of twins: the centroid (2.25, 0.5, 0.75) of its distinct vertices"));
+}
+
+TEST_F(ProblemYaml, ReferencePointIsSubtracted) {
+  write("robot.yaml", std::string(robot3) + "reference: [1, 2, 3]\n");
+  EXPECT_EQ(read(head + poses).robot[0].source.mesh.vertices[3], Vec3(-1, -2, 0));
+  write("flat.yaml", std::string(robot2) + "reference: centroid\n");
+  EXPECT_EQ(read(planarHead + planarPoses).robot[0].source.mesh.vertices[3], Vec3(-0.25, -0.5, 3))
+      << "a planar robot keeps its height";
+}
+
+TEST_F(ProblemYaml, DigestIsThatOfAllFilesInOrder) {
+  const Problem p = read(head + poses);
+  const auto hashOf = [&](const std::string& name) {
+    std::ifstream stream(folder_ / name, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    Sha256 hash;
+    hash.update(bytes);
+    const auto digest = hash.finish();
+    return std::string(digest.begin(), digest.end());
+  };
+  const std::string wedge = hashOf("wedge.obj");
+  EXPECT_EQ(p.digest, sha256Hex(hashOf("problem.yaml") + hashOf("robot.yaml") + wedge + wedge));
+}
+
+TEST_F(ProblemYaml, FilesAreRelativeToTheFileThatNamesThem) {
+  write("robots/w/robot.yaml",
+        "format: corridor-robot-1\nrigid: SE3\nshapes: [{mesh: parts/w.obj}]\n");
+  write("robots/w/parts/w.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("problems/p/rock.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("problems/p/problem.yaml",
+        "format: corridor-problem-1\nrobot: ../../robots/w/robot.yaml\nworld: {rock: {mesh: "
+        "rock.obj}}\n" +
+            poses);
+  const Problem p = readProblem(folder_ / "problems/p");
+  EXPECT_EQ(p.name, "p");
+  EXPECT_EQ(p.robot[0].name, "w");
+}
+
+TEST(Placement, RotationsByDegreesAreExactWhereTheyCanBe) {
+  EXPECT_EQ(fromRpyDegrees({0, 0, 90}).R, (Mat3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished());
+  EXPECT_EQ(fromRpyDegrees({90, 0, 0}).R, (Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished());
+  EXPECT_EQ(fromRpyDegrees({0, 90, 0}).R, (Mat3() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished());
+  EXPECT_EQ(fromRpyDegrees({0, 0, -450}).R, fromRpyDegrees({0, 0, -90}).R);
+  EXPECT_EQ(fromRpyDegrees({180, 0, 0}).q.coeffs(), Eigen::Vector4d(1, 0, 0, 0));
+  const auto quarter = fromRpyDegrees({0, 0, 90}).q;
+  EXPECT_EQ(quarter.z(), quarter.w());
+}
+
+TEST(Placement, BothFormsOfARotationAgree) {
+  for (const Vec3& a : {Vec3(10, 20, 30), Vec3(-170, 80, 200), Vec3(90, 45, -135), Vec3(0, 0, 0)}) {
+    const Orientation degrees = fromRpyDegrees(a), radians = fromRpy(degree * a);
+    EXPECT_LT((degrees.R - degrees.q.toRotationMatrix()).norm(), 2e-15);
+    EXPECT_LT((degrees.R - radians.R).norm(), 2e-15);
+    EXPECT_LT((degrees.q.coeffs() - radians.q.coeffs()).norm(), 2e-15);
+  }
+}
+
+TEST(Placement, YawsWrapIntoTheHalfOpenInterval) {
+  EXPECT_EQ(wrappedYawDegrees(180), 180);
+  EXPECT_EQ(wrappedYawDegrees(-180), 180);
+  EXPECT_EQ(wrappedYawDegrees(540), 180);
+  EXPECT_EQ(wrappedYawDegrees(359), -1);
+  EXPECT_EQ(wrappedYaw(3), 3);
+  EXPECT_DOUBLE_EQ(wrappedYaw(4), 4 - 2 * std::numbers::pi);
+}
+
+}  // namespace
+}  // namespace corridor::test
