@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace corridor::app {
+
+/// Exit status (documented by --help and in the README): the same for all commands.
+enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3, kInterrupted = 130 };
+
+struct SolveArguments {
+  std::vector<std::string> problems;
+  std::optional<std::string> planner, sampler, edges;
+  std::optional<double> time, resolution;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> set;  ///< key=value
+  std::optional<std::string> output, picture;
+  bool json = false, quiet = false, noSimplify = false;
+};
+int solveCommand(const SolveArguments& arguments);
+
+struct VerifyArguments {
+  std::string problem, solution;
+  bool json = false, quiet = false;
+};
+int verifyCommand(const VerifyArguments& arguments);
+
+struct InspectArguments {
+  std::string file;
+  std::optional<std::string> unit, up;  ///< of a mesh file
+  bool json = false;
+};
+int inspectCommand(const InspectArguments& arguments);
+
+}  // namespace corridor::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "collision/core/transform.h"
+
+namespace corridor::app {
+
+enum class Tone { plain, good, bad };
+
+/// Results for people on stdout: `key: value` lines; in colour on a terminal only.
+class Lines {
+ public:
+  explicit Lines(bool quiet) : quiet_(quiet) {}
+  void line(std::string_view key, const std::string& value, Tone tone = Tone::plain) const;
+  void blank() const;
+
+ private:
+  bool quiet_;
+};
+
+/// To stderr, in front of results that go to stdout.
+void warn(const std::string& text);
+
+/// For people: four significant digits.
+std::string rounded(double value);
+std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
+/// Digits in groups of three: 12,345.
+std::string grouped(std::uint64_t count);
+/// "1 edge", "2 edges"
+std::string counted(std::uint64_t count, const std::string& noun);
+
+}  // namespace corridor::app

@@ -1,0 +1,180 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/core/error.h"
+#include "planner/app/commands.h"
+#include "planner/app/output.h"
+#include "planner/problem/problem.h"
+#include "planner/solve/solution.h"
+#include "planner/solve/solve.h"
+#include "planner/view/svg_picture.h"
+
+namespace corridor::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+// The one thing that a signal handler can reach.
+std::atomic<bool> interruptAsked = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// Asks to stop at the first SIGINT; a second one ends the program as always.
+void listenForInterrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interruptAsked = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+/// What the command line says over what the problem says. @returns which keys, and by which option.
+std::map<std::string, std::string> applyArguments(const SolveArguments& a, Problem& problem) {
+  std::map<std::string, std::string> set;
+  if (a.planner && *a.planner != problem.planner.name) {
+    problem.planner.name = *a.planner;
+    problem.planner.params.clear();  // they were another planner's
+    set["planner.name"] = "--planner";
+  }
+  if (a.sampler) {
+    problem.sampler = *a.sampler;
+    set["sampler"] = "--sampler";
+  }
+  for (const std::string& assignment : a.set) {
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(Fault{"--set", 0, "key=value is needed, not \"" + assignment + "\""});
+    const std::string key = assignment.substr(0, equals);
+    problem.planner.params[key] = assignment.substr(equals + 1);
+    set["planner.params." + key] = "--set";
+  }
+  if (a.time) problem.planner.time = *a.time;
+  if (a.seed) problem.seed = *a.seed;
+  if (a.edges) problem.checker.edges = *a.edges;
+  if (a.resolution) problem.checker.resolution = *a.resolution;
+  if (a.noSimplify) problem.simplify = false;
+  return set;
+}
+
+const char* nameOf(SolveOutcome outcome) {
+  switch (outcome) {
+    case SolveOutcome::solved: return "solved";
+    case SolveOutcome::notFound: return "not found";
+    case SolveOutcome::approximate: return "approximate only";
+    case SolveOutcome::interrupted: return "interrupted";
+  }
+  return "";
+}
+
+void print(const SolveReport& r, const std::string& problem, const SolveArguments& a) {
+  const bool solved = r.outcome == SolveOutcome::solved;
+  const Lines out(a.quiet);
+  out.line("problem", problem);
+  out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);
+  if (!solved) out.line("why", r.why);
+  out.line("planner", r.planner);
+  out.line("seed", std::to_string(r.seed));
+  out.line("time", rounded(r.time) + " s, of it " + rounded(r.planningTime) + " s until the planner was done");
+  out.line("states checked", grouped(r.counters.states));
+  out.line("edges checked", grouped(r.counters.edges));
+  out.line("undecided", grouped(r.counters.undecided));
+  out.line("box tests N_v", grouped(r.counters.boxTests));
+  out.line("triangle tests N_p", grouped(r.counters.triangleTests));
+  if (!solved) return;
+  out.line("path length", rounded(r.length.metres) + " m, turning " + rounded(r.length.radians) + " rad");
+  out.line("path states", grouped(r.path.size()));
+  out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")", r.certified ? Tone::good : Tone::bad);
+  if (a.output) out.line("solution", *a.output);
+  if (a.picture) out.line("picture", *a.picture);
+}
+
+ordered_json jsonOf(const SolveReport& r, const std::string& problem) {
+  ordered_json j = {{"problem", problem},
+                    {"result", nameOf(r.outcome)},
+                    {"planner", r.planner},
+                    {"seed", r.seed},
+                    {"repeats", r.repeats},
+                    {"time_s", r.time},
+                    {"planning_time_s", r.planningTime},
+                    {"states_checked", r.counters.states},
+                    {"edges_checked", r.counters.edges},
+                    {"undecided", r.counters.undecided},
+                    {"box_tests", r.counters.boxTests},
+                    {"triangle_tests", r.counters.triangleTests},
+                    {"checker", r.checker},
+                    {"certified", r.certified},
+                    {"tolerance_m", r.motion.tolerance},
+                    {"margin_m", r.motion.margin},
+                    {"tube", {{"position_m", r.motion.tube.position}, {"rotation_rad", r.motion.tube.rotation}}}};
+  if (r.outcome == SolveOutcome::solved) {
+    j["path"] = {{"states", r.path.size()},
+                 {"length_m", r.length.metres},
+                 {"rotation_rad", r.length.radians},
+                 {"raw_states", r.rawStates},
+                 {"version", r.version}};
+  } else {
+    j["why"] = r.why;
+  }
+  return j;
+}
+
+SolveReport solveOne(const std::string& file, const SolveArguments& a) {
+  Problem problem = readProblem(file);
+  SolveOptions options;
+  options.setElsewhere = applyArguments(a, problem);
+  options.interrupted = &interruptAsked;
+  const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
+  if (show) {
+    options.progress = [&](const SolveProgress& p) {
+      std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.name.c_str(), problem.planner.name.c_str(), p.seconds,
+                   problem.planner.time, counted(p.edges, "edge").c_str());
+    };
+  }
+  SolveReport report = solveProblem(problem, options);
+  if (show) std::fputs("\r\033[K", stderr);
+  if (report.outcome == SolveOutcome::solved) {
+    if (a.output) writeSolution(makeSolution(problem, report), *a.output);
+    if (a.picture) writeWhole(*a.picture, svgPicture(problem, report.path));
+  }
+  return report;
+}
+
+}  // namespace
+
+int solveCommand(const SolveArguments& a) {
+  if (a.problems.size() > 1 && (a.output || a.picture))
+    throw InputError(Fault{a.output ? "--output" : "--picture", 0, "names one file, but there are " + counted(a.problems.size(), "problem")});
+  listenForInterrupts();
+  int status = kDone;
+  ordered_json results = ordered_json::array();
+  for (const std::string& file : a.problems) {
+    try {
+      const SolveReport report = solveOne(file, a);
+      if (a.json) {
+        results.push_back(jsonOf(report, file));
+      } else {
+        if (&file != &a.problems.front()) Lines(a.quiet).blank();
+        print(report, file, a);
+      }
+      if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNo});
+    } catch (const InputError& error) {
+      if (a.problems.size() == 1) throw;
+      std::cerr << error.what() << '\n';  // the others may be sound
+      if (a.json) results.push_back({{"problem", file}, {"result", "bad input"}, {"why", error.what()}});
+      status = kBadInput;
+    }
+    if (interruptAsked) {
+      status = kInterrupted;
+      break;
+    }
+  }
+  if (a.json && !a.quiet) std::cout << ordered_json{{"format", "corridor-solve-report-1"}, {"problems", results}}.dump(2) << '\n';
+  return status;
+}
+
+}  // namespace corridor::app

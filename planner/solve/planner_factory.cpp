@@ -1,0 +1,229 @@
+#include "planner/solve/planner_factory.h"
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <type_traits>
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/samplers/BridgeTestValidStateSampler.h>
+#include <ompl/base/samplers/GaussianValidStateSampler.h>
+#include <ompl/base/samplers/ObstacleBasedValidStateSampler.h>
+#include <ompl/base/samplers/UniformValidStateSampler.h>
+#include <ompl/geometric/planners/AnytimePathShortening.h>
+#include <ompl/geometric/planners/cforest/CForest.h>
+#include <ompl/geometric/planners/est/BiEST.h>
+#include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/est/ProjEST.h>
+#include <ompl/geometric/planners/fmt/BFMT.h>
+#include <ompl/geometric/planners/fmt/FMT.h>
+#include <ompl/geometric/planners/informedtrees/ABITstar.h>
+#include <ompl/geometric/planners/informedtrees/AITstar.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
+#include <ompl/geometric/planners/kpiece/KPIECE1.h>
+#include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
+#include <ompl/geometric/planners/pdst/PDST.h>
+#include <ompl/geometric/planners/prm/LazyPRM.h>
+#include <ompl/geometric/planners/prm/LazyPRMstar.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/prm/PRMstar.h>
+#include <ompl/geometric/planners/prm/SPARS.h>
+#include <ompl/geometric/planners/prm/SPARStwo.h>
+#include <ompl/geometric/planners/rlrt/BiRLRT.h>
+#include <ompl/geometric/planners/rlrt/RLRT.h>
+#include <ompl/geometric/planners/rrt/BiTRRT.h>
+#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
+#include <ompl/geometric/planners/rrt/LBTRRT.h>
+#include <ompl/geometric/planners/rrt/LazyLBTRRT.h>
+#include <ompl/geometric/planners/rrt/LazyRRT.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTXstatic.h>
+#include <ompl/geometric/planners/rrt/RRTsharp.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/geometric/planners/rrt/SORRTstar.h>
+#include <ompl/geometric/planners/rrt/TRRT.h>
+#include <ompl/geometric/planners/sbl/SBL.h>
+#include <ompl/geometric/planners/sst/SST.h>
+#include <ompl/geometric/planners/stride/STRIDE.h>
+
+#include "collision/core/error.h"
+#include "planner/problem/nearest.h"
+
+namespace corridor {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+namespace {
+
+struct Entry {
+  PlannerInfo info;
+  std::function<ob::PlannerPtr(const ob::SpaceInformationPtr&)> make;
+};
+
+template <class Planner>
+Entry entry(const char* name, const char* about, bool repeats = true) {
+  return {{name, about, repeats},
+          [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr { return std::make_shared<Planner>(si); }};
+}
+
+// Left out: planners that need more than a problem says (TSRRT, VFRRT, XXL, QRRT, Lightning, Thunder), and pRRT and pSBL, which
+// write to their trees from many threads without a lock around all of it.
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = {
+      entry<og::RRTConnect>("RRTConnect", "two trees that reach for each other; the default"),
+      entry<og::RRT>("RRT", "one tree"),
+      entry<og::LazyRRT>("LazyRRT", "one tree, edges checked when needed"),
+      entry<og::TRRT>("TRRT", "one tree, prefers low cost"),
+      entry<og::BiTRRT>("BiTRRT", "two trees, prefer low cost"),
+      entry<og::RLRT>("RLRT", "one tree of long edges in random directions"),
+      entry<og::BiRLRT>("BiRLRT", "two trees of long edges in random directions"),
+      entry<og::EST>("EST", "one tree, grows where it is sparse"),
+      entry<og::BiEST>("BiEST", "two trees, grow where they are sparse"),
+      entry<og::ProjEST>("ProjEST", "EST on a grid of positions"),
+      entry<og::SBL>("SBL", "two trees on a grid of positions, edges checked when needed"),
+      entry<og::KPIECE1>("KPIECE1", "one tree, grows at the border of its cells"),
+      entry<og::BKPIECE1>("BKPIECE1", "two trees, grow at the border of their cells"),
+      entry<og::LBKPIECE1>("LBKPIECE1", "BKPIECE1, edges checked when needed"),
+      entry<og::STRIDE>("STRIDE", "one tree, density by a nearest-neighbour structure"),
+      entry<og::PDST>("PDST", "subdivides the space of positions"),
+      entry<og::PRM>("PRM", "roadmap", false),
+      entry<og::LazyPRM>("LazyPRM", "roadmap, edges checked when needed"),
+      entry<og::SPARS>("SPARS", "sparse roadmap", false),
+      entry<og::SPARStwo>("SPARStwo", "sparse roadmap", false),
+      entry<og::RRTstar>("RRTstar", "optimises: one tree, rewired"),
+      entry<og::InformedRRTstar>("InformedRRTstar", "optimises: RRTstar within the ellipse that can help"),
+      entry<og::SORRTstar>("SORRTstar", "optimises: RRTstar with ordered samples"),
+      entry<og::RRTsharp>("RRTsharp", "optimises: RRTstar that replans"),
+      entry<og::RRTXstatic>("RRTXstatic", "optimises: RRTsharp with lazy replanning"),
+      entry<og::LBTRRT>("LBTRRT", "optimises to a factor, checks fewer edges"),
+      entry<og::LazyLBTRRT>("LazyLBTRRT", "optimises to a factor, edges checked when needed"),
+      entry<og::PRMstar>("PRMstar", "optimises: roadmap", false),
+      entry<og::LazyPRMstar>("LazyPRMstar", "optimises: roadmap, edges checked when needed"),
+      entry<og::FMT>("FMT", "optimises over a fixed number of samples"),
+      entry<og::BFMT>("BFMT", "optimises over a fixed number of samples, from both ends"),
+      entry<og::BITstar>("BITstar", "optimises: batches of samples, best edges first"),
+      entry<og::ABITstar>("ABITstar", "optimises: BITstar, quick at first"),
+      entry<og::AITstar>("AITstar", "optimises: BITstar with an adaptive estimate"),
+      entry<og::SST>("SST", "optimises: a sparse tree"),
+      entry<og::CForest>("CForest", "optimises: RRTstar in many threads", false),
+      entry<og::AnytimePathShortening>("AnytimePathShortening", "optimises: planners in threads, paths joined", false),
+  };
+  return all;
+}
+
+std::vector<std::string> plannerNames() {
+  std::vector<std::string> names;
+  for (const PlannerInfo& info : knownPlanners()) names.push_back(info.name);
+  return names;
+}
+
+template <class T>
+bool parsesAs(const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  if constexpr (std::is_floating_point_v<T>) return std::isfinite(value);
+  return true;
+}
+
+/// What a parameter takes, where `text` isn't that. OMPL's own conversion takes "0.6abc" for a string that it then throws at.
+std::optional<std::string> complaint(ob::GenericParam& parameter, const std::string& text) {
+  const auto is = [&]<class T>(T) { return dynamic_cast<ob::SpecificParam<T>*>(&parameter) != nullptr; };
+  if (is(bool{})) {
+    if (text == "0" || text == "1") return std::nullopt;
+    return "neither true nor false";
+  }
+  if (is(double{}) || is(float{})) {
+    if (parsesAs<double>(text)) return std::nullopt;
+    return "not a number";
+  }
+  if (is(int{})) {
+    if (parsesAs<int>(text)) return std::nullopt;
+    return "not a whole number";
+  }
+  if (is(0u) || is(0ul)) {
+    if (parsesAs<unsigned>(text)) return std::nullopt;
+    return "not a whole number of at least 0";
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> parameterNames(const ob::ParamSet& set) {
+  std::vector<std::string> names;
+  set.getParamNames(names);
+  return names;
+}
+
+}  // namespace
+
+const std::vector<PlannerInfo>& knownPlanners() {
+  static const std::vector<PlannerInfo> infos = [] {
+    std::vector<PlannerInfo> list;
+    for (const Entry& entry : entries()) list.push_back(entry.info);
+    return list;
+  }();
+  return infos;
+}
+
+ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string& name,
+                           const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt) {
+  ob::PlannerPtr planner;
+  for (const Entry& entry : entries())
+    if (entry.info.name == name) planner = entry.make(si);
+  if (!planner) {
+    throw InputError(Fault{nameAt.file, nameAt.line,
+                           "unknown planner " + corridor::quoted(name) + didYouMean(name, plannerNames()) +
+                               "; there are: " + joined(plannerNames())});
+  }
+  std::vector<Fault> faults;
+  for (const PlannerParameter& given : parameters) {
+    ob::ParamSet& set = !planner->params().hasParam(given.key) && si->params().hasParam(given.key) ? si->params()
+                                                                                                  : planner->params();
+    if (!set.hasParam(given.key)) {
+      const std::vector<std::string> names = parameterNames(planner->params());
+      faults.push_back({given.file, given.line,
+                        name + " has no parameter " + corridor::quoted(given.key) + didYouMean(given.key, names) +
+                            "; it has: " + joined(names)});
+      continue;
+    }
+    const std::string text = given.value == "true" ? "1" : given.value == "false" ? "0" : given.value;
+    std::optional<std::string> wrong = complaint(*set.getParam(given.key), text);
+    try {
+      if (!wrong && !set.setParam(given.key, text)) wrong = "not a value of its type";
+    } catch (const std::exception& error) {
+      wrong = error.what();
+    }
+    if (wrong) faults.push_back({given.file, given.line, name + "'s parameter " + given.key + ": " + corridor::quoted(given.value) + " is " + *wrong});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  return planner;
+}
+
+void setValidStateSampler(ob::SpaceInformation& si, const std::string& name, const PlannerParameter& nameAt) {
+  const auto use = [&]<class Sampler>(std::type_identity<Sampler>) {
+    si.setValidStateSamplerAllocator(
+        [](const ob::SpaceInformation* space) -> ob::ValidStateSamplerPtr { return std::make_shared<Sampler>(space); });
+  };
+  if (name == "uniform") {
+    use(std::type_identity<ob::UniformValidStateSampler>{});
+  } else if (name == "gaussian") {
+    use(std::type_identity<ob::GaussianValidStateSampler>{});
+  } else if (name == "obstacle_based") {
+    use(std::type_identity<ob::ObstacleBasedValidStateSampler>{});
+  } else if (name == "bridge_test") {
+    use(std::type_identity<ob::BridgeTestValidStateSampler>{});
+  } else {
+    const std::vector<std::string> names = {"uniform", "gaussian", "obstacle_based", "bridge_test"};
+    const std::string what = name == "max_clearance"
+                                 ? "sampler max_clearance needs a clearance, which isn't computed yet"
+                                 : "unknown sampler " + corridor::quoted(name) + didYouMean(name, names);
+    throw InputError(Fault{nameAt.file, nameAt.line, what + "; there are: " + joined(names)});
+  }
+}
+
+}  // namespace corridor

@@ -1,0 +1,254 @@
+#include "planner/solve/solve.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/base/objectives/MechanicalWorkOptimizationObjective.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include "collision/core/error.h"
+#include "planner/checker/motion_validators.h"
+#include "planner/checker/problem_scene.h"
+#include "planner/checker/rigid_state_space.h"
+#include "planner/checker/state_validity_checkers.h"
+#include "planner/problem/nearest.h"
+#include "planner/problem/yaml_reader.h"
+#include "planner/solve/endpoint_help.h"
+#include "planner/solve/goal_region.h"
+#include "planner/solve/planner_factory.h"
+
+namespace corridor {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+namespace {
+
+/// How many states of a goal region planners get; those with an informed sampler keep an ellipse for each.
+constexpr std::size_t kGoalSamples = 32;
+/// Of planner.time: what simplifying gets where the planner used all of it.
+constexpr double kSimplifyShare = 0.05;
+constexpr double kProgressPeriod = 0.1;  // s
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A problem on its way through OMPL.
+class Solve {
+ public:
+  Solve(const Problem& problem, const SolveOptions& options)
+      : problem_(problem),
+        options_(options),
+        scene_(makeScene(problem)),
+        checker_(scene_, problem.space, problem.lower, problem.upper, motionOptions(problem, scene_)) {
+    report_.motion = checker_.options();
+    report_.seed = problem.seed;
+    report_.planner = problem.planner.name;
+    report_.checker = discrete() ? "discrete, resolution " + shortest(problem.checker.resolution) : "certified";
+  }
+
+  SolveReport run();
+
+ private:
+  bool discrete() const { return problem_.checker.edges == "discrete"; }
+  PlannerParameter parameterAt(const std::string& place, const std::string& key = "", const std::string& value = "") const;
+  bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
+  void checkEnds();
+  void setUpSpace();
+  void setUpPlanner();
+  void setUpGoal();
+  void setUpObjective();
+  void tellProgress();
+  void plan();
+  void finish();
+  std::string whyNotFound(ob::PlannerStatus status) const;
+
+  const Problem& problem_;
+  const SolveOptions& options_;
+  Clock clock_;
+  Scene scene_;
+  RigidChecker checker_;
+  std::vector<RigidState> goalSamples_;
+  ob::SpaceInformationPtr si_;
+  std::shared_ptr<RigidMotionValidator> validator_;
+  ob::ProblemDefinitionPtr definition_;
+  ob::PlannerPtr planner_;
+  std::mutex progressMutex_;
+  double progressTold_ = 0;
+  SolveReport report_;
+};
+
+PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key, const std::string& value) const {
+  const auto elsewhere = options_.setElsewhere.find(place);
+  if (elsewhere != options_.setElsewhere.end()) return {key, value, elsewhere->second, 0};
+  const Fault at = problem_.faultAt(place, "");
+  return {key, value, at.file, at.line};
+}
+
+void Solve::checkEnds() {
+  std::vector<Fault> faults;
+  if (const auto why = whyNotFree("start", startState(problem_), checker_)) faults.push_back(problem_.faultAt("start", *why));
+  if (problem_.goalRegion) goalSamples_ = sampleGoalRegion(problem_, checker_, kGoalSamples);
+  if (goalSamples_.empty())
+    if (const auto why = whyNotFree("goal", goalState(problem_), checker_))
+      faults.push_back(problem_.faultAt("goal", problem_.goalRegion ? "no free state was found within the goal; its middle: " + *why : *why));
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+void Solve::setUpSpace() {
+  const auto space = makeStateSpace(problem_.space, problem_.lower, problem_.upper, problem_.rotationWeight);
+  space->setLongestValidSegmentFraction(problem_.checker.resolution);
+  si_ = std::make_shared<ob::SpaceInformation>(space);
+  if (discrete()) {
+    si_->setStateValidityChecker(std::make_shared<ExactStateValidityChecker>(si_, checker_));
+    validator_ = std::make_shared<DiscreteMotionValidator>(si_, checker_);
+  } else {
+    si_->setStateValidityChecker(std::make_shared<CertifiedStateValidityChecker>(si_, checker_));
+    validator_ = std::make_shared<CertifiedMotionValidator>(si_, checker_);
+  }
+  si_->setMotionValidator(validator_);
+  setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler"));
+  si_->setup();
+}
+
+void Solve::setUpPlanner() {
+  std::vector<PlannerParameter> parameters;
+  for (const auto& [key, value] : problem_.planner.params)
+    parameters.push_back(parameterAt("planner.params." + key, key, value));
+  planner_ = makePlanner(si_, problem_.planner.name, parameters, parameterAt("planner.name"));
+  for (const PlannerInfo& info : knownPlanners())
+    if (info.name == problem_.planner.name) report_.repeats = info.repeats;
+}
+
+void Solve::setUpGoal() {
+  definition_ = std::make_shared<ob::ProblemDefinition>(si_);
+  ob::ScopedState<> start(si_), goal(si_);
+  writeState(problem_.space, startState(problem_), start.get());
+  writeState(problem_.space, goalState(problem_), goal.get());
+  definition_->addStartState(start);
+  if (problem_.goalRegion)
+    definition_->setGoal(std::make_shared<RigidGoalRegion>(si_, problem_, goalSamples_));
+  else
+    definition_->setGoalState(goal, problem_.goalThreshold.value_or(std::numeric_limits<double>::epsilon()));
+}
+
+void Solve::setUpObjective() {
+  const std::string name = problem_.objective.value_or("");
+  const bool optimises = planner_->getSpecs().optimizingPaths;
+  const bool first = problem_.planner.stopAtFirst.value_or(!optimises);
+  ob::OptimizationObjectivePtr objective;
+  if (name == "mechanical_work") {
+    objective = std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
+  } else if (name == "max_min_clearance") {
+    throw InputError(problem_.faultAt("objective", "objective max_min_clearance needs a clearance, which isn't computed yet; there are: length, mechanical_work"));
+  } else if (name == "length" || optimises) {
+    objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+  }
+  if (!objective) return;  // planners that don't optimise may have their own, TRRT for one
+  objective->setCostThreshold(first ? objective->infiniteCost() : ob::Cost(problem_.objectiveThreshold));
+  definition_->setOptimizationObjective(objective);
+}
+
+void Solve::tellProgress() {
+  if (!options_.progress) return;
+  const std::unique_lock lock(progressMutex_, std::try_to_lock);
+  if (!lock || clock_.seconds() < progressTold_ + kProgressPeriod) return;
+  progressTold_ = clock_.seconds();
+  options_.progress({progressTold_, validator_->checkedMotions()});
+}
+
+std::string Solve::whyNotFound(ob::PlannerStatus status) const {
+  const Counters counters = checker_.counters();
+  std::string text;
+  switch (static_cast<ob::PlannerStatus::StatusType>(status)) {
+    case ob::PlannerStatus::INVALID_START: return "no valid start for " + problem_.planner.name;
+    case ob::PlannerStatus::INVALID_GOAL: return "no valid goal for " + problem_.planner.name;
+    case ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE: return problem_.planner.name + " can't use this kind of goal";
+    case ob::PlannerStatus::CRASH: return problem_.planner.name + " crashed";
+    case ob::PlannerStatus::APPROXIMATE_SOLUTION:
+      text = "only a path that ends " + shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) + " from the goal";
+      break;
+    default:
+      text = clock_.seconds() < problem_.planner.time ? problem_.planner.name + " gave up before the time ran out" : "nothing found in the time";
+  }
+  if (counters.undecided > 0)
+    text += "; " + std::to_string(counters.undecided) + " motions were too close to call at a tolerance of " + shortest(checker_.options().tolerance) + " m";
+  return text + "; more time, another planner or seed may help";
+}
+
+void Solve::plan() {
+  const double until = problem_.planner.time;
+  const ob::PlannerTerminationCondition stop([this, until] {
+    tellProgress();
+    return clock_.seconds() >= until || interrupted();
+  });
+  planner_->setProblemDefinition(definition_);
+  planner_->setup();
+  const ob::PlannerStatus status = planner_->solve(stop);
+  report_.planningTime = clock_.seconds();
+  if (interrupted()) {
+    report_.outcome = SolveOutcome::interrupted;
+    report_.why = "interrupted";
+  } else if (status == ob::PlannerStatus::EXACT_SOLUTION && definition_->hasExactSolution()) {
+    finish();
+  } else {
+    report_.outcome = status == ob::PlannerStatus::APPROXIMATE_SOLUTION ? SolveOutcome::approximate : SolveOutcome::notFound;
+    report_.why = whyNotFound(status);
+  }
+}
+
+void Solve::finish() {
+  og::PathGeometric path = *definition_->getSolutionPath()->as<og::PathGeometric>();
+  report_.rawStates = path.getStateCount();
+  std::vector<Path> versions;
+  if (problem_.simplify) {
+    const double until = std::max(problem_.planner.time, clock_.seconds() + kSimplifyShare * problem_.planner.time);
+    versions = simplifiedVersions(si_, problem_.space, path, [&] { return clock_.seconds() >= until || interrupted(); });
+  } else {
+    versions = {readPath(problem_.space, path)};
+  }
+  for (std::size_t i = versions.size(); i-- > 0 && report_.outcome != SolveOutcome::solved;) {
+    Path states = withShortTurns(problem_.space, versions[i]);
+    if (!discrete() && !certifiedPath(checker_, states)) continue;
+    report_.outcome = SolveOutcome::solved;
+    report_.certified = !discrete();
+    report_.version = static_cast<int>(i);
+    report_.length = lengthOf(problem_.space, states);
+    report_.path = std::move(states);
+  }
+  if (report_.outcome != SolveOutcome::solved) report_.why = "a path was found, but no version of it could be certified as a whole";
+}
+
+SolveReport Solve::run() {
+  ompl::msg::noOutputHandler();  // what users need to know is in the report
+  ompl::RNG::setSeed(problem_.seed);
+  setUpSpace();
+  setUpPlanner();  // before the checks of start and goal: bad names cost no time
+  checkEnds();
+  setUpGoal();
+  setUpObjective();
+  plan();
+  report_.time = clock_.seconds();
+  report_.counters = checker_.counters();
+  return report_;
+}
+
+}  // namespace
+
+SolveReport solveProblem(const Problem& problem, const SolveOptions& options) { return Solve(problem, options).run(); }
+
+}  // namespace corridor

@@ -1,0 +1,218 @@
+#include "planner/view/svg_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+
+#include "planner/view/projection.h"
+
+namespace corridor {
+namespace {
+
+using view::Camera;
+using view::Corners;
+using view::DepthBuffer;
+
+constexpr double kWidth = 1000, kBorder = 20;  // of the picture, pixels
+constexpr double kPiece = 70;                  // pixels: larger triangles are cut, so that they can be sorted by depth
+constexpr int kGhosts = 14;                    // robots drawn between start and goal
+constexpr std::size_t kWorldLimit = 220'000, kGhostLimit = 9'000;  // bytes
+constexpr int kShades = 8;
+
+/// A triangle of the picture.
+struct Face {
+  Corners corners;
+  int shade = 0;  ///< 0 dark … kShades − 1 light
+  double depth() const { return corners[0].z() + corners[1].z() + corners[2].z(); }
+};
+
+/// Triangles once each: many files have both sides of every face.
+std::vector<std::array<Vec3, 3>> distinctTriangles(const std::vector<ProblemMesh>& meshes) {
+  std::set<std::array<std::array<double, 3>, 3>> seen;
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (const ProblemMesh& mesh : meshes)
+    for (std::size_t t = 0; t < mesh.source.mesh.triangles.size(); ++t) {
+      std::array<std::array<double, 3>, 3> key;
+      std::array<Vec3, 3> triangle;
+      for (int i = 0; i < 3; ++i) {
+        triangle[i] = mesh.source.mesh.corner(t, i);
+        key[i] = {triangle[i].x(), triangle[i].y(), triangle[i].z()};
+      }
+      std::sort(key.begin(), key.end());
+      if (seen.insert(key).second) triangles.push_back(triangle);
+    }
+  return triangles;
+}
+
+Face makeFace(const Camera& camera, const std::array<Vec3, 3>& triangle) {
+  Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
+  if (normal.dot(camera.towardsViewer()) < 0) normal = -normal;
+  const double light = std::max(0.0, normal.dot(Vec3(0.35, -0.45, 0.82)));
+  Face face{{camera.project(triangle[0]), camera.project(triangle[1]), camera.project(triangle[2])}, 0};
+  face.shade = std::clamp(static_cast<int>((0.15 + 0.85 * light) * kShades), 0, kShades - 1);
+  return face;
+}
+
+/// Halves the longest edge until it is short in the picture.
+void cut(const Face& face, std::vector<Face>& pieces) {
+  int longest = 0;
+  double length = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double l = (face.corners[(i + 1) % 3] - face.corners[i]).head<2>().norm();
+    if (l > length) length = l, longest = i;
+  }
+  if (!(length > kPiece)) {
+    pieces.push_back(face);
+    return;
+  }
+  const int next = (longest + 1) % 3;
+  const Vec3 middle = (face.corners[longest] + face.corners[next]) / 2;
+  Face first = face, second = face;
+  first.corners[next] = middle;
+  second.corners[longest] = middle;
+  cut(first, pieces);
+  cut(second, pieces);
+}
+
+/// Those with more than `least` visible pixels, far ones first.
+std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, int least) {
+  DepthBuffer buffer(camera.width(), camera.height(), 1);
+  for (std::size_t i = 0; i < faces.size(); ++i) buffer.draw(faces[i].corners, static_cast<int>(i));
+  const std::vector<int> pixels = buffer.pixelsOf(static_cast<int>(faces.size()));
+  std::vector<Face> kept;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (pixels[i] > least) kept.push_back(faces[i]);
+  std::sort(kept.begin(), kept.end(), [](const Face& a, const Face& b) { return a.depth() < b.depth(); });
+  return kept;
+}
+
+/// Paths of whole pixels, neighbours of one shade together.
+std::string draw(const std::vector<Face>& faces, char palette) {
+  std::string svg;
+  int shade = -1;
+  for (const Face& face : faces) {
+    if (face.shade != shade) {
+      if (shade >= 0) svg += "\"/>\n";
+      shade = face.shade;
+      svg += std::string("<path class=\"") + palette + std::to_string(shade) + "\" d=\"";
+    }
+    long x[3], y[3];
+    for (int i = 0; i < 3; ++i) {
+      x[i] = std::lround(face.corners[i].x());
+      y[i] = std::lround(face.corners[i].y());
+    }
+    char text[96];
+    std::snprintf(text, sizeof text, "M%ld %ldl%ld %ld %ld %ldz", x[0], y[0], x[1] - x[0], y[1] - y[0], x[2] - x[1], y[2] - y[1]);
+    svg += text;
+  }
+  return shade >= 0 ? svg + "\"/>\n" : svg;
+}
+
+/// As `draw`, leaving out what is hardly seen until the text is short enough.
+std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, char palette, std::size_t limit) {
+  for (int least = 0;; least = 2 * least + 1) {
+    std::string svg = draw(visible(camera, faces, least), palette);
+    if (svg.size() <= limit || least > 2000) return svg;
+  }
+}
+
+/// Evenly spaced along the way, ends included; rotation counts as much as it moves the robot's rim.
+Path poses(const Problem& problem, const Path& path, double reach, int count) {
+  std::vector<double> at{0};
+  for (std::size_t i = 1; i < path.size(); ++i)
+    at.push_back(at.back() + distance(problem.space, problem.space == RigidSpace::SE3 ? 2 * reach : reach, path[i - 1], path[i]));
+  Path chosen{path.front()};
+  for (int k = 1; k < count; ++k) {
+    const double s = at.back() * k / count;
+    const auto i = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), s) - at.begin());
+    if (i == 0 || i >= path.size()) continue;
+    chosen.push_back(interpolate(problem.space, path[i - 1], path[i], (s - at[i - 1]) / (at[i] - at[i - 1])));
+  }
+  chosen.push_back(path.back());
+  return chosen;
+}
+
+std::string palette(char name, const Vec3& dark, const Vec3& light) {
+  std::string css;
+  for (int i = 0; i < kShades; ++i) {
+    const Vec3 c = dark + (light - dark) * i / (kShades - 1);
+    char text[96];
+    std::snprintf(text, sizeof text, ".%c%d{fill:#%02x%02x%02x;stroke:#%02x%02x%02x}\n", name, i, int(c.x()), int(c.y()), int(c.z()),
+                  int(c.x()), int(c.y()), int(c.z()));
+    css += text;
+  }
+  return css;
+}
+
+std::string polyline(const Camera& camera, const Path& path) {
+  std::string points;
+  for (const RigidState& state : path) {
+    const Vec3 p = camera.project(state.pose.p);
+    char text[48];
+    std::snprintf(text, sizeof text, "%.1f,%.1f ", p.x(), p.y());
+    points += text;
+  }
+  return "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" opacity=\".7\"/>\n" +
+         "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
+}
+
+}  // namespace
+
+std::string svgPicture(const Problem& problem, const Path& path) {
+  constexpr double degree = std::numbers::pi / 180;
+  Camera camera = problem.space == RigidSpace::SE3 ? Camera(-60 * degree, 38 * degree) : Camera(-90 * degree, 62 * degree);
+  const auto world = distinctTriangles(problem.world), robot = distinctTriangles(problem.robot);
+
+  double reach = 0;
+  for (const auto& triangle : robot)
+    for (const Vec3& p : triangle) reach = std::max(reach, p.norm());
+  const Path shown = poses(problem, path, reach, kGhosts);
+  std::vector<std::vector<std::array<Vec3, 3>>> placed;
+  std::vector<Vec3> points;
+  for (const RigidState& state : shown) {
+    const Transform X = placement(problem.space, state);
+    auto& copy = placed.emplace_back(robot);
+    for (auto& triangle : copy)
+      for (Vec3& p : triangle) points.push_back(p = X * p);
+  }
+  for (const auto& triangle : world) points.insert(points.end(), triangle.begin(), triangle.end());
+  camera.fit(points, kWidth, kBorder);
+
+  DepthBuffer robots(camera.width(), camera.height(), 0.5);
+  std::vector<std::vector<Face>> ghosts;
+  for (const auto& copy : placed) {
+    auto& faces = ghosts.emplace_back();
+    for (const auto& triangle : copy) faces.push_back(makeFace(camera, triangle));
+    for (const Face& face : faces) robots.draw(face.corners, 0);
+  }
+  std::vector<Face> solid, glass;
+  for (const auto& triangle : world) {
+    const Face face = makeFace(camera, triangle);
+    int hides = 0;
+    robots.cover(face.corners, [&](std::size_t pixel, double depth) {
+      hides += std::isfinite(robots.depth(pixel)) && depth > robots.depth(pixel) + 1;
+    });
+    if (hides > 3)
+      glass.push_back(face);
+    else
+      cut(face, solid);
+  }
+
+  char head[256];
+  std::snprintf(head, sizeof head, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" stroke-width=\".8\" stroke-linejoin=\"round\">\n",
+                camera.width(), camera.height());
+  std::string svg = std::string(head) + "<style>\n" + palette('w', {112, 118, 130}, {233, 232, 226}) +
+                    palette('r', {150, 96, 20}, {255, 196, 84}) + palette('s', {22, 110, 50}, {92, 214, 128}) +
+                    palette('g', {150, 28, 28}, {246, 108, 92}) + "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
+  svg += drawVisible(camera, solid, 'w', kWorldLimit);
+  for (std::size_t i = 1; i + 1 < ghosts.size(); ++i)
+    svg += "<g opacity=\".5\">\n" + drawVisible(camera, ghosts[i], 'r', kGhostLimit) + "</g>\n";
+  if (ghosts.size() > 1) svg += drawVisible(camera, ghosts.back(), 'g', kGhostLimit);
+  svg += drawVisible(camera, ghosts.front(), 's', kGhostLimit);
+  svg += "<g opacity=\".12\">\n" + drawVisible(camera, glass, 'w', kWorldLimit / 4) + "</g>\n";
+  return svg + polyline(camera, path) + "</svg>\n";
+}
+
+}  // namespace corridor
