@@ -14,8 +14,13 @@ namespace {
 /// One query: walks windows of time depth first, earlier half first.
 class Certifier {
  public:
-  Certifier(const RigidMotion& motion, std::span<const TreePair> pairs, const MotionOptions& options, QueryContext& context)
-      : motion_(motion), pairs_(pairs), options_(options), context_(context), counters_(context.counters) {}
+  Certifier(const RigidMotion& motion, std::span<const TreePair> pairs,
+            const MotionOptions& options, QueryContext& context)
+      : motion_(motion),
+        pairs_(pairs),
+        options_(options),
+        context_(context),
+        counters_(context.counters) {}
 
   MotionResult run() {
     auto& pending = context_.pending;
@@ -31,9 +36,11 @@ class Certifier {
   using NodePair = QueryContext::NodePair;
   enum class Descent { done, contact, undecided };
 
-  /// What one window may leave to its halves before it gives up: a window far too wide to decide anything should not look at everything.
+  /// What one window may leave to its halves before it gives up: a window far too wide to decide
+  /// anything should not look at everything.
   static constexpr std::size_t kLeftovers = 8;
-  /// Levels of halving at which a middle whose window was not certified is tested for contact as a static pose: likely collisions first.
+  /// Levels of halving at which a middle whose window was not certified is tested for contact as a
+  /// static pose: likely collisions first.
   static constexpr int kProbedLevels = 4;
 
   std::uint64_t work() const { return counters_.boxTests + counters_.triangleTests; }
@@ -44,8 +51,10 @@ class Certifier {
     std::size_t begin, end;
   };
 
-  /// Looks at the window's pairs, `from` its list; what it cannot separate is appended to `to`. @return contact: at the middle.
-  Descent look(const Window& w, const std::vector<NodePair>& from, std::vector<NodePair>& to, int level) {
+  /// Looks at the window's pairs, `from` its list; what it cannot separate is appended to `to`.
+  /// @return contact: at the middle.
+  Descent look(const Window& w, const std::vector<NodePair>& from, std::vector<NodePair>& to,
+               int level) {
     const double h = (w.t1 - w.t0) / 2;
     middle_ = w.t0 + h;  // dyadic: exact
     const MotionWindow window = motion_.window(middle_, h);
@@ -59,11 +68,13 @@ class Certifier {
       for (std::size_t k = i + 1; k < w.end; ++k) to.push_back(NodePair(from[k]));  // not looked at
       return descent;
     }
-    return level < kProbedLevels && probe(window.X_WB, to, later) ? Descent::contact : Descent::done;
+    return level < kProbedLevels && probe(window.X_WB, to, later) ? Descent::contact
+                                                                  : Descent::done;
   }
 
-  /// For the verdict alone: the coarse windows level by level, so that a contact anywhere is found soon; what they leave, depth first,
-  /// so that a place that can't be decided is found before everything else is refined. False: `result_` says why.
+  /// For the verdict alone: the coarse windows level by level, so that a contact anywhere is found
+  /// soon; what they leave, depth first, so that a place that can't be decided is found before
+  /// everything else is refined. False: `result_` says why.
   bool walkByLevels() {
     auto &pending = context_.pending, &next = context_.next;
     std::vector<Window> windows = {{0, 1, 0, pending.size()}}, below;
@@ -82,7 +93,8 @@ class Certifier {
       std::swap(pending, next);
       std::swap(windows, below);
     }
-    return std::all_of(windows.begin(), windows.end(), [&](const Window& w) { return walkInOrder(w, kProbedLevels); });
+    return std::all_of(windows.begin(), windows.end(),
+                       [&](const Window& w) { return walkInOrder(w, kProbedLevels); });
   }
 
   /// Depth first, earlier half first: all is certified up to w.t0. False: stop, `result_` says why.
@@ -114,7 +126,8 @@ class Certifier {
     return false;
   }
 
-  /// Something in [t0, t1] stays undecided; with a contact known at t1, or close to t0, that is its bracket all the same.
+  /// Something in [t0, t1] stays undecided; with a contact known at t1, or close to t0, that is its
+  /// bracket all the same.
   bool undecided(double t0, double t1) {
     const bool clearance = result_.reason == UndecidedReason::clearance;
     if (contactTime_ == t1 && clearance) return contact(t0, true);
@@ -126,10 +139,11 @@ class Certifier {
   }
 
   /// Walks the trees below one pair of nodes. What this window cannot separate goes to `later`.
-  Descent descend(const NodePair& root, const MotionWindow& window, double h, std::vector<NodePair>& later) {
+  Descent descend(const NodePair& root, const MotionWindow& window, double h,
+                  std::vector<NodePair>& later) {
     const ObbTree &a = *pairs_[root.bodies].fixed, &b = *pairs_[root.bodies].moving;
-    const BoxPairMargins margins =
-        boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(), b.centerReach(), window.X_WB);
+    const BoxPairMargins margins = boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(),
+                                                  b.centerReach(), window.X_WB);
     auto& stack = context_.stack;
     stack.clear();
     stack.push_back(root);
@@ -146,7 +160,8 @@ class Certifier {
       const NodePair pair = stack.back();
       stack.pop_back();
       const ObbTree::Node &na = a.node(pair.a), &nb = b.node(pair.b);
-      // The sphere about box b: every point y of it has |y| ≤ |c| + ρ and turns by at most |ω × c| + α·ρ.
+      // The sphere about box b: every point y of it has |y| ≤ |c| + ρ and turns by at most |ω × c|
+      // + α·ρ.
       const Vec3 c = window.X_WB.m * nb.box.center;
       const Vec3 lever = window.angular.cross(c);
       const double reach = nb.box.center.norm() + nb.radius;
@@ -160,14 +175,17 @@ class Certifier {
       ++counters_.boxTests;
       if (obbsSeparated(na.box, nb.box, window.X_WB, margins, pad, travel)) continue;
 
-      // Time before space where the window's travel dominates the boxes. The factors are measured, soundness does not need them.
+      // Time before space where the window's travel dominates the boxes. The factors are measured,
+      // soundness does not need them.
       const double size = std::max(na.radius, nb.radius);
-      if (travel.cap > options_.tolerance && (4 * travel.curvature * window.angle > size || 0.2 * travel.cap > size)) {
+      if (travel.cap > options_.tolerance &&
+          (4 * travel.curvature * window.angle > size || 0.2 * travel.cap > size)) {
         later.push_back(pair);
       } else if (na.isLeaf() && nb.isLeaf()) {
         const Descent leaf = leafPair(pair, window, h, later);
         if (leaf == Descent::undecided) return leaf;
-        if (leaf == Descent::contact) {  // who goes on to the first half must look at this and the rest again
+        if (leaf == Descent::contact) {  // who goes on to the first half must look at this and the
+                                         // rest again
           later.push_back(pair);
           later.insert(later.end(), stack.begin(), stack.end());
           return leaf;
@@ -184,14 +202,16 @@ class Certifier {
   }
 
   /// All triangles of one leaf against all of another (one each, but for indivisible leaves).
-  Descent leafPair(const NodePair& pair, const MotionWindow& window, double h, std::vector<NodePair>& later) {
+  Descent leafPair(const NodePair& pair, const MotionWindow& window, double h,
+                   std::vector<NodePair>& later) {
     const TreePair& bodies = pairs_[pair.bodies];
     const ObbTree::Node &na = bodies.fixed->node(pair.a), &nb = bodies.moving->node(pair.b);
     bool open = false;
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
-        const MovingTrianglesAnswer found = decideMovingTriangles(bodies.fixed->triangles()[s], bodies.moving->triangles()[t],
-                                                                  window, options_.margin, counters_);
+        const MovingTrianglesAnswer found =
+            decideMovingTriangles(bodies.fixed->triangles()[s], bodies.moving->triangles()[t],
+                                  window, options_.margin, counters_);
         if (found.separated) continue;
         const Contact triangles{bodies.movingBody, bodies.fixedBody, bodies.moving->meshTriangle(t),
                                 bodies.fixed->meshTriangle(s)};
@@ -200,7 +220,8 @@ class Certifier {
           contactPair_ = triangles;
           return Descent::contact;
         }
-        // Refining does not help, or need not. 2^-48 of the motion: much below, halves of windows would no longer be exact.
+        // Refining does not help, or need not. 2^-48 of the motion: much below, halves of windows
+        // would no longer be exact.
         if (found.stuck || found.travel <= options_.tolerance || h <= 0x1p-48) {
           result_.reason = UndecidedReason::clearance;
           result_.pair = triangles;
@@ -242,8 +263,8 @@ class Certifier {
 
 }  // namespace
 
-MotionResult certifyMotion(const RigidMotion& motion, std::span<const TreePair> pairs, const MotionOptions& options,
-                           QueryContext& context) {
+MotionResult certifyMotion(const RigidMotion& motion, std::span<const TreePair> pairs,
+                           const MotionOptions& options, QueryContext& context) {
   ++context.counters.edges;
   MotionResult result;
   if (motion.ambiguous()) {
