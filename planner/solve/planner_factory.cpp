@@ -177,7 +177,7 @@ ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string&
     if (entry.info.name == name) planner = entry.make(si);
   if (!planner) {
     throw InputError(Fault{nameAt.file, nameAt.line,
-                           "unknown planner " + corridor::quoted(name) + didYouMean(name, plannerNames()) +
+                           "unknown planner " + quotedWord(name) + didYouMean(name, plannerNames()) +
                                "; there are: " + joined(plannerNames())});
   }
   std::vector<Fault> faults;
@@ -187,7 +187,7 @@ ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string&
     if (!set.hasParam(given.key)) {
       const std::vector<std::string> names = parameterNames(planner->params());
       faults.push_back({given.file, given.line,
-                        name + " has no parameter " + corridor::quoted(given.key) + didYouMean(given.key, names) +
+                        name + " has no parameter " + quotedWord(given.key) + didYouMean(given.key, names) +
                             "; it has: " + joined(names)});
       continue;
     }
@@ -198,7 +198,7 @@ ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string&
     } catch (const std::exception& error) {
       wrong = error.what();
     }
-    if (wrong) faults.push_back({given.file, given.line, name + "'s parameter " + given.key + ": " + corridor::quoted(given.value) + " is " + *wrong});
+    if (wrong) faults.push_back({given.file, given.line, name + "'s parameter " + given.key + ": " + quotedWord(given.value) + " is " + *wrong});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
   return planner;
@@ -221,7 +221,7 @@ void setValidStateSampler(ob::SpaceInformation& si, const std::string& name, con
     const std::vector<std::string> names = {"uniform", "gaussian", "obstacle_based", "bridge_test"};
     const std::string what = name == "max_clearance"
                                  ? "sampler max_clearance needs a clearance, which isn't computed yet"
-                                 : "unknown sampler " + corridor::quoted(name) + didYouMean(name, names);
+                                 : "unknown sampler " + quotedWord(name) + didYouMean(name, names);
     throw InputError(Fault{nameAt.file, nameAt.line, what + "; there are: " + joined(names)});
   }
 }

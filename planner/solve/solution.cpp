@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "planner/problem/format_key.h"
-#include "planner/problem/nearest.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -19,6 +18,16 @@ std::string digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
+}
+
+/// In double quotes, as YAML reads them back.
+std::string yamlText(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
 }
 
 const char* nameOf(RigidSpace space) { return space == RigidSpace::SE3 ? "SE3" : "SE2"; }
@@ -48,13 +57,13 @@ std::string yamlOf(const Solution& solution) {
   std::ostringstream text;
   text << "# A path for a rigid body. Check it: corridor verify PROBLEM SOLUTION\n"
        << "format: " << kFormat << "\n"
-       << "problem: " << corridor::quoted(solution.problem) << "\n"
+       << "problem: " << yamlText(solution.problem) << "\n"
        << "digest: " << solution.digest << "\n"
        << "space: " << nameOf(solution.space) << "\n"
        << "planner: " << solution.planner << "\n"
        << "seed: " << solution.seed << "\n"
        << "certified: " << (solution.certified ? "true" : "false") << "\n"
-       << "checker: " << corridor::quoted(solution.checker) << "\n"
+       << "checker: " << yamlText(solution.checker) << "\n"
        << "tolerance: " << digits(solution.tolerance) << "  # m\n"
        << "margin: " << digits(solution.margin) << "  # m\n"
        << "tube: {position: " << digits(solution.tube.position) << ", rotation: " << digits(solution.tube.rotation)
@@ -80,7 +89,7 @@ Solution readPathFile(const std::filesystem::path& file, RigidSpace space) {
   Solution solution;
   solution.space = space;
   solution.checker = "unknown";
-  FaultList faults;
+  FaultList faults(file.string());
   std::istringstream lines(readTextFile(file, "a path"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -124,7 +133,7 @@ void readStates(const YamlValue& list, Solution& solution, YamlSource& source) {
 
 Solution readYaml(const std::filesystem::path& file, RigidSpace space) {
   const YamlValue document = parseYaml(file.string(), readTextFile(file, "a solution"));
-  FaultList faults;
+  FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
   Solution solution;
   if (hasFormat(document, kFormat, source)) {
