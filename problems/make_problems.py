@@ -39,12 +39,12 @@ def piano():
 
 
 def apartment():
-    """Three rooms of 2.7 m height and two doors, 1.15 m wide: less than the piano in any upright position."""
+    """Three rooms of 2.7 m height and two doors, 1 m wide: less than the piano in any upright position."""
     door = 2.1
     walls = carve(
         [((-0.2, -0.2, 0), (9.2, 6.2, 2.7))],
         [((0, 0, 0), (4.0, 6, 2.7)), ((4.12, 0, 0), (9, 2.8, 2.7)), ((4.12, 2.92, 0), (9, 6, 2.7)),
-         ((4.0, 0.85, 0), (4.12, 2.0, door)), ((4.0, 3.9, 0), (4.12, 5.05, door)),
+         ((4.0, 0.9, 0), (4.12, 1.9, door)), ((4.0, 4.0, 0), (4.12, 5.0, door)),
          ((-0.2, 1.0, 0.9), (0, 2.4, 2.2)), ((-0.2, 3.6, 0.9), (0, 5.0, 2.2)),  # windows
          ((6.0, 6, 0.9), (8.0, 6.2, 2.2))])
     floor = box((-0.2, -0.2, -0.1), (9.2, 6.2, 0))
@@ -78,8 +78,8 @@ def make_bug_trap():
         body += tube(spline([(side * 0.02, 0.02, 0.25), (side * 0.05, 0.06, 0.31), (side * 0.09, 0.07, 0.34)], 3), 0.006, 6, 2)
     write(body, ROBOTS / 'bug/bug.stl', scale=1000)
 
-    profile = [(0, -1.20), (0.50, -1.13), (0.87, -0.80), (1.00, -0.20), (0.95, 0.50), (0.76, 0.93), (0.56, 1.00), (0.39, 0.86), (0.27, 0.55),
-               (0.22, 0.20), (0.21, 0.00), (0.24, -0.05), (0.27, 0.00), (0.28, 0.20), (0.33, 0.53), (0.44, 0.80), (0.57, 0.91), (0.71, 0.85),
+    profile = [(0, -1.20), (0.50, -1.13), (0.87, -0.80), (1.00, -0.20), (0.95, 0.50), (0.76, 0.93), (0.56, 1.00), (0.39, 0.86), (0.29, 0.55),
+               (0.25, 0.20), (0.24, 0.00), (0.27, -0.05), (0.30, 0.00), (0.31, 0.20), (0.36, 0.53), (0.46, 0.80), (0.57, 0.91), (0.71, 0.85),
                (0.86, 0.46), (0.91, -0.20), (0.79, -0.74), (0.45, -1.04), (0, -1.11)]
     curve = spline(profile, 4)
     curve = [(max(r, 0.0), z) for r, z in curve]
@@ -89,13 +89,19 @@ def make_bug_trap():
 # Two bent tubes, linked
 
 def make_twisted_tubes():
-    """A loop whose two legs cross at a distance: x = t² - 1, y ~ t³ - t, z ~ t. At the crossing, t = ±1, the axes of the
-    legs are `gap` apart; a tube that is to slip out has to fit between them."""
-    radius, gap, stretch, end, steps = 0.08, 0.40, 1.3, 1.35, 72
+    """One and a bit turns of a coil, with short straight ends; where the turns overlap, there is `pitch` - 2 `radius`
+    between them, and a tube that is to get out of the coil has to slide along there, from one end of the overlap to the
+    other."""
+    radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.41, 1.4, 0.2, 66
     path = []
     for k in range(steps + 1):
-        t = end * (2 * k / steps - 1)
-        path.append((t * t - 1, stretch * t * (t * t - 1), gap / 2 * t))
+        angle = math.pi * turns * (2 * k / steps - 1)
+        path.append((coil * math.cos(angle), coil * math.sin(angle), pitch * angle / (2 * math.pi)))
+    for end, before in ((0, 1), (-1, -2)):
+        tangent = [a - b for a, b in zip(path[end], path[before])]
+        length = math.hypot(*tangent)
+        points = [tuple(p + straight * k / 4 * t / length for p, t in zip(path[end], tangent)) for k in range(1, 5)]
+        path = points[::-1] + path if end == 0 else path + points
     mesh = tube(path, radius, 14)
     write(mesh, ROBOTS / 'twisted_tube/tube.ply')
     write(mesh, PROBLEMS / 'twisted_tubes/tube.ply')
@@ -148,7 +154,7 @@ def make_rod_hole():
     """The corners of the rod are at its radius, the middles of the hole's sides at 1.01 times that: 1 % is what there is."""
     radius, sides = 0.02, 96
     write(revolve([(0, -0.1), (radius, -0.1), (radius, 0.1), (0, 0.1)], sides), ROBOTS / 'rod/rod.obj')
-    plate = plate_with_hole(0.16, 1.01 * radius / math.cos(math.pi / sides), sides, -0.0005, 0.0005)
+    plate = plate_with_hole(0.16, 1.01 * radius / math.cos(math.pi / sides), sides, -0.0025, 0.0025)
     write(plate, PROBLEMS / 'rod_hole/plate.stl', scale=1000)
 
 
@@ -185,9 +191,9 @@ def make_hook_maze():
 
     w, bend = 0.05, 0.2  # half the hook's width; the radius of its bend
     arc = [math.pi * k / 16 for k in range(17)]
-    outer = [(-bend * math.cos(a) - w * math.cos(a), 0.2 + (bend + w) * math.sin(a)) for a in arc]
-    inner = [(-(bend - w) * math.cos(a), 0.2 + (bend - w) * math.sin(a)) for a in arc]
-    outline = [(-bend - w, -0.5)] + outer + [(bend + w, 0.0), (bend - w, 0.0)] + inner[::-1] + [(-bend + w, -0.5)]
+    outer = [(-bend * math.cos(a) - w * math.cos(a), 0.15 + (bend + w) * math.sin(a)) for a in arc]
+    inner = [(-(bend - w) * math.cos(a), 0.15 + (bend - w) * math.sin(a)) for a in arc]
+    outline = [(-bend - w, -0.35)] + outer + [(bend + w, 0.0), (bend - w, 0.0)] + inner[::-1] + [(-bend + w, -0.35)]
     write(prism(outline[::-1], 0.05, 0.25), ROBOTS / 'hook/hook.obj')
 
 

@@ -4,15 +4,17 @@
 
 namespace corridor {
 
-/// What queries cost, in the terms of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1): counts, one set a thread.
+/// What queries cost, in the terms of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1):
+/// counts, one set a thread.
 struct Counters {
   std::uint64_t boxTests = 0;       ///< N_v: pairs of bounding volumes tested
   std::uint64_t triangleTests = 0;  ///< N_p: pairs of triangles tested
-  std::uint64_t exactTests = 0;     ///< of these, decided by exact arithmetic because the filter could not
-  std::uint64_t poses = 0;          ///< poses computed along motions
-  std::uint64_t edges = 0;          ///< motion queries
-  std::uint64_t states = 0;         ///< static queries
-  std::uint64_t undecided = 0;      ///< motion queries that ended `undecided`
+  std::uint64_t exactTests =
+      0;                     ///< of these, decided by exact arithmetic because the filter could not
+  std::uint64_t poses = 0;   ///< poses computed along motions
+  std::uint64_t edges = 0;   ///< motion queries
+  std::uint64_t states = 0;  ///< static queries
+  std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`
 
   Counters& operator+=(const Counters& other);
 };

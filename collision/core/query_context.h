@@ -7,7 +7,8 @@
 
 namespace corridor {
 
-/// What a query may write: scratch memory and counters of one thread. No answer depends on what it holds.
+/// What a query may write: scratch memory and counters of one thread. No answer depends on what it
+/// holds.
 class QueryContext {
  public:
   Counters counters;
@@ -16,8 +17,9 @@ class QueryContext {
   struct NodePair {
     std::uint32_t a, b, bodies;
   };
-  std::vector<NodePair> stack;    ///< of the traversal under way
-  std::vector<NodePair> pending;  ///< what motion queries hand down to shorter windows of time
+  std::vector<NodePair> stack;  ///< of the traversal under way
+  std::vector<NodePair> pending,
+      next;  ///< what motion queries hand down to shorter windows of time
 };
 
 }  // namespace corridor

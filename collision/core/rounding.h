@@ -4,16 +4,23 @@
 
 namespace corridor {
 
-/// Unit roundoff of double: |fl(x∘y) − x∘y| ≤ u·|x∘y| for + − × ÷ √ where nothing under- or overflows.
+/// Unit roundoff of double: |fl(x∘y) − x∘y| ≤ u·|x∘y| for + − × ÷ √ where nothing under- or
+/// overflows.
 inline constexpr double kUnit = 0x1p-53;
 
-/// Below what any underflow of a product of numbers under 2^20 can lose, flush-to-zero on or off; far below any mesh.
+/// Below what any underflow of a product of numbers under 2^20 can lose, flush-to-zero on or off;
+/// far below any mesh.
 inline constexpr double kTiny = 0x1p-1000;
 
-/// A bound made of positive terms by at most 16 roundings, made safe: (1 + u)^16 < 1 + 2^-48. Monotone, and NaN stays NaN.
-inline double roundedUp(double bound) { return bound * (1 + 0x1p-48) + kTiny; }
+/// A bound made of positive terms by at most 16 roundings, made safe: (1 + u)^16 < 1 + 2^-48.
+/// Monotone, and NaN stays NaN.
+inline double roundedUp(double bound) {
+  return bound * (1 + 0x1p-48) + kTiny;
+}
 
 /// As above, downwards, for positive numbers.
-inline double roundedDown(double bound) { return bound * (1 - 0x1p-48) - kTiny; }
+inline double roundedDown(double bound) {
+  return bound * (1 - 0x1p-48) - kTiny;
+}
 
 }  // namespace corridor

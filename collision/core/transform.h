@@ -9,8 +9,9 @@ using Mat3 = Eigen::Matrix3d;
 
 /// The affine map x ↦ m·x + t, named X_AB where it takes coordinates of frame B to frame A.
 ///
-/// The twelve doubles *are* the map: queries answer for them in real arithmetic, whether or not m is a rotation to the
-/// last bit (no matrix of doubles is, but the 24 signed permutations). Lengths in metres.
+/// The twelve doubles *are* the map: queries answer for them in real arithmetic, whether or not m
+/// is a rotation to the last bit (no matrix of doubles is, but the 24 signed permutations). Lengths
+/// in metres.
 struct Transform {
   Mat3 m = Mat3::Identity();
   Vec3 t = Vec3::Zero();

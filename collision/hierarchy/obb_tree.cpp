@@ -8,13 +8,16 @@
 namespace corridor {
 namespace {
 
-/// Reorders [first, first + count) so that the triangles whose centroid lies below the plane come first; returns how many.
-std::uint32_t partition(std::vector<Triangle>& triangles, std::vector<std::uint32_t>& ids, std::uint32_t first,
-                        std::uint32_t count, const Vec3& mean, const Vec3& normal) {
+/// Reorders [first, first + count) so that the triangles whose centroid lies below the plane come
+/// first; returns how many.
+std::uint32_t partition(std::vector<Triangle>& triangles, std::vector<std::uint32_t>& ids,
+                        std::uint32_t first, std::uint32_t count, const Vec3& mean,
+                        const Vec3& normal) {
   std::uint32_t below = first;
   for (std::uint32_t i = first; i < first + count; ++i) {
     const Triangle& t = triangles[i];
-    // Relative to the mean before summing: far from the origin the sum of three corners would lose the digits that tell.
+    // Relative to the mean before summing: far from the origin the sum of three corners would lose
+    // the digits that tell.
     const double side = normal.dot((t[0] - mean) + (t[1] - mean) + (t[2] - mean));
     if (!(side < 0)) continue;
     std::swap(triangles[i], triangles[below]);
@@ -39,7 +42,8 @@ ObbTree::ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params) {
 
   struct Task {
     std::uint32_t first, count;
-    std::int64_t parent;  // whose `right` this node becomes; −1: a left child, which follows its parent
+    std::int64_t
+        parent;  // whose `right` this node becomes; −1: a left child, which follows its parent
   };
   std::vector<Task> tasks = {{0, static_cast<std::uint32_t>(triangles_.size()), -1}};
   while (!tasks.empty()) {
@@ -51,7 +55,8 @@ ObbTree::ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params) {
     const ObbFrame frame = fitFrame(own, params.fit);
     Node node;
     node.box = enclosingObb(own, frame.axes);
-    node.radius = roundedUp(node.box.half.stableNorm() * (1 + 3 * orthonormalityDefect(frame.axes)));
+    node.radius =
+        roundedUp(node.box.half.stableNorm() * (1 + 3 * orthonormalityDefect(frame.axes)));
     node.first = task.first;
     node.count = task.count;
     axisDefect_ = std::max(axisDefect_, orthonormalityDefect(frame.axes));
@@ -62,8 +67,8 @@ ObbTree::ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params) {
     int order[3] = {0, 1, 2};
     std::sort(order, order + 3, [&](int i, int j) { return node.box.half[i] > node.box.half[j]; });
     for (const int axis : order) {
-      const std::uint32_t below =
-          partition(triangles_, meshTriangle_, task.first, task.count, frame.mean, frame.axes.col(axis));
+      const std::uint32_t below = partition(triangles_, meshTriangle_, task.first, task.count,
+                                            frame.mean, frame.axes.col(axis));
       if (below == 0 || below == task.count) continue;
       tasks.push_back({task.first + below, task.count - below, index});
       tasks.push_back({task.first, below, -1});
@@ -88,7 +93,8 @@ std::size_t ObbTree::depth() const {
 }
 
 std::size_t ObbTree::bytes() const {
-  return sizeof(*this) + nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(Triangle) +
+  return sizeof(*this) + nodes_.capacity() * sizeof(Node) +
+         triangles_.capacity() * sizeof(Triangle) +
          meshTriangle_.capacity() * sizeof(std::uint32_t);
 }
 

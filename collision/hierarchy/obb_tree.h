@@ -17,21 +17,23 @@ struct ObbTreeParams {
   ObbFit fit = ObbFit::triangles;
 };
 
-/// The OBBTree of Gottschalk, Lin, Manocha 1996: a binary tree of oriented boxes over the triangles of a mesh, built top-down. A
-/// node's triangles are split by the plane through their mean (as the fit weighs it) orthogonal to the longest axis of the box, by
-/// the sides on which their centroids lie; where that separates nothing, by the second and the third axis, else the node is an
+/// The OBBTree of Gottschalk, Lin, Manocha 1996: a binary tree of oriented boxes over the triangles
+/// of a mesh, built top-down. A node's triangles are split by the plane through their mean (as the
+/// fit weighs it) orthogonal to the longest axis of the box, by the sides on which their centroids
+/// lie; where that separates nothing, by the second and the third axis, else the node is an
 /// indivisible leaf. All other leaves have one triangle.
 ///
-/// Immutable. Keeps a copy of the corners, in leaf order, so that the mesh may go. Depth is not bounded (triangles of size 2^-i around a
-/// point give a depth of thousands): who walks a tree keeps a stack of its own.
+/// Immutable. Keeps a copy of the corners, in leaf order, so that the mesh may go. Depth is not
+/// bounded (triangles of size 2^-i around a point give a depth of thousands): who walks a tree
+/// keeps a stack of its own.
 class ObbTree {
  public:
   struct Node {
     Obb box;
-    double radius = 0;          ///< of the smallest sphere about box.center that holds the box, rounded up
-    std::uint32_t first = 0;    ///< its triangles: [first, first + count) of `triangles()`
+    double radius = 0;  ///< of the smallest sphere about box.center that holds the box, rounded up
+    std::uint32_t first = 0;  ///< its triangles: [first, first + count) of `triangles()`
     std::uint32_t count = 0;
-    std::uint32_t right = 0;    ///< the right child; the left one follows the node. 0: a leaf
+    std::uint32_t right = 0;  ///< the right child; the left one follows the node. 0: a leaf
     bool isLeaf() const { return right == 0; }
   };
 
@@ -45,7 +47,8 @@ class ObbTree {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return meshTriangle_[i]; }
 
-  /// Bounds for the margins of overlap tests: the largest orthonormality defect of the axes, the largest |center|₂, rounded up.
+  /// Bounds for the margins of overlap tests: the largest orthonormality defect of the axes, the
+  /// largest |center|₂, rounded up.
   double axisDefect() const { return axisDefect_; }
   double centerReach() const { return centerReach_; }
   /// Largest |corner|₂, rounded up.
@@ -54,8 +57,9 @@ class ObbTree {
   std::size_t depth() const;
   std::size_t bytes() const;
 
-  /// Proves in rationals that every node's box, as the set that `Obb` says, contains every triangle of the node, that each triangle
-  /// is in exactly one leaf, and that children partition their parents. Returns the first complaint.
+  /// Proves in rationals that every node's box, as the set that `Obb` says, contains every triangle
+  /// of the node, that each triangle is in exactly one leaf, and that children partition their
+  /// parents. Returns the first complaint.
   std::optional<std::string> check() const;
 
  private:

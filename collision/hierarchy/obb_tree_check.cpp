@@ -9,7 +9,8 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// {c + U x : |x_i| ≤ e_i} as rationals: p is inside if and only if |det(U with column i replaced by p − c)| ≤ e_i·|det U| (Cramer).
+/// {c + U x : |x_i| ≤ e_i} as rationals: p is inside if and only if |det(U with column i replaced
+/// by p − c)| ≤ e_i·|det U| (Cramer).
 class ExactBox {
  public:
   explicit ExactBox(const Obb& box) {
@@ -31,7 +32,9 @@ class ExactBox {
 
  private:
   using Row = std::array<Rational, 3>;
-  static Rational dot(const Row& a, const Row& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  static Rational dot(const Row& a, const Row& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
   static Row cross(const Row& a, const Row& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
@@ -43,30 +46,38 @@ class ExactBox {
 }  // namespace
 
 std::optional<std::string> ObbTree::check() const {
-  const auto named = [](const char* what, std::size_t i) { return std::string(what) + " " + std::to_string(i); };
+  const auto named = [](const char* what, std::size_t i) {
+    return std::string(what) + " " + std::to_string(i);
+  };
   std::vector<int> seen(triangles_.size(), 0);
-  if (nodes_[0].first != 0 || nodes_[0].count != triangles_.size()) return "the root does not hold all triangles";
+  if (nodes_[0].first != 0 || nodes_[0].count != triangles_.size())
+    return "the root does not hold all triangles";
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     const ExactBox box(node.box);
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
       for (const Vec3& p : triangles_[t])
-        if (!box.contains(p)) return named("the box of node", i) + " does not contain " + named("triangle", meshTriangle_[t]);
-    if (orthonormalityDefect(node.box.axes) > axisDefect_) return named("the axes of node", i) + " exceed axisDefect";
+        if (!box.contains(p))
+          return named("the box of node", i) + " does not contain " +
+                 named("triangle", meshTriangle_[t]);
+    if (orthonormalityDefect(node.box.axes) > axisDefect_)
+      return named("the axes of node", i) + " exceed axisDefect";
     if (node.isLeaf()) {
       for (std::uint32_t t = node.first; t < node.first + node.count; ++t) ++seen[t];
       continue;
     }
-    if (i + 1 >= nodes_.size() || node.right >= nodes_.size()) return named("node", i) + " has a child that does not exist";
+    if (i + 1 >= nodes_.size() || node.right >= nodes_.size())
+      return named("node", i) + " has a child that does not exist";
     const Node &left = nodes_[i + 1], &right = nodes_[node.right];
-    if (left.count == 0 || right.count == 0 || left.first != node.first || right.first != node.first + left.count ||
-        left.count + right.count != node.count)
+    if (left.count == 0 || right.count == 0 || left.first != node.first ||
+        right.first != node.first + left.count || left.count + right.count != node.count)
       return named("node", i) + " is not partitioned by its children";
   }
   std::vector<int> ids(triangles_.size(), 0);
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     if (seen[t] != 1) return named("triangle", meshTriangle_[t]) + " is not in exactly one leaf";
-    if (meshTriangle_[t] >= ids.size() || ids[meshTriangle_[t]]++) return "triangle numbers are not a permutation";
+    if (meshTriangle_[t] >= ids.size() || ids[meshTriangle_[t]]++)
+      return "triangle numbers are not a permutation";
   }
   return std::nullopt;
 }

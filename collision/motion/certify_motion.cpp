@@ -5,6 +5,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/motion/moving_triangles.h"
+#include "collision/queries/interference.h"
 #include "collision/volumes/overlap_obb_obb.h"
 
 namespace corridor {
@@ -13,15 +14,20 @@ namespace {
 /// One query: walks windows of time depth first, earlier half first.
 class Certifier {
  public:
-  Certifier(const RigidMotion& motion, std::span<const TreePair> pairs, const MotionOptions& options, QueryContext& context)
-      : motion_(motion), pairs_(pairs), options_(options), context_(context), counters_(context.counters) {}
+  Certifier(const RigidMotion& motion, std::span<const TreePair> pairs,
+            const MotionOptions& options, QueryContext& context)
+      : motion_(motion),
+        pairs_(pairs),
+        options_(options),
+        context_(context),
+        counters_(context.counters) {}
 
   MotionResult run() {
     auto& pending = context_.pending;
     pending.clear();
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) pending.push_back({0, 0, k});
     workEnd_ = work() + options_.workLimit;
-    if (walk(0, 1, 0, pending.size())) return {};
+    if (options_.earliest ? walkInOrder({0, 1, 0, pending.size()}, 0) : walkByLevels()) return {};
     if (!options_.earliest) result_.certifiedUntil = 0;
     return result_;
   }
@@ -30,29 +36,82 @@ class Certifier {
   using NodePair = QueryContext::NodePair;
   enum class Descent { done, contact, undecided };
 
+  /// What one window may leave to its halves before it gives up: a window far too wide to decide
+  /// anything should not look at everything.
+  static constexpr std::size_t kLeftovers = 8;
+  /// Levels of halving at which a middle whose window was not certified is tested for contact as a
+  /// static pose: likely collisions first.
+  static constexpr int kProbedLevels = 4;
+
   std::uint64_t work() const { return counters_.boxTests + counters_.triangleTests; }
 
-  /// Certifies the pairs pending[begin, end) over [t0, t1]; all is certified up to t0. False: stop, `result_` says why.
-  bool walk(double t0, double t1, std::size_t begin, std::size_t end) {
-    const double h = (t1 - t0) / 2;
-    middle_ = t0 + h;  // dyadic: exact
-    const double t = middle_;
-    const MotionWindow window = motion_.window(t, h);
+  /// A window of time and the pairs that are not separated in it yet: a range of the list at hand.
+  struct Window {
+    double t0, t1;
+    std::size_t begin, end;
+  };
+
+  /// Looks at the window's pairs, `from` its list; what it cannot separate is appended to `to`.
+  /// @return contact: at the middle.
+  Descent look(const Window& w, const std::vector<NodePair>& from, std::vector<NodePair>& to,
+               int level) {
+    const double h = (w.t1 - w.t0) / 2;
+    middle_ = w.t0 + h;  // dyadic: exact
+    const MotionWindow window = motion_.window(middle_, h);
     ++counters_.poses;
-    const std::size_t later = context_.pending.size();
-    for (std::size_t i = begin; i < end; ++i) {
-      const NodePair pair = context_.pending[i];
-      const Descent descent = descend(pair, window, h);
+    const std::size_t later = to.size();
+    leftoversEnd_ = later + (w.end - w.begin) + kLeftovers;
+    for (std::size_t i = w.begin; i < w.end; ++i) {
+      const NodePair pair = from[i];  // a copy: `to` may be the same list
+      const Descent descent = descend(pair, window, h, to);
       if (descent == Descent::done) continue;
-      if (descent == Descent::undecided) return undecided(t0, t1);
-      if (!options_.earliest || t - t0 <= options_.timeTolerance) return contact(t0, false);
-      // A contact at t: only the first half matters now. This window has not looked at the rest of the list.
-      for (std::size_t k = i + 1; k < end; ++k) context_.pending.push_back(NodePair(context_.pending[k]));
-      return walk(t0, t, later, context_.pending.size());
+      for (std::size_t k = i + 1; k < w.end; ++k) to.push_back(NodePair(from[k]));  // not looked at
+      return descent;
     }
-    const std::size_t count = context_.pending.size();
-    const bool free = count == later || (walk(t0, t, later, count) && walk(t, t1, later, count));
-    context_.pending.resize(later);
+    return level < kProbedLevels && probe(window.X_WB, to, later) ? Descent::contact
+                                                                  : Descent::done;
+  }
+
+  /// For the verdict alone: the coarse windows level by level, so that a contact anywhere is found
+  /// soon; what they leave, depth first, so that a place that can't be decided is found before
+  /// everything else is refined. False: `result_` says why.
+  bool walkByLevels() {
+    auto &pending = context_.pending, &next = context_.next;
+    std::vector<Window> windows = {{0, 1, 0, pending.size()}}, below;
+    for (int level = 0; level < kProbedLevels && !windows.empty(); ++level) {
+      next.clear();
+      below.clear();
+      for (const Window& w : windows) {
+        const std::size_t later = next.size();
+        const Descent descent = look(w, pending, next, level);
+        if (descent == Descent::contact) return contact(0, false);
+        if (descent == Descent::undecided) return undecided(w.t0, w.t1);
+        if (next.size() == later) continue;
+        below.push_back({w.t0, middle_, later, next.size()});
+        below.push_back({middle_, w.t1, later, next.size()});
+      }
+      std::swap(pending, next);
+      std::swap(windows, below);
+    }
+    return std::all_of(windows.begin(), windows.end(),
+                       [&](const Window& w) { return walkInOrder(w, kProbedLevels); });
+  }
+
+  /// Depth first, earlier half first: all is certified up to w.t0. False: stop, `result_` says why.
+  bool walkInOrder(const Window& w, int level) {
+    auto& pending = context_.pending;
+    const std::size_t later = pending.size();
+    const Descent descent = look(w, pending, pending, level);
+    const double t = middle_;
+    const std::size_t count = pending.size();
+    if (descent == Descent::undecided) return undecided(w.t0, w.t1);
+    if (descent == Descent::contact) {  // only the first half matters now
+      if (!options_.earliest || t - w.t0 <= options_.timeTolerance) return contact(w.t0, false);
+      return walkInOrder({w.t0, t, later, count}, level + 1);
+    }
+    const bool free = count == later || (walkInOrder({w.t0, t, later, count}, level + 1) &&
+                                         walkInOrder({t, w.t1, later, count}, level + 1));
+    pending.resize(later);
     return free;
   }
 
@@ -67,7 +126,8 @@ class Certifier {
     return false;
   }
 
-  /// Something in [t0, t1] stays undecided; with a contact known at t1, or close to t0, that is its bracket all the same.
+  /// Something in [t0, t1] stays undecided; with a contact known at t1, or close to t0, that is its
+  /// bracket all the same.
   bool undecided(double t0, double t1) {
     const bool clearance = result_.reason == UndecidedReason::clearance;
     if (contactTime_ == t1 && clearance) return contact(t0, true);
@@ -78,11 +138,12 @@ class Certifier {
     return false;
   }
 
-  /// Walks the trees below one pair of nodes. What this window cannot separate goes to `pending`.
-  Descent descend(const NodePair& root, const MotionWindow& window, double h) {
+  /// Walks the trees below one pair of nodes. What this window cannot separate goes to `later`.
+  Descent descend(const NodePair& root, const MotionWindow& window, double h,
+                  std::vector<NodePair>& later) {
     const ObbTree &a = *pairs_[root.bodies].fixed, &b = *pairs_[root.bodies].moving;
-    const BoxPairMargins margins =
-        boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(), b.centerReach(), window.X_WB);
+    const BoxPairMargins margins = boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(),
+                                                  b.centerReach(), window.X_WB);
     auto& stack = context_.stack;
     stack.clear();
     stack.push_back(root);
@@ -92,10 +153,15 @@ class Certifier {
         result_.pair.reset();
         return Descent::undecided;
       }
+      if (later.size() >= leftoversEnd_) {
+        later.insert(later.end(), stack.begin(), stack.end());
+        return Descent::done;
+      }
       const NodePair pair = stack.back();
       stack.pop_back();
       const ObbTree::Node &na = a.node(pair.a), &nb = b.node(pair.b);
-      // The sphere about box b: every point y of it has |y| ≤ |c| + ρ and turns by at most |ω × c| + α·ρ.
+      // The sphere about box b: every point y of it has |y| ≤ |c| + ρ and turns by at most |ω × c|
+      // + α·ρ.
       const Vec3 c = window.X_WB.m * nb.box.center;
       const Vec3 lever = window.angular.cross(c);
       const double reach = nb.box.center.norm() + nb.radius;
@@ -109,16 +175,19 @@ class Certifier {
       ++counters_.boxTests;
       if (obbsSeparated(na.box, nb.box, window.X_WB, margins, pad, travel)) continue;
 
-      // Time before space where the window's travel dominates the boxes. The factors are measured, soundness does not need them.
+      // Time before space where the window's travel dominates the boxes. The factors are measured,
+      // soundness does not need them.
       const double size = std::max(na.radius, nb.radius);
-      if (travel.cap > options_.tolerance && (4 * travel.curvature * window.angle > size || 0.2 * travel.cap > size)) {
-        context_.pending.push_back(pair);
+      if (travel.cap > options_.tolerance &&
+          (4 * travel.curvature * window.angle > size || 0.2 * travel.cap > size)) {
+        later.push_back(pair);
       } else if (na.isLeaf() && nb.isLeaf()) {
-        const Descent leaf = leafPair(pair, window, h);
+        const Descent leaf = leafPair(pair, window, h, later);
         if (leaf == Descent::undecided) return leaf;
-        if (leaf == Descent::contact) {  // who goes on to the first half must look at this and the rest again
-          context_.pending.push_back(pair);
-          context_.pending.insert(context_.pending.end(), stack.begin(), stack.end());
+        if (leaf == Descent::contact) {  // who goes on to the first half must look at this and the
+                                         // rest again
+          later.push_back(pair);
+          later.insert(later.end(), stack.begin(), stack.end());
           return leaf;
         }
       } else if (nb.isLeaf() || (!na.isLeaf() && na.radius >= nb.radius)) {
@@ -133,14 +202,16 @@ class Certifier {
   }
 
   /// All triangles of one leaf against all of another (one each, but for indivisible leaves).
-  Descent leafPair(const NodePair& pair, const MotionWindow& window, double h) {
+  Descent leafPair(const NodePair& pair, const MotionWindow& window, double h,
+                   std::vector<NodePair>& later) {
     const TreePair& bodies = pairs_[pair.bodies];
     const ObbTree::Node &na = bodies.fixed->node(pair.a), &nb = bodies.moving->node(pair.b);
-    bool later = false;
+    bool open = false;
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
-        const MovingTrianglesAnswer found = decideMovingTriangles(bodies.fixed->triangles()[s], bodies.moving->triangles()[t],
-                                                                  window, options_.margin, counters_);
+        const MovingTrianglesAnswer found =
+            decideMovingTriangles(bodies.fixed->triangles()[s], bodies.moving->triangles()[t],
+                                  window, options_.margin, counters_);
         if (found.separated) continue;
         const Contact triangles{bodies.movingBody, bodies.fixedBody, bodies.moving->meshTriangle(t),
                                 bodies.fixed->meshTriangle(s)};
@@ -149,17 +220,32 @@ class Certifier {
           contactPair_ = triangles;
           return Descent::contact;
         }
-        // 2^-48 of the motion: much below, the halves of windows would no longer be exact.
-        if (found.travel <= options_.tolerance || h <= 0x1p-48) {
+        // Refining does not help, or need not. 2^-48 of the motion: much below, halves of windows
+        // would no longer be exact.
+        if (found.stuck || found.travel <= options_.tolerance || h <= 0x1p-48) {
           result_.reason = UndecidedReason::clearance;
           result_.pair = triangles;
           result_.gap = found.gap;
           return Descent::undecided;
         }
-        later = true;
+        open = true;
       }
-    if (later) context_.pending.push_back(pair);
+    if (open) later.push_back(pair);
     return Descent::done;
+  }
+
+  /// Is one of the pairs from[begin, …) in contact at the pose itself?
+  bool probe(const Transform& X_WB, const std::vector<NodePair>& from, std::size_t begin) {
+    for (std::size_t i = begin; i < from.size(); ++i) {
+      const TreePair& bodies = pairs_[from[i].bodies];
+      const ObbTree &a = *bodies.fixed, &b = *bodies.moving;
+      if (const auto hit = interferenceBelow(a, b, X_WB, {from[i].a, from[i].b, 0}, context_)) {
+        contactTime_ = middle_;
+        contactPair_ = {bodies.movingBody, bodies.fixedBody, hit->b, hit->a};
+        return true;
+      }
+    }
+    return false;
   }
 
   const RigidMotion& motion_;
@@ -168,6 +254,7 @@ class Certifier {
   QueryContext& context_;
   Counters& counters_;
   std::uint64_t workEnd_ = 0;
+  std::size_t leftoversEnd_ = 0;
   double middle_ = 0;        // of the window under way
   double contactTime_ = -1;  // of the earliest contact known
   Contact contactPair_;
@@ -176,8 +263,8 @@ class Certifier {
 
 }  // namespace
 
-MotionResult certifyMotion(const RigidMotion& motion, std::span<const TreePair> pairs, const MotionOptions& options,
-                           QueryContext& context) {
+MotionResult certifyMotion(const RigidMotion& motion, std::span<const TreePair> pairs,
+                           const MotionOptions& options, QueryContext& context) {
   ++context.counters.edges;
   MotionResult result;
   if (motion.ambiguous()) {

@@ -11,15 +11,19 @@ namespace {
 
 constexpr double kHalfTurnBand = 1e-9;  // radians; design: «What an edge is»
 
-/// How far the computed rotation, and the half-window's rotation vector, may be from the real ones, as an operator norm (so metres of
-/// displacement per metre of lever). With u the unit roundoff:
-///   normalising a quaternion: norm (sum of squares, root) and quotient < 5u relative, so |q̂ − q| < 6u;
-///   the relative quaternion: 2·6u from its factors and 2·4u from four products a component: < 20u; it enters the angle
-///     θ = 2·atan2(s, w) by twice that and a rounding of at most 4u: < 48u; and the axis by 20u/s + 3u, whose effect on a rotation by
-///     φ ≤ θ is at most φ times that, with θ/s ≤ π (s = sin(θ/2) ≥ θ/π): < 63u + 10u;
-///   R0 from q̂0: 12u + 10u; K R0 and K² R0, norms of entrywise errors (3 and 6 roundings, factor 3): 12u + 20u; φ = tθ, sine and cosine
+/// How far the computed rotation, and the half-window's rotation vector, may be from the real ones,
+/// as an operator norm (so metres of displacement per metre of lever). With u the unit roundoff:
+///   normalising a quaternion: norm (sum of squares, root) and quotient < 5u relative, so |q̂ − q| <
+///   6u; the relative quaternion: 2·6u from its factors and 2·4u from four products a component: <
+///   20u; it enters the angle
+///     θ = 2·atan2(s, w) by twice that and a rounding of at most 4u: < 48u; and the axis by 20u/s +
+///     3u, whose effect on a rotation by φ ≤ θ is at most φ times that, with θ/s ≤ π (s = sin(θ/2)
+///     ≥ θ/π): < 63u + 10u;
+///   R0 from q̂0: 12u + 10u; K R0 and K² R0, norms of entrywise errors (3 and 6 roundings, factor
+///   3): 12u + 20u; φ = tθ, sine and cosine
 ///     (libm: 1 ulp): 4u + 2·2u; the sum of three matrices: 12u.
-/// Together below 200u < 2^-45. The rotation vector adds h·(48u + 73u) ≤ 61u < 2^-47. Both below 2^-44; doubled, to be generous with libm.
+/// Together below 200u < 2^-45. The rotation vector adds h·(48u + 73u) ≤ 61u < 2^-47. Both below
+/// 2^-44; doubled, to be generous with libm.
 constexpr double kRotationError = 0x1p-43;
 
 }  // namespace
@@ -36,7 +40,8 @@ void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle) {
 }
 
 RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, const Tube& tube) {
-  // Dividing by the largest coefficient first keeps norms of extreme quaternions finite; it is one more rounding.
+  // Dividing by the largest coefficient first keeps norms of extreme quaternions finite; it is one
+  // more rounding.
   const auto normalised = [](const Eigen::Quaterniond& q) {
     const double largest = q.coeffs().cwiseAbs().maxCoeff();
     const Eigen::Vector4d scaled = q.coeffs() / largest;
@@ -53,8 +58,9 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
   const bool turns = !equal && s > 0;
   m.setRotation(q0.toRotationMatrix(), turns ? Vec3(turn.vec() / s) : Vec3::Zero(),
                 turns ? 2 * std::atan2(s, turn.w()) : 0);
-  // p = p0 + t·δ: δ, t·δ and the sum round |δ| ≤ 2P, 2P and P once each, below 7uP a coordinate; the half displacement h·δ below 2uP
-  // more: 9√3·uP < 16uP. The tube moves each coordinate by `position`.
+  // p = p0 + t·δ: δ, t·δ and the sum round |δ| ≤ 2P, 2P and P once each, below 7uP a coordinate;
+  // the half displacement h·δ below 2uP more: 9√3·uP < 16uP. The tube moves each coordinate by
+  // `position`.
   const double P = std::max(from.p.cwiseAbs().maxCoeff(), to.p.cwiseAbs().maxCoeff());
   m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(3.0) * tube.position);
   m.reachError_ = roundedUp(kRotationError + tube.rotation);
@@ -70,10 +76,13 @@ RigidMotion RigidMotion::planar(const Vec3& from, const Vec3& to, const Tube& tu
   R0 << c, -s, 0, s, c, 0, 0, 0, 1;
   const double turn = std::remainder(to[2] - from[2], 2 * std::numbers::pi);
   m.setRotation(R0, turn < 0 ? Vec3(0, 0, -1) : Vec3(0, 0, 1), std::abs(turn));
-  const double P = std::max(from.head<2>().cwiseAbs().maxCoeff(), to.head<2>().cwiseAbs().maxCoeff());
+  const double P =
+      std::max(from.head<2>().cwiseAbs().maxCoeff(), to.head<2>().cwiseAbs().maxCoeff());
   m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(2.0) * tube.position);
-  // The difference of the yaws rounds once, and each of its at most (|a| + |b|)/2π + 1 turns is 2.5e-16 off 2π in double.
-  m.reachError_ = roundedUp(kRotationError + 0x1p-51 * (std::abs(from[2]) + std::abs(to[2])) + tube.rotation);
+  // The difference of the yaws rounds once, and each of its at most (|a| + |b|)/2π + 1 turns
+  // is 2.5e-16 off 2π in double.
+  m.reachError_ =
+      roundedUp(kRotationError + 0x1p-51 * (std::abs(from[2]) + std::abs(to[2])) + tube.rotation);
   return m;
 }
 

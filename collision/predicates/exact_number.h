@@ -11,23 +11,26 @@
 #include "collision/core/transform.h"
 #include "collision/predicates/triangle.h"
 
-/// Doubles and what affine maps make of them, as integers on a common power-of-two grid. Signs of polynomials in them are
-/// exact; the grid's scale is dropped, since signs don't see it.
+/// Doubles and what affine maps make of them, as integers on a common power-of-two grid. Signs of
+/// polynomials in them are exact; the grid's scale is dropped, since signs don't see it.
 namespace corridor::exact {
 
-/// Signed integers of a fixed width that live on the stack. Products that need more bits than `Bits` would wrap: `gridFor`
-/// picks a width that holds them.
+/// Signed integers of a fixed width that live on the stack. Products that need more bits than
+/// `Bits` would wrap: `gridFor` picks a width that holds them.
 template <unsigned Bits>
 using FixedInt = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<Bits, Bits, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked, void>,
     boost::multiprecision::et_off>;
-using BigInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using BigInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+                                             boost::multiprecision::et_off>;
 
 template <class Int>
 struct Vector {
   Int x, y, z;
-  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vector operator-(const Vector& a, const Vector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
   bool isZero() const { return x.is_zero() && y.is_zero() && z.is_zero(); }
 };
 template <class Int>
@@ -43,7 +46,8 @@ int sign(const Int& x) {
   return x.sign();
 }
 
-/// mantissa · 2^exponent, |mantissa| < 2^53, trailing zeros removed (so that grids stay coarse); zero: mantissa 0.
+/// mantissa · 2^exponent, |mantissa| < 2^53, trailing zeros removed (so that grids stay coarse);
+/// zero: mantissa 0.
 struct Dyadic {
   std::int64_t mantissa = 0;
   int exponent = 0;

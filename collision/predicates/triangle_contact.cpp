@@ -8,7 +8,8 @@
 namespace corridor {
 namespace {
 
-/// World corners of both triangles, rounded, with one bound for the error of any orientation determinant of four of them.
+/// World corners of both triangles, rounded, with one bound for the error of any orientation
+/// determinant of four of them.
 struct Filter {
   Triangle a, b;
   double bound;  ///< NaN or infinite where the filter may not be used
@@ -23,18 +24,19 @@ struct Filter {
         high = high.cwiseMax(p);
       }
     const double d = (high - low).maxCoeff();
-    // A matrix entry is a difference of two rounded coordinates, off by at most e = 2·error + u·d. A 3×3 determinant of
-    // entries ≤ D = d + e has six products of three: perturbing them changes it by at most 6·3·e·D²; evaluating it (two
-    // roundings a product, three for the sums) by at most 6·D³·γ5 < 31·u·D³. Underflow, also of inputs that are flushed to
-    // zero, loses less than 2^-1000·D², which 9·u·D³ covers for D > 2^-250; D < 2^250 keeps all products finite.
+    // A matrix entry is a difference of two rounded coordinates, off by at most e = 2·error + u·d.
+    // A 3×3 determinant of entries ≤ D = d + e has six products of three: perturbing them changes
+    // it by at most 6·3·e·D²; evaluating it (two roundings a product, three for the sums) by at
+    // most 6·D³·γ5 < 31·u·D³. Underflow, also of inputs that are flushed to zero, loses less than
+    // 2^-1000·D², which 9·u·D³ covers for D > 2^-250; D < 2^250 keeps all products finite.
     const double e = 2 * std::max(errorA, errorB) + kUnit * d;
     const double D = d + e;
     const bool usable = D > 0x1p-250 && D < 0x1p250;
     bound = usable ? roundedUp((18 * e + 40 * kUnit * D) * D * D) : HUGE_VAL;
   }
 
-  /// Maps the corners; returns a bound for the error of each coordinate: a sum of three products and a translation has
-  /// four roundings on its longest path, so γ4·(Σ|m||v| + |t|) < 4.1·u·(…).
+  /// Maps the corners; returns a bound for the error of each coordinate: a sum of three products
+  /// and a translation has four roundings on its longest path, so γ4·(Σ|m||v| + |t|) < 4.1·u·(…).
   static double apply(const Triangle& from, const Transform& X, Triangle& to) {
     double reach = 0;
     for (int i = 0; i < 3; ++i) {
@@ -52,7 +54,8 @@ struct Filter {
     const double ax = q[0] - p[0], ay = q[1] - p[1], az = q[2] - p[2];
     const double bx = r[0] - p[0], by = r[1] - p[1], bz = r[2] - p[2];
     const double cx = s[0] - p[0], cy = s[1] - p[1], cz = s[2] - p[2];
-    const double det = cx * (ay * bz - az * by) + cy * (az * bx - ax * bz) + cz * (ax * by - ay * bx);
+    const double det =
+        cx * (ay * bz - az * by) + cy * (az * bx - ax * bz) + cz * (ax * by - ay * bx);
     return det > bound ? 1 : det < -bound ? -1 : 0;
   }
 
@@ -65,11 +68,13 @@ struct Filter {
     if (sideA[0] != 0 && sideA[0] == sideA[1] && sideA[0] == sideA[2]) return 0;
     for (int i = 0; i < 3; ++i)
       if (sideA[i] == 0 || sideB[i] == 0) return -1;
-    // General position, each triangle crosses the other's plane. Number the corners so that p1 is alone on its side of
-    // b's plane, p2 alone of a's, and turn each triangle so that p1 and p2 are on the positive side of the other.
+    // General position, each triangle crosses the other's plane. Number the corners so that p1 is
+    // alone on its side of b's plane, p2 alone of a's, and turn each triangle so that p1 and p2 are
+    // on the positive side of the other.
     const int i = alone(sideA), j = alone(sideB);
     const Vec3 &p1 = a[i], &p2 = b[j];
-    const Vec3 *q1 = &a[(i + 1) % 3], *r1 = &a[(i + 2) % 3], *q2 = &b[(j + 1) % 3], *r2 = &b[(j + 2) % 3];
+    const Vec3 *q1 = &a[(i + 1) % 3], *r1 = &a[(i + 2) % 3], *q2 = &b[(j + 1) % 3],
+               *r2 = &b[(j + 2) % 3];
     // Turning b flips the side of p1, turning a that of p2.
     if (sideA[i] < 0) std::swap(q2, r2);
     if (sideB[j] < 0) std::swap(q1, r1);
@@ -80,13 +85,15 @@ struct Filter {
     return first < 0 && second < 0 ? 1 : -1;
   }
 
-  static int alone(const int (&side)[3]) { return side[0] == side[1] ? 2 : side[0] == side[2] ? 1 : 0; }
+  static int alone(const int (&side)[3]) {
+    return side[0] == side[1] ? 2 : side[0] == side[2] ? 1 : 0;
+  }
 };
 
 }  // namespace
 
-bool trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b, const Transform& X_WB,
-                    Counters& counters) {
+bool trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                    const Transform& X_WB, Counters& counters) {
   ++counters.triangleTests;
   const int decided = Filter(a, X_WA, b, X_WB).decide();
   if (decided >= 0) return decided == 1;

@@ -34,9 +34,11 @@ bool rangesMeet(const Int& a, const Int& b, const Int& c, const Int& d) {
 
 /// Closed segments pq and rs, each possibly a point.
 template <class Int>
-bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r, const Vector<Int>& s) {
+bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r,
+                   const Vector<Int>& s) {
   const Vector<Int> d = q - p, e = s - r, n = cross(d, e), f = r - p;
-  if (!n.isZero()) {  // not parallel: they meet only in their common plane, and there as their projections do
+  if (!n.isZero()) {  // not parallel: they meet only in their common plane, and there as their
+                      // projections do
     if (sign(dot(n, f)) != 0) return false;
     const int drop = dropAxis(n);
     return orientation2(p, q, r, drop) * orientation2(p, q, s, drop) <= 0 &&
@@ -44,13 +46,16 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
   }
   const Vector<Int>& line = d.isZero() ? e : d;
   if (!cross(line, f).isZero()) return false;
-  // On one line (or two points): closed boxes of collinear segments meet if and only if the segments do.
-  return rangesMeet(p.x, q.x, r.x, s.x) && rangesMeet(p.y, q.y, r.y, s.y) && rangesMeet(p.z, q.z, r.z, s.z);
+  // On one line (or two points): closed boxes of collinear segments meet if and only if the
+  // segments do.
+  return rangesMeet(p.x, q.x, r.x, s.x) && rangesMeet(p.y, q.y, r.y, s.y) &&
+         rangesMeet(p.z, q.z, r.z, s.z);
 }
 
 /// Closed segment pq against the closed triangle t with normal n (zero if degenerate).
 template <class Int>
-bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t, const Vector<Int>& n) {
+bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t,
+                            const Vector<Int>& n) {
   if (n.isZero()) {  // a segment or a point: the union of its edges
     for (int i = 0; i < 3; ++i)
       if (segmentsTouch(p, q, t[i], t[(i + 1) % 3])) return true;
@@ -67,7 +72,8 @@ bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Po
       if (orientation2(t[i], t[(i + 1) % 3], p, drop) * turn < 0) return false;
     return true;
   }
-  // The line crosses the plane in one point, which is in the triangle unless it is left of one edge and right of another.
+  // The line crosses the plane in one point, which is in the triangle unless it is left of one edge
+  // and right of another.
   bool positive = false, negative = false;
   const Vector<Int> d = q - p;
   for (int i = 0; i < 3; ++i) {
@@ -81,13 +87,16 @@ bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Po
 template <class Int>
 bool strictlyOneSide(const Points<Int>& plane, const Vector<Int>& n, const Points<Int>& points) {
   const int s = sign(dot(n, points[0] - plane[0]));
-  return s != 0 && s == sign(dot(n, points[1] - plane[0])) && s == sign(dot(n, points[2] - plane[0]));
+  return s != 0 && s == sign(dot(n, points[1] - plane[0])) &&
+         s == sign(dot(n, points[2] - plane[0]));
 }
 
-/// Two convex sets of dimension two or less meet if and only if an edge of one meets the other: an extreme point of their
-/// intersection lies on the rim of one of them. (A degenerate triangle is all rim.)
+/// Two convex sets of dimension two or less meet if and only if an edge of one meets the other: an
+/// extreme point of their intersection lies on the rim of one of them. (A degenerate triangle is
+/// all rim.)
 template <class Int>
-bool touch(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB, const exact::Grid& grid) {
+bool touch(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB,
+           const exact::Grid& grid) {
   Points<Int> a, b;
   for (int i = 0; i < 3; ++i) {
     a[i] = exact::mapped<Int>(X_WA, a0[i], grid);
@@ -96,19 +105,21 @@ bool touch(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const 
   const Vector<Int> nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
   if (strictlyOneSide(a, nA, b) || strictlyOneSide(b, nB, a)) return false;
   for (int i = 0; i < 3; ++i)
-    if (segmentTouchesTriangle(a[i], a[(i + 1) % 3], b, nB) || segmentTouchesTriangle(b[i], b[(i + 1) % 3], a, nA))
+    if (segmentTouchesTriangle(a[i], a[(i + 1) % 3], b, nB) ||
+        segmentTouchesTriangle(b[i], b[(i + 1) % 3], a, nA))
       return true;
   return false;
 }
 
 }  // namespace
 
-bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b, const Transform& X_WB) {
+bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                         const Transform& X_WB) {
   exact::Grid grid;
   grid.include(a, X_WA);
   grid.include(b, X_WB);
-  // With coordinates below 2^k, differences are below 2^(k+1), cross products below 2^(2k+3), orientations below
-  // 2^(3k+6) (3·2^(k+1)·2^(2k+3)): that many bits hold every intermediate value.
+  // With coordinates below 2^k, differences are below 2^(k+1), cross products below 2^(2k+3),
+  // orientations below 2^(3k+6) (3·2^(k+1)·2^(2k+3)): that many bits hold every intermediate value.
   const int bits = 3 * grid.coordinateBits() + 6;
   if (bits <= 512) return touch<exact::FixedInt<512>>(a, X_WA, b, X_WB, grid);
   if (bits <= 1024) return touch<exact::FixedInt<1024>>(a, X_WA, b, X_WB, grid);

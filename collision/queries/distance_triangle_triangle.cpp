@@ -8,14 +8,19 @@ namespace {
 
 void offer(ClosestPoints& best, const Vec3& a, const Vec3& b) {
   const double d = (b - a).squaredNorm();
-  if (d < best.squaredDistance) best = {a, b, d};  // false for NaN: a degenerate feature offers nothing
+  if (d < best.squaredDistance)
+    best = {a, b, d};  // false for NaN: a degenerate feature offers nothing
 }
 
-double clamped(double x) { return x > 0 ? std::min(x, 1.0) : 0; }
+double clamped(double x) {
+  return x > 0 ? std::min(x, 1.0) : 0;
+}
 
-void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3& p2, const Vec3& q2) {
+void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3& p2,
+                const Vec3& q2) {
   const Vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
-  const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), c = d1.dot(r), b = d1.dot(d2);
+  const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), c = d1.dot(r),
+               b = d1.dot(d2);
   const double denominator = a * e - b * b;
   double s = denominator > 0 ? clamped((b * f - c * e) / denominator) : 0;
   double t = e > 0 ? (b * s + f) / e : 0;
@@ -29,7 +34,8 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
 /// The foot of p in the plane of t, if it is inside; edges and corners are offered by `offerEdges`.
 bool footInside(const Vec3& p, const Triangle& t, Vec3& foot) {
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
-  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), wu = w.dot(u), wv = w.dot(v);
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), wu = w.dot(u),
+               wv = w.dot(v);
   const double denominator = uu * vv - uv * uv;
   if (!(denominator > 0)) return false;
   const double x = (vv * wu - uv * wv) / denominator, y = (uu * wv - uv * wu) / denominator;

@@ -4,10 +4,11 @@
 
 namespace corridor {
 
-/// Points of two triangles that are closest to each other as far as features go: of all pairs of edges and of corner and face. Where the
-/// triangles don't cross, these are the closest points, up to rounding; where they do, it says nothing. Never a proof by itself: a
-/// caller verifies what he takes from it (a direction, say) by projections.
-/// Source: Ericson, Real-Time Collision Detection, 2005, sections 5.1.5 and 5.1.9.
+/// Points of two triangles that are closest to each other as far as features go: of all pairs of
+/// edges and of corner and face. Where the triangles don't cross, these are the closest points, up
+/// to rounding; where they do, it says nothing. Never a proof by itself: a caller verifies what he
+/// takes from it (a direction, say) by projections. Source: Ericson, Real-Time Collision Detection,
+/// 2005, sections 5.1.5 and 5.1.9.
 struct ClosestPoints {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   double squaredDistance = 0;

@@ -9,32 +9,31 @@
 namespace corridor {
 namespace {
 
-/// How far X_WA·(X_AB·p) may be from X_WB·p for |p| ≤ reach, brought back to frame A: a contact in W is, in A, a pair of points of
-/// the boxes at most this far apart, so boxes farther apart have none.
-double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Transform& X_WB, double reach) {
+/// How far X_WA·(X_AB·p) may be from X_WB·p for |p| ≤ reach, brought back to frame A: a contact in
+/// W is, in A, a pair of points of the boxes at most this far apart, so boxes farther apart have
+/// none.
+double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Transform& X_WB,
+                         double reach) {
   const Transform back = X_WA * X_AB;
   // Each entry of `back` has at most 4 roundings of terms whose sizes sum up to `size`.
   const double size = (X_WA.m.cwiseAbs() * X_AB.m.cwiseAbs()).sum();
-  const double sizeT = (X_WA.m.cwiseAbs() * X_AB.t.cwiseAbs() + X_WA.t.cwiseAbs() + X_WB.t.cwiseAbs()).sum();
-  const double error = ((back.m - X_WB.m).norm() + 8 * kUnit * size) * reach + (back.t - X_WB.t).norm() + 8 * kUnit * sizeT;
-  // |M x| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|; where that is not positive nothing can be said and nothing is pruned.
+  const double sizeT =
+      (X_WA.m.cwiseAbs() * X_AB.t.cwiseAbs() + X_WA.t.cwiseAbs() + X_WB.t.cwiseAbs()).sum();
+  const double error = ((back.m - X_WB.m).norm() + 8 * kUnit * size) * reach +
+                       (back.t - X_WB.t).norm() + 8 * kUnit * sizeT;
+  // |M x| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|; where that is not positive nothing can be said and nothing
+  // is pruned.
   const double shrink = 1 - 3 * orthonormalityDefect(X_WA.m);
   return shrink > 0.5 ? roundedUp(error / shrink) : HUGE_VAL;
 }
 
-}  // namespace
-
-std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
-                                         const Transform& X_WB, QueryContext& context) {
-  ++context.counters.states;
-  const Transform X_AB = rigidInverse(X_WA) * X_WB;
-  BoxPairMargins margins =
-      boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(), b.centerReach(), X_AB);
-  margins.absolute += relativePoseError(X_WA, X_AB, X_WB, b.reach());
-
+std::optional<TrianglePair> walk(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
+                                 const Transform& X_WB, const Transform& X_AB,
+                                 const BoxPairMargins& margins, const QueryContext::NodePair& root,
+                                 QueryContext& context) {
   auto& stack = context.stack;
   stack.clear();
-  stack.push_back({0, 0, 0});
+  stack.push_back(root);
   while (!stack.empty()) {
     const auto [i, j, unused] = stack.back();
     stack.pop_back();
@@ -55,6 +54,28 @@ std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA
     }
   }
   return std::nullopt;
+}
+
+BoxPairMargins marginsOf(const ObbTree& a, const ObbTree& b, const Transform& X_AB) {
+  return boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(), b.centerReach(), X_AB);
+}
+
+}  // namespace
+
+std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
+                                         const Transform& X_WB, QueryContext& context) {
+  ++context.counters.states;
+  const Transform X_AB = rigidInverse(X_WA) * X_WB;
+  BoxPairMargins margins = marginsOf(a, b, X_AB);
+  margins.absolute += relativePoseError(X_WA, X_AB, X_WB, b.reach());
+  return walk(a, X_WA, b, X_WB, X_AB, margins, {0, 0, 0}, context);
+}
+
+std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b,
+                                              const Transform& X_AB,
+                                              const QueryContext::NodePair& nodes,
+                                              QueryContext& context) {
+  return walk(a, {}, b, X_AB, X_AB, marginsOf(a, b, X_AB), nodes, context);
 }
 
 }  // namespace corridor

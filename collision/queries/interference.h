@@ -14,11 +14,19 @@ struct TrianglePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Do closed triangles of a under X_WA and of b under X_WB share a point? The first pair found, or none.
+/// Do closed triangles of a under X_WA and of b under X_WB share a point? The first pair found, or
+/// none.
 ///
-/// Exact for the twelve doubles of each map in real arithmetic (design: contract 1), for any finite maps; near-rigid ones are fast, since
-/// only then the boxes prune. @pre finite maps (checked by assertion in `Scene` and by the readers of poses).
+/// Exact for the twelve doubles of each map in real arithmetic (design: contract 1), for any finite
+/// maps; near-rigid ones are fast, since only then the boxes prune. @pre finite maps (checked by
+/// assertion in `Scene` and by the readers of poses).
 std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
                                          const Transform& X_WB, QueryContext& context);
+
+/// The same for the triangles below one pair of nodes, with a at the identity.
+std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b,
+                                              const Transform& X_AB,
+                                              const QueryContext::NodePair& nodes,
+                                              QueryContext& context);
 
 }  // namespace corridor

@@ -11,16 +11,16 @@ extern "C" {
 namespace corridor {
 namespace {
 
-/// A Qhull run, freed whatever happens. Qhull reports its complaints to a FILE; nobody reads them, since every failure has
-/// the same answer: no hull, use another fit.
+/// A Qhull run, freed whatever happens. Qhull reports its complaints to a FILE; nobody reads them,
+/// since every failure has the same answer: no hull, use another fit.
 class Hull {
  public:
   explicit Hull(std::vector<double>& xyz) : sink_(std::fopen("/dev/null", "w"), &std::fclose) {
     if (!sink_) return;
     qh_zero(&qh_, sink_.get());
     char command[] = "qhull Qt";  // triangulated facets
-    ok_ = qh_new_qhull(&qh_, 3, static_cast<int>(xyz.size() / 3), xyz.data(), False, command, sink_.get(),
-                       sink_.get()) == 0;
+    ok_ = qh_new_qhull(&qh_, 3, static_cast<int>(xyz.size() / 3), xyz.data(), False, command,
+                       sink_.get(), sink_.get()) == 0;
     started_ = true;
   }
   ~Hull() {

@@ -8,8 +8,8 @@
 namespace corridor {
 namespace {
 
-/// Coordinates about a local origin and in a power-of-two unit near their size: offsets of 10^6 don't cancel, and squares
-/// neither over- nor underflow. Both are exact to undo.
+/// Coordinates about a local origin and in a power-of-two unit near their size: offsets of 10^6
+/// don't cancel, and squares neither over- nor underflow. Both are exact to undo.
 struct LocalUnit {
   Vec3 origin;
   double unit = 1;
@@ -23,11 +23,13 @@ struct LocalUnit {
       }
     origin = low + 0.5 * (high - low);
     const double size = (high - low).maxCoeff();
-    if (size > 0 && std::isfinite(size)) unit = std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
+    if (size > 0 && std::isfinite(size))
+      unit = std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
   }
   Vec3 operator()(const Vec3& p) const { return (p - origin) / unit; }
   Moments global(Moments local) const {
-    local.mean = origin + unit * local.mean;  // the covariance keeps the local unit: only its axes are used
+    local.mean =
+        origin + unit * local.mean;  // the covariance keeps the local unit: only its axes are used
     return local;
   }
 };
@@ -60,7 +62,8 @@ Moments surfaceMoments(std::span<const Triangle> triangles) {
     const Vec3 c = (p + q + r) / 3;
     m.weight += area;
     m.mean += area * c;
-    second += area / 12 * (9 * c * c.transpose() + p * p.transpose() + q * q.transpose() + r * r.transpose());
+    second += area / 12 *
+              (9 * c * c.transpose() + p * p.transpose() + q * q.transpose() + r * r.transpose());
   }
   if (!(m.weight > 0)) return {};
   m.mean /= m.weight;

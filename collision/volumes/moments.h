@@ -18,10 +18,12 @@ struct Moments {
 Moments vertexMoments(std::span<const Triangle> triangles);
 
 /// Of the triangles' surface: with areas A_i, centroids c_i, A = ΣA_i, corners p, q, r:
-/// μ = ΣA_i c_i/A, C = (1/12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ, about a local origin. Weight 0 if all areas are.
+/// μ = ΣA_i c_i/A, C = (1/12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ, about a local origin.
+/// Weight 0 if all areas are.
 Moments surfaceMoments(std::span<const Triangle> triangles);
 
-/// Of the surface of their convex hull (by Qhull); weight 0 where the hull is flat or Qhull refuses.
+/// Of the surface of their convex hull (by Qhull); weight 0 where the hull is flat or Qhull
+/// refuses.
 Moments hullMoments(std::span<const Triangle> triangles);
 
 }  // namespace corridor

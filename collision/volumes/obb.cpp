@@ -15,7 +15,8 @@ namespace {
 /// Eigenvectors of a covariance, largest eigenvalue first, made orthonormal again and right-handed.
 Mat3 principalAxes(const Mat3& covariance) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance);
-  if (solver.info() != Eigen::Success || !solver.eigenvectors().allFinite()) return Mat3::Identity();
+  if (solver.info() != Eigen::Success || !solver.eigenvectors().allFinite())
+    return Mat3::Identity();
   Mat3 axes;
   const Vec3 x = solver.eigenvectors().col(2).normalized();
   Vec3 y = solver.eigenvectors().col(1);
@@ -35,9 +36,11 @@ Moments moments(std::span<const Triangle> triangles, ObbFit fit) {
 }  // namespace
 
 double orthonormalityDefect(const Mat3& m) {
-  // Entries of MᵀM − I: three products, two sums and a difference, |terms| ≤ 1 for a matrix near a rotation; 8u for the rounding.
+  // Entries of MᵀM − I: three products, two sums and a difference, |terms| ≤ 1 for a matrix near a
+  // rotation; 8u for the rounding.
   const double size = m.cwiseAbs().maxCoeff();
-  return roundedUp((m.transpose() * m - Mat3::Identity()).cwiseAbs().maxCoeff() + 8 * kUnit * (1 + 3 * size * size));
+  return roundedUp((m.transpose() * m - Mat3::Identity()).cwiseAbs().maxCoeff() +
+                   8 * kUnit * (1 + 3 * size * size));
 }
 
 ObbFrame fitFrame(std::span<const Triangle> triangles, ObbFit fit) {
@@ -60,11 +63,12 @@ Obb enclosingObb(std::span<const Triangle> triangles, const Mat3& axes) {
   box.center = origin + axes * (low + 0.5 * (high - low));
   Vec3 reach = Vec3::Zero();
   for (const Triangle& t : triangles)
-    for (const Vec3& p : t) reach = reach.cwiseMax((axes.transpose() * (p - box.center)).cwiseAbs());
-  // What is wanted is x = U⁻¹d, d = p − center in real arithmetic; computed is y ≈ Uᵀd. With E = UᵀU − I, |E| ≤ η:
-  // Uᵀd = (I + E)x, so |x − Uᵀd| ≤ η·Σ|x_k| per component, and Σ|x_k| ≤ Σ|y_k|/(1 − 3η). Computing y: u·|d| for the difference and
-  // γ3·Σ|u_k||d_k| ≤ 3.1u·‖d‖ for the product: together at most 5u·‖d‖ ≤ 5.1u·Σ|y_k|. Twice the sum of both covers the
-  // second-order terms.
+    for (const Vec3& p : t)
+      reach = reach.cwiseMax((axes.transpose() * (p - box.center)).cwiseAbs());
+  // What is wanted is x = U⁻¹d, d = p − center in real arithmetic; computed is y ≈ Uᵀd. With E =
+  // UᵀU − I, |E| ≤ η: Uᵀd = (I + E)x, so |x − Uᵀd| ≤ η·Σ|x_k| per component, and Σ|x_k| ≤ Σ|y_k|/(1
+  // − 3η). Computing y: u·|d| for the difference and γ3·Σ|u_k||d_k| ≤ 3.1u·‖d‖ for the product:
+  // together at most 5u·‖d‖ ≤ 5.1u·Σ|y_k|. Twice the sum of both covers the second-order terms.
   const double pad = 2 * (orthonormalityDefect(axes) + 6 * kUnit) * reach.sum();
   for (int i = 0; i < 3; ++i) box.half[i] = roundedUp(reach[i] + pad);
   return box;

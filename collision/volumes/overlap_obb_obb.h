@@ -5,50 +5,59 @@
 #include "collision/core/rounding.h"
 #include "collision/volumes/obb.h"
 
-/// Box against box by the separating-axis theorem, 15 axes (Gottschalk, Lin, Manocha 1996, section 5), with every rounding
-/// error inside the margins: `true` is a proof that the boxes, as the point sets in real arithmetic that `Obb` says, are
-/// apart by more than the margin asked for; `false` says nothing.
+/// Box against box by the separating-axis theorem, 15 axes (Gottschalk, Lin, Manocha 1996, section
+/// 5), with every rounding error inside the margins: `true` is a proof that the boxes, as the point
+/// sets in real arithmetic that `Obb` says, are apart by more than the margin asked for; `false`
+/// says nothing.
 ///
-/// Derivation. Let frame A be that of box a, and x ↦ M x + t the map from b's frame (doubles, taken as exact). In coordinates
-/// y = U_Aᵀ(x − c_A) box a is {U_AᵀU_A x}, inside the axis-aligned box of half extents a + η_A·Σa. Box b is {T + R x} with
-/// T = U_Aᵀ(M c_B + t − c_A), R = U_Aᵀ M U_B in real arithmetic; the computed T, R differ from it by at most ε_T and ε_R per
-/// coordinate, so box b is inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. Moving that growth from b to a, the question is
-/// whether an exactly axis-aligned box and an exact parallelepiped given by doubles are apart. Any direction L may be asked:
+/// Derivation. Let frame A be that of box a, and x ↦ M x + t the map from b's frame (doubles, taken
+/// as exact). In coordinates y = U_Aᵀ(x − c_A) box a is {U_AᵀU_A x}, inside the axis-aligned box of
+/// half extents a + η_A·Σa. Box b is {T + R x} with T = U_Aᵀ(M c_B + t − c_A), R = U_Aᵀ M U_B in
+/// real arithmetic; the computed T, R differ from it by at most ε_T and ε_R per coordinate, so box
+/// b is inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. Moving that growth from b to a, the
+/// question is whether an exactly axis-aligned box and an exact parallelepiped given by doubles are
+/// apart. Any direction L may be asked:
 ///   L = e_i:        radius of a: a_i; of b: Σ b_k |R̂_ik|, both as written, no orthogonality used.
 ///   L = R̂_j:        of a: Σ a_i |R̂_ij|; of b: Σ b_k |R̂_j·R̂_k| ≤ b_j + η_R Σ b_k.
-///   L = e_i × R̂_j:  of a: as written; of b: Σ b_k |e_i·(R̂_j × R̂_k)|, where R̂_j × R̂_k = ±R̂_l but for 3η_R.
-/// with η_R = ‖R̂ᵀR̂ − I‖_max ≤ 3(η_A + η_B + η_M) + 64u up to second order: RᵀR = U_BᵀMᵀ(U_A U_Aᵀ)M U_B, each defect E enters as
-/// xᵀE y ≤ ‖E‖₂ ≤ 3‖E‖_max for unit x, y, and ε_R adds 2·√3·12u. Growth by a ball of radius ρ adds ρ|L|.
-/// Evaluating a projection and its radius takes fewer than 12 roundings of numbers below |T|₁ + Σa + Σb (|R̂_ij| < 1 + 2^-20):
-/// 16u of that sum. All of this is `BoxPairMargins`, computed once a query.
+///   L = e_i × R̂_j:  of a: as written; of b: Σ b_k |e_i·(R̂_j × R̂_k)|, where R̂_j × R̂_k = ±R̂_l but
+///   for 3η_R.
+/// with η_R = ‖R̂ᵀR̂ − I‖_max ≤ 3(η_A + η_B + η_M) + 64u up to second order: RᵀR = U_BᵀMᵀ(U_A U_Aᵀ)M
+/// U_B, each defect E enters as xᵀE y ≤ ‖E‖₂ ≤ 3‖E‖_max for unit x, y, and ε_R adds 2·√3·12u.
+/// Growth by a ball of radius ρ adds ρ|L|. Evaluating a projection and its radius takes fewer than
+/// 12 roundings of numbers below |T|₁ + Σa + Σb (|R̂_ij| < 1 + 2^-20): 16u of that sum. All of this
+/// is `BoxPairMargins`, computed once a query.
 namespace corridor {
 
 /// Bounds that hold for all pairs of boxes of two trees under one relative map.
 struct BoxPairMargins {
   double relative = 0;  ///< times (|T|₁ + Σa + Σb + travel terms): absolute slack of every axis
-  double absolute = 0;  ///< metres: ε_T and what the caller adds (pose errors), as the radius of a ball
+  double absolute =
+      0;  ///< metres: ε_T and what the caller adds (pose errors), as the radius of a ball
 };
 
-/// For trees whose axes have defects ηA, ηB, whose box centres lie within reachA, reachB of their frames' origins, and the map X_AB.
+/// For trees whose axes have defects ηA, ηB, whose box centres lie within reachA, reachB of their
+/// frames' origins, and the map X_AB.
 inline BoxPairMargins boxPairMargins(double defectA, double reachA, double defectB, double reachB,
                                      const Transform& X_AB) {
-  // ε_R: an entry of R̂ is two nested sums of three products of unit vectors' entries: 6 roundings, Σ|·||·| ≤ √3: 12u.
-  // ε_T: M c_B + t − c_A has at most 5 roundings of terms below S = reachB + |t| + reachA per coordinate, the product with U_Aᵀ 3
-  // more: (5√3 + 3)·u·S·1.01 < 12u·S per coordinate, ×√3 as a ball: 24u·S.
+  // ε_R: an entry of R̂ is two nested sums of three products of unit vectors' entries: 6 roundings,
+  // Σ|·||·| ≤ √3: 12u. ε_T: M c_B + t − c_A has at most 5 roundings of terms below S = reachB + |t|
+  // + reachA per coordinate, the product with U_Aᵀ 3 more: (5√3 + 3)·u·S·1.01 < 12u·S per
+  // coordinate, ×√3 as a ball: 24u·S.
   const double defectM = orthonormalityDefect(X_AB.m);
   const double defectR = 3 * (defectA + defectB + defectM) + 64 * kUnit;
   BoxPairMargins margins;
   // η_A·Σa and ε_R·Σb of the growth (as balls: ×√3 < 2), 3η_R·Σb, rounding.
   margins.relative = roundedUp(2 * defectA + 24 * kUnit + 4 * defectR + 16 * kUnit);
   margins.absolute = roundedUp(24 * kUnit * (reachA + reachB + X_AB.t.cwiseAbs().sum()));
-  // Far from rigid, the second-order terms that were dropped are not small: no box is ever separated.
+  // Far from rigid, the second-order terms that were dropped are not small: no box is ever
+  // separated.
   if (!(defectR < 0x1p-10)) margins.absolute = HUGE_VAL;
   return margins;
 }
 
-/// How box b moves while the map is the one at the middle of a window of time (collision/motion): box b's points go from
-/// x to x + s·(linear + angular × (x − c_B)) + remainder, |s| ≤ 1, with |L·remainder| ≤ curvature·|L × angular| for any vector L, and
-/// never by more than `cap`.
+/// How box b moves while the map is the one at the middle of a window of time (collision/motion):
+/// box b's points go from x to x + s·(linear + angular × (x − c_B)) + remainder, |s| ≤ 1, with
+/// |L·remainder| ≤ curvature·|L × angular| for any vector L, and never by more than `cap`.
 struct BoxTravel {
   Vec3 linear = Vec3::Zero();   ///< of b's centre, in a's frame, metres
   Vec3 angular = Vec3::Zero();  ///< in a's frame, radians
@@ -59,7 +68,9 @@ struct BoxTravel {
 namespace internal {
 
 /// std::hypot guards against overflow at ten times the price; the entries here are of rotations.
-inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
+inline double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
 /// The pair in the coordinates of box a.
 struct BoxPair {
@@ -79,13 +90,14 @@ struct NoTravel {
   double alongEdges(int, int, int, int) const { return 0; }
 };
 
-/// First order exact, second order bounded, never more than the isotropic cap (numerics: directional bounds). For a unit-ish L a
-/// point c_B + Σ x_k u_k of b moves along L by at most |L·v| + Σ b_k |u_k·(L × ω)| + curvature·|L × ω|.
+/// First order exact, second order bounded, never more than the isotropic cap (numerics:
+/// directional bounds). For a unit-ish L a point c_B + Σ x_k u_k of b moves along L by at most
+/// |L·v| + Σ b_k |u_k·(L × ω)| + curvature·|L × ω|.
 struct DirectionalTravel {
   const Mat3& R;
   const Vec3& b;
-  Vec3 v, w;       // in coordinates of box a
-  Vec3 wB;         // u_k·ω
+  Vec3 v, w;  // in coordinates of box a
+  Vec3 wB;    // u_k·ω
   double curvature, cap, sum;
 
   DirectionalTravel(const BoxPair& pair, const Obb& a, const Obb& box, const BoxTravel& travel)
@@ -96,7 +108,8 @@ struct DirectionalTravel {
         wB(pair.R.transpose() * w),
         curvature(travel.curvature),
         cap(travel.cap),
-        sum(v.cwiseAbs().sum() + 2 * w.cwiseAbs().sum() * (b.sum() + curvature)) {}  // 3η_R of the terms that use R's orthonormality
+        sum(v.cwiseAbs().sum() + 2 * w.cwiseAbs().sum() * (b.sum() + curvature)) {
+  }  // 3η_R of the terms that use R's orthonormality
 
   double magnitude() const { return sum; }
   double alongFaceA(int i) const {  // u_k·(e_i × ω) = R_(i+2)k ω_(i+1) − R_(i+1)k ω_(i+2)
@@ -107,8 +120,8 @@ struct DirectionalTravel {
   }
   double alongFaceB(int j) const {  // u_k·(u_j × ω) = ±u_l·ω
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    const double s = std::abs(v.dot(R.col(j))) + b[j1] * std::abs(wB[j2]) + b[j2] * std::abs(wB[j1]) +
-                     curvature * length(wB[j1], wB[j2]);
+    const double s = std::abs(v.dot(R.col(j))) + b[j1] * std::abs(wB[j2]) +
+                     b[j2] * std::abs(wB[j1]) + curvature * length(wB[j1], wB[j2]);
     return std::min(s, cap);
   }
   double alongEdges(int i1, int i2, int i, int j) const {  // L × ω = u_j (e_i·ω) − e_i (u_j·ω)
@@ -124,15 +137,17 @@ struct DirectionalTravel {
 };
 
 template <class Travel>
-bool separated(const BoxPair& pair, const Vec3& a, const Vec3& b, const BoxPairMargins& margins, double pad,
-               const Travel& travel) {
+bool separated(const BoxPair& pair, const Vec3& a, const Vec3& b, const BoxPairMargins& margins,
+               double pad, const Travel& travel) {
   const Mat3 &R = pair.R, &Q = pair.absR;
   const Vec3& T = pair.T;
   const double slack =
-      margins.relative * (T.cwiseAbs().sum() + a.sum() + b.sum() + travel.magnitude() + pad) + kTiny;
+      margins.relative * (T.cwiseAbs().sum() + a.sum() + b.sum() + travel.magnitude() + pad) +
+      kTiny;
   const double ball = margins.absolute + pad;
   for (int i = 0; i < 3; ++i) {
-    const double gap = std::abs(T[i]) - (a[i] + Q(i, 0) * b[0] + Q(i, 1) * b[1] + Q(i, 2) * b[2]) - ball - slack;
+    const double gap =
+        std::abs(T[i]) - (a[i] + Q(i, 0) * b[0] + Q(i, 1) * b[1] + Q(i, 2) * b[2]) - ball - slack;
     if (gap > 0 && gap > travel.alongFaceA(i)) return true;
   }
   for (int j = 0; j < 3; ++j) {
@@ -144,9 +159,11 @@ bool separated(const BoxPair& pair, const Vec3& a, const Vec3& b, const BoxPairM
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      const double gap = std::abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
-                         (a[i1] * Q(i2, j) + a[i2] * Q(i1, j) + b[j1] * Q(i, j2) + b[j2] * Q(i, j1)) - slack;
-      if (gap > 0 && gap > ball * length(R(i1, j), R(i2, j)) + travel.alongEdges(i1, i2, i, j)) return true;
+      const double gap =
+          std::abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
+          (a[i1] * Q(i2, j) + a[i2] * Q(i1, j) + b[j1] * Q(i, j2) + b[j2] * Q(i, j1)) - slack;
+      if (gap > 0 && gap > ball * length(R(i1, j), R(i2, j)) + travel.alongEdges(i1, i2, i, j))
+        return true;
     }
   }
   return false;
@@ -155,15 +172,18 @@ bool separated(const BoxPair& pair, const Vec3& a, const Vec3& b, const BoxPairM
 }  // namespace internal
 
 /// Apart by more than `pad` metres?
-inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB, const BoxPairMargins& margins, double pad) {
-  return internal::separated(internal::BoxPair(a, b, X_AB), a.half, b.half, margins, pad, internal::NoTravel{});
+inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB,
+                          const BoxPairMargins& margins, double pad) {
+  return internal::separated(internal::BoxPair(a, b, X_AB), a.half, b.half, margins, pad,
+                             internal::NoTravel{});
 }
 
 /// Apart by more than `pad` metres all along a window of time in which b travels as told?
-inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB, const BoxPairMargins& margins, double pad,
-                          const BoxTravel& travel) {
+inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB,
+                          const BoxPairMargins& margins, double pad, const BoxTravel& travel) {
   const internal::BoxPair pair(a, b, X_AB);
-  return internal::separated(pair, a.half, b.half, margins, pad, internal::DirectionalTravel(pair, a, b, travel));
+  return internal::separated(pair, a.half, b.half, margins, pad,
+                             internal::DirectionalTravel(pair, a, b, travel));
 }
 
 }  // namespace corridor

@@ -19,16 +19,19 @@ struct Body::Impl {
   std::string name;
   TriangleMesh mesh;
   ObbTreeParams params;
-  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower, center = Vec3::Zero();
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
+       center = Vec3::Zero();
   double radius = 0, sphereRadius = 0;
   mutable std::once_flag once;
   mutable std::atomic<bool> built = false;
   mutable std::optional<ObbTree> tree;
 };
 
-Body::Body(std::string name, TriangleMesh mesh, const ObbTreeParams& params) : impl_(std::make_unique<Impl>()) {
+Body::Body(std::string name, TriangleMesh mesh, const ObbTreeParams& params)
+    : impl_(std::make_unique<Impl>()) {
   if (mesh.triangles.empty()) throw std::invalid_argument("body " + name + " has no triangle");
-  if (const auto complaint = checkMesh(mesh)) throw std::invalid_argument("body " + name + ": " + *complaint);
+  if (const auto complaint = checkMesh(mesh))
+    throw std::invalid_argument("body " + name + ": " + *complaint);
   impl_->name = std::move(name);
   impl_->mesh = std::move(mesh);
   impl_->params = params;
@@ -43,7 +46,8 @@ Body::Body(std::string name, TriangleMesh mesh, const ObbTreeParams& params) : i
   impl_->center = impl_->lower + 0.5 * (impl_->upper - impl_->lower);
   corners([&](const Vec3& p) {
     impl_->radius = std::max(impl_->radius, roundedUp(p.stableNorm()));
-    impl_->sphereRadius = std::max(impl_->sphereRadius, roundedUp((p - impl_->center).stableNorm()));
+    impl_->sphereRadius =
+        std::max(impl_->sphereRadius, roundedUp((p - impl_->center).stableNorm()));
   });
 }
 
@@ -51,14 +55,30 @@ Body::~Body() = default;
 Body::Body(Body&&) noexcept = default;
 Body& Body::operator=(Body&&) noexcept = default;
 
-const std::string& Body::name() const { return impl_->name; }
-const TriangleMesh& Body::mesh() const { return impl_->mesh; }
-bool Body::treeBuilt() const { return impl_->built; }
-double Body::radius() const { return impl_->radius; }
-const Vec3& Body::sphereCenter() const { return impl_->center; }
-double Body::sphereRadius() const { return impl_->sphereRadius; }
-const Vec3& Body::lower() const { return impl_->lower; }
-const Vec3& Body::upper() const { return impl_->upper; }
+const std::string& Body::name() const {
+  return impl_->name;
+}
+const TriangleMesh& Body::mesh() const {
+  return impl_->mesh;
+}
+bool Body::treeBuilt() const {
+  return impl_->built;
+}
+double Body::radius() const {
+  return impl_->radius;
+}
+const Vec3& Body::sphereCenter() const {
+  return impl_->center;
+}
+double Body::sphereRadius() const {
+  return impl_->sphereRadius;
+}
+const Vec3& Body::lower() const {
+  return impl_->lower;
+}
+const Vec3& Body::upper() const {
+  return impl_->upper;
+}
 
 const ObbTree& Body::tree() const {
   std::call_once(impl_->once, [this] {
@@ -70,18 +90,23 @@ const ObbTree& Body::tree() const {
 
 namespace {
 
-/// Can the moving body's sphere, over the whole window and with all pads, meet the fixed body's axis-aligned box? No tree is needed for
-/// this, so that bodies which nothing comes near never get one.
+/// Can the moving body's sphere, over the whole window and with all pads, meet the fixed body's
+/// axis-aligned box? No tree is needed for this, so that bodies which nothing comes near never get
+/// one.
 bool mayMeet(const Body& moving, const Body& fixed, const MotionWindow& window, double margin) {
   const Vec3 y = window.X_WB.m * moving.sphereCenter();
   const Vec3 c = y + window.X_WB.t;
   const Vec3 outside = (fixed.lower() - c).cwiseMax(c - fixed.upper()).cwiseMax(Vec3::Zero());
   const double reach = y.norm() + moving.sphereRadius();
-  const double travel = window.speed + window.angular.cross(y).norm() + window.angle * (moving.sphereRadius() + 16 * kUnit * reach);
+  const double travel = window.speed + window.angular.cross(y).norm() +
+                        window.angle * (moving.sphereRadius() + 16 * kUnit * reach);
   const double pad = margin + window.fixedError + window.reachError * reach;
-  // c is off by less than 8u of its terms a coordinate, the differences by u of both of theirs: √3·(8 + 2)·u.
-  const double size = reach + window.X_WB.t.cwiseAbs().sum() + fixed.lower().cwiseAbs().sum() + fixed.upper().cwiseAbs().sum();
-  return !(roundedDown(outside.norm()) > roundedUp(moving.sphereRadius() + travel + pad + 32 * kUnit * size));
+  // c is off by less than 8u of its terms a coordinate, the differences by u of both of theirs:
+  // √3·(8 + 2)·u.
+  const double size = reach + window.X_WB.t.cwiseAbs().sum() + fixed.lower().cwiseAbs().sum() +
+                      fixed.upper().cwiseAbs().sum();
+  return !(roundedDown(outside.norm()) >
+           roundedUp(moving.sphereRadius() + travel + pad + 32 * kUnit * size));
 }
 
 double sideRadius(const std::vector<Body>& bodies) {
@@ -95,7 +120,8 @@ double sideRadius(const std::vector<Body>& bodies) {
 
 }  // namespace
 
-Scene::Scene(std::vector<Body> moving, std::vector<Body> fixed) : moving_(std::move(moving)), fixed_(std::move(fixed)) {
+Scene::Scene(std::vector<Body> moving, std::vector<Body> fixed)
+    : moving_(std::move(moving)), fixed_(std::move(fixed)) {
   if (moving_.empty()) throw std::invalid_argument("a scene needs a moving body");
   for (const Body& body : moving_) movingRadius_ = std::max(movingRadius_, body.radius());
 }
@@ -103,7 +129,8 @@ Scene::Scene(std::vector<Body> moving, std::vector<Body> fixed) : moving_(std::m
 double Scene::defaultTolerance() const {
   const double moving = sideRadius(moving_);
   const double radius = fixed_.empty() ? moving : std::min(moving, sideRadius(fixed_));
-  // A single point has no radius; its tolerance is relative to where it is, and the least number where that is the origin.
+  // A single point has no radius; its tolerance is relative to where it is, and the least number
+  // where that is the origin.
   return 1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8);
 }
 
@@ -115,13 +142,15 @@ std::optional<Contact> Scene::interference(const Transform& X_WB, QueryContext& 
   for (std::size_t i = 0; i < moving_.size(); ++i)
     for (std::size_t k = 0; k < fixed_.size(); ++k) {
       if (!mayMeet(moving_[i], fixed_[k], still, 0)) continue;
-      if (const auto hit = corridor::interference(fixed_[k].tree(), {}, moving_[i].tree(), X_WB, context))
+      if (const auto hit =
+              corridor::interference(fixed_[k].tree(), {}, moving_[i].tree(), X_WB, context))
         return Contact{i, k, hit->b, hit->a};
     }
   return std::nullopt;
 }
 
-MotionResult Scene::certify(const RigidMotion& motion, const MotionOptions& options, QueryContext& context) const {
+MotionResult Scene::certify(const RigidMotion& motion, const MotionOptions& options,
+                            QueryContext& context) const {
   const MotionWindow whole = motion.window(0.5, 0.5);
   std::vector<TreePair> pairs;
   for (std::size_t i = 0; i < moving_.size(); ++i)
@@ -131,21 +160,23 @@ MotionResult Scene::certify(const RigidMotion& motion, const MotionOptions& opti
   return certifyMotion(motion, pairs, options, context);
 }
 
-MotionResult Scene::certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
-                                QueryContext& context) const {
+MotionResult Scene::certifyEdge(const RigidPose& from, const RigidPose& to,
+                                const MotionOptions& options, QueryContext& context) const {
   return certify(RigidMotion::spatial(from, to, options.tube), options, context);
 }
 
-MotionResult Scene::certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
-                                      QueryContext& context) const {
+MotionResult Scene::certifyEdgePlanar(const Vec3& from, const Vec3& to,
+                                      const MotionOptions& options, QueryContext& context) const {
   return certify(RigidMotion::planar(from, to, options.tube), options, context);
 }
 
-MotionResult Scene::certifyState(const RigidPose& pose, const MotionOptions& options, QueryContext& context) const {
+MotionResult Scene::certifyState(const RigidPose& pose, const MotionOptions& options,
+                                 QueryContext& context) const {
   return certifyEdge(pose, pose, options, context);
 }
 
-MotionResult Scene::certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options, QueryContext& context) const {
+MotionResult Scene::certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,
+                                       QueryContext& context) const {
   return certifyEdgePlanar(xyYaw, xyYaw, options, context);
 }
 

@@ -40,8 +40,9 @@ class Body {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One rigid body of several meshes, `moving`, among `fixed` ones, which are at the identity. All const after construction, trees apart
-/// (built at first need): with one QueryContext a thread every query may be called in parallel.
+/// One rigid body of several meshes, `moving`, among `fixed` ones, which are at the identity. All
+/// const after construction, trees apart (built at first need): with one QueryContext a thread
+/// every query may be called in parallel.
 class Scene {
  public:
   Scene(std::vector<Body> moving, std::vector<Body> fixed);
@@ -53,20 +54,26 @@ class Scene {
   /// 1e-7 of the smaller of the two sides' radii (each side's bodies in one sphere).
   double defaultTolerance() const;
 
-  /// Exact: do closed triangles of the two sides share a point, with the moving side under X_WB? First contact found.
+  /// Exact: do closed triangles of the two sides share a point, with the moving side under X_WB?
+  /// First contact found.
   std::optional<Contact> interference(const Transform& X_WB, QueryContext& context) const;
 
-  /// Is the motion from `from` to `to` free: straight line and slerp by the shorter arc (design: «What an edge is»)?
+  /// Is the motion from `from` to `to` free: straight line and slerp by the shorter arc (design:
+  /// «What an edge is»)?
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context) const;
   /// The same in the plane: (x, y, yaw), metres and radians, the shorter way round, z = 0.
-  MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options, QueryContext& context) const;
+  MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
+                                 QueryContext& context) const;
   /// An edge of zero length.
-  MotionResult certifyState(const RigidPose& pose, const MotionOptions& options, QueryContext& context) const;
-  MotionResult certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options, QueryContext& context) const;
+  MotionResult certifyState(const RigidPose& pose, const MotionOptions& options,
+                            QueryContext& context) const;
+  MotionResult certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,
+                                  QueryContext& context) const;
 
  private:
-  MotionResult certify(const RigidMotion& motion, const MotionOptions& options, QueryContext& context) const;
+  MotionResult certify(const RigidMotion& motion, const MotionOptions& options,
+                       QueryContext& context) const;
 
   std::vector<Body> moving_, fixed_;
   double movingRadius_ = 0;

@@ -1,9 +1,11 @@
 /// What a certified edge costs against sampling it: `edge_cost_benchmark PROBLEM… [--edges N]`.
 ///
-/// For each problem (YAML or OMPL.app's .cfg), random edges of 2, 5, 10 and 20 % of the scene's size, starting at valid states. Per edge:
-/// the certified query; Corridor's own interference test and FCL's (BVHModel<OBBRSS>, Debian's build) at n samples, that is n + 1 evenly
-/// spaced poses, up to the first contact. Same edges, same run, one thread; times are sums over the edges that the certified query calls
-/// free, and those it does not, apart; the medians of three repeats. CSV on stdout.
+/// For each problem (YAML or OMPL.app's .cfg), random edges of 2, 5, 10 and 20 % of the scene's
+/// size, starting at valid states. Per edge: the certified query; Corridor's own interference test
+/// and FCL's (BVHModel<OBBRSS>, Debian's build) at n samples, that is n + 1 evenly spaced poses, up
+/// to the first contact. Same edges, same run, one thread; times are sums over the edges that the
+/// certified query calls free, and those it does not, apart; the medians of three repeats. CSV on
+/// stdout.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -56,7 +58,8 @@ double seconds(const std::function<void()>& work) {
   for (int i = 0; i < 3; ++i) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    times.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   std::sort(times.begin(), times.end());
   return times[1];
@@ -91,13 +94,16 @@ void run(const std::string& file, int count) {
     for (const auto& m : fclMoving)
       for (const auto& f : fclFixed) {
         result.clear();
-        if (fcl::collide(f.get(), fcl::Transform3d::Identity(), m.get(), pose, request, result) > 0) return true;
+        if (fcl::collide(f.get(), fcl::Transform3d::Identity(), m.get(), pose, request, result) > 0)
+          return true;
       }
     return false;
   };
 #endif
   std::mt19937_64 random(20261121);
-  const auto real = [&](double low = -1, double high = 1) { return std::uniform_real_distribution(low, high)(random); };
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
   for (const double share : {0.02, 0.05, 0.1, 0.2}) {
     std::vector<Edge> free, other;
     int undecided = 0;
@@ -112,11 +118,16 @@ void run(const std::string& file, int count) {
       e.from.p = p;
       e.from.q = Eigen::Quaterniond(real(), real(), real(), real()).normalized();
       e.to.p = q;
-      e.to.q = Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vec3(real(), real(), real()).normalized())) * e.from.q;
+      e.to.q =
+          Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vec3(real(), real(), real()).normalized())) *
+          e.from.q;
       const double yaw = real(-3.14159, 3.14159);
       e.fromPlanar = Vec3(p[0], p[1], yaw);
       e.toPlanar = Vec3(q[0], q[1], yaw + turn);
-      if (((q.array() < problem.lower.array()) || (q.array() > problem.upper.array())).head(planar ? 2 : 3).any()) continue;
+      if (((q.array() < problem.lower.array()) || (q.array() > problem.upper.array()))
+              .head(planar ? 2 : 3)
+              .any())
+        continue;
       if (scene.interference(poseAt(problem, e, 0), context)) continue;
       const MotionVerdict verdict = certify(e).verdict;
       undecided += verdict == MotionVerdict::undecided;
@@ -127,11 +138,16 @@ void run(const std::string& file, int count) {
       context.counters = {};
       int wrong = 0;
       const double n = static_cast<double>(edges->size());
-      const double certified = seconds([&] { for (const Edge& e : *edges) certify(e); }) / n * 1e6;
+      const double certified = seconds([&] {
+                                 for (const Edge& e : *edges) certify(e);
+                               }) /
+                               n * 1e6;
       const Counters per = context.counters;
-      std::cout << problem.name << ',' << share << ',' << (edges == &free ? "free" : "contact") << ',' << edges->size() << ','
-                << undecided << ',' << certified << ',' << static_cast<double>(per.boxTests) / 3 / n << ','
-                << static_cast<double>(per.triangleTests) / 3 / n << ',' << static_cast<double>(per.poses) / 3 / n;
+      std::cout << problem.name << ',' << share << ',' << (edges == &free ? "free" : "contact")
+                << ',' << edges->size() << ',' << undecided << ',' << certified << ','
+                << static_cast<double>(per.boxTests) / 3 / n << ','
+                << static_cast<double>(per.triangleTests) / 3 / n << ','
+                << static_cast<double>(per.poses) / 3 / n;
       for (const int samples : {10, 100}) {
         const auto discrete = [&](const auto& touches) {
           return seconds([&] {
@@ -141,9 +157,12 @@ void run(const std::string& file, int count) {
                          wrong += edges == &free;
                          break;
                        }
-                 }) / n * 1e6;
+                 }) /
+                 n * 1e6;
         };
-        std::cout << ',' << discrete([&](const Transform& X) { return scene.interference(X, context).has_value(); });
+        std::cout << ',' << discrete([&](const Transform& X) {
+          return scene.interference(X, context).has_value();
+        });
 #ifdef CORRIDOR_WITH_FCL
         const double fcl = discrete(fclTouches);
         std::cout << ',' << fcl << ',' << fcl / certified;
@@ -173,7 +192,8 @@ int main(int argc, char** argv) {
     std::cerr << "usage: edge_cost_benchmark PROBLEM… [--edges N]\n";
     return 2;
   }
-  std::cout << "problem,length,verdict,edges,undecided,certified_us,box_tests,triangle_tests,poses,own10_us,fcl10_us,fcl10_ratio,own100_us,"
+  std::cout << "problem,length,verdict,edges,undecided,certified_us,box_tests,triangle_tests,poses,"
+               "own10_us,fcl10_us,fcl10_ratio,own100_us,"
                "fcl100_us,fcl100_ratio,samples_in_contact_on_free\n";
   try {
     for (const std::string& file : files) corridor::run(file, count);

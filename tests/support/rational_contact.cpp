@@ -20,7 +20,8 @@ Point mapped(const Transform& X, const Vec3& p) {
   return q;
 }
 
-/// Is there x ≥ 0 with M x = r? Phase one of the simplex method with Bland's rule, in rationals: always ends, never errs.
+/// Is there x ≥ 0 with M x = r? Phase one of the simplex method with Bland's rule, in rationals:
+/// always ends, never errs.
 bool feasible(std::vector<std::vector<Rational>> M, std::vector<Rational> r) {
   const std::size_t rows = M.size(), columns = M[0].size();
   for (std::size_t i = 0; i < rows; ++i)
@@ -69,7 +70,8 @@ bool feasible(std::vector<std::vector<Rational>> M, std::vector<Rational> r) {
 
 }  // namespace
 
-bool rationalContact(const Triangle& a, const Transform& X_WA, const Triangle& b, const Transform& X_WB) {
+bool rationalContact(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                     const Transform& X_WB) {
   // Σ λ_i a_i − Σ μ_j b_j = 0, Σ λ = Σ μ = 1, λ, μ ≥ 0.
   std::vector<std::vector<Rational>> M(5, std::vector<Rational>(6));
   for (int i = 0; i < 3; ++i) {

@@ -7,7 +7,8 @@
 
 namespace corridor::test {
 
-/// The definition of an edge once more, in long double and by another formula than the code under test: slerp by the two sine weights.
+/// The definition of an edge once more, in long double and by another formula than the code under
+/// test: slerp by the two sine weights.
 class ReferenceMotion {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;
@@ -15,7 +16,10 @@ class ReferenceMotion {
   using Vec4L = Eigen::Matrix<long double, 4, 1>;
 
   ReferenceMotion(const RigidPose& from, const RigidPose& to)
-      : p0_(from.p.cast<long double>()), p1_(to.p.cast<long double>()), q0_(normalised(from.q)), q1_(normalised(to.q)) {
+      : p0_(from.p.cast<long double>()),
+        p1_(to.p.cast<long double>()),
+        q0_(normalised(from.q)),
+        q1_(normalised(to.q)) {
     if (q0_.dot(q1_) < 0) q1_ = -q1_;
     angle_ = 2 * std::atan2((q1_ - q0_).norm(), (q1_ + q0_).norm());  // of the quaternions
   }
@@ -28,10 +32,14 @@ class ReferenceMotion {
     const Vec4L q = (a * q0_ + b * q1_).normalized();
     return Eigen::Quaternion<long double>(q).toRotationMatrix();
   }
-  Vec3L point(long double t, const Vec3& p_B) const { return position(t) + rotation(t) * p_B.cast<long double>(); }
+  Vec3L point(long double t, const Vec3& p_B) const {
+    return position(t) + rotation(t) * p_B.cast<long double>();
+  }
 
  private:
-  static Vec4L normalised(const Eigen::Quaterniond& q) { return q.coeffs().cast<long double>().normalized(); }
+  static Vec4L normalised(const Eigen::Quaterniond& q) {
+    return q.coeffs().cast<long double>().normalized();
+  }
   Vec3L p0_, p1_;
   Vec4L q0_, q1_;
   long double angle_;

@@ -17,14 +17,19 @@ std::optional<std::filesystem::path> folderFrom(const char* variable) {
 
 std::optional<std::filesystem::path> dataFolder() {
   if (auto folder = folderFrom("CORRIDOR_DATA")) return folder;
-  const std::filesystem::path beside = std::filesystem::path(CORRIDOR_SOURCE_DIR) / ".." / "shared" / "data";
+  const std::filesystem::path beside =
+      std::filesystem::path(CORRIDOR_SOURCE_DIR) / ".." / "shared" / "data";
   if (std::filesystem::is_directory(beside)) return beside;
   return std::nullopt;
 }
 
-std::optional<std::filesystem::path> omplAppFolder() { return folderFrom("CORRIDOR_OMPLAPP"); }
+std::optional<std::filesystem::path> omplAppFolder() {
+  return folderFrom("CORRIDOR_OMPLAPP");
+}
 
-bool stressAsked() { return std::getenv("CORRIDOR_STRESS") != nullptr; }
+bool stressAsked() {
+  return std::getenv("CORRIDOR_STRESS") != nullptr;
+}
 
 std::uint64_t testSeed(std::uint64_t fallback) {
   const char* value = std::getenv("CORRIDOR_SEED");

@@ -6,14 +6,15 @@
 
 namespace corridor::test {
 
-/// The folder of shared test data, from the environment variable CORRIDOR_DATA, or `shared/data` beside the project.
-/// nullopt where it is absent: tests that need it skip themselves, visibly.
+/// The folder of shared test data, from the environment variable CORRIDOR_DATA, or `shared/data`
+/// beside the project. nullopt where it is absent: tests that need it skip themselves, visibly.
 std::optional<std::filesystem::path> dataFolder();
 
 /// OMPL.app's `resources` folder, from the environment variable CORRIDOR_OMPLAPP.
 std::optional<std::filesystem::path> omplAppFolder();
 
-/// True when the long versions of stress tests are asked for (`./corridor test --all` sets CORRIDOR_STRESS).
+/// True when the long versions of stress tests are asked for (`./corridor test --all` sets
+/// CORRIDOR_STRESS).
 bool stressAsked();
 
 /// The seed of a random test: CORRIDOR_SEED where set, else `fallback`. Prints it.

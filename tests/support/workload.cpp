@@ -25,7 +25,8 @@ TriangleMesh plainObj(const std::filesystem::path& file) {
     words >> key >> x >> y >> z;
     if (key == "v") mesh.vertices.emplace_back(std::stod(x), std::stod(y), std::stod(z));
     if (key == "f")
-      mesh.triangles.push_back({static_cast<std::uint32_t>(std::stoul(x) - 1), static_cast<std::uint32_t>(std::stoul(y) - 1),
+      mesh.triangles.push_back({static_cast<std::uint32_t>(std::stoul(x) - 1),
+                                static_cast<std::uint32_t>(std::stoul(y) - 1),
                                 static_cast<std::uint32_t>(std::stoul(z) - 1)});
   }
   return mesh;
@@ -34,7 +35,8 @@ TriangleMesh plainObj(const std::filesystem::path& file) {
 std::vector<std::string> workloadNames(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (std::filesystem::exists(entry.path() / "poses.txt")) names.push_back(entry.path().filename());
+    if (std::filesystem::exists(entry.path() / "poses.txt"))
+      names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -43,7 +45,8 @@ Workload loadWorkload(const std::filesystem::path& folder, const std::string& na
   Workload w;
   w.name = name;
   std::ifstream pair = opened(folder / name / "pair.txt");
-  for (std::string which, file; pair >> which >> file;) (which == "A" ? w.a : w.b) = plainObj(folder / file);
+  for (std::string which, file; pair >> which >> file;)
+    (which == "A" ? w.a : w.b) = plainObj(folder / file);
   const auto lines = [&](const char* file, auto take) {
     std::ifstream in = opened(folder / name / file);
     for (std::string line; std::getline(in, line);) {
@@ -65,7 +68,8 @@ Workload loadWorkload(const std::filesystem::path& folder, const std::string& na
     in >> hit;
     w.hit.push_back(hit);
   });
-  if (w.poses.size() != w.hit.size()) throw std::runtime_error(name + ": poses and truths differ in number");
+  if (w.poses.size() != w.hit.size())
+    throw std::runtime_error(name + ": poses and truths differ in number");
   return w;
 }
 

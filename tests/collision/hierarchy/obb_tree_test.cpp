@@ -29,7 +29,8 @@ TEST_P(Fits, ContainsItsTrianglesInRationals) {
     for (int i = 0; i < 300; ++i) {
       const Vec3 c(offset + real(), real(), -offset + real());
       const double s = std::exp(3 * real() - 3);
-      add(mesh, c, c + s * Vec3(real(), real(), real()), c + s * Vec3(real(), real(), real() * (i % 3)));
+      add(mesh, c, c + s * Vec3(real(), real(), real()),
+          c + s * Vec3(real(), real(), real() * (i % 3)));
     }
     EXPECT_EQ(ObbTree(mesh, {GetParam()}).check(), std::nullopt) << offset;
   }
@@ -38,8 +39,11 @@ TEST_P(Fits, ContainsItsTrianglesInRationals) {
 TEST_P(Fits, SharedMeshes) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "no shared data (set CORRIDOR_DATA)";
-  for (const char* name : {"pqp_bunny", "slivers_A", "soup_far_A", "soup_tiny_B", "touching_boxes_B", "panda_hand"}) {
-    const ObbTree tree(test::plainObj(*data / "collision" / "meshes" / (std::string(name) + ".obj")), {GetParam()});
+  for (const char* name :
+       {"pqp_bunny", "slivers_A", "soup_far_A", "soup_tiny_B", "touching_boxes_B", "panda_hand"}) {
+    const ObbTree tree(
+        test::plainObj(*data / "collision" / "meshes" / (std::string(name) + ".obj")),
+        {GetParam()});
     EXPECT_EQ(tree.check(), std::nullopt) << name;
   }
 }
@@ -78,13 +82,16 @@ TEST_P(Fits, SinglePointAndSegment) {
   EXPECT_EQ(ObbTree(segment, {GetParam()}).check(), std::nullopt);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Fits, testing::Values(ObbFit::vertices, ObbFit::triangles, ObbFit::hull),
+INSTANTIATE_TEST_SUITE_P(All, Fits,
+                         testing::Values(ObbFit::vertices, ObbFit::triangles, ObbFit::hull),
                          [](const auto& p) {
-                           return p.param == ObbFit::vertices ? "vertices" : p.param == ObbFit::triangles ? "triangles" : "hull";
+                           return p.param == ObbFit::vertices    ? "vertices"
+                                  : p.param == ObbFit::triangles ? "triangles"
+                                                                 : "hull";
                          });
 
-/// A box is fitted to the shape, not to its tessellation: refining one face of a cube a thousandfold changes the moments of neither
-/// the surface nor the hull.
+/// A box is fitted to the shape, not to its tessellation: refining one face of a cube a
+/// thousandfold changes the moments of neither the surface nor the hull.
 TEST(ObbFrame, MomentsIgnoreTessellation) {
   const Vec3 size(4, 2, 1);
   const auto cube = [&](int n) {  // the face x = 4 in n × n cells, the others in one
@@ -102,11 +109,14 @@ TEST(ObbFrame, MomentsIgnoreTessellation) {
   for (const ObbFit fit : {ObbFit::triangles, ObbFit::hull}) {
     const ObbFrame coarse = fitFrame(cube(1), fit), fine = fitFrame(cube(32), fit);
     EXPECT_LT((coarse.mean - fine.mean).norm(), 1e-13);
-    for (int k = 0; k < 3; ++k) EXPECT_GT(std::abs(coarse.axes.col(k).dot(fine.axes.col(k))), 1 - 1e-13);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_GT(std::abs(coarse.axes.col(k).dot(fine.axes.col(k))), 1 - 1e-13);
     EXPECT_GT(std::abs(fine.axes(0, 0)), 1 - 1e-13) << "longest axis first";
   }
   // What the vertex fit is known for: it is pulled towards the fine face.
-  EXPECT_GT((fitFrame(cube(1), ObbFit::vertices).mean - fitFrame(cube(32), ObbFit::vertices).mean).norm(), 1.0);
+  EXPECT_GT(
+      (fitFrame(cube(1), ObbFit::vertices).mean - fitFrame(cube(32), ObbFit::vertices).mean).norm(),
+      1.0);
 }
 
 /// Inner geometry misleads the moments of the triangles, not those of the hull.
@@ -116,11 +126,12 @@ TEST(ObbFrame, HullIgnoresInnerGeometry) {
   std::vector<Triangle> shell;
   for (int i = 0; i < 8; ++i)
     for (int k = 0; k < i; ++k)
-      shell.push_back({Vec3(i & 1 ? 3 : -3, i & 2 ? 2 : -2, i & 4 ? 1 : -1), Vec3(k & 1 ? 3 : -3, k & 2 ? 2 : -2, k & 4 ? 1 : -1),
-                       Vec3(0, 0, 0)});
+      shell.push_back({Vec3(i & 1 ? 3 : -3, i & 2 ? 2 : -2, i & 4 ? 1 : -1),
+                       Vec3(k & 1 ? 3 : -3, k & 2 ? 2 : -2, k & 4 ? 1 : -1), Vec3(0, 0, 0)});
   std::vector<Triangle> filled = shell;
   for (int i = 0; i < 500; ++i)  // a dense needle along z inside
-    filled.push_back({Vec3(0.1 * real(), 0.1 * real(), real()), Vec3(0.1 * real(), 0.1 * real(), real()), Vec3(0, 0, real())});
+    filled.push_back({Vec3(0.1 * real(), 0.1 * real(), real()),
+                      Vec3(0.1 * real(), 0.1 * real(), real()), Vec3(0, 0, real())});
   const ObbFrame a = fitFrame(shell, ObbFit::hull), b = fitFrame(filled, ObbFit::hull);
   for (int k = 0; k < 3; ++k) EXPECT_GT(std::abs(a.axes.col(k).dot(b.axes.col(k))), 1 - 1e-9);
   EXPECT_GT(std::abs(b.axes(0, 0)), 1 - 1e-9);

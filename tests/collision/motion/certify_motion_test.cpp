@@ -23,19 +23,22 @@ void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
 TriangleMesh box(const Vec3& low, const Vec3& high) {
   TriangleMesh m;
   for (int i = 0; i < 8; ++i)
-    m.vertices.emplace_back(i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]);
+    m.vertices.emplace_back(i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1],
+                            i & 4 ? high[2] : low[2]);
   m.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return m;
 }
 
-MotionResult certify(const ObbTree& moving, const ObbTree& fixed, const RigidMotion& motion, const MotionOptions& options,
-                     QueryContext& context) {
+MotionResult certify(const ObbTree& moving, const ObbTree& fixed, const RigidMotion& motion,
+                     const MotionOptions& options, QueryContext& context) {
   const TreePair pair{&moving, &fixed};
   return certifyMotion(motion, {&pair, 1}, options, context);
 }
 
-RigidPose at(const Vec3& p) { return {p, Eigen::Quaterniond::Identity()}; }
+RigidPose at(const Vec3& p) {
+  return {p, Eigen::Quaterniond::Identity()};
+}
 
 RigidPose turned(const Vec3& p, double angle, const Vec3& axis) {
   return {p, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
@@ -44,7 +47,8 @@ RigidPose turned(const Vec3& p, double angle, const Vec3& axis) {
 // ---- closed forms ----
 
 TEST(CertifyMotion, BoxPastAWall) {
-  const ObbTree wall(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))), cube(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  const ObbTree wall(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+      cube(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   for (const double gap : {0.25, 1e-4, 1e-6, 3e-7, -3e-7, -1e-6, -1e-4, -0.25}) {
     QueryContext context;
     const RigidPose a = at(Vec3(-5, 0.5 - gap, 0)), b = at(Vec3(5, 0.5 - gap, 0));
@@ -53,7 +57,8 @@ TEST(CertifyMotion, BoxPastAWall) {
     const MotionResult r = certify(cube, wall, RigidMotion::spatial(a, b, {}), options, context);
     EXPECT_EQ(r.verdict, gap > 0 ? MotionVerdict::free : MotionVerdict::contact) << gap;
     if (gap > 0) {
-      EXPECT_LE(context.counters.poses, 64U) << "sliding at gap " << gap << " costs tens of windows";
+      EXPECT_LE(context.counters.poses, 64U)
+          << "sliding at gap " << gap << " costs tens of windows";
     }
   }
 }
@@ -72,10 +77,11 @@ TEST(CertifyMotion, BladeAgainstAPoint) {
     MotionOptions options;
     options.tolerance = 1e-7;
     options.earliest = true;
-    const MotionResult r = certify(bladeTree, pointTree,
-                                   RigidMotion::spatial({}, turned(Vec3::Zero(), 2.5, Vec3::UnitZ()), {}), options, context);
-    // A point has no inside: that a turning edge sweeps over it is never seen at a sampled time, so contact shows as a clearance under
-    // the tolerance. What must not be is `free`.
+    const MotionResult r = certify(
+        bladeTree, pointTree,
+        RigidMotion::spatial({}, turned(Vec3::Zero(), 2.5, Vec3::UnitZ()), {}), options, context);
+    // A point has no inside: that a turning edge sweeps over it is never seen at a sampled time, so
+    // contact shows as a clearance under the tolerance. What must not be is `free`.
     if (gap > 0) {
       EXPECT_EQ(r.verdict, MotionVerdict::free) << gap;
     }
@@ -94,36 +100,43 @@ TEST(CertifyMotion, NeedleThroughAHole) {
   const int n = 64;
   for (int i = 0; i < n; ++i) {  // both faces and the rim of a round hole in a plate z ∈ [0, thick]
     const double a = 2 * std::numbers::pi * i / n, b = 2 * std::numbers::pi * (i + 1) / n;
-    const Vec3 p(hole * std::cos(a), hole * std::sin(a), 0), q(hole * std::cos(b), hole * std::sin(b), 0), up(0, 0, thick);
+    const Vec3 p(hole * std::cos(a), hole * std::sin(a), 0),
+        q(hole * std::cos(b), hole * std::sin(b), 0), up(0, 0, thick);
     add(plate, p, q, 20 * p), add(plate, q, 20 * p, 20 * q);
     add(plate, p + up, q + up, 20 * p + up), add(plate, q + up, 20 * p + up, 20 * q + up);
     add(plate, p, q, q + up), add(plate, p, p + up, q + up);
   }
   const ObbTree tree(plate);
-  for (const double radius : {0.05, 0.0985, 0.0999, 0.1001}) {  // the hole's inscribed radius is 0.1·cos(π/64) = 0.09988
+  for (const double radius :
+       {0.05, 0.0985, 0.0999, 0.1001}) {  // the hole's inscribed radius is 0.1·cos(π/64) = 0.09988
     TriangleMesh needle;
     for (int i = 0; i < 6; ++i) {
       const double a = std::numbers::pi * i / 3, b = std::numbers::pi * (i + 1) / 3;
-      const Vec3 p(radius * std::cos(a), radius * std::sin(a), -1), q(radius * std::cos(b), radius * std::sin(b), -1);
+      const Vec3 p(radius * std::cos(a), radius * std::sin(a), -1),
+          q(radius * std::cos(b), radius * std::sin(b), -1);
       add(needle, p, q, Vec3(0, 0, 1));
     }
     QueryContext context;
     MotionOptions options;
     options.tolerance = 1e-7;
-    const MotionResult r = certify(ObbTree(needle), tree,
-                                   RigidMotion::spatial(at(Vec3(0, 0, -2)), turned(Vec3(0, 0, 3), 1, Vec3::UnitZ()), {}), options, context);
+    const MotionResult r = certify(
+        ObbTree(needle), tree,
+        RigidMotion::spatial(at(Vec3(0, 0, -2)), turned(Vec3(0, 0, 3), 1, Vec3::UnitZ()), {}),
+        options, context);
     EXPECT_EQ(r.verdict, radius < 0.09988 ? MotionVerdict::free : MotionVerdict::contact) << radius;
   }
 }
 
 TEST(CertifyMotion, ThinPlateIsNotJumped) {
-  const ObbTree plate(box(Vec3(-5, -5, 0), Vec3(5, 5, 1e-4))), cube(box(Vec3(-0.1, -0.1, -1e-3), Vec3(0.1, 0.1, 1e-3)));
+  const ObbTree plate(box(Vec3(-5, -5, 0), Vec3(5, 5, 1e-4))),
+      cube(box(Vec3(-0.1, -0.1, -1e-3), Vec3(0.1, 0.1, 1e-3)));
   QueryContext context;
   MotionOptions options;
   options.tolerance = 1e-8;
   options.earliest = true;
   const MotionResult r =
-      certify(cube, plate, RigidMotion::spatial(at(Vec3(0, 0, -7)), at(Vec3(0, 0, 6)), {}), options, context);
+      certify(cube, plate, RigidMotion::spatial(at(Vec3(0, 0, -7)), at(Vec3(0, 0, 6)), {}), options,
+              context);
   ASSERT_EQ(r.verdict, MotionVerdict::contact);
   const double first = (7 - 1e-3) / 13;
   EXPECT_LE(r.certifiedUntil, first);
@@ -133,7 +146,8 @@ TEST(CertifyMotion, ThinPlateIsNotJumped) {
 }
 
 TEST(CertifyMotion, MarginTubeAndWorkLimit) {
-  const ObbTree wall(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))), cube(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  const ObbTree wall(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+      cube(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   const RigidPose a = at(Vec3(-5, 0.4, 0)), b = at(Vec3(5, 0.4, 0));  // clearance 0.1
   QueryContext context;
   MotionOptions options;
@@ -156,25 +170,31 @@ TEST(CertifyMotion, MarginTubeAndWorkLimit) {
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
   options.tube = {};
   options.workLimit = 3;
-  EXPECT_EQ(verdict(at(Vec3(-5, 0.4999999, 0)), turned(Vec3(5, 0.4999, 0), 0.1, Vec3(1, 2, 3))).reason, UndecidedReason::workLimit);
+  EXPECT_EQ(
+      verdict(at(Vec3(-5, 0.4999999, 0)), turned(Vec3(5, 0.4999, 0), 0.1, Vec3(1, 2, 3))).reason,
+      UndecidedReason::workLimit);
   EXPECT_EQ(context.counters.undecided, 2U);
 }
 
 TEST(CertifyMotion, AmbiguousHalfTurn) {
-  const ObbTree far(box(Vec3(100, 0, 0), Vec3(101, 1, 1))), cube(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
+  const ObbTree far(box(Vec3(100, 0, 0), Vec3(101, 1, 1))),
+      cube(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
   QueryContext context;
   MotionOptions options;
   options.tolerance = 1e-7;
   const MotionResult r =
-      certify(cube, far, RigidMotion::spatial({}, turned(Vec3::Zero(), std::numbers::pi, Vec3(1, 2, 3)), {}), options, context);
+      certify(cube, far,
+              RigidMotion::spatial({}, turned(Vec3::Zero(), std::numbers::pi, Vec3(1, 2, 3)), {}),
+              options, context);
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_EQ(r.reason, UndecidedReason::ambiguous);
 }
 
 // ---- grazing by construction (numerics, test 1) ----
 
-/// A fixed mesh below the plane through x* with normal n, a moving one above it at height `gap` at t = 1 (or all along), known by
-/// construction: negative gaps interpenetrate in the interior of the features, positive ones are that far apart.
+/// A fixed mesh below the plane through x* with normal n, a moving one above it at height `gap` at
+/// t = 1 (or all along), known by construction: negative gaps interpenetrate in the interior of the
+/// features, positive ones are that far apart.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
@@ -182,14 +202,21 @@ struct Grazing {
   bool known = false;  ///< all corners stay above their height at contact: the verdict is known
 
   Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
-    const auto real = [&](double low = -1, double high = 1) { return std::uniform_real_distribution(low, high)(random); };
+    const auto real = [&](double low = -1, double high = 1) {
+      return std::uniform_real_distribution(low, high)(random);
+    };
     const Vec3 n = Vec3(real(), real(), real()).normalized();
     const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
     const double spread = real(0, 6.28);
-    const auto inPlane = [&](double angle, double r) { return Vec3(r * (std::cos(angle + spread) * u + std::sin(angle + spread) * v)); };
-    const auto around = [&](int i) { return inPlane(2.1 * i, real(0.3, 1)); };  // three of these surround the origin
+    const auto inPlane = [&](double angle, double r) {
+      return Vec3(r * (std::cos(angle + spread) * u + std::sin(angle + spread) * v));
+    };
+    const auto around = [&](int i) {
+      return inPlane(2.1 * i, real(0.3, 1));
+    };  // three of these surround the origin
     const Vec3 x = 3 * Vec3(real(), real(), real());
-    // In the plane's frame about x, heights along n: the fixed triangle at ≤ 0, the moving one at ≥ 0 (+ gap).
+    // In the plane's frame about x, heights along n: the fixed triangle at ≤ 0, the moving one at ≥
+    // 0 (+ gap).
     Triangle a, b;
     if (feature == cornerOnFace) {
       for (int i = 0; i < 3; ++i) a[i] = around(i);
@@ -200,9 +227,11 @@ struct Grazing {
     } else {
       const double turn = real(0.3, 2.8);
       a = {inPlane(0, real(0.3, 1)), inPlane(std::numbers::pi, real(0.3, 1)), around(2) - n};
-      b = {inPlane(turn, real(0.3, 1)), inPlane(turn + std::numbers::pi, real(0.3, 1)), around(1) + n};
+      b = {inPlane(turn, real(0.3, 1)), inPlane(turn + std::numbers::pi, real(0.3, 1)),
+           around(1) + n};
     }
-    to = {size * (x + Vec3(real(), real(), real())), Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
+    to = {size * (x + Vec3(real(), real(), real())),
+          Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
     const ReferenceMotion at(to, to);
     const auto toBody = [&](const Vec3& p) {
       const auto world = (size * (x + p + gap * n)).cast<long double>().eval();
@@ -218,10 +247,13 @@ struct Grazing {
     if (slides) {  // along the plane, turning about its normal: every height is constant
       from.p = to.p + size * inPlane(real(), real(0, 3));
       from.q = Eigen::Quaterniond(Eigen::AngleAxisd(real(-2, 2), n)) * to.q;
-      // The reference point turns in place, and so the slide is a slide of the body's heights about it.
+      // The reference point turns in place, and so the slide is a slide of the body's heights about
+      // it.
     } else {
       from.p = to.p + size * (n * real(0.5, 3) + inPlane(real(), real(0, 3)));
-      from.q = Eigen::Quaterniond(Eigen::AngleAxisd(real(-1, 1), Vec3(real(), real(), real()).normalized())) * to.q;
+      from.q = Eigen::Quaterniond(
+                   Eigen::AngleAxisd(real(-1, 1), Vec3(real(), real(), real()).normalized())) *
+               to.q;
     }
     const ReferenceMotion motion(from, to);
     known = true;
@@ -230,11 +262,14 @@ struct Grazing {
       const auto nL = n.cast<long double>().eval();
       const long double base = (motion.position(t) / size - x.cast<long double>()).dot(nL);
       long double lowest = 1e300L;
-      for (const Vec3& p : moving.vertices) lowest = std::min(lowest, base + nL.dot(R * p.cast<long double>()) / size);
+      for (const Vec3& p : moving.vertices)
+        lowest = std::min(lowest, base + nL.dot(R * p.cast<long double>()) / size);
       return lowest;
     };
-    for (int i = 0; i <= 200 && known && !slides; ++i) known = heights(i / 200.0L) >= heights(1) - 1e-17L;
-    for (int k = 1; k < 12 && known && !slides; ++k) known = heights(1 - std::pow(10.0L, -k)) >= heights(1) - 1e-17L;
+    for (int i = 0; i <= 200 && known && !slides; ++i)
+      known = heights(i / 200.0L) >= heights(1) - 1e-17L;
+    for (int k = 1; k < 12 && known && !slides; ++k)
+      known = heights(1 - std::pow(10.0L, -k)) >= heights(1) - 1e-17L;
   }
 };
 
@@ -255,8 +290,8 @@ TEST(CertifyMotion, GrazingByConstruction) {
     MotionOptions options;
     options.tolerance = 1e-7 * size;
     options.earliest = n % 2;
-    const MotionResult r =
-        certify(ObbTree(g.moving), ObbTree(g.fixed), RigidMotion::spatial(g.from, g.to, {}), options, context);
+    const MotionResult r = certify(ObbTree(g.moving), ObbTree(g.fixed),
+                                   RigidMotion::spatial(g.from, g.to, {}), options, context);
     if (gap < 0) {
       falseFree += r.verdict == MotionVerdict::free;
       notFound += r.verdict != MotionVerdict::contact && amount > 1e-6;
@@ -291,19 +326,24 @@ TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size
   return mesh;
 }
 
-/// Metamorphic (numerics, test 4), and static samples of what is called free: the exact interference test at rounded poses of the
-/// curve, all inside the default tube.
+/// Metamorphic (numerics, test 4), and static samples of what is called free: the exact
+/// interference test at rounded poses of the curve, all inside the default tube.
 TEST(CertifyMotion, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
-  const auto real = [&](double low = -1, double high = 1) { return std::uniform_real_distribution(low, high)(random); };
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
   const int count = test::stressAsked() ? 20'000 : 1'500;
   int free = 0, contact = 0, undecided = 0;
   for (int n = 0; n < count; ++n) {
     const ObbTree fixed(blob(random, 60, 2, 0.3)), moving(blob(random, 12, 0.3, 0.3));
     const double length = std::pow(10.0, real(-2, 0.5));
-    const RigidPose a{2 * Vec3(real(), real(), real()), Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
+    const RigidPose a{2 * Vec3(real(), real(), real()),
+                      Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
     const RigidPose b{a.p + length * Vec3(real(), real(), real()),
-                      Eigen::Quaterniond(Eigen::AngleAxisd(length * real(), Vec3(real(), real(), real()).normalized())) * a.q};
+                      Eigen::Quaterniond(Eigen::AngleAxisd(
+                          length * real(), Vec3(real(), real(), real()).normalized())) *
+                          a.q};
     MotionOptions options;
     options.tolerance = 1e-7;
     options.tube = {0x1p-40 * 4, 0x1p-40 * 6};
@@ -313,15 +353,20 @@ TEST(CertifyMotion, RandomEdges) {
     options.earliest = true;
     const MotionResult first = certify(moving, fixed, motion, options, context);
     ASSERT_EQ(r.verdict == MotionVerdict::free, first.verdict == MotionVerdict::free) << n;
-    (r.verdict == MotionVerdict::free ? free : r.verdict == MotionVerdict::contact ? contact : undecided)++;
+    (r.verdict == MotionVerdict::free      ? free
+     : r.verdict == MotionVerdict::contact ? contact
+                                           : undecided)++;
     const double until = r.verdict == MotionVerdict::free ? 1 : first.certifiedUntil;
     for (int i = 0; i <= 100 && until > 0; ++i)
-      ASSERT_FALSE(interference(fixed, {}, moving, motion.at(until * i / 100), context)) << n << " at " << i;
-    const MotionResult back = certify(moving, fixed, RigidMotion::spatial(b, a, {}), options, context);
+      ASSERT_FALSE(interference(fixed, {}, moving, motion.at(until * i / 100), context))
+          << n << " at " << i;
+    const MotionResult back =
+        certify(moving, fixed, RigidMotion::spatial(b, a, {}), options, context);
     if (r.verdict == MotionVerdict::free) {
       ASSERT_NE(back.verdict, MotionVerdict::contact);
       options.margin = 1e-9;
-      ASSERT_NE(certify(moving, fixed, motion, options, context).verdict, MotionVerdict::contact) << n;
+      ASSERT_NE(certify(moving, fixed, motion, options, context).verdict, MotionVerdict::contact)
+          << n;
     } else if (r.verdict == MotionVerdict::contact) {
       ASSERT_NE(back.verdict, MotionVerdict::free);
       ASSERT_TRUE(interference(fixed, {}, moving, motion.at(first.contactTime), context)) << n;

@@ -16,13 +16,18 @@ using test::ReferenceMotion;
 class Cases {
  public:
   explicit Cases(std::uint64_t seed) : random_(seed) {}
-  double real(double low = -1, double high = 1) { return std::uniform_real_distribution(low, high)(random_); }
+  double real(double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random_);
+  }
   Vec3 vector(double size = 1) { return size * Vec3(real(), real(), real()); }
-  Eigen::Quaterniond orientation() { return Eigen::Quaterniond(real(), real(), real(), real()).normalized(); }
+  Eigen::Quaterniond orientation() {
+    return Eigen::Quaterniond(real(), real(), real(), real()).normalized();
+  }
   /// Pairs of poses at angles of every size, nearly equal and nearly opposite ones included.
   std::pair<RigidPose, RigidPose> edge() {
     RigidPose a{vector(10), orientation()}, b{vector(10), {}};
-    const double angles[] = {0, 1e-300, 1e-17, 1e-12, 5e-5, 8.9e-5, 9e-5, 1e-3, 0.3, 1.5, 3, std::numbers::pi - 1e-8};
+    const double angles[] = {0,    1e-300, 1e-17, 1e-12, 5e-5, 8.9e-5,
+                             9e-5, 1e-3,   0.3,   1.5,   3,    std::numbers::pi - 1e-8};
     const double angle = n_ % 3 ? angles[n_ % std::size(angles)] : real(0, 3.1);
     b.q = Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector().normalized())) * a.q;
     if (n_ % 5 == 0) b.q.coeffs() *= -3e150;  // the same orientation
@@ -36,7 +41,8 @@ class Cases {
   int n_ = 0;
 };
 
-/// The header's promise: the pose, and every point of the window, within fixedError + reachError·|y|, the tube being zero.
+/// The header's promise: the pose, and every point of the window, within fixedError +
+/// reachError·|y|, the tube being zero.
 TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   Cases cases(test::testSeed(1));
   double worst = 0;  // of the error as a share of its bound
@@ -47,7 +53,8 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
     const double t = n % 10 == 0 ? n / 10 % 2 : cases.real(0, 1);
     const MotionWindow w = motion.window(t, 0);
     const Vec3 p = cases.vector(3);
-    const long double off = ((w.X_WB.m * p + w.X_WB.t).cast<long double>() - reference.point(t, p)).norm();
+    const long double off =
+        ((w.X_WB.m * p + w.X_WB.t).cast<long double>() - reference.point(t, p)).norm();
     const double bound = w.fixedError + w.reachError * p.norm();
     worst = std::max(worst, static_cast<double>(off) / bound);
     ASSERT_LE(off, bound) << "case " << n << ", t = " << t;
@@ -56,7 +63,8 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   EXPECT_GT(worst, 1e-4) << "a bound that no case comes near is not measured by this test";
 }
 
-/// Bound ≥ travel at random places of random windows, along random directions, and the whole of it attained somewhere.
+/// Bound ≥ travel at random places of random windows, along random directions, and the whole of it
+/// attained somewhere.
 TEST(RigidMotion, WindowsBoundTheTravel) {
   Cases cases(test::testSeed(2));
   double tightest = 0, tightestDirectional = 0;
@@ -78,7 +86,8 @@ TEST(RigidMotion, WindowsBoundTheTravel) {
       const double cap = w.speed + spin.norm();
       ASSERT_LE(travel, cap + error) << "case " << n;
       const double along = std::abs(static_cast<double>(moved.dot(direction.cast<long double>())));
-      const double directional = std::abs(direction.dot(w.linear + spin)) + w.curvature(spin.norm()) * direction.cross(w.angular).norm();
+      const double directional = std::abs(direction.dot(w.linear + spin)) +
+                                 w.curvature(spin.norm()) * direction.cross(w.angular).norm();
       ASSERT_LE(along, directional + error) << "case " << n;
       if (travel > 1e-3) tightest = std::max(tightest, travel / cap);
       if (along > 1e-3) tightestDirectional = std::max(tightestDirectional, along / directional);
@@ -110,9 +119,11 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
     Vec3 a = cases.vector(range), b = cases.vector(range);
     const MotionWindow w = RigidMotion::planar(a, b, {}).window(0.375, 0);
     const long double twoPi = 2 * std::numbers::pi_v<long double>;
-    const long double turn = std::remainder(static_cast<long double>(b[2]) - static_cast<long double>(a[2]), twoPi);
+    const long double turn =
+        std::remainder(static_cast<long double>(b[2]) - static_cast<long double>(a[2]), twoPi);
     const long double yaw = a[2] + 0.375L * turn;
-    const long double off = std::hypot(std::cos(yaw) - w.X_WB.m(0, 0), std::sin(yaw) - w.X_WB.m(1, 0));
+    const long double off =
+        std::hypot(std::cos(yaw) - w.X_WB.m(0, 0), std::sin(yaw) - w.X_WB.m(1, 0));
     ASSERT_LE(off, w.reachError) << n;
   }
 }
@@ -123,7 +134,9 @@ TEST(RigidMotion, HalfTurnsAreAmbiguous) {
     const RigidPose a{Vec3::Zero(), cases.orientation()};
     const Vec3 axis = cases.vector().normalized();
     const auto turned = [&](double angle) {
-      return RigidMotion::spatial(a, {Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)) * a.q}, {}).ambiguous();
+      return RigidMotion::spatial(
+                 a, {Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)) * a.q}, {})
+          .ambiguous();
     };
     EXPECT_TRUE(turned(std::numbers::pi));
     EXPECT_TRUE(turned(std::numbers::pi - 0.9e-9));

@@ -17,7 +17,8 @@
 namespace corridor {
 namespace {
 
-bool touch(const Triangle& a, const Triangle& b, const Transform& X_WA = {}, const Transform& X_WB = {}) {
+bool touch(const Triangle& a, const Triangle& b, const Transform& X_WA = {},
+           const Transform& X_WB = {}) {
   Counters counters;
   const bool answer = trianglesTouch(a, X_WA, b, X_WB, counters);
   EXPECT_EQ(answer, trianglesTouchExact(a, X_WA, b, X_WB));
@@ -57,13 +58,16 @@ TEST(TriangleContact, SharedData) {
   std::cout << files << " files, " << pairs << " pairs\n";
 }
 
-/// Triangles and maps that meet degenerate positions often, against rationals that share no code with the predicates.
+/// Triangles and maps that meet degenerate positions often, against rationals that share no code
+/// with the predicates.
 class Random : public testing::TestWithParam<const char*> {};
 
 TEST_P(Random, AgreesWithRationals) {
   const std::string kind = GetParam();
   std::mt19937_64 random(test::testSeed(20261121));
-  const auto integer = [&](int n) { return static_cast<double>(std::uniform_int_distribution(-n, n)(random)); };
+  const auto integer = [&](int n) {
+    return static_cast<double>(std::uniform_int_distribution(-n, n)(random));
+  };
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
   const auto rotation = [&] {
     return Mat3(Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix());
@@ -74,8 +78,11 @@ TEST_P(Random, AgreesWithRationals) {
     Triangle a, b;
     Transform X_WA, X_WB;
     for (Triangle* t : {&a, &b})
-      for (Vec3& v : *t) v = kind == "grid" ? Vec3(integer(2), integer(2), integer(2)) : Vec3(real(), real(), real());
-    if (kind == "common corner, moved together") {  // contact by construction in b's own frame, then rounded maps
+      for (Vec3& v : *t)
+        v = kind == "grid" ? Vec3(integer(2), integer(2), integer(2))
+                           : Vec3(real(), real(), real());
+    if (kind == "common corner, moved together") {  // contact by construction in b's own frame,
+                                                    // then rounded maps
       b[0] = a[0];
       X_WA = X_WB = {rotation(), {real() * 1e6, real(), real()}};
     } else if (kind == "maps nearly rigid") {
@@ -87,7 +94,9 @@ TEST_P(Random, AgreesWithRationals) {
       X_WB.m(1, 0) = 1e-15 * integer(1);
     } else if (kind == "exponents apart") {
       for (Triangle* t : {&a, &b})
-        for (Vec3& v : *t) v = Vec3(std::ldexp(real(), static_cast<int>(integer(500))), integer(1), integer(1) * 0x1p-1060);
+        for (Vec3& v : *t)
+          v = Vec3(std::ldexp(real(), static_cast<int>(integer(500))), integer(1),
+                   integer(1) * 0x1p-1060);
     } else if (kind == "denormal") {
       for (Triangle* t : {&a, &b})
         for (Vec3& v : *t) v = Vec3(integer(2), integer(2), integer(2)) * 0x1p-1074;
@@ -101,17 +110,22 @@ TEST_P(Random, AgreesWithRationals) {
   EXPECT_LT(touching, kind == "common corner, moved together" ? cases + 1 : cases);
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, Random,
-                         testing::Values("grid", "common corner, moved together", "maps nearly rigid", "flat and far",
-                                         "exponents apart", "denormal"),
+                         testing::Values("grid", "common corner, moved together",
+                                         "maps nearly rigid", "flat and far", "exponents apart",
+                                         "denormal"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
-                           std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+                           std::erase_if(name, [](char c) {
+                             return !std::isalnum(static_cast<unsigned char>(c));
+                           });
                            return name;
                          });
 
 TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
   const Triangle face = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  const auto point = [](double x, double y, double z) { return Triangle{Vec3(x, y, z), Vec3(x, y, z), Vec3(x, y, z)}; };
+  const auto point = [](double x, double y, double z) {
+    return Triangle{Vec3(x, y, z), Vec3(x, y, z), Vec3(x, y, z)};
+  };
   EXPECT_TRUE(touch(face, point(1, 1, 0)));
   EXPECT_TRUE(touch(face, point(2, 2, 0)));
   EXPECT_FALSE(touch(face, point(std::nextafter(2.0, 3.0), 2, 0)));
@@ -144,7 +158,9 @@ TEST(TriangleContact, TheMapsAreExactNotTheirRoundedImages) {
 
 TEST(TriangleContact, VerdictsSurviveExactRotationsAndScaling) {
   std::mt19937_64 random(test::testSeed(7));
-  const auto integer = [&](int n) { return static_cast<double>(std::uniform_int_distribution(-n, n)(random)); };
+  const auto integer = [&](int n) {
+    return static_cast<double>(std::uniform_int_distribution(-n, n)(random));
+  };
   for (int n = 0; n < 300; ++n) {
     Triangle a, b;
     for (Triangle* t : {&a, &b})
@@ -155,7 +171,8 @@ TEST(TriangleContact, VerdictsSurviveExactRotationsAndScaling) {
       for (int signs = 0; signs < 8; ++signs) {
         Transform X;
         X.m.setZero();
-        for (int i = 0; i < 3; ++i) X.m(i, order[i]) = std::ldexp(signs >> i & 1 ? -1 : 1, 40 - n % 80);
+        for (int i = 0; i < 3; ++i)
+          X.m(i, order[i]) = std::ldexp(signs >> i & 1 ? -1 : 1, 40 - n % 80);
         ASSERT_EQ(touch(a, b, X, X), answer);
       }
     } while (std::next_permutation(order, order + 3));

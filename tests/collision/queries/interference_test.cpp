@@ -31,8 +31,8 @@ TEST_P(Fits, SharedWorkloads) {
     poses += static_cast<int>(w.poses.size());
   }
   EXPECT_GT(poses, 5'000);
-  std::cout << poses << " poses, N_v " << context.counters.boxTests << ", N_p " << context.counters.triangleTests << ", exact "
-            << context.counters.exactTests << "\n";
+  std::cout << poses << " poses, N_v " << context.counters.boxTests << ", N_p "
+            << context.counters.triangleTests << ", exact " << context.counters.exactTests << "\n";
 }
 
 /// Triangles of very different sizes, clusters, duplicates and degenerate ones.
@@ -50,7 +50,8 @@ TriangleMesh soup(std::mt19937_64& random, int count, double size) {
   return mesh;
 }
 
-/// Every map that is not quite rigid, and every rounding of the relative pose, against the double loop over exact triangle tests.
+/// Every map that is not quite rigid, and every rounding of the relative pose, against the double
+/// loop over exact triangle tests.
 TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(5));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
@@ -58,12 +59,14 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
   for (int n = 0; n < 200; ++n) {
     const TriangleMesh meshA = soup(random, 25, 0.2), meshB = soup(random, 25, 0.2);
     const ObbTree a(meshA, {GetParam()}), b(meshB, {GetParam()});
-    const double defect = n % 4 == 0 ? 0 : std::pow(10.0, -3 * (n % 4));  // up to 1e-3: not rigid at all
+    const double defect =
+        n % 4 == 0 ? 0 : std::pow(10.0, -3 * (n % 4));  // up to 1e-3: not rigid at all
     const double offset = n % 3 == 0 ? 1e6 : 1;
     Transform X_WA, X_WB;
     const Vec3 common = offset * Vec3(real(), real(), real());
     for (Transform* X : {&X_WA, &X_WB}) {
-      X->m = Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix() + defect * Mat3::Random();
+      X->m = Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix() +
+             defect * Mat3::Random();
       X->t = common + 2 * Vec3(real(), real(), real());
     }
     QueryContext context;
@@ -74,8 +77,11 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
     const auto found = interference(a, X_WA, b, X_WB, context);
     ASSERT_EQ(found.has_value(), expected) << "case " << n;
     if (found) {
-      const auto corners = [](const TriangleMesh& m, std::uint32_t t) { return Triangle{m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)}; };
-      EXPECT_TRUE(trianglesTouchExact(corners(meshA, found->a), X_WA, corners(meshB, found->b), X_WB));
+      const auto corners = [](const TriangleMesh& m, std::uint32_t t) {
+        return Triangle{m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
+      };
+      EXPECT_TRUE(
+          trianglesTouchExact(corners(meshA, found->a), X_WA, corners(meshB, found->b), X_WB));
     }
     touching += expected;
     ++cases;
@@ -84,15 +90,16 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
   EXPECT_LT(touching, cases - 10);
 }
 
-/// A corner that both bodies share exactly, under equal maps that are near-rigid only: a tree that pruned by the rounded relative
-/// pose without a margin would lose it (numerics, test 5).
+/// A corner that both bodies share exactly, under equal maps that are near-rigid only: a tree that
+/// pruned by the rounded relative pose without a margin would lose it (numerics, test 5).
 TEST_P(Fits, ExactMapDecidesDeepInATree) {
   std::mt19937_64 random(test::testSeed(11));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
   TriangleMesh mesh = soup(random, 2'000, 0.01);
   for (Vec3& v : mesh.vertices) v[2] -= 2;  // all below z = 0
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), {Vec3(0.3, 0.2, 0), Vec3(0.4, 0.2, -0.1), Vec3(0.3, 0.3, -0.1)});
+  mesh.vertices.insert(mesh.vertices.end(),
+                       {Vec3(0.3, 0.2, 0), Vec3(0.4, 0.2, -0.1), Vec3(0.3, 0.3, -0.1)});
   mesh.triangles.push_back({n, n + 1, n + 2});
   const ObbTree a(mesh, {GetParam()});
   for (int k = 0; k < 200; ++k) {
@@ -100,11 +107,14 @@ TEST_P(Fits, ExactMapDecidesDeepInATree) {
     TriangleMesh tip;
     tip.vertices = {Vec3(0.3, 0.2, 0), Vec3(0.3 + 0.1, 0.2, 0.1), Vec3(0.3, 0.2 + 0.1, 0.1)};
     tip.triangles = {{0, 1, 2}};
-    Transform X_WA{Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix() * stretch,
-                   Vec3(real(), real(), real()) * 1e3};
+    Transform X_WA{
+        Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix() *
+            stretch,
+        Vec3(real(), real(), real()) * 1e3};
     const ObbTree b(tip, {GetParam()});
     QueryContext context;
-    EXPECT_TRUE(interference(a, X_WA, b, X_WA, context)) << k;  // equal maps: the shared corner is shared exactly
+    EXPECT_TRUE(interference(a, X_WA, b, X_WA, context))
+        << k;  // equal maps: the shared corner is shared exactly
     Transform X_WB = X_WA;
     X_WB.t[0] += k % 2 ? 1e-3 : 0;
     bool expected = false;
@@ -119,20 +129,25 @@ TEST_P(Fits, ExtremeSizes) {
   for (const int exponent : {-1060, -500, -340, 330, 500, 1000}) {
     TriangleMesh meshA = soup(random, 20, 0.3), meshB = soup(random, 20, 0.3);
     for (TriangleMesh* m : {&meshA, &meshB})
-      for (Vec3& v : m->vertices) v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+      for (Vec3& v : m->vertices)
+        v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
     const ObbTree a(meshA, {GetParam()}), b(meshB, {GetParam()});
     EXPECT_EQ(a.check(), std::nullopt) << exponent;
     QueryContext context;
     bool expected = false;
     for (const Triangle& s : a.triangles())
-      for (const Triangle& t : b.triangles()) expected = expected || trianglesTouchExact(s, {}, t, {});
+      for (const Triangle& t : b.triangles())
+        expected = expected || trianglesTouchExact(s, {}, t, {});
     EXPECT_EQ(interference(a, {}, b, {}, context).has_value(), expected) << exponent;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Fits, testing::Values(ObbFit::vertices, ObbFit::triangles, ObbFit::hull),
+INSTANTIATE_TEST_SUITE_P(All, Fits,
+                         testing::Values(ObbFit::vertices, ObbFit::triangles, ObbFit::hull),
                          [](const auto& p) {
-                           return p.param == ObbFit::vertices ? "vertices" : p.param == ObbFit::triangles ? "triangles" : "hull";
+                           return p.param == ObbFit::vertices    ? "vertices"
+                                  : p.param == ObbFit::triangles ? "triangles"
+                                                                 : "hull";
                          });
 
 }  // namespace

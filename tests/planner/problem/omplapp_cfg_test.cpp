@@ -1,7 +1,9 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
+#include "collision/world/scene.h"
 #include "tests/planner/problem/problem_fixture.h"
 #include "tests/support/support.h"
 
@@ -291,6 +293,65 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
   EXPECT_EQ(readProblem(*folder / "3D/alpha-1.5.cfg").sampler, "obstacle_based");
   EXPECT_EQ(readProblem(*folder / "3D/Home.cfg").objective, "length");
   EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").planner.time, 300);
+}
+
+/// OMPL.app's sample solutions: states that its checker found free, which a wrong placement would
+/// not leave so.
+std::vector<Transform> posesOf(const std::filesystem::path& file, RigidSpace space) {
+  std::vector<Transform> poses;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line);
+    std::vector<double> v;
+    for (double number; words >> number;) v.push_back(number);
+    if (space == RigidSpace::SE3 && v.size() == 7)
+      poses.push_back({Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized().toRotationMatrix(),
+                       Vec3(v[0], v[1], v[2])});
+    else if (space == RigidSpace::SE2 && v.size() == 3)
+      poses.push_back(
+          {Eigen::AngleAxisd(v[2], Vec3::UnitZ()).toRotationMatrix(), Vec3(v[0], v[1], 0)});
+  }
+  return poses;
+}
+
+Scene sceneOf(const Problem& problem, const Vec3& shift) {
+  std::vector<Body> robot, world;
+  TriangleMesh mesh = problem.robot.at(0).source.mesh;
+  for (Vec3& vertex : mesh.vertices) vertex += shift;
+  robot.emplace_back("robot", std::move(mesh));
+  world.emplace_back("world", problem.world.at(0).source.mesh);
+  return Scene(std::move(robot), std::move(world));
+}
+
+TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
+  const auto folder = omplAppFolder();
+  if (!folder) GTEST_SKIP() << "CORRIDOR_OMPLAPP is not set to OMPL.app's folder resources";
+  struct Sample {
+    const char* name;
+    std::size_t states;
+    int contactsIfNotRecentred;  ///< -1: not known
+  };
+  for (const Sample& sample :
+       {Sample{"2D/BugTrap_planar", 115, -1}, Sample{"2D/Maze_planar", 77, -1},
+        Sample{"3D/Easy", 40, -1}, Sample{"3D/Twistycool", 35, -1}, Sample{"3D/alpha-1.5", 103, 57},
+        Sample{"3D/cubicles", 211, 122}}) {
+    SCOPED_TRACE(sample.name);
+    const Problem p = readProblem(*folder / (std::string(sample.name) + ".cfg"));
+    const auto poses = posesOf(*folder / (std::string(sample.name) + ".path"), p.space);
+    EXPECT_EQ(poses.size(), sample.states);
+    const Vec3 centre = readOmplAppMesh(p.robot[0].file).vertexAverage;
+    const Scene scene = sceneOf(p, Vec3::Zero()), wrong = sceneOf(p, centre);
+    QueryContext context;
+    int contacts = 0, wrongContacts = 0;
+    for (const Transform& pose : poses) {
+      contacts += scene.interference(pose, context).has_value();
+      wrongContacts += wrong.interference(pose, context).has_value();
+    }
+    EXPECT_EQ(contacts, 0);
+    if (sample.contactsIfNotRecentred >= 0) {
+      EXPECT_EQ(wrongContacts, sample.contactsIfNotRecentred);
+    }
+  }
 }
 
 TEST(OmplAppProblems, EveryOtherOneIsReadOrSaysWhyNot) {
