@@ -12,7 +12,7 @@ enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3, kInterrupted = 130
 
 struct SolveArguments {
   std::vector<std::string> problems;
-  std::optional<std::string> planner, sampler, edges;
+  std::optional<std::string> planner, sampler, stop, edges;
   std::optional<double> time, resolution;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;  ///< key=value

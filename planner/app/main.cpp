@@ -20,6 +20,8 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   command->add_option("--set", a.set, "key=value: a parameter of the planner, by OMPL's name")->group(planning)->allow_extra_args(false);
   command->add_option("--sampler", a.sampler, "uniform, gaussian, obstacle_based or bridge_test")->group(planning);
   command->add_option("--time", a.time, "seconds")->check(CLI::PositiveNumber)->group(planning);
+  command->add_option("--stop", a.stop, "first: at the first solution; time: planners that optimise use all of it (their default)")
+      ->check(CLI::IsMember({"first", "time"}))->group(planning);
   command->add_option("--seed", a.seed, "the same seed gives the same path, for most planners")->check(CLI::PositiveNumber)->group(planning);
   command->add_flag("--no-simplify", a.noSimplify, "the planner's own path")->group(planning);
   const char* checking = "Checking";

@@ -54,6 +54,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
     set["planner.params." + key] = "--set";
   }
   if (a.time) problem.planner.time = *a.time;
+  if (a.stop) problem.planner.stopAtFirst = *a.stop == "first";
   if (a.seed) problem.seed = *a.seed;
   if (a.edges) problem.checker.edges = *a.edges;
   if (a.resolution) problem.checker.resolution = *a.resolution;

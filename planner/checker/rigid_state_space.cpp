@@ -1,5 +1,7 @@
 #include "planner/checker/rigid_state_space.h"
 
+#include "collision/core/rounding.h"
+
 namespace corridor {
 
 namespace ob = ompl::base;
@@ -10,6 +12,13 @@ namespace {
 template <RigidSpace space>
 void interpolateStates(const ob::State* from, const ob::State* to, double t, ob::State* state) {
   writeState(space, interpolate(space, readState(space, from), readState(space, to), t), state);
+}
+
+/// OMPL normalises quaternions in passing (enforceBounds), and means the same state: 64u of angle, see `inGoal`.
+template <RigidSpace space>
+bool equal(const ob::State* a, const ob::State* b) {
+  const RigidState s = readState(space, a), t = readState(space, b);
+  return s.pose.p == t.pose.p && rotationAngle(space, s, t) <= 64 * kUnit;
 }
 
 template <RigidSpace space>
@@ -30,7 +39,7 @@ double RigidSE3StateSpace::distance(const ob::State* a, const ob::State* b) cons
 }
 
 bool RigidSE3StateSpace::equalStates(const ob::State* a, const ob::State* b) const {
-  return distanceOf<RigidSpace::SE3>(1, a, b) == 0;
+  return equal<RigidSpace::SE3>(a, b);
 }
 
 RigidSE2StateSpace::RigidSE2StateSpace(double rotationWeight) { setSubspaceWeight(1, rotationWeight); }
@@ -44,7 +53,7 @@ double RigidSE2StateSpace::distance(const ob::State* a, const ob::State* b) cons
 }
 
 bool RigidSE2StateSpace::equalStates(const ob::State* a, const ob::State* b) const {
-  return distanceOf<RigidSpace::SE2>(1, a, b) == 0;
+  return equal<RigidSpace::SE2>(a, b);
 }
 
 std::shared_ptr<ob::StateSpace> makeStateSpace(RigidSpace space, const Vec3& lower, const Vec3& upper,

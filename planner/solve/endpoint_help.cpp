@@ -71,6 +71,12 @@ std::optional<std::string> whyNotFree(const std::string& name, const RigidState&
            std::to_string(result.pair->fixedTriangle) + ")";
   }
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
+    const Tube& tube = checker.options().tube;
+    const double needed = std::sqrt(3.0) * tube.position + tube.rotation * checker.scene().movingRadius();
+    if (result.gap <= needed) {
+      return name + ": the gap between " + pair + " is " + number(result.gap) + " m, and the tube needs " + number(needed) +
+             " m; move it away, or set a smaller tube";
+    }
     return name + ": the gap between " + pair + " is " + number(result.gap) + " m" +
            (checker.options().margin > 0 ? " beyond the margin" : "") + ", too small to prove at a tolerance of " +
            number(checker.options().tolerance) + " m; move it away, or set checker: {tolerance: " +

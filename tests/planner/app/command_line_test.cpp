@@ -1,0 +1,161 @@
+// The program as its users meet it: exit status, one line a fault, results on stdout, nothing half-written.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Result {
+  int status = -1;
+  std::string out, err;
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() : folder_(std::filesystem::path(testing::TempDir()) / ("corridor_app_test" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+    write("cube.obj", "v -.1 -.1 -.1\nv .1 -.1 -.1\nv .1 .1 -.1\nv -.1 .1 -.1\nv -.1 -.1 .1\nv .1 -.1 .1\nv .1 .1 .1\nv -.1 .1 .1\n"
+                      "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 3 4 8\nf 3 8 7\nf 2 3 7\nf 2 7 6\nf 1 5 8\nf 1 8 4\n");
+    write("wall.obj", "v 0 -5 -5\nv 0 2 -5\nv 0 2 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+    write("robot.yaml", "format: corridor-robot-1\nname: cube\nrigid: SE3\nshapes: [{mesh: cube.obj, unit: m}]\n");
+    write("problem.yaml", problem());
+  }
+  ~CommandLine() override { std::filesystem::remove_all(folder_); }
+
+  static std::string problem(const std::string& start = "-2, 0, 0", const std::string& more = "") {
+    return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {mesh: wall.obj, unit: m}\nstart: {at: [" + start +
+           "]}\ngoal: {at: [2, 0, 0]}\nbounds: {at: [[-4, -4, -4], [4, 4, 4]]}\n" + more;
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::string read(const std::string& name) const {
+    std::ifstream in(folder_ / name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  Result run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" CORRIDOR_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(CommandLine, SolveThenVerify) {
+  const Result solved = run("solve problem.yaml -o s.yaml --picture p.svg");
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("result: solved\n"));
+  EXPECT_THAT(solved.out, HasSubstr("certified: yes\n"));
+  EXPECT_EQ(solved.err, "");
+  EXPECT_THAT(read("p.svg"), StartsWith("<svg"));
+  EXPECT_LT(std::filesystem::file_size(folder_ / "p.svg"), 400'000u);
+  const Result verified = run("verify problem.yaml s.yaml");
+  EXPECT_EQ(verified.status, 0) << verified.err << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("verdict: proved\n"));
+  EXPECT_THAT(verified.out, HasSubstr("clearance: at least "));
+}
+
+TEST_F(CommandLine, VerifyRefutesAndWarnsOfOtherFiles) {
+  write("s.yaml", "format: corridor-solution-1\ndigest: other\nspace: SE3\npath:\n- [-2, 0, 0, 0, 0, 0, 1]\n- [2, 0, 0, 0, 0, 0, 1]\n");
+  const Result verified = run("verify problem.yaml s.yaml");
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_THAT(verified.out, HasSubstr("verdict: refuted\n"));
+  EXPECT_THAT(verified.out, HasSubstr("finding: refuted: edge 0 at t = "));
+  EXPECT_THAT(verified.out, HasSubstr("\"cube\" (triangle "));
+  EXPECT_EQ(verified.err, "corridor: warning: s.yaml: made for other files than those of problem.yaml (the digests differ)\n");
+}
+
+TEST_F(CommandLine, JsonIsVersionedAndComplete) {
+  const auto solved = nlohmann::json::parse(run("solve problem.yaml --json -o s.yaml").out);
+  EXPECT_EQ(solved["format"], "corridor-solve-report-1");
+  EXPECT_EQ(solved["problems"][0]["result"], "solved");
+  EXPECT_EQ(solved["problems"][0]["certified"], true);
+  EXPECT_EQ(nlohmann::json::parse(run("verify problem.yaml s.yaml --json").out)["verdict"], "proved");
+  const auto mesh = nlohmann::json::parse(run("inspect cube.obj --json").out);
+  EXPECT_EQ(mesh["mesh"]["triangles"], 12);
+  EXPECT_EQ(mesh["mesh"]["watertight"], true);
+  EXPECT_EQ(nlohmann::json::parse(run("inspect problem.yaml --json").out)["pairs"]["tested"], 1);
+}
+
+TEST_F(CommandLine, SameSeedSameFile) {
+  EXPECT_EQ(run("solve problem.yaml --seed 5 -o a.yaml").status, 0);
+  EXPECT_EQ(run("solve problem.yaml --seed 5 -o b.yaml").status, 0);
+  EXPECT_EQ(run("solve problem.yaml --seed 6 -o c.yaml").status, 0);
+  EXPECT_EQ(read("a.yaml"), read("b.yaml"));
+  EXPECT_NE(read("a.yaml"), read("c.yaml"));
+}
+
+TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
+  const auto fault = [&](const std::string& arguments, const auto& line) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_THAT(result.err, line) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  };
+  fault("solve none.yaml", StartsWith("none.yaml: "));
+  fault("solve problem.yaml --planner RRTx -o s.yaml", StartsWith("--planner: unknown planner \"RRTx\""));
+  fault("solve problem.yaml --set rnge=1", StartsWith("--set: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?"));
+  fault("solve problem.yaml --set range", testing::Eq("--set: key=value is needed, not \"range\"\n"));
+  fault("solve problem.yaml --set range=long", testing::Eq("--set: RRTConnect's parameter range: \"long\" is not a number\n"));
+  fault("solve problem.yaml --sampler max_clearance", StartsWith("--sampler: sampler max_clearance needs a clearance"));
+  fault("solve problem.yaml problem.yaml -o s.yaml", testing::Eq("--output: names one file, but there are 2 problems\n"));
+  fault("verify problem.yaml none.yaml", StartsWith("none.yaml: "));
+  write("problem.yaml", problem("0.05, 0, 0"));
+  fault("solve problem.yaml -o s.yaml", StartsWith("problem.yaml:5: start is in contact: \"cube\" (triangle "));
+  write("problem.yaml", problem("9, 0, 0"));
+  fault("solve problem.yaml -o s.yaml", StartsWith("problem.yaml:5: start"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
+}
+
+TEST_F(CommandLine, BadUsageIsExit2) {
+  for (const char* arguments : {"", "sove problem.yaml", "solve", "solve problem.yaml --edges sampled", "solve problem.yaml --time -1",
+                                "solve problem.yaml --seed 0", "solve problem.yaml --no-such"})
+    EXPECT_EQ(run(arguments).status, 2) << arguments;
+}
+
+TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
+  for (const char* command : {"solve", "verify", "inspect"}) {
+    const Result help = run(std::string(command) + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.out, HasSubstr(std::string("Example: corridor ") + command));
+    EXPECT_THAT(help.out, HasSubstr("Exit status: 0 done; 1 no"));
+  }
+}
+
+TEST_F(CommandLine, NothingFoundIsExit1AndWritesNothing) {
+  write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  const Result result = run("solve problem.yaml --time 0.3 -o s.yaml");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("why: "));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
+}
+
+TEST_F(CommandLine, ManyProblemsExitWithTheWorst) {
+  EXPECT_EQ(run("solve problem.yaml problem.yaml --quiet").status, 0);
+  const Result result = run("solve problem.yaml none.yaml problem.yaml");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("none.yaml: "));
+  EXPECT_THAT(result.out, HasSubstr("result: solved"));
+  EXPECT_EQ(run("solve problem.yaml --quiet").out, "");
+}
+
+TEST_F(CommandLine, InterruptedIsExit130) {
+  write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  const Result result = run("solve problem.yaml --time 60 -o s.yaml & pid=$!; sleep 0.5; kill -INT $pid; wait $pid; exit $?;");
+  EXPECT_EQ(result.status, 130);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
+}
+
+}  // namespace

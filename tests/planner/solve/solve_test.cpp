@@ -1,0 +1,213 @@
+// Solving: names and parameters, start and goal, goal regions, repeating, certified paths and their refutation.
+#include <atomic>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "collision/core/error.h"
+#include "planner/solve/planner_factory.h"
+#include "planner/solve/solve.h"
+#include "planner/solve/verify_solution.h"
+#include "tests/planner/solve/hall_problem.h"
+
+namespace corridor {
+namespace {
+
+using test::hallProblem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string complaintOf(const Problem& problem, const SolveOptions& options = {}) {
+  try {
+    solveProblem(problem, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class Spaces : public testing::TestWithParam<RigidSpace> {};
+INSTANTIATE_TEST_SUITE_P(Both, Spaces, testing::Values(RigidSpace::SE2, RigidSpace::SE3));
+
+TEST_P(Spaces, SolvedCertifiedAndVerified) {
+  const Problem problem = hallProblem(GetParam());
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_TRUE(report.certified);
+  EXPECT_EQ(report.checker, "certified");
+  EXPECT_GT(report.counters.edges, 0u);
+  EXPECT_GT(report.counters.states, 0u);
+  EXPECT_GT(report.counters.boxTests, 0u);
+  EXPECT_GE(report.length.metres, 2 * std::hypot(3, 4));
+  for (std::size_t i = 1; i < report.path.size(); ++i)
+    EXPECT_LE(rotationAngle(GetParam(), report.path[i - 1], report.path[i]), 1.5708);
+  const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
+  EXPECT_EQ(verified.verdict, PathVerdict::proved);
+  EXPECT_GT(verified.motion.provenClearance, 0);
+}
+
+TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
+  Problem problem = hallProblem(GetParam());
+  const auto bits = [&] {
+    std::vector<double> numbers;
+    for (const RigidState& s : solveProblem(problem).path)
+      numbers.insert(numbers.end(), {s.pose.p.x(), s.pose.p.y(), s.pose.p.z(), s.pose.q.x(), s.pose.q.w(), s.yaw});
+    return numbers;
+  };
+  const auto first = bits();
+  ASSERT_FALSE(first.empty());
+  EXPECT_EQ(first, bits());
+  problem.seed = 2;
+  EXPECT_NE(first, bits());
+}
+
+TEST_P(Spaces, GoalRegion) {
+  Problem problem = hallProblem(GetParam());
+  problem.goalRegion = Problem::GoalRegion{0.3, 0.2};
+  for (const char* planner : {"RRT", "RRTConnect", "InformedRRTstar"}) {
+    problem.planner.name = planner;
+    problem.planner.stopAtFirst = true;
+    const SolveReport report = solveProblem(problem);
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << planner << report.why;
+    EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved) << planner;
+  }
+}
+
+TEST_P(Spaces, MutatedPathsAreRefuted) {
+  const Problem problem = hallProblem(GetParam());
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved);
+  const Solution solution = makeSolution(problem, report);
+  const auto verdict = [&](auto mutate) {
+    Solution mutated = solution;
+    mutate(mutated.path);
+    return verifySolution(problem, mutated);
+  };
+  // Straight through the wall.
+  EXPECT_EQ(verdict([](Path& p) { p = {p.front(), p.back()}; }).motion.verdict, PathVerdict::refuted);
+  const auto start = verdict([](Path& p) { p.front().pose.p.x() += 1e-9; });
+  EXPECT_EQ(start.verdict, PathVerdict::refuted);
+  EXPECT_THAT(start.violations, testing::ElementsAre(StartsWith("the first state is not the start")));
+  const auto goal = verdict([](Path& p) { p.back().pose.p.y() += 1e-9; });
+  EXPECT_THAT(goal.violations, testing::ElementsAre(StartsWith("the last state is not in the goal")));
+  const auto outside = verdict([](Path& p) { p[p.size() / 2].pose.p.x() = 5.5; });
+  EXPECT_THAT(outside.violations, testing::Contains(HasSubstr("x = 5.5 is not in [-5, 5]")));
+}
+
+TEST_P(Spaces, DiscreteStepsThroughTheWallAndVerifyRefutesIt) {
+  Problem problem = hallProblem(GetParam());
+  problem.checker.edges = "discrete";
+  problem.checker.resolution = 0.2;
+  problem.robot[0].source.mesh = test::boxMesh({0.1, 0.1, 0.1});
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved);
+  EXPECT_FALSE(report.certified);
+  EXPECT_EQ(report.checker, "discrete, resolution 0.2");
+  EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::refuted);
+}
+
+TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
+  const test::Hall hall(RigidSpace::SE3);
+  ASSERT_GE(knownPlanners().size(), 30u);
+  for (const PlannerInfo& info : knownPlanners()) {
+    const auto planner = makePlanner(hall.si, info.name, {});
+    ASSERT_TRUE(planner) << info.name;
+  }
+  EXPECT_NO_THROW(makePlanner(hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
+}
+
+TEST(Solve, BadNamesListWhatThereIs) {
+  Problem problem = hallProblem(RigidSpace::SE3);
+  problem.planner.name = "RRTConect";
+  EXPECT_THAT(complaintOf(problem), StartsWith("hall.yaml:8: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?; there are: RRTConnect, RRT, "));
+  problem = hallProblem(RigidSpace::SE3);
+  problem.planner.params = {{"rnge", "1"}};
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:7: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?; it has: intermediate_states, range");
+  problem.planner.params = {{"range", "0.6abc"}};
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:9: RRTConnect's parameter range: \"0.6abc\" is not a number");
+  problem.planner.params = {{"intermediate_states", "maybe"}};
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:7: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");
+  SolveOptions options;
+  options.setElsewhere["planner.params.intermediate_states"] = "--set";
+  EXPECT_EQ(complaintOf(problem, options), "--set: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");
+  problem = hallProblem(RigidSpace::SE3);
+  problem.sampler = "gausian";
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:11: unknown sampler \"gausian\"; did you mean \"gaussian\"?; there are: uniform, gaussian, obstacle_based, bridge_test");
+  problem.sampler = "max_clearance";
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:11: sampler max_clearance needs a clearance, which isn't computed yet; there are: uniform, gaussian, obstacle_based, bridge_test");
+  problem.sampler = "uniform";
+  problem.objective = "max_min_clearance";
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:12: objective max_min_clearance needs a clearance, which isn't computed yet; there are: length, mechanical_work");
+}
+
+TEST(Solve, SamplersSolve) {
+  Problem problem = hallProblem(RigidSpace::SE2);
+  problem.planner.name = "PRM";
+  for (const char* sampler : {"uniform", "gaussian", "obstacle_based", "bridge_test"}) {
+    problem.sampler = sampler;
+    EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << sampler;
+  }
+}
+
+TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
+  Problem problem = hallProblem(RigidSpace::SE3);
+  problem.start.p = {-0.4, -2, 0};
+  const std::string complaint = complaintOf(problem);
+  EXPECT_THAT(complaint, StartsWith("hall.yaml:4: start is in contact: \"bar\" (triangle "));
+  EXPECT_THAT(complaint, HasSubstr(" and \"wall\" (triangle "));
+  // The tip is 0.1005 m beyond the wall's face.
+  EXPECT_THAT(complaint, HasSubstr(" touch; the nearest free position found is 0.1"));
+  problem.goal.p = {0.3, -2, 0};
+  EXPECT_THAT(complaintOf(problem), HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
+}
+
+TEST(Solve, MarginAndTube) {
+  Problem problem = hallProblem(RigidSpace::SE3);
+  problem.start.p = {-0.6, -2, 0};  // 0.0995 from the wall
+  problem.margin = 0.2;
+  EXPECT_THAT(complaintOf(problem), HasSubstr("are closer than the margin of 0.2 m; the nearest free position"));
+  problem.margin = 0;
+  problem.start.p = {-0.5005 - 0.01, -2, 0};
+  problem.tube = Tube{0.02, 0};
+  EXPECT_THAT(complaintOf(problem), HasSubstr(" is 0.01 m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
+}
+
+TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
+  Problem problem = hallProblem(RigidSpace::SE3);
+  problem.start.p = {-6, 0, 0};
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:4: start: [-6, 0, 0] is outside of the bounds");
+  problem = hallProblem(RigidSpace::SE3);
+  problem.goal.p = {0, -2, 0};
+  problem.goalRegion = Problem::GoalRegion{0.01, 0.01};
+  EXPECT_THAT(complaintOf(problem), StartsWith("hall.yaml:5: no free state was found within the goal; its middle: goal is in contact"));
+}
+
+TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
+  Problem problem = hallProblem(RigidSpace::SE3);
+  problem.world[0].source.mesh = test::boxMesh({0.001, 20, 20});  // no gap
+  for (const char* planner : {"RRTConnect", "RRT", "PRM", "RRTstar", "KPIECE1"}) {
+    problem.planner.name = planner;
+    problem.planner.time = 0.5;
+    const SolveReport report = solveProblem(problem);
+    EXPECT_THAT(report.outcome, testing::AnyOf(SolveOutcome::notFound, SolveOutcome::approximate)) << planner;
+    EXPECT_FALSE(report.why.empty());
+    EXPECT_TRUE(report.path.empty());
+    EXPECT_LT(report.time, 1.5) << planner;
+  }
+}
+
+TEST(Solve, StopsWhenInterrupted) {
+  Problem problem = hallProblem(RigidSpace::SE3);
+  problem.world[0].source.mesh = test::boxMesh({0.001, 20, 20});
+  std::atomic<bool> interrupted = false;
+  SolveOptions options;
+  options.interrupted = &interrupted;
+  options.progress = [&](const SolveProgress& p) { interrupted = p.seconds > 0.2; };
+  const SolveReport report = solveProblem(problem, options);
+  EXPECT_EQ(report.outcome, SolveOutcome::interrupted);
+  EXPECT_LT(report.time, 5);
+}
+
+}  // namespace
+}  // namespace corridor
