@@ -148,18 +148,17 @@ void Solve::setUpGoal() {
 
 void Solve::setUpObjective() {
   const std::string name = problem_.objective.value_or("");
-  const bool optimises = planner_->getSpecs().optimizingPaths;
-  const bool first = problem_.planner.stopAtFirst.value_or(!optimises);
   ob::OptimizationObjectivePtr objective;
   if (name == "mechanical_work") {
     objective = std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
   } else if (name == "max_min_clearance") {
     throw InputError(problem_.faultAt("objective", "objective max_min_clearance needs a clearance, which isn't computed yet; there are: length, mechanical_work"));
-  } else if (name == "length" || optimises) {
+  } else if (name == "length" || (problem_.planner.stopAtFirst && planner_->getSpecs().optimizingPaths)) {
     objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
   }
-  if (!objective) return;  // planners that don't optimise may have their own, TRRT for one
-  objective->setCostThreshold(first ? objective->infiniteCost() : ob::Cost(problem_.objectiveThreshold));
+  // Where a problem says neither, OMPL's planners have rules of their own: PRM stops at the first, PRMstar uses its time.
+  if (!objective) return;
+  objective->setCostThreshold(problem_.planner.stopAtFirst.value_or(false) ? objective->infiniteCost() : ob::Cost(problem_.objectiveThreshold));
   definition_->setOptimizationObjective(objective);
 }
 

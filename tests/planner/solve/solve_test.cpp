@@ -170,7 +170,7 @@ TEST(Solve, MarginAndTube) {
   problem.margin = 0;
   problem.start.p = {-0.5005 - 0.01, -2, 0};
   problem.tube = Tube{0.02, 0};
-  EXPECT_THAT(complaintOf(problem), HasSubstr(" is 0.01 m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
+  EXPECT_THAT(complaintOf(problem), HasSubstr(" m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
 }
 
 TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
