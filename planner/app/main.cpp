@@ -10,49 +10,78 @@ namespace {
 using namespace corridor::app;
 
 constexpr const char* kExitStatus =
-    "Exit status: 0 done; 1 no (nothing found, or not proved); 2 bad input; 3 internal error; 130 interrupted.";
+    "Exit status: 0 done; 1 no (nothing found, or not proved); 2 bad input; 3 internal error; 130 "
+    "interrupted.";
 
 void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
-  command->add_option("PROBLEM", a.problems, "problem.yaml, a folder that holds one, or an OMPL.app .cfg")->required();
+  command
+      ->add_option("PROBLEM", a.problems,
+                   "problem.yaml, a folder that holds one, or an OMPL.app .cfg")
+      ->required();
   const char* planning = "Planning (over what the problem says)";
-  command->add_option("--planner", a.planner, "by OMPL's name; a wrong one lists them all")->group(planning);
-  command->add_option("--set", a.set, "key=value: a parameter of the planner, by OMPL's name")->group(planning)->allow_extra_args(false);
-  command->add_option("--sampler", a.sampler, "uniform, gaussian, obstacle_based or bridge_test")->group(planning);
+  command->add_option("--planner", a.planner, "by OMPL's name; a wrong one lists them all")
+      ->group(planning);
+  command->add_option("--set", a.set, "key=value: a parameter of the planner, by OMPL's name")
+      ->group(planning)
+      ->allow_extra_args(false);
+  command->add_option("--sampler", a.sampler, "uniform, gaussian, obstacle_based or bridge_test")
+      ->group(planning);
   command->add_option("--time", a.time, "seconds")->check(CLI::PositiveNumber)->group(planning);
-  command->add_option("--stop", a.stop, "first: at the first solution; time: planners that optimise use all of it (their default)")
-      ->check(CLI::IsMember({"first", "time"}))->group(planning);
-  command->add_option("--seed", a.seed, "the same seed gives the same path, for most planners")->check(CLI::PositiveNumber)->group(planning);
+  command
+      ->add_option("--stop", a.stop,
+                   "first: at the first solution; time: planners that optimise use all of it "
+                   "(their default)")
+      ->check(CLI::IsMember({"first", "time"}))
+      ->group(planning);
+  command->add_option("--seed", a.seed, "the same seed gives the same path, for most planners")
+      ->check(CLI::PositiveNumber)
+      ->group(planning);
   command->add_flag("--no-simplify", a.noSimplify, "the planner's own path")->group(planning);
   const char* checking = "Checking";
-  command->add_option("--edges", a.edges, "certified (default), or discrete: samples, as a yardstick")
-      ->check(CLI::IsMember({"certified", "discrete"}))->group(checking);
-  command->add_option("--resolution", a.resolution, "of discrete: OMPL's longest_valid_segment_fraction")
-      ->check(CLI::Range(1e-9, 1.0))->group(checking);
+  command
+      ->add_option("--edges", a.edges, "certified (default), or discrete: samples, as a yardstick")
+      ->check(CLI::IsMember({"certified", "discrete"}))
+      ->group(checking);
+  command
+      ->add_option("--resolution", a.resolution,
+                   "of discrete: OMPL's longest_valid_segment_fraction")
+      ->check(CLI::Range(1e-9, 1.0))
+      ->group(checking);
   const char* results = "Results";
   command->add_option("-o,--output", a.output, "the solution file (YAML)")->group(results);
   command->add_option("--picture", a.picture, "an SVG of the scene and the path")->group(results);
   command->add_flag("--json", a.json, "results as JSON")->group(results);
   command->add_flag("--quiet", a.quiet, "no results on stdout")->group(results);
-  command->footer(std::string("Example: corridor solve problems/piano -o piano.solution.yaml --picture piano.svg\n") + kExitStatus);
+  command->footer(
+      std::string(
+          "Example: corridor solve problems/piano -o piano.solution.yaml --picture piano.svg\n") +
+      kExitStatus);
   command->callback([&] { status = solveCommand(a); });
 }
 
 void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
-  CLI::App* command = program.add_subcommand("verify", "Prove or refute a path, by other means than those that found it");
+  CLI::App* command = program.add_subcommand(
+      "verify", "Prove or refute a path, by other means than those that found it");
   command->add_option("PROBLEM", a.problem, "the problem")->required();
-  command->add_option("SOLUTION", a.solution, "a solution file, or an OMPL.app .path: a state a line")->required();
+  command
+      ->add_option("SOLUTION", a.solution, "a solution file, or an OMPL.app .path: a state a line")
+      ->required();
   command->add_flag("--json", a.json, "results as JSON");
   command->add_flag("--quiet", a.quiet, "no results on stdout");
-  command->footer(std::string("Example: corridor verify problems/piano piano.solution.yaml\n") + kExitStatus);
+  command->footer(std::string("Example: corridor verify problems/piano piano.solution.yaml\n") +
+                  kExitStatus);
   command->callback([&] { status = verifyCommand(a); });
 }
 
 void addInspect(CLI::App& program, InspectArguments& a, int& status) {
-  CLI::App* command = program.add_subcommand("inspect", "Tell what a mesh or a problem is, and what is skipped");
+  CLI::App* command =
+      program.add_subcommand("inspect", "Tell what a mesh or a problem is, and what is skipped");
   command->add_option("FILE", a.file, "a mesh file, or a problem")->required();
-  command->add_option("--unit", a.unit, "of a mesh file: m, cm, mm or in")->check(CLI::IsMember({"m", "cm", "mm", "in"}));
-  command->add_option("--up", a.up, "of a mesh file: its up-axis, to be turned to z")->check(CLI::IsMember({"x", "y", "z"}));
+  command->add_option("--unit", a.unit, "of a mesh file: m, cm, mm or in")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
+  command->add_option("--up", a.up, "of a mesh file: its up-axis, to be turned to z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
   command->add_flag("--json", a.json, "results as JSON");
   command->footer(std::string("Example: corridor inspect robots/piano/piano.obj\n") + kExitStatus);
   command->callback([&] { status = inspectCommand(a); });

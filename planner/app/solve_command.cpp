@@ -1,10 +1,9 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -64,10 +63,14 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
 
 const char* nameOf(SolveOutcome outcome) {
   switch (outcome) {
-    case SolveOutcome::solved: return "solved";
-    case SolveOutcome::notFound: return "not found";
-    case SolveOutcome::approximate: return "approximate only";
-    case SolveOutcome::interrupted: return "interrupted";
+    case SolveOutcome::solved:
+      return "solved";
+    case SolveOutcome::notFound:
+      return "not found";
+    case SolveOutcome::approximate:
+      return "approximate only";
+    case SolveOutcome::interrupted:
+      return "interrupted";
   }
   return "";
 }
@@ -80,38 +83,42 @@ void print(const SolveReport& r, const std::string& problem, const SolveArgument
   if (!solved) out.line("why", r.why);
   out.line("planner", r.planner);
   out.line("seed", std::to_string(r.seed));
-  out.line("time", rounded(r.time) + " s, of it " + rounded(r.planningTime) + " s until the planner was done");
+  out.line("time", rounded(r.time) + " s, of it " + rounded(r.planningTime) +
+                       " s until the planner was done");
   out.line("states checked", grouped(r.counters.states));
   out.line("edges checked", grouped(r.counters.edges));
   out.line("undecided", grouped(r.counters.undecided));
   out.line("box tests N_v", grouped(r.counters.boxTests));
   out.line("triangle tests N_p", grouped(r.counters.triangleTests));
   if (!solved) return;
-  out.line("path length", rounded(r.length.metres) + " m, turning " + rounded(r.length.radians) + " rad");
+  out.line("path length",
+           rounded(r.length.metres) + " m, turning " + rounded(r.length.radians) + " rad");
   out.line("path states", grouped(r.path.size()));
-  out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")", r.certified ? Tone::good : Tone::bad);
+  out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")",
+           r.certified ? Tone::good : Tone::bad);
   if (a.output) out.line("solution", *a.output);
   if (a.picture) out.line("picture", *a.picture);
 }
 
 ordered_json jsonOf(const SolveReport& r, const std::string& problem) {
-  ordered_json j = {{"problem", problem},
-                    {"result", nameOf(r.outcome)},
-                    {"planner", r.planner},
-                    {"seed", r.seed},
-                    {"repeats", r.repeats},
-                    {"time_s", r.time},
-                    {"planning_time_s", r.planningTime},
-                    {"states_checked", r.counters.states},
-                    {"edges_checked", r.counters.edges},
-                    {"undecided", r.counters.undecided},
-                    {"box_tests", r.counters.boxTests},
-                    {"triangle_tests", r.counters.triangleTests},
-                    {"checker", r.checker},
-                    {"certified", r.certified},
-                    {"tolerance_m", r.motion.tolerance},
-                    {"margin_m", r.motion.margin},
-                    {"tube", {{"position_m", r.motion.tube.position}, {"rotation_rad", r.motion.tube.rotation}}}};
+  ordered_json j = {
+      {"problem", problem},
+      {"result", nameOf(r.outcome)},
+      {"planner", r.planner},
+      {"seed", r.seed},
+      {"repeats", r.repeats},
+      {"time_s", r.time},
+      {"planning_time_s", r.planningTime},
+      {"states_checked", r.counters.states},
+      {"edges_checked", r.counters.edges},
+      {"undecided", r.counters.undecided},
+      {"box_tests", r.counters.boxTests},
+      {"triangle_tests", r.counters.triangleTests},
+      {"checker", r.checker},
+      {"certified", r.certified},
+      {"tolerance_m", r.motion.tolerance},
+      {"margin_m", r.motion.margin},
+      {"tube", {{"position_m", r.motion.tube.position}, {"rotation_rad", r.motion.tube.rotation}}}};
   if (r.outcome == SolveOutcome::solved) {
     j["path"] = {{"states", r.path.size()},
                  {"length_m", r.length.metres},
@@ -132,8 +139,9 @@ SolveReport solveOne(const std::string& file, const SolveArguments& a) {
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {
     options.progress = [&](const SolveProgress& p) {
-      std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.name.c_str(), problem.planner.name.c_str(), p.seconds,
-                   problem.planner.time, counted(p.edges, "edge").c_str());
+      std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.name.c_str(),
+                   problem.planner.name.c_str(), p.seconds, problem.planner.time,
+                   counted(p.edges, "edge").c_str());
     };
   }
   SolveReport report = solveProblem(problem, options);
@@ -149,7 +157,9 @@ SolveReport solveOne(const std::string& file, const SolveArguments& a) {
 
 int solveCommand(const SolveArguments& a) {
   if (a.problems.size() > 1 && (a.output || a.picture))
-    throw InputError(Fault{a.output ? "--output" : "--picture", 0, "names one file, but there are " + counted(a.problems.size(), "problem")});
+    throw InputError(
+        Fault{a.output ? "--output" : "--picture", 0,
+              "names one file, but there are " + counted(a.problems.size(), "problem")});
   listenForInterrupts();
   int status = kDone;
   ordered_json results = ordered_json::array();
@@ -166,7 +176,8 @@ int solveCommand(const SolveArguments& a) {
     } catch (const InputError& error) {
       if (a.problems.size() == 1) throw;
       std::cerr << error.what() << '\n';  // the others may be sound
-      if (a.json) results.push_back({{"problem", file}, {"result", "bad input"}, {"why", error.what()}});
+      if (a.json)
+        results.push_back({{"problem", file}, {"result", "bad input"}, {"why", error.what()}});
       status = kBadInput;
     }
     if (interruptAsked) {
@@ -174,7 +185,9 @@ int solveCommand(const SolveArguments& a) {
       break;
     }
   }
-  if (a.json && !a.quiet) std::cout << ordered_json{{"format", "corridor-solve-report-1"}, {"problems", results}}.dump(2) << '\n';
+  if (a.json && !a.quiet)
+    std::cout << ordered_json{{"format", "corridor-solve-report-1"}, {"problems", results}}.dump(2)
+              << '\n';
   return status;
 }
 

@@ -14,25 +14,31 @@ namespace {
 using nlohmann::ordered_json;
 
 const char* nameOf(PathVerdict verdict) {
-  return verdict == PathVerdict::proved ? "proved" : verdict == PathVerdict::refuted ? "refuted" : "undecided";
+  return verdict == PathVerdict::proved    ? "proved"
+         : verdict == PathVerdict::refuted ? "refuted"
+                                           : "undecided";
 }
 
 std::string text(const PathFinding& f, RigidSpace space) {
   const Eigen::Quaterniond q = f.pose.q.normalized();
   const bool planar = space == RigidSpace::SE2;
-  std::string line = std::string(nameOf(f.verdict)) + ": edge " + std::to_string(f.edge) + " at t = " + rounded(f.t) + ": " + f.reason;
+  std::string line = std::string(nameOf(f.verdict)) + ": edge " + std::to_string(f.edge) +
+                     " at t = " + rounded(f.t) + ": " + f.reason;
   if (!f.moving.empty()) {
-    line += ": \"" + f.moving + "\" (triangle " + std::to_string(f.movingTriangle) + ") and \"" + f.fixed + "\" (triangle " +
-            std::to_string(f.fixedTriangle) + ")";
+    line += ": \"" + f.moving + "\" (triangle " + std::to_string(f.movingTriangle) + ") and \"" +
+            f.fixed + "\" (triangle " + std::to_string(f.fixedTriangle) + ")";
     if (f.gap > 0) line += ", " + rounded(f.gap) + " m apart";
     line += ", near " + rounded(f.point);
   }
   line += "; robot at " + rounded(f.pose.p, planar ? 2 : 3);
   if (planar) return line + ", yaw " + rounded(f.yaw);
-  return line + ", quat_xyzw [" + rounded(q.x()) + ", " + rounded(q.y()) + ", " + rounded(q.z()) + ", " + rounded(q.w()) + "]";
+  return line + ", quat_xyzw [" + rounded(q.x()) + ", " + rounded(q.y()) + ", " + rounded(q.z()) +
+         ", " + rounded(q.w()) + "]";
 }
 
-ordered_json numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json numbers(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 ordered_json jsonOf(const PathFinding& f) {
   return {{"verdict", nameOf(f.verdict)},
@@ -73,14 +79,18 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line("problem", a.problem);
   out.line("solution", a.solution);
   out.line("verdict", nameOf(r.verdict), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
-  out.line("edges proved", std::to_string(r.motion.edgesProved) + " of " + std::to_string(r.motion.edges));
+  out.line("edges proved",
+           std::to_string(r.motion.edgesProved) + " of " + std::to_string(r.motion.edges));
   if (r.motion.verdict == PathVerdict::proved)
-    out.line("clearance", "at least " + rounded(r.motion.provenClearance) + " m, at most " + rounded(r.motion.smallestDistanceMet) + " m");
+    out.line("clearance", "at least " + rounded(r.motion.provenClearance) + " m, at most " +
+                              rounded(r.motion.smallestDistanceMet) + " m");
   if (r.margin > 0) out.line("margin", rounded(r.margin) + " m");
   out.line("tube", rounded(r.tube.position) + " m, " + rounded(r.tube.rotation) + " rad");
-  out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated", r.violations.empty() ? Tone::plain : Tone::bad);
+  out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated",
+           r.violations.empty() ? Tone::plain : Tone::bad);
   for (const std::string& violation : r.violations) out.line("violation", violation);
-  for (const PathFinding& finding : r.motion.findings) out.line("finding", text(finding, problem.space));
+  for (const PathFinding& finding : r.motion.findings)
+    out.line("finding", text(finding, problem.space));
   out.line("distance queries", grouped(r.motion.distanceQueries));
 }
 
@@ -90,7 +100,8 @@ int verifyCommand(const VerifyArguments& a) {
   const Problem problem = readProblem(a.problem);
   const Solution solution = readSolution(a.solution, problem.space);
   if (!solution.digest.empty() && solution.digest != problem.digest)
-    warn(a.solution + ": made for other files than those of " + a.problem + " (the digests differ)");
+    warn(a.solution + ": made for other files than those of " + a.problem +
+         " (the digests differ)");
   const VerifyReport report = verifySolution(problem, solution);
   if (!a.json) {
     print(report, problem, a);

@@ -13,7 +13,8 @@ namespace corridor {
 
 namespace ob = ompl::base;
 
-RigidMotionValidator::RigidMotionValidator(const ob::SpaceInformationPtr& si, const RigidChecker& checker)
+RigidMotionValidator::RigidMotionValidator(const ob::SpaceInformationPtr& si,
+                                           const RigidChecker& checker)
     : MotionValidator(si), checker_(checker) {}
 
 bool RigidMotionValidator::count(bool valid) const {
@@ -49,13 +50,13 @@ bool CertifiedMotionValidator::isFree(const RigidState& from, const RigidState& 
   return checker_.inBounds(to) && checker_.edge(from, to, false).verdict == MotionVerdict::free;
 }
 
-std::optional<RigidMotionValidator::Progress> CertifiedMotionValidator::lastFree(const RigidState& from,
-                                                                                 const RigidState& to) const {
+std::optional<RigidMotionValidator::Progress> CertifiedMotionValidator::lastFree(
+    const RigidState& from, const RigidState& to) const {
   if (!checker_.inBounds(to)) return Progress{};
   const MotionResult result = checker_.edge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
-  // The tube covers the rounding of a state on the edge, so the first try nearly always holds; but [0, t0] may be proved with a
-  // clearance that leaves nothing for a second proof.
+  // The tube covers the rounding of a state on the edge, so the first try nearly always holds; but
+  // [0, t0] may be proved with a clearance that leaves nothing for a second proof.
   const double least = checker_.options().timeTolerance;
   for (double t = result.certifiedUntil; t >= least; t /= 2) {
     const RigidState at = interpolate(checker_.space(), from, to, t);
@@ -94,8 +95,8 @@ bool DiscreteMotionValidator::isFree(const RigidState& from, const RigidState& t
   return true;
 }
 
-std::optional<RigidMotionValidator::Progress> DiscreteMotionValidator::lastFree(const RigidState& from,
-                                                                                const RigidState& to) const {
+std::optional<RigidMotionValidator::Progress> DiscreteMotionValidator::lastFree(
+    const RigidState& from, const RigidState& to) const {
   if (ambiguous(checker_.space(), from, to)) return Progress{};
   const unsigned n = steps(from, to);
   Progress last;

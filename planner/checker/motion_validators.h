@@ -11,9 +11,10 @@ namespace corridor {
 
 /// What both validators share: counting, and the writing of `lastValid`.
 ///
-/// The contract, of which OMPL's own classes break parts: on failure lastValid.second = t0 and lastValid.first, where given, is a
-/// state such that the edge from s1 to it is valid by this very validator (t0 = 0: s1 itself, bit for bit); on success neither is
-/// touched. lastValid.first may be s1 or s2: both are read before anything is written. As everywhere in OMPL, s1 is taken to be
+/// The contract, of which OMPL's own classes break parts: on failure lastValid.second = t0 and
+/// lastValid.first, where given, is a state such that the edge from s1 to it is valid by this very
+/// validator (t0 = 0: s1 itself, bit for bit); on success neither is touched. lastValid.first may
+/// be s1 or s2: both are read before anything is written. As everywhere in OMPL, s1 is taken to be
 /// valid. Safe for many threads at once.
 class RigidMotionValidator : public ompl::base::MotionValidator {
  public:
@@ -52,9 +53,10 @@ class CertifiedMotionValidator final : public RigidMotionValidator {
   std::optional<Progress> lastFree(const RigidState& from, const RigidState& to) const override;
 };
 
-/// OMPL's rule, as a yardstick: the space's `validSegmentCount` says into how many steps an edge is cut (of
-/// longest_valid_segment_fraction of each subspace's extent at most), and the states between the steps are asked for contact,
-/// exactly. What lies between two of them is not looked at.
+/// OMPL's rule, as a yardstick: the space's `validSegmentCount` says into how many steps an edge is
+/// cut (of longest_valid_segment_fraction of each subspace's extent at most), and the states
+/// between the steps are asked for contact, exactly. What lies between two of them is not looked
+/// at.
 class DiscreteMotionValidator final : public RigidMotionValidator {
  public:
   DiscreteMotionValidator(const ompl::base::SpaceInformationPtr& si, const RigidChecker& checker)

@@ -41,24 +41,33 @@ MotionOptions motionOptions(const Problem& problem, const Scene& scene) {
   options.tolerance = problem.checker.tolerance.value_or(scene.defaultTolerance());
   options.margin = problem.margin;
   const Tube asked = problem.tube.value_or(Tube{});
-  options.tube.position = std::max(asked.position, 0x1p-40 * (problem.upper - problem.lower).head(dimension).maxCoeff());
+  options.tube.position = std::max(
+      asked.position, 0x1p-40 * (problem.upper - problem.lower).head(dimension).maxCoeff());
   options.tube.rotation = std::max(asked.rotation, 0x1p-40 * 2 * std::numbers::pi);
   return options;
 }
 
-RigidState startState(const Problem& problem) { return stateOf(problem, problem.start, problem.startYaw); }
-RigidState goalState(const Problem& problem) { return stateOf(problem, problem.goal, problem.goalYaw); }
+RigidState startState(const Problem& problem) {
+  return stateOf(problem, problem.start, problem.startYaw);
+}
+RigidState goalState(const Problem& problem) {
+  return stateOf(problem, problem.goal, problem.goalYaw);
+}
 
 bool inGoal(const Problem& problem, const RigidState& state, double slack) {
   const RigidState goal = goalState(problem);
   const double grow = 1 + slack;
-  const double away = (state.pose.p - goal.pose.p).norm(), turned = rotationAngle(problem.space, goal, state);
-  // Normalising a quaternion is off by less than 4u a component, an angle of two such by less than 32u, and finding it by as much.
+  const double away = (state.pose.p - goal.pose.p).norm(),
+               turned = rotationAngle(problem.space, goal, state);
+  // Normalising a quaternion is off by less than 4u a component, an angle of two such by less than
+  // 32u, and finding it by as much.
   const double same = 64 * kUnit;
   if (problem.goalRegion)
-    return away <= problem.goalRegion->position * grow && turned <= std::max(problem.goalRegion->angle * grow, same);
+    return away <= problem.goalRegion->position * grow &&
+           turned <= std::max(problem.goalRegion->angle * grow, same);
   if (problem.goalThreshold)
-    return distance(problem.space, problem.rotationWeight, goal, state) <= *problem.goalThreshold * grow;
+    return distance(problem.space, problem.rotationWeight, goal, state) <=
+           *problem.goalThreshold * grow;
   return away == 0 && turned <= same;
 }
 

@@ -4,8 +4,8 @@
 
 namespace corridor {
 
-RigidChecker::RigidChecker(const Scene& scene, RigidSpace space, const Vec3& lower, const Vec3& upper,
-                           const MotionOptions& options)
+RigidChecker::RigidChecker(const Scene& scene, RigidSpace space, const Vec3& lower,
+                           const Vec3& upper, const MotionOptions& options)
     : scene_(scene), space_(space), lower_(lower), upper_(upper), options_(options) {
   options_.earliest = false;
 }
@@ -22,8 +22,9 @@ bool RigidChecker::inBounds(const RigidState& state) const {
 MotionResult RigidChecker::state(const RigidState& at) const {
   QueryContext& context = contexts_.mine();
   const Counters before = context.counters;
-  const MotionResult result = space_ == RigidSpace::SE3 ? scene_.certifyState(at.pose, options_, context)
-                                                        : scene_.certifyStatePlanar(at.xyYaw(), options_, context);
+  const MotionResult result = space_ == RigidSpace::SE3
+                                  ? scene_.certifyState(at.pose, options_, context)
+                                  : scene_.certifyStatePlanar(at.xyYaw(), options_, context);
   // The scene counts it for an edge of zero length.
   context.counters.edges = before.edges;
   context.counters.states = before.states + 1;
@@ -33,8 +34,9 @@ MotionResult RigidChecker::state(const RigidState& at) const {
 MotionResult RigidChecker::edge(const RigidState& from, const RigidState& to, bool earliest) const {
   MotionOptions options = options_;
   options.earliest = earliest;
-  return space_ == RigidSpace::SE3 ? scene_.certifyEdge(from.pose, to.pose, options, contexts_.mine())
-                                   : scene_.certifyEdgePlanar(from.xyYaw(), to.xyYaw(), options, contexts_.mine());
+  return space_ == RigidSpace::SE3
+             ? scene_.certifyEdge(from.pose, to.pose, options, contexts_.mine())
+             : scene_.certifyEdgePlanar(from.xyYaw(), to.xyYaw(), options, contexts_.mine());
 }
 
 std::optional<Contact> RigidChecker::interference(const RigidState& at) const {

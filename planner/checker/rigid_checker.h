@@ -6,12 +6,14 @@
 
 namespace corridor {
 
-/// What a rigid body's states and edges are checked for; the plain half of the OMPL classes beside it. Safe to call from many
-/// threads at once.
+/// What a rigid body's states and edges are checked for; the plain half of the OMPL classes beside
+/// it. Safe to call from many threads at once.
 class RigidChecker {
  public:
-  /// Bounds of the reference point, inclusive (SE2: x and y). The scene must outlive the checker. `options.earliest` is ignored.
-  RigidChecker(const Scene& scene, RigidSpace space, const Vec3& lower, const Vec3& upper, const MotionOptions& options);
+  /// Bounds of the reference point, inclusive (SE2: x and y). The scene must outlive the checker.
+  /// `options.earliest` is ignored.
+  RigidChecker(const Scene& scene, RigidSpace space, const Vec3& lower, const Vec3& upper,
+               const MotionOptions& options);
 
   const Scene& scene() const { return scene_; }
   RigidSpace space() const { return space_; }

@@ -10,8 +10,9 @@ namespace {
 using Eigen::Quaterniond;
 using std::numbers::pi;
 
-/// Angle between unit quaternions taken as rotations, in [0, π/2], well conditioned everywhere: the arc cosine that OMPL
-/// takes loses half of the digits near 0. `b` is to be negated where the dot product is negative, which the caller does.
+/// Angle between unit quaternions taken as rotations, in [0, π/2], well conditioned everywhere: the
+/// arc cosine that OMPL takes loses half of the digits near 0. `b` is to be negated where the dot
+/// product is negative, which the caller does.
 double halfAngle(const Quaterniond& a, const Quaterniond& b) {
   return 2 * std::atan2((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
 }
@@ -30,10 +31,15 @@ Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
   return Quaterniond(Eigen::Vector4d(wa * a.coeffs() + wb * b.coeffs())).normalized();
 }
 
-/// The shorter way round; −π or π for a half turn. Exact remainders of the double 2π, which is 2^-52 off.
-double turn(double from, double to) { return std::remainder(to - from, 2 * pi); }
+/// The shorter way round; −π or π for a half turn. Exact remainders of the double 2π, which is
+/// 2^-52 off.
+double turn(double from, double to) {
+  return std::remainder(to - from, 2 * pi);
+}
 
-double intoCircle(double yaw) { return std::abs(yaw) <= pi ? yaw : std::remainder(yaw, 2 * pi); }
+double intoCircle(double yaw) {
+  return std::abs(yaw) <= pi ? yaw : std::remainder(yaw, 2 * pi);
+}
 
 }  // namespace
 
@@ -59,7 +65,8 @@ double rotationAngle(RigidSpace space, const RigidState& a, const RigidState& b)
 
 double distance(RigidSpace space, double rotationWeight, const RigidState& a, const RigidState& b) {
   const double angle = rotationAngle(space, a, b);
-  return (b.pose.p - a.pose.p).norm() + rotationWeight * (space == RigidSpace::SE3 ? angle / 2 : angle);
+  return (b.pose.p - a.pose.p).norm() +
+         rotationWeight * (space == RigidSpace::SE3 ? angle / 2 : angle);
 }
 
 bool ambiguous(RigidSpace space, const RigidState& a, const RigidState& b) {

@@ -8,13 +8,15 @@ namespace ob = ompl::base;
 
 namespace {
 
-// One implementation for both classes; all is read before anything is written, so that `state` may be either end.
+// One implementation for both classes; all is read before anything is written, so that `state` may
+// be either end.
 template <RigidSpace space>
 void interpolateStates(const ob::State* from, const ob::State* to, double t, ob::State* state) {
   writeState(space, interpolate(space, readState(space, from), readState(space, to), t), state);
 }
 
-/// OMPL normalises quaternions in passing (enforceBounds), and means the same state: 64u of angle, see `inGoal`.
+/// OMPL normalises quaternions in passing (enforceBounds), and means the same state: 64u of angle,
+/// see `inGoal`.
 template <RigidSpace space>
 bool equal(const ob::State* a, const ob::State* b) {
   const RigidState s = readState(space, a), t = readState(space, b);
@@ -28,9 +30,12 @@ double distanceOf(double weight, const ob::State* a, const ob::State* b) {
 
 }  // namespace
 
-RigidSE3StateSpace::RigidSE3StateSpace(double rotationWeight) { setSubspaceWeight(1, rotationWeight); }
+RigidSE3StateSpace::RigidSE3StateSpace(double rotationWeight) {
+  setSubspaceWeight(1, rotationWeight);
+}
 
-void RigidSE3StateSpace::interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const {
+void RigidSE3StateSpace::interpolate(const ob::State* from, const ob::State* to, double t,
+                                     ob::State* state) const {
   interpolateStates<RigidSpace::SE3>(from, to, t, state);
 }
 
@@ -42,9 +47,12 @@ bool RigidSE3StateSpace::equalStates(const ob::State* a, const ob::State* b) con
   return equal<RigidSpace::SE3>(a, b);
 }
 
-RigidSE2StateSpace::RigidSE2StateSpace(double rotationWeight) { setSubspaceWeight(1, rotationWeight); }
+RigidSE2StateSpace::RigidSE2StateSpace(double rotationWeight) {
+  setSubspaceWeight(1, rotationWeight);
+}
 
-void RigidSE2StateSpace::interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const {
+void RigidSE2StateSpace::interpolate(const ob::State* from, const ob::State* to, double t,
+                                     ob::State* state) const {
   interpolateStates<RigidSpace::SE2>(from, to, t, state);
 }
 
@@ -56,8 +64,8 @@ bool RigidSE2StateSpace::equalStates(const ob::State* a, const ob::State* b) con
   return equal<RigidSpace::SE2>(a, b);
 }
 
-std::shared_ptr<ob::StateSpace> makeStateSpace(RigidSpace space, const Vec3& lower, const Vec3& upper,
-                                               double rotationWeight) {
+std::shared_ptr<ob::StateSpace> makeStateSpace(RigidSpace space, const Vec3& lower,
+                                               const Vec3& upper, double rotationWeight) {
   const unsigned dimension = space == RigidSpace::SE3 ? 3 : 2;
   ob::RealVectorBounds bounds(dimension);
   for (unsigned i = 0; i < dimension; ++i) {

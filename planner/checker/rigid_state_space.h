@@ -9,8 +9,9 @@
 
 namespace corridor {
 
-/// OMPL's SE(3) with Corridor's edges: `interpolate`, `distance` and `equalStates` as in rigid_state.h. OMPL 1.5.2's own return
-/// `from` for rotations under 9e-5 rad, even at t = 1, take them for distance 0, and flip the way near half turns on a last bit.
+/// OMPL's SE(3) with Corridor's edges: `interpolate`, `distance` and `equalStates` as in
+/// rigid_state.h. OMPL 1.5.2's own return `from` for rotations under 9e-5 rad, even at t = 1, take
+/// them for distance 0, and flip the way near half turns on a last bit.
 class RigidSE3StateSpace : public ompl::base::SE3StateSpace {
  public:
   explicit RigidSE3StateSpace(double rotationWeight);
@@ -32,8 +33,8 @@ class RigidSE2StateSpace : public ompl::base::SE2StateSpace {
 
 /// One of the two, with bounds of the reference point (SE2: x and y).
 /// @throws ompl::Exception where a bound isn't lower < upper.
-std::shared_ptr<ompl::base::StateSpace> makeStateSpace(RigidSpace space, const Vec3& lower, const Vec3& upper,
-                                                       double rotationWeight);
+std::shared_ptr<ompl::base::StateSpace> makeStateSpace(RigidSpace space, const Vec3& lower,
+                                                       const Vec3& upper, double rotationWeight);
 
 RigidState readState(RigidSpace space, const ompl::base::State* state);
 void writeState(RigidSpace space, const RigidState& values, ompl::base::State* state);

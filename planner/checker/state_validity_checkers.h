@@ -6,10 +6,12 @@
 
 namespace corridor {
 
-/// Valid is: in bounds, and certified free with tolerance, margin and tube (an edge of zero length). Undecided is not valid.
+/// Valid is: in bounds, and certified free with tolerance, margin and tube (an edge of zero
+/// length). Undecided is not valid.
 class CertifiedStateValidityChecker : public ompl::base::StateValidityChecker {
  public:
-  CertifiedStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const RigidChecker& checker)
+  CertifiedStateValidityChecker(const ompl::base::SpaceInformationPtr& si,
+                                const RigidChecker& checker)
       : StateValidityChecker(si), checker_(checker) {}
   bool isValid(const ompl::base::State* state) const override;
 
@@ -17,8 +19,8 @@ class CertifiedStateValidityChecker : public ompl::base::StateValidityChecker {
   const RigidChecker& checker_;
 };
 
-/// For the discrete yardstick. Valid is: in bounds, and no triangles touch, exactly. Where a margin is asked for, it is kept, and
-/// certified.
+/// For the discrete yardstick. Valid is: in bounds, and no triangles touch, exactly. Where a margin
+/// is asked for, it is kept, and certified.
 class ExactStateValidityChecker : public ompl::base::StateValidityChecker {
  public:
   ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const RigidChecker& checker)

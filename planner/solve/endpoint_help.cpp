@@ -26,14 +26,16 @@ std::vector<Vec3> directions(RigidSpace space) {
   std::vector<Vec3> all;
   for (int i = 0; i < count; ++i) {
     const double z = space == RigidSpace::SE3 ? 1 - (2 * i + 1.0) / count : 0;
-    const double angle = space == RigidSpace::SE3 ? i * std::numbers::pi * (3 - std::sqrt(5.0)) : 2 * std::numbers::pi * i / count;
+    const double angle = space == RigidSpace::SE3 ? i * std::numbers::pi * (3 - std::sqrt(5.0))
+                                                  : 2 * std::numbers::pi * i / count;
     const double r = std::sqrt(1 - z * z);
     all.push_back({r * std::cos(angle), r * std::sin(angle), z});
   }
   return all;
 }
 
-/// The nearest position found that is free with the orientation kept: shells that grow by a tenth, then halving along the ray.
+/// The nearest position found that is free with the orientation kept: shells that grow by a tenth,
+/// then halving along the ray.
 std::optional<Vec3> nearestFree(const RigidState& state, const RigidChecker& checker) {
   const auto freeAt = [&](const Vec3& p) {
     RigidState moved = state;
@@ -57,7 +59,8 @@ std::optional<Vec3> nearestFree(const RigidState& state, const RigidChecker& che
 
 }  // namespace
 
-std::optional<std::string> whyNotFree(const std::string& name, const RigidState& state, const RigidChecker& checker) {
+std::optional<std::string> whyNotFree(const std::string& name, const RigidState& state,
+                                      const RigidChecker& checker) {
   if (!checker.inBounds(state))
     return name + ": " + coordinates(checker.space(), state.pose.p) + " is outside of the bounds";
   const MotionResult result = checker.state(state);
@@ -72,21 +75,26 @@ std::optional<std::string> whyNotFree(const std::string& name, const RigidState&
   }
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
     const Tube& tube = checker.options().tube;
-    const double needed = std::sqrt(3.0) * tube.position + tube.rotation * checker.scene().movingRadius();
+    const double needed =
+        std::sqrt(3.0) * tube.position + tube.rotation * checker.scene().movingRadius();
     if (result.gap <= needed) {
-      return name + ": the gap between " + pair + " is " + number(result.gap) + " m, and the tube needs " + number(needed) +
-             " m; move it away, or set a smaller tube";
+      return name + ": the gap between " + pair + " is " + number(result.gap) +
+             " m, and the tube needs " + number(needed) + " m; move it away, or set a smaller tube";
     }
     return name + ": the gap between " + pair + " is " + number(result.gap) + " m" +
-           (checker.options().margin > 0 ? " beyond the margin" : "") + ", too small to prove at a tolerance of " +
-           number(checker.options().tolerance) + " m; move it away, or set checker: {tolerance: " +
-           number(result.gap / 4) + "}";
+           (checker.options().margin > 0 ? " beyond the margin" : "") +
+           ", too small to prove at a tolerance of " + number(checker.options().tolerance) +
+           " m; move it away, or set checker: {tolerance: " + number(result.gap / 4) + "}";
   }
-  if (result.verdict == MotionVerdict::undecided) return name + ": the check of it took too much work";
-  std::string text = name + " is in contact: " + pair + (checker.interference(state) ? " touch" : " are closer than the margin of " + number(checker.options().margin) + " m");
+  if (result.verdict == MotionVerdict::undecided)
+    return name + ": the check of it took too much work";
+  std::string text = name + " is in contact: " + pair +
+                     (checker.interference(state) ? " touch"
+                                                  : " are closer than the margin of " +
+                                                        number(checker.options().margin) + " m");
   if (const auto free = nearestFree(state, checker)) {
-    return text + "; the nearest free position found is " + number((*free - state.pose.p).norm()) + " m away: at: " +
-           coordinates(checker.space(), *free);
+    return text + "; the nearest free position found is " + number((*free - state.pose.p).norm()) +
+           " m away: at: " + coordinates(checker.space(), *free);
   }
   return text + "; no free position was found nearby with this orientation";
 }

@@ -22,7 +22,9 @@ constexpr int kEmptyRounds = 8;
 /// No path needed more; shortening never ends by itself, as it always finds another last digit.
 constexpr int kRounds = 60;
 
-bool sameState(RigidSpace space, const RigidState& a, const RigidState& b) { return distance(space, 1, a, b) == 0; }
+bool sameState(RigidSpace space, const RigidState& a, const RigidState& b) {
+  return distance(space, 1, a, b) == 0;
+}
 
 }  // namespace
 
@@ -33,8 +35,9 @@ Path readPath(RigidSpace space, const og::PathGeometric& path) {
   return states;
 }
 
-std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si, RigidSpace space,
-                                     og::PathGeometric& path, const std::function<bool()>& stop) {
+std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si,
+                                     RigidSpace space, og::PathGeometric& path,
+                                     const std::function<bool()>& stop) {
   std::vector<Path> versions{readPath(space, path)};
   og::PathSimplifier simplifier(si);
   const auto repeat = [&](auto attempt) {
@@ -62,7 +65,8 @@ Path withShortTurns(RigidSpace space, const Path& path) {
       if (sameState(space, path[i - 1], path[i]) && i + 1 < path.size()) continue;
       const double angle = rotationAngle(space, path[i - 1], path[i]);
       const int parts = static_cast<int>(angle / (std::numbers::pi / 2)) + 1;
-      for (int k = 1; k < parts; ++k) states.push_back(interpolate(space, path[i - 1], path[i], double(k) / parts));
+      for (int k = 1; k < parts; ++k)
+        states.push_back(interpolate(space, path[i - 1], path[i], double(k) / parts));
     }
     states.push_back(path[i]);
   }

@@ -19,13 +19,14 @@ using Path = std::vector<RigidState>;
 
 Path readPath(RigidSpace space, const ompl::geometric::PathGeometric& path);
 
-/// Versions of a path, from the planner's own to the simplest; each may serve if a later one fails. Simplifies until that brings
-/// nothing, or `stop` says so; the ends stay.
-std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si, RigidSpace space,
-                                     ompl::geometric::PathGeometric& path, const std::function<bool()>& stop);
+/// Versions of a path, from the planner's own to the simplest; each may serve if a later one fails.
+/// Simplifies until that brings nothing, or `stop` says so; the ends stay.
+std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si,
+                                     RigidSpace space, ompl::geometric::PathGeometric& path,
+                                     const std::function<bool()>& stop);
 
-/// The path with states inserted on its edges so that no step turns more than 90° (design: «What an edge is»), and repeated
-/// states left out.
+/// The path with states inserted on its edges so that no step turns more than 90° (design: «What an
+/// edge is»), and repeated states left out.
 Path withShortTurns(RigidSpace space, const Path& path);
 
 /// Every state in bounds and every edge certified, whatever was said of them before.

@@ -16,8 +16,8 @@ namespace ob = ompl::base;
 
 namespace {
 
-/// A planner's state shall also be in the region for who computes that in another way: the region is shrunk by what a few
-/// roundings could amount to.
+/// A planner's state shall also be in the region for who computes that in another way: the region
+/// is shrunk by what a few roundings could amount to.
 constexpr double kShrink = 0x1p-40;
 
 double uniform(std::mt19937_64& random, double low, double high) {
@@ -35,7 +35,8 @@ Vec3 inUnitBall(std::mt19937_64& random, int dimension) {
 
 }  // namespace
 
-RigidGoalRegion::RigidGoalRegion(const ob::SpaceInformationPtr& si, const Problem& problem, std::vector<RigidState> samples)
+RigidGoalRegion::RigidGoalRegion(const ob::SpaceInformationPtr& si, const Problem& problem,
+                                 std::vector<RigidState> samples)
     : GoalSampleableRegion(si), problem_(problem), samples_(std::move(samples)) {}
 
 double RigidGoalRegion::distanceGoal(const ob::State* state) const {
@@ -52,7 +53,8 @@ void RigidGoalRegion::sampleGoal(ob::State* state) const {
   writeState(problem_.space, samples_[next_++ % samples_.size()], state);
 }
 
-std::vector<RigidState> sampleGoalRegion(const Problem& problem, const RigidChecker& checker, std::size_t count) {
+std::vector<RigidState> sampleGoalRegion(const Problem& problem, const RigidChecker& checker,
+                                         std::size_t count) {
   const RigidState middle = goalState(problem);
   const bool spatial = problem.space == RigidSpace::SE3;
   std::vector<RigidState> found;
@@ -64,10 +66,12 @@ std::vector<RigidState> sampleGoalRegion(const Problem& problem, const RigidChec
     if (spatial) {
       const double angle = problem.goalRegion->angle * uniform(random, 0, 1);
       Vec3 axis = inUnitBall(random, 3);
-      if (axis.squaredNorm() > 0) state.pose.q = state.pose.q * Eigen::AngleAxisd(angle, axis.normalized());
+      if (axis.squaredNorm() > 0)
+        state.pose.q = state.pose.q * Eigen::AngleAxisd(angle, axis.normalized());
       state.pose.q.normalize();
     } else {
-      state.yaw = std::remainder(state.yaw + problem.goalRegion->angle * uniform(random, -1, 1), 2 * std::numbers::pi);
+      state.yaw = std::remainder(state.yaw + problem.goalRegion->angle * uniform(random, -1, 1),
+                                 2 * std::numbers::pi);
     }
     if (inGoal(problem, state, -kShrink) && checker.certifiedState(state)) found.push_back(state);
   }

@@ -67,12 +67,14 @@ struct Entry {
 
 template <class Planner>
 Entry entry(const char* name, const char* about, bool repeats = true) {
-  return {{name, about, repeats},
-          [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr { return std::make_shared<Planner>(si); }};
+  return {{name, about, repeats}, [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr {
+            return std::make_shared<Planner>(si);
+          }};
 }
 
-// Left out: planners that need more than a problem says (TSRRT, VFRRT, XXL, QRRT, Lightning, Thunder), and pRRT and pSBL, which
-// write to their trees from many threads without a lock around all of it.
+// Left out: planners that need more than a problem says (TSRRT, VFRRT, XXL, QRRT, Lightning,
+// Thunder), and pRRT and pSBL, which write to their trees from many threads without a lock around
+// all of it.
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       entry<og::RRTConnect>("RRTConnect", "two trees that reach for each other; the default"),
@@ -96,12 +98,14 @@ const std::vector<Entry>& entries() {
       entry<og::SPARS>("SPARS", "sparse roadmap", false),
       entry<og::SPARStwo>("SPARStwo", "sparse roadmap", false),
       entry<og::RRTstar>("RRTstar", "optimises: one tree, rewired"),
-      entry<og::InformedRRTstar>("InformedRRTstar", "optimises: RRTstar within the ellipse that can help"),
+      entry<og::InformedRRTstar>("InformedRRTstar",
+                                 "optimises: RRTstar within the ellipse that can help"),
       entry<og::SORRTstar>("SORRTstar", "optimises: RRTstar with ordered samples"),
       entry<og::RRTsharp>("RRTsharp", "optimises: RRTstar that replans"),
       entry<og::RRTXstatic>("RRTXstatic", "optimises: RRTsharp with lazy replanning"),
-      entry<og::LBTRRT>("LBTRRT", "optimises to a factor, checks fewer edges"),
-      entry<og::LazyLBTRRT>("LazyLBTRRT", "optimises to a factor, edges checked when needed"),
+      entry<og::LBTRRT>("LBTRRT", "optimises to a factor, checks fewer edges", false),
+      entry<og::LazyLBTRRT>("LazyLBTRRT", "optimises to a factor, edges checked when needed",
+                            false),
       entry<og::PRMstar>("PRMstar", "optimises: roadmap", false),
       entry<og::LazyPRMstar>("LazyPRMstar", "optimises: roadmap, edges checked when needed"),
       entry<og::FMT>("FMT", "optimises over a fixed number of samples"),
@@ -111,7 +115,8 @@ const std::vector<Entry>& entries() {
       entry<og::AITstar>("AITstar", "optimises: BITstar with an adaptive estimate"),
       entry<og::SST>("SST", "optimises: a sparse tree"),
       entry<og::CForest>("CForest", "optimises: RRTstar in many threads", false),
-      entry<og::AnytimePathShortening>("AnytimePathShortening", "optimises: planners in threads, paths joined", false),
+      entry<og::AnytimePathShortening>("AnytimePathShortening",
+                                       "optimises: planners in threads, paths joined", false),
   };
   return all;
 }
@@ -131,9 +136,12 @@ bool parsesAs(const std::string& text) {
   return true;
 }
 
-/// What a parameter takes, where `text` isn't that. OMPL's own conversion takes "0.6abc" for a string that it then throws at.
+/// What a parameter takes, where `text` isn't that. OMPL's own conversion takes "0.6abc" for a
+/// string that it then throws at.
 std::optional<std::string> complaint(ob::GenericParam& parameter, const std::string& text) {
-  const auto is = [&]<class T>(T) { return dynamic_cast<ob::SpecificParam<T>*>(&parameter) != nullptr; };
+  const auto is = [&]<class T>(T) {
+    return dynamic_cast<ob::SpecificParam<T>*>(&parameter) != nullptr;
+  };
   if (is(bool{})) {
     if (text == "0" || text == "1") return std::nullopt;
     return "neither true nor false";
@@ -171,43 +179,54 @@ const std::vector<PlannerInfo>& knownPlanners() {
 }
 
 ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string& name,
-                           const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt) {
+                           const std::vector<PlannerParameter>& parameters,
+                           const PlannerParameter& nameAt) {
   ob::PlannerPtr planner;
   for (const Entry& entry : entries())
     if (entry.info.name == name) planner = entry.make(si);
   if (!planner) {
     throw InputError(Fault{nameAt.file, nameAt.line,
-                           "unknown planner " + quotedWord(name) + didYouMean(name, plannerNames()) +
+                           "unknown planner " + quotedWord(name) +
+                               didYouMean(name, plannerNames()) +
                                "; there are: " + joined(plannerNames())});
   }
   std::vector<Fault> faults;
   for (const PlannerParameter& given : parameters) {
-    ob::ParamSet& set = !planner->params().hasParam(given.key) && si->params().hasParam(given.key) ? si->params()
-                                                                                                  : planner->params();
+    ob::ParamSet& set = !planner->params().hasParam(given.key) && si->params().hasParam(given.key)
+                            ? si->params()
+                            : planner->params();
     if (!set.hasParam(given.key)) {
       const std::vector<std::string> names = parameterNames(planner->params());
       faults.push_back({given.file, given.line,
-                        name + " has no parameter " + quotedWord(given.key) + didYouMean(given.key, names) +
-                            "; it has: " + joined(names)});
+                        name + " has no parameter " + quotedWord(given.key) +
+                            didYouMean(given.key, names) + "; it has: " + joined(names)});
       continue;
     }
-    const std::string text = given.value == "true" ? "1" : given.value == "false" ? "0" : given.value;
+    const std::string text = given.value == "true"    ? "1"
+                             : given.value == "false" ? "0"
+                                                      : given.value;
     std::optional<std::string> wrong = complaint(*set.getParam(given.key), text);
     try {
       if (!wrong && !set.setParam(given.key, text)) wrong = "not a value of its type";
     } catch (const std::exception& error) {
       wrong = error.what();
     }
-    if (wrong) faults.push_back({given.file, given.line, name + "'s parameter " + given.key + ": " + quotedWord(given.value) + " is " + *wrong});
+    if (wrong)
+      faults.push_back(
+          {given.file, given.line,
+           name + "'s parameter " + given.key + ": " + quotedWord(given.value) + " is " + *wrong});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
   return planner;
 }
 
-void setValidStateSampler(ob::SpaceInformation& si, const std::string& name, const PlannerParameter& nameAt) {
+void setValidStateSampler(ob::SpaceInformation& si, const std::string& name,
+                          const PlannerParameter& nameAt) {
   const auto use = [&]<class Sampler>(std::type_identity<Sampler>) {
     si.setValidStateSamplerAllocator(
-        [](const ob::SpaceInformation* space) -> ob::ValidStateSamplerPtr { return std::make_shared<Sampler>(space); });
+        [](const ob::SpaceInformation* space) -> ob::ValidStateSamplerPtr {
+          return std::make_shared<Sampler>(space);
+        });
   };
   if (name == "uniform") {
     use(std::type_identity<ob::UniformValidStateSampler>{});
@@ -219,9 +238,10 @@ void setValidStateSampler(ob::SpaceInformation& si, const std::string& name, con
     use(std::type_identity<ob::BridgeTestValidStateSampler>{});
   } else {
     const std::vector<std::string> names = {"uniform", "gaussian", "obstacle_based", "bridge_test"};
-    const std::string what = name == "max_clearance"
-                                 ? "sampler max_clearance needs a clearance, which isn't computed yet"
-                                 : "unknown sampler " + quotedWord(name) + didYouMean(name, names);
+    const std::string what =
+        name == "max_clearance"
+            ? "sampler max_clearance needs a clearance, which isn't computed yet"
+            : "unknown sampler " + quotedWord(name) + didYouMean(name, names);
     throw InputError(Fault{nameAt.file, nameAt.line, what + "; there are: " + joined(names)});
   }
 }

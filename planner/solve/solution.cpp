@@ -1,10 +1,9 @@
 #include "planner/solve/solution.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <unistd.h>
 
 #include "planner/problem/format_key.h"
 #include "planner/problem/yaml_reader.h"
@@ -30,11 +29,14 @@ std::string yamlText(const std::string& text) {
   return quoted + "\"";
 }
 
-const char* nameOf(RigidSpace space) { return space == RigidSpace::SE3 ? "SE3" : "SE2"; }
+const char* nameOf(RigidSpace space) {
+  return space == RigidSpace::SE3 ? "SE3" : "SE2";
+}
 
 std::vector<double> numbersOf(RigidSpace space, const RigidState& s) {
   if (space == RigidSpace::SE2) return {s.pose.p.x(), s.pose.p.y(), s.yaw};
-  return {s.pose.p.x(), s.pose.p.y(), s.pose.p.z(), s.pose.q.x(), s.pose.q.y(), s.pose.q.z(), s.pose.q.w()};
+  return {s.pose.p.x(), s.pose.p.y(), s.pose.p.z(), s.pose.q.x(),
+          s.pose.q.y(), s.pose.q.z(), s.pose.q.w()};
 }
 
 RigidState stateOf(RigidSpace space, const std::vector<double>& v) {
@@ -49,9 +51,13 @@ RigidState stateOf(RigidSpace space, const std::vector<double>& v) {
   return s;
 }
 
-std::size_t widthOf(RigidSpace space) { return space == RigidSpace::SE2 ? 3 : 7; }
+std::size_t widthOf(RigidSpace space) {
+  return space == RigidSpace::SE2 ? 3 : 7;
+}
 
-std::string stateNames(RigidSpace space) { return space == RigidSpace::SE2 ? "x y yaw" : "x y z qx qy qz qw"; }
+std::string stateNames(RigidSpace space) {
+  return space == RigidSpace::SE2 ? "x y yaw" : "x y z qx qy qz qw";
+}
 
 std::string yamlOf(const Solution& solution) {
   std::ostringstream text;
@@ -66,7 +72,8 @@ std::string yamlOf(const Solution& solution) {
        << "checker: " << yamlText(solution.checker) << "\n"
        << "tolerance: " << digits(solution.tolerance) << "  # m\n"
        << "margin: " << digits(solution.margin) << "  # m\n"
-       << "tube: {position: " << digits(solution.tube.position) << ", rotation: " << digits(solution.tube.rotation)
+       << "tube: {position: " << digits(solution.tube.position)
+       << ", rotation: " << digits(solution.tube.rotation)
        << "}  # m, rad: the proof holds for every curve this close to the path\n"
        << "path:  # " << stateNames(solution.space) << "\n";
   for (const RigidState& state : solution.path) {
@@ -98,13 +105,16 @@ Solution readPathFile(const std::filesystem::path& file, RigidSpace space) {
     std::string word, complaint;
     while (words >> word) {
       double value = 0;
-      if (const std::string wrong = parseNumber(word, Range::Any, value); !wrong.empty() && complaint.empty()) complaint = wrong;
+      if (const std::string wrong = parseNumber(word, Range::Any, value);
+          !wrong.empty() && complaint.empty())
+        complaint = wrong;
       values.push_back(value);
     }
     if (values.empty()) continue;
     if (complaint.empty() && values.size() != widthOf(space)) {
-      complaint = "a state of " + std::string(nameOf(space)) + " has " + std::to_string(widthOf(space)) + " numbers (" +
-                  stateNames(space) + "), not " + std::to_string(values.size());
+      complaint = "a state of " + std::string(nameOf(space)) + " has " +
+                  std::to_string(widthOf(space)) + " numbers (" + stateNames(space) + "), not " +
+                  std::to_string(values.size());
     }
     if (!complaint.empty()) {
       faults.add(file.string(), number, complaint);
@@ -127,7 +137,8 @@ void readStates(const YamlValue& list, Solution& solution, YamlSource& source) {
     const auto values = readNumbers(item, widthOf(solution.space), "path", source);
     if (!values) continue;
     solution.path.push_back(stateOf(solution.space, *values));
-    if (!isState(solution.space, solution.path.back())) source.fault(item.line, std::string("path: ") + kZeroQuaternion);
+    if (!isState(solution.space, solution.path.back()))
+      source.fault(item.line, std::string("path: ") + kZeroQuaternion);
   }
 }
 
@@ -137,8 +148,9 @@ Solution readYaml(const std::filesystem::path& file, RigidSpace space) {
   YamlSource source{file.string(), faults, {}};
   Solution solution;
   if (hasFormat(document, kFormat, source)) {
-    static const MapKeys keys{{"format", "problem", "digest", "space", "planner", "seed", "certified", "checker", "tolerance",
-                               "margin", "tube", "path"}, {}};
+    static const MapKeys keys{{"format", "problem", "digest", "space", "planner", "seed",
+                               "certified", "checker", "tolerance", "margin", "tube", "path"},
+                              {}};
     static const MapKeys tubeKeys{{"position", "rotation"}, {}};
     const YamlMap map(document, "", &keys, source);
     solution.problem = map.text("problem").value_or("");
@@ -158,8 +170,10 @@ Solution readYaml(const std::filesystem::path& file, RigidSpace space) {
     const auto stated = map.choice("space", {"SE2", "SE3"});
     solution.space = space;
     if (stated && *stated != nameOf(space)) {
-      map.fault("space", "the problem is in " + std::string(nameOf(space)) + ", this solution in " + *stated);
-    } else if (const YamlValue* path = map.require("path", "the states, such as - [0, 0, 0, 0, 0, 0, 1]")) {
+      map.fault("space", "the problem is in " + std::string(nameOf(space)) + ", this solution in " +
+                             *stated);
+    } else if (const YamlValue* path =
+                   map.require("path", "the states, such as - [0, 0, 0, 0, 0, 0, 1]")) {
       readStates(*path, solution, source);
     }
   }
@@ -189,7 +203,8 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file) 
   Solution placed = solution;
   std::error_code failure;
   const auto folder = std::filesystem::absolute(file, failure).parent_path();
-  const auto relative = std::filesystem::proximate(std::filesystem::absolute(solution.problem, failure), folder, failure);
+  const auto relative = std::filesystem::proximate(
+      std::filesystem::absolute(solution.problem, failure), folder, failure);
   if (!failure && !relative.empty()) placed.problem = relative.generic_string();
   writeWhole(file, yamlOf(placed));
 }
@@ -204,7 +219,9 @@ void writeWhole(const std::filesystem::path& file, const std::string& text) {
   if (!out || failure) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw InputError(Fault{file.string(), 0, "can't be written" + (failure ? ": " + failure.message() : std::string())});
+    throw InputError(
+        Fault{file.string(), 0,
+              "can't be written" + (failure ? ": " + failure.message() : std::string())});
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace corridor {
 
-/// A solution file. What `corridor solve -o` writes and `corridor verify` reads: YAML, format corridor-solution-1 (keys in
-/// planner/README.md). Metres, radians.
+/// A solution file. What `corridor solve -o` writes and `corridor verify` reads: YAML, format
+/// corridor-solution-1 (keys in planner/README.md). Metres, radians.
 struct Solution {
   std::string problem;  ///< the problem's file, relative to the solution's folder
   std::string digest;   ///< of the problem and all its files; empty: not known (`.path` files)
@@ -32,7 +32,8 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file);
 void writeWhole(const std::filesystem::path& file, const std::string& text);
 
 /// Reads what `writeSolution` wrote, strictly; or an OMPL.app `.path` file: a state a line.
-/// @throws InputError with all faults: format, unknown, missing or repeated keys, states that aren't of `space`.
+/// @throws InputError with all faults: format, unknown, missing or repeated keys, states that
+/// aren't of `space`.
 Solution readSolution(const std::filesystem::path& file, RigidSpace space);
 
 }  // namespace corridor

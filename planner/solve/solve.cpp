@@ -33,7 +33,8 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// How many states of a goal region planners get; those with an informed sampler keep an ellipse for each.
+/// How many states of a goal region planners get; those with an informed sampler keep an ellipse
+/// for each.
 constexpr std::size_t kGoalSamples = 32;
 /// Of planner.time: what simplifying gets where the planner used all of it.
 constexpr double kSimplifyShare = 0.05;
@@ -41,7 +42,9 @@ constexpr double kProgressPeriod = 0.1;  // s
 
 class Clock {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -54,18 +57,21 @@ class Solve {
       : problem_(problem),
         options_(options),
         scene_(makeScene(problem)),
-        checker_(scene_, problem.space, problem.lower, problem.upper, motionOptions(problem, scene_)) {
+        checker_(scene_, problem.space, problem.lower, problem.upper,
+                 motionOptions(problem, scene_)) {
     report_.motion = checker_.options();
     report_.seed = problem.seed;
     report_.planner = problem.planner.name;
-    report_.checker = discrete() ? "discrete, resolution " + shortest(problem.checker.resolution) : "certified";
+    report_.checker =
+        discrete() ? "discrete, resolution " + shortest(problem.checker.resolution) : "certified";
   }
 
   SolveReport run();
 
  private:
   bool discrete() const { return problem_.checker.edges == "discrete"; }
-  PlannerParameter parameterAt(const std::string& place, const std::string& key = "", const std::string& value = "") const;
+  PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
+                               const std::string& value = "") const;
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
   void checkEnds();
   void setUpSpace();
@@ -92,7 +98,8 @@ class Solve {
   SolveReport report_;
 };
 
-PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key, const std::string& value) const {
+PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key,
+                                    const std::string& value) const {
   const auto elsewhere = options_.setElsewhere.find(place);
   if (elsewhere != options_.setElsewhere.end()) return {key, value, elsewhere->second, 0};
   const Fault at = problem_.faultAt(place, "");
@@ -101,16 +108,21 @@ PlannerParameter Solve::parameterAt(const std::string& place, const std::string&
 
 void Solve::checkEnds() {
   std::vector<Fault> faults;
-  if (const auto why = whyNotFree("start", startState(problem_), checker_)) faults.push_back(problem_.faultAt("start", *why));
+  if (const auto why = whyNotFree("start", startState(problem_), checker_))
+    faults.push_back(problem_.faultAt("start", *why));
   if (problem_.goalRegion) goalSamples_ = sampleGoalRegion(problem_, checker_, kGoalSamples);
   if (goalSamples_.empty())
     if (const auto why = whyNotFree("goal", goalState(problem_), checker_))
-      faults.push_back(problem_.faultAt("goal", problem_.goalRegion ? "no free state was found within the goal; its middle: " + *why : *why));
+      faults.push_back(problem_.faultAt(
+          "goal", problem_.goalRegion
+                      ? "no free state was found within the goal; its middle: " + *why
+                      : *why));
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
 void Solve::setUpSpace() {
-  const auto space = makeStateSpace(problem_.space, problem_.lower, problem_.upper, problem_.rotationWeight);
+  const auto space =
+      makeStateSpace(problem_.space, problem_.lower, problem_.upper, problem_.rotationWeight);
   space->setLongestValidSegmentFraction(problem_.checker.resolution);
   si_ = std::make_shared<ob::SpaceInformation>(space);
   if (discrete()) {
@@ -143,7 +155,8 @@ void Solve::setUpGoal() {
   if (problem_.goalRegion)
     definition_->setGoal(std::make_shared<RigidGoalRegion>(si_, problem_, goalSamples_));
   else
-    definition_->setGoalState(goal, problem_.goalThreshold.value_or(std::numeric_limits<double>::epsilon()));
+    definition_->setGoalState(
+        goal, problem_.goalThreshold.value_or(std::numeric_limits<double>::epsilon()));
 }
 
 void Solve::setUpObjective() {
@@ -152,13 +165,19 @@ void Solve::setUpObjective() {
   if (name == "mechanical_work") {
     objective = std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
   } else if (name == "max_min_clearance") {
-    throw InputError(problem_.faultAt("objective", "objective max_min_clearance needs a clearance, which isn't computed yet; there are: length, mechanical_work"));
-  } else if (name == "length" || (problem_.planner.stopAtFirst && planner_->getSpecs().optimizingPaths)) {
+    throw InputError(problem_.faultAt("objective",
+                                      "objective max_min_clearance needs a clearance, which isn't "
+                                      "computed yet; there are: length, mechanical_work"));
+  } else if (name == "length" ||
+             (problem_.planner.stopAtFirst && planner_->getSpecs().optimizingPaths)) {
     objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
   }
-  // Where a problem says neither, OMPL's planners have rules of their own: PRM stops at the first, PRMstar uses its time.
+  // Where a problem says neither, OMPL's planners have rules of their own: PRM stops at the first,
+  // PRMstar uses its time.
   if (!objective) return;
-  objective->setCostThreshold(problem_.planner.stopAtFirst.value_or(false) ? objective->infiniteCost() : ob::Cost(problem_.objectiveThreshold));
+  objective->setCostThreshold(problem_.planner.stopAtFirst.value_or(false)
+                                  ? objective->infiniteCost()
+                                  : ob::Cost(problem_.objectiveThreshold));
   definition_->setOptimizationObjective(objective);
 }
 
@@ -174,18 +193,27 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
   const Counters counters = checker_.counters();
   std::string text;
   switch (static_cast<ob::PlannerStatus::StatusType>(status)) {
-    case ob::PlannerStatus::INVALID_START: return "no valid start for " + problem_.planner.name;
-    case ob::PlannerStatus::INVALID_GOAL: return "no valid goal for " + problem_.planner.name;
-    case ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE: return problem_.planner.name + " can't use this kind of goal";
-    case ob::PlannerStatus::CRASH: return problem_.planner.name + " crashed";
+    case ob::PlannerStatus::INVALID_START:
+      return "no valid start for " + problem_.planner.name;
+    case ob::PlannerStatus::INVALID_GOAL:
+      return "no valid goal for " + problem_.planner.name;
+    case ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE:
+      return problem_.planner.name + " can't use this kind of goal";
+    case ob::PlannerStatus::CRASH:
+      return problem_.planner.name + " crashed";
     case ob::PlannerStatus::APPROXIMATE_SOLUTION:
-      text = "only a path that ends " + shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) + " from the goal";
+      text = "only a path that ends " +
+             shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) +
+             " from the goal";
       break;
     default:
-      text = clock_.seconds() < problem_.planner.time ? problem_.planner.name + " gave up before the time ran out" : "nothing found in the time";
+      text = clock_.seconds() < problem_.planner.time
+                 ? problem_.planner.name + " gave up before the time ran out"
+                 : "nothing found in the time";
   }
   if (counters.undecided > 0)
-    text += "; too close to call: " + std::to_string(counters.undecided) + " of the motions, at a tolerance of " + shortest(checker_.options().tolerance) + " m";
+    text += "; too close to call: " + std::to_string(counters.undecided) +
+            " of the motions, at a tolerance of " + shortest(checker_.options().tolerance) + " m";
   return text + "; more time, another planner or seed may help";
 }
 
@@ -205,7 +233,8 @@ void Solve::plan() {
   } else if (status == ob::PlannerStatus::EXACT_SOLUTION && definition_->hasExactSolution()) {
     finish();
   } else {
-    report_.outcome = status == ob::PlannerStatus::APPROXIMATE_SOLUTION ? SolveOutcome::approximate : SolveOutcome::notFound;
+    report_.outcome = status == ob::PlannerStatus::APPROXIMATE_SOLUTION ? SolveOutcome::approximate
+                                                                        : SolveOutcome::notFound;
     report_.why = whyNotFound(status);
   }
 }
@@ -215,8 +244,10 @@ void Solve::finish() {
   report_.rawStates = path.getStateCount();
   std::vector<Path> versions;
   if (problem_.simplify) {
-    const double until = std::max(problem_.planner.time, clock_.seconds() + kSimplifyShare * problem_.planner.time);
-    versions = simplifiedVersions(si_, problem_.space, path, [&] { return clock_.seconds() >= until || interrupted(); });
+    const double until =
+        std::max(problem_.planner.time, clock_.seconds() + kSimplifyShare * problem_.planner.time);
+    versions = simplifiedVersions(si_, problem_.space, path,
+                                  [&] { return clock_.seconds() >= until || interrupted(); });
   } else {
     versions = {readPath(problem_.space, path)};
   }
@@ -229,7 +260,8 @@ void Solve::finish() {
     report_.length = lengthOf(problem_.space, states);
     report_.path = std::move(states);
   }
-  if (report_.outcome != SolveOutcome::solved) report_.why = "a path was found, but no version of it could be certified as a whole";
+  if (report_.outcome != SolveOutcome::solved)
+    report_.why = "a path was found, but no version of it could be certified as a whole";
 }
 
 SolveReport Solve::run() {
@@ -248,6 +280,8 @@ SolveReport Solve::run() {
 
 }  // namespace
 
-SolveReport solveProblem(const Problem& problem, const SolveOptions& options) { return Solve(problem, options).run(); }
+SolveReport solveProblem(const Problem& problem, const SolveOptions& options) {
+  return Solve(problem, options).run();
+}
 
 }  // namespace corridor

@@ -16,16 +16,18 @@ struct SolveProgress {
 };
 
 struct SolveOptions {
-  /// Called a few times a second while planning, maybe from threads of the planner, never from two at once.
+  /// Called a few times a second while planning, maybe from threads of the planner, never from two
+  /// at once.
   std::function<void(const SolveProgress&)> progress;
   /// Where it becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
-  /// For messages: keys of the problem that weren't read from its file, and where they come from ("planner.name" → "--planner").
+  /// For messages: keys of the problem that weren't read from its file, and where they come from
+  /// ("planner.name" → "--planner").
   std::map<std::string, std::string> setElsewhere;
 };
 
 enum class SolveOutcome {
-  solved,       ///< OMPL calls it exact, and the checker asked for holds for the path as returned
+  solved,  ///< OMPL calls it exact, and the checker asked for holds for the path as returned
   notFound,
   approximate,  ///< a path that ends elsewhere than in the goal: not a solution, not returned
   interrupted,
@@ -40,7 +42,8 @@ struct SolveReport {
   bool certified = false;  ///< every edge of `path` was proved in the last step
   std::string checker;     ///< "certified", or "discrete, resolution 0.01"
   std::string planner;
-  bool repeats = true;     ///< the planner gives the same path for the same seed, if time doesn't run out
+  bool repeats =
+      true;  ///< the planner gives the same path for the same seed, if time doesn't run out
   std::uint64_t seed = 0;
   double time = 0, planningTime = 0;  ///< all of it; the planner's part
   Counters counters;                  ///< of everything: states, edges, undecided, N_v, N_p
@@ -50,14 +53,15 @@ struct SolveReport {
   MotionOptions motion;       ///< tolerance, margin and tube of the proof
 };
 
-/// Solves a problem. Start and goal are checked first. The last step certifies the final states edge by edge; where one fails, the
-/// last version of the path that holds as a whole is returned. Ends within planner.time, but for an edge under way and 5 % for
-/// simplifying.
+/// Solves a problem. Start and goal are checked first. The last step certifies the final states
+/// edge by edge; where one fails, the last version of the path that holds as a whole is returned.
+/// Ends within planner.time, but for an edge under way and 5 % for simplifying.
 ///
-/// The same problem and seed give the same path, for planners that repeat (planner/README.md), if the time doesn't run out. OMPL's
-/// random numbers hang on one seed a process: don't call this from two threads at once.
-/// @throws InputError: start or goal in contact, too close, or out of bounds; unknown planner, parameter or sampler; an
-/// objective that needs what isn't there.
+/// The same problem and seed give the same path, for planners that repeat (planner/README.md), if
+/// the time doesn't run out. OMPL's random numbers hang on one seed a process: don't call this from
+/// two threads at once.
+/// @throws InputError: start or goal in contact, too close, or out of bounds; unknown planner,
+/// parameter or sampler; an objective that needs what isn't there.
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options = {});
 
 }  // namespace corridor

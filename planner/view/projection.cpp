@@ -10,7 +10,8 @@ namespace corridor::view {
 
 Camera::Camera(double azimuth, double elevation)
     : right_(-std::sin(azimuth), std::cos(azimuth), 0),
-      toViewer_(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)) {
+      toViewer_(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                std::sin(elevation)) {
   up_ = toViewer_.cross(right_);
 }
 
@@ -41,20 +42,26 @@ DepthBuffer::DepthBuffer(double width, double height, double pixelsAPixel)
       depth_(static_cast<std::size_t>(columns_) * rows_, -std::numeric_limits<double>::infinity()),
       owner_(depth_.size(), -1) {}
 
-void DepthBuffer::cover(const Corners& corners, const std::function<void(std::size_t, double)>& visit) const {
+void DepthBuffer::cover(const Corners& corners,
+                        const std::function<void(std::size_t, double)>& visit) const {
   const Vec3 a = corners[0] * scale_, b = corners[1] * scale_, c = corners[2] * scale_;
   const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
   if (!(std::abs(area) > 1e-9)) return;
-  const auto clamp = [](double v, int top) { return static_cast<int>(std::clamp(v, 0.0, double(top))); };
-  const int x0 = clamp(std::min({a.x(), b.x(), c.x()}), columns_ - 1), x1 = clamp(std::max({a.x(), b.x(), c.x()}), columns_ - 1);
-  const int y0 = clamp(std::min({a.y(), b.y(), c.y()}), rows_ - 1), y1 = clamp(std::max({a.y(), b.y(), c.y()}), rows_ - 1);
+  const auto clamp = [](double v, int top) {
+    return static_cast<int>(std::clamp(v, 0.0, double(top)));
+  };
+  const int x0 = clamp(std::min({a.x(), b.x(), c.x()}), columns_ - 1),
+            x1 = clamp(std::max({a.x(), b.x(), c.x()}), columns_ - 1);
+  const int y0 = clamp(std::min({a.y(), b.y(), c.y()}), rows_ - 1),
+            y1 = clamp(std::max({a.y(), b.y(), c.y()}), rows_ - 1);
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const double px = x + 0.5, py = y + 0.5;
       const double u = ((px - a.x()) * (c.y() - a.y()) - (py - a.y()) * (c.x() - a.x())) / area;
       const double v = ((b.x() - a.x()) * (py - a.y()) - (b.y() - a.y()) * (px - a.x())) / area;
       if (u < 0 || v < 0 || u + v > 1) continue;
-      visit(static_cast<std::size_t>(y) * columns_ + x, (a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z())) / scale_);
+      visit(static_cast<std::size_t>(y) * columns_ + x,
+            (a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z())) / scale_);
     }
 }
 

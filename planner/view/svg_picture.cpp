@@ -19,8 +19,9 @@ using view::Corners;
 using view::DepthBuffer;
 
 constexpr double kWidth = 1000, kBorder = 20;  // of the picture, pixels
-constexpr double kPiece = 70;                  // pixels: larger triangles are cut, so that they can be sorted by depth
-constexpr int kGhosts = 14;                    // robots drawn between start and goal
+constexpr double kPiece =
+    70;  // pixels: larger triangles are cut, so that they can be sorted by depth
+constexpr int kGhosts = 14;  // robots drawn between start and goal
 constexpr std::size_t kWorldLimit = 220'000, kGhostLimit = 9'000;  // bytes
 constexpr int kShades = 8;
 
@@ -60,14 +61,16 @@ PlaneKey planeOf(const Triangle3& triangle, double pixel) {
   normal.cwiseAbs().maxCoeff(&largest);
   if (normal[largest] < 0) normal = -normal;
   const Vec3 n = 100 * normal;
-  return {std::lround(n.x()), std::lround(n.y()), std::lround(n.z()), std::lround(normal.dot(triangle[0]) / (2 * pixel))};
+  return {std::lround(n.x()), std::lround(n.y()), std::lround(n.z()),
+          std::lround(normal.dot(triangle[0]) / (2 * pixel))};
 }
 
 Face makeFace(const Camera& camera, const Triangle3& triangle) {
   Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   if (normal.dot(camera.towardsViewer()) < 0) normal = -normal;
   const double light = std::max(0.0, normal.dot(Vec3(0.35, -0.45, 0.82)));
-  Face face{{camera.project(triangle[0]), camera.project(triangle[1]), camera.project(triangle[2])}, 0};
+  Face face{{camera.project(triangle[0]), camera.project(triangle[1]), camera.project(triangle[2])},
+            0};
   face.shade = std::clamp(static_cast<int>((0.15 + 0.85 * light) * kShades), 0, kShades - 1);
   return face;
 }
@@ -101,7 +104,8 @@ std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, 
   std::vector<Face> kept;
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (pixels[i] > least) kept.push_back(faces[i]);
-  std::sort(kept.begin(), kept.end(), [](const Face& a, const Face& b) { return a.depth() < b.depth(); });
+  std::sort(kept.begin(), kept.end(),
+            [](const Face& a, const Face& b) { return a.depth() < b.depth(); });
   return kept;
 }
 
@@ -121,14 +125,16 @@ std::string draw(const std::vector<Face>& faces, char palette) {
       y[i] = std::lround(face.corners[i].y());
     }
     char text[96];
-    std::snprintf(text, sizeof text, "M%ld %ldl%ld %ld %ld %ldz", x[0], y[0], x[1] - x[0], y[1] - y[0], x[2] - x[1], y[2] - y[1]);
+    std::snprintf(text, sizeof text, "M%ld %ldl%ld %ld %ld %ldz", x[0], y[0], x[1] - x[0],
+                  y[1] - y[0], x[2] - x[1], y[2] - y[1]);
     svg += text;
   }
   return shade >= 0 ? svg + "\"/>\n" : svg;
 }
 
 /// As `draw`, leaving out what is hardly seen until the text is short enough.
-std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, char palette, std::size_t limit) {
+std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, char palette,
+                        std::size_t limit) {
   for (int least = 0;; least = 2 * least + 1) {
     std::string svg = draw(visible(camera, faces, least), palette);
     if (svg.size() <= limit || least > 2000) return svg;
@@ -139,13 +145,16 @@ std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, ch
 Path poses(const Problem& problem, const Path& path, double reach, int count) {
   std::vector<double> at{0};
   for (std::size_t i = 1; i < path.size(); ++i)
-    at.push_back(at.back() + distance(problem.space, problem.space == RigidSpace::SE3 ? 2 * reach : reach, path[i - 1], path[i]));
+    at.push_back(at.back() + distance(problem.space,
+                                      problem.space == RigidSpace::SE3 ? 2 * reach : reach,
+                                      path[i - 1], path[i]));
   Path chosen{path.front()};
   for (int k = 1; k < count; ++k) {
     const double s = at.back() * k / count;
     const auto i = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), s) - at.begin());
     if (i == 0 || i >= path.size()) continue;
-    chosen.push_back(interpolate(problem.space, path[i - 1], path[i], (s - at[i - 1]) / (at[i] - at[i - 1])));
+    chosen.push_back(
+        interpolate(problem.space, path[i - 1], path[i], (s - at[i - 1]) / (at[i] - at[i - 1])));
   }
   chosen.push_back(path.back());
   return chosen;
@@ -156,8 +165,8 @@ std::string palette(char name, const Vec3& dark, const Vec3& light) {
   for (int i = 0; i < kShades; ++i) {
     const Vec3 c = dark + (light - dark) * i / (kShades - 1);
     char text[96];
-    std::snprintf(text, sizeof text, ".%c%d{fill:#%02x%02x%02x;stroke:#%02x%02x%02x}\n", name, i, int(c.x()), int(c.y()), int(c.z()),
-                  int(c.x()), int(c.y()), int(c.z()));
+    std::snprintf(text, sizeof text, ".%c%d{fill:#%02x%02x%02x;stroke:#%02x%02x%02x}\n", name, i,
+                  int(c.x()), int(c.y()), int(c.z()), int(c.x()), int(c.y()), int(c.z()));
     css += text;
   }
   return css;
@@ -171,15 +180,18 @@ std::string polyline(const Camera& camera, const Path& path) {
     std::snprintf(text, sizeof text, "%.1f,%.1f ", p.x(), p.y());
     points += text;
   }
-  return "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" opacity=\".7\"/>\n" +
-         "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
+  return "<polyline points=\"" + points +
+         "\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" opacity=\".7\"/>\n" +
+         "<polyline points=\"" + points +
+         "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
 }
 
 }  // namespace
 
 std::string svgPicture(const Problem& problem, const Path& path) {
   constexpr double degree = std::numbers::pi / 180;
-  Camera camera = problem.space == RigidSpace::SE3 ? Camera(-60 * degree, 38 * degree) : Camera(-90 * degree, 62 * degree);
+  Camera camera = problem.space == RigidSpace::SE3 ? Camera(-60 * degree, 38 * degree)
+                                                   : Camera(-90 * degree, 62 * degree);
   const auto world = distinctTriangles(problem.world), robot = distinctTriangles(problem.robot);
 
   double reach = 0;
@@ -205,7 +217,8 @@ std::string svgPicture(const Problem& problem, const Path& path) {
     for (const Face& face : faces) robots.draw(face.corners, 0);
   }
   std::vector<Face> faces;
-  std::map<PlaneKey, int> hides;  // pixels of robots, by the planes in front of them: a wall is seen through as a whole
+  std::map<PlaneKey, int>
+      hides;  // pixels of robots, by the planes in front of them: a wall is seen through as a whole
   for (const auto& triangle : world) {
     faces.push_back(makeFace(camera, triangle));
     int& count = hides[planeOf(triangle, camera.worldPixel())];
@@ -222,11 +235,15 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   }
 
   char head[256];
-  std::snprintf(head, sizeof head, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" stroke-width=\".8\" stroke-linejoin=\"round\">\n",
+  std::snprintf(head, sizeof head,
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
+                "stroke-width=\".8\" stroke-linejoin=\"round\">\n",
                 camera.width(), camera.height());
-  std::string svg = std::string(head) + "<style>\n" + palette('w', {112, 118, 130}, {233, 232, 226}) +
-                    palette('r', {150, 96, 20}, {255, 196, 84}) + palette('s', {22, 110, 50}, {92, 214, 128}) +
-                    palette('g', {150, 28, 28}, {246, 108, 92}) + "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
+  std::string svg =
+      std::string(head) + "<style>\n" + palette('w', {112, 118, 130}, {233, 232, 226}) +
+      palette('r', {150, 96, 20}, {255, 196, 84}) + palette('s', {22, 110, 50}, {92, 214, 128}) +
+      palette('g', {150, 28, 28}, {246, 108, 92}) +
+      "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
   svg += drawVisible(camera, solid, 'w', kWorldLimit);
   for (std::size_t i = 1; i + 1 < ghosts.size(); ++i)
     svg += "<g opacity=\".5\">\n" + drawVisible(camera, ghosts[i], 'r', kGhostLimit) + "</g>\n";

@@ -1,13 +1,13 @@
-// The program as its users meet it: exit status, one line a fault, results on stdout, nothing half-written.
-#include <sys/wait.h>
-#include <unistd.h>
-
+// The program as its users meet it: exit status, one line a fault, results on stdout, nothing
+// half-written.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,27 +25,38 @@ struct Result {
 
 class CommandLine : public testing::Test {
  protected:
-  CommandLine() : folder_(std::filesystem::path(testing::TempDir()) / ("corridor_app_test" + std::to_string(::getpid()))) {
+  CommandLine()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                ("corridor_app_test" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder_);
-    write("cube.obj", "v -.1 -.1 -.1\nv .1 -.1 -.1\nv .1 .1 -.1\nv -.1 .1 -.1\nv -.1 -.1 .1\nv .1 -.1 .1\nv .1 .1 .1\nv -.1 .1 .1\n"
-                      "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 3 4 8\nf 3 8 7\nf 2 3 7\nf 2 7 6\nf 1 5 8\nf 1 8 4\n");
+    write("cube.obj",
+          "v -.1 -.1 -.1\nv .1 -.1 -.1\nv .1 .1 -.1\nv -.1 .1 -.1\nv -.1 -.1 .1\nv .1 -.1 .1\nv .1 "
+          ".1 .1\nv -.1 .1 .1\n"
+          "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 3 4 8\nf 3 8 7\nf 2 3 7\nf 2 7 "
+          "6\nf 1 5 8\nf 1 8 4\n");
     write("wall.obj", "v 0 -5 -5\nv 0 2 -5\nv 0 2 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
-    write("robot.yaml", "format: corridor-robot-1\nname: cube\nrigid: SE3\nshapes: [{mesh: cube.obj, unit: m}]\n");
+    write(
+        "robot.yaml",
+        "format: corridor-robot-1\nname: cube\nrigid: SE3\nshapes: [{mesh: cube.obj, unit: m}]\n");
     write("problem.yaml", problem());
   }
   ~CommandLine() override { std::filesystem::remove_all(folder_); }
 
   static std::string problem(const std::string& start = "-2, 0, 0", const std::string& more = "") {
-    return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {mesh: wall.obj, unit: m}\nstart: {at: [" + start +
-           "]}\ngoal: {at: [2, 0, 0]}\nbounds: {at: [[-4, -4, -4], [4, 4, 4]]}\n" + more;
+    return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {mesh: wall.obj, unit: "
+           "m}\nstart: {at: [" +
+           start + "]}\ngoal: {at: [2, 0, 0]}\nbounds: {at: [[-4, -4, -4], [4, 4, 4]]}\n" + more;
   }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
   std::string read(const std::string& name) const {
     std::ifstream in(folder_ / name);
     return {std::istreambuf_iterator<char>(in), {}};
   }
   Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" CORRIDOR_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+    const std::string command = "cd '" + folder_.string() + "' && '" CORRIDOR_PROGRAM "' " +
+                                arguments + " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
@@ -67,13 +78,17 @@ TEST_F(CommandLine, SolveThenVerify) {
 }
 
 TEST_F(CommandLine, VerifyRefutesAndWarnsOfOtherFiles) {
-  write("s.yaml", "format: corridor-solution-1\ndigest: other\nspace: SE3\npath:\n- [-2, 0, 0, 0, 0, 0, 1]\n- [2, 0, 0, 0, 0, 0, 1]\n");
+  write("s.yaml",
+        "format: corridor-solution-1\ndigest: other\nspace: SE3\npath:\n- [-2, 0, 0, 0, 0, 0, "
+        "1]\n- [2, 0, 0, 0, 0, 0, 1]\n");
   const Result verified = run("verify problem.yaml s.yaml");
   EXPECT_EQ(verified.status, 1);
   EXPECT_THAT(verified.out, HasSubstr("verdict: refuted\n"));
   EXPECT_THAT(verified.out, HasSubstr("finding: refuted: edge 0 at t = "));
   EXPECT_THAT(verified.out, HasSubstr("\"cube\" (triangle "));
-  EXPECT_EQ(verified.err, "corridor: warning: s.yaml: made for other files than those of problem.yaml (the digests differ)\n");
+  EXPECT_EQ(verified.err,
+            "corridor: warning: s.yaml: made for other files than those of problem.yaml (the "
+            "digests differ)\n");
 }
 
 TEST_F(CommandLine, JsonIsVersionedAndComplete) {
@@ -81,7 +96,8 @@ TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   EXPECT_EQ(solved["format"], "corridor-solve-report-1");
   EXPECT_EQ(solved["problems"][0]["result"], "solved");
   EXPECT_EQ(solved["problems"][0]["certified"], true);
-  EXPECT_EQ(nlohmann::json::parse(run("verify problem.yaml s.yaml --json").out)["verdict"], "proved");
+  EXPECT_EQ(nlohmann::json::parse(run("verify problem.yaml s.yaml --json").out)["verdict"],
+            "proved");
   const auto mesh = nlohmann::json::parse(run("inspect cube.obj --json").out);
   EXPECT_EQ(mesh["mesh"]["triangles"], 12);
   EXPECT_EQ(mesh["mesh"]["watertight"], true);
@@ -105,23 +121,32 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   };
   fault("solve none.yaml", StartsWith("none.yaml: "));
-  fault("solve problem.yaml --planner RRTx -o s.yaml", StartsWith("--planner: unknown planner \"RRTx\""));
-  fault("solve problem.yaml --set rnge=1", StartsWith("--set: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?"));
-  fault("solve problem.yaml --set range", testing::Eq("--set: key=value is needed, not \"range\"\n"));
-  fault("solve problem.yaml --set range=long", testing::Eq("--set: RRTConnect's parameter range: \"long\" is not a number\n"));
-  fault("solve problem.yaml --sampler max_clearance", StartsWith("--sampler: sampler max_clearance needs a clearance"));
-  fault("solve problem.yaml problem.yaml -o s.yaml", testing::Eq("--output: names one file, but there are 2 problems\n"));
+  fault("solve problem.yaml --planner RRTx -o s.yaml",
+        StartsWith("--planner: unknown planner \"RRTx\""));
+  fault("solve problem.yaml --set rnge=1",
+        StartsWith("--set: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?"));
+  fault("solve problem.yaml --set range",
+        testing::Eq("--set: key=value is needed, not \"range\"\n"));
+  fault("solve problem.yaml --set range=long",
+        testing::Eq("--set: RRTConnect's parameter range: \"long\" is not a number\n"));
+  fault("solve problem.yaml --sampler max_clearance",
+        StartsWith("--sampler: sampler max_clearance needs a clearance"));
+  fault("solve problem.yaml problem.yaml -o s.yaml",
+        testing::Eq("--output: names one file, but there are 2 problems\n"));
   fault("verify problem.yaml none.yaml", StartsWith("none.yaml: "));
   write("problem.yaml", problem("0.05, 0, 0"));
-  fault("solve problem.yaml -o s.yaml", StartsWith("problem.yaml:5: start is in contact: \"cube\" (triangle "));
+  fault("solve problem.yaml -o s.yaml",
+        StartsWith("problem.yaml:5: start is in contact: \"cube\" (triangle "));
   write("problem.yaml", problem("9, 0, 0"));
   fault("solve problem.yaml -o s.yaml", StartsWith("problem.yaml:5: start"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
 }
 
 TEST_F(CommandLine, BadUsageIsExit2) {
-  for (const char* arguments : {"", "sove problem.yaml", "solve", "solve problem.yaml --edges sampled", "solve problem.yaml --time -1",
-                                "solve problem.yaml --seed 0", "solve problem.yaml --no-such"})
+  for (const char* arguments :
+       {"", "sove problem.yaml", "solve", "solve problem.yaml --edges sampled",
+        "solve problem.yaml --time -1", "solve problem.yaml --seed 0",
+        "solve problem.yaml --no-such"})
     EXPECT_EQ(run(arguments).status, 2) << arguments;
 }
 
@@ -153,7 +178,9 @@ TEST_F(CommandLine, ManyProblemsExitWithTheWorst) {
 
 TEST_F(CommandLine, InterruptedIsExit130) {
   write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
-  const Result result = run("solve problem.yaml --time 60 -o s.yaml & pid=$!; sleep 0.5; kill -INT $pid; wait $pid; exit $?;");
+  const Result result =
+      run("solve problem.yaml --time 60 -o s.yaml & pid=$!; sleep 0.5; kill -INT $pid; wait $pid; "
+          "exit $?;");
   EXPECT_EQ(result.status, 130);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
 }

@@ -15,16 +15,22 @@ namespace corridor::test {
 inline TriangleMesh boxMesh(const Vec3& size, const Vec3& at = Vec3::Zero()) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)
-    mesh.vertices.push_back(at + 0.5 * size.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    mesh.vertices.push_back(
+        at + 0.5 * size.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
 }
 
-/// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³ with a wall of 0.001 at x = 0 that has a gap above y = 2.
+/// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³ with a wall of 0.001 at x = 0 that has a gap above
+/// y = 2.
 struct Hall {
-  explicit Hall(RigidSpace kind) : space(kind), scene(makeScene()), checker(scene, kind, Vec3::Constant(-5), Vec3::Constant(5), options(scene)) {
-    si = std::make_shared<ompl::base::SpaceInformation>(makeStateSpace(kind, Vec3::Constant(-5), Vec3::Constant(5), 1));
+  explicit Hall(RigidSpace kind)
+      : space(kind),
+        scene(makeScene()),
+        checker(scene, kind, Vec3::Constant(-5), Vec3::Constant(5), options(scene)) {
+    si = std::make_shared<ompl::base::SpaceInformation>(
+        makeStateSpace(kind, Vec3::Constant(-5), Vec3::Constant(5), 1));
   }
 
   static Scene makeScene() {

@@ -22,24 +22,31 @@ struct Kind {
 };
 
 std::string nameOf(const testing::TestParamInfo<Kind>& info) {
-  return std::string(info.param.certified ? "Certified" : "Discrete") + (info.param.space == RigidSpace::SE3 ? "SE3" : "SE2");
+  return std::string(info.param.certified ? "Certified" : "Discrete") +
+         (info.param.space == RigidSpace::SE3 ? "SE3" : "SE2");
 }
 
 class MotionValidators : public testing::TestWithParam<Kind> {
  protected:
   MotionValidators() : hall_(GetParam().space) {
     if (GetParam().certified) {
-      hall_.si->setStateValidityChecker(std::make_shared<CertifiedStateValidityChecker>(hall_.si, hall_.checker));
-      hall_.si->setMotionValidator(std::make_shared<CertifiedMotionValidator>(hall_.si, hall_.checker));
+      hall_.si->setStateValidityChecker(
+          std::make_shared<CertifiedStateValidityChecker>(hall_.si, hall_.checker));
+      hall_.si->setMotionValidator(
+          std::make_shared<CertifiedMotionValidator>(hall_.si, hall_.checker));
     } else {
       hall_.si->getStateSpace()->setLongestValidSegmentFraction(0.001);
-      hall_.si->setStateValidityChecker(std::make_shared<ExactStateValidityChecker>(hall_.si, hall_.checker));
-      hall_.si->setMotionValidator(std::make_shared<DiscreteMotionValidator>(hall_.si, hall_.checker));
+      hall_.si->setStateValidityChecker(
+          std::make_shared<ExactStateValidityChecker>(hall_.si, hall_.checker));
+      hall_.si->setMotionValidator(
+          std::make_shared<DiscreteMotionValidator>(hall_.si, hall_.checker));
     }
     hall_.si->setup();
   }
   const ob::MotionValidator& validator() const { return *hall_.si->getMotionValidator(); }
-  ob::ScopedState<> state(double x, double y, double yaw = 0) const { return hall_.scoped(hall_.at(x, y, yaw)); }
+  ob::ScopedState<> state(double x, double y, double yaw = 0) const {
+    return hall_.scoped(hall_.at(x, y, yaw));
+  }
   std::vector<double> bits(const ob::ScopedState<>& s) const { return s.reals(); }
 
   /// The state that a failed check leaves, by its contract; `last` and `s1` may be one.
@@ -62,7 +69,8 @@ TEST_P(MotionValidators, FreeAndBlocked) {
 }
 
 TEST_P(MotionValidators, OutOfBoundsIsNotValid) {
-  EXPECT_TRUE(validator().checkMotion(state(-3, 0).get(), state(-5, 0).get()));  // bounds are inclusive
+  EXPECT_TRUE(
+      validator().checkMotion(state(-3, 0).get(), state(-5, 0).get()));  // bounds are inclusive
   EXPECT_FALSE(validator().checkMotion(state(-3, 0).get(), state(-5.001, 0).get()));
   EXPECT_FALSE(validator().checkMotion(state(-3, 0).get(), state(std::nan(""), 0).get()));
 }
@@ -71,7 +79,8 @@ TEST_P(MotionValidators, HalfTurnIsNotValid) {
   EXPECT_FALSE(validator().checkMotion(state(-3, 0, 0).get(), state(-3, 0, std::acos(-1.0)).get()));
   auto last = state(1, 1);
   std::pair<ob::State*, double> lastValid{last.get(), 7};
-  EXPECT_FALSE(validator().checkMotion(state(-3, 0, 0).get(), state(-3, 0, std::acos(-1.0)).get(), lastValid));
+  EXPECT_FALSE(validator().checkMotion(state(-3, 0, 0).get(), state(-3, 0, std::acos(-1.0)).get(),
+                                       lastValid));
   EXPECT_EQ(lastValid.second, 0);
   EXPECT_EQ(bits(last), bits(state(-3, 0, 0)));
 }
@@ -142,7 +151,8 @@ TEST_P(MotionValidators, RandomEdgesKeepTheContract) {
   std::uniform_real_distribution<double> u(-1, 1);
   int failed = 0;
   for (int i = 0; i < 300; ++i) {
-    const RigidState a = hall_.at(5 * u(random), 5 * u(random), 3 * u(random)), b = hall_.at(5 * u(random), 5 * u(random), 3 * u(random));
+    const RigidState a = hall_.at(5 * u(random), 5 * u(random), 3 * u(random)),
+                     b = hall_.at(5 * u(random), 5 * u(random), 3 * u(random));
     const auto s1 = hall_.scoped(a), s2 = hall_.scoped(b);
     if (!hall_.si->isValid(s1.get())) continue;
     auto last = state(1, 1);
@@ -165,7 +175,8 @@ TEST_P(MotionValidators, ManyThreadsCountRightAndAgree) {
   for (int k = 0; k < threads; ++k)
     pool.emplace_back([&, k] {
       for (int i = 0; i < edges; ++i)
-        valid[k] += validator().checkMotion(state(-3, 0.05 * i).get(), state(3, 0.1 * i, 0.5).get());
+        valid[k] +=
+            validator().checkMotion(state(-3, 0.05 * i).get(), state(3, 0.1 * i, 0.5).get());
     });
   for (std::thread& thread : pool) thread.join();
   for (int k = 1; k < threads; ++k) EXPECT_EQ(valid[k], valid[0]);
@@ -177,7 +188,8 @@ TEST_P(MotionValidators, ManyThreadsCountRightAndAgree) {
 
 TEST(DiscreteMotionValidator, StepsOverAThinWallAndCertifiedDoesNot) {
   const Hall hall(RigidSpace::SE3);
-  hall.si->setStateValidityChecker(std::make_shared<ExactStateValidityChecker>(hall.si, hall.checker));
+  hall.si->setStateValidityChecker(
+      std::make_shared<ExactStateValidityChecker>(hall.si, hall.checker));
   hall.si->getStateSpace()->setLongestValidSegmentFraction(0.2);
   hall.si->setup();
   // Steps of 3.4 m, a bar of 1 m.
@@ -189,7 +201,8 @@ TEST(DiscreteMotionValidator, StepsOverAThinWallAndCertifiedDoesNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MotionValidators,
-                         testing::Values(Kind{RigidSpace::SE3, true}, Kind{RigidSpace::SE2, true}, Kind{RigidSpace::SE3, false},
+                         testing::Values(Kind{RigidSpace::SE3, true}, Kind{RigidSpace::SE2, true},
+                                         Kind{RigidSpace::SE3, false},
                                          Kind{RigidSpace::SE2, false}),
                          nameOf);
 

@@ -28,7 +28,8 @@ RigidState planar(double yaw) {
 
 TEST(RigidState, SmallAndLargeRotationsAreFollowed) {
   // OMPL 1.5.2 stays at `from` below 9e-5.
-  for (const double angle : {1e-300, 1e-12, 1e-9, 5e-5, 8.9e-5, 9e-5, 9.1e-5, 0.1, 1.0, 3.0, pi - 1e-6}) {
+  for (const double angle :
+       {1e-300, 1e-12, 1e-9, 5e-5, 8.9e-5, 9e-5, 9.1e-5, 0.1, 1.0, 3.0, pi - 1e-6}) {
     const RigidState from = turned(0), to = turned(angle);
     EXPECT_NEAR(rotationAngle(RigidSpace::SE3, from, to), angle, 1e-15 * (1 + angle));
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
@@ -44,14 +45,18 @@ TEST(RigidState, ShorterArcWhateverTheSigns) {
   RigidState from = turned(0), to = turned(1);
   to.pose.q.coeffs() *= -1;
   EXPECT_NEAR(rotationAngle(RigidSpace::SE3, from, to), 1, 1e-15);
-  EXPECT_NEAR(rotationAngle(RigidSpace::SE3, interpolate(RigidSpace::SE3, from, to, 0.5), turned(0.5)), 0, 1e-15);
+  EXPECT_NEAR(
+      rotationAngle(RigidSpace::SE3, interpolate(RigidSpace::SE3, from, to, 0.5), turned(0.5)), 0,
+      1e-15);
 }
 
 TEST(RigidState, QuaternionsNeedNoNorm) {
   RigidState from = turned(0.3), to = turned(1.1);
   from.pose.q.coeffs() *= 3;
   to.pose.q.coeffs() *= 0.01;
-  EXPECT_NEAR(rotationAngle(RigidSpace::SE3, interpolate(RigidSpace::SE3, from, to, 0.5), turned(0.7)), 0, 1e-15);
+  EXPECT_NEAR(
+      rotationAngle(RigidSpace::SE3, interpolate(RigidSpace::SE3, from, to, 0.5), turned(0.7)), 0,
+      1e-15);
 }
 
 TEST(RigidState, HalfTurnsAreAmbiguousAndNearlyHalfTurnsAreNot) {
@@ -69,7 +74,9 @@ TEST(RigidState, HalfTurnsAreAmbiguousAndNearlyHalfTurnsAreNot) {
 }
 
 TEST(RigidState, CircleTheShorterWayAcrossTheSeam) {
-  const auto at = [](double from, double to, double t) { return interpolate(RigidSpace::SE2, planar(from), planar(to), t).yaw; };
+  const auto at = [](double from, double to, double t) {
+    return interpolate(RigidSpace::SE2, planar(from), planar(to), t).yaw;
+  };
   EXPECT_NEAR(at(3, -3, 0.5), pi, 1e-15);
   EXPECT_NEAR(at(3, -3, 0.25), 3 + (2 * pi - 6) / 4, 1e-15);
   EXPECT_NEAR(at(-3, 3, 0.75), 3 + (2 * pi - 6) / 4, 1e-15);
@@ -78,7 +85,8 @@ TEST(RigidState, CircleTheShorterWayAcrossTheSeam) {
   // Out of range: comes back inside.
   EXPECT_NEAR(at(7, 7.5, 0), 7 - 2 * pi, 1e-15);
   EXPECT_NEAR(at(7, 7.5, 1), 7.5 - 2 * pi, 1e-15);
-  EXPECT_NEAR(at(100, -100, 0.5), std::remainder(100 + std::remainder(-200, 2 * pi) / 2, 2 * pi), 1e-13);
+  EXPECT_NEAR(at(100, -100, 0.5), std::remainder(100 + std::remainder(-200, 2 * pi) / 2, 2 * pi),
+              1e-13);
   for (const double yaw : {-20.0, -pi, pi, 4.0, 1e6})
     for (const double t : {0.0, 0.3, 1.0}) EXPECT_LE(std::abs(at(yaw, yaw + 0.1, t)), pi);
 }
@@ -135,7 +143,8 @@ TEST_P(StateSpaces, OutputMayBeEitherInput) {
 
 TEST_P(StateSpaces, TinyDifferencesAreDifferent) {
   const Hall hall(GetParam());
-  const auto a = hall.scoped(hall.at(0, 0, 0.5)), b = hall.scoped(hall.at(0, 0, 0.5 + 1e-7)), c = hall.scoped(hall.at(0, 0, 0.5));
+  const auto a = hall.scoped(hall.at(0, 0, 0.5)), b = hall.scoped(hall.at(0, 0, 0.5 + 1e-7)),
+             c = hall.scoped(hall.at(0, 0, 0.5));
   EXPECT_FALSE(hall.si->equalStates(a.get(), b.get()));
   EXPECT_GT(hall.si->distance(a.get(), b.get()), 0);
   EXPECT_TRUE(hall.si->equalStates(a.get(), c.get()));

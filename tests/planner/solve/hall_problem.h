@@ -5,7 +5,8 @@
 
 namespace corridor::test {
 
-/// The hall of boxes.h as a problem: a bar from one side of the wall to the other, through the gap above y = 2.
+/// The hall of boxes.h as a problem: a bar from one side of the wall to the other, through the gap
+/// above y = 2.
 inline Problem hallProblem(RigidSpace space) {
   Problem problem;
   problem.file = "hall.yaml";
@@ -25,7 +26,13 @@ inline Problem hallProblem(RigidSpace space) {
   problem.lower = Vec3::Constant(-5);
   problem.upper = Vec3::Constant(5);
   problem.planner.time = 20;
-  problem.lines = {{"start", 4}, {"goal", 5}, {"planner", 7}, {"planner.name", 8}, {"planner.params.range", 9}, {"sampler", 11}, {"objective", 12}};
+  problem.lines = {{"start", 4},
+                   {"goal", 5},
+                   {"planner", 7},
+                   {"planner.name", 8},
+                   {"planner.params.range", 9},
+                   {"sampler", 11},
+                   {"objective", 12}};
   return problem;
 }
 

@@ -1,4 +1,6 @@
 // Solution files: bit-for-bit round trips, strict reading, OMPL.app's .path.
+#include "planner/solve/solution.h"
+
 #include <filesystem>
 #include <fstream>
 
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
-#include "planner/solve/solution.h"
 
 namespace corridor {
 namespace {
@@ -23,13 +24,15 @@ class SolutionFile : public testing::Test {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
-  std::string complaint(const std::string& name, const std::string& text, RigidSpace space = RigidSpace::SE3) const {
+  std::string complaint(const std::string& name, const std::string& text,
+                        RigidSpace space = RigidSpace::SE3) const {
     try {
       readSolution(write(name, text), space);
     } catch (const InputError& error) {
       std::string what = error.what();
       const std::string prefix = folder_.string() + "/";
-      for (auto at = what.find(prefix); at != what.npos; at = what.find(prefix)) what.erase(at, prefix.size());
+      for (auto at = what.find(prefix); at != what.npos; at = what.find(prefix))
+        what.erase(at, prefix.size());
       return what;
     }
     return "";
@@ -93,13 +96,17 @@ TEST_F(SolutionFile, NothingIsLeftWhereItCantBeWritten) {
 TEST_F(SolutionFile, StrictReading) {
   const std::string head = "format: corridor-solution-1\nspace: SE3\n";
   EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 0, 0, 0, 0, 0, 1]\n"), "");
-  EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 0, 0, 0, 0, 0, 0]\n"), "s.yaml:4: path: a quaternion of zeros is no rotation");
+  EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 0, 0, 0, 0, 0, 0]\n"),
+            "s.yaml:4: path: a quaternion of zeros is no rotation");
   EXPECT_THAT(complaint("s.yaml", head + "path:\n  - [0, 0, 0]\n"), HasSubstr("s.yaml:4: path"));
-  EXPECT_THAT(complaint("s.yaml", head + "path:\n  - [0, 0, nan, 0, 0, 0, 1]\n"), HasSubstr("s.yaml:4: path"));
+  EXPECT_THAT(complaint("s.yaml", head + "path:\n  - [0, 0, nan, 0, 0, 0, 1]\n"),
+              HasSubstr("s.yaml:4: path"));
   EXPECT_THAT(complaint("s.yaml", head), HasSubstr("path"));
   EXPECT_THAT(complaint("s.yaml", head + "pth: []\n"), HasSubstr("\"pth\""));
-  EXPECT_EQ(complaint("s.yaml", head + "path: [[0, 0, 0]]\n", RigidSpace::SE2), "s.yaml:2: space: the problem is in SE2, this solution in SE3");
-  EXPECT_THAT(complaint("s.yaml", "format: corridor-problem-1\n"), HasSubstr("corridor-solution-1"));
+  EXPECT_EQ(complaint("s.yaml", head + "path: [[0, 0, 0]]\n", RigidSpace::SE2),
+            "s.yaml:2: space: the problem is in SE2, this solution in SE3");
+  EXPECT_THAT(complaint("s.yaml", "format: corridor-problem-1\n"),
+              HasSubstr("corridor-solution-1"));
   EXPECT_THAT(complaint("s.yaml", ""), HasSubstr("empty"));
 }
 
@@ -108,9 +115,11 @@ TEST_F(SolutionFile, OmplAppPaths) {
   ASSERT_EQ(solution.path.size(), 2u);
   EXPECT_EQ(solution.path[1].xyYaw(), Vec3(3, 4, -0.25));
   EXPECT_TRUE(solution.digest.empty());
-  EXPECT_EQ(complaint("a.path", "1 2 3\n1 2\n", RigidSpace::SE2), "a.path:2: a state of SE2 has 3 numbers (x y yaw), not 2");
+  EXPECT_EQ(complaint("a.path", "1 2 3\n1 2\n", RigidSpace::SE2),
+            "a.path:2: a state of SE2 has 3 numbers (x y yaw), not 2");
   EXPECT_THAT(complaint("a.path", "1 2 x\n", RigidSpace::SE2), HasSubstr("a.path:1: "));
-  EXPECT_EQ(complaint("a.path", "0 0 0 0 0 0 0\n"), "a.path:1: a quaternion of zeros is no rotation");
+  EXPECT_EQ(complaint("a.path", "0 0 0 0 0 0 0\n"),
+            "a.path:1: a quaternion of zeros is no rotation");
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
-// Solving: names and parameters, start and goal, goal regions, repeating, certified paths and their refutation.
+// Solving: names and parameters, start and goal, goal regions, repeating, certified paths and their
+// refutation.
+#include "planner/solve/solve.h"
+
 #include <atomic>
 #include <cmath>
 
@@ -7,7 +10,6 @@
 
 #include "collision/core/error.h"
 #include "planner/solve/planner_factory.h"
-#include "planner/solve/solve.h"
 #include "planner/solve/verify_solution.h"
 #include "tests/planner/solve/hall_problem.h"
 
@@ -52,7 +54,8 @@ TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
   const auto bits = [&] {
     std::vector<double> numbers;
     for (const RigidState& s : solveProblem(problem).path)
-      numbers.insert(numbers.end(), {s.pose.p.x(), s.pose.p.y(), s.pose.p.z(), s.pose.q.x(), s.pose.q.w(), s.yaw});
+      numbers.insert(numbers.end(),
+                     {s.pose.p.x(), s.pose.p.y(), s.pose.p.z(), s.pose.q.x(), s.pose.q.w(), s.yaw});
     return numbers;
   };
   const auto first = bits();
@@ -70,7 +73,8 @@ TEST_P(Spaces, GoalRegion) {
     problem.planner.stopAtFirst = true;
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << planner << report.why;
-    EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved) << planner;
+    EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved)
+        << planner;
   }
 }
 
@@ -85,12 +89,17 @@ TEST_P(Spaces, MutatedPathsAreRefuted) {
     return verifySolution(problem, mutated);
   };
   // Straight through the wall.
-  EXPECT_EQ(verdict([](Path& p) { p = {p.front(), p.back()}; }).motion.verdict, PathVerdict::refuted);
+  EXPECT_EQ(verdict([](Path& p) {
+              p = {p.front(), p.back()};
+            }).motion.verdict,
+            PathVerdict::refuted);
   const auto start = verdict([](Path& p) { p.front().pose.p.x() += 1e-9; });
   EXPECT_EQ(start.verdict, PathVerdict::refuted);
-  EXPECT_THAT(start.violations, testing::ElementsAre(StartsWith("the first state is not the start")));
+  EXPECT_THAT(start.violations,
+              testing::ElementsAre(StartsWith("the first state is not the start")));
   const auto goal = verdict([](Path& p) { p.back().pose.p.y() += 1e-9; });
-  EXPECT_THAT(goal.violations, testing::ElementsAre(StartsWith("the last state is not in the goal")));
+  EXPECT_THAT(goal.violations,
+              testing::ElementsAre(StartsWith("the last state is not in the goal")));
   const auto outside = verdict([](Path& p) { p[p.size() / 2].pose.p.x() = 5.5; });
   EXPECT_THAT(outside.violations, testing::Contains(HasSubstr("x = 5.5 is not in [-5, 5]")));
 }
@@ -114,31 +123,47 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
     const auto planner = makePlanner(hall.si, info.name, {});
     ASSERT_TRUE(planner) << info.name;
   }
-  EXPECT_NO_THROW(makePlanner(hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
+  EXPECT_NO_THROW(makePlanner(
+      hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
 }
 
 TEST(Solve, BadNamesListWhatThereIs) {
   Problem problem = hallProblem(RigidSpace::SE3);
   problem.planner.name = "RRTConect";
-  EXPECT_THAT(complaintOf(problem), StartsWith("hall.yaml:8: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?; there are: RRTConnect, RRT, "));
+  EXPECT_THAT(complaintOf(problem),
+              StartsWith("hall.yaml:8: unknown planner \"RRTConect\"; did you mean "
+                         "\"RRTConnect\"?; there are: RRTConnect, RRT, "));
   problem = hallProblem(RigidSpace::SE3);
   problem.planner.params = {{"rnge", "1"}};
-  EXPECT_EQ(complaintOf(problem), "hall.yaml:7: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?; it has: intermediate_states, range");
+  EXPECT_EQ(complaintOf(problem),
+            "hall.yaml:7: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?; it has: "
+            "intermediate_states, range");
   problem.planner.params = {{"range", "0.6abc"}};
-  EXPECT_EQ(complaintOf(problem), "hall.yaml:9: RRTConnect's parameter range: \"0.6abc\" is not a number");
+  EXPECT_EQ(complaintOf(problem),
+            "hall.yaml:9: RRTConnect's parameter range: \"0.6abc\" is not a number");
   problem.planner.params = {{"intermediate_states", "maybe"}};
-  EXPECT_EQ(complaintOf(problem), "hall.yaml:7: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");
+  EXPECT_EQ(complaintOf(problem),
+            "hall.yaml:7: RRTConnect's parameter intermediate_states: \"maybe\" is neither true "
+            "nor false");
   SolveOptions options;
   options.setElsewhere["planner.params.intermediate_states"] = "--set";
-  EXPECT_EQ(complaintOf(problem, options), "--set: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");
+  EXPECT_EQ(
+      complaintOf(problem, options),
+      "--set: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");
   problem = hallProblem(RigidSpace::SE3);
   problem.sampler = "gausian";
-  EXPECT_EQ(complaintOf(problem), "hall.yaml:11: unknown sampler \"gausian\"; did you mean \"gaussian\"?; there are: uniform, gaussian, obstacle_based, bridge_test");
+  EXPECT_EQ(complaintOf(problem),
+            "hall.yaml:11: unknown sampler \"gausian\"; did you mean \"gaussian\"?; there are: "
+            "uniform, gaussian, obstacle_based, bridge_test");
   problem.sampler = "max_clearance";
-  EXPECT_EQ(complaintOf(problem), "hall.yaml:11: sampler max_clearance needs a clearance, which isn't computed yet; there are: uniform, gaussian, obstacle_based, bridge_test");
+  EXPECT_EQ(complaintOf(problem),
+            "hall.yaml:11: sampler max_clearance needs a clearance, which isn't computed yet; "
+            "there are: uniform, gaussian, obstacle_based, bridge_test");
   problem.sampler = "uniform";
   problem.objective = "max_min_clearance";
-  EXPECT_EQ(complaintOf(problem), "hall.yaml:12: objective max_min_clearance needs a clearance, which isn't computed yet; there are: length, mechanical_work");
+  EXPECT_EQ(complaintOf(problem),
+            "hall.yaml:12: objective max_min_clearance needs a clearance, which isn't computed "
+            "yet; there are: length, mechanical_work");
 }
 
 TEST(Solve, SamplersSolve) {
@@ -159,18 +184,21 @@ TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
   // The tip is 0.1005 m beyond the wall's face.
   EXPECT_THAT(complaint, HasSubstr(" touch; the nearest free position found is 0.1"));
   problem.goal.p = {0.3, -2, 0};
-  EXPECT_THAT(complaintOf(problem), HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
+  EXPECT_THAT(complaintOf(problem),
+              HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
 }
 
 TEST(Solve, MarginAndTube) {
   Problem problem = hallProblem(RigidSpace::SE3);
   problem.start.p = {-0.6, -2, 0};  // 0.0995 from the wall
   problem.margin = 0.2;
-  EXPECT_THAT(complaintOf(problem), HasSubstr("are closer than the margin of 0.2 m; the nearest free position"));
+  EXPECT_THAT(complaintOf(problem),
+              HasSubstr("are closer than the margin of 0.2 m; the nearest free position"));
   problem.margin = 0;
   problem.start.p = {-0.5005 - 0.01, -2, 0};
   problem.tube = Tube{0.02, 0};
-  EXPECT_THAT(complaintOf(problem), HasSubstr(" m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
+  EXPECT_THAT(complaintOf(problem),
+              HasSubstr(" m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
 }
 
 TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
@@ -180,7 +208,10 @@ TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
   problem = hallProblem(RigidSpace::SE3);
   problem.goal.p = {0, -2, 0};
   problem.goalRegion = Problem::GoalRegion{0.01, 0.01};
-  EXPECT_THAT(complaintOf(problem), StartsWith("hall.yaml:5: no free state was found within the goal; its middle: goal is in contact"));
+  EXPECT_THAT(
+      complaintOf(problem),
+      StartsWith(
+          "hall.yaml:5: no free state was found within the goal; its middle: goal is in contact"));
 }
 
 TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
@@ -190,7 +221,8 @@ TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
     problem.planner.name = planner;
     problem.planner.time = 0.5;
     const SolveReport report = solveProblem(problem);
-    EXPECT_THAT(report.outcome, testing::AnyOf(SolveOutcome::notFound, SolveOutcome::approximate)) << planner;
+    EXPECT_THAT(report.outcome, testing::AnyOf(SolveOutcome::notFound, SolveOutcome::approximate))
+        << planner;
     EXPECT_FALSE(report.why.empty());
     EXPECT_TRUE(report.path.empty());
     EXPECT_LT(report.time, 1.5) << planner;
