@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 namespace corridor::view {
 
 Camera::Camera(double azimuth, double elevation)
