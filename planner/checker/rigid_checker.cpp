@@ -20,8 +20,14 @@ bool RigidChecker::inBounds(const RigidState& state) const {
 }
 
 MotionResult RigidChecker::state(const RigidState& at) const {
-  return space_ == RigidSpace::SE3 ? scene_.certifyState(at.pose, options_, contexts_.mine())
-                                   : scene_.certifyStatePlanar(at.xyYaw(), options_, contexts_.mine());
+  QueryContext& context = contexts_.mine();
+  const Counters before = context.counters;
+  const MotionResult result = space_ == RigidSpace::SE3 ? scene_.certifyState(at.pose, options_, context)
+                                                        : scene_.certifyStatePlanar(at.xyYaw(), options_, context);
+  // The scene counts it for an edge of zero length.
+  context.counters.edges = before.edges;
+  context.counters.states = before.states + 1;
+  return result;
 }
 
 MotionResult RigidChecker::edge(const RigidState& from, const RigidState& to, bool earliest) const {
@@ -32,7 +38,11 @@ MotionResult RigidChecker::edge(const RigidState& from, const RigidState& to, bo
 }
 
 std::optional<Contact> RigidChecker::interference(const RigidState& at) const {
-  return scene_.interference(placement(space_, at), contexts_.mine());
+  QueryContext& context = contexts_.mine();
+  const std::uint64_t before = context.counters.states;
+  const std::optional<Contact> contact = scene_.interference(placement(space_, at), context);
+  context.counters.states = before + 1;  // the scene counts pairs of bodies
+  return contact;
 }
 
 bool RigidChecker::certifiedState(const RigidState& at) const {

@@ -186,7 +186,7 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
       text = clock_.seconds() < problem_.planner.time ? problem_.planner.name + " gave up before the time ran out" : "nothing found in the time";
   }
   if (counters.undecided > 0)
-    text += "; " + std::to_string(counters.undecided) + " motions were too close to call at a tolerance of " + shortest(checker_.options().tolerance) + " m";
+    text += "; too close to call: " + std::to_string(counters.undecided) + " of the motions, at a tolerance of " + shortest(checker_.options().tolerance) + " m";
   return text + "; more time, another planner or seed may help";
 }
 
