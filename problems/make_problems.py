@@ -193,7 +193,7 @@ def make_hook_maze():
     arc = [math.pi * k / 16 for k in range(17)]
     outer = [(-bend * math.cos(a) - w * math.cos(a), 0.15 + (bend + w) * math.sin(a)) for a in arc]
     inner = [(-(bend - w) * math.cos(a), 0.15 + (bend - w) * math.sin(a)) for a in arc]
-    outline = [(-bend - w, -0.35)] + outer + [(bend + w, 0.0), (bend - w, 0.0)] + inner[::-1] + [(-bend + w, -0.35)]
+    outline = [(-bend - w, -0.48)] + outer + [(bend + w, -0.1), (bend - w, -0.1)] + inner[::-1] + [(-bend + w, -0.48)]
     write(prism(outline[::-1], 0.05, 0.25), ROBOTS / 'hook/hook.obj')
 
 
