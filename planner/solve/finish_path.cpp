@@ -18,7 +18,7 @@ namespace {
 /// OMPL's simplifier looks at no clock within a call: few attempts a call keep time-outs strict.
 constexpr unsigned kAttempts = 10;
 /// Rounds of attempts in a row that change nothing, after which more are not worth their time.
-constexpr int kEmptyRounds = 3;
+constexpr int kEmptyRounds = 8;
 /// No path needed more; shortening never ends by itself, as it always finds another last digit.
 constexpr int kRounds = 60;
 

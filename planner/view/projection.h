@@ -18,6 +18,8 @@ class Camera {
 
   Vec3 project(const Vec3& point) const;
   const Vec3& towardsViewer() const { return toViewer_; }
+  /// The length in the world that is a pixel wide.
+  double worldPixel() const { return 1 / scale_; }
   double width() const { return width_; }
   double height() const { return height_; }
 

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
+
+#include <Eigen/Geometry>
 
 #include "planner/view/projection.h"
 
@@ -29,14 +32,16 @@ struct Face {
   double depth() const { return corners[0].z() + corners[1].z() + corners[2].z(); }
 };
 
+using Triangle3 = std::array<Vec3, 3>;
+
 /// Triangles once each: many files have both sides of every face.
-std::vector<std::array<Vec3, 3>> distinctTriangles(const std::vector<ProblemMesh>& meshes) {
+std::vector<Triangle3> distinctTriangles(const std::vector<ProblemMesh>& meshes) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
-  std::vector<std::array<Vec3, 3>> triangles;
+  std::vector<Triangle3> triangles;
   for (const ProblemMesh& mesh : meshes)
     for (std::size_t t = 0; t < mesh.source.mesh.triangles.size(); ++t) {
       std::array<std::array<double, 3>, 3> key;
-      std::array<Vec3, 3> triangle;
+      Triangle3 triangle;
       for (int i = 0; i < 3; ++i) {
         triangle[i] = mesh.source.mesh.corner(t, i);
         key[i] = {triangle[i].x(), triangle[i].y(), triangle[i].z()};
@@ -47,7 +52,19 @@ std::vector<std::array<Vec3, 3>> distinctTriangles(const std::vector<ProblemMesh
   return triangles;
 }
 
-Face makeFace(const Camera& camera, const std::array<Vec3, 3>& triangle) {
+using PlaneKey = std::array<long, 4>;
+
+/// The same for triangles in one plane: unit normal to 1 %, offset to 2 pixels.
+PlaneKey planeOf(const Triangle3& triangle, double pixel) {
+  Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
+  int largest = 0;
+  normal.cwiseAbs().maxCoeff(&largest);
+  if (normal[largest] < 0) normal = -normal;
+  const Vec3 n = 100 * normal;
+  return {std::lround(n.x()), std::lround(n.y()), std::lround(n.z()), std::lround(normal.dot(triangle[0]) / (2 * pixel))};
+}
+
+Face makeFace(const Camera& camera, const Triangle3& triangle) {
   Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   if (normal.dot(camera.towardsViewer()) < 0) normal = -normal;
   const double light = std::max(0.0, normal.dot(Vec3(0.35, -0.45, 0.82)));
@@ -173,7 +190,7 @@ std::string svgPicture(const Problem& problem, const Path& path) {
       feet = std::min(feet, p.z());
     }
   const Path shown = poses(problem, path, reach, kGhosts);
-  std::vector<std::vector<std::array<Vec3, 3>>> placed;
+  std::vector<std::vector<Triangle3>> placed;
   std::vector<Vec3> points;
   for (const RigidState& state : shown) {
     const Transform X = placement(problem.space, state);
@@ -191,20 +208,24 @@ std::string svgPicture(const Problem& problem, const Path& path) {
     for (const auto& triangle : copy) faces.push_back(makeFace(camera, triangle));
     for (const Face& face : faces) robots.draw(face.corners, 0);
   }
-  std::vector<Face> solid, glass;
+  std::vector<Face> faces;
+  std::map<PlaneKey, int> hides;  // pixels of robots, by the planes in front of them: a wall is seen through as a whole
   for (const auto& triangle : world) {
-    Face face = makeFace(camera, triangle);
+    faces.push_back(makeFace(camera, triangle));
     // A plan from above has no side faces to tell walls from the ground by: what reaches above the robot's feet is dark.
     if (problem.space == RigidSpace::SE2)
-      face.shade = std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;
-    int hides = 0;
-    robots.cover(face.corners, [&](std::size_t pixel, double depth) {
-      hides += std::isfinite(robots.depth(pixel)) && depth > robots.depth(pixel) + 1;
+      faces.back().shade = std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;
+    int& count = hides[planeOf(triangle, camera.worldPixel())];
+    robots.cover(faces.back().corners, [&](std::size_t pixel, double depth) {
+      count += std::isfinite(robots.depth(pixel)) && depth > robots.depth(pixel) + 1;
     });
-    if (hides > 3)
-      glass.push_back(face);
+  }
+  std::vector<Face> solid, glass;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (hides[planeOf(world[i], camera.worldPixel())] > 3)
+      glass.push_back(faces[i]);
     else
-      cut(face, solid);
+      cut(faces[i], solid);
   }
 
   char head[256];
