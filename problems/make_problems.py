@@ -92,7 +92,7 @@ def make_twisted_tubes():
     """One and a bit turns of a coil, with short straight ends; where the turns overlap, there is `pitch` - 2 `radius`
     between them, and a tube that is to get out of the coil has to slide along there, from one end of the overlap to the
     other."""
-    radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.41, 1.4, 0.2, 66
+    radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.42, 1.4, 0.2, 66
     path = []
     for k in range(steps + 1):
         angle = math.pi * turns * (2 * k / steps - 1)
@@ -193,7 +193,7 @@ def make_hook_maze():
     arc = [math.pi * k / 16 for k in range(17)]
     outer = [(-bend * math.cos(a) - w * math.cos(a), 0.15 + (bend + w) * math.sin(a)) for a in arc]
     inner = [(-(bend - w) * math.cos(a), 0.15 + (bend - w) * math.sin(a)) for a in arc]
-    outline = [(-bend - w, -0.35)] + outer + [(bend + w, 0.0), (bend - w, 0.0)] + inner[::-1] + [(-bend + w, -0.35)]
+    outline = [(-bend - w, -0.48)] + outer + [(bend + w, -0.1), (bend - w, -0.1)] + inner[::-1] + [(-bend + w, -0.48)]
     write(prism(outline[::-1], 0.05, 0.25), ROBOTS / 'hook/hook.obj')
 
 

@@ -172,12 +172,18 @@ MotionResult Scene::certifyEdgePlanar(const Vec3& from, const Vec3& to,
 
 MotionResult Scene::certifyState(const RigidPose& pose, const MotionOptions& options,
                                  QueryContext& context) const {
-  return certifyEdge(pose, pose, options, context);
+  const MotionResult result = certifyEdge(pose, pose, options, context);
+  --context.counters.edges;
+  ++context.counters.states;
+  return result;
 }
 
 MotionResult Scene::certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,
                                        QueryContext& context) const {
-  return certifyEdgePlanar(xyYaw, xyYaw, options, context);
+  const MotionResult result = certifyEdgePlanar(xyYaw, xyYaw, options, context);
+  --context.counters.edges;
+  ++context.counters.states;
+  return result;
 }
 
 }  // namespace corridor

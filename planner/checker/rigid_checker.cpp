@@ -20,15 +20,9 @@ bool RigidChecker::inBounds(const RigidState& state) const {
 }
 
 MotionResult RigidChecker::state(const RigidState& at) const {
-  QueryContext& context = contexts_.mine();
-  const Counters before = context.counters;
-  const MotionResult result = space_ == RigidSpace::SE3
-                                  ? scene_.certifyState(at.pose, options_, context)
-                                  : scene_.certifyStatePlanar(at.xyYaw(), options_, context);
-  // The scene counts it for an edge of zero length.
-  context.counters.edges = before.edges;
-  context.counters.states = before.states + 1;
-  return result;
+  return space_ == RigidSpace::SE3
+             ? scene_.certifyState(at.pose, options_, contexts_.mine())
+             : scene_.certifyStatePlanar(at.xyYaw(), options_, contexts_.mine());
 }
 
 MotionResult RigidChecker::edge(const RigidState& from, const RigidState& to, bool earliest) const {

@@ -13,8 +13,8 @@ namespace corridor {
 /// them at once.
 class FaultList {
  public:
-  /// @param mainFile whose faults come first.
-  explicit FaultList(std::string mainFile) : mainFile_(std::move(mainFile)) {}
+  /// @param mainFile whose faults come first; empty: no file does.
+  explicit FaultList(std::string mainFile = {}) : mainFile_(std::move(mainFile)) {}
   void add(std::string file, int line, std::string text);
   void add(const InputError& error);
 

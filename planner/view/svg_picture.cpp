@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -191,12 +192,15 @@ std::string polyline(const Camera& camera, const Path& path) {
 std::string svgPicture(const Problem& problem, const Path& path) {
   constexpr double degree = std::numbers::pi / 180;
   Camera camera = problem.space == RigidSpace::SE3 ? Camera(-60 * degree, 38 * degree)
-                                                   : Camera(-90 * degree, 62 * degree);
+                                                   : Camera(-90 * degree, 90 * degree);
   const auto world = distinctTriangles(problem.world), robot = distinctTriangles(problem.robot);
 
-  double reach = 0;
+  double reach = 0, feet = std::numeric_limits<double>::infinity();
   for (const auto& triangle : robot)
-    for (const Vec3& p : triangle) reach = std::max(reach, p.norm());
+    for (const Vec3& p : triangle) {
+      reach = std::max(reach, p.norm());
+      feet = std::min(feet, p.z());
+    }
   const Path shown = poses(problem, path, reach, kGhosts);
   std::vector<std::vector<Triangle3>> placed;
   std::vector<Vec3> points;
@@ -221,6 +225,11 @@ std::string svgPicture(const Problem& problem, const Path& path) {
       hides;  // pixels of robots, by the planes in front of them: a wall is seen through as a whole
   for (const auto& triangle : world) {
     faces.push_back(makeFace(camera, triangle));
+    // A plan from above has no side faces to tell walls from the ground by: what reaches above the
+    // robot's feet is dark.
+    if (problem.space == RigidSpace::SE2)
+      faces.back().shade =
+          std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;
     int& count = hides[planeOf(triangle, camera.worldPixel())];
     robots.cover(faces.back().corners, [&](std::size_t pixel, double depth) {
       count += std::isfinite(robots.depth(pixel)) && depth > robots.depth(pixel) + 1;
