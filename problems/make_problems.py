@@ -92,7 +92,7 @@ def make_twisted_tubes():
     """One and a bit turns of a coil, with short straight ends; where the turns overlap, there is `pitch` - 2 `radius`
     between them, and a tube that is to get out of the coil has to slide along there, from one end of the overlap to the
     other."""
-    radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.42, 1.4, 0.2, 66
+    radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.43, 1.4, 0.2, 66
     path = []
     for k in range(steps + 1):
         angle = math.pi * turns * (2 * k / steps - 1)
