@@ -79,11 +79,11 @@ def make_bug_trap():
     write(body, ROBOTS / 'bug/bug.stl', scale=1000)
 
     profile = [(0, -1.20), (0.50, -1.13), (0.87, -0.80), (1.00, -0.20), (0.95, 0.50), (0.76, 0.93), (0.56, 1.00), (0.39, 0.86), (0.29, 0.55),
-               (0.25, 0.20), (0.24, 0.00), (0.27, -0.05), (0.30, 0.00), (0.31, 0.20), (0.36, 0.53), (0.46, 0.80), (0.57, 0.91), (0.71, 0.85),
+               (0.26, 0.20), (0.25, 0.00), (0.28, -0.05), (0.31, 0.00), (0.32, 0.20), (0.36, 0.53), (0.46, 0.80), (0.57, 0.91), (0.71, 0.85),
                (0.86, 0.46), (0.91, -0.20), (0.79, -0.74), (0.45, -1.04), (0, -1.11)]
-    curve = spline(profile, 4)
+    curve = spline(profile, 3)
     curve = [(max(r, 0.0), z) for r, z in curve]
-    write(revolve(curve, 48), PROBLEMS / 'bug_trap/bottle.obj')
+    write(revolve(curve, 40), PROBLEMS / 'bug_trap/bottle.obj')
 
 
 # Two bent tubes, linked
@@ -92,7 +92,7 @@ def make_twisted_tubes():
     """One and a bit turns of a coil, with short straight ends; where the turns overlap, there is `pitch` - 2 `radius`
     between them, and a tube that is to get out of the coil has to slide along there, from one end of the overlap to the
     other."""
-    radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.42, 1.4, 0.2, 66
+    radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.43, 1.4, 0.2, 66
     path = []
     for k in range(steps + 1):
         angle = math.pi * turns * (2 * k / steps - 1)
