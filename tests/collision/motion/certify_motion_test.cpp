@@ -476,5 +476,26 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   EXPECT_NE(certify(moving, fixed, motion, options, used).reason, UndecidedReason::workLimit);
 }
 
+/// A tip within the tube at t = 1/4, a wall hit at t = 1/2: nothing grazes in between.
+TEST(CertifyMotion, GrazingIsSaidOnlyOfNarrowGaps) {
+  TriangleMesh robot, tip, wall;
+  add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
+  add(tip, Vec3(0.25, 0, -1e-9), Vec3(0.25, -1, -1), Vec3(0.25, 1, -1));
+  add(wall, Vec3(0.5, -1, -1), Vec3(0.5, 1, -1), Vec3(0.5, 0, 1));
+  const ObbTree moving(robot), fixed[] = {ObbTree(tip), ObbTree(wall)};
+  const TreePair pairs[] = {{&moving, &fixed[0], 0, 0}, {&moving, &fixed[1], 0, 1}};
+  MotionOptions options;
+  options.tolerance = 1e-12;
+  options.tube.position = 1e-8;
+  options.earliest = true;
+  QueryContext context;
+  const MotionResult r =
+      certifyMotion(RigidMotion::spatial(at(Vec3::Zero()), at(Vec3::UnitX()), options.tube), pairs,
+                    options, context);
+  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
+  EXPECT_FALSE(r.grazing);
+  EXPECT_LE(r.certifiedUntil, 0.25);
+}
+
 }  // namespace
 }  // namespace corridor
