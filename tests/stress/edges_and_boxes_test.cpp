@@ -236,7 +236,8 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     } else {
       ++apart;
       proved += separated;
-      if (i % 4 && step > 1e-11) EXPECT_TRUE(separated) << "round " << i << ", step " << step;
+      if (i % 4 && step > 1e-10)  // margins of 2e-13 over |L| ≥ 0.01
+        EXPECT_TRUE(separated) << "round " << i << ", step " << step;
     }
   }
   std::cout << touching << " touch, " << apart << " apart, of these proved " << proved << "\n";
