@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collision/core/rounding.h"
 #include "collision/motion/moving_triangles.h"
@@ -26,7 +27,8 @@ class Certifier {
     auto& pending = context_.pending;
     pending.clear();
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) pending.push_back({0, 0, k});
-    workEnd_ = work() + options_.workLimit;
+    const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
+    workEnd_ = work() + std::min(options_.workLimit, most);
     if (options_.earliest ? walkInOrder({0, 1, 0, pending.size()}, 0) : walkByLevels()) return {};
     if (!options_.earliest) result_.certifiedUntil = 0;
     return result_;
@@ -42,6 +44,9 @@ class Certifier {
   /// Levels of halving at which a middle whose window was not certified is tested for contact as a
   /// static pose: likely collisions first.
   static constexpr int kProbedLevels = 4;
+  /// Half windows are not halved below 2^-48 of the motion: much below, their middles would no
+  /// longer be exact.
+  static constexpr double kShortest = 0x1p-48;
 
   std::uint64_t work() const { return counters_.boxTests + counters_.triangleTests; }
 
@@ -130,12 +135,18 @@ class Certifier {
   /// bracket all the same.
   bool undecided(double t0, double t1) {
     const bool clearance = result_.reason == UndecidedReason::clearance;
-    if (contactTime_ == t1 && clearance) return contact(t0, true);
+    if (contactTime_ == t1 && clearance && !wide_) return contact(t0, true);
     if (contactTime_ >= 0 && contactTime_ - t0 <= options_.timeTolerance) return contact(t0, false);
     result_.verdict = MotionVerdict::undecided;
     result_.certifiedUntil = t0;
     result_.contactTime = middle_;
     return false;
+  }
+
+  Descent outOfWork() {
+    result_.reason = UndecidedReason::workLimit;
+    result_.pair.reset();
+    return Descent::undecided;
   }
 
   /// Walks the trees below one pair of nodes. What this window cannot separate goes to `later`.
@@ -148,11 +159,7 @@ class Certifier {
     stack.clear();
     stack.push_back(root);
     while (!stack.empty()) {
-      if (work() >= workEnd_) {
-        result_.reason = UndecidedReason::workLimit;
-        result_.pair.reset();
-        return Descent::undecided;
-      }
+      if (work() >= workEnd_) return outOfWork();
       if (later.size() >= leftoversEnd_) {
         later.insert(later.end(), stack.begin(), stack.end());
         return Descent::done;
@@ -178,7 +185,7 @@ class Certifier {
       // Time before space where the window's travel dominates the boxes. The factors are measured,
       // soundness does not need them.
       const double size = std::max(na.radius, nb.radius);
-      if (travel.cap > options_.tolerance &&
+      if (travel.cap > options_.tolerance && h > kShortest &&
           (4 * travel.curvature * window.angle > size || 0.2 * travel.cap > size)) {
         later.push_back(pair);
       } else if (na.isLeaf() && nb.isLeaf()) {
@@ -209,6 +216,7 @@ class Certifier {
     bool open = false;
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
+        if (work() >= workEnd_) return outOfWork();
         const MovingTrianglesAnswer found =
             decideMovingTriangles(bodies.fixed->triangles()[s], bodies.moving->triangles()[t],
                                   window, options_.margin, counters_);
@@ -220,9 +228,9 @@ class Certifier {
           contactPair_ = triangles;
           return Descent::contact;
         }
-        // Refining does not help, or need not. 2^-48 of the motion: much below, halves of windows
-        // would no longer be exact.
-        if (found.stuck || found.travel <= options_.tolerance || h <= 0x1p-48) {
+        // Refining does not help, or need not.
+        if (found.stuck || !(found.travel > options_.tolerance) || h <= kShortest) {
+          wide_ = found.travel > options_.tolerance;
           result_.reason = UndecidedReason::clearance;
           result_.pair = triangles;
           result_.gap = found.gap;
@@ -239,7 +247,8 @@ class Certifier {
     for (std::size_t i = begin; i < from.size(); ++i) {
       const TreePair& bodies = pairs_[from[i].bodies];
       const ObbTree &a = *bodies.fixed, &b = *bodies.moving;
-      if (const auto hit = interferenceBelow(a, b, X_WB, {from[i].a, from[i].b, 0}, context_)) {
+      if (const auto hit =
+              interferenceBelow(a, b, X_WB, {from[i].a, from[i].b, 0}, context_, workEnd_)) {
         contactTime_ = middle_;
         contactPair_ = {bodies.movingBody, bodies.fixedBody, hit->b, hit->a};
         return true;
@@ -258,6 +267,7 @@ class Certifier {
   double middle_ = 0;        // of the window under way
   double contactTime_ = -1;  // of the earliest contact known
   Contact contactPair_;
+  bool wide_ = false;  // undecided at the middle, but the window goes on farther than the tolerance
   MotionResult result_;
 };
 

@@ -26,9 +26,13 @@ constexpr double kHalfTurnBand = 1e-9;  // radians; design: «What an edge is»
 /// 2^-44; doubled, to be generous with libm.
 constexpr double kRotationError = 0x1p-43;
 
+/// Metres, in every error: squares under 2^-1022 vanish, lengths under 2^-511 with them. Above what
+/// that takes off any bound, for levers below 2^100 m.
+constexpr double kLeastError = 0x1p-400;
+
 }  // namespace
 
-void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle) {
+void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle, double angleError) {
   Mat3 K;
   K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
   R0_ = R0;
@@ -36,7 +40,7 @@ void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle) {
   KKR0_ = K * KR0_;
   axis_ = axis;
   angle_ = angle;
-  ambiguous_ = angle > std::numbers::pi - kHalfTurnBand;
+  ambiguous_ = !(angle + angleError <= std::numbers::pi - kHalfTurnBand);
 }
 
 RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, const Tube& tube) {
@@ -57,12 +61,12 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
   const double s = turn.vec().norm();
   const bool turns = !equal && s > 0;
   m.setRotation(q0.toRotationMatrix(), turns ? Vec3(turn.vec() / s) : Vec3::Zero(),
-                turns ? 2 * std::atan2(s, turn.w()) : 0);
+                turns ? 2 * std::atan2(s, turn.w()) : 0, 0);
   // p = p0 + t·δ: δ, t·δ and the sum round |δ| ≤ 2P, 2P and P once each, below 7uP a coordinate;
   // the half displacement h·δ below 2uP more: 9√3·uP < 16uP. The tube moves each coordinate by
   // `position`.
   const double P = std::max(from.p.cwiseAbs().maxCoeff(), to.p.cwiseAbs().maxCoeff());
-  m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(3.0) * tube.position);
+  m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(3.0) * tube.position + kLeastError);
   m.reachError_ = roundedUp(kRotationError + tube.rotation);
   return m;
 }
@@ -75,14 +79,14 @@ RigidMotion RigidMotion::planar(const Vec3& from, const Vec3& to, const Tube& tu
   Mat3 R0;
   R0 << c, -s, 0, s, c, 0, 0, 0, 1;
   const double turn = std::remainder(to[2] - from[2], 2 * std::numbers::pi);
-  m.setRotation(R0, turn < 0 ? Vec3(0, 0, -1) : Vec3(0, 0, 1), std::abs(turn));
+  // The difference of the yaws rounds once, and each of its at most (|a| + |b|)/2π + 1 turns
+  // is 2.5e-16 off 2π in double. Near a half turn that could take the longer way.
+  const double turnError = 0x1p-51 * (std::abs(from[2]) + std::abs(to[2]));
+  m.setRotation(R0, turn < 0 ? Vec3(0, 0, -1) : Vec3(0, 0, 1), std::abs(turn), turnError);
   const double P =
       std::max(from.head<2>().cwiseAbs().maxCoeff(), to.head<2>().cwiseAbs().maxCoeff());
-  m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(2.0) * tube.position);
-  // The difference of the yaws rounds once, and each of its at most (|a| + |b|)/2π + 1 turns
-  // is 2.5e-16 off 2π in double.
-  m.reachError_ =
-      roundedUp(kRotationError + 0x1p-51 * (std::abs(from[2]) + std::abs(to[2])) + tube.rotation);
+  m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(2.0) * tube.position + kLeastError);
+  m.reachError_ = roundedUp(kRotationError + turnError + tube.rotation);
   return m;
 }
 

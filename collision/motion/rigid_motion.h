@@ -55,7 +55,8 @@ class RigidMotion {
   /// (x, y, yaw) in metres and radians, z = 0. @pre finite.
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
-  /// The shorter way is not unique within 1e-9 rad: half turns.
+  /// The shorter way is not unique within 1e-9 rad, or within the rounding of large yaws: half
+  /// turns.
   bool ambiguous() const { return ambiguous_; }
   /// No coordinate changes.
   bool still() const { return delta_.isZero(0) && angle_ == 0; }
@@ -67,7 +68,7 @@ class RigidMotion {
 
  private:
   RigidMotion() = default;
-  void setRotation(const Mat3& R0, const Vec3& axis, double angle);
+  void setRotation(const Mat3& R0, const Vec3& axis, double angle, double angleError);
 
   Vec3 from_ = Vec3::Zero(), delta_ = Vec3::Zero();
   Mat3 R0_ = Mat3::Identity(), KR0_ = Mat3::Zero(),

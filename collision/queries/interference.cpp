@@ -1,6 +1,7 @@
 #include "collision/queries/interference.h"
 
 #include <cmath>
+#include <limits>
 
 #include "collision/core/rounding.h"
 #include "collision/predicates/triangle_contact.h"
@@ -30,11 +31,12 @@ double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Tra
 std::optional<TrianglePair> walk(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
                                  const Transform& X_WB, const Transform& X_AB,
                                  const BoxPairMargins& margins, const QueryContext::NodePair& root,
-                                 QueryContext& context) {
+                                 QueryContext& context, std::uint64_t workEnd) {
+  const auto work = [&] { return context.counters.boxTests + context.counters.triangleTests; };
   auto& stack = context.stack;
   stack.clear();
   stack.push_back(root);
-  while (!stack.empty()) {
+  while (!stack.empty() && work() < workEnd) {
     const auto [i, j, unused] = stack.back();
     stack.pop_back();
     const ObbTree::Node &na = a.node(i), &nb = b.node(j);
@@ -42,7 +44,7 @@ std::optional<TrianglePair> walk(const ObbTree& a, const Transform& X_WA, const 
     if (obbsSeparated(na.box, nb.box, X_AB, margins, 0)) continue;
     if (na.isLeaf() && nb.isLeaf()) {
       for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
-        for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t)
+        for (std::uint32_t t = nb.first; t < nb.first + nb.count && work() < workEnd; ++t)
           if (trianglesTouch(a.triangles()[s], X_WA, b.triangles()[t], X_WB, context.counters))
             return TrianglePair{a.meshTriangle(s), b.meshTriangle(t)};
     } else if (nb.isLeaf() || (!na.isLeaf() && na.radius >= nb.radius)) {
@@ -68,14 +70,15 @@ std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA
   const Transform X_AB = rigidInverse(X_WA) * X_WB;
   BoxPairMargins margins = marginsOf(a, b, X_AB);
   margins.absolute += relativePoseError(X_WA, X_AB, X_WB, b.reach());
-  return walk(a, X_WA, b, X_WB, X_AB, margins, {0, 0, 0}, context);
+  return walk(a, X_WA, b, X_WB, X_AB, margins, {0, 0, 0}, context,
+              std::numeric_limits<std::uint64_t>::max());
 }
 
 std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b,
                                               const Transform& X_AB,
                                               const QueryContext::NodePair& nodes,
-                                              QueryContext& context) {
-  return walk(a, {}, b, X_AB, X_AB, marginsOf(a, b, X_AB), nodes, context);
+                                              QueryContext& context, std::uint64_t workEnd) {
+  return walk(a, {}, b, X_AB, X_AB, marginsOf(a, b, X_AB), nodes, context, workEnd);
 }
 
 }  // namespace corridor

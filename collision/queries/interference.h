@@ -18,15 +18,16 @@ struct TrianglePair {
 /// none.
 ///
 /// Exact for the twelve doubles of each map in real arithmetic (design: contract 1), for any finite
-/// maps; near-rigid ones are fast, since only then the boxes prune. @pre finite maps (checked by
-/// assertion in `Scene` and by the readers of poses).
+/// maps; near-rigid ones are fast, since only then the boxes prune. @pre finite maps (`Scene`
+/// throws on others).
 std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
                                          const Transform& X_WB, QueryContext& context);
 
-/// The same for the triangles below one pair of nodes, with a at the identity.
+/// A contact below one pair of nodes, with a at the identity. Gives up, with none, when the
+/// context's box and triangle tests reach `workEnd`.
 std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b,
                                               const Transform& X_AB,
                                               const QueryContext::NodePair& nodes,
-                                              QueryContext& context);
+                                              QueryContext& context, std::uint64_t workEnd);
 
 }  // namespace corridor

@@ -97,16 +97,40 @@ bool mayMeet(const Body& moving, const Body& fixed, const MotionWindow& window, 
   const Vec3 y = window.X_WB.m * moving.sphereCenter();
   const Vec3 c = y + window.X_WB.t;
   const Vec3 outside = (fixed.lower() - c).cwiseMax(c - fixed.upper()).cwiseMax(Vec3::Zero());
-  const double reach = y.norm() + moving.sphereRadius();
-  const double travel = window.speed + window.angular.cross(y).norm() +
+  // stableNorm: an overflow of `outside` would separate.
+  const double reach = y.stableNorm() + moving.sphereRadius();
+  const double travel = window.speed + window.angular.cross(y).stableNorm() +
                         window.angle * (moving.sphereRadius() + 16 * kUnit * reach);
   const double pad = margin + window.fixedError + window.reachError * reach;
   // c is off by less than 8u of its terms a coordinate, the differences by u of both of theirs:
   // √3·(8 + 2)·u.
   const double size = reach + window.X_WB.t.cwiseAbs().sum() + fixed.lower().cwiseAbs().sum() +
                       fixed.upper().cwiseAbs().sum();
-  return !(roundedDown(outside.norm()) >
+  return !(roundedDown(outside.stableNorm()) >
            roundedUp(moving.sphereRadius() + travel + pad + 32 * kUnit * size));
+}
+
+/// The one door for numbers of motion queries: a negative margin, say, would prove too much.
+void require(const MotionOptions& options) {
+  const auto finite = [](double x, bool zeroToo) {
+    return std::isfinite(x) && (zeroToo ? x >= 0 : x > 0);
+  };
+  if (!finite(options.tolerance, false))
+    throw std::invalid_argument("the tolerance of a motion query is to be positive and finite");
+  if (!finite(options.margin, true) || !finite(options.tube.position, true) ||
+      !finite(options.tube.rotation, true))
+    throw std::invalid_argument("margin and tube are to be finite and not negative");
+  if (!finite(options.timeTolerance, false))
+    throw std::invalid_argument("the time tolerance is to be positive and finite");
+}
+
+void require(const RigidPose& pose) {
+  if (!pose.p.allFinite() || !pose.q.coeffs().allFinite() || pose.q.coeffs().isZero(0))
+    throw std::invalid_argument("a pose is to be finite, its quaternion not zero");
+}
+
+void require(const Vec3& xyYaw) {
+  if (!xyYaw.allFinite()) throw std::invalid_argument("a pose is to be finite");
 }
 
 double sideRadius(const std::vector<Body>& bodies) {
@@ -129,19 +153,22 @@ Scene::Scene(std::vector<Body> moving, std::vector<Body> fixed)
 double Scene::defaultTolerance() const {
   const double moving = sideRadius(moving_);
   const double radius = fixed_.empty() ? moving : std::min(moving, sideRadius(fixed_));
-  // A single point has no radius; its tolerance is relative to where it is, and the least number
-  // where that is the origin.
+  // A single point has no radius; any positive number will do.
   return 1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8);
 }
 
 std::optional<Contact> Scene::interference(const Transform& X_WB, QueryContext& context) const {
+  if (!X_WB.isFinite()) throw std::invalid_argument("a pose is to be finite");
   MotionWindow still;
   still.X_WB = X_WB;
-  // No matrix of doubles is a rotation: |Mx| ≤ (1 + 3η)|x|, which `reachError` holds.
-  still.reachError = 3 * orthonormalityDefect(X_WB.m);
+  // No matrix of doubles is a rotation: |Mx| ≤ (1 + 3η)|x|, which `reachError` holds. Far from
+  // rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
+  const double defect = orthonormalityDefect(X_WB.m);
+  const bool nearRigid = defect < 0x1p-10;
+  still.reachError = 3 * defect;
   for (std::size_t i = 0; i < moving_.size(); ++i)
     for (std::size_t k = 0; k < fixed_.size(); ++k) {
-      if (!mayMeet(moving_[i], fixed_[k], still, 0)) continue;
+      if (nearRigid && !mayMeet(moving_[i], fixed_[k], still, 0)) continue;
       if (const auto hit =
               corridor::interference(fixed_[k].tree(), {}, moving_[i].tree(), X_WB, context))
         return Contact{i, k, hit->b, hit->a};
@@ -162,11 +189,13 @@ MotionResult Scene::certify(const RigidMotion& motion, const MotionOptions& opti
 
 MotionResult Scene::certifyEdge(const RigidPose& from, const RigidPose& to,
                                 const MotionOptions& options, QueryContext& context) const {
+  require(options), require(from), require(to);
   return certify(RigidMotion::spatial(from, to, options.tube), options, context);
 }
 
 MotionResult Scene::certifyEdgePlanar(const Vec3& from, const Vec3& to,
                                       const MotionOptions& options, QueryContext& context) const {
+  require(options), require(from), require(to);
   return certify(RigidMotion::planar(from, to, options.tube), options, context);
 }
 

@@ -54,6 +54,9 @@ class Scene {
   /// 1e-7 of the smaller of the two sides' radii (each side's bodies in one sphere).
   double defaultTolerance() const;
 
+  /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
+  /// options that are not finite or out of range; they build the trees that they need.
+
   /// Exact: do closed triangles of the two sides share a point, with the moving side under X_WB?
   /// First contact found.
   std::optional<Contact> interference(const Transform& X_WB, QueryContext& context) const;

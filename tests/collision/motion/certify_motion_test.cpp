@@ -381,5 +381,121 @@ TEST(CertifyMotion, RandomEdges) {
   EXPECT_LE(undecided, count / 500);
 }
 
+// ---- found by review ----
+
+/// Closest points 1e-163 apart: their squared distance underflows, and the direction was infinite.
+TEST(CertifyMotion, GapWhoseSquareUnderflows) {
+  const double e = 1e-163;
+  TriangleMesh a, b;
+  add(a, Vec3(-e, -e, -e), Vec3(-1, -1, -0.5), Vec3(-1, -0.5, -1));
+  add(b, Vec3(e, e, e), Vec3(1, 1, 0.5), Vec3(1, 0.5, 1));
+  const ObbTree fixed(a), moving(b);
+  MotionOptions options;
+  options.tolerance = 1e-7;
+  QueryContext context;
+  const RigidMotion through =
+      RigidMotion::spatial(at(Vec3::Constant(0.5)), at(Vec3::Constant(-0.5)), {});
+  EXPECT_NE(certify(moving, fixed, through, options, context).verdict, MotionVerdict::free);
+}
+
+/// 2π in double is off by 2.4e-16: after 10^8 turns, half a turn goes the other way round.
+TEST(CertifyMotion, LargeYawsNearAHalfTurnAreAmbiguous) {
+  const double yaw = 628318558.99229252;  // remainders: −3.14159264 in the reals, … of 2π in double
+  EXPECT_TRUE(RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {}).ambiguous());
+  EXPECT_FALSE(RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw + 0.1), {}).ambiguous());
+}
+
+/// A triangle far larger than the other: closest points are rounded to 1e-16 of the larger, and a
+/// direction taken from them is tilted by more than the gap.
+TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
+  std::mt19937_64 random(test::testSeed(5));
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (const double large : {10.0, 100.0, 1000.0})
+    for (int i = 0; i < 200; ++i) {
+      const double gap = 2.5e-7;
+      const Eigen::Quaterniond q(u(random), u(random), u(random), u(random));
+      const Mat3 R = q.normalized().toRotationMatrix();
+      const Vec3 d(std::cos(0.1 * i), std::sin(0.1 * i), 0);
+      TriangleMesh a, b;  // a's edge at the height 0, b's edge or corner at the height `gap`
+      add(a, R * Vec3(-large, 0, 0), R * Vec3(0.7 * large, 0, 0),
+          R * Vec3(u(random), u(random), i % 2 ? -1 : 0) * large);
+      add(b, R * (-0.7 * d + gap * Vec3::UnitZ()),
+          R * (0.6 * d + (i % 3 ? gap : 0.1) * Vec3::UnitZ()), R * Vec3(u(random), u(random), 1));
+      const ObbTree fixed(a), moving(b);
+      MotionOptions options;
+      options.tolerance = 1e-7;
+      QueryContext context;
+      const RigidMotion still = RigidMotion::spatial({}, {}, {});
+      EXPECT_EQ(certify(moving, fixed, still, options, context).verdict, MotionVerdict::free)
+          << large << ", " << i;
+    }
+}
+
+/// Points have no size to compare a window's travel with: windows end at 2^-48, not in a stack
+/// overflow.
+TEST(CertifyMotion, PointThroughAPointEnds) {
+  TriangleMesh point;
+  add(point, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
+  const ObbTree tree(point);
+  std::mt19937_64 random(test::testSeed(6));
+  std::uniform_real_distribution<double> u(1, 2);
+  for (int i = 0; i < 200; ++i) {
+    MotionOptions options;
+    options.tolerance = 1e-300;
+    options.earliest = i % 2;
+    QueryContext context;
+    const MotionResult r = certify(
+        tree, tree, RigidMotion::spatial(at(Vec3(-u(random), 0, 0)), at(Vec3(u(random), 0, 0)), {}),
+        options, context);
+    EXPECT_NE(r.verdict, MotionVerdict::free);
+    EXPECT_LT(context.counters.poses, 1000U);
+  }
+}
+
+/// Indivisible leaves and static probes count too; the greatest limit is none.
+TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
+  TriangleMesh many;
+  for (int i = 0; i < 300; ++i) add(many, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  TriangleMesh other = many;
+  for (Vec3& v : other.vertices) v = Vec3(v[0], 0.3, v[1] + 1e-4 - 0.3 * v[0]);
+  const ObbTree fixed(many), moving(other);
+  MotionOptions options;
+  options.tolerance = 1e-7;
+  const RigidMotion motion =
+      RigidMotion::spatial(at(Vec3(0, 0, 0.3)), turned(Vec3(0, 0, 0.4), 0.3, Vec3(1, 2, 3)), {});
+  for (const std::uint64_t limit : {std::uint64_t{10}, std::uint64_t{1000}}) {
+    QueryContext context;
+    options.workLimit = limit;
+    const MotionResult r = certify(moving, fixed, motion, options, context);
+    EXPECT_LE(context.counters.boxTests + context.counters.triangleTests, limit + 1);
+    EXPECT_EQ(r.reason, UndecidedReason::workLimit);
+  }
+  QueryContext used;
+  used.counters.boxTests = 5;
+  options.workLimit = ~std::uint64_t{0};
+  EXPECT_NE(certify(moving, fixed, motion, options, used).reason, UndecidedReason::workLimit);
+}
+
+/// A tip within the tube at t = 1/4, a wall hit at t = 1/2: nothing grazes in between.
+TEST(CertifyMotion, GrazingIsSaidOnlyOfNarrowGaps) {
+  TriangleMesh robot, tip, wall;
+  add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
+  add(tip, Vec3(0.25, 0, -1e-9), Vec3(0.25, -1, -1), Vec3(0.25, 1, -1));
+  add(wall, Vec3(0.5, -1, -1), Vec3(0.5, 1, -1), Vec3(0.5, 0, 1));
+  const ObbTree moving(robot), fixed[] = {ObbTree(tip), ObbTree(wall)};
+  const TreePair pairs[] = {{&moving, &fixed[0], 0, 0}, {&moving, &fixed[1], 0, 1}};
+  MotionOptions options;
+  options.tolerance = 1e-12;
+  options.tube.position = 1e-8;
+  options.earliest = true;
+  QueryContext context;
+  const MotionResult r =
+      certifyMotion(RigidMotion::spatial(at(Vec3::Zero()), at(Vec3::UnitX()), options.tube), pairs,
+                    options, context);
+  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
+  EXPECT_FALSE(r.grazing);
+  EXPECT_LE(r.certifiedUntil, 0.25);
+}
+
 }  // namespace
 }  // namespace corridor

@@ -1,0 +1,75 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "collision/world/scene.h"
+
+namespace corridor {
+namespace {
+
+Scene scene(const Triangle& moving, const Triangle& fixed) {
+  const auto body = [](const Triangle& t) {
+    std::vector<Body> one;
+    one.emplace_back("body", TriangleMesh{{t[0], t[1], t[2]}, {{0, 1, 2}}});
+    return one;
+  };
+  return Scene(body(moving), body(fixed));
+}
+
+/// The square of the distance of sphere and box overflows; the spheres' radius does not.
+TEST(SceneLimits, HugeBodiesAreNotSkipped) {
+  const double b = 1e170, l = 1e160;
+  const Scene s = scene({Vec3(-b, 0, 0), Vec3(b, b, 0), Vec3(b, -b, 0)},
+                        {Vec3(l, 0, -l), Vec3(l, 0, l), Vec3(l, 1e150, 0)});
+  QueryContext context;
+  EXPECT_TRUE(s.interference({}, context));
+}
+
+/// A map far from rigid whose image of the centre is all rounding error.
+TEST(SceneLimits, CancellingMapsAreNotSkipped) {
+  QueryContext context;
+  for (int i = 1; i <= 100; ++i) {
+    const Vec3 p(0.1 * i, 0.7, 0.3);
+    Transform X;
+    X.m.setZero();
+    X.m(0, 0) = 3.1, X.m(0, 1) = -3.1 * p[0] / p[1];
+    // The first coordinate of X·p exactly, up to 2^-106: a product's tail by fma.
+    const double big = X.m(0, 0) * p[0], other = X.m(0, 1) * p[1];
+    const double exact =
+        (big + other) + (std::fma(X.m(0, 0), p[0], -big) + std::fma(X.m(0, 1), p[1], -other));
+    const double s = 1e-3 * std::abs(exact);
+    const Scene point =
+        scene({p, p, p}, {Vec3(exact - s, 0, 0), Vec3(exact + s, 0, 0), Vec3(exact, s, 0)});
+    EXPECT_TRUE(point.interference(X, context)) << i;
+  }
+}
+
+TEST(SceneLimits, RefusesWhatIsOutOfRange) {
+  const Scene s = scene({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                        {Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)});
+  QueryContext context;
+  MotionOptions good;
+  good.tolerance = 1e-7;
+  EXPECT_EQ(s.certifyState({}, good, context).verdict, MotionVerdict::free);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [&](auto change) {
+    MotionOptions options = good;
+    change(options);
+    EXPECT_THROW(s.certifyState({}, options, context), std::invalid_argument);
+    EXPECT_THROW(s.certifyStatePlanar(Vec3::Zero(), options, context), std::invalid_argument);
+  };
+  refused([](MotionOptions& o) { o.tolerance = 0; });
+  refused([](MotionOptions& o) { o.margin = -1; });
+  refused([&](MotionOptions& o) { o.margin = nan; });
+  refused([](MotionOptions& o) { o.tube.position = -1; });
+  refused([](MotionOptions& o) { o.tube.rotation = HUGE_VAL; });
+  refused([](MotionOptions& o) { o.timeTolerance = 0; });
+  EXPECT_THROW(s.certifyState({Vec3(nan, 0, 0), {}}, good, context), std::invalid_argument);
+  EXPECT_THROW(s.certifyState({Vec3::Zero(), {0, 0, 0, 0}}, good, context), std::invalid_argument);
+  EXPECT_THROW(s.certifyStatePlanar(Vec3(0, 0, nan), good, context), std::invalid_argument);
+  EXPECT_THROW(s.interference({Mat3::Constant(nan), Vec3::Zero()}, context), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace corridor

@@ -1,0 +1,249 @@
+// Certified edges against the independent verifier, and the box overlap test against rationals.
+#include <array>
+#include <iostream>
+#include <random>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <gtest/gtest.h>
+
+#include "collision/volumes/overlap_obb_obb.h"
+#include "collision/world/scene.h"
+#include "planner/verify/verify_path.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using Random = std::mt19937_64;
+
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+Vec3 vector(Random& random, double size) {
+  const double x = uniform(random, -size, size), y = uniform(random, -size, size),
+               z = uniform(random, -size, size);
+  return {x, y, z};
+}
+Eigen::Quaterniond rotation(Random& random) {
+  std::normal_distribution<double> normal;
+  const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+  return {w, x, y, z};
+}
+
+// ---- edges ----
+
+void addBox(TriangleMesh& mesh, const Vec3& low, const Vec3& high,
+            const Mat3& R = Mat3::Identity()) {
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(
+        R * Vec3((i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]));
+  const std::array<std::uint32_t, 3> faces[] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                                {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                                {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const auto& f : faces) mesh.triangles.push_back({n + f[0], n + f[1], n + f[2]});
+}
+
+TriangleMesh soup(Random& random, int triangles, double size, double edge) {
+  TriangleMesh mesh;
+  for (int i = 0; i < triangles; ++i) {
+    const Vec3 centre = vector(random, size);
+    const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int k = 0; k < 3; ++k) mesh.vertices.push_back(centre + vector(random, edge));
+    mesh.triangles.push_back({n, n + 1, n + 2});
+  }
+  return mesh;
+}
+
+struct Case {
+  const char* name;
+  TriangleMesh moving, fixed;
+  double size, step;  // of positions, and of one edge
+  bool planar;
+};
+
+std::vector<Case> cases(Random& random) {
+  std::vector<Case> all(4);
+  all[0] = {"soup in a soup", soup(random, 12, 0.3, 0.3), soup(random, 60, 3, 0.5), 3, 1, false};
+  all[1] = {"bar in a room of boxes", {}, {}, 4, 1.5, false};
+  addBox(all[1].moving, Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1));
+  addBox(all[1].fixed, Vec3(-50, -50, -5), Vec3(50, 50, -4));  // large triangles, small robot
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 c = vector(random, 4);
+    addBox(all[1].fixed, c - Vec3(0.5, 0.3, 0.8), c + Vec3(0.5, 0.3, 0.8),
+           rotation(random).normalized().toRotationMatrix());
+  }
+  all[2] = {"slats", {}, {}, 1.5, 1, false};
+  addBox(all[2].moving, Vec3(-0.6, -0.02, -0.2), Vec3(0.6, 0.02, 0.2));
+  for (int i = -4; i <= 4; ++i)
+    addBox(all[2].fixed, Vec3(-2, 0.3 * i, -2), Vec3(2, 0.3 * i + 0.01, 0.2));
+  all[3] = {"hook in the plane", {}, {}, 4, 1.5, true};
+  addBox(all[3].moving, Vec3(-0.8, -0.1, -0.1), Vec3(0.8, 0.1, 0.1));
+  addBox(all[3].moving, Vec3(0.6, -0.1, -0.1), Vec3(0.8, 0.7, 0.1));
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 c = Vec3(1, 1, 0).cwiseProduct(vector(random, 4));
+    addBox(all[3].fixed, c - Vec3(0.3, 0.3, 0.5), c + Vec3(0.3, 0.3, 0.5));
+  }
+  return all;
+}
+
+TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
+  Random random(test::testSeed(20));
+  const int edges = test::stressAsked() ? 5000 : 500;  // a scene
+  int undecided = 0, all = 0;
+  for (const Case& c : cases(random)) {
+    std::vector<Body> moving, fixed;
+    moving.emplace_back("robot", c.moving);
+    fixed.emplace_back("world", c.fixed);
+    const Scene scene(std::move(moving), std::move(fixed));
+    MotionOptions options;
+    options.tolerance = scene.defaultTolerance();
+    PathProblem problem;
+    problem.moving = {{"robot", &c.moving}};
+    problem.fixed = {{"world", &c.fixed}};
+    QueryContext context;
+    int count[3] = {}, silent = 0;
+    for (int i = 0; i < edges; ++i, ++all) {
+      const Vec3 p = vector(random, c.size), q = p + vector(random, c.step);
+      MotionResult r;
+      PathReport report;
+      if (c.planar) {
+        const Vec3 from(p[0], p[1], uniform(random, -3, 3)), to(q[0], q[1], uniform(random, -3, 3));
+        r = scene.certifyEdgePlanar(from, to, options, context);
+        report = verifyPath(problem, std::vector<Vec3>{from, to});
+      } else {
+        RigidPose from{p, rotation(random)}, to{q, rotation(random)};
+        if (i % 2)  // every other edge turns little
+          to.q.coeffs() = from.q.coeffs() + 0.2 * to.q.coeffs();
+        r = scene.certifyEdge(from, to, options, context);
+        report = verifyPath(problem, std::vector<RigidPose>{from, to});
+      }
+      ++count[static_cast<int>(r.verdict)];
+      silent += report.verdict == PathVerdict::undecided;
+      if (r.verdict == MotionVerdict::free)
+        EXPECT_NE(report.verdict, PathVerdict::refuted) << c.name << ", edge " << i;
+      if (r.verdict == MotionVerdict::contact)
+        EXPECT_NE(report.verdict, PathVerdict::proved) << c.name << ", edge " << i;
+    }
+    std::cout << c.name << ": free " << count[0] << ", contact " << count[1] << ", undecided "
+              << count[2] << "; verifier undecided " << silent << "\n";
+    EXPECT_GT(count[0], edges / 50) << c.name << ": hardly any free edge shows nothing";
+    EXPECT_GT(count[1], edges / 50) << c.name << ": hardly any contact shows nothing";
+    EXPECT_LE(silent, edges / 100) << c.name << ": the oracle says nothing";
+    undecided += count[2];
+  }
+  EXPECT_LE(undecided, all / 1000) << "more than 0.1 % undecided";
+}
+
+// ---- boxes ----
+
+using Rational = boost::multiprecision::cpp_rational;
+using Row = std::array<Rational, 3>;
+
+Rational dot(const Row& a, const Row& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Row cross(const Row& a, const Row& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// A box as stored, under a map: centre and three half edges.
+struct ExactBox {
+  Row centre;
+  std::array<Row, 3> edge;
+  ExactBox(const Obb& box, const Transform& X) {
+    for (int i = 0; i < 3; ++i) {
+      centre[i] = Rational(X.t[i]);
+      for (int k = 0; k < 3; ++k) {
+        centre[i] += Rational(X.m(i, k)) * Rational(box.center[k]);
+        for (int j = 0; j < 3; ++j)
+          edge[j][i] += Rational(X.m(i, k)) * Rational(box.axes(k, j)) * Rational(box.half[j]);
+      }
+    }
+  }
+};
+
+/// Do two parallelepipeds, as they are, share a point? If not, one of the normals of faces and
+/// common normals of edges separates them.
+bool boxesTouch(const ExactBox& a, const ExactBox& b) {
+  std::vector<Row> axes;
+  for (int i = 0; i < 3; ++i) {
+    axes.push_back(cross(a.edge[i], a.edge[(i + 1) % 3]));
+    axes.push_back(cross(b.edge[i], b.edge[(i + 1) % 3]));
+    for (int j = 0; j < 3; ++j) axes.push_back(cross(a.edge[i], b.edge[j]));
+  }
+  const Row T = {b.centre[0] - a.centre[0], b.centre[1] - a.centre[1], b.centre[2] - a.centre[2]};
+  for (const Row& L : axes) {
+    Rational reach = 0;
+    for (int i = 0; i < 3; ++i) reach += abs(dot(a.edge[i], L)) + abs(dot(b.edge[i], L));
+    if (abs(dot(T, L)) > reach) return false;
+  }
+  return true;
+}
+
+TEST(Stress, BoxOverlapAgainstRationals) {
+  Random random(test::testSeed(21));
+  const int rounds = test::stressAsked() ? 50'000 : 5'000;
+  int touching = 0, apart = 0, proved = 0;
+  for (int i = 0; i < rounds; ++i) {
+    Obb a, b;
+    for (Obb* box : {&a, &b}) {
+      box->center = vector(random, std::pow(10, uniform(random, -3, 3)));
+      box->axes = rotation(random).normalized().toRotationMatrix();
+      if (i % 4 == 0)  // not rotations: 1e-12 of shear
+        box->axes +=
+            1e-12 * (Mat3() << vector(random, 1), vector(random, 1), vector(random, 1)).finished();
+      for (int k = 0; k < 3; ++k) box->half[k] = std::pow(10, uniform(random, -3, 1));
+    }
+    Transform X;
+    X.m = rotation(random).normalized().toRotationMatrix();
+    if (i % 8 < 2) X.m = a.axes * b.axes.transpose();  // parallel boxes
+    // Just touching along one of the 15 axes, then a relative step across it.
+    const Mat3 ub = X.m * b.axes;
+    const int which = i % 15;
+    Vec3 n = which < 3   ? Vec3(a.axes.col(which))
+             : which < 6 ? Vec3(ub.col(which - 3))
+                         : Vec3(a.axes.col((which - 6) / 3).cross(ub.col((which - 6) % 3)));
+    if (n.norm() < 0.01) n = a.axes.col(0);  // short cross products prove little
+    n.normalize();
+    double reach = 0;
+    Vec3 slide = Vec3::Zero();  // so that the supporting features meet
+    for (int k = 0; k < 3; ++k) {
+      const double alongA = n.dot(a.axes.col(k)), alongB = n.dot(ub.col(k));
+      reach += a.half[k] * std::abs(alongA) + b.half[k] * std::abs(alongB);
+      slide += a.half[k] *
+                   (std::abs(alongA) < 1e-9 ? uniform(random, -1, 1)
+                    : alongA > 0            ? 1
+                                            : -1) *
+                   a.axes.col(k) +
+               b.half[k] *
+                   (std::abs(alongB) < 1e-9 ? uniform(random, -1, 1)
+                    : alongB > 0            ? 1
+                                            : -1) *
+                   ub.col(k);
+    }
+    const double scale = reach + a.center.norm() + b.center.norm();
+    const double step = std::pow(10, uniform(random, -17, -9)) * (i & 1 ? 1 : -1);
+    X.t = a.center + slide + n * step * scale - X.m * b.center;
+
+    const double defect[] = {orthonormalityDefect(a.axes), orthonormalityDefect(b.axes)};
+    const BoxPairMargins margins = boxPairMargins(defect[0], roundedUp(a.center.norm()), defect[1],
+                                                  roundedUp(b.center.norm()), X);
+    const bool separated = obbsSeparated(a, b, X, margins, 0);
+    if (boxesTouch(ExactBox(a, {}), ExactBox(b, X))) {
+      ++touching;
+      ASSERT_FALSE(separated) << "round " << i << ", axis " << which << ", step " << step;
+    } else {
+      ++apart;
+      proved += separated;
+      if (i % 4 && step > 1e-10)  // margins of 2e-13 over |L| ≥ 0.01
+        EXPECT_TRUE(separated) << "round " << i << ", step " << step;
+    }
+  }
+  std::cout << touching << " touch, " << apart << " apart, of these proved " << proved << "\n";
+  EXPECT_GT(touching, rounds / 4);
+  EXPECT_GT(proved, rounds / 8);
+}
+
+}  // namespace
+}  // namespace corridor
