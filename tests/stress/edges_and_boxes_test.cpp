@@ -120,10 +120,12 @@ TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
       }
       ++count[static_cast<int>(r.verdict)];
       silent += report.verdict == PathVerdict::undecided;
-      if (r.verdict == MotionVerdict::free)
+      if (r.verdict == MotionVerdict::free) {
         EXPECT_NE(report.verdict, PathVerdict::refuted) << c.name << ", edge " << i;
-      if (r.verdict == MotionVerdict::contact)
+      }
+      if (r.verdict == MotionVerdict::contact) {
         EXPECT_NE(report.verdict, PathVerdict::proved) << c.name << ", edge " << i;
+      }
     }
     std::cout << c.name << ": free " << count[0] << ", contact " << count[1] << ", undecided "
               << count[2] << "; verifier undecided " << silent << "\n";
@@ -236,8 +238,9 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     } else {
       ++apart;
       proved += separated;
-      if (i % 4 && step > 1e-10)  // margins of 2e-13 over |L| ≥ 0.01
+      if (i % 4 && step > 1e-10) {  // margins of 2e-13 over |L| ≥ 0.01
         EXPECT_TRUE(separated) << "round " << i << ", step " << step;
+      }
     }
   }
   std::cout << touching << " touch, " << apart << " apart, of these proved " << proved << "\n";

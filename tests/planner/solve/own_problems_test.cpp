@@ -1,0 +1,59 @@
+// The problems that come with the project, as their users run them.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "planner/problem/problem.h"
+#include "planner/solve/solve.h"
+#include "planner/solve/verify_solution.h"
+
+namespace corridor {
+namespace {
+
+Problem ownProblem(const std::string& name) {
+  return readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / name);
+}
+
+class OwnProblems : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, OwnProblems,
+                         testing::Values("bug_trap", "cubicles", "hook_maze", "piano", "rod_hole",
+                                         "thin_plate", "twisted_tubes"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+TEST_P(OwnProblems, SolvedByItsDefaultsCertifiedAndVerified) {
+  const Problem problem = ownProblem(GetParam());
+  EXPECT_LE(problem.planner.time, 60);
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_TRUE(report.certified);
+  const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
+  EXPECT_EQ(verified.verdict, PathVerdict::proved);
+}
+
+TEST(OwnProblems, AllAreListedHere) {
+  int folders = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems"))
+    folders += std::filesystem::exists(entry.path() / "problem.yaml");
+  EXPECT_EQ(folders, 7);
+}
+
+/// A blade of 2 mm and a plate of 0.1 mm: steps of 1 % jump it. Sampled edges return paths straight through, certified ones never do.
+TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
+  Problem problem = ownProblem("thin_plate");
+  const auto verdict = [&](std::uint64_t seed) {
+    problem.seed = seed;
+    const SolveReport report = solveProblem(problem);
+    EXPECT_EQ(report.outcome, SolveOutcome::solved) << "seed " << seed << ": " << report.why;
+    return report.path.empty() ? PathVerdict::undecided
+                               : verifySolution(problem, makeSolution(problem, report)).verdict;
+  };
+  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    ASSERT_EQ(verdict(seed), PathVerdict::proved) << "certified, seed " << seed;
+  problem.checker.edges = "discrete";
+  int refuted = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) refuted += verdict(seed) == PathVerdict::refuted;
+  EXPECT_GT(refuted, 5) << "paths of the discrete checker that collide, of 10";
+}
+
+}  // namespace
+}  // namespace corridor
