@@ -22,8 +22,9 @@ using view::DepthBuffer;
 constexpr double kWidth = 1000, kBorder = 20;  // of the picture, pixels
 constexpr double kPiece =
     70;  // pixels: larger triangles are cut, so that they can be sorted by depth
-constexpr int kGhosts = 14;  // robots drawn between start and goal
-constexpr std::size_t kWorldLimit = 220'000, kGhostLimit = 9'000;  // bytes
+constexpr int kMostGhosts = 14,
+              kFewestGhosts = 4;  // robots drawn between start and goal: fewer where one is costly
+constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 40'000, kGhostsLimit = 180'000;  // bytes
 constexpr int kShades = 8;
 
 /// A triangle of the picture.
@@ -201,7 +202,11 @@ std::string svgPicture(const Problem& problem, const Path& path) {
       reach = std::max(reach, p.norm());
       feet = std::min(feet, p.z());
     }
-  const Path shown = poses(problem, path, reach, kGhosts);
+  // About half of a robot's triangles are seen, at some 28 bytes each.
+  const int ghostCount =
+      static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.size() + 1),
+                                  std::size_t{kFewestGhosts}, std::size_t{kMostGhosts}));
+  const Path shown = poses(problem, path, reach, ghostCount);
   std::vector<std::vector<Triangle3>> placed;
   std::vector<Vec3> points;
   for (const RigidState& state : shown) {
@@ -255,10 +260,10 @@ std::string svgPicture(const Problem& problem, const Path& path) {
       "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
   svg += drawVisible(camera, solid, 'w', kWorldLimit);
   for (std::size_t i = 1; i + 1 < ghosts.size(); ++i)
-    svg += "<g opacity=\".5\">\n" + drawVisible(camera, ghosts[i], 'r', kGhostLimit) + "</g>\n";
-  if (ghosts.size() > 1) svg += drawVisible(camera, ghosts.back(), 'g', kGhostLimit);
-  svg += drawVisible(camera, ghosts.front(), 's', kGhostLimit);
-  svg += "<g opacity=\".12\">\n" + drawVisible(camera, glass, 'w', kWorldLimit / 4) + "</g>\n";
+    svg += "<g opacity=\".5\">\n" + drawVisible(camera, ghosts[i], 'r', kRobotLimit) + "</g>\n";
+  if (ghosts.size() > 1) svg += drawVisible(camera, ghosts.back(), 'g', kRobotLimit);
+  svg += drawVisible(camera, ghosts.front(), 's', kRobotLimit);
+  svg += "<g opacity=\".2\">\n" + drawVisible(camera, glass, 'w', kWorldLimit / 4) + "</g>\n";
   return svg + polyline(camera, path) + "</svg>\n";
 }
 

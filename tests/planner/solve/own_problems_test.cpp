@@ -32,12 +32,14 @@ TEST_P(OwnProblems, SolvedByItsDefaultsCertifiedAndVerified) {
 
 TEST(OwnProblems, AllAreListedHere) {
   int folders = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems"))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems"))
     folders += std::filesystem::exists(entry.path() / "problem.yaml");
   EXPECT_EQ(folders, 7);
 }
 
-/// A blade of 2 mm and a plate of 0.1 mm: steps of 1 % jump it. Sampled edges return paths straight through, certified ones never do.
+/// A blade of 2 mm and a plate of 0.1 mm: steps of 1 % jump it. Sampled edges return paths straight
+/// through, certified ones never do.
 TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   Problem problem = ownProblem("thin_plate");
   const auto verdict = [&](std::uint64_t seed) {
