@@ -6,43 +6,17 @@
 #include <gtest/gtest.h>
 
 #include "collision/queries/interference.h"
-#include "tests/support/reference_motion.h"
+#include "tests/collision/motion/bodies.h"
 #include "tests/support/support.h"
 
 namespace corridor {
 namespace {
 
-using test::ReferenceMotion;
-
-void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
-  mesh.triangles.push_back({n, n + 1, n + 2});
-}
-
-TriangleMesh box(const Vec3& low, const Vec3& high) {
-  TriangleMesh m;
-  for (int i = 0; i < 8; ++i)
-    m.vertices.emplace_back(i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1],
-                            i & 4 ? high[2] : low[2]);
-  m.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                 {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return m;
-}
-
-MotionResult certify(const ObbTree& moving, const ObbTree& fixed, const RigidMotion& motion,
-                     const MotionOptions& options, QueryContext& context) {
-  const TreePair pair{&moving, &fixed};
-  return certifyMotion(motion, {&pair, 1}, options, context);
-}
-
-RigidPose at(const Vec3& p) {
-  return {p, Eigen::Quaterniond::Identity()};
-}
-
-RigidPose turned(const Vec3& p, double angle, const Vec3& axis) {
-  return {p, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
-}
+using test::add;
+using test::at;
+using test::box;
+using test::certify;
+using test::turned;
 
 // ---- closed forms ----
 
@@ -188,130 +162,6 @@ TEST(CertifyMotion, AmbiguousHalfTurn) {
               options, context);
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_EQ(r.reason, UndecidedReason::ambiguous);
-}
-
-// ---- grazing by construction (numerics, test 1) ----
-
-/// A fixed mesh below the plane through x* with normal n, a moving one above it at height `gap` at
-/// t = 1 (or all along), known by construction: negative gaps interpenetrate in the interior of the
-/// features, positive ones are that far apart.
-struct Grazing {
-  enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
-  TriangleMesh fixed, moving;
-  RigidPose from, to;
-  bool known = false;  ///< all corners stay above their height at contact: the verdict is known
-
-  Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
-    const auto real = [&](double low = -1, double high = 1) {
-      return std::uniform_real_distribution(low, high)(random);
-    };
-    const Vec3 n = Vec3(real(), real(), real()).normalized();
-    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
-    const double spread = real(0, 6.28);
-    const auto inPlane = [&](double angle, double r) {
-      return Vec3(r * (std::cos(angle + spread) * u + std::sin(angle + spread) * v));
-    };
-    const auto around = [&](int i) {
-      return inPlane(2.1 * i, real(0.3, 1));
-    };  // three of these surround the origin
-    const Vec3 x = 3 * Vec3(real(), real(), real());
-    // In the plane's frame about x, heights along n: the fixed triangle at ≤ 0, the moving one at ≥
-    // 0 (+ gap).
-    Triangle a, b;
-    if (feature == cornerOnFace) {
-      for (int i = 0; i < 3; ++i) a[i] = around(i);
-      b = {Vec3::Zero(), around(0) + n, around(1) + n * real(0.3, 1)};
-    } else if (feature == faceOnCorner) {
-      for (int i = 0; i < 3; ++i) b[i] = around(i);
-      a = {Vec3::Zero(), around(0) - n, around(1) - n * real(0.3, 1)};
-    } else {
-      const double turn = real(0.3, 2.8);
-      a = {inPlane(0, real(0.3, 1)), inPlane(std::numbers::pi, real(0.3, 1)), around(2) - n};
-      b = {inPlane(turn, real(0.3, 1)), inPlane(turn + std::numbers::pi, real(0.3, 1)),
-           around(1) + n};
-    }
-    to = {size * (x + Vec3(real(), real(), real())),
-          Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
-    const ReferenceMotion at(to, to);
-    const auto toBody = [&](const Vec3& p) {
-      const auto world = (size * (x + p + gap * n)).cast<long double>().eval();
-      return Vec3((at.rotation(0).transpose() * (world - at.position(0))).cast<double>());
-    };
-    add(fixed, size * (x + a[0]), size * (x + a[1]), size * (x + a[2]));
-    add(moving, toBody(b[0]), toBody(b[1]), toBody(b[2]));
-    for (int i = 0; i < 40; ++i) {  // company, so that the trees have depth
-      const Vec3 c = 2 * around(i) + n * real(1, 2), d = 2 * around(i) - n * real(0.5, 2);
-      add(moving, toBody(c), toBody(c + 0.1 * around(0)), toBody(c + 0.1 * n));
-      add(fixed, size * (x + d), size * (x + d + 0.1 * around(1)), size * (x + d - 0.1 * n));
-    }
-    if (slides) {  // along the plane, turning about its normal: every height is constant
-      from.p = to.p + size * inPlane(real(), real(0, 3));
-      from.q = Eigen::Quaterniond(Eigen::AngleAxisd(real(-2, 2), n)) * to.q;
-      // The reference point turns in place, and so the slide is a slide of the body's heights about
-      // it.
-    } else {
-      from.p = to.p + size * (n * real(0.5, 3) + inPlane(real(), real(0, 3)));
-      from.q = Eigen::Quaterniond(
-                   Eigen::AngleAxisd(real(-1, 1), Vec3(real(), real(), real()).normalized())) *
-               to.q;
-    }
-    const ReferenceMotion motion(from, to);
-    known = true;
-    const auto heights = [&](long double t) {
-      const auto R = motion.rotation(t);
-      const auto nL = n.cast<long double>().eval();
-      const long double base = (motion.position(t) / size - x.cast<long double>()).dot(nL);
-      long double lowest = 1e300L;
-      for (const Vec3& p : moving.vertices)
-        lowest = std::min(lowest, base + nL.dot(R * p.cast<long double>()) / size);
-      return lowest;
-    };
-    for (int i = 0; i <= 200 && known && !slides; ++i)
-      known = heights(i / 200.0L) >= heights(1) - 1e-17L;
-    for (int k = 1; k < 12 && known && !slides; ++k)
-      known = heights(1 - std::pow(10.0L, -k)) >= heights(1) - 1e-17L;
-  }
-};
-
-TEST(CertifyMotion, GrazingByConstruction) {
-  std::mt19937_64 random(test::testSeed(8));
-  const int count = test::stressAsked() ? 100'000 : 10'000;
-  int apart = 0, together = 0, falseFree = 0, falseContact = 0, notFree = 0, notFound = 0;
-  for (int n = 0; apart + together < count; ++n) {
-    const double size = std::pow(10.0, n % 5 - 2);
-    const double amount = std::pow(10.0, -2 - n % 12);
-    const double gap = n / 12 % 2 ? amount : -amount;
-    const auto feature = static_cast<Grazing::Feature>(n % 7 % Grazing::features);
-    const bool slides = n % 3 == 0;
-    const Grazing g(random, feature, slides, gap, size);
-    if (!g.known) continue;
-    (gap > 0 ? apart : together)++;
-    QueryContext context;
-    MotionOptions options;
-    options.tolerance = 1e-7 * size;
-    options.earliest = n % 2;
-    const MotionResult r = certify(ObbTree(g.moving), ObbTree(g.fixed),
-                                   RigidMotion::spatial(g.from, g.to, {}), options, context);
-    if (gap < 0) {
-      falseFree += r.verdict == MotionVerdict::free;
-      notFound += r.verdict != MotionVerdict::contact && amount > 1e-6;
-    } else {
-      falseContact += r.verdict == MotionVerdict::contact;
-      notFree += r.verdict != MotionVerdict::free && amount > 2e-7;
-    }
-    if (options.earliest && r.verdict == MotionVerdict::contact) {
-      ASSERT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options.timeTolerance) << n;
-    }
-    if (r.verdict == MotionVerdict::undecided) {
-      EXPECT_EQ(r.reason, UndecidedReason::clearance) << n;
-    }
-  }
-  EXPECT_EQ(falseFree, 0);
-  EXPECT_EQ(falseContact, 0);
-  EXPECT_EQ(notFree, 0) << "a clearance above twice the tolerance is never undecided";
-  EXPECT_EQ(notFound, 0);
-  EXPECT_GT(apart, count / 4);
-  EXPECT_GT(together, count / 4);
 }
 
 // ---- random edges ----
