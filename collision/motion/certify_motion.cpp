@@ -62,7 +62,8 @@ class Certifier {
                int level) {
     const double h = (w.t1 - w.t0) / 2;
     middle_ = w.t0 + h;  // dyadic: exact
-    const MotionWindow window = motion_.window(middle_, h);
+    MotionWindow window = motion_.window(middle_, h);
+    window.fixedError += options_.reserve;  // asked of a proof, not of a contact: as the tube is
     ++counters_.poses;
     const std::size_t later = to.size();
     leftoversEnd_ = later + (w.end - w.begin) + kLeftovers;

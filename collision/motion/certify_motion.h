@@ -42,6 +42,7 @@ struct MotionResult {
 struct MotionOptions {
   double tolerance = 0;   ///< metres, > 0; below this clearance the answer may be `undecided`
   double margin = 0;      ///< metres kept from every obstacle; 0: touching is contact
+  double reserve = 0;     ///< metres that `free` leaves beyond margin and tube; less is `undecided`
   Tube tube;              ///< what the proof covers beside the nominal curve
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
   double timeTolerance = 1.0 / 1024;  ///< of [0, 1]; how narrow a bracket `earliest` asks for

@@ -117,9 +117,9 @@ void require(const MotionOptions& options) {
   };
   if (!finite(options.tolerance, false))
     throw std::invalid_argument("the tolerance of a motion query is to be positive and finite");
-  if (!finite(options.margin, true) || !finite(options.tube.position, true) ||
-      !finite(options.tube.rotation, true))
-    throw std::invalid_argument("margin and tube are to be finite and not negative");
+  if (!finite(options.margin, true) || !finite(options.reserve, true) ||
+      !finite(options.tube.position, true) || !finite(options.tube.rotation, true))
+    throw std::invalid_argument("margin, reserve and tube are to be finite and not negative");
   if (!finite(options.timeTolerance, false))
     throw std::invalid_argument("the time tolerance is to be positive and finite");
 }
@@ -182,7 +182,7 @@ MotionResult Scene::certify(const RigidMotion& motion, const MotionOptions& opti
   std::vector<TreePair> pairs;
   for (std::size_t i = 0; i < moving_.size(); ++i)
     for (std::size_t k = 0; k < fixed_.size(); ++k)
-      if (mayMeet(moving_[i], fixed_[k], whole, options.margin))
+      if (mayMeet(moving_[i], fixed_[k], whole, options.margin + options.reserve))
         pairs.push_back({&moving_[i].tree(), &fixed_[k].tree(), i, k});
   return certifyMotion(motion, pairs, options, context);
 }

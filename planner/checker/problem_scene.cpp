@@ -39,6 +39,10 @@ MotionOptions motionOptions(const Problem& problem, const Scene& scene) {
   const int dimension = problem.space == RigidSpace::SE3 ? 3 : 2;
   MotionOptions options;
   options.tolerance = problem.checker.tolerance.value_or(scene.defaultTolerance());
+  // What is called free keeps the tolerance, which may be undecided anyway: so no returned path
+  // hangs on its last digits, and proving one again takes work in proportion to its length over the
+  // tolerance.
+  options.reserve = options.tolerance;
   options.margin = problem.margin;
   const Tube asked = problem.tube.value_or(Tube{});
   options.tube.position = std::max(

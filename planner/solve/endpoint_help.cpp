@@ -76,7 +76,8 @@ std::optional<std::string> whyNotFree(const std::string& name, const RigidState&
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
     const Tube& tube = checker.options().tube;
     const double needed =
-        std::sqrt(3.0) * tube.position + tube.rotation * checker.scene().movingRadius();
+        std::sqrt(3.0) * tube.position +
+        tube.rotation * checker.scene().movingRadius();  // reserve aside: the tolerance has it
     if (result.gap <= needed) {
       return name + ": the gap between " + pair + " is " + number(result.gap) +
              " m, and the tube needs " + number(needed) + " m; move it away, or set a smaller tube";

@@ -143,11 +143,16 @@ TEST(CertifyMotion, MarginTubeAndWorkLimit) {
   EXPECT_EQ(r.reason, UndecidedReason::clearance);
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
   options.tube = {};
+  options.reserve = 0.0999;
+  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
+  options.reserve = 0.1001;
+  EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance) << "too near to be called free, but no contact";
+  options.reserve = 0;
   options.workLimit = 3;
   EXPECT_EQ(
       verdict(at(Vec3(-5, 0.4999999, 0)), turned(Vec3(5, 0.4999, 0), 0.1, Vec3(1, 2, 3))).reason,
       UndecidedReason::workLimit);
-  EXPECT_EQ(context.counters.undecided, 2U);
+  EXPECT_EQ(context.counters.undecided, 3U);
 }
 
 TEST(CertifyMotion, AmbiguousHalfTurn) {
