@@ -66,7 +66,8 @@ TEST_F(ReadMeshFile, EveryFormatTakesWindowsLineEnds) {
 }
 
 TEST_F(ReadMeshFile, ObjWithAByteOrderMarkLosesNoVertex) {
-  expectTetrahedron(read("a.obj", std::string("\xEF\xBB\xBF") + objTetrahedron));
+  const std::string text = objTetrahedron;
+  expectTetrahedron(read("a.obj", "\xEF\xBB\xBF" + text.substr(text.find("v 0 0 0"))));
 }
 
 TEST_F(ReadMeshFile, CoordinatesAreTheNearestDoubles) {
