@@ -122,6 +122,8 @@ class ObjReader {
 }  // namespace
 
 ReadMesh readObj(std::string_view text, MeshFaults& faults) {
+  // A byte-order mark would hide the first line's keyword: a vertex lost, all numbers off by one.
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return ObjReader(text, faults).read();
 }
 

@@ -1,9 +1,15 @@
+#include <charconv>
+#include <cstdint>
 #include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "collision/core/error.h"
 #include "planner/app/commands.h"
+#include "planner/problem/nearest.h"
 
 namespace {
 
@@ -12,6 +18,20 @@ using namespace corridor::app;
 constexpr const char* kExitStatus =
     "Exit status: 0 done; 1 no (nothing found, or not proved); 2 bad input; 3 internal error; 130 "
     "interrupted.";
+
+/// An option's value from `low` to `high`; `needed` says so. (CLI11's own ranges take NaN, and
+/// print 309 digits.)
+template <class Number>
+CLI::Validator from(Number low, Number high, const std::string& needed) {
+  const auto complaint = [=](std::string& text) -> std::string {
+    Number value{};
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool isNumber = error == std::errc{} && stop == text.data() + text.size();
+    if (isNumber && low <= value && value <= high) return "";
+    return needed + " is needed, not " + corridor::quotedWord(text);
+  };
+  return {complaint, ""};
+}
 
 void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
@@ -27,7 +47,10 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
       ->allow_extra_args(false);
   command->add_option("--sampler", a.sampler, "uniform, gaussian, obstacle_based or bridge_test")
       ->group(planning);
-  command->add_option("--time", a.time, "seconds")->check(CLI::PositiveNumber)->group(planning);
+  command->add_option("--time", a.time, "seconds")
+      ->check(from(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+                   "a number of seconds above 0"))
+      ->group(planning);
   command
       ->add_option("--stop", a.stop,
                    "first: at the first solution; time: planners that optimise use all of it "
@@ -35,7 +58,8 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
       ->check(CLI::IsMember({"first", "time"}))
       ->group(planning);
   command->add_option("--seed", a.seed, "the same seed gives the same path, for most planners")
-      ->check(CLI::PositiveNumber)
+      ->check(from<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
+                                  "a whole number from 0 to 2^64 - 1"))
       ->group(planning);
   command->add_flag("--no-simplify", a.noSimplify, "the planner's own path")->group(planning);
   const char* checking = "Checking";
@@ -46,7 +70,7 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   command
       ->add_option("--resolution", a.resolution,
                    "of discrete: OMPL's longest_valid_segment_fraction")
-      ->check(CLI::Range(1e-9, 1.0))
+      ->check(from(1e-9, 1.0, "a number from 1e-9 to 1"))
       ->group(checking);
   const char* results = "Results";
   command->add_option("-o,--output", a.output, "the solution file (YAML)")->group(results);
@@ -87,6 +111,19 @@ void addInspect(CLI::App& program, InspectArguments& a, int& status) {
   command->callback([&] { status = inspectCommand(a); });
 }
 
+/// What was wrong with the words of the command line, in one line.
+std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
+                       const std::string& firstWord) {
+  const auto given = program.get_subcommands();
+  if (!given.empty())
+    return error.what() + ("; corridor " + given[0]->get_name()) + " --help tells more";
+  if (firstWord.empty() || firstWord[0] == '-')
+    return error.what() + std::string("; corridor --help tells more");
+  const std::vector<std::string> commands{"solve", "verify", "inspect"};
+  return "unknown command " + corridor::quotedWord(firstWord) +
+         corridor::didYouMean(firstWord, commands) + "; there are: " + corridor::joined(commands);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -104,7 +141,9 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kDone : kBadInput;
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';
+    return kBadInput;
   } catch (const corridor::InputError& error) {
     std::cerr << error.what() << '\n';
     return kBadInput;

@@ -65,6 +65,11 @@ TEST_F(ReadMeshFile, EveryFormatTakesWindowsLineEnds) {
   expectTetrahedron(read("a.ply", windows(asciiPlyTetrahedron)));
 }
 
+TEST_F(ReadMeshFile, ObjWithAByteOrderMarkLosesNoVertex) {
+  const std::string text = objTetrahedron;
+  expectTetrahedron(read("a.obj", "\xEF\xBB\xBF" + text.substr(text.find("v 0 0 0"))));
+}
+
 TEST_F(ReadMeshFile, CoordinatesAreTheNearestDoubles) {
   const MeshFile file = read("a.obj",
                              "v 0.1 1e-50 +3\nv 1e-400 -1e-5000 4.9e-324\nv 1.7976931348623157e308 "

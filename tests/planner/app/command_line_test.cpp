@@ -145,9 +145,28 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
 TEST_F(CommandLine, BadUsageIsExit2) {
   for (const char* arguments :
        {"", "sove problem.yaml", "solve", "solve problem.yaml --edges sampled",
-        "solve problem.yaml --time -1", "solve problem.yaml --seed 0",
+        "solve problem.yaml --time -1", "solve problem.yaml --seed -1",
         "solve problem.yaml --no-such"})
     EXPECT_EQ(run(arguments).status, 2) << arguments;
+}
+
+TEST_F(CommandLine, BadUsageIsOneLine) {
+  const auto said = [&](const std::string& arguments) { return run(arguments).err; };
+  EXPECT_EQ(said(""), "A subcommand is required; corridor --help tells more\n");
+  EXPECT_EQ(said("slove problem.yaml"),
+            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, "
+            "inspect\n");
+  EXPECT_EQ(said("verify problem.yaml"),
+            "SOLUTION is required; corridor verify --help tells more\n");
+  for (const char* time : {"0", "-1", "nan", "inf", "20s"})
+    EXPECT_EQ(said(std::string("solve problem.yaml --time ") + time),
+              std::string("--time: a number of seconds above 0 is needed, not \"") + time +
+                  "\"; corridor solve --help tells more\n");
+  for (const char* seed : {"-1", "1.5", "abc", "18446744073709551616"})
+    EXPECT_EQ(said(std::string("solve problem.yaml --seed ") + seed),
+              std::string("--seed: a whole number from 0 to 2^64 - 1 is needed, not \"") + seed +
+                  "\"; corridor solve --help tells more\n");
+  EXPECT_EQ(run("solve problem.yaml --seed 0").status, 0);
 }
 
 TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
