@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +14,15 @@ constexpr const char* kExitStatus =
     "Exit status: 0 done; 1 no (nothing found, or not proved); 2 bad input; 3 internal error; 130 "
     "interrupted.";
 
+/// CLI11's own check lets nan and inf pass.
+const CLI::Validator kDuration(
+    [](std::string& text) -> std::string {
+      double value = 0;
+      if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0) return "";
+      return "a finite number above 0 is needed, not " + text;
+    },
+    "SECONDS");
+
 void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
   command
@@ -27,7 +37,7 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
       ->allow_extra_args(false);
   command->add_option("--sampler", a.sampler, "uniform, gaussian, obstacle_based or bridge_test")
       ->group(planning);
-  command->add_option("--time", a.time, "seconds")->check(CLI::PositiveNumber)->group(planning);
+  command->add_option("--time", a.time, "seconds")->check(kDuration)->group(planning);
   command
       ->add_option("--stop", a.stop,
                    "first: at the first solution; time: planners that optimise use all of it "
@@ -45,8 +55,7 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
       ->group(checking);
   command
       ->add_option("--resolution", a.resolution,
-                   "of discrete: OMPL's longest_valid_segment_fraction")
-      ->check(CLI::Range(1e-9, 1.0))
+                   "of discrete: OMPL's longest_valid_segment_fraction, between 0 and 1")
       ->group(checking);
   const char* results = "Results";
   command->add_option("-o,--output", a.output, "the solution file (YAML)")->group(results);
