@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <locale>
+#include <sstream>
 #include <system_error>
 
 namespace corridor {
@@ -69,17 +71,15 @@ std::optional<std::string> parseCoordinate(std::string_view word, double& value)
   const char* const end = word.data() + word.size();
   const char* const begin =
       word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
-  auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::result_out_of_range) {
-    // Too large or too small: long double's wider exponent tells which.
-    long double wide = 0;
-    stop = std::from_chars(begin, end, wide, std::chars_format::general).ptr;
-    value = std::abs(wide) < 1 ? 0 : HUGE_VAL;
-    if (stop == end && value != 0) return complaint(" is too large for a double");
-    error = {};
-  }
-  if (error != std::errc() || stop != end) {
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error == std::errc::invalid_argument || stop != end) {
     return complaint(" is not a number; decimal numbers such as -1.25e-3 are");
+  }
+  if (error == std::errc::result_out_of_range) {
+    // Too large or too small: streams, unlike from_chars, say which, whatever the exponent.
+    std::istringstream stream(std::string(begin, end));
+    stream.imbue(std::locale::classic());
+    if (!(stream >> value)) return complaint(" is too large for a double");
   }
   if (!std::isfinite(value)) return complaint(" is not finite");
   return std::nullopt;

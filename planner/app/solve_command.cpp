@@ -2,7 +2,9 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -56,7 +58,10 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   if (a.stop) problem.planner.stopAtFirst = *a.stop == "first";
   if (a.seed) problem.seed = *a.seed;
   if (a.edges) problem.checker.edges = *a.edges;
-  if (a.resolution) problem.checker.resolution = *a.resolution;
+  if (a.resolution) {
+    problem.checker.resolution = *a.resolution;
+    set["checker.resolution"] = "--resolution";
+  }
   if (a.noSimplify) problem.simplify = false;
   return set;
 }
@@ -153,6 +158,18 @@ SolveReport solveOne(const std::string& file, const SolveArguments& a) {
   return report;
 }
 
+/// Before any time is spent on planning: is there a folder for the file?
+void requireFolderFor(const std::optional<std::string>& file, const char* option) {
+  if (!file) return;
+  const std::filesystem::path path(*file);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none))
+    throw InputError(Fault{option, 0, *file + " is a folder; a file's name is needed"});
+  if (!std::filesystem::is_directory(folder, none))
+    throw InputError(Fault{option, 0, "there is no folder " + folder.string()});
+}
+
 }  // namespace
 
 int solveCommand(const SolveArguments& a) {
@@ -160,6 +177,8 @@ int solveCommand(const SolveArguments& a) {
     throw InputError(
         Fault{a.output ? "--output" : "--picture", 0,
               "names one file, but there are " + counted(a.problems.size(), "problem")});
+  requireFolderFor(a.output, "--output");
+  requireFolderFor(a.picture, "--picture");
   listenForInterrupts();
   int status = kDone;
   ordered_json results = ordered_json::array();

@@ -22,6 +22,9 @@ const Keys planarKeys{"start.x", "start.y", "start.theta", "goal.x", "goal.y", "
 const Keys spatialOnlyKeys{"start.z", "start.axis.x", "start.axis.y", "start.axis.z",
                            "goal.z",  "goal.axis.x",  "goal.axis.y",  "goal.axis.z"};
 
+/// OMPL.app's default of `threshold`, in the state space's distance.
+constexpr double kThreshold = 1e-6;
+
 /// Those of `keys` that section `problem` has or, with `present` false, lacks.
 Keys select(const IniFile& ini, const Keys& keys, bool present) {
   Keys result;
@@ -157,7 +160,7 @@ void readObjective(const IniFile& ini, Problem& problem) {
       ini.fault(*entry, "one of " + joined(known) + " is needed, not " + quotedWord(entry->value));
   }
   problem.objectiveThreshold = ini.number("problem.objective.threshold").value_or(0);
-  problem.goalThreshold = ini.number("problem.threshold", Range::NotNegative);
+  problem.goalThreshold = ini.number("problem.threshold", Range::NotNegative).value_or(kThreshold);
 }
 
 void rejectDynamics(const IniFile& ini) {

@@ -39,6 +39,8 @@ constexpr std::size_t kGoalSamples = 32;
 /// Of planner.time: what simplifying gets where the planner used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
+/// Finer steps than this are no use to anyone, and OMPL counts them in 32 bits.
+constexpr double kFinestResolution = 1e-9;
 
 class Clock {
  public:
@@ -81,6 +83,7 @@ class Solve {
   void tellProgress();
   void plan();
   void finish();
+  bool joinsStartAndGoal(const Path& path) const;
   std::string whyNotFound(ob::PlannerStatus status) const;
 
   const Problem& problem_;
@@ -123,6 +126,12 @@ void Solve::checkEnds() {
 void Solve::setUpSpace() {
   const auto space =
       makeStateSpace(problem_.space, problem_.lower, problem_.upper, problem_.rotationWeight);
+  if (const double r = problem_.checker.resolution; !(r >= kFinestResolution && r < 1)) {
+    const PlannerParameter at = parameterAt("checker.resolution");
+    throw InputError(Fault{at.file, at.line,
+                           "checker.resolution: " + shortest(r) + " is not in [" +
+                               shortest(kFinestResolution) + ", 1)"});
+  }
   space->setLongestValidSegmentFraction(problem_.checker.resolution);
   si_ = std::make_shared<ob::SpaceInformation>(space);
   if (discrete()) {
@@ -155,8 +164,9 @@ void Solve::setUpGoal() {
   if (problem_.goalRegion)
     definition_->setGoal(std::make_shared<RigidGoalRegion>(si_, problem_, goalSamples_));
   else
+    // OMPL asks for less than the threshold: with 0 nothing would ever be in the goal.
     definition_->setGoalState(
-        goal, problem_.goalThreshold.value_or(std::numeric_limits<double>::epsilon()));
+        goal, std::max(problem_.goalThreshold.value_or(0), std::numeric_limits<double>::epsilon()));
 }
 
 void Solve::setUpObjective() {
@@ -239,6 +249,14 @@ void Solve::plan() {
   }
 }
 
+/// The start kept bit for bit and the goal reached, whatever planner and simplifier say of that.
+bool Solve::joinsStartAndGoal(const Path& path) const {
+  if (path.empty()) return false;
+  const RigidState start = startState(problem_), &first = path.front();
+  return first.pose.p == start.pose.p && first.pose.q.coeffs() == start.pose.q.coeffs() &&
+         first.yaw == start.yaw && inGoal(problem_, path.back());
+}
+
 void Solve::finish() {
   og::PathGeometric path = *definition_->getSolutionPath()->as<og::PathGeometric>();
   report_.rawStates = path.getStateCount();
@@ -253,6 +271,7 @@ void Solve::finish() {
   }
   for (std::size_t i = versions.size(); i-- > 0 && report_.outcome != SolveOutcome::solved;) {
     Path states = withShortTurns(problem_.space, versions[i]);
+    if (!joinsStartAndGoal(states)) continue;
     if (!discrete() && !certifiedPath(checker_, states)) continue;
     report_.outcome = SolveOutcome::solved;
     report_.certified = !discrete();
@@ -261,7 +280,9 @@ void Solve::finish() {
     report_.path = std::move(states);
   }
   if (report_.outcome != SolveOutcome::solved)
-    report_.why = "a path was found, but no version of it could be certified as a whole";
+    report_.why = discrete() ? "a path was found, but it doesn't join start and goal"
+                             : "a path was found, but no version of it could be certified as a "
+                               "whole, from start to goal";
 }
 
 SolveReport Solve::run() {

@@ -127,13 +127,14 @@ SoupGap SoupDistance::measure(const Placement& placement, TrianglePair guess, Re
     if (found.upper < best.upper) {
       best.upper = found.upper;
       best.pair = pair;
+      best.onMoving = found.onA;
       best.onFixed = found.onB;
       enough = std::max(kSame * best.upper,
                         std::nextafter(doubt, std::numeric_limits<Real>::infinity()));
       direction_ = (found.onB - found.onA).normalized();
     }
     if (found.lower > doubt || !touches(pair)) return false;
-    best = {0, 0, pair, found.onB, true};
+    best = {0, 0, pair, found.onA, found.onB, true};
     return true;
   };
 

@@ -58,7 +58,7 @@ struct SoupGap {
   Real lower = std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();
   TrianglePair pair;  ///< of `upper`
-  RealVec onFixed = RealVec::Zero();
+  RealVec onMoving = RealVec::Zero(), onFixed = RealVec::Zero();
   bool touching =
       false;  ///< `touches` said so of `pair`; the search ended there, upper = lower = 0
 };

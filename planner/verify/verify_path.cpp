@@ -128,6 +128,9 @@ class Verifier {
   void keep(const Interval& part);
   void prove();
   void refine();
+  /// How close the two closest points come when the body is displaced within the tube by at most
+  /// tube.position, in the plane only where it can't leave it.
+  Real leastInTube(const SoupGap& gap) const;
   Real travel(const Interval& part) const { return curves_[part.edge].travel(part.half, reach_); }
 
   const PathProblem& problem_;
@@ -195,6 +198,14 @@ void Verifier::close(const Interval& part, PathVerdict verdict, const std::strin
   findings_.emplace(part.edge, finding);
 }
 
+Real Verifier::leastInTube(const SoupGap& gap) const {
+  if (std::isinf(gap.upper)) return gap.upper;  // one side is empty
+  const RealVec between = gap.onFixed - gap.onMoving;
+  const Real across = planar_ ? std::abs(between.z()) : 0;
+  const Real along = planar_ ? between.head<2>().norm() : gap.upper;
+  return std::hypot(std::max<Real>(along - problem_.tube.position, 0), across);
+}
+
 void Verifier::measure(Interval& part, TrianglePair guess, Real atLeast) {
   const EdgeCurve& curve = curves_[part.edge];
   const EdgeCurve::At at = curve.at(part.middle);
@@ -213,8 +224,8 @@ void Verifier::measure(Interval& part, TrianglePair guess, Real atLeast) {
     close(part, PathVerdict::refuted, "contact");
   } else if (problem_.margin > 0 && part.gap.upper <= problem_.margin) {
     close(part, PathVerdict::refuted, "closer than the margin");
-  } else if (part.gap.upper <= problem_.margin + Real(problem_.tube.position)) {
-    // A curve of the tube is the path displaced by the gap: it touches, or comes as close as the
+  } else if (leastInTube(part.gap) <= problem_.margin) {
+    // A curve of the tube is the path displaced so far: it touches, or comes as close as the
     // margin.
     close(part, PathVerdict::refuted, "closer than the tube allows");
   }

@@ -172,6 +172,12 @@ TEST_F(MeshFileComplaint, ObjVertices) {
   EXPECT_EQ(complaint("a.obj", "v 0 0 -inf" + face), "a.obj:1: coordinate \"-inf\" is not finite");
   EXPECT_EQ(complaint("a.obj", "v 1e999 0 0" + face),
             "a.obj:1: coordinate \"1e999\" is too large for a double");
+  // Beyond long double's exponents too.
+  for (const std::string word : {"1e5000", "-1e5000", "1e99999999999999999999"})
+    EXPECT_EQ(complaint("a.obj", "v " + word + " 0 0" + face),
+              "a.obj:1: coordinate \"" + word + "\" is too large for a double");
+  EXPECT_EQ(complaint("a.obj", "v 1e-5000 -1e-99999999999999999999 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            "no complaint");
   EXPECT_EQ(complaint("a.obj", "v 0 0" + face), "a.obj:1: a vertex has 3 coordinates, found 2");
   const std::string right = " is not a number; decimal numbers such as -1.25e-3 are";
   EXPECT_EQ(complaint("a.obj", "v 0 1,5 0" + face), "a.obj:1: coordinate \"1,5\"" + right);

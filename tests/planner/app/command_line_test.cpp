@@ -133,6 +133,14 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
         StartsWith("--sampler: sampler max_clearance needs a clearance"));
   fault("solve problem.yaml problem.yaml -o s.yaml",
         testing::Eq("--output: names one file, but there are 2 problems\n"));
+  fault("solve problem.yaml -o none/s.yaml", testing::Eq("--output: there is no folder none\n"));
+  fault("solve problem.yaml --picture .",
+        testing::Eq("--picture: . is a folder; a file's name is needed\n"));
+  fault("solve problem.yaml --resolution 1",
+        testing::Eq("--resolution: checker.resolution: 1 is not in [1e-09, 1)\n"));
+  write("fine.yaml", problem("-2, 0, 0", "checker: {edges: discrete, resolution: 1e-300}\n"));
+  fault("solve fine.yaml",
+        testing::Eq("fine.yaml:8: checker.resolution: 1e-300 is not in [1e-09, 1)\n"));
   fault("verify problem.yaml none.yaml", StartsWith("none.yaml: "));
   write("problem.yaml", problem("0.05, 0, 0"));
   fault("solve problem.yaml -o s.yaml",
@@ -145,7 +153,8 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
 TEST_F(CommandLine, BadUsageIsExit2) {
   for (const char* arguments :
        {"", "sove problem.yaml", "solve", "solve problem.yaml --edges sampled",
-        "solve problem.yaml --time -1", "solve problem.yaml --seed -1",
+        "solve problem.yaml --time -1", "solve problem.yaml --time nan",
+        "solve problem.yaml --time inf", "solve problem.yaml --seed -1",
         "solve problem.yaml --no-such"})
     EXPECT_EQ(run(arguments).status, 2) << arguments;
 }

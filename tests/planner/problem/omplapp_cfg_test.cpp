@@ -288,7 +288,7 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
     EXPECT_EQ(p.upper, Vec3(number("volume.max.x"), number("volume.max.y"),
                             spatial ? number("volume.max.z") : 0));
     EXPECT_EQ(p.planner.name, "RRTConnect");
-    EXPECT_FALSE(p.goalThreshold);
+    EXPECT_EQ(p.goalThreshold, 1e-6);
   }
   EXPECT_EQ(readProblem(*folder / "3D/alpha-1.5.cfg").sampler, "obstacle_based");
   EXPECT_EQ(readProblem(*folder / "3D/Home.cfg").objective, "length");

@@ -78,6 +78,15 @@ TEST_P(Spaces, GoalRegion) {
   }
 }
 
+TEST_P(Spaces, AThresholdOfZeroCanBeReached) {
+  Problem problem = hallProblem(GetParam());
+  problem.goalThreshold = 0;
+  problem.planner.name = "RRT";  // asks the goal whether it is reached
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_EQ(report.path.back().pose.p, problem.goal.p);
+}
+
 TEST_P(Spaces, MutatedPathsAreRefuted) {
   const Problem problem = hallProblem(GetParam());
   const SolveReport report = solveProblem(problem);

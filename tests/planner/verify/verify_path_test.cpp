@@ -204,6 +204,23 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
   EXPECT_GE(report.provenClearance, 0.13);
 }
 
+// A planar tube doesn't reach out of the plane: what is above a floor stays above it.
+TEST(VerifyPath, PlanarTubesDoNotRefuteThroughTheFloor) {
+  const TriangleMesh box = boxMesh({-0.5, -0.5, 0.001}, {0.5, 0.5, 1}),
+                     floor = boxMesh({-9, -9, -1}, {9, 9, 0}),
+                     wall = boxMesh({-9, 0.501, 0.1}, {9, 1, 1});
+  PathProblem problem;
+  problem.moving = {{"box", &box}};
+  problem.tube = {0.002, 0};
+  const std::vector<Vec3> path = {{-1, 0, 0}, {1, 0, 0}};
+  problem.fixed = {{"floor", &floor}};
+  EXPECT_EQ(verifyPath(problem, path).verdict, PathVerdict::undecided);
+  problem.fixed = {{"wall", &wall}};
+  EXPECT_EQ(verifyPath(problem, path).verdict, PathVerdict::refuted);
+  problem.fixed = {};
+  EXPECT_EQ(verifyPath(problem, path).verdict, PathVerdict::proved);
+}
+
 TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
   // From 3 to −3 through π: the blade never points to +x, where the obstacle is.
   const TriangleMesh blade = boxMesh(Vec3(0, -0.01, -0.1), Vec3(1, 0.01, 0.1));
