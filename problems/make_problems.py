@@ -152,7 +152,7 @@ def make_thin_plate():
 
 def make_rod_hole():
     """The corners of the rod are at its radius, the middles of the hole's sides at 1.01 times that: 1 % is what there is."""
-    radius, sides = 0.02, 96
+    radius, sides = 0.02, 48
     write(revolve([(0, -0.1), (radius, -0.1), (radius, 0.1), (0, 0.1)], sides), ROBOTS / 'rod/rod.obj')
     plate = plate_with_hole(0.16, 1.01 * radius / math.cos(math.pi / sides), sides, -0.0025, 0.0025)
     write(plate, PROBLEMS / 'rod_hole/plate.stl', scale=1000)
