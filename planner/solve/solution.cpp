@@ -210,15 +210,18 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file) 
 }
 
 void writeWhole(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path temporary = file.string() + ".tmp" + std::to_string(::getpid());
-  std::ofstream out(temporary, std::ios::binary);
+  std::error_code failure, ignored;
+  // A device or a pipe is written to: renaming a file over it would replace it.
+  const bool inPlace =
+      std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
+  const std::filesystem::path written =
+      inPlace ? file : std::filesystem::path(file.string() + ".tmp" + std::to_string(::getpid()));
+  std::ofstream out(written, std::ios::binary);
   out << text;
   out.close();
-  std::error_code failure;
-  if (out) std::filesystem::rename(temporary, file, failure);
+  if (out && !inPlace) std::filesystem::rename(written, file, failure);
   if (!out || failure) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
+    if (!inPlace) std::filesystem::remove(written, ignored);
     throw InputError(
         Fault{file.string(), 0,
               "can't be written" + (failure ? ": " + failure.message() : std::string())});

@@ -93,6 +93,12 @@ TEST_F(SolutionFile, NothingIsLeftWhereItCantBeWritten) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 
+TEST_F(SolutionFile, DevicesAreWrittenToNotReplaced) {
+  std::filesystem::create_symlink("/dev/null", folder_ / "sink");
+  writeWhole(folder_ / "sink", "text");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "sink"));
+}
+
 TEST_F(SolutionFile, StrictReading) {
   const std::string head = "format: corridor-solution-1\nspace: SE3\n";
   EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 0, 0, 0, 0, 0, 1]\n"), "");
