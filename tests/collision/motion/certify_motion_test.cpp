@@ -146,7 +146,8 @@ TEST(CertifyMotion, MarginTubeAndWorkLimit) {
   options.reserve = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
   options.reserve = 0.1001;
-  EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance) << "too near to be called free, but no contact";
+  EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
+      << "too near to be called free, but no contact";
   options.reserve = 0;
   options.workLimit = 3;
   EXPECT_EQ(
