@@ -17,7 +17,7 @@
 namespace corridor {
 namespace {
 
-Eigen::Affine3d toDouble(const aiMatrix4x4& m) {
+Eigen::Affine3d inDoubles(const aiMatrix4x4& m) {
   Eigen::Affine3d map;
   map.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, 0, 0, 0,
       1;
@@ -40,7 +40,7 @@ void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to) {
 
 void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& parent,
              TriangleMesh& to) {
-  const Eigen::Affine3d map = parent * toDouble(node.mTransformation);
+  const Eigen::Affine3d map = parent * inDoubles(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], map, to);
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], map, to);
 }
