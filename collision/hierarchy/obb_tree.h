@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/geometry/convex_part.h"
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/predicates/triangle.h"
 #include "collision/volumes/obb.h"
@@ -39,6 +40,11 @@ class ObbTree {
 
   /// @pre the mesh has a triangle, finite coordinates, and indices in range (`checkMesh`).
   explicit ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params = {});
+  /// One leaf, which holds a convex part: no triangles. @pre a sound part (`checkPrimitive`).
+  explicit ObbTree(const ConvexPart& part);
+
+  /// What the one leaf holds, or null: the leaves hold triangles.
+  const ConvexPart* part() const { return part_ ? &*part_ : nullptr; }
 
   /// Depth first; the root is node 0.
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -66,6 +72,7 @@ class ObbTree {
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> meshTriangle_;
+  std::optional<ConvexPart> part_;
   double axisDefect_ = 0, centerReach_ = 0, reach_ = 0;
 };
 

@@ -6,15 +6,15 @@
 
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/obb_tree.h"
-#include "collision/motion/rigid_motion.h"
+#include "collision/motion/motion_window.h"
 
 namespace corridor {
 
-/// Two triangles of two bodies, by the bodies' indices in the scene and the triangles' numbers in
-/// their meshes.
+/// Two bodies that touch, by their indices in the scene, and where: triangles by their numbers in
+/// their meshes; 0 for a primitive.
 struct Contact {
-  std::size_t movingBody = 0, fixedBody = 0;
-  std::uint32_t movingTriangle = 0, fixedTriangle = 0;
+  std::size_t bodyA = 0, bodyB = 0;
+  std::uint32_t triangleA = 0, triangleB = 0;
 };
 
 enum class MotionVerdict { free, contact, undecided };
@@ -43,30 +43,47 @@ struct MotionOptions {
   double tolerance = 0;   ///< metres, > 0; below this clearance the answer may be `undecided`
   double margin = 0;      ///< metres kept from every obstacle; 0: touching is contact
   double reserve = 0;     ///< metres that `free` leaves beyond margin and tube; less is `undecided`
-  Tube tube;              ///< what the proof covers beside the nominal curve
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
   double timeTolerance = 1.0 / 1024;  ///< of [0, 1]; how narrow a bracket `earliest` asks for
   std::uint64_t workLimit =
       20'000'000;  ///< box and triangle tests, after which the answer is `undecided`
 };
 
-/// A moving and a fixed body's trees, with their indices in the scene.
-struct TreePair {
-  const ObbTree* moving;
-  const ObbTree* fixed;
-  std::size_t movingBody = 0, fixedBody = 0;
+/// The relative motions along an edge, numbered by whoever owns it: as many as there are pairs of
+/// frames that move differently. May keep scratch memory: one thread at a time.
+class MotionSource {
+ public:
+  virtual ~MotionSource() = default;
+  /// Motion `i` in [t − h, t + h]. @pre 0 ≤ t − h, t + h ≤ 1, both exact. The span stays good until
+  /// the next call for the same i.
+  virtual MotionWindow window(std::size_t i, double t, double h) = 0;
+  /// The shorter way is not unique within 1e-9 rad somewhere (half turns): no edge.
+  virtual bool ambiguous() const = 0;
+
+ protected:
+  MotionSource() = default;
+  MotionSource(const MotionSource&) = default;
+  MotionSource& operator=(const MotionSource&) = default;
+};
+
+/// Two bodies' trees, b moving as seen from a by `motion`, and their indices in the scene.
+struct MotionPair {
+  const ObbTree* a;
+  const ObbTree* b;
+  std::size_t motion = 0;
+  std::size_t bodyA = 0, bodyB = 0;
 };
 
 /// Is the motion free of contact of every pair, for all t in [0, 1], for the tube around it, and
-/// with the margin kept? The fixed bodies are at the identity, all moving ones move together.
-/// Surfaces only: a body inside another touches nothing.
+/// with the margin kept? Surfaces of meshes: one inside another touches nothing (`Scene` knows of
+/// solids); primitives are solid.
 ///
-/// Method (design: «The certified edge»): a window of time is halved where boxes or triangles can't
+/// Method (design: «The certified edge»): a window of time is halved where boxes or leaves can't
 /// be told apart; each window hands the undecided pairs of nodes down to its halves. At a window's
 /// middle, boxes are separated with the margin that covers what the body does in the whole window
 /// (`BoxTravel`), leaf pairs along the direction of their closest points, every corner with its own
 /// travel.
-MotionResult certifyMotion(const RigidMotion& motion, std::span<const TreePair> pairs,
+MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context);
 
 }  // namespace corridor

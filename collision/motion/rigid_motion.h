@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/core/transform.h"
+#include "collision/motion/certify_motion.h"
 
 namespace corridor {
 
@@ -12,37 +13,6 @@ namespace corridor {
 struct RigidPose {
   Vec3 p = Vec3::Zero();
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-};
-
-/// How far a real motion may stray from the nominal one and still be covered by its proof: a
-/// displacement of each coordinate of the position by at most `position` (metres) and a rotation by
-/// at most `rotation` (radians).
-struct Tube {
-  double position = 0;
-  double rotation = 0;
-};
-
-/// What a moving rigid body does in a window of time [t − h, t + h], told from its middle. With x_B
-/// a point of the body, y = R x_B its lever from the reference point, and |s| ≤ 1 the place in the
-/// window, the point is displaced from the middle by
-///   s·(linear + angular × y) + (1 − cos sα)·k × (k × y) + (sin sα − sα)·k × y,
-/// α = |angular|, k the axis (Rodrigues' formula about the middle), and never by more than |linear|
-/// + α·r, r the distance of y from the axis. Along a unit vector n the last two terms are below
-/// (α²/2 + α³/6)·r·|n × k| (numerics: directional bounds).
-struct MotionWindow {
-  Transform X_WB;              ///< the pose at the middle, rounded
-  Vec3 linear = Vec3::Zero();  ///< half of the window's displacement of the reference point, metres
-  Vec3 angular = Vec3::Zero();  ///< half of its rotation vector, radians
-  double speed = 0;             ///< |linear|, rounded up
-  double angle = 0;             ///< |angular|, rounded up
-  /// Rounding of all the above and the tube: every point is off by at most fixedError +
-  /// reachError·|y| metres.
-  double fixedError = 0;
-  double reachError = 0;
-
-  /// With `turn` = α·r: the second-order terms along a vector n are below curvature(turn)·|n ×
-  /// angular|.
-  double curvature(double turn) const { return turn * (0.5 + angle / 6); }
 };
 
 /// The motion of an edge (design: «What an edge is»): the reference point on a straight line at

@@ -3,36 +3,44 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "collision/core/query_context.h"
+#include "collision/geometry/convex_part.h"
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/motion/certify_motion.h"
-#include "collision/motion/rigid_motion.h"
 
 namespace corridor {
 
-/// A named mesh whose tree is built when a query first needs it (thread-safe). Immutable otherwise.
+/// A named shape, a mesh or a convex primitive, whose tree is built when a query first needs it
+/// (thread-safe). Immutable otherwise. In the coordinates of the frame that it is fixed to.
 class Body {
  public:
-  /// @throws std::invalid_argument if the mesh has no triangle, or `checkMesh` complains.
-  Body(std::string name, TriangleMesh mesh, const ObbTreeParams& params = {});
+  /// A mesh: its surface, or with `solid` all that it encloses, too.
+  /// @throws std::invalid_argument if the mesh has no triangle, or `checkMesh` complains, or it is
+  /// to be solid and has a component that isn't watertight.
+  Body(std::string name, TriangleMesh mesh, bool solid = false, const ObbTreeParams& params = {});
+  /// A solid primitive.
+  Body(std::string name, ConvexPart part);
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
 
   const std::string& name() const;
-  const TriangleMesh& mesh() const;
-  const ObbTree& tree() const;  ///< builds it if nobody has
+  const TriangleMesh& mesh() const;  ///< empty for a primitive
+  const ConvexPart* part() const;    ///< null for a mesh
+  bool solid() const;                ///< true for primitives
+  const ObbTree& tree() const;       ///< builds it if nobody has
   bool treeBuilt() const;
-  /// Radius about the origin (the body's reference point) of all corners, rounded up.
+  /// Radius about the origin of the frame of all points, rounded up.
   double radius() const;
-  /// A sphere around all corners: centre, and radius rounded up.
+  /// A sphere around all points: centre, and radius rounded up.
   const Vec3& sphereCenter() const;
   double sphereRadius() const;
-  const Vec3& lower() const;  ///< axis-aligned bounds of the corners
+  const Vec3& lower() const;  ///< axis-aligned bounds
   const Vec3& upper() const;
 
  private:
@@ -40,46 +48,56 @@ class Body {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One rigid body of several meshes, `moving`, among `fixed` ones, which are at the identity. All
-/// const after construction, trees apart (built at first need): with one QueryContext a thread
-/// every query may be called in parallel.
+/// Bodies on frames that move, and which of them are tested against which. Frame 0 is the world. It
+/// knows nothing of why frames move: a `MotionSource` says how each pair of frames does, or a list
+/// of transforms where they are. All const after construction, trees apart (built at first need):
+/// with one QueryContext (and one MotionSource) a thread every query may be called in parallel.
 class Scene {
  public:
-  Scene(std::vector<Body> moving, std::vector<Body> fixed);
+  struct Placed {
+    Body body;
+    std::size_t frame = 0;
+  };
+  struct Pair {
+    std::size_t a = 0, b = 0;  ///< bodies, by index
+  };
+  /// Of frames; b is seen from a. The index in `framePairs()` is the motion's number.
+  struct FramePair {
+    std::size_t a = 0, b = 0;
+  };
 
-  const std::vector<Body>& moving() const { return moving_; }
-  const std::vector<Body>& fixed() const { return fixed_; }
-  /// Radius about the reference point of all moving meshes.
-  double movingRadius() const { return movingRadius_; }
-  /// 1e-7 of the smaller of the two sides' radii (each side's bodies in one sphere).
+  /// Only `pairs` are ever tested. Within a pair the order is kept where the frames differ in rank:
+  /// a is on the frame of lower index.
+  Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
+
+  const std::vector<Placed>& bodies() const { return bodies_; }
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  /// The distinct pairs of frames among `pairs()`: what a MotionSource has to tell the motion of.
+  const std::vector<FramePair>& framePairs() const { return framePairs_; }
+  /// 1e-7 of the smallest of the frames' radii (each frame's bodies in one sphere; frames in no
+  /// pair don't count).
   double defaultTolerance() const;
 
-  /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
-  /// options that are not finite or out of range; they build the trees that they need.
+  /// All queries throw std::invalid_argument for transforms that are not finite and options that
+  /// are not finite or out of range; they build the trees that they need.
 
-  /// Exact: do closed triangles of the two sides share a point, with the moving side under X_WB?
-  /// First contact found.
-  std::optional<Contact> interference(const Transform& X_WB, QueryContext& context) const;
+  /// Exact for meshes under the maps X_WF of the frames (contract 1), in the band of 2^-44 for
+  /// primitives; solids included. First contact found.
+  std::optional<Contact> interference(std::span<const Transform> X_WF, QueryContext& context) const;
 
-  /// Is the motion from `from` to `to` free: straight line and slerp by the shorter arc (design:
-  /// «What an edge is»)?
-  MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
-                           QueryContext& context) const;
-  /// The same in the plane: (x, y, yaw), metres and radians, the shorter way round, z = 0.
-  MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
-                                 QueryContext& context) const;
-  /// An edge of zero length.
-  MotionResult certifyState(const RigidPose& pose, const MotionOptions& options,
-                            QueryContext& context) const;
-  MotionResult certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,
-                                  QueryContext& context) const;
+  /// Is the motion free? (`certifyMotion`; a solid that has another body inside is a contact at t =
+  /// 0.) `motion` numbers its motions as `framePairs()`.
+  MotionResult certify(MotionSource& motion, const MotionOptions& options,
+                       QueryContext& context) const;
+  /// What `certify` says of each pair of bodies on its own, in the order of `pairs()`.
+  std::vector<MotionResult> certifyEachPair(MotionSource& motion, const MotionOptions& options,
+                                            QueryContext& context) const;
 
  private:
-  MotionResult certify(const RigidMotion& motion, const MotionOptions& options,
-                       QueryContext& context) const;
-
-  std::vector<Body> moving_, fixed_;
-  double movingRadius_ = 0;
+  std::vector<Placed> bodies_;
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> motionOf_;  // of each pair
+  std::vector<FramePair> framePairs_;
 };
 
 }  // namespace corridor

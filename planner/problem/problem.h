@@ -11,53 +11,71 @@
 
 #include "collision/core/error.h"
 #include "collision/geometry/mesh_file.h"
-#include "collision/motion/rigid_motion.h"
+#include "planner/robot/kinematic_tree.h"
+#include "planner/robot/robot_model.h"
 
 namespace corridor {
 
-enum class RigidSpace { SE2, SE3 };
-
-/// A mesh of a problem as it is used: scale, up-axis turn, local pose and (for a robot) the shift
-/// to the reference point are already in the vertices.
-struct ProblemMesh {
-  std::string name;  ///< "table"; a robot's shapes: "piano", or "piano/lid" where there are several
-  std::filesystem::path file;
-  MeshFile source;  ///< format and rules; `mesh` is the final one
+/// A robot of a problem.
+struct ProblemRobot {
+  std::string name;  ///< "left" of `robots: {left: …}`; "" of `robot:`, whose parts have no prefix
+  std::filesystem::path file;  ///< robot.yaml; empty: `.cfg`, or a bare URDF or benchmark set
+  RobotModel model;
+  RigidPose base;                       ///< X_WB
+  std::vector<std::size_t> linkFrames;  ///< of each link of the model: its frame in the tree
 };
 
-/// A rigid-body planning problem, checked and complete: what `problem.yaml` or an OMPL.app `.cfg`
-/// says. Lengths in metres, angles in radians.
+/// Something that is tested against others under one name: a link (all its shapes), or an obstacle.
+struct ProblemBody {
+  std::string name;       ///< "hand", "left/hand", "table"; a rigid robot's: its own name
+  std::size_t frame = 0;  ///< 0: an obstacle
+  std::optional<std::size_t> robot;  ///< index; none: an obstacle
+  std::vector<PlacedShape> shapes;   ///< at least one, in the frame's coordinates
+};
+
+/// A pair of bodies, and why it isn't tested.
+struct ProblemPair {
+  std::size_t a = 0, b = 0;  ///< bodies, a < b
+  std::string skipped;  ///< "": tested; else the reason: "adjacent", "SRDF: Never", "allow", …
+};
+
+/// A motion planning problem, checked and complete: what `problem.yaml`, an OMPL.app `.cfg` or a
+/// problem of a benchmark set (`FILE.json#INDEX`) says. Lengths in metres, angles in radians.
 struct Problem {
   std::filesystem::path file;
   std::string name;
   /// SHA-256 in hex of the SHA-256 digests (32 bytes each, one after the other) of the problem
-  /// file, the robot file (.cfg: none), the robot's mesh files and the world's, in that order:
+  /// file and of every other file it is made of, in the order in which they are first named:
   /// `digestOfFiles`.
   std::string digest;
-  RigidSpace space = RigidSpace::SE3;
-
-  std::vector<ProblemMesh> robot;
-  std::vector<ProblemMesh> world;
+  std::vector<std::filesystem::path> files;  ///< those
   std::vector<std::string>
-      notes;  ///< what the reader decided and a user may want to know (units, recentring, …)
+      notes;  ///< what the reader decided and a user may want to know (units, wrapping, …)
 
-  RigidPose start, goal;             ///< quaternions as given; SE2: see startYaw
-  double startYaw = 0, goalYaw = 0;  ///< SE2 only
+  std::vector<ProblemRobot> robots;
+  KinematicTree tree;
+  /// What is planned for. Coordinates have the names that start and goal use.
+  ConfigurationSpace space;
+  std::vector<ProblemBody> bodies;  ///< the robots' links that have shapes, then the world's
+  /// Every pair that could be tested (not: obstacle with obstacle, a body with itself).
+  std::vector<ProblemPair> pairs;
+
+  Configuration start;
+  std::vector<Configuration> goals;  ///< one or more: any of them will do
+  /// How far from one of `goals` the end may be; 0: nothing but rounding.
   struct GoalRegion {
-    double position = 0, angle = 0;
-  };  ///< metres, radians of rotation; 0: the goal state itself
+    double position = 0;  ///< |Δp| of planar and floating joints, metres
+    double angle = 0;     ///< and their rotation, radians
+    double joint = 0;     ///< each single joint, rad or m
+  };
   std::optional<GoalRegion> goalRegion;
-  std::optional<double> goalThreshold;  ///< .cfg only: in the state space's distance
-
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< bounds of the reference point; SE2: x and y
-  /// Metres per radian in the state space's distance. SE3: of the quaternion angle, which is half
-  /// the rotation's angle (OMPL's default 1); SE2: of the yaw (OMPL's default 0.5). A robot file's
-  /// weights.rotation is per radian of rotation in both.
-  double rotationWeight = 1;
+  std::optional<double> goalThreshold;  ///< .cfg only: in the space's distance
 
   double margin = 0;
-  /// Unset: rounding only, 2^-40 of each coordinate's range; so is a component that is 0.
-  std::optional<Tube> tube;
+  /// For each number of a configuration how far it may stray and still be covered by the proof
+  /// (m, rad; of a rotation: the first of its four). Never less than rounding, 2^-40 of the
+  /// coordinate's range.
+  Configuration tube;
 
   struct PlannerSpec {
     std::string name = "RRTConnect";
@@ -75,7 +93,7 @@ struct Problem {
   struct CheckerSpec {
     std::string edges = "certified";  ///< or "discrete"
     double resolution = 0.01;         ///< discrete: OMPL's longest_valid_segment_fraction
-    std::optional<double> tolerance;  ///< metres; unset: 1e-7 of the smaller side's bounding radius
+    std::optional<double> tolerance;  ///< metres; unset: Scene::defaultTolerance
     std::string fit = "triangles";    ///< of the OBBs: vertices, triangles, hull
   } checker;
   std::uint64_t seed = 1;
@@ -89,7 +107,8 @@ struct Problem {
   Fault faultAt(std::string_view key, std::string text) const;
 };
 
-/// Reads a problem: a `problem.yaml`, a folder that holds one, or an OMPL.app `.cfg`.
+/// Reads a problem: a `problem.yaml`, a folder that holds one, an OMPL.app `.cfg`, or one problem
+/// of a MotionBenchMaker set as `FILE.json#INDEX`.
 /// @throws InputError with all faults of the file at once.
 Problem readProblem(const std::filesystem::path& path);
 

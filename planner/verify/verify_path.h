@@ -5,18 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "collision/geometry/convex_part.h"
 #include "collision/geometry/triangle_mesh.h"
-#include "collision/motion/rigid_motion.h"
+#include "planner/robot/kinematic_tree.h"
 
 namespace corridor {
 
-/// The second opinion: proves or refutes the path of a rigid body by other means than those which
-/// found it.
+/// The second opinion: proves or refutes the path of everything that moves by other means than
+/// those which found it.
 ///
-/// It shares the types of meshes and poses with the rest of Corridor, and nothing else: no bound,
-/// no pose, no tree, no distance, no predicate. What it does is as plain as can be: adaptive
-/// bisection (Schwarzer, Saha, Latombe 2005). At the middle of an interval of an edge the distance
-/// d of the meshes is bounded from below; no point of the body goes further than
+/// It shares the plain data of meshes, parts, frames and coordinates with the rest of Corridor, and
+/// nothing else: no bound, no pose, no tree, no distance, no predicate. What it does is as plain as
+/// can be: adaptive bisection (Schwarzer, Saha, Latombe 2005). At the middle of an interval of an
+/// edge the distance d of the meshes is bounded from below; no point of the body goes further than
 ///     travel = |Δp|·h + |angle|·h·reach
 /// from there during the interval (h half of it in t, reach the largest distance of a vertex from
 /// the reference point). If d > travel + margin + tube + rounding, then the interval is proved,
@@ -29,16 +30,26 @@ namespace corridor {
 
 struct VerifyBody {
   std::string name;
-  const TriangleMesh* mesh = nullptr;  ///< not owned; must outlive the call
+  /// Exactly one of the two, not owned; must outlive the call. In the frame's coordinates.
+  const TriangleMesh* mesh = nullptr;
+  const ConvexPart* part = nullptr;
+  bool solid = false;  ///< of a mesh: what it encloses counts, too (parts are always solid)
+  std::size_t frame = 0;
+};
+
+struct VerifyPair {
+  std::size_t a = 0, b = 0;  ///< bodies, by index
 };
 
 struct PathProblem {
-  std::vector<VerifyBody> moving;  ///< in the frame of the body: its reference point is the origin
-  std::vector<VerifyBody> fixed;   ///< in the frame of the world
+  const KinematicTree* tree = nullptr;        ///< plain data; not owned
+  const ConfigurationSpace* space = nullptr;  ///< for its `coordinates()`; not owned
+  std::vector<VerifyBody> bodies;
+  std::vector<VerifyPair> pairs;
   double margin =
-      0;      ///< metres; a clearance of at most this is a violation (0: touching is contact)
-  Tube tube;  ///< the proof holds for all curves in it
-  double tolerance = 0;  ///< metres; 0: 1e-7 of the smaller of the two sides' bounding radii
+      0;  ///< metres; a clearance of at most this is a violation (0: touching is contact)
+  Configuration tube;                   ///< the proof holds for all curves in it (Problem::tube)
+  double tolerance = 0;                 ///< metres, > 0
   std::uint64_t workLimit = 2'000'000;  ///< distance queries; beyond it edges are left undecided
 };
 
@@ -54,14 +65,12 @@ enum class PathVerdict {
 /// What is wrong with an edge.
 struct PathFinding {
   PathVerdict verdict = PathVerdict::undecided;
-  int edge = 0;    ///< from state `edge` to state `edge` + 1, from 0
-  double t = 0;    ///< in [0, 1] of the edge
-  RigidPose pose;  ///< of the body at t; contacts are exact at these doubles
-  double yaw = 0;  ///< SE(2): of `pose`
-  std::string moving,
-      fixed;  ///< names of the two bodies that meet, or are closest there; empty: none
-  std::uint32_t movingTriangle = 0, fixedTriangle = 0;  ///< in their meshes
-  Vec3 point = Vec3::Zero();  ///< where they meet, or the closest point of `fixed`; metres, world
+  int edge = 0;                 ///< from state `edge` to state `edge` + 1, from 0
+  double t = 0;                 ///< in [0, 1] of the edge
+  Configuration configuration;  ///< at t; contacts are exact at poses within rounding of it
+  std::string a, b;  ///< names of the two bodies that meet, or are closest there; empty: none
+  std::uint32_t triangleA = 0, triangleB = 0;  ///< in their meshes; 0 for parts
+  Vec3 point = Vec3::Zero();  ///< where they meet, or the closest point of `b`; metres, world
   double gap = 0;             ///< distance of the two at t, metres; 0: contact
   std::string reason;         ///< a few words: "contact", "ambiguous half turn", …
 };
@@ -80,14 +89,11 @@ struct PathReport {
   std::uint64_t distanceQueries = 0;
 };
 
-/// Meshes are taken for their surfaces. A path of one state is a check of that state. Bounds of the
-/// reference point, and whether start and goal are those of the problem, are the caller's to check.
-/// @throws std::invalid_argument for no states, for a null mesh, and for a margin, tube or
+/// A path of one state is a check of that state. Bounds of the variables, and whether start and
+/// goal are those of the problem, are the caller's to check.
+/// @throws std::invalid_argument for no states, for null pointers, and for a margin, tube or
 /// tolerance that is negative or not finite. A state that is not finite or has a zero quaternion is
 /// a finding.
-PathReport verifyPath(const PathProblem& problem, const std::vector<RigidPose>& states);
-
-/// The same in the plane, states (x, y, yaw): metres and radians. z is 0.
-PathReport verifyPath(const PathProblem& problem, const std::vector<Eigen::Vector3d>& states);
+PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 
 }  // namespace corridor
