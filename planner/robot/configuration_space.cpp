@@ -1,0 +1,203 @@
+#include "planner/robot/configuration_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "collision/core/rounding.h"
+#include "collision/core/transform.h"
+#include "planner/robot/turns.h"
+
+namespace corridor {
+namespace {
+
+using Eigen::Quaterniond;
+using std::numbers::pi;
+
+Quaterniond quaternionAt(const Configuration& q, std::size_t first) {
+  return Quaterniond(q.data() + first);
+}
+
+/// Angle between unit quaternions taken as rotations, in [0, π/2], well conditioned everywhere: the
+/// arc cosine that OMPL takes loses half of the digits near 0. `b` is to be negated where the dot
+/// product is negative, which the caller does.
+double halfAngle(const Quaterniond& a, const Quaterniond& b) {
+  return 2 * std::atan2((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
+}
+
+Quaterniond nearer(const Quaterniond& a, const Quaterniond& b) {
+  return a.dot(b) < 0 ? Quaterniond(-b.coeffs()) : b;
+}
+
+/// Half the angle of the rotation from a to b, in [0, π/2].
+double quaternionAngle(const Quaterniond& a, const Quaterniond& b) {
+  const Quaterniond p = unitQuaternion(a);
+  return halfAngle(p, nearer(p, unitQuaternion(b)));
+}
+
+Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
+  const Quaterniond a = unitQuaternion(from), b = nearer(a, unitQuaternion(to));
+  const double angle = halfAngle(a, b);
+  // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): under 2^-27 it is t to half an ulp.
+  const bool tiny = angle < 0x1p-27;
+  const double wa = tiny ? 1 - t : std::sin((1 - t) * angle) / std::sin(angle);
+  const double wb = tiny ? t : std::sin(t * angle) / std::sin(angle);
+  return Quaterniond(Eigen::Vector4d(wa * a.coeffs() + wb * b.coeffs())).normalized();
+}
+
+double intoCircle(double angle) {
+  return std::abs(angle) <= pi ? angle : std::remainder(angle, 2 * pi);
+}
+
+/// The root of the sum of squares, not 0 for numbers whose squares underflow.
+template <class Vector>
+double lengthOf(const Vector& v) {
+  const double norm = v.norm();
+  return norm > 1e-150 ? norm : v.stableNorm();
+}
+
+/// How far b is from a in one coordinate, ≥ 0; of rotations the quaternions' angle.
+double differenceOf(const Coordinate& c, const Configuration& a, const Configuration& b) {
+  if (c.kind == Coordinate::Kind::rotation)
+    return quaternionAngle(quaternionAt(a, c.first), quaternionAt(b, c.first));
+  const double from = a[static_cast<Eigen::Index>(c.first)],
+               to = b[static_cast<Eigen::Index>(c.first)];
+  return std::abs(c.kind == Coordinate::Kind::circle ? circleTurn(from, to).angle : to - from);
+}
+
+}  // namespace
+
+std::size_t ConfigurationSpace::add(Coordinate coordinate) {
+  coordinate.first = size_;
+  size_ += coordinate.size();
+  coordinates_.push_back(std::move(coordinate));
+  return coordinates_.size() - 1;
+}
+
+void ConfigurationSpace::addGroup(CoordinateGroup group) {
+  groups_.push_back(std::move(group));
+}
+
+std::vector<std::string> ConfigurationSpace::numberNames() const {
+  std::vector<std::string> names;
+  for (const Coordinate& c : coordinates_) {
+    if (c.kind != Coordinate::Kind::rotation) {
+      names.push_back(c.name);
+      continue;
+    }
+    const std::size_t slash = c.name.rfind('/');
+    const std::string prefix = slash == std::string::npos ? "" : c.name.substr(0, slash + 1);
+    for (const char* number : {"qx", "qy", "qz", "qw"}) names.push_back(prefix + number);
+  }
+  return names;
+}
+
+bool ConfigurationSpace::inBounds(const Configuration& q) const {
+  return std::all_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& c) {
+    const double value = q[static_cast<Eigen::Index>(c.first)];
+    return c.kind != Coordinate::Kind::line || (c.lower <= value && value <= c.upper);
+  });
+}
+
+bool ConfigurationSpace::isFinite(const Configuration& q) const {
+  return q.allFinite() &&
+         std::all_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& c) {
+           return c.kind != Coordinate::Kind::rotation ||
+                  !quaternionAt(q, c.first).coeffs().isZero(0);
+         });
+}
+
+void ConfigurationSpace::normalise(Configuration& q) const {
+  for (const Coordinate& c : coordinates_) {
+    const auto i = static_cast<Eigen::Index>(c.first);
+    if (c.kind == Coordinate::Kind::circle) q[i] = intoCircle(q[i]);
+    if (c.kind == Coordinate::Kind::rotation)
+      q.segment<4>(i) = unitQuaternion(quaternionAt(q, c.first)).coeffs();
+  }
+}
+
+Configuration ConfigurationSpace::interpolate(const Configuration& from, const Configuration& to,
+                                              double t) const {
+  const bool atEnd = t == 0 || t == 1;
+  Configuration at = t == 0 ? from : to;
+  for (const Coordinate& c : coordinates_) {
+    const auto i = static_cast<Eigen::Index>(c.first);
+    switch (c.kind) {
+      case Coordinate::Kind::line:
+        if (!atEnd)
+          at[i] = std::clamp(from[i] + (to[i] - from[i]) * t, std::min(from[i], to[i]),
+                             std::max(from[i], to[i]));
+        break;
+      case Coordinate::Kind::circle:
+        at[i] = intoCircle(atEnd ? at[i] : from[i] + t * circleTurn(from[i], to[i]).angle);
+        break;
+      case Coordinate::Kind::rotation:
+        if (!atEnd)
+          at.segment<4>(i) =
+              slerp(quaternionAt(from, c.first), quaternionAt(to, c.first), t).coeffs();
+        break;
+    }
+  }
+  return at;
+}
+
+double ConfigurationSpace::distance(const Configuration& a, const Configuration& b) const {
+  double sum = 0;
+  for (const CoordinateGroup& group : groups_) {
+    const std::vector<std::size_t>& members = group.coordinates;
+    if (group.kind == CoordinateGroup::Kind::joints) {
+      // Scaled by the largest, so that no square underflows to 0.
+      const auto weighted = [&](std::size_t member) {
+        const Coordinate& c = coordinates_[member];
+        return c.weight * differenceOf(c, a, b);
+      };
+      double largest = 0, squares = 0;
+      for (const std::size_t member : members) largest = std::max(largest, weighted(member));
+      if (largest == 0) continue;
+      for (const std::size_t member : members) {
+        const double share = weighted(member) / largest;
+        squares += share * share;
+      }
+      sum += largest * std::sqrt(squares);
+    } else {
+      Vec3 away = Vec3::Zero();  // the last of the group is the angle
+      for (std::size_t k = 0; k + 1 < members.size(); ++k)
+        away[static_cast<Eigen::Index>(k)] = differenceOf(coordinates_[members[k]], a, b);
+      const Coordinate& angle = coordinates_[members.back()];
+      sum += coordinates_[members.front()].weight * lengthOf(away) +
+             angle.weight * differenceOf(angle, a, b);
+    }
+  }
+  return sum;
+}
+
+bool ConfigurationSpace::equal(const Configuration& a, const Configuration& b) const {
+  return std::all_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& c) {
+    // OMPL normalises quaternions and wraps angles in passing (enforceBounds), and means the same
+    // state: 64u of angle. A quaternion's norm (sum of squares, root) and quotient are within 5u,
+    // so that two of them differ by at most 12u in angle; an angle in [−π, π] by its ulp, 2u·π.
+    const double off = differenceOf(c, a, b);
+    return off <= (c.kind == Coordinate::Kind::line ? 0 : 32 * kUnit);
+  });
+}
+
+bool ConfigurationSpace::ambiguous(const Configuration& a, const Configuration& b) const {
+  return std::any_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& c) {
+    const auto i = static_cast<Eigen::Index>(c.first);
+    if (c.kind == Coordinate::Kind::circle) return circleTurn(a[i], b[i]).ambiguous();
+    return c.kind == Coordinate::Kind::rotation &&
+           !(2 * differenceOf(c, a, b) <= pi - kHalfTurnBand);
+  });
+}
+
+double ConfigurationSpace::largestTurn(const Configuration& a, const Configuration& b) const {
+  double largest = 0;
+  for (const Coordinate& c : coordinates_) {
+    const double off = c.kind == Coordinate::Kind::line ? 0 : differenceOf(c, a, b);
+    largest = std::max(largest, c.kind == Coordinate::Kind::rotation ? 2 * off : off);
+  }
+  return largest;
+}
+
+}  // namespace corridor

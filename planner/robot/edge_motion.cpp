@@ -1,0 +1,320 @@
+#include "planner/robot/edge_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "collision/core/rounding.h"
+#include "planner/robot/moving_joint.h"
+
+namespace corridor {
+namespace {
+
+/// Metres, in every error: squares under 2^-1022 vanish, lengths under 2^-500 with them. Above what
+/// that takes off any bound, for levers below 2^99 m.
+constexpr double kLeastError = 0x1p-400;
+
+constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: a frame seen from itself
+
+/// A bound fixed + reach·|y| metres at lever y from b's origin.
+struct LeverError {
+  double fixed = 0, reach = 0;
+};
+
+}  // namespace
+
+/// Poses are cached in *views*: frame f as seen from an ancestor of it, once per t for all pairs
+/// whose lowest common ancestor that is. So nothing of what two frames have in common is computed,
+/// nor its rounding counted; and a pair on one chain costs one product of poses.
+struct EdgeMotion::Impl {
+  struct Place {  // of a frame on its parent, frames that do not move each by itself left out
+    MovingJoint joint;
+    Transform X;
+    std::uint64_t stamp = 0;  // of the t that X is for
+  };
+  struct View {
+    std::size_t parent = kItself;  // the parent, seen from the same ancestor; kItself: that is it
+    std::size_t place = 0;
+    Transform X;
+    Vec3 axis = Vec3::UnitX();  // of its joint, in the ancestor's frame
+    std::uint64_t stamp = 0;
+    // Of the edge: errors of X as operator norm and in metres.
+    double rotationError = 0, shiftError = 0, reach = 0;  // reach: no less than |X.t|
+  };
+  struct Step {
+    std::size_t view;
+    bool up;  // towards the ancestor: the joint is inverted
+  };
+  struct Path {
+    std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
+    std::vector<Step> steps;               // from a's side to b's
+    std::vector<ScrewTravel> screws;
+    // Of the edge: error of the pose; what the screws' errors add per metre or radian that they
+    // move by h (`rate`) and by their tubes; and how far they turn so.
+    LeverError pose, rate, tube;
+    double turnRate = 0, turnTube = 0;
+  };
+
+  const ConfigurationSpace& space;
+  std::vector<Place> places;
+  std::vector<View> views;  // parents first
+  std::vector<Path> paths;
+  std::uint64_t stamp = 0;
+  double t = 0;  // of the stamp
+  bool ambiguous = false;
+
+  Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
+       std::span<const Scene::FramePair> pairs, const Configuration& tube);
+
+  const View& viewAt(std::size_t index);
+  void setErrors(Path& path) const;
+};
+
+namespace {
+
+std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b) {
+  while (a != b) (a > b ? a : b) = tree.frames[std::max(a, b)].parent;  // parents come first
+  return a;
+}
+
+bool moves(const Frame& frame) {
+  return frame.joint != Frame::Joint::none && frame.variable != Frame::noVariable;
+}
+
+bool turns(Frame::Joint joint) {
+  return joint == Frame::Joint::turn || joint == Frame::Joint::rotate;
+}
+
+Coordinate::Kind kindOf(const ConfigurationSpace& space, std::size_t variable) {
+  for (const Coordinate& c : space.coordinates())
+    if (c.first <= variable && variable < c.first + c.size()) return c.kind;
+  throw std::invalid_argument("a frame is moved by a variable that the space doesn't have");
+}
+
+}  // namespace
+
+EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
+                       std::span<const Scene::FramePair> pairs, const Configuration& tube)
+    : space(moved) {
+  const std::size_t count = tree.frames.size();
+  // Frames that are seen, look on, or move by themselves; the rest is put into their fixed poses.
+  std::vector<char> kept(count);
+  for (std::size_t f = 0; f < count; ++f) kept[f] = f == 0 || moves(tree.frames[f]);
+  std::vector<std::size_t> ancestors;
+  for (const Scene::FramePair& pair : pairs) {
+    ancestors.push_back(commonAncestor(tree, pair.a, pair.b));
+    kept[pair.a] = kept[pair.b] = kept[ancestors.back()] = true;
+  }
+  std::vector<std::size_t> parents(count), placeOf(count);
+  for (std::size_t f = 1; f < count; ++f) {
+    const std::size_t parent = tree.frames[f].parent;
+    parents[f] = kept[parent] ? parent : parents[parent];
+    if (!kept[f]) continue;
+    std::vector<std::size_t> folded;
+    for (std::size_t g = f; g != parents[f]; g = tree.frames[g].parent) folded.push_back(g);
+    LongPose fixed;
+    for (; !folded.empty(); folded.pop_back()) fixed = fixed.then(tree.frames[folded.back()]);
+    const Frame& frame = tree.frames[f];
+    placeOf[f] = places.size();
+    places.push_back({moves(frame) ? MovingJoint(frame, fixed, kindOf(space, frame.variable), tube)
+                                   : MovingJoint(fixed),
+                      {},
+                      0});
+    places.back().X = places.back().joint.at(0);
+  }
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // ancestor, frame
+  const auto viewOf = [&](const auto& self, std::size_t ancestor, std::size_t f) -> std::size_t {
+    if (f == ancestor) return kItself;
+    if (const auto found = known.find({ancestor, f}); found != known.end()) return found->second;
+    View view;
+    view.parent = self(self, ancestor, parents[f]);
+    view.place = placeOf[f];
+    views.push_back(view);
+    return known[{ancestor, f}] = views.size() - 1;
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Path path;
+    path.a = viewOf(viewOf, ancestors[i], pairs[i].a);
+    path.b = viewOf(viewOf, ancestors[i], pairs[i].b);
+    for (std::size_t v = path.b; v != kItself; v = views[v].parent)
+      path.steps.push_back({v, false});
+    std::vector<Step> up;
+    for (std::size_t v = path.a; v != kItself; v = views[v].parent) up.push_back({v, true});
+    path.steps.insert(path.steps.end(), up.rbegin(), up.rend());
+    std::reverse(path.steps.begin(), path.steps.end());
+    path.screws.reserve(2 * path.steps.size());
+    paths.push_back(std::move(path));
+  }
+}
+
+const EdgeMotion::Impl::View& EdgeMotion::Impl::viewAt(std::size_t index) {
+  View& view = views[index];
+  if (view.stamp == stamp) return view;
+  Place& place = places[view.place];
+  if (place.stamp != stamp && !place.joint.still()) {
+    place.X = place.joint.at(t);
+    place.stamp = stamp;
+  }
+  if (view.parent == kItself)
+    view.X = place.X;
+  else
+    view.X = viewAt(view.parent).X * place.X;
+  view.axis = view.X.m * place.joint.axis();
+  view.stamp = stamp;
+  return view;
+}
+
+/// With u the unit roundoff, ρ an error of a rotation (operator norm), τ of a position, and every
+/// computed matrix within 2^-20 of norm 1 (products of errors are left out here, `window` adds
+/// them):
+///   a view, X·Y by products and sums in threes: ρ_X + ρ_Y + 3u·√3·√3; τ_X + τ_Y + ρ_X·|Y.t| +
+///     4u(√3|Y.t| + |X.t + …|);
+///   the relative pose X_LA⁻¹·X_LB of two branches, |t| < T the length of the path: ρ_A + ρ_B + 9u;
+///     τ_A + τ_B + ρ_A·T + 7uT.
+/// The screws: an axis is off by ρ, its own 32u and 6u for the product, its point by τ; both are
+/// turned into A on two branches. A point at lever y from b's origin is seen off by the pose's
+/// error, and its lever from an axis at L from there by e(y) = pose(y) + τ + axis error·(|y| + L).
+/// The joint moves it by its amount w ≤ h·rate + tube. So
+///   the twist is off by Σ w·e(y), by the rate's own error, and by some (16 + steps)·u of w(|y| +
+///   L)
+///     for its arithmetic;
+///   what `travelOf` derives from axes and points, with D the sum of all turns: the cap by Σ w·e;
+///     the remainder to the twist, ½ Σ r̄_j w_j (w_j + 2 Σ w_i), r̄_j itself off by e_j + Σ w_i e_i,
+///     by D(1 + D) Σ w·e.
+/// All that is below (1 + D)² Σ w·e.
+void EdgeMotion::Impl::setErrors(Path& path) const {
+  double length = 0;
+  for (const Step& step : path.steps) length += places[views[step.view].place].joint.length();
+  LeverError turned;  // of what is seen from A when that is not the ancestor
+  path.pose = {};
+  if (path.b != kItself) path.pose = {views[path.b].shiftError, views[path.b].rotationError};
+  if (path.a != kItself) {
+    const View& a = views[path.a];
+    turned = {a.shiftError + (a.rotationError + 8 * kUnit) * length, a.rotationError + 10 * kUnit};
+    path.pose.fixed += turned.fixed;
+    path.pose.reach += turned.reach;
+  }
+  path.rate = path.tube = {};
+  path.turnRate = path.turnTube = 0;
+  const double arithmetic = (16 + static_cast<double>(path.steps.size())) * kUnit;
+  double lever = 0;  // L, no less than the distance from a joint's origin to b's
+  for (auto step = path.steps.rbegin(); step != path.steps.rend(); ++step) {
+    const View& view = views[step->view];
+    const MovingJoint& joint = places[view.place].joint;
+    if (step->up) lever += joint.length();
+    if (joint.joint() != Frame::Joint::none) {
+      const double rate = std::abs(joint.rate()) + joint.rateError();
+      const double axisError = view.rotationError + turned.reach + 40 * kUnit + arithmetic;
+      LeverError error{axisError, 0}, rateError{joint.rateError(), 0};
+      if (turns(joint.joint())) {
+        error = {path.pose.fixed + view.shiftError + turned.fixed + axisError * lever,
+                 path.pose.reach + axisError};
+        rateError = {joint.rateError() * lever, joint.rateError()};
+        path.turnRate += rate;
+        path.turnTube += joint.tube();
+      }
+      path.rate.fixed += rate * error.fixed + rateError.fixed;
+      path.rate.reach += rate * error.reach + rateError.reach;
+      path.tube.fixed += joint.tube() * error.fixed;
+      path.tube.reach += joint.tube() * error.reach;
+    }
+    if (!step->up) lever += joint.length();
+  }
+}
+
+EdgeMotion::EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,
+                       std::span<const Scene::FramePair> pairs, const Configuration& tube)
+    : impl_(std::make_unique<Impl>(tree, space, pairs, tube)) {}
+
+EdgeMotion::~EdgeMotion() = default;
+
+void EdgeMotion::set(const Configuration& from, const Configuration& to) {
+  Impl& m = *impl_;
+  ++m.stamp;
+  m.t = 0;
+  m.ambiguous = m.space.ambiguous(from, to);
+  for (Impl::Place& place : m.places) {
+    place.joint.set(from, to);
+    if (place.joint.still()) place.X = place.joint.at(0);
+    m.ambiguous = m.ambiguous || place.joint.ambiguous();
+  }
+  for (Impl::View& view : m.views) {
+    const MovingJoint& joint = m.places[view.place].joint;
+    view.rotationError = joint.rotationError();
+    view.shiftError = joint.shiftError();
+    view.reach = joint.length();
+    if (view.parent == kItself) continue;
+    const Impl::View& parent = m.views[view.parent];
+    view.rotationError += parent.rotationError + 10 * kUnit;
+    view.reach += parent.reach;
+    view.shiftError += parent.shiftError + parent.rotationError * joint.length() +
+                       kUnit * (7 * joint.length() + 4 * view.reach);
+  }
+  for (Impl::Path& path : m.paths) m.setErrors(path);
+}
+
+MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
+  Impl& m = *impl_;
+  if (t != m.t) {
+    m.t = t;
+    ++m.stamp;
+  }
+  Impl::Path& path = m.paths[pair];
+  MotionWindow w;
+  if (path.b != kItself) w.X_AB = m.viewAt(path.b).X;
+  Transform X_LA;
+  const bool branches = path.a != kItself;
+  if (branches) {
+    X_LA = m.viewAt(path.a).X;
+    w.X_AB = {X_LA.m.transpose() * w.X_AB.m, X_LA.m.transpose() * (w.X_AB.t - X_LA.t)};
+  }
+  path.screws.clear();
+  for (const Impl::Step& step : path.steps) {
+    const Impl::View& view = m.views[step.view];
+    const MovingJoint& joint = m.places[view.place].joint;
+    if (joint.joint() == Frame::Joint::none) continue;
+    ScrewTravel screw;
+    screw.axis = view.axis;
+    screw.point = view.X.t;
+    if (branches) {
+      screw.axis = X_LA.m.transpose() * screw.axis;
+      screw.point = X_LA.m.transpose() * (screw.point - X_LA.t);
+    }
+    const Vec3 motion = (h * (step.up ? -joint.rate() : joint.rate())) * screw.axis;
+    const double rate = std::abs(joint.rate()) + joint.rateError();
+    screw.amount = rate == 0 || h == 0 ? 0 : roundedUp(h * rate);
+    screw.tube = joint.tube();
+    if (turns(joint.joint())) {
+      w.angular += motion;
+      w.linear += motion.cross(w.X_AB.t - screw.point);
+    } else {
+      screw.kind = ScrewTravel::Kind::slide;
+      w.linear += motion;
+    }
+    if (joint.joint() == Frame::Joint::rotate) {
+      ScrewTravel ball{ScrewTravel::Kind::ball, screw.axis, screw.point, 0, screw.tube};
+      screw.tube = 0;
+      if (ball.tube != 0) path.screws.push_back(ball);
+    }
+    if (screw.amount != 0 || screw.tube != 0) path.screws.push_back(screw);
+  }
+  w.screws = path.screws;
+  w.speed = roundedUp(w.linear.norm());
+  w.angle = roundedUp(w.angular.norm());
+  const double D = 1 + path.turnRate * h + path.turnTube;
+  const auto total = [&](double pose, double rate, double tube) {
+    return roundedUp((pose + D * D * (h * rate + tube)) * (1 + 0x1p-20)) + kLeastError;
+  };
+  w.fixedError = total(path.pose.fixed, path.rate.fixed, path.tube.fixed);
+  w.reachError = total(path.pose.reach, path.rate.reach, path.tube.reach);
+  return w;
+}
+
+bool EdgeMotion::ambiguous() const {
+  return impl_->ambiguous;
+}
+
+}  // namespace corridor

@@ -1,0 +1,47 @@
+#include "planner/robot/kinematic_tree.h"
+
+#include "planner/robot/turns.h"
+
+namespace corridor {
+namespace {
+
+Transform jointPose(const Frame& frame, const Configuration& q) {
+  const bool held = frame.variable == Frame::noVariable;
+  const auto first = static_cast<Eigen::Index>(held ? 0 : frame.variable);
+  const double value = held ? frame.offset : frame.multiplier * q[first] + frame.offset;
+  Transform X;
+  switch (frame.joint) {
+    case Frame::Joint::none:
+      break;
+    case Frame::Joint::turn:
+      X.m = Eigen::AngleAxisd(value, frame.axis.stableNormalized()).toRotationMatrix();
+      break;
+    case Frame::Joint::slide:
+      X.t = value * frame.axis.stableNormalized();
+      break;
+    case Frame::Joint::shift:
+      if (!held) {
+        const auto count = static_cast<Eigen::Index>(frame.count);
+        X.t.head(count) = q.segment(first, count);
+      }
+      break;
+    case Frame::Joint::rotate:
+      if (!held) X.m = unitQuaternion(Eigen::Quaterniond(q.data() + first)).toRotationMatrix();
+      break;
+  }
+  return X;
+}
+
+}  // namespace
+
+std::vector<Transform> framePoses(const KinematicTree& tree, const Configuration& q) {
+  std::vector<Transform> poses(tree.frames.size());
+  for (std::size_t i = 1; i < tree.frames.size(); ++i) {
+    const Frame& frame = tree.frames[i];
+    const Transform fixed{unitQuaternion(frame.fixed.q).toRotationMatrix(), frame.fixed.p};
+    poses[i] = poses[frame.parent] * (fixed * jointPose(frame, q));
+  }
+  return poses;
+}
+
+}  // namespace corridor

@@ -1,0 +1,208 @@
+#include "planner/robot/moving_joint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "collision/core/rounding.h"
+#include "planner/robot/turns.h"
+
+namespace corridor {
+namespace {
+
+using Scalar = LongPose::Scalar;
+
+LongPose::Mat crossMatrix(const LongPose::Vec& a) {
+  LongPose::Mat K;
+  K << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+  return K;
+}
+
+LongPose::Vec unitAxis(const Vec3& axis) {
+  return axis.cast<Scalar>().stableNormalized();
+}
+
+/// sin φ·K and (1 − cos φ)·K² of a rotation, by the axis.
+std::pair<LongPose::Mat, LongPose::Mat> rodrigues(const LongPose::Vec& axis) {
+  const LongPose::Mat K = crossMatrix(axis);
+  return {K, K * K};
+}
+
+// With u the unit roundoff, and norms of matrices from errors of entries by Frobenius' norm:
+//   a long double pose rounded to double: 2^-53·√3 < 2u a matrix of norm-1 rows; what each pose
+//     that was put together loses in long double (2^-64 a rounding, some 30 of them) is < 2^-58.
+//   fixed + sin φ·FK + (1 − cos φ)·FK²: the three constants √3 + √2 + 2√2 < 6u; sine and cosine
+//     within 1 ulp, doubled to be generous with libm, 4u each, and 1 − cos rounds: 9u; the sum, 3
+//     roundings of terms of norms √3, √2, 2√2: 18u. Below 40u, to which the error of φ is added.
+constexpr double kFoldError = 0x1p-58;
+constexpr double kTurnError = 40 * kUnit;
+// A free rotation (as in rigid_motion.cpp, where the steps are counted): normalising, 6u a
+// quaternion; the relative one, 20u; its angle θ = 2·atan2(s, w), 48u; its axis, 20u/s + 3u, where
+// θ/s ≤ π: a rotation vector within 48u + 73u; the matrices and their sum with sine and cosine, in
+// all below 200u for the orientation. Each of the three matrices (norms √3, √2, 2√2) times `fixed`:
+// 3u·√3·6 + 6·2u < 44u. Below 2^-44 = 512u, and the vector below 2^-45.
+constexpr double kFreeTurnError = 0x1p-44;
+constexpr double kFreeRateError = 0x1p-45;
+
+/// What squares of are normal numbers; motions below it vanish in EdgeMotion's least error.
+constexpr double kLeastMotion = 0x1p-500;
+
+}  // namespace
+
+LongPose LongPose::then(const Frame& frame) const {
+  const Eigen::Quaternion<Scalar> q(
+      Eigen::Matrix<Scalar, 4, 1>(frame.fixed.q.coeffs().cast<Scalar>().stableNormalized()));
+  LongPose next = *this;
+  next.t += m * frame.fixed.p.cast<Scalar>();
+  next.m = m * q.toRotationMatrix();
+  next.length = roundedUp(length + frame.fixed.p.norm());
+  if (frame.variable == Frame::noVariable) {
+    if (frame.joint == Frame::Joint::turn) {
+      const auto [K, KK] = rodrigues(unitAxis(frame.axis));
+      const Scalar value = frame.offset;
+      next.m += next.m * (std::sin(value) * K + (1 - std::cos(value)) * KK);
+    } else if (frame.joint == Frame::Joint::slide) {
+      next.t += next.m * (frame.offset * unitAxis(frame.axis));
+      next.length = roundedUp(next.length + std::abs(frame.offset));
+    }
+  }
+  ++next.poses;
+  next.error = 2 * kUnit + next.poses * kFoldError;
+  return next;
+}
+
+MovingJoint::MovingJoint(const LongPose& fixed)
+    : fixed_(fixed.m.cast<double>()),
+      shift_(fixed.t.cast<double>()),
+      fixedError_(fixed.error),
+      // The sum rounds to double once, and every pose's own vector is turned in long double.
+      fixedShiftError_(2 * kUnit * fixed.length * (1 + 0x1p-5 * fixed.poses)),
+      fixedLength_(fixed.length),
+      still_(fixed_),
+      from_(shift_),
+      rotationError_(fixedError_),
+      shiftError_(fixedShiftError_),
+      length_(fixedLength_) {}
+
+MovingJoint::MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::Kind kind,
+                         const Configuration& tube)
+    : MovingJoint(fixed) {
+  joint_ = frame.joint;
+  kind_ = kind;
+  variable_ = static_cast<Eigen::Index>(frame.variable);
+  multiplier_ = frame.multiplier;
+  offset_ = frame.offset;
+  tube_ = tube[variable_];
+  if (joint_ == Frame::Joint::shift) {
+    count_ = static_cast<Eigen::Index>(frame.count);
+    tube_ = tube.segment(variable_, count_).norm();
+  } else if (joint_ != Frame::Joint::rotate) {
+    tube_ *= std::abs(multiplier_);
+    const LongPose::Vec axis = unitAxis(frame.axis);
+    axis_ = axis.cast<double>();
+    slideAxis_ = (fixed.m * axis).cast<double>();
+    if (joint_ == Frame::Joint::turn) {
+      const auto [K, KK] = rodrigues(axis);
+      sine_ = (fixed.m * K).cast<double>();
+      versine_ = (fixed.m * KK).cast<double>();
+    }
+  }
+  tube_ = tube_ > 0 ? roundedUp(tube_) : 0;
+}
+
+Transform MovingJoint::at(double t) const {
+  Transform X{still_, from_};
+  if (joint_ == Frame::Joint::turn || joint_ == Frame::Joint::rotate) {
+    const double phi = angle_ + t * rate_;
+    // 1 − cos φ cancels for small φ, but only its absolute error counts.
+    X.m += std::sin(phi) * sine_ + (1 - std::cos(phi)) * versine_;
+  } else {
+    X.t += t * delta_;
+  }
+  return X;
+}
+
+void MovingJoint::set(const Configuration& from, const Configuration& to) {
+  if (joint_ == Frame::Joint::shift) setShift(from, to);
+  if (joint_ == Frame::Joint::rotate) setRotation(from, to);
+  if (joint_ == Frame::Joint::turn || joint_ == Frame::Joint::slide) setValue(from, to);
+}
+
+void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
+  const double q0 = from[variable_], q1 = to[variable_];
+  double delta = q1 - q0, deltaError = 0;
+  ambiguous_ = false;
+  if (kind_ == Coordinate::Kind::circle) {
+    const CircleTurn turn = circleTurn(q0, q1);
+    // Beyond the seam, a value that doesn't come round with the circle would jump.
+    const bool comesRound = joint_ == Frame::Joint::turn && multiplier_ == std::trunc(multiplier_);
+    ambiguous_ = turn.ambiguous() || (!comesRound && turn.angle != delta);
+    delta = turn.angle;
+    deltaError = std::abs(multiplier_) * turn.error;
+  }
+  const double value = multiplier_ * q0 + offset_;
+  rate_ = multiplier_ * delta;
+  // With V = |m|·max|q| + |o|: m·q0 + o is within 2uV, m·Δ (|Δ| ≤ 2·max|q|, rounded) within 4uV,
+  // t times it rounds by 2uV, and the sum, at most V (a circle's 3V: beyond the seam), by 3uV:
+  // 11uV, and 12uV with the products of roundings.
+  const double V = std::abs(multiplier_) * std::max(std::abs(q0), std::abs(q1)) + std::abs(offset_);
+  const double valueError = 12 * kUnit * V + deltaError;
+  rateError_ = q0 == q1 ? 0 : roundedUp(2 * kUnit * std::abs(rate_) + deltaError);
+  if (joint_ == Frame::Joint::turn) {
+    angle_ = value;
+    rotationError_ = roundedUp(kTurnError + fixedError_ + valueError);
+    return;
+  }
+  // The slide's axis is within 2u, and value·axis, t times the way, and the sums round by u each of
+  // at most V, V, 2V and |p|: 13u + 2·2u + 2·1u + 4u < 24u of V besides `valueError`.
+  from_ = shift_ + value * slideAxis_;
+  delta_ = rate_ * slideAxis_;
+  shiftError_ =
+      roundedUp(fixedShiftError_ + valueError + 24 * kUnit * V + 4 * kUnit * fixedLength_);
+  length_ = roundedUp(fixedLength_ + 2 * V);
+}
+
+void MovingJoint::setShift(const Configuration& from, const Configuration& to) {
+  Vec3 p0 = Vec3::Zero(), p1 = Vec3::Zero();
+  p0.head(count_) = from.segment(variable_, count_);
+  p1.head(count_) = to.segment(variable_, count_);
+  Vec3 delta = p1 - p0;
+  if (delta.cwiseAbs().maxCoeff() < kLeastMotion) delta.setZero();
+  from_ = shift_ + fixed_ * p0;
+  delta_ = fixed_ * delta;
+  rate_ = delta.norm();
+  rateError_ = 8 * kUnit * rate_;
+  axis_ = rate_ > 0 ? Vec3(delta / rate_) : Vec3::UnitX();
+  // With S the length of the largest coordinates: fixed·p0 and fixed·Δ (|Δ| ≤ 2S) round by 3√3u and
+  // take 2u from `fixed`: 8uS + 16uS; Δ and t times the way round by 2uS each, the sums by u(S +
+  // |p|) each: < 32uS + 4u|p|.
+  const double S = p0.cwiseAbs().cwiseMax(p1.cwiseAbs()).norm();
+  shiftError_ =
+      roundedUp(fixedShiftError_ + 32 * kUnit * S + 4 * kUnit * fixedLength_ + S * fixedError_);
+  length_ = roundedUp(fixedLength_ + S);
+}
+
+void MovingJoint::setRotation(const Configuration& from, const Configuration& to) {
+  const Eigen::Quaterniond a(from.data() + variable_), b(to.data() + variable_);
+  const Eigen::Quaterniond q0 = unitQuaternion(a), q1 = unitQuaternion(b);
+  const bool equal = a.coeffs() == b.coeffs() || a.coeffs() == -b.coeffs();
+  Eigen::Quaterniond turn = q1 * q0.conjugate();
+  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+  const double s = turn.vec().norm();
+  const bool turns = !equal && s >= kLeastMotion;
+  const Vec3 axis = turns ? Vec3(turn.vec() / s) : Vec3::UnitX();
+  rate_ = turns ? 2 * std::atan2(s, turn.w()) : 0;
+  rateError_ = equal ? 0 : kFreeRateError;
+  ambiguous_ = CircleTurn{rate_, 0}.ambiguous();
+  const Mat3 R0 = q0.toRotationMatrix();
+  Mat3 K;
+  K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
+  const Mat3 KR0 = K * R0;
+  still_ = fixed_ * R0;
+  sine_ = fixed_ * KR0;
+  versine_ = fixed_ * (K * KR0);
+  axis_ = R0.transpose() * axis;
+  rotationError_ = kFreeTurnError + fixedError_;
+}
+
+}  // namespace corridor

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <random>
+
+#include "collision/world/scene.h"
+#include "planner/robot/kinematic_tree.h"
+
+namespace corridor::test {
+
+/// Random robots and edges, with everything that a tree may have: all kinds of joints, branches,
+/// fixed frames, joints held, joints that follow another one (with negative multipliers, on other
+/// branches), parallel and intersecting axes, quaternions and axes of any length.
+class RandomTrees {
+ public:
+  explicit RandomTrees(std::uint64_t seed) : random_(seed) {}
+
+  double real(double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random_);
+  }
+  std::size_t index(std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
+  }
+  bool oneIn(std::size_t n) { return index(n) == 0; }
+  Vec3 vector(double size = 1) { return size * Vec3(real(), real(), real()); }
+  Vec3 direction() { return vector().normalized(); }
+
+  KinematicTree tree;
+  ConfigurationSpace space;
+  Configuration from, to;
+
+  /// A tree of up to `joints` joints of one freedom or more, at a base at most `far` from the
+  /// world's origin.
+  void makeTree(std::size_t joints, double far = 1) {
+    tree = {};
+    space = {};
+    for (std::size_t n = 0; n < joints; ++n) {
+      Frame frame;
+      // Mostly chains.
+      frame.parent = n == 0 ? 0 : oneIn(4) ? index(tree.frames.size()) : tree.frames.size() - 1;
+      frame.fixed.p = oneIn(5) ? Vec3::Zero() : vector(n == 0 ? far : 0.5);
+      if (!oneIn(3)) frame.fixed.q = quaternion();
+      if (oneIn(6)) {
+        frame.parent = tree.add(frame);  // a fixed one first
+        frame.fixed.p = vector(0.2);
+      }
+      addJoint(frame);
+    }
+  }
+
+  /// An edge between two random configurations; `size`: of the steps, rad or m.
+  void makeEdge(double size, double range = 3) {
+    from = Configuration(static_cast<Eigen::Index>(space.size()));
+    to = from;
+    for (const Coordinate& c : space.coordinates()) {
+      const auto i = static_cast<Eigen::Index>(c.first);
+      if (c.kind == Coordinate::Kind::rotation) {
+        const Eigen::Quaterniond a = quaternion();
+        const double angle = oneIn(4) ? std::pow(10.0, real(-18, 0)) : std::min(3.1, size) * real();
+        from.segment<4>(i) = a.coeffs();
+        to.segment<4>(i) =
+            (Eigen::Quaterniond(Eigen::AngleAxisd(angle, direction())) * a).coeffs() *
+            (oneIn(4) ? -3 : 1);
+        if (oneIn(6)) to.segment<4>(i) = from.segment<4>(i);
+        continue;
+      }
+      from[i] = real(-range, range);
+      to[i] = oneIn(6) ? from[i] : from[i] + size * real();
+      if (c.kind == Coordinate::Kind::circle) {
+        const double pi = std::numbers::pi;
+        from[i] = real(-pi, pi);
+        to[i] = oneIn(6) ? from[i] : std::remainder(from[i] + std::min(3.1, size) * real(), 2 * pi);
+      }
+    }
+  }
+
+  Scene::FramePair pair() {
+    const std::size_t a = index(tree.frames.size()), b = index(tree.frames.size());
+    return {std::min(a, b), std::max(a, b)};
+  }
+
+  Configuration noTube() const {
+    return Configuration::Zero(static_cast<Eigen::Index>(space.size()));
+  }
+
+ private:
+  Eigen::Quaterniond quaternion() {
+    const double size = std::pow(10.0, oneIn(4) ? real(-2, 2) : 0);
+    return Eigen::Quaterniond(Eigen::Vector4d(size * real(), size * real(), size * real(), size * real()));
+  }
+
+  void addJoint(Frame frame) {
+    frame.axis = oneIn(3) ? Vec3::Unit(static_cast<Eigen::Index>(index(3)))
+                          : vector(std::pow(10.0, real(-2, 2)));
+    const std::size_t kind = index(12);
+    if (kind == 0 || kind == 1) {  // planar or floating
+      const bool planar = kind == 0;
+      frame.joint = Frame::Joint::shift;
+      frame.count = planar ? 2 : 3;
+      for (std::size_t k = 0; k < frame.count; ++k) {
+        const std::size_t number = firstOf(Coordinate::Kind::line);
+        if (k == 0) frame.variable = number;
+      }
+      Frame turn;
+      turn.parent = tree.add(frame);
+      turn.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+      turn.variable = firstOf(planar ? Coordinate::Kind::circle : Coordinate::Kind::rotation);
+      tree.add(turn);
+      return;
+    }
+    frame.joint = kind <= 4 ? Frame::Joint::slide : Frame::Joint::turn;
+    if (oneIn(8)) {
+      frame.offset = real(-3, 3);  // held
+    } else {
+      const std::size_t other = followed();
+      if (other != Frame::noVariable) {
+        frame.variable = other;
+        frame.multiplier = oneIn(3) ? -1 : real(-2, 2);
+        frame.offset = oneIn(2) ? 0 : real();
+      } else {
+        frame.variable = firstOf(frame.joint == Frame::Joint::turn && oneIn(3)
+                                     ? Coordinate::Kind::circle
+                                     : Coordinate::Kind::line);
+      }
+    }
+    tree.add(frame);
+  }
+
+  /// A line that another single joint has, now and then.
+  std::size_t followed() {
+    if (!oneIn(4)) return Frame::noVariable;
+    const Frame& other = tree.frames[index(tree.frames.size())];
+    const bool single = other.joint == Frame::Joint::turn || other.joint == Frame::Joint::slide;
+    if (!single || other.variable == Frame::noVariable) return Frame::noVariable;
+    for (const Coordinate& c : space.coordinates())
+      if (c.first == other.variable && c.kind == Coordinate::Kind::line) return other.variable;
+    return Frame::noVariable;
+  }
+
+  std::size_t firstOf(Coordinate::Kind kind) {
+    Coordinate c;
+    c.kind = kind;
+    const std::size_t n = space.add(c);
+    return space.coordinates()[n].first;
+  }
+
+  std::mt19937_64 random_;
+};
+
+}  // namespace corridor::test

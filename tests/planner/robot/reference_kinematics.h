@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "planner/robot/kinematic_tree.h"
+
+namespace corridor::test {
+
+using Real = long double;
+using Vec3L = Eigen::Matrix<Real, 3, 1>;
+using Mat3L = Eigen::Matrix<Real, 3, 3>;
+using Vec4L = Eigen::Matrix<Real, 4, 1>;
+
+/// A pose and what it does per unit of t.
+struct MovingPose {
+  Mat3L m = Mat3L::Identity(), dm = Mat3L::Zero();
+  Vec3L t = Vec3L::Zero(), dt = Vec3L::Zero();
+
+  MovingPose operator*(const MovingPose& x) const {
+    return {m * x.m, dm * x.m + m * x.dm, m * x.t + t, dm * x.t + m * x.dt + dt};
+  }
+  MovingPose inverse() const {
+    return {m.transpose(), dm.transpose(), -m.transpose() * t,
+            -dm.transpose() * t - m.transpose() * dt};
+  }
+  Vec3L at(const Vec3& p) const { return m * p.cast<Real>() + t; }
+  Vec3L velocity(const Vec3& p) const { return dm * p.cast<Real>() + dt; }
+};
+
+inline Mat3L crossL(const Vec3L& a) {
+  Mat3L K;
+  K << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+  return K;
+}
+
+/// The definition of an edge and of forward kinematics once more, in long double and by other
+/// formulas than the code under test: all frames from the world down, slerp by the two sine
+/// weights, derivatives by the product rule.
+class ReferenceKinematics {
+ public:
+  ReferenceKinematics(const KinematicTree& tree, const ConfigurationSpace& space,
+                      const Configuration& from, const Configuration& to)
+      : tree_(tree), space_(space), from_(from), to_(to) {}
+
+  std::vector<MovingPose> poses(Real t) const {
+    std::vector<MovingPose> all(tree_.frames.size());
+    for (std::size_t f = 1; f < all.size(); ++f) {
+      const Frame& frame = tree_.frames[f];
+      MovingPose fixed;
+      fixed.m = rotation(frame.fixed.q.coeffs().cast<Real>().stableNormalized());
+      fixed.t = frame.fixed.p.cast<Real>();
+      all[f] = all[frame.parent] * fixed * joint(frame, t);
+    }
+    return all;
+  }
+  /// Of b, as seen from a.
+  MovingPose relative(std::size_t a, std::size_t b, Real t) const {
+    const auto all = poses(t);
+    return all[a].inverse() * all[b];
+  }
+
+ private:
+  static Mat3L rotation(const Vec4L& q) {
+    return Eigen::Quaternion<Real>(q).toRotationMatrix();
+  }
+  const Coordinate& coordinate(std::size_t number) const {
+    for (const Coordinate& c : space_.coordinates())
+      if (c.first == number) return c;
+    throw std::logic_error("no such coordinate");
+  }
+  /// Value and rate of a number of the configuration.
+  std::pair<Real, Real> number(std::size_t i, Real t) const {
+    const auto k = static_cast<Eigen::Index>(i);
+    const Real q0 = from_[k];
+    Real delta = static_cast<Real>(to_[k]) - q0;
+    if (coordinate(i).kind == Coordinate::Kind::circle)
+      delta = std::remainder(delta, 2 * std::numbers::pi_v<Real>);
+    return {q0 + t * delta, delta};
+  }
+  MovingPose joint(const Frame& frame, Real t) const {
+    MovingPose X;
+    const Vec3L axis = frame.axis.cast<Real>().stableNormalized();
+    Real value = frame.offset, rate = 0;
+    if (frame.variable != Frame::noVariable &&
+        (frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide)) {
+      const auto [q, dq] = number(frame.variable, t);
+      value = frame.multiplier * q + frame.offset;
+      rate = frame.multiplier * dq;
+    }
+    switch (frame.joint) {
+      case Frame::Joint::none:
+        break;
+      case Frame::Joint::turn: {
+        X.m = rotation((Vec4L() << std::sin(value / 2) * axis, std::cos(value / 2)).finished());
+        X.dm = rate * crossL(axis) * X.m;
+        break;
+      }
+      case Frame::Joint::slide:
+        X.t = value * axis;
+        X.dt = rate * axis;
+        break;
+      case Frame::Joint::shift:
+        for (std::size_t k = 0; k < frame.count; ++k)
+          std::tie(X.t[static_cast<Eigen::Index>(k)], X.dt[static_cast<Eigen::Index>(k)]) =
+              number(frame.variable + k, t);
+        break;
+      case Frame::Joint::rotate: {
+        const auto first = static_cast<Eigen::Index>(frame.variable);
+        const Vec4L q0 = from_.segment<4>(first).cast<Real>().stableNormalized();
+        Vec4L q1 = to_.segment<4>(first).cast<Real>().stableNormalized();
+        if (q0.dot(q1) < 0) q1 = -q1;
+        const Real angle = 2 * std::atan2((q1 - q0).norm(), (q1 + q0).norm()), s = std::sin(angle);
+        const bool tiny = angle < 1e-12L;
+        const Real a = tiny ? 1 - t : std::sin((1 - t) * angle) / s;
+        const Real b = tiny ? t : std::sin(t * angle) / s;
+        const Real da = tiny ? -1 : -angle * std::cos((1 - t) * angle) / s;
+        const Real db = tiny ? 1 : angle * std::cos(t * angle) / s;
+        const Eigen::Quaternion<Real> q(Vec4L((a * q0 + b * q1).normalized())),
+            dq(Vec4L(da * q0 + db * q1));
+        X.m = q.toRotationMatrix();
+        X.dm = 2 * crossL((dq * q.conjugate()).vec()) * X.m;
+        break;
+      }
+    }
+    return X;
+  }
+
+  const KinematicTree& tree_;
+  const ConfigurationSpace& space_;
+  const Configuration &from_, &to_;
+};
+
+}  // namespace corridor::test
