@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "collision/core/error.h"
+#include "collision/core/nearest.h"
 #include "planner/app/commands.h"
-#include "planner/problem/nearest.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "planner/problem/nearest.h"
+#include "collision/core/nearest.h"
 
 namespace corridor {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/problem/fault_list.h"
+#include "collision/core/fault_list.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <set>
 
+#include "collision/core/nearest.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/ini_file.h"
-#include "planner/problem/nearest.h"
 #include "planner/problem/omplapp_planners.h"
 #include "planner/problem/placement.h"
 

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <map>
 
-#include "planner/problem/nearest.h"
+#include "collision/core/nearest.h"
 
 namespace corridor {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "planner/problem/fault_list.h"
+#include "collision/core/fault_list.h"
 #include "planner/problem/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
 #include "planner/problem/sha256.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "collision/core/nearest.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
-#include "planner/problem/nearest.h"
 #include "planner/problem/placement.h"
 #include "planner/problem/yaml_reader.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/problem/fault_list.h"
+#include "collision/core/fault_list.h"
 #include "planner/problem/problem.h"
 
 namespace corridor {

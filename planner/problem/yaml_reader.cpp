@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "planner/problem/nearest.h"
+#include "collision/core/nearest.h"
 
 namespace corridor {
 

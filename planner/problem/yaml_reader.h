@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/problem/fault_list.h"
+#include "collision/core/fault_list.h"
 #include "planner/problem/yaml_value.h"
 
 /// A strict reader of YAML files: every fault is noted with its line, and reading goes on, so that

@@ -51,7 +51,7 @@
 #include <ompl/geometric/planners/stride/STRIDE.h>
 
 #include "collision/core/error.h"
-#include "planner/problem/nearest.h"
+#include "collision/core/nearest.h"
 
 namespace corridor {
 

@@ -16,11 +16,11 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include "collision/core/error.h"
+#include "collision/core/nearest.h"
 #include "planner/checker/motion_validators.h"
 #include "planner/checker/problem_scene.h"
 #include "planner/checker/rigid_state_space.h"
 #include "planner/checker/state_validity_checkers.h"
-#include "planner/problem/nearest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/endpoint_help.h"
 #include "planner/solve/goal_region.h"

@@ -1,4 +1,4 @@
-#include "planner/problem/nearest.h"
+#include "collision/core/nearest.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "planner/problem/fault_list.h"
+#include "collision/core/fault_list.h"
 
 #include <algorithm>
 #include <cerrno>
