@@ -10,7 +10,6 @@ namespace corridor {
 namespace {
 
 using Real = long double;
-using RealVec = Eigen::Matrix<Real, 3, 1>;
 using RealQuaternion = Eigen::Matrix<Real, 4, 1>;
 
 /// A start's quaternion is normalised in double on its way into a path: an angle of under 32·2^-53,
@@ -19,76 +18,162 @@ constexpr Real kSameAngle = 0x1p-46L;
 /// Whether a state on the rim of a goal region is inside hangs on rounding: 2^-44 of the radius.
 constexpr Real kRim = 1 + 0x1p-44L;
 
-Real away(const Vec3& a, const Vec3& b) {
-  return (b.cast<Real>() - a.cast<Real>()).norm();
-}
-
 /// Angle between the quaternions' lines: half that of the rotation between them.
-Real quaternionAngle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
-  const RealQuaternion p = a.coeffs().cast<Real>().normalized(),
-                       q = b.coeffs().cast<Real>().normalized();
+Real quaternionAngle(const Configuration& a, const Configuration& b, std::size_t first) {
+  const auto i = static_cast<Eigen::Index>(first);
+  const RealQuaternion p = a.segment<4>(i).cast<Real>().normalized(),
+                       q = b.segment<4>(i).cast<Real>().normalized();
   return 2 * std::atan2(std::min((p - q).norm(), (p + q).norm()),
                         std::max((p - q).norm(), (p + q).norm()));
 }
 
-Real turned(const Problem& problem, const RigidPose& pose, double yaw, const RigidState& state) {
-  if (problem.space == RigidSpace::SE3) return 2 * quaternionAngle(pose.q, state.pose.q);
-  return std::abs(std::remainder(Real(state.yaw) - Real(yaw), 2 * std::numbers::pi_v<Real>));
+/// How far coordinate `c` is from a to b: its difference, the angle of its rotation.
+Real awayIn(const Coordinate& c, const Configuration& a, const Configuration& b) {
+  const auto i = static_cast<Eigen::Index>(c.first);
+  switch (c.kind) {
+    case Coordinate::Kind::line:
+      return std::abs(Real(b[i]) - Real(a[i]));
+    case Coordinate::Kind::circle:
+      return std::abs(std::remainder(Real(b[i]) - Real(a[i]), 2 * std::numbers::pi_v<Real>));
+    case Coordinate::Kind::rotation:
+      return 2 * quaternionAngle(a, b, c.first);
+  }
+  return 0;
 }
 
-std::string inFact(Real metres, Real radians) {
-  return "it is " + shortest(static_cast<double>(metres)) + " m and " +
-         shortest(static_cast<double>(radians)) + " rad away";
+/// How far apart two configurations are: the largest of each kind.
+struct Away {
+  Real position = 0, angle = 0, joint = 0;
+  Real distance = 0;  ///< with the space's weights
+  Real jointAngle = 0;  ///< of `joint`, that of circles: off by rounding when they are brought back
+};
+
+Away awayFrom(const ConfigurationSpace& space, const Configuration& a, const Configuration& b) {
+  Away away;
+  for (const CoordinateGroup& group : space.groups()) {
+    Real squares = 0, weighted = 0, angle = 0, weightedAngle = 0;
+    for (const std::size_t k : group.coordinates) {
+      const Coordinate& c = space.coordinates()[k];
+      const Real d = awayIn(c, a, b);
+      if (group.kind == CoordinateGroup::Kind::joints) {
+        weighted += c.weight * d * c.weight * d;
+        if (c.kind == Coordinate::Kind::circle)
+          away.jointAngle = std::max(away.jointAngle, d);
+        else
+          away.joint = std::max(away.joint, d);
+      } else if (c.kind == Coordinate::Kind::line) {
+        squares += d * d;
+        weighted += c.weight * d * c.weight * d;
+      } else {
+        angle = d;
+        weightedAngle = c.weight * (c.kind == Coordinate::Kind::rotation ? d / 2 : d);
+      }
+    }
+    away.position = std::max(away.position, std::sqrt(squares));
+    away.angle = std::max(away.angle, angle);
+    away.distance += std::sqrt(weighted) + weightedAngle;
+  }
+  return away;
+}
+
+std::string inFact(const Away& away) {
+  std::string text;
+  const auto add = [&](Real value, const char* what) {
+    if (value > 0)
+      text += (text.empty() ? "" : ", ") + shortest(static_cast<double>(value)) + what;
+  };
+  add(away.position, " m");
+  add(away.angle, " rad");
+  add(std::max(away.joint, away.jointAngle), " in a joint");
+  return "it is " + (text.empty() ? "0" : text) + " away";
+}
+
+bool isSame(const Away& away) {
+  return away.position == 0 && away.joint == 0 && away.angle <= kSameAngle &&
+         away.jointAngle <= kSameAngle;
+}
+
+bool isInGoal(const Problem& problem, const Away& away) {
+  if (problem.goalRegion) {
+    const Problem::GoalRegion& region = *problem.goalRegion;
+    return away.position <= region.position * kRim &&
+           away.angle <= std::max(region.angle * kRim, kSameAngle) &&
+           away.joint <= region.joint * kRim &&
+           away.jointAngle <= std::max(region.joint * kRim, kSameAngle);
+  }
+  if (problem.goalThreshold && away.distance <= *problem.goalThreshold * kRim) return true;
+  return isSame(away);
 }
 
 void checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
-  const bool planar = problem.space == RigidSpace::SE2;
-  const auto flat = [&](Vec3 p) { return planar ? Vec3(p.x(), p.y(), 0) : p; };
-  const Real startAway = away(flat(problem.start.p), path.front().pose.p);
-  const Real startTurned = turned(problem, problem.start, problem.startYaw, path.front());
-  if (startAway > 0 || startTurned > kSameAngle)
-    violations.push_back("the first state is not the start: " + inFact(startAway, startTurned));
-
-  const Real goalAway = away(flat(problem.goal.p), path.back().pose.p);
-  const Real goalTurned = turned(problem, problem.goal, problem.goalYaw, path.back());
-  bool inside = goalAway == 0 && goalTurned <= kSameAngle;
-  if (problem.goalRegion)
-    inside = goalAway <= problem.goalRegion->position * kRim &&
-             goalTurned <= std::max(problem.goalRegion->angle * kRim, kSameAngle);
-  else if (problem.goalThreshold)
-    inside = inside || goalAway + problem.rotationWeight * (planar ? goalTurned : goalTurned / 2) <=
-                           *problem.goalThreshold * kRim;
-  if (!inside)
-    violations.push_back("the last state is not in the goal: " + inFact(goalAway, goalTurned));
+  const Away start = awayFrom(problem.space, problem.start, path.front());
+  if (!isSame(start)) violations.push_back("the first state is not the start: " + inFact(start));
+  Away nearest;
+  nearest.distance = HUGE_VALL;
+  for (const Configuration& goal : problem.goals) {
+    const Away away = awayFrom(problem.space, goal, path.back());
+    if (isInGoal(problem, away)) return;
+    if (away.distance < nearest.distance) nearest = away;
+  }
+  violations.push_back("the last state is not in the goal: " + inFact(nearest));
 }
 
 void checkBounds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   for (std::size_t i = 0; i < path.size(); ++i)
-    for (int k = 0; k < (problem.space == RigidSpace::SE3 ? 3 : 2); ++k)
-      if (!(path[i].pose.p[k] >= problem.lower[k] && path[i].pose.p[k] <= problem.upper[k])) {
-        violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " +
-                             "xyz"[k] + " = " + shortest(path[i].pose.p[k]) + " is not in [" +
-                             shortest(problem.lower[k]) + ", " + shortest(problem.upper[k]) + "]");
-      }
+    for (const Coordinate& c : problem.space.coordinates()) {
+      if (c.kind != Coordinate::Kind::line) continue;
+      const double value = path[i][static_cast<Eigen::Index>(c.first)];
+      if (!(value >= c.lower && value <= c.upper))
+        violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " + c.name +
+                             " = " + shortest(value) + " is not in [" + shortest(c.lower) + ", " +
+                             shortest(c.upper) + "]");
+    }
 }
 
-PathReport checkMotion(const Problem& problem, const Path& path, const Tube& tube) {
-  PathProblem plain;
-  for (const ProblemMesh& mesh : problem.robot)
-    plain.moving.push_back({mesh.name, &mesh.source.mesh});
-  for (const ProblemMesh& mesh : problem.world)
-    plain.fixed.push_back({mesh.name, &mesh.source.mesh});
-  plain.margin = problem.margin;
-  plain.tube = tube;
-  plain.tolerance = problem.checker.tolerance.value_or(0);
-  if (problem.space == RigidSpace::SE2) {
-    std::vector<Vec3> states;
-    for (const RigidState& state : path) states.push_back(state.xyYaw());
-    return verifyPath(plain, states);
+/// Half the diagonal of the box around a shape.
+double sizeOf(const VerifyBody& body) {
+  Vec3 lower = Vec3::Constant(HUGE_VAL), upper = -lower;
+  for (const Vec3& p : body.mesh ? body.mesh->vertices : body.part->points) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
   }
-  std::vector<RigidPose> states;
-  for (const RigidState& state : path) states.push_back(state.pose);
-  return verifyPath(plain, states);
+  return 0.5 * (upper - lower).norm() + (body.part ? body.part->radius : 0);
+}
+
+/// A tenth of what the planner calls too close to tell (1e-7 of the smaller body, unless the problem
+/// says otherwise), so that its paths are decided.
+double toleranceOf(const Problem& problem, const PathProblem& plain) {
+  if (problem.checker.tolerance) return 0.1 * *problem.checker.tolerance;
+  double smallest = 1;
+  for (const VerifyPair& pair : plain.pairs)
+    for (const std::size_t body : {pair.a, pair.b})
+      if (const double size = sizeOf(plain.bodies[body]); size > 0)
+        smallest = std::min(smallest, size);
+  return 1e-8 * smallest;
+}
+
+PathProblem plainProblem(const Problem& problem) {
+  PathProblem plain;
+  plain.tree = &problem.tree;
+  plain.space = &problem.space;
+  plain.margin = problem.margin;
+  plain.tube = problem.tube;
+  std::vector<std::vector<std::size_t>> parts;  // of each body: its shapes
+  for (const ProblemBody& body : problem.bodies) {
+    parts.emplace_back();
+    for (const PlacedShape& shape : body.shapes) {
+      parts.back().push_back(plain.bodies.size());
+      plain.bodies.push_back({body.name, shape.mesh ? &shape.mesh->mesh : nullptr,
+                              shape.part ? &*shape.part : nullptr, shape.solid, body.frame});
+    }
+  }
+  for (const ProblemPair& pair : problem.pairs) {
+    if (!pair.skipped.empty()) continue;
+    for (const std::size_t a : parts[pair.a])
+      for (const std::size_t b : parts[pair.b]) plain.pairs.push_back({a, b});
+  }
+  plain.tolerance = toleranceOf(problem, plain);
+  return plain;
 }
 
 }  // namespace
@@ -96,15 +181,10 @@ PathReport checkMotion(const Problem& problem, const Path& path, const Tube& tub
 VerifyReport verifySolution(const Problem& problem, const Solution& solution) {
   VerifyReport report;
   report.margin = problem.margin;
-  // As the contract has it, written down a second time: 2^-40 of each coordinate's range at least.
-  const int dimension = problem.space == RigidSpace::SE3 ? 3 : 2;
-  report.tube = problem.tube.value_or(Tube{});
-  report.tube.position = std::max(
-      report.tube.position, 0x1p-40 * (problem.upper - problem.lower).head(dimension).maxCoeff());
-  report.tube.rotation = std::max(report.tube.rotation, 0x1p-40 * 2 * std::numbers::pi);
+  report.tube = problem.tube;
   checkEnds(problem, solution.path, report.violations);
   checkBounds(problem, solution.path, report.violations);
-  report.motion = checkMotion(problem, solution.path, report.tube);
+  report.motion = verifyPath(plainProblem(problem), solution.path);
   report.verdict = report.violations.empty() ? report.motion.verdict : PathVerdict::refuted;
   return report;
 }

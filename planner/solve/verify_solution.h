@@ -14,13 +14,14 @@ struct VerifyReport {
   PathReport motion;  ///< of the path among the meshes, by planner/verify alone
   std::vector<std::string>
       violations;     ///< what else is wrong, one line each: start, goal, bounds of a state
-  double margin = 0;  ///< metres
-  Tube tube;          ///< that was proved
+  double margin = 0;   ///< metres
+  Configuration tube;  ///< that was proved, as Problem::tube
 };
 
 /// Checks that the path starts at the start, ends in the goal, stays in the bounds, and (by
 /// planner/verify) that every curve in the problem's tube around it keeps the problem's margin.
-/// Shares neither bounds, poses nor trees with the checker that planned it.
+/// Shares neither bounds, poses nor trees with the checker
+/// that planned it.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution);
 
 }  // namespace corridor

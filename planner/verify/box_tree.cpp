@@ -14,21 +14,50 @@ constexpr Real kSame = 1 - 0x1p-30L;
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<SoupTriangle> soup) : soup_(std::move(soup)) {
-  if (soup_.empty()) return;
-  nodes_.reserve(2 * soup_.size());
-  std::vector<std::uint32_t> order(soup_.size());
+BoxTree::BoxTree(const TriangleMesh& mesh) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Piece piece;
+    for (int i = 0; i < 3; ++i) {
+      piece.corners[static_cast<std::size_t>(i)] = mesh.corner(t, i);
+      radius_ = std::max(radius_, mesh.corner(t, i).cast<Real>().norm());
+    }
+    piece.triangle = t;
+    pieces_.push_back(piece);
+  }
+  radius_ *= 1 + 0x1p-60L;
+  nodes_.reserve(2 * pieces_.size());
+  std::vector<std::uint32_t> order(pieces_.size());
   std::iota(order.begin(), order.end(), 0u);
   build(order, 0, order.size());
+}
+
+BoxTree::BoxTree(const ConvexPart& part) {
+  Piece piece;
+  piece.part = &part;
+  pieces_.push_back(piece);
+  Node node;
+  node.leaf = 0;
+  node.lower = node.upper = part.points[0];
+  for (const Vec3& point : part.points) {
+    node.lower = node.lower.cwiseMin(point);
+    node.upper = node.upper.cwiseMax(point);
+    radius_ = std::max(radius_, point.cast<Real>().norm());
+  }
+  for (int i = 0; i < 3; ++i) {  // rounded outward; a disc stays within the ball
+    node.lower[i] = std::nextafter(node.lower[i] - part.radius, -HUGE_VAL);
+    node.upper[i] = std::nextafter(node.upper[i] + part.radius, HUGE_VAL);
+  }
+  radius_ = (radius_ + part.radius) * (1 + 0x1p-60L);
+  nodes_.push_back(node);
 }
 
 std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begin,
                              std::size_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   Node node;
-  node.lower = node.upper = soup_[order[begin]].corners[0];
+  node.lower = node.upper = pieces_[order[begin]].corners[0];
   for (std::size_t i = begin; i < end; ++i) {
-    for (const Vec3& corner : soup_[order[i]].corners) {
+    for (const Vec3& corner : pieces_[order[i]].corners) {
       node.lower = node.lower.cwiseMin(corner);
       node.upper = node.upper.cwiseMax(corner);
     }
@@ -41,7 +70,7 @@ std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   int axis = 0;
   (0.5 * node.upper - 0.5 * node.lower).maxCoeff(&axis);
   const auto key = [&](std::uint32_t i) {
-    const Corners& c = soup_[i].corners;
+    const Corners& c = pieces_[i].corners;
     return Real(c[0][axis]) + c[1][axis] + c[2][axis];
   };
   const std::size_t middle = begin + (end - begin) / 2;
@@ -55,115 +84,159 @@ std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   return index;
 }
 
-SoupDistance::SoupDistance(const BoxTree& moving, const BoxTree& fixed)
-    : moving_(moving), fixed_(fixed), movingBoxes_(moving.size()), stamps_(moving.size(), 0) {
-  fixedBoxes_.reserve(fixed.size());
-  for (std::uint32_t i = 0; i < fixed.size(); ++i) {
-    const RealVec lower = fixed.node(i).lower.cast<Real>(),
-                  upper = fixed.node(i).upper.cast<Real>();
-    fixedBoxes_.push_back({(lower + upper) / 2, (upper - lower) / 2});
+void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_AB) {
+  a_ = &a;
+  b_ = &b;
+  X_AB_ = X_AB;
+  direction_.setZero();
+  ++stamp_;
+  if (boxesB_.size() < b.size()) {
+    boxesB_.resize(b.size());
+    stamps_.resize(b.size(), 0);
   }
 }
 
-const SoupDistance::Box& SoupDistance::movingBox(std::uint32_t node) {
-  Box& box = movingBoxes_[node];
+BodyDistance::Box BodyDistance::boxA(std::uint32_t node) const {
+  const RealVec lower = a_->node(node).lower.cast<Real>(), upper = a_->node(node).upper.cast<Real>();
+  return {(lower + upper) / 2, (upper - lower) / 2};
+}
+
+const BodyDistance::Box& BodyDistance::boxB(std::uint32_t node) {
+  Box& box = boxesB_[node];
   if (stamps_[node] == stamp_) return box;
   stamps_[node] = stamp_;
-  if (const std::uint32_t leaf = moving_.node(node).leaf; leaf != BoxTree::noLeaf) {
-    const auto t = image(leaf);
+  const std::uint32_t leaf = b_->node(node).leaf;
+  if (leaf != BoxTree::noLeaf && !b_->piece(leaf).part) {
+    const auto t = cornersB(leaf);
     const RealVec lower = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
     const RealVec upper = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
     box = {(lower + upper) / 2, (upper - lower) / 2};
   } else {
-    const RealVec lower = moving_.node(node).lower.cast<Real>();
-    const RealVec upper = moving_.node(node).upper.cast<Real>();
-    box.centre = placement_.rotation * ((lower + upper) / 2) + placement_.position;
-    box.half = placement_.rotation.cwiseAbs() * ((upper - lower) / 2);
+    const RealVec lower = b_->node(node).lower.cast<Real>();
+    const RealVec upper = b_->node(node).upper.cast<Real>();
+    box.centre = X_AB_.rotation * ((lower + upper) / 2) + X_AB_.position;
+    box.half = X_AB_.rotation.cwiseAbs() * ((upper - lower) / 2);
   }
   return box;
 }
 
-Real SoupDistance::boxGap(std::uint32_t moving, std::uint32_t fixed) {
-  const Box &a = movingBox(moving), &b = fixedBoxes_[fixed];
+Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
+  const Box boxOfA = boxA(a);
+  const Box& boxOfB = boxB(b);
   Real square = 0;
   for (int i = 0; i < 3; ++i) {
-    const Real gap = std::abs(a.centre[i] - b.centre[i]) - a.half[i] - b.half[i];
+    const Real gap =
+        std::abs(boxOfA.centre[i] - boxOfB.centre[i]) - boxOfA.half[i] - boxOfB.half[i];
     if (gap > 0) square += gap * gap;
   }
-  const Real slab =
-      direction_.dot(b.centre - a.centre) - direction_.cwiseAbs().dot(a.half + b.half);
+  const Real slab = direction_.dot(boxOfB.centre - boxOfA.centre) -
+                    direction_.cwiseAbs().dot(boxOfA.half + boxOfB.half);
   return std::max(std::sqrt(square), slab);
 }
 
-std::array<RealVec, 3> SoupDistance::image(std::uint32_t triangle) const {
+std::array<RealVec, 3> BodyDistance::cornersA(std::uint32_t piece) const {
+  const Corners& c = a_->piece(piece).corners;
+  return {c[0].cast<Real>(), c[1].cast<Real>(), c[2].cast<Real>()};
+}
+
+std::array<RealVec, 3> BodyDistance::cornersB(std::uint32_t piece) const {
   std::array<RealVec, 3> result;
-  for (int i = 0; i < 3; ++i) {
-    result[i] = placement_.rotation * moving_.triangle(triangle).corners[i].cast<Real>() +
-                placement_.position;
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = X_AB_.rotation * b_->piece(piece).corners[i].cast<Real>() + X_AB_.position;
   return result;
 }
 
-TriangleGap SoupDistance::gap(TrianglePair pair, Real enough) const {
-  const auto a = image(pair.moving);
-  const Corners& fixed = fixed_.triangle(pair.fixed).corners;
-  const RealVec b[3] = {fixed[0].cast<Real>(), fixed[1].cast<Real>(), fixed[2].cast<Real>()};
-  TriangleGap cheap;
-  cheap.lower = slabWidth(a.data(), b, direction_);
-  return cheap.lower >= enough ? cheap : triangleGap(a.data(), b);
+ConvexSet BodyDistance::setA(std::uint32_t piece) const {
+  if (const ConvexPart* part = a_->piece(piece).part) return placed(*part, Placement{});
+  const auto corners = cornersA(piece);
+  return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
-SoupGap SoupDistance::measure(const Placement& placement, TrianglePair guess, Real doubt,
-                              const std::function<bool(TrianglePair)>& touches) {
-  SoupGap best;
-  if (moving_.empty() || fixed_.empty()) return best;
-  placement_ = placement;
-  ++stamp_;
+ConvexSet BodyDistance::setB(std::uint32_t piece) const {
+  if (const ConvexPart* part = b_->piece(piece).part) return placed(*part, X_AB_);
+  const auto corners = cornersB(piece);
+  return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
+}
+
+TriangleGap BodyDistance::gap(PiecePair pair) const {
+  if (a_->piece(pair.a).part || b_->piece(pair.b).part)
+    return convexGap(setA(pair.a), setB(pair.b));
+  return triangleGap(cornersA(pair.a).data(), cornersB(pair.b).data());
+}
+
+std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole) {
+  const BoxTree::Node &a = a_->node(whole.a), &b = b_->node(whole.b);
+  const bool leafA = a.leaf != BoxTree::noLeaf, leafB = b.leaf != BoxTree::noLeaf;
+  const bool splitB =
+      !leafB && (leafA || boxB(whole.b).half.maxCoeff() >= boxA(whole.a).half.maxCoeff());
+  if (splitB) return {item(whole.a, b.left), item(whole.a, b.right)};
+  return {item(a.left, whole.b), item(a.right, whole.b)};
+}
+
+BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
+                              const std::function<bool(PiecePair)>& touches) {
+  BodyGap best;
   direction_.setZero();
-  Real enough = best.upper;
-  const auto test = [&](TrianglePair pair) {
-    const TriangleGap found = gap(pair, enough);
+  Real enough = stop;
+  const auto test = [&](PiecePair pair) {
+    TriangleGap found;
+    if (!a_->piece(pair.a).part && !b_->piece(pair.b).part)  // cheaper, where that is enough
+      found.lower = slabWidth(cornersA(pair.a).data(), cornersB(pair.b).data(), direction_);
+    if (found.lower < enough) found = gap(pair);
     best.lower = std::min(best.lower, found.lower);
     if (found.upper < best.upper) {
       best.upper = found.upper;
       best.pair = pair;
-      best.onMoving = found.onA;
-      best.onFixed = found.onB;
-      enough = std::max(kSame * best.upper,
-                        std::nextafter(doubt, std::numeric_limits<Real>::infinity()));
-      direction_ = (found.onB - found.onA).normalized();
+      best.onA = found.onA;
+      best.onB = found.onB;
+      enough = std::min(stop, std::max(kSame * best.upper,
+                                       std::nextafter(doubt, std::numeric_limits<Real>::infinity())));
+      const RealVec between = found.onB - found.onA;
+      if (const Real length = between.norm(); length > 0) direction_ = between / length;
     }
     if (found.lower > doubt || !touches(pair)) return false;
     best = {0, 0, pair, found.onA, found.onB, true};
     return true;
   };
 
-  if (test(guess)) return best;
-  stack_.assign(1, {0, 0, boxGap(0, 0)});
+  stack_.assign(1, item(0, 0));
+  if (stack_.back().lower < enough && test(guess)) return best;
   while (!stack_.empty()) {
-    const Item item = stack_.back();
+    const Item at = stack_.back();
     stack_.pop_back();
-    if (item.lower >= enough) {
-      best.lower = std::min(best.lower, item.lower);
+    if (at.lower >= enough) {
+      best.lower = std::min(best.lower, at.lower);
       continue;
     }
-    const BoxTree::Node &a = moving_.node(item.moving), &b = fixed_.node(item.fixed);
-    const bool leafA = a.leaf != BoxTree::noLeaf, leafB = b.leaf != BoxTree::noLeaf;
-    if (leafA && leafB) {
-      if (test({a.leaf, b.leaf})) return best;
+    const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
+    if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
+      if (test({leafA, leafB})) return best;
       continue;
     }
-    const bool splitA = !leafA && (leafB || movingBox(item.moving).half.maxCoeff() >=
-                                                fixedBoxes_[item.fixed].half.maxCoeff());
-    Item first = splitA ? Item{a.left, item.fixed, 0} : Item{item.moving, b.left, 0};
-    Item second = splitA ? Item{a.right, item.fixed, 0} : Item{item.moving, b.right, 0};
-    first.lower = boxGap(first.moving, first.fixed);
-    second.lower = boxGap(second.moving, second.fixed);
+    auto [first, second] = split(at);
     if (first.lower < second.lower) std::swap(first, second);
     stack_.push_back(first);
     stack_.push_back(second);  // the nearer one next
   }
   return best;
+}
+
+bool BodyDistance::near(Real within, std::size_t most, std::vector<PiecePair>& pairs) {
+  pairs.clear();
+  stack_.assign(1, item(0, 0));
+  while (!stack_.empty()) {
+    const Item at = stack_.back();
+    stack_.pop_back();
+    if (at.lower >= within) continue;
+    const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
+    if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
+      if (pairs.size() == most) return false;
+      pairs.push_back({leafA, leafB});
+      continue;
+    }
+    for (const Item& half : split(at)) stack_.push_back(half);
+  }
+  return true;
 }
 
 }  // namespace corridor::verify

@@ -5,100 +5,111 @@
 #include <functional>
 #include <vector>
 
+#include "planner/verify/convex_gap.h"
 #include "planner/verify/exact_contact.h"
 #include "planner/verify/triangle_gap.h"
 
 namespace corridor::verify {
 
-/// A triangle of one of several meshes that share a frame.
-struct SoupTriangle {
-  Corners corners;
-  std::uint32_t mesh = 0, triangle = 0;  ///< index of the mesh, and of the triangle in it
+/// What a body is made of: a triangle of its mesh, or its convex part.
+struct Piece {
+  Corners corners;  ///< of a triangle
+  std::uint32_t triangle = 0;
+  const ConvexPart* part = nullptr;
 };
 
-/// Axis-aligned boxes over triangles, one triangle a leaf, split at the median centroid along the
-/// longest axis. Boxes are exact: minima and maxima of stored doubles.
+/// Axis-aligned boxes over a body's pieces, one piece a leaf, split at the median centroid along the
+/// longest axis. Boxes of triangles are exact: minima and maxima of stored doubles.
 class BoxTree {
  public:
   static constexpr std::uint32_t noLeaf = UINT32_MAX;
   struct Node {
     Vec3 lower, upper;
     std::uint32_t left = 0, right = 0;  ///< indices of nodes
-    std::uint32_t leaf = noLeaf;        ///< index of a triangle, in a leaf
+    std::uint32_t leaf = noLeaf;        ///< index of a piece, in a leaf
   };
 
-  explicit BoxTree(std::vector<SoupTriangle> soup);
+  /// @pre at least one triangle.
+  explicit BoxTree(const TriangleMesh& mesh);
+  explicit BoxTree(const ConvexPart& part);
 
-  bool empty() const { return nodes_.empty(); }
   const Node& node(std::uint32_t i) const { return nodes_[i]; }  ///< 0 is the root
   std::size_t size() const { return nodes_.size(); }
-  const SoupTriangle& triangle(std::uint32_t i) const { return soup_[i]; }
-  const std::vector<SoupTriangle>& triangles() const { return soup_; }
+  const Piece& piece(std::uint32_t i) const { return pieces_[i]; }
+  Real radius() const { return radius_; }  ///< about the origin, of all points; rounded up
 
  private:
   std::uint32_t build(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end);
 
-  std::vector<SoupTriangle> soup_;
+  std::vector<Piece> pieces_;
   std::vector<Node> nodes_;
+  Real radius_ = 0;
 };
 
-/// Indices of triangles of the moving and the fixed tree.
-struct TrianglePair {
-  std::uint32_t moving = 0, fixed = 0;
+/// Indices of pieces of body a and body b.
+struct PiecePair {
+  std::uint32_t a = 0, b = 0;
 };
 
-/// The map x ↦ rotation·x + position, rounded; the caller knows by how much.
-struct Placement {
-  RealMat rotation;
-  RealVec position;
-};
-
-/// The distance of two soups, bracketed, up to the rounding of TriangleGap.
-struct SoupGap {
+/// The distance of two bodies, bracketed, up to the rounding of TriangleGap; points in a's frame.
+struct BodyGap {
   Real lower = std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();
-  TrianglePair pair;  ///< of `upper`
-  RealVec onMoving = RealVec::Zero(), onFixed = RealVec::Zero();
+  PiecePair pair;  ///< of `upper`
+  RealVec onA = RealVec::Zero(), onB = RealVec::Zero();
   bool touching =
       false;  ///< `touches` said so of `pair`; the search ended there, upper = lower = 0
 };
 
-/// Distances of the same two trees under many placements; owns the scratch memory.
-class SoupDistance {
+/// Distances of two bodies, b placed in the frame of a; owns the scratch memory.
+class BodyDistance {
  public:
-  SoupDistance(const BoxTree& moving, const BoxTree& fixed);
+  /// Both trees must outlive the questions.
+  void place(const BoxTree& a, const BoxTree& b, const Placement& X_AB);
 
-  /// Branch and bound on box distances. `guess` is a pair that is likely close. Pairs at `doubt` or
-  /// less are shown to `touches`, which decides exactly; the first that touches ends the search.
+  /// Branch and bound on box distances. `guess` is a pair that is likely close. What is farther
+  /// than `stop` is not looked at. Pairs at `doubt` or less are shown to `touches`, which decides
+  /// exactly; the first that touches ends the search.
   ///
   /// Whatever is not looked at is accounted for: `lower` is the least of the bounds of all pairs of
-  /// boxes left out and of all pairs of triangles tested. The box of a moving node is |R|·(half
-  /// extents) about the image of its centre; its rounding (3 sums of 3 products, a root of three
-  /// squares: under 32u·S) is left to the caller, like the rest.
-  SoupGap measure(const Placement& placement, TrianglePair guess, Real doubt,
-                  const std::function<bool(TrianglePair)>& touches);
+  /// boxes left out and of all pairs of pieces tested. The box of a node of b is |R|·(half extents)
+  /// about the image of its centre; its rounding (3 sums of 3 products, a root of three squares:
+  /// under 32u·S) is left to the caller, like the rest.
+  BodyGap measure(PiecePair guess, Real doubt, Real stop,
+                  const std::function<bool(PiecePair)>& touches);
+
+  /// All pairs of pieces whose boxes are not `within` or more apart, but no more than `most`.
+  /// @returns false if there are more; all others are at least `within` apart.
+  bool near(Real within, std::size_t most, std::vector<PiecePair>& pairs);
+
+  ConvexSet setA(std::uint32_t piece) const;
+  ConvexSet setB(std::uint32_t piece) const;  ///< in a's frame
+  TriangleGap gap(PiecePair pair) const;
 
  private:
   struct Box {
     RealVec centre, half;
   };
   struct Item {
-    std::uint32_t moving, fixed;
+    std::uint32_t a, b;
     Real lower;
   };
-  const Box& movingBox(std::uint32_t node);
-  Real boxGap(std::uint32_t moving, std::uint32_t fixed);
-  std::array<RealVec, 3> image(std::uint32_t triangle) const;  ///< of a moving one
-  /// Only a lower bound, where that is cheap and `enough`.
-  TriangleGap gap(TrianglePair pair, Real enough) const;
+  Box boxA(std::uint32_t node) const;
+  const Box& boxB(std::uint32_t node);
+  Real boxGap(std::uint32_t a, std::uint32_t b);
+  Item item(std::uint32_t a, std::uint32_t b) { return {a, b, boxGap(a, b)}; }
+  /// The two halves of an item that isn't a pair of leaves.
+  std::array<Item, 2> split(const Item& item);
+  std::array<RealVec, 3> cornersA(std::uint32_t piece) const;
+  std::array<RealVec, 3> cornersB(std::uint32_t piece) const;
 
-  const BoxTree& moving_;
-  const BoxTree& fixed_;
-  Placement placement_;
-  RealVec direction_;  ///< of the closest points so far, unit or zero: slabs along it are bounds,
-                       ///< for boxes too
-  std::vector<Box> movingBoxes_, fixedBoxes_;
-  std::vector<std::uint64_t> stamps_;  ///< of movingBoxes_: the measurement that made them
+  const BoxTree* a_ = nullptr;
+  const BoxTree* b_ = nullptr;
+  Placement X_AB_;
+  RealVec direction_ = RealVec::Zero();  ///< of the closest points so far, unit or zero: slabs along
+                                         ///< it are bounds, for boxes too
+  std::vector<Box> boxesB_;
+  std::vector<std::uint64_t> stamps_;  ///< of boxesB_: the placement that made them
   std::uint64_t stamp_ = 0;
   std::vector<Item> stack_;
 };

@@ -8,66 +8,225 @@ namespace corridor::verify {
 namespace {
 
 constexpr Real kPi = std::numbers::pi_v<Real>;
-constexpr Real kAmbiguous = 1e-9L;      // radians; design: «What an edge is»
-constexpr Real kUp = 1 + 0x1p-50L;      // more than any sum here rounds, relatively
-constexpr Real kAngleError = 0x1p-57L;  // 128u: twice that of omega_
+constexpr Real kAmbiguous = 1e-9L;  // radians; design: «What an edge is»
+constexpr Real kUp = 1 + 0x1p-50L;  // more than any sum here rounds, relatively
+
+RealMat rotationOf(const Eigen::Matrix<Real, 4, 1>& q) {
+  const Real x = q[0], y = q[1], z = q[2], w = q[3], k = 2 / q.squaredNorm();
+  RealMat R;
+  R << 1 - k * (y * y + z * z), k * (x * y - w * z), k * (x * z + w * y), k * (x * y + w * z),
+      1 - k * (x * x + z * z), k * (y * z - w * x), k * (x * z - w * y), k * (y * z + w * x),
+      1 - k * (x * x + y * y);
+  return R;
+}
+
+RealMat turnBy(const RealVec& axis, Real angle) {
+  RealMat K;
+  K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
+  return RealMat::Identity() + std::sin(angle) * K + (1 - std::cos(angle)) * (K * K);
+}
+
+RealVec axisOf(const Frame& frame) {
+  return frame.axis.cast<Real>().normalized();
+}
 
 }  // namespace
 
-EdgeCurve::EdgeCurve(const PathState& from, const PathState& to, bool planar) : planar_(planar) {
-  if (planar) {
-    from_ = {from.xyYaw.x(), from.xyYaw.y(), 0};
-    way_ = RealVec(to.xyYaw.x(), to.xyYaw.y(), 0) - from_;
-    yaw_ = from.xyYaw.z();
-    turn_ = std::remainder(Real(to.xyYaw.z()) - yaw_, 2 * kPi);
-    angle_ = std::abs(turn_) * kUp;
-    ambiguous_ = kPi - std::abs(turn_) <= kAmbiguous;
-  } else {
-    from_ = from.pose.p.cast<Real>();
-    way_ = to.pose.p.cast<Real>() - from_;
-    q0_ = from.pose.q.coeffs().cast<Real>().normalized();
-    q1_ = to.pose.q.coeffs().cast<Real>().normalized();
-    if (q0_.dot(q1_) < 0) q1_ = -q1_;
-    omega_ = 2 * std::atan2((q1_ - q0_).norm(), (q1_ + q0_).norm());
-    angle_ = omega_ == 0 ? 0 : (2 * omega_ + kAngleError) * kUp;
-    ambiguous_ = kPi - 2 * omega_ <= kAmbiguous;
+Limb limbOf(const KinematicTree& tree, std::size_t base, std::size_t frame) {
+  Limb limb{base, frame, {}};
+  for (std::size_t f = frame; f != base; f = tree.frames[f].parent) limb.path.push_back(f);
+  std::reverse(limb.path.begin(), limb.path.end());
+  return limb;
+}
+
+std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b) {
+  while (a != b) {  // parents come before their children
+    std::size_t& later = a > b ? a : b;
+    later = tree.frames[later].parent;
   }
-  length_ = way_.norm() * kUp;
+  return a;
 }
 
-EdgeCurve::At EdgeCurve::at(Real t) const {
-  At result;
-  Placement& placement = result.placement;
-  placement.position = from_ + t * way_;
-  if (planar_) {
-    const Real yaw = yaw_ + t * turn_, c = std::cos(yaw), s = std::sin(yaw);
-    placement.rotation << c, -s, 0, s, c, 0, 0, 0, 1;
-    result.yaw = static_cast<double>(yaw);
-    result.pose.q = Eigen::Quaterniond(static_cast<double>(std::cos(yaw / 2)), 0, 0,
-                                       static_cast<double>(std::sin(yaw / 2)));
-  } else {
-    const Real sine = std::sin(omega_);
-    const Real w0 = sine > 0 ? std::sin((1 - t) * omega_) / sine : 1 - t;
-    const Real w1 = sine > 0 ? std::sin(t * omega_) / sine : t;
-    const Quaternion q = w0 * q0_ + w1 * q1_;
-    const Real x = q[0], y = q[1], z = q[2], w = q[3], k = 2 / q.squaredNorm();
-    placement.rotation << 1 - k * (y * y + z * z), k * (x * y - w * z), k * (x * z + w * y),
-        k * (x * y + w * z), 1 - k * (x * x + z * z), k * (y * z - w * x), k * (x * z - w * y),
-        k * (y * z + w * x), 1 - k * (x * x + y * y);
-    result.pose.q.coeffs() = q.cast<double>();
+EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
+                     const Configuration& from, const Configuration& to)
+    : tree_(tree),
+      coordinates_(coordinates),
+      lines_(static_cast<std::size_t>(from.size())),
+      arcAt_(static_cast<std::size_t>(from.size()), 0) {
+  for (const Coordinate& c : coordinates) {
+    const auto i = static_cast<Eigen::Index>(c.first);
+    if (c.kind != Coordinate::Kind::rotation) {
+      Real way = Real(to[i]) - Real(from[i]);
+      if (c.kind == Coordinate::Kind::circle) {
+        way = std::remainder(way, 2 * kPi);
+        ambiguous_ |= kPi - std::abs(way) <= kAmbiguous;
+      }
+      lines_[c.first] = {Real(from[i]), way};
+      continue;
+    }
+    Arc arc;
+    arc.q0 = from.segment<4>(i).cast<Real>().normalized();
+    arc.q1 = to.segment<4>(i).cast<Real>().normalized();
+    if (arc.q0.dot(arc.q1) < 0) arc.q1 = -arc.q1;
+    arc.omega = 2 * std::atan2((arc.q1 - arc.q0).norm(), (arc.q1 + arc.q0).norm());
+    ambiguous_ |= kPi - 2 * arc.omega <= kAmbiguous;
+    // The vector part of q1·q0⁻¹: w0 v1 − w1 v0 − v1 × v0.
+    const RealVec v0 = arc.q0.head<3>(), v1 = arc.q1.head<3>();
+    const RealVec v = arc.q0[3] * v1 - arc.q1[3] * v0 - v1.cross(v0);
+    const Real length = v.norm();
+    if (arc.omega > 0 && length > 0) arc.turn = v * (2 * arc.omega / length);
+    arcAt_[c.first] = arcs_.size();
+    arcs_.push_back(arc);
   }
-  result.pose.p = placement.position.cast<double>();
-  return result;
 }
 
-Real EdgeCurve::travel(Real dt, Real reach) const {
-  return (length_ * dt + std::min(angle_ * dt, Real(2)) * reach) * kUp;
+const EdgeCurve::Arc& EdgeCurve::arcOf(const Frame& frame) const {
+  return arcs_[arcAt_[frame.variable]];
 }
 
-Real EdgeCurve::size(Real reach) const {
-  // 8u of the largest yaw, in units of 2^-50 = 2^14 u, is 2^-11 of it.
-  const Real yaws = planar_ ? 1 + 0x1p-11L * (std::abs(yaw_) + std::abs(turn_)) : 1;
-  return (from_.norm() + (from_ + way_).norm() + way_.norm() + yaws * reach) * kUp;
+RealMat EdgeCurve::arcAt(const Arc& arc, Real t) const {
+  const Real sine = std::sin(arc.omega);
+  const Real w0 = sine > 0 ? std::sin((1 - t) * arc.omega) / sine : 1 - t;
+  const Real w1 = sine > 0 ? std::sin(t * arc.omega) / sine : t;
+  return rotationOf(w0 * arc.q0 + w1 * arc.q1);
+}
+
+EdgeCurve::Line EdgeCurve::valueOf(const Frame& frame) const {
+  if (frame.variable == Frame::noVariable) return {Real(frame.offset), 0};
+  const Line& line = lines_[frame.variable];
+  return {Real(frame.multiplier) * line.from + Real(frame.offset),
+          Real(frame.multiplier) * line.way};
+}
+
+FrameState EdgeCurve::at(const Limb& limb, Real t) const {
+  FrameState state;
+  Placement& at = state.at;
+  const auto turns = [&](const RealVec& vector) {  // about an axis through the place reached
+    state.angular += vector;
+    state.linear -= vector.cross(at.position);
+  };
+  for (const std::size_t f : limb.path) {
+    const Frame& frame = tree_.frames[f];
+    at.position += at.rotation * frame.fixed.p.cast<Real>();
+    at.rotation = at.rotation * rotationOf(frame.fixed.q.coeffs().cast<Real>());
+    switch (frame.joint) {
+      case Frame::Joint::none:
+        break;
+      case Frame::Joint::turn: {
+        const Line value = valueOf(frame);
+        const RealVec axis = axisOf(frame);
+        turns(value.way * (at.rotation * axis));
+        at.rotation = at.rotation * turnBy(axis, value.from + t * value.way);
+        break;
+      }
+      case Frame::Joint::slide: {
+        const Line value = valueOf(frame);
+        const RealVec axis = at.rotation * axisOf(frame);
+        state.linear += value.way * axis;
+        at.position += (value.from + t * value.way) * axis;
+        break;
+      }
+      case Frame::Joint::shift: {
+        RealVec from = RealVec::Zero(), way = RealVec::Zero();
+        for (std::size_t k = 0; k < frame.count; ++k) {
+          from[static_cast<Eigen::Index>(k)] = lines_[frame.variable + k].from;
+          way[static_cast<Eigen::Index>(k)] = lines_[frame.variable + k].way;
+        }
+        state.linear += at.rotation * way;
+        at.position += at.rotation * (from + t * way);
+        break;
+      }
+      case Frame::Joint::rotate: {
+        const Arc& arc = arcOf(frame);
+        turns(at.rotation * arc.turn);
+        at.rotation = at.rotation * arcAt(arc, t);
+        break;
+      }
+    }
+  }
+  return state;
+}
+
+Configuration EdgeCurve::configuration(Real t) const {
+  Configuration q(static_cast<Eigen::Index>(lines_.size()));
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    q[static_cast<Eigen::Index>(i)] = static_cast<double>(lines_[i].from + t * lines_[i].way);
+  for (const Coordinate& c : coordinates_) {
+    if (c.kind != Coordinate::Kind::rotation) continue;
+    const Arc& arc = arcs_[arcAt_[c.first]];
+    const Real sine = std::sin(arc.omega);
+    const Real w0 = sine > 0 ? std::sin((1 - t) * arc.omega) / sine : 1 - t;
+    const Real w1 = sine > 0 ? std::sin(t * arc.omega) / sine : t;
+    q.segment<4>(static_cast<Eigen::Index>(c.first)) =
+        (w0 * arc.q0 + w1 * arc.q1).normalized().cast<double>();
+  }
+  return q;
+}
+
+Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube) const {
+  Reach reach;
+  // From the frame back to the base: `length` is that of the chain after the joint at hand; turns
+  // before it are not known yet, so that their share of `bend` is added when they come: with D the
+  // sum of |Δ_j| R_j and |Δ_j| of the joints after them, 2 |Δ_i| D.
+  Real length = radius, after = 0, manyTurns = 1;
+  const auto turn = [&](Real delta, Real stray) {
+    reach.bend += delta * (delta * length + 2 * after);
+    reach.speed += delta * length;
+    reach.tube += stray * length;
+    after += delta * length;
+  };
+  const auto slide = [&](Real delta, Real stray, Real longest) {
+    reach.speed += delta;
+    reach.tube += stray;
+    after += delta;
+    length += longest + stray;
+  };
+  const auto strayOf = [&](std::size_t number) {
+    return Real(tube[static_cast<Eigen::Index>(number)]);
+  };
+  for (std::size_t k = limb.path.size(); k-- > 0;) {
+    const Frame& frame = tree_.frames[limb.path[k]];
+    const Line value =
+        frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide ? valueOf(frame)
+                                                                                : Line{};
+    const Real largest = std::abs(value.from) + std::abs(value.way);
+    const bool held = frame.variable == Frame::noVariable;
+    switch (frame.joint) {
+      case Frame::Joint::none:
+        break;
+      case Frame::Joint::turn:
+        turn(std::abs(value.way),
+             held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable));
+        manyTurns += 0x1p-11L * largest;
+        break;
+      case Frame::Joint::slide:
+        slide(std::abs(value.way),
+              held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable), largest);
+        break;
+      case Frame::Joint::shift: {
+        Real way = 0, stray = 0, longest = 0;
+        for (std::size_t i = 0; i < frame.count; ++i) {
+          const Line& line = lines_[frame.variable + i];
+          const Real most = std::abs(line.from) + std::abs(line.way);
+          way += line.way * line.way;
+          stray += strayOf(frame.variable + i) * strayOf(frame.variable + i);
+          longest += most * most;
+        }
+        slide(std::sqrt(way), std::sqrt(stray), std::sqrt(longest));
+        break;
+      }
+      case Frame::Joint::rotate:
+        turn(arcOf(frame).turn.norm(), strayOf(frame.variable));
+        break;
+    }
+    length += frame.fixed.p.cast<Real>().norm();
+  }
+  const Real frames = std::max<Real>(1, Real(limb.path.size()) / 54);
+  reach.size = (length + reach.speed) * manyTurns * frames * kUp;
+  reach.speed *= kUp;
+  reach.bend *= kUp;
+  reach.tube *= kUp;
+  return reach;
 }
 
 }  // namespace corridor::verify

@@ -1,60 +1,95 @@
 #pragma once
 
-#include "planner/verify/box_tree.h"
+#include <cstddef>
+#include <vector>
+
+#include "planner/robot/kinematic_tree.h"
+#include "planner/verify/triangle_gap.h"
 
 namespace corridor::verify {
 
-/// A state of a path, in either space.
-struct PathState {
-  RigidPose pose;             ///< SE(3)
-  Vec3 xyYaw = Vec3::Zero();  ///< SE(2)
+/// The map x ↦ rotation·x + position, rounded; the caller knows by how much.
+struct Placement {
+  RealMat rotation = RealMat::Identity();
+  RealVec position = RealVec::Zero();
 };
 
-/// The curve of an edge by Corridor's definition, for t in [0, 1]: position linear; in SE(3) the
-/// slerp of the quaternions normalised in real arithmetic, by the shorter arc; in SE(2) the yaw
-/// linear, the shorter way round, and z = 0.
+/// Where a frame is at a time t of an edge, and how it moves there: a point x (in the coordinates
+/// of the base) has the velocity linear + angular × x per unit of t.
+struct FrameState {
+  Placement at;
+  RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
+};
+
+/// A frame as seen from one of its ancestors: the joints from `base`, which are not counted, to
+/// `frame`.
+struct Limb {
+  std::size_t base = 0, frame = 0;
+  std::vector<std::size_t> path;  ///< frames after `base`, in order, `frame` the last
+};
+
+/// @pre `base` is `frame` or one of its ancestors.
+Limb limbOf(const KinematicTree& tree, std::size_t base, std::size_t frame);
+std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b);
+
+/// What points of a frame, at most `radius` from its origin, can do along an edge, whatever the
+/// time: constant reach weights (Schwarzer, Saha, Latombe 2005). With Δ_j what joint j does in all
+/// of the edge, R_j the length of the chain from joint j to the frame plus `radius`, P_j = Σ |Δ_i|
+/// of the turns before j:
+///   |x'| ≤ speed = Σ_turns |Δ_j| R_j + Σ_slides |Δ_j|, per unit of t;
+///   |x''| ≤ bend = Σ_turns |Δ_j| R_j (|Δ_j| + 2 P_j) + Σ_slides 2 |Δ_j| P_j,
+/// since x'' is a sum over ordered pairs of joints, of the first's rotation vector times (the
+/// second's share of x'), the second's share not longer than |Δ_j| R_j, and slides in a straight
+/// line have none of their own. A stray of each variable within its tube moves x by at most `tube` =
+/// Σ_turns τ_j R_j + Σ_slides τ_j.
+struct Reach {
+  Real speed = 0, bend = 0, tube = 0;
+  Real size = 0;  ///< bounds every length that enters the pose; rounding is 2^-50 of it
+};
+
+/// The curve of an edge by Corridor's definition, in the verifier's own arithmetic: lines linear in
+/// t, circles the shorter way round, rotations by slerp of the quaternions normalised in real
+/// arithmetic, by the shorter arc; frames by forward kinematics on the tree's stored doubles,
+/// quaternions and axes normalised.
 ///
-/// Rounding, u = 2^-64, t with at most 63 bits. Normalised quaternions are off by ≤ 5u each (4
-/// products, 3 sums, root, quotient). |q1 − q0| and |q1 + q0| are off by ≤ 14u, so the angle Ω = 2
-/// atan2 of them is by ≤ 32u. The weights sin(tΩ)/sin Ω change by ≤ 0.6 per unit of Ω while Ω ≤
-/// π/2, and round by ≤ 8u; their sum is ≤ √2. Together q(t) is off by ≤ 2·5u·0.71 + 2·0.6·32u +
-/// 8u·√2 + 5u < 128u, hence the rotation by an angle of ≤ 256u, the entries of its matrix round by
-/// ≤ 16u, and the image of a point x in it by ≤ 400u|x| + 8u|p|. In SE(2) the yaw is off by ≤ 8u of
-/// its largest summand (π rounds by u/2 of itself, and is subtracted |Δ|/2π times), sine and cosine
-/// by 2u. `rounding` = 2^-50·size = 2^14 u·size covers all of it amply; so also the rounding of a
-/// placement to the doubles of a RigidPose (a quaternion ≤ 2^-53, the rotation ≤ 2^-52, a position
-/// ≤ 2^-53|p|).
+/// Rounding, u = 2^-64, t with at most 63 bits. Normalised quaternions are off by ≤ 5u each, their
+/// slerp by < 128u (angle Ω = 2 atan2 of |q1 − q0| and |q1 + q0|, off by ≤ 32u; weights by ≤ 0.6
+/// per unit of Ω and 8u), the rotation by < 256u. A turn by q0 + tΔ is off by ≤ 4u of its largest
+/// summand, sine, cosine and Rodrigues' matrix by < 16u. A frame multiplies two such into the
+/// rotation, 10u more: < 300u a frame for rotations, < 40u a frame else. With n frames a point is
+/// off by ≤ n·300u times the lengths that come after: below 2^14·u·size = 2^-50·size for n ≤ 54;
+/// `Reach::size` grows with n beyond that, and with angles that are many turns.
 class EdgeCurve {
  public:
-  EdgeCurve(const PathState& from, const PathState& to, bool planar);
+  EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
+            const Configuration& from, const Configuration& to);
 
   /// The shorter way round is not unique within 1e-9 rad: the edge is nothing that could be proved.
   bool ambiguous() const { return ambiguous_; }
-
-  struct At {
-    Placement placement;
-    RigidPose pose;  ///< rounded to doubles
-    double yaw = 0;  ///< SE(2)
-  };
-  At at(Real t) const;
-
-  /// An upper bound of the way of any point within `reach` of the reference point while t changes
-  /// by `dt`: a chord of a rotation by the angle α is 2 r sin(α/2) ≤ r·α, and ≤ 2r.
-  Real travel(Real dt, Real reach) const;
-
-  /// Metres; times 2^-50 it bounds the rounding of placements, given the same `reach`.
-  Real size(Real reach) const;
+  FrameState at(const Limb& limb, Real t) const;
+  Configuration configuration(Real t) const;  ///< rounded
+  Reach reach(const Limb& limb, Real radius, const Configuration& tube) const;
 
  private:
-  using Quaternion = Eigen::Matrix<Real, 4, 1>;  ///< x, y, z, w
+  /// What a coordinate does: number from + t·way; a rotation by slerp.
+  struct Line {
+    Real from = 0, way = 0;
+  };
+  struct Arc {
+    Eigen::Matrix<Real, 4, 1> q0, q1;  // x, y, z, w
+    Real omega = 0;                    // between them
+    RealVec turn = RealVec::Zero();    // rotation vector of the whole, in the joint's frame
+  };
+  const Arc& arcOf(const Frame& frame) const;
+  RealMat arcAt(const Arc& arc, Real t) const;
+  Line valueOf(const Frame& frame) const;
 
-  bool planar_;
+  const KinematicTree& tree_;
+  const std::vector<Coordinate>& coordinates_;
+  std::vector<Line> lines_;         // a number of a configuration each
+  std::vector<Arc> arcs_;           // a coordinate each; empty but for rotations
+  std::vector<std::size_t> arcAt_;  // of the first number of a rotation
   bool ambiguous_ = false;
-  RealVec from_, way_;           ///< position
-  Quaternion q0_, q1_;           ///< SE(3): unit, q0·q1 ≥ 0
-  Real omega_ = 0;               ///< SE(3): angle between them, half that of the rotation
-  Real yaw_ = 0, turn_ = 0;      ///< SE(2)
-  Real length_ = 0, angle_ = 0;  ///< of the whole edge, rounded up
 };
 
 }  // namespace corridor::verify

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "collision/core/transform.h"
+#include "collision/geometry/triangle_mesh.h"
 #include "collision/motion/rigid_motion.h"
 
 namespace corridor::verify {

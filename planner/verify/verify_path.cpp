@@ -9,12 +9,14 @@
 
 #include "planner/verify/box_tree.h"
 #include "planner/verify/edge_curve.h"
+#include "planner/verify/winding.h"
 
 namespace corridor {
 namespace {
 
 using namespace verify;
 
+constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 constexpr std::size_t kFindings = 100;
 /// Halvings of an edge: t keeps 60 bits, which EdgeCurve's count of roundings allows.
 constexpr int kDepth = 60;
@@ -22,57 +24,33 @@ constexpr int kDepth = 60;
 /// found at once. Then the deepest part is next, so that a place that can't be decided is found
 /// without halving all others as far.
 constexpr int kCoarse = 5;
+/// Pairs of pieces that one interval may prove one by one, by slabs of their own; with more it is
+/// halved instead.
+constexpr std::size_t kNear = 400;
 /// Once all is proved, the bound of the clearance may take this many queries more, and four times
 /// those of the proof.
 constexpr std::uint64_t kRefinement = 4000;
 constexpr Real kRefined = 0.9L;
 
-std::vector<SoupTriangle> soupOf(const std::vector<VerifyBody>& bodies) {
-  std::vector<SoupTriangle> soup;
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].mesh) throw std::invalid_argument("verifyPath: body without a mesh");
-    const TriangleMesh& mesh = *bodies[i].mesh;
-    for (std::uint32_t j = 0; j < mesh.triangles.size(); ++j) {
-      soup.push_back({{mesh.corner(j, 0), mesh.corner(j, 1), mesh.corner(j, 2)}, i, j});
-    }
-  }
-  return soup;
-}
-
-/// Radius about `centre` of all corners, rounded up.
-Real radiusAbout(const RealVec& centre, const std::vector<SoupTriangle>& soup) {
-  Real radius = 0;
-  for (const SoupTriangle& triangle : soup) {
-    for (const Vec3& corner : triangle.corners) {
-      radius = std::max(radius, (corner.cast<Real>() - centre).norm());
-    }
-  }
-  return radius * (1 + 0x1p-60L);
-}
-
-RealVec middleOf(const BoxTree& tree) {
-  if (tree.empty()) return RealVec::Zero();
-  return (tree.node(0).lower.cast<Real>() + tree.node(0).upper.cast<Real>()) / 2;
-}
-
-void requireLength(double value, const char* name) {
-  if (!(value >= 0 && std::isfinite(value))) {
-    throw std::invalid_argument(std::string("verifyPath: ") + name +
-                                " must be finite and not negative");
-  }
-}
-
-/// A part of an edge, measured at its middle.
-struct Interval {
-  int edge = 0;
-  int depth = 0;  ///< half = 2^-(depth + 1), unless it is a single t
-  Real middle = 0, half = 0;
-  Real bound = 0;  ///< proved: the clearance of every curve in the tube, all over the interval
-  SoupGap gap;     ///< at the middle
+/// A pair of bodies along one edge: what its reach weights allow.
+struct PairReach {
+  Real speed = 0, bend = 0, tube = 0, rounding = 0;
 };
 
-struct WorstOnTop {
-  bool operator()(const Interval& a, const Interval& b) const { return a.bound > b.bound; }
+/// A pair of bodies in a part of an edge.
+struct OpenPair {
+  std::size_t pair = 0;
+  PiecePair guess;
+  Real bound = -kInfinity;  ///< proved: the clearance of every curve in the tube, all over the part
+};
+
+/// A part of an edge, to be looked at at its middle.
+struct Interval {
+  std::size_t edge = 0;
+  int depth = 0;  ///< half = 2^-(depth + 1), unless it is a single t
+  Real middle = 0.5L, half = 0.5L;
+  std::vector<OpenPair> pairs;  ///< not proved yet
+  Real bound = -kInfinity;      ///< the least of theirs
 };
 
 struct NextOnTop {
@@ -82,230 +60,431 @@ struct NextOnTop {
     return coarseA || a.depth == b.depth ? a.bound > b.bound : a.depth < b.depth;
   }
 };
+struct WorstOnTop {
+  bool operator()(const Interval& a, const Interval& b) const { return a.bound > b.bound; }
+};
+
+/// A pair as it was measured at a time.
+struct Measured {
+  BodyGap gap;
+  FrameState a, b;
+};
 
 class Verifier {
  public:
-  Verifier(const PathProblem& problem, const std::vector<PathState>& states, bool planar)
-      : problem_(problem),
-        planar_(planar),
-        moving_(soupOf(problem.moving)),
-        fixed_(soupOf(problem.fixed)),
-        distance_(moving_, fixed_) {
-    requireLength(problem.margin, "margin");
-    requireLength(problem.tolerance, "tolerance");
-    requireLength(problem.tube.position, "tube.position");
-    requireLength(problem.tube.rotation, "tube.rotation");
-    if (states.empty()) throw std::invalid_argument("verifyPath: no states");
-
-    reach_ = radiusAbout(RealVec::Zero(), moving_.triangles());
-    fixedSize_ = radiusAbout(RealVec::Zero(), fixed_.triangles());
-    tolerance_ = problem.tolerance;
-    if (tolerance_ == 0) {
-      tolerance_ = 1e-7L * std::min(radiusAbout(middleOf(moving_), moving_.triangles()),
-                                    radiusAbout(middleOf(fixed_), fixed_.triangles()));
-    }
-    // A displacement of each coordinate by ≤ τ moves a point by ≤ √3τ (√2τ in the plane), a
-    // rotation by ≤ ρ by the chord.
-    const Real rotation = std::min<Real>(problem.tube.rotation, 2);
-    tube_ = (std::sqrt(Real(planar ? 2 : 3)) * problem.tube.position + rotation * reach_) *
-            (1 + 0x1p-60L);
-    for (std::size_t i = 0; i + 1 < states.size(); ++i) addEdge(states[i], states[i + 1]);
-    if (states.size() == 1) addEdge(states[0], states[0]);
-  }
-
+  Verifier(const PathProblem& problem, const std::vector<Configuration>& states);
   PathReport run();
 
  private:
-  void addEdge(const PathState& from, const PathState& to);
-  bool isState(const PathState& state) const;
-  /// Measures `part` at its middle, and closes the edge if that refutes it.
-  void measure(Interval& part, TrianglePair guess, Real atLeast);
-  void close(const Interval& part, PathVerdict verdict, const std::string& reason);
-  void closeInvalid(int edge, const PathState& state, const std::string& reason);
-  bool closed(int edge) const { return findings_.count(edge) > 0; }
-  /// Halves `part` and keeps the halves, unless they refute the edge.
-  void bisect(const Interval& part);
-  void keep(const Interval& part);
-  void prove();
+  struct Pair {
+    std::size_t a, b, limbA, limbB;
+  };
+  void require(const std::vector<Configuration>& states) const;
+  bool isState(const Configuration& state) const;
+  std::size_t limb(std::size_t base, std::size_t frame);
+  const FrameState& stateOf(std::size_t edge, std::size_t limb, Real t);
+  PairReach reachOf(std::size_t edge, std::size_t pair) const;
+  /// Looks at one pair in [middle − half, middle + half]: its bound, unless the edge is refuted.
+  Real look(const Interval& part, OpenPair& pair);
+  /// The bound by a slab for each pair of pieces that comes near.
+  Real lookClosely(const Measured& m, const PairReach& reach, Real half, Real wanted);
+  void close(const Interval& part, std::size_t pair, const Measured& m, PathVerdict verdict,
+             const std::string& reason);
+  void closeInvalid(std::size_t edge, const Configuration& state, const std::string& reason);
+  bool closed(std::size_t edge) const { return findings_.count(static_cast<int>(edge)) > 0; }
+  /// Looks at all pairs of `part`; what isn't proved stays in it.
+  void lookAtAll(Interval& part);
+  void proveStates();
+  void proveEdge(std::size_t edge);
+  void proveOutside();
+  std::optional<Vec3> pointInside(std::size_t solid, std::size_t other, const Placement& X_SolidOther);
   void refine();
-  /// How close the two closest points come when the body is displaced within the tube by at most
-  /// tube.position, in the plane only where it can't leave it.
-  Real leastInTube(const SoupGap& gap) const;
-  Real travel(const Interval& part) const { return curves_[part.edge].travel(part.half, reach_); }
+  Real leastInTube(std::size_t pair, const Measured& m) const;
+  /// Bounds beyond this tell nothing more about the clearance.
+  Real interesting() const {
+    return std::isfinite(smallest_) ? kRefined * std::max<Real>(0, smallest_) : kInfinity;
+  }
 
   const PathProblem& problem_;
-  bool planar_;
-  BoxTree moving_, fixed_;
-  SoupDistance distance_;
-  Real reach_ = 0, fixedSize_ = 0, tolerance_ = 0, tube_ = 0;
+  const std::vector<Configuration>& states_;
+  std::vector<BoxTree> trees_;
+  std::vector<Limb> limbs_;
+  std::vector<Pair> pairs_;
   std::vector<EdgeCurve> curves_;
-  std::priority_queue<Interval, std::vector<Interval>, NextOnTop> open_;
-  std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;
+  std::vector<std::vector<PairReach>> reaches_;  // [edge][pair]
+  std::vector<std::pair<Real, FrameState>> frameStates_;  // of each limb, at a time of edgeAt_
+  std::size_t edgeAt_ = SIZE_MAX;
+  BodyDistance distance_;
+  std::vector<PiecePair> near_;
+  std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;  // one pair each
   std::map<int, PathFinding> findings_;
-  std::optional<Vec3> contact_;  ///< of the last measurement
-  Real smallest_ = std::numeric_limits<Real>::infinity();
+  std::optional<Vec3> contact_;  ///< of the last measurement, in a's frame
+  Real smallest_ = kInfinity, leastAtStates_ = kInfinity;
   std::uint64_t queries_ = 0;
 };
 
-bool Verifier::isState(const PathState& state) const {
-  if (planar_) return state.xyYaw.allFinite();
-  return state.pose.p.allFinite() && state.pose.q.coeffs().allFinite() &&
-         !state.pose.q.coeffs().isZero(0);
+void Verifier::require(const std::vector<Configuration>& states) const {
+  const auto refuse = [](const std::string& what) {
+    throw std::invalid_argument("verifyPath: " + what);
+  };
+  if (!problem_.tree || !problem_.space) refuse("no tree or no space");
+  if (states.empty()) refuse("no states");
+  if (!(problem_.margin >= 0 && std::isfinite(problem_.margin)))
+    refuse("margin must be finite and not negative");
+  if (!(problem_.tolerance > 0 && std::isfinite(problem_.tolerance)))
+    refuse("tolerance must be finite and positive");
+  if (static_cast<std::size_t>(problem_.tube.size()) != problem_.space->size())
+    refuse("tube must have a number for each of a configuration's");
+  if (!problem_.tube.allFinite() || (problem_.tube.array() < 0).any())
+    refuse("tube must be finite and not negative");
+  for (const VerifyBody& body : problem_.bodies)
+    if ((body.mesh == nullptr) == (body.part == nullptr) ||
+        (body.mesh && body.mesh->triangles.empty()) || (body.part && body.part->points.empty()))
+      refuse("body " + body.name + " needs a mesh or a part");
+  for (const VerifyPair& pair : problem_.pairs)
+    if (pair.a >= problem_.bodies.size() || pair.b >= problem_.bodies.size())
+      refuse("a pair names a body that isn't there");
 }
 
-void Verifier::addEdge(const PathState& from, const PathState& to) {
-  const int edge = static_cast<int>(curves_.size());
-  const bool valid = isState(from) && isState(to);
-  curves_.emplace_back(valid ? from : PathState{}, valid ? to : PathState{}, planar_);
-  if (!valid) {
-    closeInvalid(edge, isState(from) ? to : from, "not a state");
-  } else if (curves_.back().ambiguous()) {
-    closeInvalid(edge, from, "ambiguous half turn");
+Verifier::Verifier(const PathProblem& problem, const std::vector<Configuration>& states)
+    : problem_(problem), states_(states) {
+  require(states);
+  trees_.reserve(problem.bodies.size());
+  for (const VerifyBody& body : problem.bodies)
+    body.mesh ? trees_.emplace_back(*body.mesh) : trees_.emplace_back(*body.part);
+  for (const VerifyPair& pair : problem.pairs) {
+    const std::size_t fa = problem.bodies[pair.a].frame, fb = problem.bodies[pair.b].frame;
+    const std::size_t base = commonAncestor(*problem.tree, fa, fb);
+    pairs_.push_back({pair.a, pair.b, limb(base, fa), limb(base, fb)});
+  }
+  frameStates_.resize(limbs_.size());
+  const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
+  for (std::size_t e = 0; e < edges; ++e) {
+    const Configuration &from = states[e], &to = states[std::min(e + 1, states.size() - 1)];
+    const bool valid = isState(from) && isState(to);
+    const Configuration zero = Configuration::Ones(problem.tube.size());
+    curves_.emplace_back(*problem.tree, problem.space->coordinates(), valid ? from : zero,
+                         valid ? to : zero);
+    if (!valid) {
+      closeInvalid(e, isState(from) ? to : from, "not a state");
+    } else if (curves_.back().ambiguous()) {
+      closeInvalid(e, from, "ambiguous half turn");
+    }
+    std::vector<PairReach> reaches;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) reaches.push_back(reachOf(e, p));
+    reaches_.push_back(std::move(reaches));
   }
 }
 
-void Verifier::closeInvalid(int edge, const PathState& state, const std::string& reason) {
+bool Verifier::isState(const Configuration& state) const {
+  if (static_cast<std::size_t>(state.size()) != problem_.space->size() || !state.allFinite())
+    return false;
+  for (const Coordinate& c : problem_.space->coordinates())
+    if (c.kind == Coordinate::Kind::rotation &&
+        state.segment<4>(static_cast<Eigen::Index>(c.first)).isZero(0))
+      return false;
+  return true;
+}
+
+std::size_t Verifier::limb(std::size_t base, std::size_t frame) {
+  for (std::size_t i = 0; i < limbs_.size(); ++i)
+    if (limbs_[i].base == base && limbs_[i].frame == frame) return i;
+  limbs_.push_back(limbOf(*problem_.tree, base, frame));
+  return limbs_.size() - 1;
+}
+
+PairReach Verifier::reachOf(std::size_t edge, std::size_t pair) const {
+  const Pair& p = pairs_[pair];
+  PairReach sum;
+  Real size = 0;
+  for (const auto& [limb, body] : {std::pair{p.limbA, p.a}, std::pair{p.limbB, p.b}}) {
+    const Reach reach = curves_[edge].reach(limbs_[limb], trees_[body].radius(), problem_.tube);
+    sum.speed += reach.speed;
+    sum.bend += reach.bend;
+    sum.tube += reach.tube;
+    size += reach.size;
+  }
+  // 2^-50 = 2^14 u for each limb; the relative placement, the boxes (32u) and the slabs (16u) and
+  // displacements of as much.
+  sum.rounding = 0x1p-49L * size;
+  return sum;
+}
+
+const FrameState& Verifier::stateOf(std::size_t edge, std::size_t limb, Real t) {
+  if (edgeAt_ != edge) {
+    for (auto& [time, unused] : frameStates_) time = -1;
+    edgeAt_ = edge;
+  }
+  auto& [time, state] = frameStates_[limb];
+  if (time != t) {
+    state = curves_[edge].at(limbs_[limb], t);
+    time = t;
+  }
+  return state;
+}
+
+void Verifier::closeInvalid(std::size_t edge, const Configuration& state,
+                            const std::string& reason) {
   PathFinding finding;
   finding.verdict = PathVerdict::refuted;
-  finding.edge = edge;
-  finding.pose = state.pose;
-  if (planar_) {
-    finding.pose.p = {state.xyYaw.x(), state.xyYaw.y(), 0};
-    finding.pose.q = Eigen::AngleAxisd(state.xyYaw.z(), Vec3::UnitZ());
-    finding.yaw = state.xyYaw.z();
-  }
+  finding.edge = static_cast<int>(edge);
+  finding.configuration = state;
   finding.reason = reason;
-  findings_.emplace(edge, finding);
+  findings_.emplace(finding.edge, finding);
 }
 
-void Verifier::close(const Interval& part, PathVerdict verdict, const std::string& reason) {
-  const EdgeCurve::At at = curves_[part.edge].at(part.middle);
+void Verifier::close(const Interval& part, std::size_t pair, const Measured& m,
+                     PathVerdict verdict, const std::string& reason) {
+  const Pair& p = pairs_[pair];
   PathFinding finding;
   finding.verdict = verdict;
-  finding.edge = part.edge;
+  finding.edge = static_cast<int>(part.edge);
   finding.t = static_cast<double>(part.middle);
-  finding.pose = at.pose;
-  finding.yaw = at.yaw;
-  const SoupTriangle& a = moving_.triangle(part.gap.pair.moving);
-  const SoupTriangle& b = fixed_.triangle(part.gap.pair.fixed);
-  finding.moving = problem_.moving[a.mesh].name;
-  finding.fixed = problem_.fixed[b.mesh].name;
-  finding.movingTriangle = a.triangle;
-  finding.fixedTriangle = b.triangle;
-  finding.point = contact_ ? *contact_ : Vec3(part.gap.onFixed.cast<double>());
-  finding.gap = static_cast<double>(part.gap.upper);
+  finding.configuration = curves_[part.edge].configuration(part.middle);
+  finding.a = problem_.bodies[p.a].name;
+  finding.b = problem_.bodies[p.b].name;
+  finding.triangleA = trees_[p.a].piece(m.gap.pair.a).triangle;
+  finding.triangleB = trees_[p.b].piece(m.gap.pair.b).triangle;
+  const FrameState world = curves_[part.edge].at(
+      limbOf(*problem_.tree, 0, problem_.bodies[p.a].frame), part.middle);
+  const RealVec point = contact_ ? RealVec(contact_->cast<Real>()) : m.gap.onB;
+  finding.point = (world.at.rotation * point + world.at.position).cast<double>();
+  finding.gap = static_cast<double>(m.gap.upper);
   finding.reason = reason;
-  findings_.emplace(part.edge, finding);
+  findings_.emplace(finding.edge, finding);
 }
 
-Real Verifier::leastInTube(const SoupGap& gap) const {
-  if (std::isinf(gap.upper)) return gap.upper;  // one side is empty
-  const RealVec between = gap.onFixed - gap.onMoving;
-  const Real across = planar_ ? std::abs(between.z()) : 0;
-  const Real along = planar_ ? between.head<2>().norm() : gap.upper;
-  return std::hypot(std::max<Real>(along - problem_.tube.position, 0), across);
+/// How close the two closest points come when a body that shifts as a whole is displaced within the
+/// tube, in the plane only where it can't leave it.
+Real Verifier::leastInTube(std::size_t pair, const Measured& m) const {
+  const RealVec between = m.gap.onB - m.gap.onA;
+  const Limb& limb = limbs_[pairs_[pair].limbB];
+  if (limb.path.empty() || !limbs_[pairs_[pair].limbA].path.empty()) return m.gap.upper;
+  const Frame& frame = problem_.tree->frames[limb.path.front()];
+  if (frame.joint != Frame::Joint::shift) return m.gap.upper;
+  const auto first = static_cast<Eigen::Index>(frame.variable);
+  const Real stray = problem_.tube.segment(first, static_cast<Eigen::Index>(frame.count)).minCoeff();
+  Real across = 0;
+  if (frame.count == 2) {
+    const Eigen::Quaternion<Real> q(frame.fixed.q.cast<Real>());
+    across = std::abs(between.dot(q.normalized() * RealVec::UnitZ()));
+  }
+  const Real along =
+      std::sqrt(std::max<Real>(0, between.squaredNorm() - across * across));
+  return std::hypot(std::max<Real>(along - stray, 0), across);
 }
 
-void Verifier::measure(Interval& part, TrianglePair guess, Real atLeast) {
-  const EdgeCurve& curve = curves_[part.edge];
-  const EdgeCurve::At at = curve.at(part.middle);
-  // 2^-50 = 2^14 u: the placement, the boxes (32u) and the slabs (16u) of the same size.
-  const Real rounding = 0x1p-50L * (curve.size(reach_) + fixedSize_);
+Real Verifier::look(const Interval& part, OpenPair& open) {
+  const Pair& p = pairs_[open.pair];
+  const PairReach& reach = reaches_[part.edge][open.pair];
+  Measured m;
+  m.a = stateOf(part.edge, p.limbA, part.middle);
+  m.b = stateOf(part.edge, p.limbB, part.middle);
+  const RealMat back = m.a.at.rotation.transpose();
+  const Placement X_AB{back * m.b.at.rotation, back * (m.b.at.position - m.a.at.position)};
+  distance_.place(trees_[p.a], trees_[p.b], X_AB);
+  const Real travel = reach.speed * part.half, pad = reach.tube + reach.rounding;
+  const Real wanted = std::max<Real>(problem_.margin, interesting());
   contact_.reset();
-  part.gap = distance_.measure(at.placement, guess, rounding, [&](TrianglePair pair) {
-    contact_ = exactContact(at.pose, moving_.triangle(pair.moving).corners,
-                            fixed_.triangle(pair.fixed).corners);
-    return contact_.has_value();
-  });
   ++queries_;
-  smallest_ = std::min(smallest_, part.gap.upper);
-  part.bound = std::max(atLeast, part.gap.lower - travel(part) - tube_ - rounding);
-  if (part.gap.touching) {
-    close(part, PathVerdict::refuted, "contact");
-  } else if (problem_.margin > 0 && part.gap.upper <= problem_.margin) {
-    close(part, PathVerdict::refuted, "closer than the margin");
-  } else if (leastInTube(part.gap) <= problem_.margin) {
+  m.gap = distance_.measure(
+      open.guess, reach.rounding, wanted + travel + pad + reach.rounding, [&](PiecePair pieces) {
+        const Piece &a = trees_[p.a].piece(pieces.a), &b = trees_[p.b].piece(pieces.b);
+        if (a.part || b.part) return distance_.gap(pieces).upper <= reach.rounding;
+        RigidPose pose;
+        pose.p = X_AB.position.cast<double>();
+        pose.q = Eigen::Quaternion<Real>(X_AB.rotation).cast<double>();
+        contact_ = exactContact(pose, b.corners, a.corners);
+        return contact_.has_value();
+      });
+  open.guess = m.gap.pair;
+  smallest_ = std::min(smallest_, m.gap.upper);
+  if (m.gap.touching) {
+    close(part, open.pair, m, PathVerdict::refuted, "contact");
+  } else if (problem_.margin > 0 && m.gap.upper <= problem_.margin) {
+    close(part, open.pair, m, PathVerdict::refuted, "closer than the margin");
+  } else if (std::isfinite(m.gap.upper) && leastInTube(open.pair, m) <= problem_.margin) {
     // A curve of the tube is the path displaced so far: it touches, or comes as close as the
     // margin.
-    close(part, PathVerdict::refuted, "closer than the tube allows");
-  }
-}
-
-void Verifier::keep(const Interval& part) {
-  if (part.bound > problem_.margin) {
-    proved_.push(part);
+    close(part, open.pair, m, PathVerdict::refuted, "closer than the tube allows");
   } else {
-    open_.push(part);
+    open.bound = std::max(open.bound, m.gap.lower - travel - pad);
+    if (open.bound <= problem_.margin && part.half > 0)
+      open.bound = std::max(open.bound, lookClosely(m, reach, part.half, wanted));
+    if (open.bound <= problem_.margin &&
+        (travel <= problem_.tolerance || part.depth >= kDepth))
+      close(part, open.pair, m, PathVerdict::undecided, "clearance below the tolerance");
+    else if (open.bound <= problem_.margin && queries_ >= problem_.workLimit)
+      close(part, open.pair, m, PathVerdict::undecided, "work limit reached");
   }
+  return open.bound;
 }
 
-void Verifier::bisect(const Interval& part) {
-  for (const int side : {-1, 1}) {
-    Interval child;
-    child.edge = part.edge;
-    child.depth = part.depth + 1;
-    child.half = part.half / 2;
-    child.middle = part.middle + side * child.half;
-    measure(child, part.gap.pair, part.bound);
+/// At the middle every point has a velocity v = linear + angular × x; at the place s in [−half,
+/// half] it is off the line x + s·v by at most bend·s²/2. Along a direction n, fixed in the frame of
+/// the pair's common ancestor, the width of the slab between the two sets of such lines is a minimum
+/// of functions linear in s less a maximum of such: concave, so that its least value is at one of
+/// the two ends. What is nowhere near needs no slab: nothing travels farther than speed·half.
+Real Verifier::lookClosely(const Measured& m, const PairReach& reach, Real half, Real wanted) {
+  const Real bent = reach.bend * half * half / 2, pad = reach.tube + reach.rounding;
+  if (m.gap.lower - bent - pad <= problem_.margin) return -kInfinity;
+  const Real travel = reach.speed * half;
+  // Not farther than what matters to the proof, nor than what the bound of the clearance can gain.
+  Real within = travel + pad + wanted;
+  if (!std::isfinite(within) || !distance_.near(within, kNear, near_)) {
+    within = travel + pad + problem_.margin + problem_.tolerance;
+    if (!distance_.near(within, kNear, near_)) return -kInfinity;
+  }
+  const RealMat back = m.a.at.rotation.transpose();
+  const auto displacement = [&](const FrameState& state, Real s) {
+    const RealVec spin = back * state.angular;
+    return Displacement{s * (back * (state.linear + state.angular.cross(m.a.at.position))),
+                        s * spin};
+  };
+  Real bound = within - travel - pad;
+  for (const PiecePair& pieces : near_) {
+    const TriangleGap gap = distance_.gap(pieces);
+    Real slab = gap.lower - travel;
+    const RealVec n = gap.onB - gap.onA;
+    const ConvexSet a = distance_.setA(pieces.a), b = distance_.setB(pieces.b);
+    Real both = kInfinity;
+    for (const Real s : {-half, half})
+      both = std::min(both, movedSlabWidth(a, displacement(m.a, s), b, displacement(m.b, s), n));
+    slab = std::max(slab, both - bent);
+    bound = std::min(bound, slab - pad);
+    if (bound <= problem_.margin) return -kInfinity;
+  }
+  return bound;
+}
+
+void Verifier::lookAtAll(Interval& part) {
+  std::vector<OpenPair> left;
+  part.bound = kInfinity;
+  for (OpenPair& open : part.pairs) {
+    const Real bound = look(part, open);
     if (closed(part.edge)) return;
-    keep(child);
+    if (bound <= problem_.margin) {
+      left.push_back(open);
+      part.bound = std::min(part.bound, bound);
+    } else if (part.half == 0) {
+      leastAtStates_ = std::min(leastAtStates_, bound);
+    } else if (bound < interesting()) {
+      proved_.push({part.edge, part.depth, part.middle, part.half, {open}, bound});
+    }
+  }
+  part.pairs = std::move(left);
+}
+
+/// The states first, and what is closest there: bisection alone comes only close to them, and what
+/// is known of the clearance then tells what needn't be looked at.
+void Verifier::proveStates() {
+  for (std::size_t edge = 0; edge < curves_.size(); ++edge)
+    for (const Real t : {0, 1}) {
+      if (closed(edge) || (t == 0 && edge > 0 && !closed(edge - 1))) continue;  // seen
+      Interval state{edge, 0, t, 0, {}, -kInfinity};
+      for (std::size_t p = 0; p < pairs_.size(); ++p) state.pairs.push_back({p, {}, -kInfinity});
+      lookAtAll(state);
+    }
+}
+
+void Verifier::proveEdge(std::size_t edge) {
+  std::priority_queue<Interval, std::vector<Interval>, NextOnTop> open;
+  Interval whole;
+  whole.edge = edge;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) whole.pairs.push_back({p, {}, -kInfinity});
+  lookAtAll(whole);
+  if (!closed(edge) && !whole.pairs.empty()) open.push(std::move(whole));
+  while (!open.empty()) {
+    const Interval part = open.top();
+    open.pop();
+    for (const int side : {-1, 1}) {
+      Interval child{edge, part.depth + 1, part.middle + side * part.half / 2, part.half / 2,
+                     part.pairs, -kInfinity};
+      lookAtAll(child);
+      if (closed(edge)) return;
+      if (!child.pairs.empty()) open.push(std::move(child));
+    }
   }
 }
 
-void Verifier::prove() {
-  const Real nothingKnown = -std::numeric_limits<Real>::infinity();
-  for (int edge = 0; edge < static_cast<int>(curves_.size()); ++edge) {
-    // The states first: bisection alone comes only close to them.
-    for (const Real t : {0, 1}) {
-      Interval state;
-      state.edge = edge;
-      state.middle = t;
-      if (!closed(edge)) measure(state, {}, nothingKnown);
-    }
-    Interval whole;
-    whole.edge = edge;
-    whole.middle = whole.half = 0.5L;
-    if (!closed(edge)) measure(whole, {}, nothingKnown);
-    if (!closed(edge)) keep(whole);
+std::optional<Vec3> Verifier::pointInside(std::size_t solid, std::size_t other,
+                                          const Placement& X_SolidOther) {
+  const VerifyBody &s = problem_.bodies[solid], &o = problem_.bodies[other];
+  if (!s.mesh || !s.solid) return std::nullopt;
+  const auto shells = componentsOf(*s.mesh);
+  std::vector<Vec3> points;
+  if (o.part) {
+    points.push_back(o.part->points[0]);
+  } else {
+    for (const auto& component : componentsOf(*o.mesh))
+      points.push_back(o.mesh->corner(component[0], 0));
   }
-  while (!open_.empty()) {
-    const Interval part = open_.top();
-    open_.pop();
-    if (closed(part.edge)) continue;
-    contact_.reset();
-    if (travel(part) <= tolerance_ || part.depth >= kDepth) {
-      close(part, PathVerdict::undecided, "clearance below the tolerance");
-    } else if (queries_ >= problem_.workLimit) {
-      close(part, PathVerdict::undecided, "work limit reached");
+  for (const Vec3& point : points) {
+    const RealVec p = X_SolidOther.rotation * point.cast<Real>() + X_SolidOther.position;
+    if (insideAny(*s.mesh, shells, p)) return Vec3(p.cast<double>());
+  }
+  return std::nullopt;
+}
+
+/// Along a path that touches nothing, whoever is outside at the start stays there.
+void Verifier::proveOutside() {
+  for (std::size_t i = 0; i < pairs_.size() && !closed(0); ++i) {
+    const Pair& p = pairs_[i];
+    const FrameState a = stateOf(0, p.limbA, 0), b = stateOf(0, p.limbB, 0);
+    const RealMat backA = a.at.rotation.transpose(), backB = b.at.rotation.transpose();
+    const Placement X_AB{backA * b.at.rotation, backA * (b.at.position - a.at.position)};
+    const Placement X_BA{backB * a.at.rotation, backB * (a.at.position - b.at.position)};
+    Measured m;
+    m.a = a;
+    m.b = b;
+    m.gap.upper = 0;
+    if (auto inA = pointInside(p.a, p.b, X_AB)) {
+      contact_ = inA;
+    } else if (auto inB = pointInside(p.b, p.a, X_BA)) {
+      contact_ = Vec3((X_AB.rotation * inB->cast<Real>() + X_AB.position).cast<double>());
     } else {
-      bisect(part);
+      continue;
     }
+    close({0, 0, 0, 0, {}, 0}, i, m, PathVerdict::refuted, "inside");
   }
 }
 
 void Verifier::refine() {
   const std::uint64_t limit = 5 * queries_ + kRefinement;
-  while (queries_ < limit) {
+  while (!proved_.empty() && queries_ < limit) {
     const Interval worst = proved_.top();
-    const bool fine = worst.bound >= kRefined * (smallest_ - tube_);
-    if (fine || travel(worst) <= tolerance_ || worst.depth >= kDepth) break;
+    const PairReach& reach = reaches_[worst.edge][worst.pairs[0].pair];
+    if (worst.bound >= kRefined * (smallest_ - reach.tube) ||
+        reach.speed * worst.half <= problem_.tolerance || worst.depth >= kDepth)
+      break;
     proved_.pop();
-    bisect(worst);
+    for (const int side : {-1, 1}) {
+      Interval child{worst.edge, worst.depth + 1, worst.middle + side * worst.half / 2,
+                     worst.half / 2, worst.pairs, worst.bound};
+      OpenPair& open = child.pairs[0];
+      child.bound = look(child, open);
+      if (closed(worst.edge)) return;  // the halves saw what the whole didn't
+      proved_.push(std::move(child));
+    }
   }
 }
 
 PathReport Verifier::run() {
-  prove();
+  proveStates();
+  if (!closed(0)) proveOutside();
+  for (std::size_t edge = 0; edge < curves_.size(); ++edge)
+    if (!closed(edge) && states_.size() > 1) proveEdge(edge);
+  if (findings_.empty()) refine();
   PathReport report;
   report.edges = static_cast<int>(curves_.size());
   report.edgesProved = report.edges - static_cast<int>(findings_.size());
   if (findings_.empty()) {
-    refine();
-    report.provenClearance = static_cast<double>(proved_.top().bound);
-    // To the nearest double: down, if that was up.
-    if (report.provenClearance > proved_.top().bound) {
+    // What isn't in `proved_` had a bound that was `interesting()` or more, which only falls.
+    Real least = states_.size() > 1 ? interesting() : leastAtStates_;
+    if (!proved_.empty()) least = std::min(least, proved_.top().bound);
+    report.provenClearance = static_cast<double>(least);
+    if (report.provenClearance > least)  // to the nearest double: down, if that was up
       report.provenClearance = std::nextafter(report.provenClearance, 0);
-    }
   }
   for (const auto& [edge, finding] : findings_) {
     if (finding.verdict == PathVerdict::refuted) report.verdict = PathVerdict::refuted;
@@ -319,16 +498,8 @@ PathReport Verifier::run() {
 
 }  // namespace
 
-PathReport verifyPath(const PathProblem& problem, const std::vector<RigidPose>& states) {
-  std::vector<PathState> path;
-  for (const RigidPose& pose : states) path.push_back({pose, Vec3::Zero()});
-  return Verifier(problem, path, false).run();
-}
-
-PathReport verifyPath(const PathProblem& problem, const std::vector<Eigen::Vector3d>& states) {
-  std::vector<PathState> path;
-  for (const Eigen::Vector3d& xyYaw : states) path.push_back({RigidPose{}, xyYaw});
-  return Verifier(problem, path, true).run();
+PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states) {
+  return Verifier(problem, states).run();
 }
 
 }  // namespace corridor

@@ -15,18 +15,22 @@ namespace corridor {
 /// those which found it.
 ///
 /// It shares the plain data of meshes, parts, frames and coordinates with the rest of Corridor, and
-/// nothing else: no bound, no pose, no tree, no distance, no predicate. What it does is as plain as
-/// can be: adaptive bisection (Schwarzer, Saha, Latombe 2005). At the middle of an interval of an
-/// edge the distance d of the meshes is bounded from below; no point of the body goes further than
-///     travel = |Δp|·h + |angle|·h·reach
-/// from there during the interval (h half of it in t, reach the largest distance of a vertex from
-/// the reference point). If d > travel + margin + tube + rounding, then the interval is proved,
-/// else it is halved, until the travel is under the tolerance. Distances come from plain AABB trees
-/// in long double, each certified by a slab between the two triangles; contacts are decided in
-/// rational arithmetic.
+/// nothing else: no bound, no pose, no tree, no distance, no predicate. What it does is as plain as can be: adaptive
+/// bisection (Schwarzer, Saha, Latombe 2005). At the middle of an interval of an edge the distance
+/// d of two bodies is bounded from below; seen from their frames' common ancestor, no point goes
+/// further than
+///     travel = Σ over the joints between the two of |Δ_j|·h·reach_j
+/// from there during the interval (h half of it in t, reach_j a constant: the length of the chain
+/// after the joint). If d > travel + margin + tube + rounding, then the interval is proved for this
+/// pair. Else every pair of triangles that comes near is given a slab of its own, along which only
+/// the velocity at the middle counts, and a constant times h²; where that fails, the interval is
+/// halved, until the travel is under the tolerance. Distances come from plain AABB trees in long
+/// double, each certified by a slab between the two triangles (or parts); contacts of triangles are
+/// decided in rational arithmetic.
 ///
-/// Folder: edge_curve (what an edge is), triangle_gap (two triangles), box_tree (two soups),
-/// exact_contact (rationals), verify_path (the bisection).
+/// Folder: edge_curve (what an edge is, forward kinematics, reach weights), triangle_gap and
+/// convex_gap (two pieces), box_tree (two bodies), exact_contact (rationals), winding (inside a
+/// solid), verify_path (the bisection).
 
 struct VerifyBody {
   std::string name;

@@ -1,0 +1,159 @@
+#include "planner/verify/convex_gap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace corridor::verify {
+namespace {
+
+constexpr int kMostSteps = 200;
+/// A step that brings the bracket closer than this to the rounding of its own terms is the last.
+constexpr Real kFine = 0x1p-58L;
+
+/// A corner of the difference B − A, and the points that it is the difference of.
+struct Corner {
+  RealVec onA, onB;
+  RealVec difference() const { return onB - onA; }
+};
+
+struct Nearest {
+  Real square = std::numeric_limits<Real>::infinity();
+  std::array<Real, 4> weights{};
+};
+
+/// Weights of the point of least norm of the plane through the chosen corners, where all are
+/// positive: then it is the nearest of their hull.
+void trySubset(const std::vector<Corner>& corners, unsigned subset, Nearest& best) {
+  std::array<std::size_t, 4> chosen{};
+  int count = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (subset >> i & 1u) chosen[static_cast<std::size_t>(count++)] = i;
+  const RealVec p0 = corners[chosen[0]].difference();
+  Eigen::Matrix<Real, 3, 1> rest = RealVec::Zero();
+  if (count > 1) {
+    // p0 + Σ λ_k e_k, orthogonal to every e_k: the normal equations, by Cramer's rule.
+    RealMat gram = RealMat::Identity();
+    RealVec right = RealVec::Zero();
+    for (int k = 1; k < count; ++k) {
+      const RealVec ek = corners[chosen[static_cast<std::size_t>(k)]].difference() - p0;
+      right[k - 1] = -ek.dot(p0);
+      for (int l = 1; l < count; ++l)
+        gram(k - 1, l - 1) =
+            ek.dot(corners[chosen[static_cast<std::size_t>(l)]].difference() - p0);
+    }
+    const Real determinant = gram.determinant();
+    if (!(determinant > 0)) return;
+    for (int k = 0; k < 3; ++k) {
+      RealMat replaced = gram;
+      replaced.col(k) = right;
+      rest[k] = replaced.determinant() / determinant;
+    }
+  }
+  Nearest found;
+  found.weights[chosen[0]] = 1 - rest.head(std::max(count - 1, 0)).sum();
+  if (!(found.weights[chosen[0]] > 0)) return;
+  for (int k = 1; k < count; ++k) {
+    if (!(rest[k - 1] > 0)) return;
+    found.weights[chosen[static_cast<std::size_t>(k)]] = rest[k - 1];
+  }
+  RealVec point = RealVec::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    point += found.weights[i] * corners[i].difference();
+  found.square = point.squaredNorm();
+  if (found.square < best.square) best = found;
+}
+
+}  // namespace
+
+RealVec ConvexSet::farthest(const RealVec& direction) const {
+  const RealVec* best = points.data();
+  Real most = direction.dot(*best);
+  for (const RealVec& point : points)
+    if (const Real along = direction.dot(point); along > most) most = along, best = &point;
+  if (!flatEnds) return *best;
+  const RealVec across = direction - axis * axis.dot(direction);
+  const Real length = across.norm();
+  return length > 0 ? RealVec(*best + across * (radius / length)) : *best;
+}
+
+ConvexSet placed(const ConvexPart& part, const Placement& placement) {
+  ConvexSet set;
+  set.radius = part.radius;
+  set.flatEnds = part.flatEnds;
+  for (const Vec3& point : part.points)
+    set.points.push_back(placement.rotation * point.cast<Real>() + placement.position);
+  if (part.flatEnds)
+    set.axis =
+        placement.rotation * (part.points[1].cast<Real>() - part.points[0].cast<Real>()).normalized();
+  return set;
+}
+
+TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b) {
+  std::vector<Corner> corners{{a.points[0], b.points[0]}};
+  RealVec onA = a.points[0], onB = b.points[0];
+  Real lower = -std::numeric_limits<Real>::infinity();
+  const Real balls = a.ball() + b.ball();
+  bool meet = false;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const RealVec v = onB - onA;
+    const Real length = v.norm();
+    if (!(length > 0)) {
+      meet = true;
+      break;
+    }
+    const Corner corner{a.farthest(v), b.farthest(-v)};
+    const Real slab = v.dot(corner.difference()) / length;
+    lower = std::max(lower, slab);
+    if (length - lower <= kFine * (corner.onA.norm() + corner.onB.norm())) break;
+    if (std::any_of(corners.begin(), corners.end(), [&](const Corner& old) {
+          return old.onA == corner.onA && old.onB == corner.onB;
+        }))
+      break;  // nothing new to be had
+    corners.push_back(corner);
+    Nearest best;
+    for (unsigned subset = 1; subset < 1u << corners.size(); ++subset)
+      trySubset(corners, subset, best);
+    if (!(best.square < length * length)) break;  // rounding has the last word
+    std::vector<Corner> kept;
+    onA = onB = RealVec::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (best.weights[i] == 0) continue;
+      kept.push_back(corners[i]);
+      onA += best.weights[i] * corners[i].onA;
+      onB += best.weights[i] * corners[i].onB;
+    }
+    corners = std::move(kept);
+    if (corners.size() == 4) {  // the origin is inside
+      meet = true;
+      break;
+    }
+  }
+  TriangleGap gap;
+  const RealVec v = onB - onA;
+  const Real length = v.norm();
+  if (!meet && length > balls) {
+    gap.upper = length - balls;
+    gap.lower = std::max<Real>(0, lower - balls);
+    gap.onA = onA + v * (a.ball() / length);
+    gap.onB = onB - v * (b.ball() / length);
+  } else {
+    gap.upper = gap.lower = 0;
+    gap.onA = gap.onB = meet ? onA : RealVec(onA + v * (balls > 0 ? a.ball() / balls : 0));
+  }
+  return gap;
+}
+
+Real movedSlabWidth(const ConvexSet& a, const Displacement& moveA, const ConvexSet& b,
+                    const Displacement& moveB, const RealVec& direction) {
+  const Real length = direction.norm();
+  if (!(length > 0)) return -std::numeric_limits<Real>::infinity();
+  // n·(x + linear + angular × x) = n·linear + (n + n × angular)·x: a support of the set itself.
+  const RealVec alongA = direction + direction.cross(moveA.angular);
+  const RealVec alongB = direction + direction.cross(moveB.angular);
+  const Real nearA = alongA.dot(a.farthest(alongA)) + direction.dot(moveA.linear);
+  const Real nearB = alongB.dot(b.farthest(-alongB)) + direction.dot(moveB.linear);
+  return (nearB - nearA) / length - a.ball() - b.ball();
+}
+
+}  // namespace corridor::verify
