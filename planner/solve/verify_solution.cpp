@@ -44,7 +44,7 @@ Real awayIn(const Coordinate& c, const Configuration& a, const Configuration& b)
 /// How far apart two configurations are: the largest of each kind.
 struct Away {
   Real position = 0, angle = 0, joint = 0;
-  Real distance = 0;  ///< with the space's weights
+  Real distance = 0;    ///< with the space's weights
   Real jointAngle = 0;  ///< of `joint`, that of circles: off by rounding when they are brought back
 };
 
@@ -79,8 +79,7 @@ Away awayFrom(const ConfigurationSpace& space, const Configuration& a, const Con
 std::string inFact(const Away& away) {
   std::string text;
   const auto add = [&](Real value, const char* what) {
-    if (value > 0)
-      text += (text.empty() ? "" : ", ") + shortest(static_cast<double>(value)) + what;
+    if (value > 0) text += (text.empty() ? "" : ", ") + shortest(static_cast<double>(value)) + what;
   };
   add(away.position, " m");
   add(away.angle, " rad");
@@ -140,8 +139,8 @@ double sizeOf(const VerifyBody& body) {
   return 0.5 * (upper - lower).norm() + (body.part ? body.part->radius : 0);
 }
 
-/// A tenth of what the planner calls too close to tell (1e-7 of the smaller body, unless the problem
-/// says otherwise), so that its paths are decided.
+/// A tenth of what the planner calls too close to tell (1e-7 of the smaller body, unless the
+/// problem says otherwise), so that its paths are decided.
 double toleranceOf(const Problem& problem, const PathProblem& plain) {
   if (problem.checker.tolerance) return 0.1 * *problem.checker.tolerance;
   double smallest = 1;

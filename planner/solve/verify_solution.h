@@ -13,7 +13,7 @@ struct VerifyReport {
   PathVerdict verdict = PathVerdict::proved;
   PathReport motion;  ///< of the path among the meshes, by planner/verify alone
   std::vector<std::string>
-      violations;     ///< what else is wrong, one line each: start, goal, bounds of a state
+      violations;      ///< what else is wrong, one line each: start, goal, bounds of a state
   double margin = 0;   ///< metres
   Configuration tube;  ///< that was proved, as Problem::tube
 };

@@ -97,7 +97,8 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
 }
 
 BodyDistance::Box BodyDistance::boxA(std::uint32_t node) const {
-  const RealVec lower = a_->node(node).lower.cast<Real>(), upper = a_->node(node).upper.cast<Real>();
+  const RealVec lower = a_->node(node).lower.cast<Real>(),
+                upper = a_->node(node).upper.cast<Real>();
   return {(lower + upper) / 2, (upper - lower) / 2};
 }
 
@@ -189,8 +190,9 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
       best.pair = pair;
       best.onA = found.onA;
       best.onB = found.onB;
-      enough = std::min(stop, std::max(kSame * best.upper,
-                                       std::nextafter(doubt, std::numeric_limits<Real>::infinity())));
+      enough =
+          std::min(stop, std::max(kSame * best.upper,
+                                  std::nextafter(doubt, std::numeric_limits<Real>::infinity())));
       const RealVec between = found.onB - found.onA;
       if (const Real length = between.norm(); length > 0) direction_ = between / length;
     }

@@ -18,8 +18,8 @@ struct Piece {
   const ConvexPart* part = nullptr;
 };
 
-/// Axis-aligned boxes over a body's pieces, one piece a leaf, split at the median centroid along the
-/// longest axis. Boxes of triangles are exact: minima and maxima of stored doubles.
+/// Axis-aligned boxes over a body's pieces, one piece a leaf, split at the median centroid along
+/// the longest axis. Boxes of triangles are exact: minima and maxima of stored doubles.
 class BoxTree {
  public:
   static constexpr std::uint32_t noLeaf = UINT32_MAX;
@@ -106,8 +106,8 @@ class BodyDistance {
   const BoxTree* a_ = nullptr;
   const BoxTree* b_ = nullptr;
   Placement X_AB_;
-  RealVec direction_ = RealVec::Zero();  ///< of the closest points so far, unit or zero: slabs along
-                                         ///< it are bounds, for boxes too
+  RealVec direction_ = RealVec::Zero();  ///< of the closest points so far, unit or zero: slabs
+                                         ///< along it are bounds, for boxes too
   std::vector<Box> boxesB_;
   std::vector<std::uint64_t> stamps_;  ///< of boxesB_: the placement that made them
   std::uint64_t stamp_ = 0;

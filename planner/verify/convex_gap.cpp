@@ -39,8 +39,7 @@ void trySubset(const std::vector<Corner>& corners, unsigned subset, Nearest& bes
       const RealVec ek = corners[chosen[static_cast<std::size_t>(k)]].difference() - p0;
       right[k - 1] = -ek.dot(p0);
       for (int l = 1; l < count; ++l)
-        gram(k - 1, l - 1) =
-            ek.dot(corners[chosen[static_cast<std::size_t>(l)]].difference() - p0);
+        gram(k - 1, l - 1) = ek.dot(corners[chosen[static_cast<std::size_t>(l)]].difference() - p0);
     }
     const Real determinant = gram.determinant();
     if (!(determinant > 0)) return;
@@ -72,9 +71,13 @@ RealVec ConvexSet::farthest(const RealVec& direction) const {
   for (const RealVec& point : points)
     if (const Real along = direction.dot(point); along > most) most = along, best = &point;
   if (!flatEnds) return *best;
-  const RealVec across = direction - axis * axis.dot(direction);
-  const Real length = across.norm();
-  return length > 0 ? RealVec(*best + across * (radius / length)) : *best;
+  // The part across the axis may be nothing but rounding, and then point anywhere: made orthogonal
+  // a second time. What is lost with a direction that was no more than rounding is rounding, too.
+  const auto acrossAxis = [&](const RealVec& v) { return RealVec(v - axis * axis.dot(v)); };
+  RealVec across = acrossAxis(direction);
+  if (!(across.norm() > 0)) return *best;
+  across = acrossAxis(across.normalized());
+  return across.norm() > 0.5L ? RealVec(*best + across.normalized() * radius) : *best;
 }
 
 ConvexSet placed(const ConvexPart& part, const Placement& placement) {
@@ -84,8 +87,8 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement) {
   for (const Vec3& point : part.points)
     set.points.push_back(placement.rotation * point.cast<Real>() + placement.position);
   if (part.flatEnds)
-    set.axis =
-        placement.rotation * (part.points[1].cast<Real>() - part.points[0].cast<Real>()).normalized();
+    set.axis = placement.rotation *
+               (part.points[1].cast<Real>() - part.points[0].cast<Real>()).normalized();
   return set;
 }
 

@@ -8,8 +8,8 @@
 namespace corridor::verify {
 
 /// A convex set in the verifier's arithmetic: the hull of `points` swept by a ball of `radius`; or,
-/// with `flatEnds`, of two points swept by a disc of `radius` at a right angle to `axis`. A triangle
-/// has three points and radius 0.
+/// with `flatEnds`, of two points swept by a disc of `radius` at a right angle to `axis`. A
+/// triangle has three points and radius 0.
 struct ConvexSet {
   std::vector<RealVec> points;
   Real radius = 0;
@@ -32,8 +32,8 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement);
 /// Rounding as for triangles: 2^-50 of the size covers it amply.
 TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b);
 
-/// The gap of the slab along `direction` (from a to b), of any length, while every core point x of a
-/// moves to x + linearA + angularA × x, and those of b likewise. Balls move with their centres.
+/// The gap of the slab along `direction` (from a to b), of any length, while every core point x of
+/// a moves to x + linearA + angularA × x, and those of b likewise. Balls move with their centres.
 struct Displacement {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
 };

@@ -186,9 +186,9 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
   };
   for (std::size_t k = limb.path.size(); k-- > 0;) {
     const Frame& frame = tree_.frames[limb.path[k]];
-    const Line value =
-        frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide ? valueOf(frame)
-                                                                                : Line{};
+    const Line value = frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide
+                           ? valueOf(frame)
+                           : Line{};
     const Real largest = std::abs(value.from) + std::abs(value.way);
     const bool held = frame.variable == Frame::noVariable;
     switch (frame.joint) {

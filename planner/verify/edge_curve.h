@@ -40,8 +40,8 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
 ///   |x''| ≤ bend = Σ_turns |Δ_j| R_j (|Δ_j| + 2 P_j) + Σ_slides 2 |Δ_j| P_j,
 /// since x'' is a sum over ordered pairs of joints, of the first's rotation vector times (the
 /// second's share of x'), the second's share not longer than |Δ_j| R_j, and slides in a straight
-/// line have none of their own. A stray of each variable within its tube moves x by at most `tube` =
-/// Σ_turns τ_j R_j + Σ_slides τ_j.
+/// line have none of their own. A stray of each variable within its tube moves x by at most `tube`
+/// = Σ_turns τ_j R_j + Σ_slides τ_j.
 struct Reach {
   Real speed = 0, bend = 0, tube = 0;
   Real size = 0;  ///< bounds every length that enters the pose; rounding is 2^-50 of it

@@ -97,13 +97,12 @@ class Verifier {
   void proveStates();
   void proveEdge(std::size_t edge);
   void proveOutside();
-  std::optional<Vec3> pointInside(std::size_t solid, std::size_t other, const Placement& X_SolidOther);
+  std::optional<Vec3> pointInside(std::size_t solid, std::size_t other,
+                                  const Placement& X_SolidOther);
   void refine();
   Real leastInTube(std::size_t pair, const Measured& m) const;
   /// Bounds beyond this tell nothing more about the clearance.
-  Real interesting() const {
-    return std::isfinite(smallest_) ? kRefined * std::max<Real>(0, smallest_) : kInfinity;
-  }
+  Real interesting() const { return kRefined * smallest_; }
 
   const PathProblem& problem_;
   const std::vector<Configuration>& states_;
@@ -111,7 +110,7 @@ class Verifier {
   std::vector<Limb> limbs_;
   std::vector<Pair> pairs_;
   std::vector<EdgeCurve> curves_;
-  std::vector<std::vector<PairReach>> reaches_;  // [edge][pair]
+  std::vector<std::vector<PairReach>> reaches_;           // [edge][pair]
   std::vector<std::pair<Real, FrameState>> frameStates_;  // of each limb, at a time of edgeAt_
   std::size_t edgeAt_ = SIZE_MAX;
   BodyDistance distance_;
@@ -233,8 +232,8 @@ void Verifier::closeInvalid(std::size_t edge, const Configuration& state,
   findings_.emplace(finding.edge, finding);
 }
 
-void Verifier::close(const Interval& part, std::size_t pair, const Measured& m,
-                     PathVerdict verdict, const std::string& reason) {
+void Verifier::close(const Interval& part, std::size_t pair, const Measured& m, PathVerdict verdict,
+                     const std::string& reason) {
   const Pair& p = pairs_[pair];
   PathFinding finding;
   finding.verdict = verdict;
@@ -245,8 +244,8 @@ void Verifier::close(const Interval& part, std::size_t pair, const Measured& m,
   finding.b = problem_.bodies[p.b].name;
   finding.triangleA = trees_[p.a].piece(m.gap.pair.a).triangle;
   finding.triangleB = trees_[p.b].piece(m.gap.pair.b).triangle;
-  const FrameState world = curves_[part.edge].at(
-      limbOf(*problem_.tree, 0, problem_.bodies[p.a].frame), part.middle);
+  const FrameState world =
+      curves_[part.edge].at(limbOf(*problem_.tree, 0, problem_.bodies[p.a].frame), part.middle);
   const RealVec point = contact_ ? RealVec(contact_->cast<Real>()) : m.gap.onB;
   finding.point = (world.at.rotation * point + world.at.position).cast<double>();
   finding.gap = static_cast<double>(m.gap.upper);
@@ -263,14 +262,14 @@ Real Verifier::leastInTube(std::size_t pair, const Measured& m) const {
   const Frame& frame = problem_.tree->frames[limb.path.front()];
   if (frame.joint != Frame::Joint::shift) return m.gap.upper;
   const auto first = static_cast<Eigen::Index>(frame.variable);
-  const Real stray = problem_.tube.segment(first, static_cast<Eigen::Index>(frame.count)).minCoeff();
+  const Real stray =
+      problem_.tube.segment(first, static_cast<Eigen::Index>(frame.count)).minCoeff();
   Real across = 0;
   if (frame.count == 2) {
     const Eigen::Quaternion<Real> q(frame.fixed.q.cast<Real>());
     across = std::abs(between.dot(q.normalized() * RealVec::UnitZ()));
   }
-  const Real along =
-      std::sqrt(std::max<Real>(0, between.squaredNorm() - across * across));
+  const Real along = std::sqrt(std::max<Real>(0, between.squaredNorm() - across * across));
   return std::hypot(std::max<Real>(along - stray, 0), across);
 }
 
@@ -311,8 +310,7 @@ Real Verifier::look(const Interval& part, OpenPair& open) {
     open.bound = std::max(open.bound, m.gap.lower - travel - pad);
     if (open.bound <= problem_.margin && part.half > 0)
       open.bound = std::max(open.bound, lookClosely(m, reach, part.half, wanted));
-    if (open.bound <= problem_.margin &&
-        (travel <= problem_.tolerance || part.depth >= kDepth))
+    if (open.bound <= problem_.margin && (travel <= problem_.tolerance || part.depth >= kDepth))
       close(part, open.pair, m, PathVerdict::undecided, "clearance below the tolerance");
     else if (open.bound <= problem_.margin && queries_ >= problem_.workLimit)
       close(part, open.pair, m, PathVerdict::undecided, "work limit reached");
@@ -321,10 +319,11 @@ Real Verifier::look(const Interval& part, OpenPair& open) {
 }
 
 /// At the middle every point has a velocity v = linear + angular × x; at the place s in [−half,
-/// half] it is off the line x + s·v by at most bend·s²/2. Along a direction n, fixed in the frame of
-/// the pair's common ancestor, the width of the slab between the two sets of such lines is a minimum
-/// of functions linear in s less a maximum of such: concave, so that its least value is at one of
-/// the two ends. What is nowhere near needs no slab: nothing travels farther than speed·half.
+/// half] it is off the line x + s·v by at most bend·s²/2. Along a direction n, fixed in the frame
+/// of the pair's common ancestor, the width of the slab between the two sets of such lines is a
+/// minimum of functions linear in s less a maximum of such: concave, so that its least value is at
+/// one of the two ends. What is nowhere near needs no slab: nothing travels farther than
+/// speed·half.
 Real Verifier::lookClosely(const Measured& m, const PairReach& reach, Real half, Real wanted) {
   const Real bent = reach.bend * half * half / 2, pad = reach.tube + reach.rounding;
   if (m.gap.lower - bent - pad <= problem_.margin) return -kInfinity;
@@ -344,14 +343,28 @@ Real Verifier::lookClosely(const Measured& m, const PairReach& reach, Real half,
   Real bound = within - travel - pad;
   for (const PiecePair& pieces : near_) {
     const TriangleGap gap = distance_.gap(pieces);
-    Real slab = gap.lower - travel;
-    const RealVec n = gap.onB - gap.onA;
     const ConvexSet a = distance_.setA(pieces.a), b = distance_.setB(pieces.b);
-    Real both = kInfinity;
-    for (const Real s : {-half, half})
-      both = std::min(both, movedSlabWidth(a, displacement(m.a, s), b, displacement(m.b, s), n));
-    slab = std::max(slab, both - bent);
-    bound = std::min(bound, slab - pad);
+    Real best = gap.lower - travel;
+    // Any direction is as good as it proves: that of the two pieces' closest points; where these
+    // face each other at an angle, that of the bodies', or a face's.
+    const auto attempt = [&](const RealVec& n) {
+      if (best - pad >= wanted) return;
+      Real width = kInfinity;
+      for (const Real s : {-half, half})
+        width =
+            std::min(width, movedSlabWidth(a, displacement(m.a, s), b, displacement(m.b, s), n));
+      best = std::max(best, width - bent);
+    };
+    attempt(gap.onB - gap.onA);
+    attempt(m.gap.onB - m.gap.onA);
+    for (const ConvexSet* set : {&a, &b}) {
+      if (set->points.size() != 3) continue;
+      const RealVec normal =
+          (set->points[1] - set->points[0]).cross(set->points[2] - set->points[0]);
+      attempt(normal);
+      attempt(-normal);
+    }
+    bound = std::min(bound, best - pad);
     if (bound <= problem_.margin) return -kInfinity;
   }
   return bound;
@@ -398,8 +411,8 @@ void Verifier::proveEdge(std::size_t edge) {
     const Interval part = open.top();
     open.pop();
     for (const int side : {-1, 1}) {
-      Interval child{edge, part.depth + 1, part.middle + side * part.half / 2, part.half / 2,
-                     part.pairs, -kInfinity};
+      Interval child{edge,          part.depth + 1, part.middle + side * part.half / 2,
+                     part.half / 2, part.pairs,     -kInfinity};
       lookAtAll(child);
       if (closed(edge)) return;
       if (!child.pairs.empty()) open.push(std::move(child));
@@ -459,8 +472,8 @@ void Verifier::refine() {
       break;
     proved_.pop();
     for (const int side : {-1, 1}) {
-      Interval child{worst.edge, worst.depth + 1, worst.middle + side * worst.half / 2,
-                     worst.half / 2, worst.pairs, worst.bound};
+      Interval child{worst.edge,     worst.depth + 1, worst.middle + side * worst.half / 2,
+                     worst.half / 2, worst.pairs,     worst.bound};
       OpenPair& open = child.pairs[0];
       child.bound = look(child, open);
       if (closed(worst.edge)) return;  // the halves saw what the whole didn't
@@ -482,6 +495,7 @@ PathReport Verifier::run() {
     // What isn't in `proved_` had a bound that was `interesting()` or more, which only falls.
     Real least = states_.size() > 1 ? interesting() : leastAtStates_;
     if (!proved_.empty()) least = std::min(least, proved_.top().bound);
+    least = std::max<Real>(least, problem_.margin);
     report.provenClearance = static_cast<double>(least);
     if (report.provenClearance > least)  // to the nearest double: down, if that was up
       report.provenClearance = std::nextafter(report.provenClearance, 0);

@@ -15,10 +15,10 @@ namespace corridor {
 /// those which found it.
 ///
 /// It shares the plain data of meshes, parts, frames and coordinates with the rest of Corridor, and
-/// nothing else: no bound, no pose, no tree, no distance, no predicate. What it does is as plain as can be: adaptive
-/// bisection (Schwarzer, Saha, Latombe 2005). At the middle of an interval of an edge the distance
-/// d of two bodies is bounded from below; seen from their frames' common ancestor, no point goes
-/// further than
+/// nothing else: no bound, no pose, no tree, no distance, no predicate. What it does is as plain as
+/// can be: adaptive bisection (Schwarzer, Saha, Latombe 2005). At the middle of an interval of an
+/// edge the distance d of two bodies is bounded from below; seen from their frames' common
+/// ancestor, no point goes further than
 ///     travel = Σ over the joints between the two of |Δ_j|·h·reach_j
 /// from there during the interval (h half of it in t, reach_j a constant: the length of the chain
 /// after the joint). If d > travel + margin + tube + rounding, then the interval is proved for this

@@ -41,6 +41,81 @@ inline RigidPose randomPose(std::mt19937_64& random, double size) {
   return {randomVec(random, size), Eigen::Quaterniond(w, x, y, z)};
 }
 
+/// A rigid body (SE3, or SE2 for `planar`) among obstacles at rest, as a kinematic tree.
+struct RigidWorld {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  std::vector<VerifyBody> moving, fixed;
+  double margin = 0, tolerance = 1e-7;
+  Tube tube;
+  std::uint64_t workLimit = 2'000'000;
+
+  explicit RigidWorld(bool planar) {
+    const std::vector<std::string> lines =
+        planar ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
+    for (const std::string& name : lines) {
+      Coordinate line;
+      line.name = name;
+      line.lower = -100;
+      line.upper = 100;
+      space.add(line);
+    }
+    Coordinate turn;
+    turn.kind = planar ? Coordinate::Kind::circle : Coordinate::Kind::rotation;
+    turn.name = planar ? "yaw" : "rotation";
+    space.add(turn);
+    Frame shift;
+    shift.joint = Frame::Joint::shift;
+    shift.variable = 0;
+    shift.count = lines.size();
+    Frame rotate;
+    rotate.parent = tree.add(shift);
+    rotate.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+    rotate.axis = Vec3::UnitZ();
+    rotate.variable = lines.size();
+    tree.add(rotate);
+  }
+
+  static Configuration configuration(const RigidPose& pose) {
+    Configuration q(7);
+    q << pose.p, pose.q.coeffs();
+    return q;
+  }
+  static Configuration configuration(const Eigen::Vector3d& xyYaw) { return xyYaw; }
+
+  PathProblem problem() const {
+    PathProblem plain;
+    plain.tree = &tree;
+    plain.space = &space;
+    plain.bodies = moving;
+    for (VerifyBody& body : plain.bodies) body.frame = 2;
+    for (const VerifyBody& body : fixed) {
+      plain.bodies.push_back(body);
+      for (std::size_t m = 0; m < moving.size(); ++m)
+        plain.pairs.push_back({plain.bodies.size() - 1, m});
+    }
+    plain.margin = margin;
+    plain.tolerance = tolerance;
+    plain.workLimit = workLimit;
+    plain.tube = Configuration::Constant(static_cast<Eigen::Index>(space.size()), tube.position);
+    for (const Coordinate& c : space.coordinates())
+      if (c.kind != Coordinate::Kind::line)
+        plain.tube[static_cast<Eigen::Index>(c.first)] = tube.rotation;
+    return plain;
+  }
+};
+
+template <class State>
+PathReport verifyRigid(RigidWorld& world, const std::vector<State>& states) {
+  std::vector<Configuration> path;
+  for (const State& state : states) path.push_back(RigidWorld::configuration(state));
+  return verifyPath(world.problem(), path);
+}
+
+inline RigidPose poseIn(const Configuration& q) {
+  return {q.head<3>(), Eigen::Quaterniond(q[6], q[3], q[4], q[5])};
+}
+
 /// Triangles of edge length about `edge`, scattered over a cube of half edge `size`.
 inline TriangleMesh randomSoup(std::mt19937_64& random, int triangles, double size, double edge) {
   TriangleMesh mesh;

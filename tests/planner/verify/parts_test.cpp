@@ -164,82 +164,201 @@ Placement placementOf(const RigidPose& pose) {
   return {pose.q.normalized().toRotationMatrix().cast<Real>(), pose.p.cast<Real>()};
 }
 
-std::vector<SoupTriangle> soupOf(const TriangleMesh& mesh) {
-  std::vector<SoupTriangle> soup;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    soup.push_back({{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}, 0, i});
-  }
-  return soup;
-}
-
-TEST(SoupDistance, EqualsTheDoubleLoop) {
+TEST(BodyDistance, EqualsTheDoubleLoop) {
   std::mt19937_64 random(test::testSeed(2));
-  const BoxTree moving(soupOf(randomSoup(random, 40, 1, 0.2)));
-  const BoxTree fixed(soupOf(randomSoup(random, 150, 3, 0.2)));
-  SoupDistance distance(moving, fixed);
-  TrianglePair guess;
+  const TriangleMesh meshB = randomSoup(random, 40, 1, 0.2),
+                     meshA = randomSoup(random, 150, 3, 0.2);
+  const BoxTree a(meshA), b(meshB);
+  BodyDistance distance;
+  PiecePair guess;
+  const Real infinity = std::numeric_limits<Real>::infinity();
   for (int i = 0; i < 50; ++i) {
     const Placement placement = placementOf(randomPose(random, 3));
-    Real lower = std::numeric_limits<Real>::infinity(), upper = lower;
-    for (const SoupTriangle& m : moving.triangles()) {
-      RealVec a[3], b[3];
-      for (int k = 0; k < 3; ++k) {
-        a[k] = placement.rotation * m.corners[k].cast<Real>() + placement.position;
-      }
-      for (const SoupTriangle& f : fixed.triangles()) {
-        for (int k = 0; k < 3; ++k) b[k] = f.corners[k].cast<Real>();
-        const TriangleGap gap = triangleGap(a, b);
+    distance.place(a, b, placement);
+    Real lower = infinity, upper = infinity;
+    std::size_t within = 0;
+    for (std::uint32_t s = 0; s < meshA.triangles.size(); ++s)
+      for (std::uint32_t t = 0; t < meshB.triangles.size(); ++t) {
+        const TriangleGap gap = distance.gap({s, t});
         lower = std::min(lower, gap.lower);
         upper = std::min(upper, gap.upper);
+        within += gap.upper < 0.5L;
       }
-    }
-    const SoupGap found = distance.measure(placement, guess, 0, [](TrianglePair) { return false; });
+    const auto never = [](PiecePair) { return false; };
+    const BodyGap found = distance.measure(guess, 0, infinity, never);
     // Pairs within 2^-30 of the closest may stand for it.
     EXPECT_LE(std::abs(found.upper - upper), 0x1p-29L * upper);
     EXPECT_LE(std::abs(found.lower - lower), 0x1p-29L * upper);
     EXPECT_FALSE(found.touching);
     guess = found.pair;
+    // Stopped short, the bound is still one.
+    EXPECT_LE(distance.measure({}, 0, upper / 2, never).lower, upper);
+    EXPECT_GE(distance.measure({}, 0, lower / 2, never).lower, lower / 2 * (1 - 0x1p-29L));
+    std::vector<PiecePair> near;
+    ASSERT_TRUE(distance.near(0.5L, SIZE_MAX, near));
+    std::size_t among = 0;
+    for (const PiecePair& pair : near) among += distance.gap(pair).upper < 0.5L;
+    EXPECT_EQ(among, within);
+    if (within > 1) {
+      EXPECT_FALSE(distance.near(0.5L, within - 1, near));
+    }
   }
 }
 
-TEST(EdgeCurve, FollowsTheShorterArcAndStaysWithinItsTravel) {
-  std::mt19937_64 random(test::testSeed(3));
-  for (int i = 0; i < 300; ++i) {
-    PathState from{randomPose(random, 2), randomVec(random, 4)};
-    PathState to{randomPose(random, 2), randomVec(random, 4)};
-    if (i % 3 == 0) {
-      to = from;
-      to.pose.q.coeffs() +=
-          1e-5 * randomPose(random, 1).q.coeffs();  // OMPL's slerp stands still here
-    }
-    const bool planar = i % 2 == 1;
-    const EdgeCurve curve(from, to, planar);
-    const Vec3 x = randomVec(random, 1).normalized();
-    const auto image = [&](Real t) -> RealVec {
-      const Placement p = curve.at(t).placement;
-      return p.rotation * x.cast<Real>() + p.position;
+// A tree of three joints of each kind, among them a joint that follows another.
+struct Arm {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  std::size_t tip = 0, side = 0;
+
+  explicit Arm(std::mt19937_64& random) {
+    const auto variable = [&](Coordinate::Kind kind) {
+      Coordinate c;
+      c.kind = kind;
+      return space.coordinates()[space.add(c)].first;
     };
-    const RigidPose end = curve.at(1).pose;
-    if (!planar) {
-      EXPECT_NEAR(std::abs(end.q.normalized().dot(to.pose.q.normalized())), 1, 1e-15);
-      const Eigen::Quaterniond middle = from.pose.q.normalized().slerp(0.5, to.pose.q.normalized());
-      EXPECT_NEAR(std::abs(curve.at(0.5L).pose.q.dot(middle)), 1, 1e-14);
-    } else {
-      EXPECT_NEAR(std::remainder(curve.at(1).yaw - to.xyYaw.z(), 2 * std::numbers::pi), 0, 1e-14);
-    }
-    // The rotation and the pose rounded to doubles are the same map: 9 entries of about 16
-    // roundings of 2^-53.
-    const EdgeCurve::At at = curve.at(0.3L);
-    EXPECT_LT((placementOf(at.pose).rotation - at.placement.rotation).norm(), 0x1p-47L);
-    Real length = 0;
-    for (int k = 0; k < 64; ++k) {
-      const Real step = (image((k + 1) / 64.0L) - image(k / 64.0L)).norm();
-      EXPECT_LE(step, curve.travel(1 / 64.0L, 1)) << i;
-      length += step;
-    }
-    EXPECT_LE(length, curve.travel(0.5L, 1) * 2);
-    EXPECT_LE((image(1) - image(0)).norm(), curve.travel(1, 1));
+    const auto frame = [&](std::size_t parent, Frame::Joint joint, std::size_t first) {
+      Frame f;
+      f.parent = parent;
+      f.fixed = randomPose(random, 0.7);
+      f.joint = joint;
+      f.axis = randomVec(random, 1);
+      f.variable = first;
+      f.count = 3;
+      return tree.add(f);
+    };
+    const std::size_t x = variable(Coordinate::Kind::line);
+    variable(Coordinate::Kind::line), variable(Coordinate::Kind::line);
+    const std::size_t q = variable(Coordinate::Kind::rotation),
+                      pan = variable(Coordinate::Kind::line),
+                      lift = variable(Coordinate::Kind::circle),
+                      slide = variable(Coordinate::Kind::line);
+    std::size_t at = frame(0, Frame::Joint::shift, x);
+    at = frame(at, Frame::Joint::rotate, q);
+    const std::size_t fork = at = frame(at, Frame::Joint::turn, pan);
+    at = frame(at, Frame::Joint::turn, lift);
+    tip = frame(at, Frame::Joint::slide, slide);
+    side = frame(fork, Frame::Joint::turn, pan);
+    tree.frames[side].multiplier = -0.7;
+    tree.frames[side].offset = 0.2;
   }
+  Configuration random(std::mt19937_64& generator) const {
+    Configuration q(static_cast<Eigen::Index>(space.size()));
+    std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+    for (double& value : q) value = uniform(generator);
+    return q;
+  }
+};
+
+TEST(EdgeCurve, PointsStayWithinTheirReach) {
+  std::mt19937_64 random(test::testSeed(3));
+  Real fullestSpeed = 0, fullestBend = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Arm arm(random);
+    const Configuration from = arm.random(random), to = arm.random(random);
+    const EdgeCurve curve(arm.tree, arm.space.coordinates(), from, to);
+    if (curve.ambiguous()) continue;
+    const std::size_t frame = i % 2 ? arm.tip : arm.side;
+    for (const std::size_t base : {std::size_t(0), std::size_t(3)}) {
+      const Limb limb = limbOf(arm.tree, base, frame);
+      const Vec3 x = randomVec(random, 0.5);
+      const Reach reach = curve.reach(limb, x.norm(), Configuration::Zero(from.size()));
+      const auto image = [&](Real t) -> RealVec {
+        const Placement p = curve.at(limb, t).at;
+        return p.rotation * x.cast<Real>() + p.position;
+      };
+      const Real h = 1 / 128.0L;
+      for (int k = 0; k < 64; ++k) {
+        const Real t = (k + 0.5L) / 64;
+        const FrameState state = curve.at(limb, t);
+        const RealVec middle = image(t);
+        const RealVec velocity = state.linear + state.angular.cross(middle);
+        for (const Real s : {-h, h}) {
+          const RealVec moved = image(t + s) - middle;
+          EXPECT_LE(moved.norm(), reach.speed * h * (1 + 1e-15L));
+          EXPECT_LE((moved - s * velocity).norm(), reach.bend * h * h / 2 + 1e-17L);
+          fullestSpeed = std::max(fullestSpeed, moved.norm() / (reach.speed * h));
+          fullestBend =
+              std::max(fullestBend, (moved - s * velocity).norm() / (reach.bend * h * h / 2));
+        }
+      }
+    }
+  }
+  EXPECT_GT(fullestSpeed, 0.5);  // not absurdly far from what happens
+  EXPECT_GT(fullestBend, 0.2);
+}
+
+TEST(EdgeCurve, EndsWhereItShould) {
+  std::mt19937_64 random(test::testSeed(4));
+  for (int i = 0; i < 100; ++i) {
+    const Arm arm(random);
+    const Configuration from = arm.random(random), to = arm.random(random);
+    const EdgeCurve curve(arm.tree, arm.space.coordinates(), from, to);
+    for (const auto& [t, q] : {std::pair{Real(0), from}, std::pair{Real(1), to}}) {
+      const EdgeCurve still(arm.tree, arm.space.coordinates(), q, q);
+      const Limb limb = limbOf(arm.tree, 0, arm.tip);
+      const Placement a = curve.at(limb, t).at, b = still.at(limb, 0.5L).at;
+      EXPECT_LE((a.rotation - b.rotation).norm(), 1e-17L);
+      EXPECT_LE((a.position - b.position).norm(), 1e-17L);
+      Configuration end = curve.configuration(t);
+      for (Eigen::Index k = 0; k < 3; ++k) EXPECT_EQ(end[k], q[k]);
+    }
+  }
+}
+
+ConvexSet randomSet(std::mt19937_64& random, int kind, const Vec3& shift) {
+  ConvexPart part;
+  if (kind == 0) part = {{Vec3::Zero()}, 0.4, false};
+  if (kind == 1) part = {{Vec3(0, 0, -0.35), Vec3(0, 0, 0.35)}, 0.2, false};
+  if (kind == 2) part = {{Vec3(0, 0, -0.4), Vec3(0, 0, 0.4)}, 0.3, true};
+  if (kind == 3)
+    for (int i = 0; i < 8; ++i)
+      part.points.emplace_back(i & 1 ? 0.15 : -0.15, i & 2 ? 0.3 : -0.3, i & 4 ? 0.45 : -0.45);
+  if (kind == 4)
+    for (int i = 0; i < 3; ++i) part.points.push_back(randomVec(random, 0.5));
+  RigidPose pose = randomPose(random, 0.2);
+  pose.p += shift;
+  return placed(part, placementOf(pose));
+}
+
+TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {
+  std::mt19937_64 random(test::testSeed(5));
+  int apart = 0;
+  Real worst = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const ConvexSet a = randomSet(random, i % 5, Vec3::Zero()),
+                    b = randomSet(random, i / 5 % 5, randomVec(random, 1.5));
+    const TriangleGap gap = convexGap(a, b);
+    EXPECT_LE(gap.lower, gap.upper + 0x1p-50L);
+    if (gap.upper == 0) continue;
+    ++apart;
+    worst = std::max(worst, gap.upper - gap.lower);
+    const TriangleGap swapped = convexGap(b, a);
+    EXPECT_NEAR(static_cast<double>(swapped.upper), static_cast<double>(gap.upper), 1e-13);
+    // No pair of points of the two is closer than `lower`.
+    std::normal_distribution<double> normal;
+    for (int k = 0; k < 20; ++k) {
+      const RealVec d(normal(random), normal(random), normal(random));
+      const auto extreme = [&](const ConvexSet& set, const RealVec& n) {
+        return RealVec(set.farthest(n) + n.normalized() * set.ball());
+      };
+      EXPECT_GE((extreme(b, -d) - extreme(a, d)).norm(), gap.lower * (1 - 1e-15L));
+    }
+  }
+  EXPECT_GT(apart, 5000);
+  EXPECT_LT(worst, 1e-9L);  // cylinders; the others: rounding
+}
+
+TEST(ConvexGap, ClosedForms) {
+  const Placement still;
+  const ConvexSet ball = placed({{Vec3(0, 0, 3)}, 0.5, false}, still),
+                  can = placed({{Vec3(0, 0, -1), Vec3(0, 0, 1)}, 0.7, true}, still),
+                  rod = placed({{Vec3(2, -5, 0), Vec3(2, 5, 0)}, 0.25, false}, still);
+  EXPECT_EQ(convexGap(ball, can).upper, 1.5L);
+  EXPECT_EQ(convexGap(ball, can).lower, 1.5L);
+  EXPECT_NEAR(static_cast<double>(convexGap(can, rod).lower), 2 - 0.7 - 0.25, 1e-12);
+  const ConvexSet rim = placed({{Vec3(3, 0, 3)}, 0, false}, still);  // (2.3, 2) from the rim
+  EXPECT_NEAR(static_cast<double>(convexGap(can, rim).lower), std::hypot(2.3, 2.0), 1e-12);
 }
 
 }  // namespace

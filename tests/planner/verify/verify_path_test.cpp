@@ -18,25 +18,42 @@ constexpr double kPi = std::numbers::pi;
 /// A body among obstacles; owns the meshes.
 struct World {
   TriangleMesh body, obstacle;
-  PathProblem problem;
+  test::RigidWorld spatial{false}, planar{true};
+  struct Settings {
+    std::vector<VerifyBody> fixed;
+    double margin = 0, tolerance = 1e-7;
+    Tube tube;
+    std::uint64_t workLimit = 2'000'000;
+  } problem;
 
   World(TriangleMesh b, TriangleMesh o) : body(std::move(b)), obstacle(std::move(o)) {
-    problem.moving = {{"body", &body}};
     problem.fixed = {{"obstacle", &obstacle}};
   }
   World(const World&) = delete;
+  PathReport verify(const std::vector<RigidPose>& states) { return verifyIn(spatial, states); }
+  PathReport verify(const std::vector<Eigen::Vector3d>& states) { return verifyIn(planar, states); }
+
+ private:
   template <class State>
-  PathReport verify(const std::vector<State>& states) const {
-    return verifyPath(problem, states);
+  PathReport verifyIn(test::RigidWorld& world, const std::vector<State>& states) {
+    world.moving = {{"body", &body}};
+    world.fixed = problem.fixed;
+    world.margin = problem.margin;
+    world.tolerance = problem.tolerance;
+    world.tube = problem.tube;
+    world.workLimit = problem.workLimit;
+    return test::verifyRigid(world, states);
   }
 };
+using Poses = std::vector<RigidPose>;
+using PlanarPoses = std::vector<Eigen::Vector3d>;
 
 const TriangleMesh kCube = boxMesh(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5));
 
 TEST(VerifyPath, BoxPastAWall) {
   for (const double clearance : {0.25, 1e-2, 1e-3}) {
     World world(kCube, boxMesh(Vec3(-3, 0.5 + clearance, -1), Vec3(3, 2, 1)));
-    const PathReport report = world.verify<RigidPose>({poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
+    const PathReport report = world.verify(Poses{poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
     EXPECT_EQ(report.verdict, PathVerdict::proved);
     EXPECT_EQ(report.edgesProved, 1);
     EXPECT_TRUE(report.findings.empty());
@@ -48,13 +65,13 @@ TEST(VerifyPath, BoxPastAWall) {
 
 TEST(VerifyPath, ExactTouchingIsRefuted) {
   World world(kCube, boxMesh(Vec3(-3, 0.5, -1), Vec3(3, 2, 1)));
-  const PathReport report = world.verify<RigidPose>({poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
+  const PathReport report = world.verify(Poses{poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   ASSERT_EQ(report.findings.size(), 1u);
   const PathFinding& finding = report.findings[0];
   EXPECT_EQ(finding.reason, "contact");
-  EXPECT_EQ(finding.moving, "body");
-  EXPECT_EQ(finding.fixed, "obstacle");
+  EXPECT_EQ(finding.b, "body");
+  EXPECT_EQ(finding.a, "obstacle");
   EXPECT_EQ(finding.edge, 0);
   EXPECT_EQ(finding.gap, 0);
   EXPECT_EQ(finding.point.y(), 0.5);
@@ -63,14 +80,15 @@ TEST(VerifyPath, ExactTouchingIsRefuted) {
   const auto corners = [](const TriangleMesh& mesh, std::uint32_t i) {
     return verify::Corners{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
   };
-  EXPECT_TRUE(verify::exactContact(finding.pose, corners(world.body, finding.movingTriangle),
-                                   corners(world.obstacle, finding.fixedTriangle)));
+  EXPECT_TRUE(verify::exactContact(test::poseIn(finding.configuration),
+                                   corners(world.body, finding.triangleB),
+                                   corners(world.obstacle, finding.triangleA)));
 }
 
 TEST(VerifyPath, TouchingAtTheGoalIsRefuted) {
   World world(kCube, boxMesh(Vec3(1, -1, -1), Vec3(2, 1, 1)));
   const PathReport report =
-      world.verify<RigidPose>({poseOf({-5, 0, 0}), poseOf({-4, 0, 0}), poseOf({0.5, 0, 0})});
+      world.verify(Poses{poseOf({-5, 0, 0}), poseOf({-4, 0, 0}), poseOf({0.5, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   EXPECT_EQ(report.edgesProved, 1);
   ASSERT_EQ(report.findings.size(), 1u);
@@ -81,11 +99,11 @@ TEST(VerifyPath, TouchingAtTheGoalIsRefuted) {
 
 TEST(VerifyPath, OneStateIsCheckedAsItIs) {
   World world(kCube, boxMesh(Vec3(1, -1, -1), Vec3(2, 1, 1)));
-  PathReport report = world.verify<RigidPose>({poseOf({0, 0, 0})});
+  PathReport report = world.verify(Poses{poseOf({0, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
   EXPECT_NEAR(report.provenClearance, 0.5, 1e-12);
-  EXPECT_EQ(world.verify<RigidPose>({poseOf({0.5, 0, 0})}).verdict, PathVerdict::refuted);
-  EXPECT_EQ(world.verify<RigidPose>({poseOf({0.5 - 1e-6, 0, 0})}).verdict, PathVerdict::proved);
+  EXPECT_EQ(world.verify(Poses{poseOf({0.5, 0, 0})}).verdict, PathVerdict::refuted);
+  EXPECT_EQ(world.verify(Poses{poseOf({0.5 - 1e-6, 0, 0})}).verdict, PathVerdict::proved);
 }
 
 // A blade from the reference point to radius 1 turns past the point at radius 1 + gap, by an angle
@@ -98,14 +116,12 @@ TEST(VerifyPath, BladePastAPoint) {
       const Vec3 tip(r * std::cos(angle), r * std::sin(angle), 0);
       World world(oneTriangle({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}),
                   oneTriangle(tip, tip + Vec3(0, 0, 1), tip + Vec3(0, 0, -1)));
-      const PathReport report =
-          world.verify<RigidPose>({poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
+      const PathReport report = world.verify(Poses{poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
       EXPECT_EQ(report.verdict, gap > 0 ? PathVerdict::proved : PathVerdict::undecided)
           << angle << " " << gap;  // a segment meets a segment exactly at no rounded pose
       // Given a width, the blade meets it.
       World wide(boxMesh({0, -1e-3, -0.1}, {1, 1e-3, 0.1}), world.obstacle);
-      const PathReport second =
-          wide.verify<RigidPose>({poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
+      const PathReport second = wide.verify(Poses{poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
       // its corners reach sqrt(1 + 1e-6): 5e-7 further
       EXPECT_EQ(second.verdict, gap > 6e-7 ? PathVerdict::proved : PathVerdict::refuted)
           << angle << " " << gap;
@@ -122,21 +138,21 @@ TEST(VerifyPath, TranslationsOfAWideEdgeAreNotJumped) {
   // bound would prove it.
   World world(boxMesh(Vec3(-0.005, 0, 0), Vec3(0.005, 0.01, 0.01)),
               boxMesh(Vec3(-0.47, -1, -1), Vec3(-0.46, 1, 1)));
-  const PathReport report = world.verify<RigidPose>({poseOf({-0.9, 0, 0}), poseOf({0.9, 0, 0})});
+  const PathReport report = world.verify(Poses{poseOf({-0.9, 0, 0}), poseOf({0.9, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
 }
 
 TEST(VerifyPath, ThinPlateIsNotJumped) {
   World world(kCube, boxMesh(Vec3(3.33, -5, -5), Vec3(3.3301, 5, 5)));
   world.body = boxMesh(Vec3(-0.01, -0.01, -0.01), Vec3(0.01, 0.01, 0.01));
-  const PathReport report = world.verify<RigidPose>(
-      {poseOf({0, 0, 0}), poseOf({-4, 0, 0}), poseOf({10, 0, 0}, 1), poseOf({11, 0, 0})});
+  const PathReport report = world.verify(
+      Poses{poseOf({0, 0, 0}), poseOf({-4, 0, 0}), poseOf({10, 0, 0}, 1), poseOf({11, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   EXPECT_EQ(report.edgesProved, 2);
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_EQ(report.findings[0].edge, 1);
   EXPECT_NEAR(report.findings[0].point.x(), 3.33, 0.02);
-  EXPECT_NEAR(report.findings[0].pose.p.x(), 3.33, 0.02);
+  EXPECT_NEAR(report.findings[0].configuration[0], 3.33, 0.02);
 }
 
 TEST(VerifyPath, RodThroughASlot) {
@@ -150,17 +166,17 @@ TEST(VerifyPath, RodThroughASlot) {
   for (const TriangleMesh* part : {&below, &left, &right}) {
     world.problem.fixed.push_back({"part", part});
   }
-  PathReport report = world.verify<RigidPose>({poseOf({-3, 0, 0}), poseOf({3, 0, 0})});
+  PathReport report = world.verify(Poses{poseOf({-3, 0, 0}), poseOf({3, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
   EXPECT_NEAR(report.smallestDistanceMet, 0.001, 1e-12);
   EXPECT_GE(report.provenClearance, 0.0006);
   // Turned by 0.03 about y: inside the plate of half thickness 0.05 the rod rises by 0.05·tan 0.03
   // > 0.001.
-  report = world.verify<RigidPose>(
-      {poseOf({-3, 0, 0}, 0.03, Vec3::UnitZ()), poseOf({3, 0, 0}, 0.03, Vec3::UnitZ())});
+  report = world.verify(
+      Poses{poseOf({-3, 0, 0}, 0.03, Vec3::UnitZ()), poseOf({3, 0, 0}, 0.03, Vec3::UnitZ())});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   ASSERT_EQ(report.findings.size(), 1u);
-  EXPECT_THAT(report.findings[0].fixed, testing::AnyOf("part", "obstacle"));
+  EXPECT_THAT(report.findings[0].a, testing::AnyOf("part", "obstacle"));
 }
 
 TEST(VerifyPath, MarginJustBelowAndAboveTheClearance) {
@@ -169,7 +185,7 @@ TEST(VerifyPath, MarginJustBelowAndAboveTheClearance) {
   world.problem.margin = 0.25 - 1e-6;
   const PathReport report = world.verify(path);
   EXPECT_EQ(report.verdict, PathVerdict::proved);
-  EXPECT_GT(report.provenClearance, world.problem.margin);
+  EXPECT_GE(report.provenClearance, world.problem.margin);
   for (const double margin : {0.25, 0.25 + 1e-6}) {
     world.problem.margin = margin;
     const PathReport violated = world.verify(path);
@@ -206,19 +222,16 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
 
 // A planar tube doesn't reach out of the plane: what is above a floor stays above it.
 TEST(VerifyPath, PlanarTubesDoNotRefuteThroughTheFloor) {
-  const TriangleMesh box = boxMesh({-0.5, -0.5, 0.001}, {0.5, 0.5, 1}),
-                     floor = boxMesh({-9, -9, -1}, {9, 9, 0}),
+  const TriangleMesh floor = boxMesh({-9, -9, -1}, {9, 9, 0}),
                      wall = boxMesh({-9, 0.501, 0.1}, {9, 1, 1});
-  PathProblem problem;
-  problem.moving = {{"box", &box}};
-  problem.tube = {0.002, 0};
-  const std::vector<Vec3> path = {{-1, 0, 0}, {1, 0, 0}};
-  problem.fixed = {{"floor", &floor}};
-  EXPECT_EQ(verifyPath(problem, path).verdict, PathVerdict::undecided);
-  problem.fixed = {{"wall", &wall}};
-  EXPECT_EQ(verifyPath(problem, path).verdict, PathVerdict::refuted);
-  problem.fixed = {};
-  EXPECT_EQ(verifyPath(problem, path).verdict, PathVerdict::proved);
+  World world(boxMesh({-0.5, -0.5, 0.001}, {0.5, 0.5, 1}), floor);
+  world.problem.tube = {0.002, 0};
+  const PlanarPoses path = {{-1, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(world.verify(path).verdict, PathVerdict::undecided);
+  world.problem.fixed = {{"wall", &wall}};
+  EXPECT_EQ(world.verify(path).verdict, PathVerdict::refuted);
+  world.problem.fixed = {};
+  EXPECT_EQ(world.verify(path).verdict, PathVerdict::proved);
 }
 
 TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
@@ -232,7 +245,7 @@ TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
   const PathReport report = back.verify(path);
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   ASSERT_EQ(report.findings.size(), 1u);
-  EXPECT_NEAR(std::abs(report.findings[0].yaw), kPi, 0.1);
+  EXPECT_NEAR(std::abs(report.findings[0].configuration[2]), kPi, 0.1);
   // Out of range is the same angle.
   EXPECT_EQ(front.verify(Planar{{0, 0, 3 + 20 * kPi}, {0, 0, -3 - 8 * kPi}}).verdict,
             PathVerdict::proved);
@@ -249,33 +262,60 @@ TEST(VerifyPath, HalfTurnsAreAmbiguous) {
     return report.findings.empty() ? "" : report.findings[0].reason;
   };
   for (const double offset : {0.0, 9e-10, -9e-10}) {
-    EXPECT_EQ(reason(world.verify<Eigen::Vector3d>({{0, 0, 1}, {0, 0, 1 + kPi + offset}})),
+    EXPECT_EQ(reason(world.verify(PlanarPoses{{0, 0, 1}, {0, 0, 1 + kPi + offset}})),
               "ambiguous half turn");
-    const PathReport report = world.verify<RigidPose>(
-        {poseOf({0, 0, 0}), poseOf({1, 0, 0}, kPi + offset, Vec3(1, 2, 3))});
+    const PathReport report =
+        world.verify(Poses{poseOf({0, 0, 0}), poseOf({1, 0, 0}, kPi + offset, Vec3(1, 2, 3))});
     EXPECT_EQ(reason(report), "ambiguous half turn");
     EXPECT_EQ(report.verdict, PathVerdict::refuted);
   }
   for (const double offset : {1.1e-9, -1.1e-9}) {
-    EXPECT_EQ(reason(world.verify<Eigen::Vector3d>({{0, 0, 1}, {0, 0, 1 + kPi + offset}})), "");
-    EXPECT_EQ(reason(world.verify<RigidPose>(
-                  {poseOf({0, 0, 0}), poseOf({1, 0, 0}, kPi + offset, Vec3(1, 2, 3))})),
+    EXPECT_EQ(reason(world.verify(PlanarPoses{{0, 0, 1}, {0, 0, 1 + kPi + offset}})), "");
+    EXPECT_EQ(reason(world.verify(
+                  Poses{poseOf({0, 0, 0}), poseOf({1, 0, 0}, kPi + offset, Vec3(1, 2, 3))})),
               "");
   }
   // q and −q are one rotation.
   RigidPose negative = poseOf({1, 0, 0}, 0.1);
   negative.q.coeffs() *= -2.5;
-  EXPECT_EQ(world.verify<RigidPose>({poseOf({0, 0, 0}), negative}).verdict, PathVerdict::proved);
+  EXPECT_EQ(world.verify(Poses{poseOf({0, 0, 0}), negative}).verdict, PathVerdict::proved);
+}
+
+TEST(VerifyPath, SlidingAlongAWallTakesNoMoreThanTheStates) {
+  // A gap of 1e-9, a hundredth of the tolerance, but nothing goes towards the wall.
+  World world(kCube, boxMesh(Vec3(-3, 0.5 + 1e-9, -1), Vec3(3, 2, 1)));
+  const PathReport report = world.verify(Poses{poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_LE(report.provenClearance, 1e-9);
+  EXPECT_LE(report.distanceQueries, 200u);
+}
+
+// A rod of 1 % play slides through its hole, tilting as it goes: the count of intervals goes with
+// the root of length over clearance, not with length over clearance.
+TEST(VerifyPath, AnInsertionTakesFewIntervals) {
+  World world(boxMesh(Vec3(-1, -0.099, -0.099), Vec3(1, 0.099, 0.099)),
+              boxMesh(Vec3(-0.05, 0.1, -1), Vec3(0.05, 1, 1)));
+  const TriangleMesh below = boxMesh(Vec3(-0.05, -1, -1), Vec3(0.05, -0.1, 1));
+  world.problem.fixed.push_back({"below", &below});
+  const PathReport report =
+      world.verify(Poses{poseOf({-0.1, 0, 0}, -0.005), poseOf({0.1, 0, 0}, 0.005)});
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_LE(report.distanceQueries, 4000u);
 }
 
 TEST(VerifyPath, GapUnderTheToleranceIsUndecided) {
-  World world(kCube, boxMesh(Vec3(-3, 0.5 + 1e-9, -1), Vec3(3, 2, 1)));
-  const std::vector<RigidPose> path = {poseOf({-5, 0, 0}), poseOf({5, 0, 0})};
+  // A blade of length 1 turns past a point that is 1e-12 beyond its tip.
+  const double angle = 0.77, r = 1 + 1e-12;
+  const Vec3 tip(r * std::cos(angle), r * std::sin(angle), 0);
+  World world(oneTriangle({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}),
+              oneTriangle(tip, tip + Vec3(0, 0, 1), tip + Vec3(0, 0, -1)));
+  const Poses path = {poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)};
+  world.problem.tolerance = 1e-5;
   const PathReport report = world.verify(path);
   EXPECT_EQ(report.verdict, PathVerdict::undecided);
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_EQ(report.findings[0].reason, "clearance below the tolerance");
-  EXPECT_NEAR(report.findings[0].gap, 1e-9, 1e-15);
+  EXPECT_LT(report.findings[0].gap, 1e-5);
   world.problem.workLimit = 10;
   EXPECT_EQ(world.verify(path).findings.at(0).reason, "work limit reached");
 }
@@ -286,34 +326,33 @@ TEST(VerifyPath, BadStatesAndProblems) {
   zero.q.coeffs().setZero();
   infinite.p.x() = std::numeric_limits<double>::infinity();
   for (const RigidPose& bad : {zero, infinite}) {
-    const PathReport report = world.verify<RigidPose>({RigidPose{}, RigidPose{}, bad});
+    const PathReport report = world.verify(Poses{RigidPose{}, RigidPose{}, bad});
     EXPECT_EQ(report.verdict, PathVerdict::refuted);
     ASSERT_EQ(report.findings.size(), 1u);
     EXPECT_EQ(report.findings[0].edge, 1);
     EXPECT_EQ(report.findings[0].reason, "not a state");
   }
-  EXPECT_THROW(world.verify<RigidPose>({}), std::invalid_argument);
+  EXPECT_THROW(world.verify(Poses{}), std::invalid_argument);
   world.problem.margin = -1;
-  EXPECT_THROW(world.verify<RigidPose>({RigidPose{}}), std::invalid_argument);
+  EXPECT_THROW(world.verify(Poses{RigidPose{}}), std::invalid_argument);
   world.problem.margin = 0;
   world.problem.tube.rotation = std::nan("");
-  EXPECT_THROW(world.verify<RigidPose>({RigidPose{}}), std::invalid_argument);
+  EXPECT_THROW(world.verify(Poses{RigidPose{}}), std::invalid_argument);
   world.problem.tube.rotation = 0;
   world.problem.fixed.clear();
-  const PathReport report = world.verify<RigidPose>({RigidPose{}, poseOf({1, 0, 0})});
+  const PathReport report = world.verify(Poses{RigidPose{}, poseOf({1, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
   EXPECT_EQ(report.provenClearance, std::numeric_limits<double>::infinity());
 }
 
 /// Smallest distance over `samples` + 1 even poses, by checks of single states.
-double sampledDistance(const World& world, const RigidPose& from, const RigidPose& to,
-                       int samples) {
+double sampledDistance(World& world, const RigidPose& from, const RigidPose& to, int samples) {
   double smallest = std::numeric_limits<double>::infinity();
   const Eigen::Quaterniond q0 = from.q.normalized(), q1 = to.q.normalized();
   for (int i = 0; i <= samples; ++i) {
     const double t = static_cast<double>(i) / samples;
     const RigidPose pose{from.p + t * (to.p - from.p), q0.slerp(t, q1)};
-    smallest = std::min(smallest, world.verify<RigidPose>({pose}).smallestDistanceMet);
+    smallest = std::min(smallest, world.verify(Poses{pose}).smallestDistanceMet);
   }
   return smallest;
 }
@@ -326,7 +365,7 @@ TEST(VerifyPath, RandomPathsAgainstDenseSampling) {
     World world(test::randomSoup(random, 8, 0.3, 0.2), test::randomSoup(random, 30, 1.5, 0.2));
     for (Vec3& v : world.body.vertices) v += Vec3(0.4, 0, 0);  // the reference point is outside
     RigidPose from = test::randomPose(random, 1.5), to = test::randomPose(random, 1.5);
-    const PathReport report = world.verify<RigidPose>({from, to});
+    const PathReport report = world.verify(Poses{from, to});
     const double sampled = sampledDistance(world, from, to, 400);
     if (report.verdict == PathVerdict::proved) {
       ++proved;
@@ -339,7 +378,7 @@ TEST(VerifyPath, RandomPathsAgainstDenseSampling) {
       EXPECT_EQ(report.verdict, PathVerdict::refuted) << i;
     }
     // Reversed, it is the same curve.
-    EXPECT_EQ(world.verify<RigidPose>({to, from}).verdict, report.verdict) << i;
+    EXPECT_EQ(world.verify(Poses{to, from}).verdict, report.verdict) << i;
   }
   EXPECT_GT(proved, paths / 10);
   EXPECT_GT(refuted, paths / 10);

@@ -1,0 +1,189 @@
+// Paths of arms, primitives and solids: closed forms, and random ones against dense sampling.
+#include <gtest/gtest.h>
+
+#include "tests/planner/verify/meshes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::boxMesh;
+
+constexpr double kPi = std::numbers::pi;
+
+ConvexPart boxPart(const Vec3& lower, const Vec3& upper) {
+  return {boxMesh(lower, upper).vertices, 0, false};
+}
+
+/// A chain of `joints` turns about z, one a metre, each with a rod of a metre after it.
+struct Chain {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  std::vector<ConvexPart> rods;
+  ConvexPart obstacle;
+  PathProblem problem;
+
+  Chain(int joints, ConvexPart o) : obstacle(std::move(o)) {
+    CoordinateGroup group;
+    for (int j = 0; j < joints; ++j) {
+      Coordinate c;
+      c.name = "joint" + std::to_string(j + 1);
+      c.lower = -4;
+      c.upper = 4;
+      Frame frame;
+      frame.parent = j == 0 ? 0 : tree.frames.size() - 1;
+      frame.fixed.p = Vec3(j == 0 ? 0 : 1, 0, 0);
+      frame.joint = Frame::Joint::turn;
+      frame.variable = static_cast<std::size_t>(j);
+      space.add(c);
+      tree.add(frame);
+      rods.push_back({{Vec3(0.1, 0, 0), Vec3(0.9, 0, 0)}, 0.05, false});
+    }
+    problem.tree = &tree;
+    problem.space = &space;
+    problem.tolerance = 1e-8;
+    problem.tube = Configuration::Zero(joints);
+    problem.bodies.push_back({"obstacle", nullptr, &obstacle, false, 0});
+    for (std::size_t j = 0; j < rods.size(); ++j) {
+      problem.bodies.push_back({"rod" + std::to_string(j + 1), nullptr, &rods[j], false, j + 1});
+      problem.pairs.push_back({0, j + 1});
+      for (std::size_t i = 0; i + 1 < j; ++i) problem.pairs.push_back({i + 1, j + 1});
+    }
+  }
+  Chain(const Chain&) = delete;
+};
+
+Configuration joints(std::initializer_list<double> values) {
+  Configuration q(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), q.begin());
+  return q;
+}
+
+// The stretched chain turns as one about the first joint: its tip is at 1.9 + 0.05 from there.
+TEST(VerifyChain, StretchedArmPastAPoint) {
+  for (const double gap : {1e-1, 1e-3, 1e-6, -1e-6, -1e-3}) {
+    const double r = 1.95 + gap, angle = 0.7;
+    Chain chain(2, {{Vec3(r * std::cos(angle), r * std::sin(angle), 0)}, 0, false});
+    const PathReport report = verifyPath(chain.problem, {joints({0, 0}), joints({1.9, 0})});
+    EXPECT_EQ(report.verdict, gap > 0 ? PathVerdict::proved : PathVerdict::refuted) << gap;
+    if (gap > 0) {
+      EXPECT_LE(report.provenClearance, gap * (1 + 1e-9));
+      EXPECT_GE(report.provenClearance, 0.85 * gap);
+      EXPECT_LE(report.distanceQueries, 20'000u);
+    } else {
+      EXPECT_EQ(report.findings.at(0).a, "obstacle");
+      EXPECT_EQ(report.findings.at(0).b, "rod2");
+    }
+  }
+}
+
+// A folded chain meets itself: the third rod turns onto the first, which turns along.
+TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
+  Chain chain(3, {{Vec3(50, 0, 0)}, 0.1, false});
+  // Equilateral: rod 3 would end at the start of rod 1.
+  const double corner = 2 * kPi / 3;
+  PathReport report = verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, corner, corner})});
+  EXPECT_EQ(report.verdict, PathVerdict::refuted);
+  EXPECT_EQ(report.findings.at(0).a, "rod1");
+  EXPECT_EQ(report.findings.at(0).b, "rod3");
+  EXPECT_EQ(verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, 1.7, 1.7})}).verdict,
+            PathVerdict::proved);
+  // Nothing moves but what carries both: constant, whatever the first joint does.
+  report = verifyPath(chain.problem, {joints({-3, 1.7, 1.7}), joints({3, 1.7, 1.7})});
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  chain.problem.pairs = {{1, 3}};
+  report = verifyPath(chain.problem, {joints({-3, 1.7, 1.7}), joints({3, 1.7, 1.7})});
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_LE(report.distanceQueries, 5u);
+  // Without its pairs the same path isn't looked at.
+  chain.problem.pairs.clear();
+  EXPECT_EQ(verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, corner, corner})}).verdict,
+            PathVerdict::proved);
+}
+
+TEST(VerifyChain, TubesOfJointsCount) {
+  Chain chain(2, {{Vec3(0, 1.95 + 0.01, 0)}, 0, false});
+  const std::vector<Configuration> path = {joints({kPi / 2, 0}), joints({kPi / 2, 0})};
+  EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
+  chain.problem.tube = joints({0.001, 0.001});  // 0.001·1.95 + 0.001·0.95
+  EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
+  chain.problem.tube = joints({0.004, 0.004});
+  EXPECT_NE(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
+}
+
+TEST(VerifyChain, RandomPathsAgainstDenseSampling) {
+  std::mt19937_64 random(test::testSeed(7));
+  const int paths = test::stressAsked() ? 300 : 60;
+  int proved = 0, refuted = 0;
+  for (int i = 0; i < paths; ++i) {
+    const Vec3 at = test::randomVec(random, 1.5);
+    ConvexPart obstacle = boxPart(at - Vec3(0.3, 0.2, 2), at + Vec3(0.3, 0.2, 2));
+    if (i % 3 == 1) obstacle = {{at - Vec3(0, 0, 2), at + Vec3(0, 0, 2)}, 0.3, true};
+    if (i % 3 == 2) obstacle = {{at}, 0.4, false};
+    Chain chain(4, obstacle);
+    std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+    Configuration from(4), to(4);
+    for (double& value : from) value = uniform(random);
+    for (double& value : to) value = uniform(random);
+    const PathReport report = verifyPath(chain.problem, {from, to});
+    double sampled = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= 300; ++k) {
+      const Configuration q = from + k / 300.0 * (to - from);
+      sampled = std::min(sampled, verifyPath(chain.problem, {q}).smallestDistanceMet);
+    }
+    if (report.verdict == PathVerdict::proved) {
+      ++proved;
+      EXPECT_GE(sampled, report.provenClearance * (1 - 1e-12)) << i;
+      EXPECT_GE(report.provenClearance, 0.5 * std::min(sampled, report.smallestDistanceMet)) << i;
+    } else {
+      refuted += report.verdict == PathVerdict::refuted;
+    }
+    if (sampled == 0) {
+      EXPECT_EQ(report.verdict, PathVerdict::refuted) << i;
+    }
+    EXPECT_EQ(verifyPath(chain.problem, {to, from}).verdict, report.verdict) << i;
+  }
+  EXPECT_GT(proved, paths / 10);
+  EXPECT_GT(refuted, paths / 10);
+  EXPECT_EQ(proved + refuted, paths);
+}
+
+/// Two meshes at rest.
+PathVerdict still(const TriangleMesh& a, bool solidA, const TriangleMesh& b, bool solidB) {
+  const KinematicTree tree;
+  const ConfigurationSpace space;
+  PathProblem problem;
+  problem.tree = &tree;
+  problem.space = &space;
+  problem.tolerance = 1e-8;
+  problem.bodies = {{"a", &a, nullptr, solidA, 0}, {"b", &b, nullptr, solidB, 0}};
+  problem.pairs = {{0, 1}};
+  return verifyPath(problem, {Configuration()}).verdict;
+}
+
+TriangleMesh both(TriangleMesh a, const TriangleMesh& b) {
+  const auto shift = static_cast<std::uint32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const auto& t : b.triangles)
+    a.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  return a;
+}
+
+TEST(VerifyChain, SolidsHoldWhatIsInside) {
+  const TriangleMesh large = boxMesh({-2, -2, -2}, {2, 2, 2}),
+                     small = boxMesh({-1, -1, -1}, {1, 1, 1}), far = boxMesh({5, 5, 5}, {6, 6, 6});
+  EXPECT_EQ(still(large, false, small, false), PathVerdict::proved);
+  EXPECT_EQ(still(large, false, small, true), PathVerdict::proved);
+  EXPECT_EQ(still(large, true, small, false), PathVerdict::refuted);
+  EXPECT_EQ(still(small, false, large, true), PathVerdict::refuted);
+  EXPECT_EQ(still(far, true, small, true), PathVerdict::proved);
+  // One component inside, the other not; a cavity is no room, as any closed component is solid.
+  EXPECT_EQ(still(large, true, both(far, small), false), PathVerdict::refuted);
+  EXPECT_EQ(still(both(far, large), true, small, false), PathVerdict::refuted);
+  TriangleMesh mirrored = large;
+  for (Vec3& v : mirrored.vertices) v.y() = -v.y();
+  EXPECT_EQ(still(mirrored, true, small, false), PathVerdict::refuted);
+}
+
+}  // namespace
+}  // namespace corridor
