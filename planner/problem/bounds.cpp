@@ -9,53 +9,100 @@
 namespace corridor {
 namespace {
 
-int dimensions(const Problem& problem) {
-  return problem.space == RigidSpace::SE3 ? 3 : 2;
+void include(const ConvexPart& part, Corners& box) {
+  // A ball of the radius; at the ends of a cylinder a disc at a right angle to its axis.
+  Vec3 reach = Vec3::Constant(part.radius);
+  if (part.flatEnds) {
+    const Vec3 along = (part.points.back() - part.points.front()).stableNormalized();
+    for (int k = 0; k < 3; ++k)
+      reach[k] = part.radius * std::sqrt(std::max(0.0, 1 - along[k] * along[k]));
+  }
+  for (const Vec3& point : part.points) {
+    box.lower = box.lower.cwiseMin(point - reach);
+    box.upper = box.upper.cwiseMax(point + reach);
+  }
+}
+
+void include(const TriangleMesh& mesh, Corners& box) {
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t i : triangle) {
+      box.lower = box.lower.cwiseMin(mesh.vertices[i]);
+      box.upper = box.upper.cwiseMax(mesh.vertices[i]);
+    }
 }
 
 }  // namespace
 
-void setBoundsOfWorld(Problem& problem) {
+std::size_t dimensionsOf(const CoordinateGroup& group) {
+  return group.kind == CoordinateGroup::Kind::planar ? 2 : 3;
+}
+
+std::optional<Corners> boundsOfWorld(const Problem& problem) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 lower = Vec3::Constant(infinity), upper = Vec3::Constant(-infinity);
-  for (const ProblemMesh& body : problem.world)
-    for (const auto& triangle : body.source.mesh.triangles)
-      for (const std::uint32_t i : triangle) {
-        lower = lower.cwiseMin(body.source.mesh.vertices[i]);
-        upper = upper.cwiseMax(body.source.mesh.vertices[i]);
-      }
-  for (int k = 0; k < dimensions(problem); ++k) {
-    problem.lower[k] = lower[k];
-    problem.upper[k] = upper[k];
+  Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
+  for (const ProblemBody& body : problem.bodies) {
+    if (body.robot) continue;
+    for (const PlacedShape& shape : body.shapes) {
+      if (shape.part) include(*shape.part, box);
+      if (shape.mesh) include(shape.mesh->mesh, box);
+    }
+  }
+  return box.lower.x() <= box.upper.x() ? std::optional(box) : std::nullopt;
+}
+
+Corners boundsOf(const Problem& problem, const CoordinateGroup& group) {
+  Corners corners;
+  for (std::size_t k = 0; k < dimensionsOf(group); ++k) {
+    const Coordinate& c = problem.space.coordinates()[group.coordinates[k]];
+    corners.lower[static_cast<Eigen::Index>(k)] = c.lower;
+    corners.upper[static_cast<Eigen::Index>(k)] = c.upper;
+  }
+  return corners;
+}
+
+void setBounds(Problem& problem, const CoordinateGroup& group, const Corners& corners) {
+  for (std::size_t k = 0; k < dimensionsOf(group); ++k) {
+    Coordinate& c = problem.space.coordinates()[group.coordinates[k]];
+    c.lower = corners.lower[static_cast<Eigen::Index>(k)];
+    c.upper = corners.upper[static_cast<Eigen::Index>(k)];
   }
 }
 
-bool enlargeBounds(Problem& problem) {
-  const Vec3 lower = problem.lower, upper = problem.upper;
-  for (int k = 0; k < dimensions(problem); ++k)
-    for (const RigidPose* pose : {&problem.start, &problem.goal}) {
-      problem.lower[k] = std::min(problem.lower[k], pose->p[k]);
-      problem.upper[k] = std::max(problem.upper[k], pose->p[k]);
+bool enlargeBounds(Problem& problem, const CoordinateGroup& group) {
+  bool enlarged = false;
+  const auto include = [&](const Configuration& q) {
+    for (std::size_t k = 0; k < dimensionsOf(group); ++k) {
+      Coordinate& c = problem.space.coordinates()[group.coordinates[k]];
+      const double value = q[static_cast<Eigen::Index>(c.first)];
+      enlarged |= value < c.lower || value > c.upper;
+      c.lower = std::min(c.lower, value);
+      c.upper = std::max(c.upper, value);
     }
-  return lower != problem.lower || upper != problem.upper;
+  };
+  include(problem.start);
+  for (const Configuration& goal : problem.goals) include(goal);
+  return enlarged;
 }
 
-std::string whyBadBounds(const Problem& problem) {
-  for (int k = 0; k < dimensions(problem); ++k) {
-    const double lower = problem.lower[k], upper = problem.upper[k];
+std::string whyBadBounds(const Corners& corners, std::size_t dimensions) {
+  for (std::size_t i = 0; i < dimensions; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double lower = corners.lower[k], upper = corners.upper[k];
     if (lower < upper && std::isfinite(upper - lower)) continue;
-    return std::string("lower corner first, then the upper one: in ") + "xyz"[k] + ", " +
+    return std::string("lower corner first, then the upper one: in ") + "xyz"[i] + ", " +
            shortest(lower) + " is not below " + shortest(upper);
   }
   return "";
 }
 
-std::string whyOutside(const Problem& problem, const RigidPose& pose) {
-  for (int k = 0; k < dimensions(problem); ++k) {
-    const double lower = problem.lower[k], upper = problem.upper[k];
-    if (lower <= pose.p[k] && pose.p[k] <= upper) continue;
-    return std::string("outside of the bounds: ") + "xyz"[k] + " = " + shortest(pose.p[k]) +
-           " is not in [" + shortest(lower) + ", " + shortest(upper) + "]";
+std::string whyOutside(const Problem& problem, const CoordinateGroup& group,
+                       const Configuration& q) {
+  for (std::size_t k = 0; k < dimensionsOf(group); ++k) {
+    const Coordinate& c = problem.space.coordinates()[group.coordinates[k]];
+    const double value = q[static_cast<Eigen::Index>(c.first)];
+    if (!(value < c.lower) && !(value > c.upper)) continue;
+    return std::string("outside of the bounds: ") + "xyz"[k] + " = " + shortest(value) +
+           " is not in [" + shortest(c.lower) + ", " + shortest(c.upper) + "]";
   }
   return "";
 }

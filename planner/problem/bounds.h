@@ -1,22 +1,37 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "planner/problem/problem.h"
 
+/// Bounds of what moves as a whole: of the position of rigid robots, planar and floating joints.
 namespace corridor {
 
-/// Sets the bounds of the reference point to the bounding box of the world's triangles (SE2: x and
-/// y).
-void setBoundsOfWorld(Problem& problem);
+/// Lower and upper corner; of what moves in the plane, z isn't used.
+struct Corners {
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
+};
 
-/// Enlarges the bounds to contain start and goal. @returns whether that was needed.
-bool enlargeBounds(Problem& problem);
+/// The bounding box of the world's bodies. nullopt: there are none.
+std::optional<Corners> boundsOfWorld(const Problem& problem);
+
+/// Of the group's position in the problem's space.
+Corners boundsOf(const Problem& problem, const CoordinateGroup& group);
+void setBounds(Problem& problem, const CoordinateGroup& group, const Corners& corners);
+
+/// Enlarges the bounds of the group to contain start and goals. @returns whether that was needed.
+bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
 /// What is wrong with the bounds themselves, or "".
-std::string whyBadBounds(const Problem& problem);
+std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 
-/// Why a pose's position is no legal one ("outside of the bounds: x = 9 is not in [0, 1]"), or "".
-std::string whyOutside(const Problem& problem, const RigidPose& pose);
+/// Why the group's position in a configuration is no legal one ("outside of the bounds: x = 9 is
+/// not in [0, 1]"), or "".
+std::string whyOutside(const Problem& problem, const CoordinateGroup& group,
+                       const Configuration& q);
+
+/// 2 or 3.
+std::size_t dimensionsOf(const CoordinateGroup& group);
 
 }  // namespace corridor

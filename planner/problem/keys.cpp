@@ -3,66 +3,75 @@
 namespace corridor {
 namespace {
 
-const std::vector<std::string> poseKeys{"at", "rpy_deg", "rpy", "quat_xyzw", "yaw_deg", "yaw"};
+using Words = std::vector<std::string>;
 
-const char* const shapesAreMeshes =
-    "shapes are meshes, as in {mesh: table.obj, unit: m, at: [0, 0, 0]}";
-const char* const bodiesAreRigid =
-    "robots are rigid bodies: rigid: SE3 (or SE2) and shapes: [{mesh: robot.obj, unit: m}]";
-const char* const allIsChecked = "every part of the robot is kept from every obstacle";
-
-std::vector<LaterKey> laterShapes() {
-  std::vector<LaterKey> later;
-  for (const char* key : {"box", "sphere", "cylinder", "capsule", "convex"})
-    later.push_back({key, shapesAreMeshes});
-  later.push_back({"solid", "meshes are surfaces, and touching them is contact"});
-  return later;
+Words operator+(Words a, const Words& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
 }
 
-}  // namespace
+const Words placementKeys{"at", "rpy_deg", "rpy", "quat_xyzw"};
+const Words poseKeys = placementKeys + Words{"yaw_deg", "yaw"};
+const Words shapeKeys =
+    Words{"mesh", "box", "sphere", "capsule", "cylinder", "convex", "unit", "up", "solid"} +
+    placementKeys;
 
-const std::map<std::string, MapKeys>& problemKeys() {
-  static const std::map<std::string, MapKeys> keys{
+using Keys = std::map<std::string, MapKeys>;
+
+/// A shape at `path`, with more keys of its own.
+void addShape(Keys& keys, const std::string& path, const Words& more) {
+  keys[path] = {shapeKeys + more, {}};
+  keys[path + ".sphere"] = {{"radius"}, {}};
+  keys[path + ".capsule"] = {{"radius", "length"}, {}};
+  keys[path + ".cylinder"] = {{"radius", "length"}, {}};
+}
+
+Keys makeProblemKeys() {
+  Keys keys{
       {"",
-       {{"format", "robot", "world", "start", "goal", "bounds", "margin", "tube", "planner",
-         "sampler", "simplify", "checker", "seed"},
-        {{"robots", "one robot is planned for: robot: robot.yaml"},
-         {"base", "rigid robots move freely: their place is given by start and goal"},
-         {"allow", allIsChecked}}}},
-      {"world.*", {{"mesh", "unit", "up", "at", "rpy_deg", "rpy", "quat_xyzw"}, laterShapes()}},
+       {{"format", "robot", "robots", "base", "world", "allow", "start", "goal", "bounds", "margin",
+         "tube", "planner", "sampler", "simplify", "checker", "seed"},
+        {}}},
+      {"robots.*", {{"file", "base"}, {}}},
+      {"base", {placementKeys, {}}},
       {"start", {poseKeys, {}}},
-      {"goal", {{"at", "rpy_deg", "rpy", "quat_xyzw", "yaw_deg", "yaw", "within"}, {}}},
-      {"goal.within", {{"at", "angle_deg", "angle"}, {}}},
+      {"start.*", {poseKeys, {}}},
+      {"goal", {poseKeys + Words{"within"}, {}}},
+      {"goal.within", {{"at", "angle_deg", "angle", "joints_deg", "joints"}, {}}},
       {"bounds", {{"at"}, {}}},
-      {"tube",
-       {{"position", "rotation_deg", "rotation"},
-        {{"joints", "rigid bodies have position (m) and rotation or rotation_deg"}}}},
+      {"tube", {{"joints_deg", "joints", "position", "rotation_deg", "rotation"}, {}}},
       {"planner", {{"name", "time", "stop", "params"}, {}}},
       {"checker",
        {{"edges", "resolution", "tolerance", "fit"},
         {{"volume", "trees are of oriented boxes; leave it out"},
          {"peer", "Corridor's own checker is used; leave it out"}}}},
   };
+  addShape(keys, "world.*", {"shapes"});
+  addShape(keys, "world.*.shapes[]", {"name"});
+  return keys;
+}
+
+Keys makeRobotKeys() {
+  Keys keys{
+      {"",
+       {{"format", "name", "urdf", "srdf", "packages", "group", "joints", "hold", "states", "allow",
+         "rigid", "shapes", "reference", "weights"},
+        {}}},
+      {"weights", {{"joints", "rotation"}, {}}},
+  };
+  addShape(keys, "shapes[]", {"name"});
+  return keys;
+}
+
+}  // namespace
+
+const std::map<std::string, MapKeys>& problemKeys() {
+  static const Keys keys = makeProblemKeys();
   return keys;
 }
 
 const std::map<std::string, MapKeys>& robotKeys() {
-  static const std::map<std::string, MapKeys> keys{
-      {"",
-       {{"format", "name", "rigid", "shapes", "reference", "weights"},
-        {{"urdf", bodiesAreRigid},
-         {"srdf", bodiesAreRigid},
-         {"packages", bodiesAreRigid},
-         {"group", bodiesAreRigid},
-         {"joints", bodiesAreRigid},
-         {"hold", bodiesAreRigid},
-         {"states", "start and goal are given in the problem"},
-         {"allow", allIsChecked}}}},
-      {"shapes[]",
-       {{"mesh", "unit", "up", "at", "rpy_deg", "rpy", "quat_xyzw", "name"}, laterShapes()}},
-      {"weights",
-       {{"rotation"}, {{"joints", "rigid bodies have one weight, rotation (metres per radian)"}}}},
-  };
+  static const Keys keys = makeRobotKeys();
   return keys;
 }
 

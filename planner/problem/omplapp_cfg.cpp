@@ -8,10 +8,12 @@
 #include <set>
 
 #include "collision/core/nearest.h"
+#include "planner/problem/assembly.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/ini_file.h"
 #include "planner/problem/omplapp_planners.h"
 #include "planner/problem/placement.h"
+#include "planner/problem/shape_yaml.h"
 
 namespace corridor {
 namespace {
@@ -34,11 +36,11 @@ Keys select(const IniFile& ini, const Keys& keys, bool present) {
 }
 
 /// OMPL.app's rule. nullopt: faulted.
-std::optional<RigidSpace> spaceOf(const IniFile& ini) {
+std::optional<JointType> spaceOf(const IniFile& ini) {
   const Keys missing = select(ini, planarKeys, false),
              missing3 = select(ini, spatialOnlyKeys, false);
-  if (missing.empty() && missing3.size() == spatialOnlyKeys.size()) return RigidSpace::SE2;
-  if (missing.empty() && missing3.empty()) return RigidSpace::SE3;
+  if (missing.empty() && missing3.size() == spatialOnlyKeys.size()) return JointType::planar;
+  if (missing.empty() && missing3.empty()) return JointType::floating;
   Keys all = missing;
   if (missing3.size() < spatialOnlyKeys.size())
     all.insert(all.end(), missing3.begin(), missing3.end());
@@ -58,29 +60,31 @@ Eigen::Quaterniond axisAngle(const Vec3& axis, double angle) {
   return {std::cos(angle / 2), v.x(), v.y(), v.z()};
 }
 
-void readPose(const IniFile& ini, const std::string& what, Problem& problem, RigidPose& pose,
-              double& yaw) {
+bool isPlanar(const Problem& problem) {
+  return problem.robots.front().model.mount == JointType::planar;
+}
+
+Configuration readPose(const IniFile& ini, const std::string& what, Problem& problem) {
   const auto number = [&](const std::string& key) {
     return ini.number("problem." + what + "." + key).value_or(0);
   };
-  pose.p = Vec3(number("x"), number("y"), 0);
-  const double theta = number("theta");
   problem.lines[what] = ini.find("problem." + what + ".x")->line;
-  if (problem.space == RigidSpace::SE3) {
-    pose.p.z() = number("z");
-    pose.q = axisAngle({number("axis.x"), number("axis.y"), number("axis.z")}, theta);
-    return;
+  const double x = number("x"), y = number("y"), theta = number("theta");
+  if (!isPlanar(problem)) {
+    const double z = number("z");
+    const auto q = axisAngle({number("axis.x"), number("axis.y"), number("axis.z")}, theta);
+    return (Configuration(7) << x, y, z, q.coeffs()).finished();
   }
-  yaw = wrappedYaw(theta);
+  const double yaw = wrappedYaw(theta);
   if (yaw != theta)
     problem.notes.push_back(what + ".theta: " + shortest(theta) + " is read as " + shortest(yaw) +
                             ", which is the same but for full turns");
-  pose.q = fromRpy({0, 0, yaw}).q;
+  return (Configuration(3) << x, y, yaw).finished();
 }
 
 void readVolume(const IniFile& ini, Problem& problem) {
-  const std::vector<char> axes =
-      problem.space == RigidSpace::SE3 ? std::vector{'x', 'y', 'z'} : std::vector{'x', 'y'};
+  const CoordinateGroup& group = problem.space.groups().front();
+  const std::string axes = isPlanar(problem) ? "xy" : "xyz";
   bool all = true, any = false;
   for (const std::string side : {"min", "max"})
     for (const char axis : axes) {
@@ -92,25 +96,33 @@ void readVolume(const IniFile& ini, Problem& problem) {
     problem.notes.push_back(
         std::string("bounds: those of the world") +
         (any ? ", since volume is not given whole" : ", since no volume is given"));
-    setBoundsOfWorld(problem);
+    setBounds(problem, group, boundsOfWorld(problem).value());
   } else {
     problem.lines["bounds"] = ini.find("problem.volume.min.x")->line;
+    Corners corners;
     for (std::size_t k = 0; k < axes.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
-      problem.lower[i] = ini.number(std::string("problem.volume.min.") + axes[k]).value_or(0);
-      problem.upper[i] = ini.number(std::string("problem.volume.max.") + axes[k]).value_or(1);
-      if (!(problem.lower[i] <= problem.upper[i]))
+      corners.lower[i] = ini.number(std::string("problem.volume.min.") + axes[k]).value_or(0);
+      corners.upper[i] = ini.number(std::string("problem.volume.max.") + axes[k]).value_or(1);
+      if (!(corners.lower[i] <= corners.upper[i]))
         ini.fault(*ini.find(std::string("problem.volume.min.") + axes[k]),
-                  shortest(problem.lower[i]) + " is above volume.max." + axes[k] + ", " +
-                      shortest(problem.upper[i]));
+                  shortest(corners.lower[i]) + " is above volume.max." + axes[k] + ", " +
+                      shortest(corners.upper[i]));
     }
+    setBounds(problem, group, corners);
   }
-  if (enlargeBounds(problem)) problem.notes.push_back("bounds: enlarged to contain start and goal");
+  if (enlargeBounds(problem, group))
+    problem.notes.push_back("bounds: enlarged to contain start and goal");
 }
 
+struct CfgMesh {
+  OmplAppMesh read;
+  PlacedShape shape;
+};
+
 /// A mesh of the key `robot` or `world`. nullopt: faulted.
-std::optional<OmplAppMesh> readMesh(const IniFile& ini, const std::string& key, Problem& problem,
-                                    FaultList& faults, std::vector<ProblemMesh>& meshes) {
+std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Problem& problem,
+                                FaultList& faults) {
   const IniFile::Entry* entry = ini.find("problem." + key);
   if (!entry || entry->value.empty()) {
     ini.fault(entry ? entry->line : 0,
@@ -123,16 +135,18 @@ std::optional<OmplAppMesh> readMesh(const IniFile& ini, const std::string& key, 
     ini.fault(*entry, path.string() + ": " + why);
     return std::nullopt;
   }
+  addFile(problem.files, path);
   try {
-    OmplAppMesh mesh = readOmplAppMesh(path);
-    ProblemMesh body{path.stem().string(), path, {}};
-    body.source.mesh = mesh.mesh;
-    body.source.format =
+    CfgMesh mesh{readOmplAppMesh(path), {}};
+    mesh.shape.name = path.stem().string();
+    mesh.shape.file = path;
+    MeshFile& file = mesh.shape.mesh.emplace();
+    file.mesh = mesh.read.mesh;
+    file.format =
         path.extension().string().substr(path.has_extension() ? 1 : 0) + ", as OMPL.app reads it";
-    body.source.unitRule = "1 m per unit (OMPL.app knows no units)";
-    body.source.upRule = "turned to y up by assimp's rule, as OMPL.app has it";
-    body.source.floatVertices = true;
-    meshes.push_back(std::move(body));
+    file.unitRule = "1 m per unit (OMPL.app knows no units)";
+    file.upRule = "turned to y up by assimp's rule, as OMPL.app has it";
+    file.floatVertices = true;
     return mesh;
   } catch (const InputError& error) {
     faults.add(error);
@@ -140,14 +154,19 @@ std::optional<OmplAppMesh> readMesh(const IniFile& ini, const std::string& key, 
   }
 }
 
-void recentre(const OmplAppMesh& read, Problem& problem) {
-  Vec3 centre = read.vertexAverage;
-  if (problem.space == RigidSpace::SE2) centre.z() = 0;
-  for (Vec3& vertex : problem.robot.back().source.mesh.vertices) vertex -= centre;
-  problem.notes.push_back("reference of the robot: (" + shortest(centre.x()) + ", " +
-                          shortest(centre.y()) + ", " + shortest(centre.z()) +
-                          ") of its file, the average of its " +
-                          std::to_string(read.importedVertices) + " imported vertices");
+/// The robot of one mesh, recentred.
+RobotSetup robotOf(CfgMesh mesh, JointType type) {
+  Vec3 centre = mesh.read.vertexAverage;
+  if (type == JointType::planar) centre.z() = 0;
+  shift(mesh.shape, -centre);
+  RobotSetup setup;
+  const std::string name = mesh.shape.name;
+  setup.robot.model = rigidModel(name, type, {std::move(mesh.shape)});
+  setup.robot.model.notes.push_back(
+      "reference of the robot: (" + shortest(centre.x()) + ", " + shortest(centre.y()) + ", " +
+      shortest(centre.z()) + ") of its file, the average of its " +
+      std::to_string(mesh.read.importedVertices) + " imported vertices");
+  return setup;
 }
 
 void readObjective(const IniFile& ini, Problem& problem) {
@@ -237,26 +256,32 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
 
   Problem problem;
   problem.file = file;
+  problem.files = {file};
   problem.name = file.stem().string();
   const auto space = spaceOf(ini);
-  problem.space = space.value_or(RigidSpace::SE3);
-  problem.rotationWeight = problem.space == RigidSpace::SE3 ? 1 : 0.5;
   readSettings(ini, problem);
   readObjective(ini, problem);
   readOmplAppPlanners(ini, problem);
-  const auto robot = readMesh(ini, "robot", problem, faults, problem.robot);
-  const auto world = readMesh(ini, "world", problem, faults, problem.world);
+  auto robot = readMesh(ini, "robot", problem, faults);
+  auto world = readMesh(ini, "world", problem, faults);
   if (space) {
-    readPose(ini, "start", problem, problem.start, problem.startYaw);
-    readPose(ini, "goal", problem, problem.goal, problem.goalYaw);
+    // Poses are read even where a mesh is faulted: their faults count, too.
+    std::vector<RobotSetup> robots{robotOf(robot ? std::move(*robot) : CfgMesh{}, *space)};
+    assembleRobots(robots, problem);
+    if (world) addObstacle(problem, world->shape.name, {std::move(world->shape)});
+    problem.start = readPose(ini, "start", problem);
+    problem.goals = {readPose(ini, "goal", problem)};
     if (world) readVolume(ini, problem);
-    if (robot) recentre(*robot, problem);
   }
   faults.throwIfAny();
-  if (const std::string why = whyBadBounds(problem); !why.empty())
+  const CoordinateGroup& group = problem.space.groups().front();
+  if (const std::string why = whyBadBounds(boundsOf(problem, group), dimensionsOf(group));
+      !why.empty())
     throw InputError(problem.faultAt("bounds", "volume: " + why));
   noteUnused(ini, problem);
-  problem.digest = digestOfFiles({file, problem.robot.front().file, problem.world.front().file});
+  setPairs({}, problem);
+  setTube({}, problem);
+  problem.digest = digestOfFiles(problem.files);
   return problem;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/problem/keys.h"
-
 namespace corridor {
 namespace {
 
@@ -70,24 +68,24 @@ std::optional<Orientation> readQuaternion(const YamlMap& map) {
   return Orientation{q, q.normalized().toRotationMatrix()};
 }
 
-std::string wrongKind(const std::string& what, RigidSpace space) {
-  return what + " of the wrong kind: the robot moves in " +
-         (space == RigidSpace::SE3
-              ? "SE3 (rigid: SE3), so {at: [x, y, z], rpy_deg: [roll, pitch, yaw]} is needed"
-              : "SE2 (rigid: SE2), so {at: [x, y], yaw_deg: yaw} is needed");
+std::string wrongKind(const std::string& path, const PoseForm& form) {
+  return path + " of the wrong kind: " + form.mover + ", so " +
+         (form.spatial ? "{at: [x, y, z], rpy_deg: [roll, pitch, yaw]}"
+                       : "{at: [x, y], yaw_deg: yaw}") +
+         " is needed";
 }
 
-bool isWrongKind(const YamlValue& value, const std::string& what, RigidSpace space) {
+bool isWrongKind(const YamlValue& value, const PoseForm& form) {
   if (value.kind != YamlValue::Kind::Map) return true;
-  const std::vector<std::string>& legal = problemKeys().at(what).legal;
+  const std::vector<std::string>& legal = form.keys->legal;
   bool hasLegal = false;
   for (const auto& [key, line, entry] : value.entries) {
     hasLegal |= std::find(legal.begin(), legal.end(), key) != legal.end();
     const bool planar = key == "yaw" || key == "yaw_deg";
     const bool spatial = key == "rpy" || key == "rpy_deg" || key == "quat_xyzw";
-    if (space == RigidSpace::SE3 ? planar : spatial) return true;
+    if (form.spatial ? planar : spatial) return true;
     if (key == "at" && entry.kind == YamlValue::Kind::List &&
-        entry.items.size() == (space == RigidSpace::SE3 ? 2u : 3u))
+        entry.items.size() == (form.spatial ? 2u : 3u))
       return true;
   }
   return !hasLegal;
@@ -148,72 +146,40 @@ std::optional<Orientation> readOrientation(const YamlMap& map) {
   return key == "rpy" ? fromRpy(rpy) : fromRpyDegrees(rpy);
 }
 
-std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& what,
-                                            RigidSpace space, YamlSource& source,
+Placement operator*(const Placement& a, const Placement& b) {
+  return {{a.X * b.pose.p, a.pose.q * b.pose.q}, a.X * b.X};
+}
+
+std::optional<Placement> readPlacement(const YamlMap& map) {
+  Vec3 at = Vec3::Zero();
+  const auto numbers = map.numbers("at", 3);
+  if (numbers) at = Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+  const auto orientation = readOrientation(map);
+  if ((map.find("at") && !numbers) || !orientation) return std::nullopt;
+  return Placement{{at, orientation->q}, {orientation->R, at}};
+}
+
+std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,
+                                            const PoseForm& form, YamlSource& source,
                                             std::vector<std::string>& notes) {
-  if (isWrongKind(value, what, space)) {
-    source.fault(value.line, wrongKind(what, space));
+  if (isWrongKind(value, form)) {
+    source.fault(value.line, wrongKind(path, form));
     return std::nullopt;
   }
-  const YamlMap map(value, what, &problemKeys().at(what), source);
-  map.require("at", space == RigidSpace::SE3
-                        ? "the position [x, y, z] of the robot's reference point"
-                        : "the position [x, y] of the robot's reference point");
-  const bool spatial = space == RigidSpace::SE3;
-  const auto at = map.numbers("at", spatial ? 3 : 2);
+  const YamlMap map(value, path, form.keys, source);
+  map.require("at", form.spatial ? "the position [x, y, z] of the robot's reference point"
+                                 : "the position [x, y] of the robot's reference point");
+  const auto at = map.numbers("at", form.spatial ? 3 : 2);
   PlanarOrSpatialPose result;
   std::optional<Orientation> orientation;
-  if (spatial) {
+  if (form.spatial) {
     orientation = readOrientation(map);
   } else if (const auto yaw = readYaw(map, notes)) {
     result.yaw = *yaw;
     orientation = fromRpy({0, 0, *yaw});
   }
   if (!at || !orientation) return std::nullopt;
-  result.pose = {Vec3((*at)[0], (*at)[1], spatial ? (*at)[2] : 0), orientation->q};
-  return result;
-}
-
-std::optional<ProblemMesh> readPlacedMesh(const YamlMap& map, const std::string& name,
-                                          const std::filesystem::path& folder) {
-  map.require("mesh", "the shape's file, such as mesh: table.obj");
-  const auto file = map.text("mesh");
-  MeshFileOptions options;
-  if (const auto unit = map.choice("unit", problemChoices().at("world.*.unit")))
-    options.metresPerUnit = *unit == "m"    ? 1
-                            : *unit == "cm" ? 0.01
-                            : *unit == "mm" ? 0.001
-                                            : 0.0254;
-  if (const auto up = map.choice("up", problemChoices().at("world.*.up"))) options.up = up->front();
-  Vec3 at = Vec3::Zero();
-  bool placed = true;
-  if (map.find("at")) {
-    const auto numbers = map.numbers("at", 3);
-    if (numbers) at = Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
-    placed = numbers.has_value();
-  }
-  const auto orientation = readOrientation(map);
-  if (!file) return std::nullopt;
-
-  ProblemMesh result{name, folder / *file, {}};
-  if (const std::string why = whyNoFile(result.file); !why.empty()) {
-    map.fault("mesh", result.file.string() + ": " + why);
-    return std::nullopt;
-  }
-  try {
-    result.source = readMeshFile(result.file, options);
-  } catch (const InputError& error) {
-    map.source().faults.add(error);
-    return std::nullopt;
-  }
-  if (!placed || !orientation) return std::nullopt;
-  if (at.isZero(0) && orientation->R == Mat3::Identity()) return result;  // the file's own doubles
-  for (Vec3& vertex : result.source.mesh.vertices) vertex = orientation->R * vertex + at;
-  for (const Vec3& vertex : result.source.mesh.vertices)
-    if (!vertex.allFinite()) {
-      map.fault("at", "moves the mesh out of the range of doubles");
-      return std::nullopt;
-    }
+  result.pose = {Vec3((*at)[0], (*at)[1], form.spatial ? (*at)[2] : 0), orientation->q};
   return result;
 }
 

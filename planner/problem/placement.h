@@ -4,10 +4,9 @@
 #include <string>
 
 #include "collision/motion/rigid_motion.h"
-#include "planner/problem/problem.h"
 #include "planner/problem/yaml_reader.h"
 
-/// Poses and placed meshes, as problem and robot files write them.
+/// Poses as problem and robot files write them.
 namespace corridor {
 
 /// A rotation in both forms that are needed: as given, and as the map that turns a mesh's vertices.
@@ -29,22 +28,35 @@ double wrappedYawDegrees(double degrees);
 /// nullopt: faulted.
 std::optional<Orientation> readOrientation(const YamlMap& map);
 
-/// A `start` or `goal`.
-struct PlanarOrSpatialPose {
-  RigidPose pose;  ///< SE2: z = 0 and the rotation by `yaw`
-  double yaw = 0;  ///< SE2, in (-π, π]
-};
-/// @param value of the key `what` ("start", "goal"), a pose of a robot that moves in `space`.
-/// @param notes gets a line where a yaw is wrapped.
-/// nullopt: faulted ("goal of the wrong kind: …" where it is a pose of another kind of robot).
-std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& what,
-                                            RigidSpace space, YamlSource& source,
-                                            std::vector<std::string>& notes);
+/// Where a frame or a shape is put, in both forms.
+struct Placement {
+  RigidPose pose;
+  Transform X;
 
-/// A mesh with its unit, up-axis and local pose, all applied to the vertices: v ↦ R·turn(scale·v) +
-/// at.
-/// @param folder that relative names start from. nullopt: faulted.
-std::optional<ProblemMesh> readPlacedMesh(const YamlMap& map, const std::string& name,
-                                          const std::filesystem::path& folder);
+  bool isIdentity() const { return X == Transform{}; }
+};
+/// Rounded.
+Placement operator*(const Placement& a, const Placement& b);
+
+/// Of a map's `at` and rotation, both optional. nullopt: faulted.
+std::optional<Placement> readPlacement(const YamlMap& map);
+
+/// A pose of what moves as a whole.
+struct PlanarOrSpatialPose {
+  RigidPose pose;  ///< planar: z = 0 and the rotation by `yaw`
+  double yaw = 0;  ///< planar, in (-π, π]
+};
+/// How a pose is to be read.
+struct PoseForm {
+  bool spatial = true;  ///< else planar
+  std::string mover;    ///< for messages: "the robot moves in SE3 (rigid: SE3)"
+  const MapKeys* keys = nullptr;
+};
+/// @param path of the value: "start", "goal[0].left".
+/// @param notes gets a line where a yaw is wrapped.
+/// nullopt: faulted ("goal of the wrong kind: …" where it is a pose of another kind).
+std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,
+                                            const PoseForm& form, YamlSource& source,
+                                            std::vector<std::string>& notes);
 
 }  // namespace corridor

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "collision/core/fault_list.h"
+#include "planner/problem/mbm_json.h"
 #include "planner/problem/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
 #include "planner/problem/sha256.h"
@@ -10,6 +11,10 @@
 namespace corridor {
 
 Problem readProblem(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  if (const auto hash = text.rfind(".json#"); hash != text.npos)
+    return readMbmProblem(text.substr(0, hash + 5), text.substr(hash + 6));
+  if (path.extension() == ".json") return readMbmProblem(path, "");
   std::error_code none;  // what can't be looked at is faulted by who reads it
   if (!std::filesystem::is_directory(path, none))
     return path.extension() == ".cfg" ? readOmplAppCfg(path) : readProblemYaml(path);

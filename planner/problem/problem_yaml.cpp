@@ -1,13 +1,14 @@
 #include "planner/problem/problem_yaml.h"
 
-#include <algorithm>
+#include <map>
 
-#include "planner/problem/bounds.h"
+#include "planner/problem/assembly.h"
+#include "planner/problem/bounds_yaml.h"
 #include "planner/problem/format_key.h"
+#include "planner/problem/goal_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/placement.h"
-#include "planner/problem/robot_file.h"
-#include "planner/problem/yaml_reader.h"
+#include "planner/problem/world_yaml.h"
 
 namespace corridor {
 namespace {
@@ -19,119 +20,98 @@ const std::vector<std::string>& wordsOf(const char* key) {
   return problemChoices().at(key);
 }
 
-/// The robot's file, and its space where that is known.
-std::optional<RigidSpace> readRobot(const YamlMap& file, Problem& problem,
-                                    std::vector<std::filesystem::path>& files) {
-  file.require("robot", "the robot's file, such as robot: ../../robots/piano/robot.yaml");
-  const auto name = file.text("robot");
-  if (!name) return std::nullopt;
-  const std::filesystem::path path = problem.file.parent_path() / *name;
-  if (const std::string why = whyNoFile(path); !why.empty()) {
-    file.fault("robot", path.string() + ": " + why);
-    return std::nullopt;
+/// Robots by their files: one that is named twice is read once.
+class RobotFiles {
+ public:
+  explicit RobotFiles(FaultList& faults) : faults_(faults) {}
+
+  std::optional<RobotSetup> read(const YamlMap& map, const char* key,
+                                 const std::filesystem::path& folder) {
+    const auto name = map.text(key);
+    if (!name) return std::nullopt;
+    const std::filesystem::path path = folder / *name;
+    if (const std::string why = whyNoFile(path); !why.empty()) {
+      map.fault(key, path.string() + ": " + why);
+      return std::nullopt;
+    }
+    const auto known = read_.find(path);
+    return known != read_.end() ? known->second
+                                : read_.emplace(path, readRobotFile(path, faults_)).first->second;
   }
-  files.push_back(path);
-  auto robot = readRobotFile(path, file.source().faults);
-  if (!robot) return std::nullopt;
-  problem.space = robot->space;
-  problem.robot = std::move(robot->shapes);
-  problem.rotationWeight = robot->rotationWeight;
-  problem.notes.insert(problem.notes.end(), robot->notes.begin(), robot->notes.end());
-  return robot->space;
-}
 
-void readWorld(const YamlMap& file, Problem& problem) {
-  const YamlValue* world =
-      file.require("world", "the obstacles, such as world: {table: {mesh: table.obj, unit: m}}");
-  if (!world) return;
-  const YamlMap obstacles(*world, "world", nullptr, file.source());
-  if (world->kind == YamlValue::Kind::Map && world->entries.empty())
-    file.fault("world", "at least one obstacle is needed");
-  for (const YamlValue::Entry* entry : obstacles.entries()) {
-    const YamlMap map(entry->value, "world." + entry->key, keysOf("world.*"), file.source());
-    if (auto mesh = readPlacedMesh(map, entry->key, problem.file.parent_path()))
-      problem.world.push_back(std::move(*mesh));
-  }
-}
+ private:
+  FaultList& faults_;
+  std::map<std::filesystem::path, std::optional<RobotSetup>> read_;
+};
 
-void readGoalRegion(const YamlValue& goal, Problem& problem, YamlSource& source) {
-  const auto within = std::find_if(goal.entries.begin(), goal.entries.end(),
-                                   [](const auto& entry) { return entry.key == "within"; });
-  if (within == goal.entries.end()) return;
-  const YamlMap map(within->value, "goal.within", keysOf("goal.within"), source);
-  problem.goalRegion = Problem::GoalRegion{map.number("at", Range::NotNegative).value_or(0),
-                                           map.angle("angle", Range::NotNegative).value_or(0)};
-}
-
-void readPoses(const YamlMap& file, RigidSpace space, Problem& problem, bool& startIsSound,
-               bool& goalIsSound) {
-  for (const bool isStart : {true, false}) {
-    const std::string what = isStart ? "start" : "goal";
-    const YamlValue* value =
-        file.require(what, "the robot's pose, such as " + what +
-                               (space == RigidSpace::SE3 ? ": {at: [0, 0, 1], rpy_deg: [0, 0, 90]}"
-                                                         : ": {at: [0, 0], yaw_deg: 90}"));
-    if (!value) continue;
-    const auto pose = readPose(*value, what, space, file.source(), problem.notes);
-    if (!isStart && value->kind == YamlValue::Kind::Map)
-      readGoalRegion(*value, problem, file.source());
-    if (!pose) continue;
-    (isStart ? problem.start : problem.goal) = pose->pose;
-    (isStart ? problem.startYaw : problem.goalYaw) = pose->yaw;
-    (isStart ? startIsSound : goalIsSound) = true;
-  }
-}
-
-const char* boundsForm(RigidSpace space) {
-  return space == RigidSpace::SE3 ? "at: [[x, y, z], [x, y, z]]" : "at: [[x, y], [x, y]]";
-}
-
-/// @returns whether the bounds are given and sound.
-bool readBounds(const YamlMap& file, Problem& problem) {
-  const YamlValue* value = file.find("bounds");
-  if (!value) return false;
-  const YamlMap map(*value, "bounds", keysOf("bounds"), file.source());
-  const std::size_t count = problem.space == RigidSpace::SE3 ? 3 : 2;
-  const std::string form = boundsForm(problem.space);
-  const YamlValue* at = map.require("at", "the lower and the upper corner, " + form);
-  if (!at) return false;
-  if (at->kind != YamlValue::Kind::List || at->items.size() != 2) {
-    map.fault("at",
-              "the lower and the upper corner are needed, " + form + ", not " + described(*at));
-    return false;
-  }
-  const auto lower = readNumbers(at->items[0], count, "bounds.at", file.source());
-  const auto upper = readNumbers(at->items[1], count, "bounds.at", file.source());
-  if (!lower || !upper) return false;
-  for (std::size_t k = 0; k < count; ++k) {
-    problem.lower[static_cast<Eigen::Index>(k)] = (*lower)[k];
-    problem.upper[static_cast<Eigen::Index>(k)] = (*upper)[k];
-  }
-  const std::string why = whyBadBounds(problem);
-  if (!why.empty()) map.fault("at", why);
-  return why.empty();
-}
-
-void defaultBounds(Problem& problem, YamlSource& source) {
-  setBoundsOfWorld(problem);
-  enlargeBounds(problem);
-  if (whyBadBounds(problem).empty()) {
-    problem.notes.push_back("bounds: those of the world, start and goal, since none are given");
-    return;
-  }
-  int flat = 0;
-  while (problem.lower[flat] < problem.upper[flat]) ++flat;
-  source.fault(0, std::string("missing key \"bounds\": world, start and goal lie in a plane (") +
-                      "xyz"[flat] + " = " + shortest(problem.lower[flat]) + "), so bounds: {" +
-                      boundsForm(problem.space) + "} is needed");
-}
-
-void readTube(const YamlMap& file, Problem& problem) {
-  const YamlValue* value = file.find("tube");
+void readBase(const YamlMap& map, std::optional<RobotSetup>& robot) {
+  const YamlValue* value = map.find("base");
   if (!value) return;
+  const auto base =
+      readPlacement(YamlMap(*value, map.pathOf("base"), keysOf("base"), map.source()));
+  if (!robot || !base) return;
+  if (robot->isRigid())
+    map.fault("base", "a rigid robot moves freely: start and goal say where it is; leave it out");
+  robot->robot.base = base->pose;
+}
+
+/// `robot`, or `robots`. Empty: there are none, or not all of them are known.
+std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::path& folder) {
+  std::vector<RobotSetup> robots;
+  RobotFiles files(file.source().faults);
+  const auto key = file.requireOne({"robot", "robots"}, "one of robot and robots",
+                                   "the robot's file, such as robot: "
+                                   "../../robots/piano/robot.yaml");
+  if (key == "robot") {
+    auto robot = files.read(file, "robot", folder);
+    readBase(file, robot);
+    if (robot) robots.push_back(std::move(*robot));
+  }
+  if (key != "robots") return robots;
+  if (file.find("base"))
+    file.fault("base", "each of several robots has its own: robots: {left: {file: …, base: …}}");
+  const YamlMap map(*file.find("robots"), "robots", nullptr, file.source());
+  bool known = true;
+  for (const YamlValue::Entry* entry : map.entries()) {
+    if (entry->key == "within" || entry->key == "any" || entry->key.empty() ||
+        entry->key.find('/') != std::string::npos)
+      map.fault(entry->key, "can't be the name of a robot");
+    const YamlMap own(entry->value, map.pathOf(entry->key), keysOf("robots.*"), file.source());
+    own.require("file", "the robot's file, such as file: ../../robots/arm6/robot.yaml");
+    auto robot = files.read(own, "file", folder);
+    readBase(own, robot);
+    known &= robot.has_value();
+    if (!robot) continue;
+    robot->robot.name = entry->key;
+    robots.push_back(std::move(*robot));
+  }
+  if (known && robots.empty() && map.entries().empty())
+    file.fault("robots", "at least one robot is needed, such as {left: {file: robot.yaml}}");
+  return known ? std::move(robots) : std::vector<RobotSetup>{};
+}
+
+TubeSpec readTube(const YamlMap& file, const Problem& problem, bool known) {
+  TubeSpec tube;
+  const YamlValue* value = file.find("tube");
+  if (!value) return tube;
   const YamlMap map(*value, "tube", keysOf("tube"), file.source());
-  problem.tube = Tube{map.number("position", Range::NotNegative).value_or(0),
-                      map.angle("rotation", Range::NotNegative).value_or(0)};
+  tube.joints = map.angle("joints", Range::NotNegative);
+  tube.position = map.number("position", Range::NotNegative);
+  tube.rotation = map.angle("rotation", Range::NotNegative);
+  if (!known) return tube;
+  for (const char* key : {"joints", "joints_deg"})
+    if (map.find(key) && !hasJoints(problem))
+      map.fault(key, "rigid bodies have position (m) and rotation or rotation_deg");
+  for (const char* key : {"position", "rotation", "rotation_deg"})
+    if (map.find(key) && !hasWholes(problem))
+      map.fault(key, "nothing moves as a whole here; say joints (rad, or m where they slide)");
+  if (map.find("joints_deg"))
+    for (const CoordinateGroup& group : problem.space.groups())
+      for (const std::size_t i : group.coordinates)
+        if (const Coordinate& c = problem.space.coordinates()[i];
+            group.kind == CoordinateGroup::Kind::joints && !c.angular)
+          map.fault("joints_deg", c.name + " slides: say joints, in radians and metres");
+  return tube;
 }
 
 void readPlanner(const YamlMap& file, Problem& problem) {
@@ -174,33 +154,30 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   Problem problem;
   problem.file = file;
   problem.name = nameOfFile(file, "problem");
-  std::vector<std::filesystem::path> files{file};
-  const auto space = readRobot(map, problem, files);
-  readWorld(map, problem);
+  problem.files = {file};
+  std::vector<RobotSetup> robots = readRobots(map, file.parent_path());
+  const bool known = !robots.empty();
+  const bool worldNeeded = robots.size() < 2 && (!known || robots.front().isRigid());
+  if (known) assembleRobots(robots, problem);
+  readWorld(map, worldNeeded, problem);
+  AllowedBodies allowed;
+  if (known && faults.size() == 0) allowed = readAllow(map, problem);
   problem.margin = map.number("margin", Range::NotNegative).value_or(problem.margin);
-  readTube(map, problem);
+  const TubeSpec tube = readTube(map, problem, known);
   readPlanner(map, problem);
   problem.sampler = map.text("sampler").value_or(problem.sampler);
   problem.simplify = map.boolean("simplify").value_or(problem.simplify);
   readChecker(map, problem);
   problem.seed = map.wholeNumber("seed").value_or(problem.seed);
-  if (space) {  // what poses and bounds look like depends on it
-    bool start = false, goal = false;
-    readPoses(map, *space, problem, start, goal);
-    if (readBounds(map, problem)) {
-      if (const std::string why = start ? whyOutside(problem, problem.start) : ""; !why.empty())
-        map.fault("start", why);
-      if (const std::string why = goal ? whyOutside(problem, problem.goal) : ""; !why.empty())
-        map.fault("goal", why);
-    } else if (!map.find("bounds") && faults.size() == 0) {
-      defaultBounds(problem, source);
-    }
+  if (known) {  // what states and bounds look like depends on it
+    readBounds(map, robots, problem);
+    readStartAndGoals(map, robots, problem);
+    if (faults.size() == 0) setDefaultBounds(problem, source);
   }
   faults.throwIfAny();
-
-  for (const auto* meshes : {&problem.robot, &problem.world})
-    for (const ProblemMesh& mesh : *meshes) files.push_back(mesh.file);
-  problem.digest = digestOfFiles(files);
+  setPairs(allowed, problem);
+  setTube(tube, problem);
+  problem.digest = digestOfFiles(problem.files);
   problem.lines = std::move(source.lines);
   return problem;
 }

@@ -3,24 +3,25 @@
 #include <algorithm>
 #include <array>
 
-#include "collision/core/nearest.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
-#include "planner/problem/placement.h"
-#include "planner/problem/yaml_reader.h"
+#include "planner/problem/shape_yaml.h"
+#include "planner/problem/urdf_robot.h"
 
 namespace corridor {
 namespace {
 
-/// The average of the distinct positions of corners, however often a mesh repeats them.
-Vec3 centroid(const std::vector<ProblemMesh>& shapes) {
+/// The average of the distinct positions of corners and of the points of primitives, however often
+/// they are repeated.
+Vec3 centroid(const std::vector<PlacedShape>& shapes) {
   std::vector<std::array<double, 3>> points;
-  for (const ProblemMesh& shape : shapes)
-    for (const auto& triangle : shape.source.mesh.triangles)
-      for (const std::uint32_t i : triangle) {
-        const Vec3& p = shape.source.mesh.vertices[i];
-        points.push_back({p.x(), p.y(), p.z()});
-      }
+  const auto add = [&](const Vec3& p) { points.push_back({p.x(), p.y(), p.z()}); };
+  for (const PlacedShape& shape : shapes) {
+    if (shape.part) std::for_each(shape.part->points.begin(), shape.part->points.end(), add);
+    if (!shape.mesh) continue;
+    for (const auto& triangle : shape.mesh->mesh.triangles)
+      for (const std::uint32_t i : triangle) add(shape.mesh->mesh.vertices[i]);
+  }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   std::array<long double, 3> sum{};
@@ -31,43 +32,17 @@ Vec3 centroid(const std::vector<ProblemMesh>& shapes) {
           static_cast<double>(sum[2] / n)};
 }
 
-/// @returns false if any shape was faulted.
-bool readShapes(const YamlMap& file, RobotFile& robot, const std::filesystem::path& folder) {
-  const YamlValue* shapes =
-      file.require("shapes", "the robot's meshes, such as shapes: [{mesh: piano.obj, unit: m}]");
-  if (!shapes) return false;
-  if (shapes->kind != YamlValue::Kind::List || shapes->items.empty()) {
-    file.fault("shapes",
-               "a list of at least one {mesh: FILE} is needed, not " +
-                   (shapes->kind == YamlValue::Kind::List ? "an empty one" : described(*shapes)));
-    return false;
-  }
-  const std::size_t before = file.source().faults.size();
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < shapes->items.size(); ++i) {
-    const YamlMap map(shapes->items[i], "shapes[" + std::to_string(i) + "]",
-                      &robotKeys().at("shapes[]"), file.source());
-    const std::string own = map.text("name").value_or(std::to_string(i + 1));
-    if (std::find(names.begin(), names.end(), own) != names.end())
-      map.fault("name", quotedWord(own) + " is the name of another shape");
-    names.push_back(own);
-    if (auto mesh = readPlacedMesh(
-            map, shapes->items.size() == 1 ? robot.name : robot.name + "/" + own, folder))
-      robot.shapes.push_back(std::move(*mesh));
-  }
-  return file.source().faults.size() == before;
-}
-
-void shiftToReference(const YamlMap& file, RobotFile& robot, bool shapesAreSound) {
+void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSound) {
   const YamlValue* value = file.find("reference");
   if (!value) return;
-  const bool planar = robot.space == RigidSpace::SE2;
+  std::vector<PlacedShape>& shapes = model.links.front().shapes;
+  const bool planar = model.mount == JointType::planar;
   Vec3 reference = Vec3::Zero();
   if (value->kind == YamlValue::Kind::Scalar && value->text == "centroid") {
     if (!shapesAreSound) return;
-    reference = centroid(robot.shapes);
+    reference = centroid(shapes);
     if (planar) reference.z() = 0;  // a planar robot keeps its height
-    robot.notes.push_back("reference of " + robot.name + ": the centroid (" +
+    model.notes.push_back("reference of " + model.name + ": the centroid (" +
                           shortest(reference.x()) + ", " + shortest(reference.y()) + ", " +
                           shortest(reference.z()) + ") of its distinct vertices");
   } else if (value->kind == YamlValue::Kind::List) {
@@ -80,18 +55,52 @@ void shiftToReference(const YamlMap& file, RobotFile& robot, bool shapesAreSound
                "a point [x, y, z] or the word centroid is needed, not " + described(*value));
     return;
   }
-  for (ProblemMesh& shape : robot.shapes)
-    for (Vec3& vertex : shape.source.mesh.vertices) {
-      vertex -= reference;
-      if (vertex.allFinite()) continue;
-      file.fault("reference", "moves the mesh out of the range of doubles");
+  for (PlacedShape& shape : shapes)
+    if (!shift(shape, -reference)) {
+      file.fault("reference", "moves the shape out of the range of doubles");
       return;
     }
 }
 
+/// nullopt: not even how it moves is known.
+std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
+                                    const std::filesystem::path& folder, RobotSetup setup) {
+  for (const char* key : {"srdf", "packages", "group", "joints", "hold", "states", "allow"})
+    if (map.find(key)) map.fault(key, "is for robots with joints (urdf: FILE); this one is rigid");
+  const auto rigid = map.choice("rigid", robotChoices().at("rigid"));
+  const std::size_t before = map.source().faults.size();
+  std::vector<PlacedShape> shapes;
+  if (map.require("shapes", "the robot's shapes, such as shapes: [{mesh: piano.obj, unit: m}]"))
+    shapes = readShapes(map, robotKeys().at("shapes[]"), {name, folder, {}}, setup.files);
+  const bool sound = map.source().faults.size() == before && !shapes.empty();
+  if (const YamlValue* weights = map.find("weights")) {
+    const YamlMap inner(*weights, "weights", &robotKeys().at("weights"), map.source());
+    setup.rotationWeight = inner.number("rotation", Range::Positive).value_or(setup.rotationWeight);
+    if (inner.find("joints")) inner.fault("joints", "this robot is rigid and has no joints");
+  }
+  if (!rigid) return std::nullopt;
+  setup.robot.model = rigidModel(name, *rigid == "SE2" ? JointType::planar : JointType::floating,
+                                 std::move(shapes));
+  shiftToReference(map, setup.robot.model, sound);
+  return setup;
+}
+
 }  // namespace
 
-std::optional<RobotFile> readRobotFile(const std::filesystem::path& file, FaultList& faults) {
+RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes) {
+  RobotModel model;
+  model.name = name;
+  model.mount = type;
+  model.links.push_back({name, std::move(shapes)});
+  return model;
+}
+
+std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults) {
+  RobotSetup setup;
+  if (file.extension() == ".urdf") return readBareUrdf(file, faults);
+
+  setup.files.push_back(file);
+  setup.robot.file = file;
   YamlValue document;
   try {
     document = parseYaml(file.string(), readTextFile(file, "a robot (format: corridor-robot-1)"));
@@ -102,25 +111,14 @@ std::optional<RobotFile> readRobotFile(const std::filesystem::path& file, FaultL
   YamlSource source{file.string(), faults, {}};
   if (!hasFormat(document, "corridor-robot-1", source)) return std::nullopt;
   const YamlMap map(document, "", &robotKeys().at(""), source);
-
-  RobotFile robot;
-  robot.name = map.text("name").value_or(nameOfFile(file, "robot"));
-  map.require("rigid", "SE3 (moves and turns freely) or SE2 (moves in x and y, turns about z)");
-  const auto space = map.choice("rigid", robotChoices().at("rigid"));
-  robot.space = space == "SE2" ? RigidSpace::SE2 : RigidSpace::SE3;
-
-  const bool sound = readShapes(map, robot, file.parent_path());
-  if (space) shiftToReference(map, robot, sound);
-
-  // One meaning for users, metres per radian of rotation, and OMPL's default for both spaces: half
-  // a metre.
-  double weight = 0.5;
-  if (const YamlValue* weights = map.find("weights"))
-    weight = YamlMap(*weights, "weights", &robotKeys().at("weights"), source)
-                 .number("rotation", Range::Positive)
-                 .value_or(weight);
-  robot.rotationWeight = robot.space == RigidSpace::SE3 ? 2 * weight : weight;
-  return space ? std::optional(std::move(robot)) : std::nullopt;
+  const std::string name = map.text("name").value_or(nameOfFile(file, "robot"));
+  const auto kind =
+      map.requireOne({"rigid", "urdf"}, "one of rigid and urdf",
+                     "rigid: SE3 (moves and turns freely), rigid: SE2 (moves in x and y, turns "
+                     "about z), or urdf: arm.urdf (has joints)");
+  if (kind == "urdf") return readUrdfRobot(map, name, file.parent_path(), std::move(setup));
+  if (kind == "rigid") return readRigid(map, name, file.parent_path(), std::move(setup));
+  return std::nullopt;
 }
 
 }  // namespace corridor

@@ -115,16 +115,39 @@ const YamlValue* YamlMap::require(std::string_view key, const std::string& purpo
   return value;
 }
 
+std::optional<std::string> YamlMap::requireOne(const std::vector<std::string>& keys,
+                                               const std::string& what,
+                                               const std::string& purpose) const {
+  std::vector<std::string> given;
+  for (const std::string& key : keys)
+    if (find(key)) given.push_back(key);
+  if (given.size() == 1) return given.front();
+  if (given.size() > 1) {
+    fault(given[1], what + " is needed, and " + given[0] + " says it already");
+    return std::nullopt;
+  }
+  const bool missed = std::any_of(keys.begin(), keys.end(),
+                                  [&](const std::string& key) { return missed_.contains(key); });
+  if (!explainsMissing_ && !missed)
+    source_->fault(path_.empty() ? 0 : line_,
+                   "missing " + what + (path_.empty() ? "" : " in " + path_) + ": " + purpose);
+  return std::nullopt;
+}
+
+std::optional<double> readNumber(const YamlValue& value, Range range, const std::string& path,
+                                 const YamlSource& source) {
+  double result = 0;
+  const std::string complaint = value.kind == YamlValue::Kind::Scalar && value.isPlain
+                                    ? parseNumber(value.text, range, result)
+                                    : "a number is needed, not " + described(value);
+  if (complaint.empty()) return result;
+  source.fault(value.line, path + ": " + complaint);
+  return std::nullopt;
+}
+
 std::optional<double> YamlMap::number(std::string_view key, Range range) const {
   const YamlValue* value = find(key);
-  if (!value) return std::nullopt;
-  double result = 0;
-  const std::string complaint = value->kind == YamlValue::Kind::Scalar && value->isPlain
-                                    ? parseNumber(value->text, range, result)
-                                    : "a number is needed, not " + described(*value);
-  if (complaint.empty()) return result;
-  fault(key, complaint);
-  return std::nullopt;
+  return value ? readNumber(*value, range, pathOf(key), *source_) : std::nullopt;
 }
 
 std::optional<std::uint64_t> YamlMap::wholeNumber(std::string_view key) const {
@@ -184,15 +207,24 @@ std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size
   std::vector<double> numbers(count);
   bool sound = true;
   for (std::size_t i = 0; i < count; ++i) {
-    const YamlValue& item = value.items[i];
-    const std::string complaint = item.kind == YamlValue::Kind::Scalar && item.isPlain
-                                      ? parseNumber(item.text, Range::Any, numbers[i])
-                                      : "a number is needed, not " + described(item);
-    if (complaint.empty()) continue;
-    source.fault(item.line, path + ": " + complaint);
-    sound = false;
+    const auto number = readNumber(value.items[i], Range::Any, path, source);
+    numbers[i] = number.value_or(0);
+    sound &= number.has_value();
   }
   return sound ? std::optional(numbers) : std::nullopt;
+}
+
+std::optional<std::vector<std::string>> readWords(const YamlValue& value, const std::string& form,
+                                                  const std::string& path,
+                                                  const YamlSource& source) {
+  std::vector<std::string> words;
+  for (const YamlValue& item : value.items)
+    if (item.kind == YamlValue::Kind::Scalar && !item.text.empty()) words.push_back(item.text);
+  if (value.kind == YamlValue::Kind::List && words.size() == value.items.size()) return words;
+  source.fault(value.line, path + ": a list of names is needed, " + form + ", not " +
+                               (value.kind == YamlValue::Kind::List ? "one with other things in it"
+                                                                    : described(value)));
+  return std::nullopt;
 }
 
 std::optional<std::vector<double>> YamlMap::numbers(std::string_view key, std::size_t count) const {

@@ -66,6 +66,11 @@ class YamlMap {
   /// @param purpose what it should hold, for the message.
   const YamlValue* require(std::string_view key, const std::string& purpose) const;
 
+  /// Which one of `keys` is there; faults several, and (as `require`) none.
+  /// @param what they say: "one shape", for the message of several.
+  std::optional<std::string> requireOne(const std::vector<std::string>& keys,
+                                        const std::string& what, const std::string& purpose) const;
+
   // Each faults a value of the wrong kind. nullopt: absent or faulted.
   std::optional<double> number(std::string_view key, Range range = Range::Any) const;
   std::optional<std::uint64_t> wholeNumber(std::string_view key) const;
@@ -85,6 +90,15 @@ class YamlMap {
   std::set<std::string> missed_;  ///< legal keys that an unknown one may have meant
   bool explainsMissing_ = false;  ///< no map, or it has a key of a later version
 };
+
+/// A number. @param path for messages. nullopt: faulted.
+std::optional<double> readNumber(const YamlValue& value, Range range, const std::string& path,
+                                 const YamlSource& source);
+
+/// A list of words. @param form for the message: "[arm, hand]". nullopt: faulted.
+std::optional<std::vector<std::string>> readWords(const YamlValue& value, const std::string& form,
+                                                  const std::string& path,
+                                                  const YamlSource& source);
 
 /// A list of `count` numbers. @param path for messages.
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,

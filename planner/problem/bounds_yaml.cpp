@@ -1,0 +1,162 @@
+#include "planner/problem/bounds_yaml.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/problem/bounds.h"
+#include "planner/problem/joint_yaml.h"
+#include "planner/problem/keys.h"
+#include "planner/problem/urdf_robot.h"
+
+namespace corridor {
+namespace {
+
+const CoordinateGroup& groupOf(const Problem& problem, const Freedom& freedom) {
+  std::size_t g = 0;
+  while (problem.space.groups()[g].coordinates.front() != freedom.coordinate) ++g;
+  return problem.space.groups()[g];
+}
+
+const char* form(std::size_t dimensions) {
+  return dimensions == 3 ? "at: [[x, y, z], [x, y, z]]" : "at: [[x, y], [x, y]]";
+}
+
+/// {at: [[lower corner], [upper corner]]}.
+void readCorners(const YamlValue& value, const std::string& path, const CoordinateGroup& group,
+                 Problem& problem, YamlSource& source) {
+  const YamlMap map(value, path, &problemKeys().at("bounds"), source);
+  const std::size_t count = dimensionsOf(group);
+  const YamlValue* at =
+      map.require("at", std::string("the lower and the upper corner, ") + form(count));
+  if (!at) return;
+  if (at->kind != YamlValue::Kind::List || at->items.size() != 2)
+    return map.fault("at", std::string("the lower and the upper corner are needed, ") +
+                               form(count) + ", not " + described(*at));
+  const auto lower = readNumbers(at->items[0], count, map.pathOf("at"), source);
+  const auto upper = readNumbers(at->items[1], count, map.pathOf("at"), source);
+  if (!lower || !upper) return;
+  Corners corners;
+  for (std::size_t k = 0; k < count; ++k) {
+    corners.lower[static_cast<Eigen::Index>(k)] = (*lower)[k];
+    corners.upper[static_cast<Eigen::Index>(k)] = (*upper)[k];
+  }
+  if (const std::string why = whyBadBounds(corners, count); !why.empty())
+    map.fault("at", why);
+  else
+    setBounds(problem, group, corners);
+}
+
+/// A single joint's [lower, upper].
+void narrow(const YamlMap& map, const std::string& key, bool degrees, const Freedom& freedom,
+            Problem& problem) {
+  const auto given = map.numbers(key, 2);
+  if (!given) return;
+  const double unit = degrees ? std::numbers::pi / 180 : 1;
+  const double lower = (*given)[0] * unit, upper = (*given)[1] * unit;
+  Coordinate& c = problem.space.coordinates()[freedom.coordinate];
+  if (!(lower < upper) || !std::isfinite(upper - lower))
+    return map.fault(key, "the lower bound first, then the upper one: " + shortest((*given)[0]) +
+                              " is not below " + shortest((*given)[1]));
+  if (c.kind == Coordinate::Kind::circle) {  // and then it doesn't go round any more
+    c.kind = Coordinate::Kind::line;
+    c.lower = lower;
+    c.upper = upper;
+    return;
+  }
+  const std::string path = map.pathOf(key);
+  const auto low = withinLimits(lower, c.lower, c.upper, path, problem.notes),
+             high = withinLimits(upper, c.lower, c.upper, path, problem.notes);
+  if (!low || !high) return map.fault(key, outsideLimits(low ? upper : lower, c.lower, c.upper));
+  c.lower = *low;
+  c.upper = *high;
+}
+
+void readOfJoints(const YamlValue& value, const std::string& path, const RobotSetup& setup,
+                  const RobotModel& model, Problem& problem, YamlSource& source) {
+  const YamlMap map(value, path, nullptr, source);
+  readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
+    for (const Freedom& freedom : setup.freedoms) {
+      if (freedom.name != model.joints[j].name) continue;
+      if (isWhole(freedom.type))
+        readCorners(entry.value, map.pathOf(entry.key), groupOf(problem, freedom), problem, source);
+      else
+        narrow(map, entry.key, degrees, freedom, problem);
+      return;
+    }
+    map.fault(entry.key, "is not planned for, and needs no bounds");
+  });
+}
+
+/// Planar and floating joints have no limits of their own.
+void requireBounds(const YamlMap& file, const std::vector<RobotSetup>& robots,
+                   const Problem& problem) {
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    if (problem.robots[r].model.mount != JointType::fixed) continue;
+    for (const Freedom& freedom : robots[r].freedoms) {
+      if (!isWhole(freedom.type)) continue;
+      const CoordinateGroup& group = groupOf(problem, freedom);
+      if (!std::isnan(boundsOf(problem, group).lower.x())) continue;
+      const std::string own = freedom.name + ": {" + form(dimensionsOf(group)) + "}";
+      const std::string& robot = problem.robots[r].name;
+      file.source().fault(0, "missing bounds of the joint " + group.name + ": bounds: {" +
+                                 (robot.empty() ? own : robot + ": {" + own + "}") +
+                                 "} is needed, since it has no limits");
+    }
+  }
+}
+
+}  // namespace
+
+void readBounds(const YamlMap& file, const std::vector<RobotSetup>& robots, Problem& problem) {
+  YamlSource& source = file.source();
+  const std::size_t before = source.faults.size();
+  const auto ofRobot = [&](std::size_t r, const YamlValue& value, const std::string& path) {
+    if (problem.robots[r].model.mount == JointType::fixed)
+      readOfJoints(value, path, robots[r], problem.robots[r].model, problem, source);
+    else
+      readCorners(value, path, groupOf(problem, robots[r].freedoms.front()), problem, source);
+  };
+  if (const YamlValue* value = file.find("bounds")) {
+    if (problem.robots.front().name.empty()) {
+      ofRobot(0, *value, "bounds");
+    } else {
+      MapKeys keys;
+      for (const ProblemRobot& robot : problem.robots) keys.legal.push_back(robot.name);
+      const YamlMap map(*value, "bounds", &keys, source);
+      for (std::size_t r = 0; r < robots.size(); ++r)
+        if (const YamlValue* own = map.find(problem.robots[r].name))
+          ofRobot(r, *own, map.pathOf(problem.robots[r].name));
+    }
+  }
+  if (source.faults.size() == before) requireBounds(file, robots, problem);
+}
+
+void setDefaultBounds(Problem& problem, YamlSource& source) {
+  const auto world = boundsOfWorld(problem);
+  for (const CoordinateGroup& group : problem.space.groups()) {
+    if (group.kind == CoordinateGroup::Kind::joints ||
+        !std::isnan(boundsOf(problem, group).lower.x()))
+      continue;
+    const bool alone = problem.robots.front().name.empty();
+    const std::string needed = std::string("bounds: {") + (alone ? "" : group.name + ": {") +
+                               form(dimensionsOf(group)) + (alone ? "}" : "}}") + " is needed";
+    if (!world) {
+      source.fault(0, "missing key \"bounds\": there is no world to take them from, so " + needed);
+      continue;
+    }
+    setBounds(problem, group, *world);
+    enlargeBounds(problem, group);
+    const Corners corners = boundsOf(problem, group);
+    if (whyBadBounds(corners, dimensionsOf(group)).empty()) {
+      problem.notes.push_back("bounds" + (alone ? "" : " of " + group.name) +
+                              ": those of the world, start and goal, since none are given");
+      continue;
+    }
+    int flat = 0;
+    while (corners.lower[flat] < corners.upper[flat]) ++flat;
+    source.fault(0, std::string("missing key \"bounds\": world, start and goal lie in a plane (") +
+                        "xyz"[flat] + " = " + shortest(corners.lower[flat]) + "), so " + needed);
+  }
+}
+
+}  // namespace corridor

@@ -1,0 +1,109 @@
+#include "planner/problem/goal_yaml.h"
+
+#include <algorithm>
+
+#include "planner/problem/assembly.h"
+#include "planner/problem/keys.h"
+#include "planner/problem/state_yaml.h"
+
+namespace corridor {
+namespace {
+
+const YamlValue* entryOf(const YamlValue& map, const char* key) {
+  for (const auto& entry : map.entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+const std::set<std::string> kWithin{"within"};
+
+std::string example(const std::string& what, const std::vector<RobotSetup>& robots,
+                    const Problem& problem) {
+  const ProblemRobot& first = problem.robots.front();
+  std::string state;
+  if (first.model.mount == JointType::floating) {
+    state = "{at: [0, 0, 1], rpy_deg: [0, 0, 90]}";
+  } else if (first.model.mount == JointType::planar) {
+    state = "{at: [0, 0], yaw_deg: 90}";
+  } else {
+    const Freedom& freedom = robots.front().freedoms.front();
+    state = first.model.states.empty()
+                ? "{" + freedom.name +
+                      (freedom.type == JointType::planar     ? ": {at: [0, 0]}, …}"
+                       : freedom.type == JointType::floating ? ": {at: [0, 0, 1]}, …}"
+                                                             : ": 0.5, …}")
+                : first.model.states.begin()->first;
+  }
+  return (first.model.mount == JointType::fixed ? "where its joints are, such as "
+                                                : "the robot's pose, such as ") +
+         what + ": " + (first.name.empty() ? state : "{" + first.name + ": " + state + ", …}");
+}
+
+void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
+  const YamlMap map(value, "goal.within", &problemKeys().at("goal.within"), source);
+  const bool joints = hasJoints(problem), wholes = hasWholes(problem);
+  for (const char* key : {"at", "angle", "angle_deg"})
+    if (!wholes && map.find(key))
+      map.fault(key, "nothing moves as a whole here; say joints (rad, or m where they slide)");
+  for (const char* key : {"joints", "joints_deg"})
+    if (!joints && map.find(key)) map.fault(key, "there are no joints here; say at and angle");
+  problem.goalRegion = Problem::GoalRegion{map.number("at", Range::NotNegative).value_or(0),
+                                           map.angle("angle", Range::NotNegative).value_or(0),
+                                           map.angle("joints", Range::NotNegative).value_or(0)};
+}
+
+/// A list of goals; for a rigid robot that is alone, a list of anything but maps is a pose written
+/// wrong.
+bool isListOfGoals(const YamlValue& value, const Problem& problem) {
+  if (value.kind != YamlValue::Kind::List) return false;
+  if (problem.robots.size() > 1 || problem.robots.front().model.mount == JointType::fixed)
+    return true;
+  return !value.items.empty() &&
+         std::all_of(value.items.begin(), value.items.end(),
+                     [](const YamlValue& item) { return item.kind == YamlValue::Kind::Map; });
+}
+
+void readGoalList(const YamlValue& list, const std::string& path, StateReader& reader,
+                  Problem& problem, YamlSource& source) {
+  if (list.kind != YamlValue::Kind::List || list.items.empty()) {
+    source.fault(list.line,
+                 path + ": a list of at least one goal is needed, not " +
+                     (list.kind == YamlValue::Kind::List ? "an empty one" : described(list)));
+    return;
+  }
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    const YamlValue& item = list.items[i];
+    const std::string name = path + "[" + std::to_string(i) + "]";
+    source.lines.emplace("goal[" + std::to_string(i) + "]", item.line);
+    if (const YamlValue* within = entryOf(item, "within")) {
+      source.fault(within->line,
+                   name + ".within: several goals share one: goal: {any: […], within: {…}}");
+      continue;
+    }
+    if (auto goal = reader.read(item, name)) problem.goals.push_back(std::move(*goal));
+  }
+}
+
+void readGoals(const YamlValue& value, StateReader& reader, Problem& problem, YamlSource& source) {
+  if (isListOfGoals(value, problem)) return readGoalList(value, "goal", reader, problem, source);
+  if (const YamlValue* within = entryOf(value, "within")) readWithin(*within, problem, source);
+  if (const YamlValue* any = entryOf(value, "any")) {
+    static const MapKeys keys{{"any", "within"}, {}};
+    const YamlMap map(value, "goal", &keys, source);
+    return readGoalList(*any, "goal.any", reader, problem, source);
+  }
+  if (auto goal = reader.read(value, "goal", kWithin)) problem.goals.push_back(std::move(*goal));
+}
+
+}  // namespace
+
+void readStartAndGoals(const YamlMap& file, const std::vector<RobotSetup>& robots,
+                       Problem& problem) {
+  StateReader reader(robots, problem, file.source());
+  if (const YamlValue* start = file.require("start", example("start", robots, problem)))
+    if (auto q = reader.read(*start, "start")) problem.start = std::move(*q);
+  if (const YamlValue* goal = file.require("goal", example("goal", robots, problem)))
+    readGoals(*goal, reader, problem, file.source());
+}
+
+}  // namespace corridor

@@ -1,0 +1,89 @@
+#include "planner/problem/joint_yaml.h"
+
+#include "collision/core/nearest.h"
+#include "planner/problem/keys.h"
+
+namespace corridor {
+
+std::optional<std::size_t> findJoint(const RobotModel& model, const std::string& name) {
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    if (model.joints[j].name == name) return j;
+  return std::nullopt;
+}
+
+bool isWhole(JointType type) {
+  return type == JointType::planar || type == JointType::floating;
+}
+
+std::string noSuchJoint(const std::string& name, const RobotModel& model) {
+  std::vector<std::string> known;
+  for (const JointModel& joint : model.joints)
+    if (joint.type != JointType::fixed && !joint.mimic) known.push_back(joint.name);
+  return "there is no joint " + quotedWord(name) + didYouMean(name, known) +
+         " (known: " + joined(known) + ")";
+}
+
+std::string whyNotActive(const RobotModel& model, std::size_t j) {
+  const JointModel& joint = model.joints[j];
+  if (joint.type == JointType::fixed) return "is fixed";
+  if (joint.mimic) return "follows " + model.joints[joint.mimic->joint].name + " (mimic)";
+  return "";
+}
+
+std::string outsideLimits(double value, double lower, double upper) {
+  return shortest(value) + " is outside of its limits, [" + shortest(lower) + ", " +
+         shortest(upper) + "]";
+}
+
+void readJointValues(const YamlMap& map, const RobotModel& model,
+                     const std::function<void(std::size_t, const YamlValue::Entry&, bool)>& read,
+                     const std::set<std::string>& others) {
+  for (const YamlValue::Entry* entry : map.entries()) {
+    const std::string& key = entry->key;
+    if (others.contains(key)) continue;
+    if (const auto j = findJoint(model, key)) {
+      read(*j, *entry, false);
+      continue;
+    }
+    const bool degrees = key.ends_with("_deg");
+    const std::string name = degrees ? key.substr(0, key.size() - 4) : key;
+    const auto j = findJoint(model, name);
+    if (!j)
+      map.fault(key, noSuchJoint(name, model));
+    else if (map.find(name))
+      map.fault(key, "say " + name + " (radians) or " + key + " (degrees), not both");
+    else if (const JointType type = model.joints[*j].type;
+             type != JointType::revolute && type != JointType::continuous)
+      map.fault(key, name + (type == JointType::prismatic ? " slides: say " + name + ", in metres"
+                                                          : " does not turn by one angle"));
+    else
+      read(*j, *entry, true);
+  }
+}
+
+std::optional<PlanarOrSpatialPose> readJointPose(const YamlValue& value, const std::string& path,
+                                                 const JointModel& joint, YamlSource& source,
+                                                 std::vector<std::string>& notes) {
+  const bool spatial = joint.type == JointType::floating;
+  return readPose(value, path,
+                  {spatial, "joint " + joint.name + (spatial ? " is floating" : " is planar"),
+                   &problemKeys().at("start.*")},
+                  source, notes);
+}
+
+std::map<std::string, double> numbersOf(const JointModel& joint, const PlanarOrSpatialPose& pose) {
+  const std::string in = joint.name + "/";
+  std::map<std::string, double> numbers{{in + "x", pose.pose.p.x()}, {in + "y", pose.pose.p.y()}};
+  if (joint.type == JointType::planar) {
+    numbers[in + "yaw"] = pose.yaw;
+    return numbers;
+  }
+  numbers[in + "z"] = pose.pose.p.z();
+  numbers[in + "qx"] = pose.pose.q.x();
+  numbers[in + "qy"] = pose.pose.q.y();
+  numbers[in + "qz"] = pose.pose.q.z();
+  numbers[in + "qw"] = pose.pose.q.w();
+  return numbers;
+}
+
+}  // namespace corridor

@@ -1,0 +1,218 @@
+#include "planner/problem/mbm_json.h"
+
+#include <algorithm>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/core/nearest.h"
+#include "planner/problem/assembly.h"
+#include "planner/problem/joint_yaml.h"
+#include "planner/problem/shape_yaml.h"
+#include "planner/problem/state_yaml.h"
+#include "planner/problem/urdf_robot.h"
+#include "planner/robot/urdf_file.h"
+
+namespace corridor {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A set being read. Its faults have no lines, but say where: "problems[2].start".
+class MbmReader {
+ public:
+  MbmReader(const std::filesystem::path& file, const std::string& index)
+      : file_(file), index_(index), faults_(file.string()) {}
+
+  Problem read() {
+    const Json set = parse();
+    const Json& problem = choose(set);
+    problem_.file = file_.string() + "#" + index_;
+    problem_.name = file_.stem().string() + "#" + index_;
+    problem_.files = {file_};
+    faults_.throwIfAny();
+    readRobot(set);
+    for (const Json& object : list(problem, "objects")) readObject(object);
+    faults_.throwIfAny();
+    problem_.start = state(set, field(problem, "start"), "start");
+    const Json& goals = list(problem, "goals");
+    for (std::size_t i = 0; i < goals.size(); ++i)
+      problem_.goals.push_back(state(set, goals[i], "goals[" + std::to_string(i) + "]"));
+    if (goals.empty()) fault("goals: at least one is needed");
+    faults_.throwIfAny();
+    setPairs({}, problem_);
+    setTube({}, problem_);
+    problem_.digest = digestOfFiles(problem_.files);
+    return std::move(problem_);
+  }
+
+ private:
+  void fault(const std::string& text) { faults_.add(file_.string(), 0, text); }
+  [[noreturn]] void stop(const std::string& text) const {
+    throw InputError(Fault{file_.string(), 0, text});
+  }
+
+  Json parse() {
+    const std::string text = readTextFile(file_, "a set of problems (format: mbm-scene-1)");
+    try {
+      return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+      const auto end =
+          text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+      const auto line = 1 + std::count(text.begin(), end, '\n');
+      throw InputError(
+          Fault{file_.string(), static_cast<int>(line), "is not JSON, or ends too early"});
+    }
+  }
+
+  /// The problem of that index.
+  const Json& choose(const Json& set) const {
+    if (!set.is_object() || set.value("format", Json()) != Json("mbm-scene-1"))
+      stop("a set of problems (format: mbm-scene-1) is needed");
+    std::vector<std::string> indices;
+    const Json& problems = list(set, "problems");
+    for (const Json& problem : problems) indices.push_back(field(problem, "index").dump());
+    const auto found = std::find(indices.begin(), indices.end(), index_);
+    if (found != indices.end()) return problems[static_cast<std::size_t>(found - indices.begin())];
+    const std::string example =
+        file_.filename().string() + "#" + (indices.empty() ? "1" : indices.front());
+    stop((index_.empty() ? "name one of its problems, as in " + example
+                         : "has no problem #" + index_) +
+         "; there are " + ranges(indices));
+  }
+
+  /// "1 to 50", or all of them.
+  static std::string ranges(const std::vector<std::string>& indices) {
+    bool inRow = indices.size() > 2;
+    for (std::size_t i = 0; i < indices.size() && inRow; ++i)
+      inRow = indices[i] == std::to_string(std::stoul("0" + indices[0]) + i);
+    return inRow ? indices.front() + " to " + indices.back() : joined(indices);
+  }
+
+  const Json& field(const Json& object, const std::string& key) const {
+    if (!object.is_object() || !object.contains(key)) stop("missing key \"" + key + "\"");
+    return object[key];
+  }
+  const Json& list(const Json& object, const std::string& key) const {
+    const Json& value = field(object, key);
+    if (!value.is_array()) stop(key + ": a list is needed");
+    return value;
+  }
+  std::string word(const Json& object, const std::string& key) const {
+    const Json& value = field(object, key);
+    if (!value.is_string()) stop(key + ": a word is needed");
+    return value.get<std::string>();
+  }
+  double number(const Json& value, const std::string& what) const {
+    if (!value.is_number()) stop(what + ": a number is needed");
+    return value.get<double>();
+  }
+  double number(const Json& object, const std::string& of, const char* key) const {
+    return number(field(object, key), of + "." + key);
+  }
+  std::vector<double> numbers(const Json& value, std::size_t count, const std::string& what) const {
+    if (!value.is_array() || value.size() != count)
+      stop(what + ": a list of " + std::to_string(count) + " numbers is needed");
+    std::vector<double> result;
+    for (const Json& item : value) result.push_back(number(item, what));
+    return result;
+  }
+
+  /// In the nearest folder above the file that has it.
+  std::filesystem::path dataFile(const Json& set, const char* key) const {
+    const std::string name = word(set, key);
+    std::filesystem::path folder = std::filesystem::absolute(file_).lexically_normal();
+    while (folder != folder.parent_path()) {
+      folder = folder.parent_path();
+      if (whyNoFile(folder / name).empty()) return folder / name;
+    }
+    stop(std::string(key) + ": " + name + " is in no folder above this file");
+  }
+
+  void readRobot(const Json& set) {
+    RobotSetup setup;
+    std::vector<Fault> found;
+    std::vector<std::filesystem::path> files;
+    const auto urdf = dataFile(set, "urdf"), srdf = dataFile(set, "srdf");
+    auto model = readUrdf(urdf, {}, found, files);
+    for (const auto& file : files) addFile(setup.files, file);
+    addFile(setup.files, srdf);
+    if (model) readSrdf(srdf, *model, found);
+    for (const Fault& one : found) faults_.add(one.file, one.line, one.text);
+    faults_.throwIfAny();
+    setup.robot.model = std::move(*model);
+
+    std::vector<std::size_t> active;
+    for (const Json& name : list(set, "joint_names")) {
+      const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
+      const auto j = findJoint(setup.robot.model, text);
+      if (!j)
+        fault("joint_names: " + noSuchJoint(text, setup.robot.model));
+      else if (const std::string why = whyNotActive(setup.robot.model, *j); !why.empty())
+        fault("joint_names: " + text + " " + why);
+      else if (isWhole(setup.robot.model.joints[*j].type))
+        fault("joint_names: " + text + " has more than one value");
+      else
+        active.push_back(*j);
+    }
+    faults_.throwIfAny();
+    chooseJoints(setup, active);
+    robots_.push_back(std::move(setup));
+    assembleRobots(robots_, problem_);
+  }
+
+  void readObject(const Json& object) {
+    const std::string id = word(object, "id"), type = word(object, "type");
+    PlacedShape shape;
+    shape.name = id;
+    if (type == "box") {
+      const auto size = numbers(field(object, "size"), 3, id + ".size");
+      shape.primitive = Box{{size[0], size[1], size[2]}};
+    } else if (type == "cylinder") {
+      shape.primitive = Cylinder{number(object, id, "radius"), number(object, id, "length")};
+    } else if (type == "sphere") {
+      shape.primitive = Sphere{number(object, id, "radius")};
+    } else {
+      return fault(id + ".type: one of box, cylinder, sphere is needed, not " + quotedWord(type));
+    }
+    if (const auto why = checkPrimitive(*shape.primitive)) return fault(id + ": " + *why);
+    const auto p = numbers(field(object, "position"), 3, id + ".position");
+    const auto q = numbers(field(object, "orientation_xyzw"), 4, id + ".orientation_xyzw");
+    shape.at = {{p[0], p[1], p[2]}, Eigen::Quaterniond(q[3], q[0], q[1], q[2])};
+    const double norm = shape.at.q.coeffs().stableNorm();
+    if (!(norm > 0)) return fault(id + ".orientation_xyzw: zeros are no rotation");
+    shape.part = placed(*shape.primitive, {shape.at.q.normalized().toRotationMatrix(), shape.at.p});
+    addObstacle(problem_, id, {std::move(shape)});
+  }
+
+  Configuration state(const Json& set, const Json& values, const std::string& what) {
+    Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem_.space.size()));
+    const auto given = numbers(values, robots_.front().freedoms.size(), what);
+    const Json& names = set["joint_names"];
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      const Coordinate& c = problem_.space.coordinates()[robots_.front().freedoms[i].coordinate];
+      std::string why;
+      const auto value = coordinateValue(c, given[i], what + "." + names[i].get<std::string>(),
+                                         problem_.notes, why);
+      if (value)
+        q[static_cast<Eigen::Index>(c.first)] = *value;
+      else
+        fault(why);
+    }
+    return q;
+  }
+
+  std::filesystem::path file_;
+  std::string index_;
+  FaultList faults_;
+  std::vector<RobotSetup> robots_;
+  Problem problem_;
+};
+
+}  // namespace
+
+Problem readMbmProblem(const std::filesystem::path& file, const std::string& index) {
+  return MbmReader(file, index).read();
+}
+
+}  // namespace corridor

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "planner/problem/assembly.h"
+
+namespace corridor {
+namespace {
+
+constexpr const char* kNeverMove = "never move against each other";
+
+/// For each frame the nearest one above it (itself included) that a variable moves, or the world:
+/// two frames move against each other where theirs differ.
+std::vector<std::size_t> movers(const KinematicTree& tree) {
+  std::vector<std::size_t> mover(tree.frames.size(), 0);
+  for (std::size_t i = 1; i < tree.frames.size(); ++i)
+    mover[i] =
+        tree.frames[i].joint != Frame::Joint::none && tree.frames[i].variable != Frame::noVariable
+            ? i
+            : mover[tree.frames[i].parent];
+  return mover;
+}
+
+using LinkPair = std::pair<std::string, std::string>;
+
+LinkPair sorted(const std::string& a, const std::string& b) {
+  return a < b ? LinkPair{a, b} : LinkPair{b, a};
+}
+
+/// Why pairs of links of a robot are not tested: what SRDF and robot.yaml allow, and links that are
+/// joined by a joint, directly or through links without shapes.
+std::map<LinkPair, std::string> allowedLinks(const RobotModel& model,
+                                             const std::set<std::string>& withShapes) {
+  std::map<LinkPair, std::string> reasons;
+  for (const AllowedPair& pair : model.allowed)
+    reasons.emplace(sorted(pair.a, pair.b), pair.reason);
+  std::vector<std::size_t> above(model.links.size(), model.root);  // the parent
+  for (const JointModel& joint : model.joints) above[joint.child] = joint.parent;
+  for (std::size_t link = 0; link < model.links.size(); ++link) {
+    std::size_t next = link;
+    do next = above[next];
+    while (next != model.root && !withShapes.contains(model.links[next].name));
+    if (next != link)
+      reasons.emplace(sorted(model.links[link].name, model.links[next].name), "adjacent");
+  }
+  return reasons;
+}
+
+/// "a ~ b, c ~ d and 3 more".
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, words.size()); ++i) text += (i ? ", " : "") + words[i];
+  return words.size() <= most ? text
+                              : text + " and " + std::to_string(words.size() - most) + " more";
+}
+
+/// The name of a body's link in its own robot.
+std::string linkOf(const Problem& problem, const ProblemBody& body) {
+  const ProblemRobot& robot = problem.robots[*body.robot];
+  return robot.name.empty() || body.name == robot.name ? body.name
+                                                       : body.name.substr(robot.name.size() + 1);
+}
+
+}  // namespace
+
+void setPairs(const AllowedBodies& allowed, Problem& problem) {
+  const std::vector<std::size_t> mover = movers(problem.tree);
+  std::vector<std::map<LinkPair, std::string>> reasons;
+  for (std::size_t r = 0; r < problem.robots.size(); ++r) {
+    std::set<std::string> withShapes;
+    for (const ProblemBody& body : problem.bodies)
+      if (body.robot == r) withShapes.insert(linkOf(problem, body));
+    reasons.push_back(allowedLinks(problem.robots[r].model, withShapes));
+  }
+  const auto reasonOf = [&](std::size_t i, std::size_t j) -> std::string {
+    const ProblemBody &a = problem.bodies[i], &b = problem.bodies[j];
+    for (const auto& pair : allowed)
+      if ((pair[0] == i && pair[1] == j) || (pair[0] == j && pair[1] == i)) return "allow";
+    if (a.robot && a.robot == b.robot) {
+      const auto& links = reasons[*a.robot];
+      const auto found = links.find(sorted(linkOf(problem, a), linkOf(problem, b)));
+      if (found != links.end()) return found->second;
+    }
+    return mover[a.frame] == mover[b.frame] ? kNeverMove : "";
+  };
+
+  problem.pairs.clear();
+  std::size_t tested = 0;
+  std::vector<std::string> still;
+  for (std::size_t i = 0; i < problem.bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < problem.bodies.size(); ++j) {
+      const ProblemBody &a = problem.bodies[i], &b = problem.bodies[j];
+      if (!a.robot && !b.robot) continue;
+      problem.pairs.push_back({i, j, reasonOf(i, j)});
+      tested += problem.pairs.back().skipped.empty();
+      if (problem.pairs.back().skipped == kNeverMove && a.robot != b.robot)
+        still.push_back(a.name + " ~ " + b.name);
+    }
+  if (!still.empty())
+    problem.notes.push_back("not tested, since they never move against each other: " +
+                            listed(still));
+  if (tested == 0)
+    problem.notes.push_back("no pair of bodies is tested: nothing can collide in this problem");
+}
+
+}  // namespace corridor

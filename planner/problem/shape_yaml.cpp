@@ -1,0 +1,233 @@
+#include "planner/problem/shape_yaml.h"
+
+#include <algorithm>
+
+#include "collision/core/nearest.h"
+#include "collision/geometry/mesh_health.h"
+#include "planner/problem/keys.h"
+
+namespace corridor {
+namespace {
+
+const std::vector<std::string> kinds{"mesh", "box", "sphere", "capsule", "cylinder", "convex"};
+
+const MapKeys* keysOf(const char* primitive) {
+  return &problemKeys().at(std::string("world.*.") + primitive);
+}
+
+MeshFileOptions readMeshOptions(const YamlMap& map) {
+  MeshFileOptions options;
+  if (const auto unit = map.choice("unit", problemChoices().at("world.*.unit")))
+    options.metresPerUnit = *unit == "m"    ? 1
+                            : *unit == "cm" ? 0.01
+                            : *unit == "mm" ? 0.001
+                                            : 0.0254;
+  if (const auto up = map.choice("up", problemChoices().at("world.*.up"))) options.up = up->front();
+  return options;
+}
+
+/// The file that `key` names. nullopt: faulted.
+std::optional<MeshFile> readMesh(const YamlMap& map, const char* key,
+                                 const std::filesystem::path& folder, std::filesystem::path& file,
+                                 std::vector<std::filesystem::path>& files) {
+  const MeshFileOptions options = readMeshOptions(map);
+  const auto name = map.text(key);
+  if (!name) return std::nullopt;
+  file = folder / *name;
+  if (const std::string why = whyNoFile(file); !why.empty()) {
+    map.fault(key, file.string() + ": " + why);
+    return std::nullopt;
+  }
+  addFile(files, file);
+  try {
+    return readMeshFile(file, options);
+  } catch (const InputError& error) {
+    map.source().faults.add(error);
+    return std::nullopt;
+  }
+}
+
+std::optional<Primitive> readBox(const YamlMap& map) {
+  const auto size = map.numbers("box", 3);
+  if (!size) return std::nullopt;
+  return Box{{(*size)[0], (*size)[1], (*size)[2]}};
+}
+
+/// `sphere: 0.1`, or `sphere: {radius: 0.1}`.
+std::optional<Primitive> readSphere(const YamlMap& map) {
+  const YamlValue& value = *map.find("sphere");
+  std::optional<double> radius;
+  if (value.kind == YamlValue::Kind::Map) {
+    const YamlMap inner(value, map.pathOf("sphere"), keysOf("sphere"), map.source());
+    inner.require("radius", "metres");
+    radius = inner.number("radius");
+  } else {
+    radius = map.number("sphere");
+  }
+  if (!radius) return std::nullopt;
+  return Sphere{*radius};
+}
+
+/// Capsule or Cylinder.
+template <class Round>
+std::optional<Primitive> readRound(const YamlMap& map, const char* key, const char* length) {
+  const YamlMap inner(*map.find(key), map.pathOf(key), keysOf(key), map.source());
+  inner.require("radius", "metres");
+  inner.require("length", length);
+  const auto radius = inner.number("radius"), along = inner.number("length");
+  if (!radius || !along) return std::nullopt;
+  return Round{*radius, *along};
+}
+
+std::optional<Primitive> readConvex(const YamlMap& map, const ShapePlace& place,
+                                    std::filesystem::path& file,
+                                    std::vector<std::filesystem::path>& files) {
+  const YamlValue& value = *map.find("convex");
+  Convex convex;
+  if (value.kind == YamlValue::Kind::List) {
+    for (const YamlValue& item : value.items) {
+      const auto p = readNumbers(item, 3, map.pathOf("convex"), map.source());
+      if (!p) return std::nullopt;
+      convex.points.emplace_back((*p)[0], (*p)[1], (*p)[2]);
+    }
+    return convex;
+  }
+  if (value.kind != YamlValue::Kind::Scalar) {
+    map.fault("convex", "a mesh file or points [[x, y, z], …] are needed, not " + described(value));
+    return std::nullopt;
+  }
+  auto mesh = readMesh(map, "convex", place.folder, file, files);
+  if (!mesh) return std::nullopt;
+  convex.points = std::move(mesh->mesh.vertices);
+  return convex;
+}
+
+std::optional<Primitive> readPrimitive(const YamlMap& map, const std::string& kind,
+                                       const ShapePlace& place, std::filesystem::path& file,
+                                       std::vector<std::filesystem::path>& files) {
+  if (kind == "box") return readBox(map);
+  if (kind == "sphere") return readSphere(map);
+  if (kind == "capsule")
+    return readRound<Capsule>(map, "capsule", "metres along z, between the centres of its balls");
+  if (kind == "cylinder") return readRound<Cylinder>(map, "cylinder", "metres along z");
+  return readConvex(map, place, file, files);
+}
+
+/// Keys that say nothing of this kind of shape.
+void faultMisplacedKeys(const YamlMap& map, const std::string& kind) {
+  const bool isFile =
+      kind == "mesh" || (kind == "convex" && map.find("convex")->kind == YamlValue::Kind::Scalar);
+  if (!isFile)
+    for (const char* key : {"unit", "up"})
+      if (map.find(key))
+        map.fault(key, "is for mesh files; lengths of a " + kind + " are in metres");
+  if (kind != "mesh" && map.find("solid"))
+    map.fault("solid", "is for meshes; a " + kind + " always is solid");
+}
+
+bool moveMesh(TriangleMesh& mesh, const Transform& X) {
+  for (Vec3& vertex : mesh.vertices) vertex = X * vertex;
+  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                     [](const Vec3& vertex) { return vertex.allFinite(); });
+}
+
+bool isFinite(const ConvexPart& part) {
+  return std::all_of(part.points.begin(), part.points.end(),
+                     [](const Vec3& point) { return point.allFinite(); });
+}
+
+/// A mesh that can't be solid. @returns whether it can.
+bool checkSolid(const YamlMap& map, const PlacedShape& shape) {
+  const MeshHealth health = inspectMesh(shape.mesh->mesh);
+  if (health.watertight) return true;
+  std::string why = "its triangles do not face the same way";
+  if (health.boundaryEdges > 0)
+    why = std::to_string(health.boundaryEdges) + " of its edges have a triangle on one side only";
+  else if (health.nonManifoldEdges > 0)
+    why = std::to_string(health.nonManifoldEdges) + " of its edges have three triangles or more";
+  map.fault("solid", "needs a watertight mesh, and " + shape.file.string() + " is none: " + why);
+  return false;
+}
+
+}  // namespace
+
+std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place,
+                                     std::vector<std::filesystem::path>& files) {
+  const auto kind = map.requireOne(kinds, "one shape",
+                                   "mesh: FILE, box: [x, y, z], sphere: radius, capsule or "
+                                   "cylinder: {radius: …, length: …}, or convex: FILE");
+  const bool solid = map.boolean("solid").value_or(false);
+  const auto own = readPlacement(map);
+  if (!kind) return std::nullopt;
+  faultMisplacedKeys(map, *kind);
+
+  PlacedShape shape;
+  shape.name = place.name;
+  if (*kind == "mesh") {
+    shape.mesh = readMesh(map, "mesh", place.folder, shape.file, files);
+    shape.solid = solid;
+  } else if ((shape.primitive = readPrimitive(map, *kind, place, shape.file, files))) {
+    if (const auto why = checkPrimitive(*shape.primitive)) {
+      map.fault(*kind, *why);
+      return std::nullopt;
+    }
+  }
+  if (!own || (!shape.mesh && !shape.primitive)) return std::nullopt;
+
+  const Placement whole = place.outer * *own;
+  shape.at = whole.pose;
+  bool inRange = true;
+  if (shape.mesh) {
+    if (shape.solid && !checkSolid(map, shape)) return std::nullopt;
+    if (!whole.isIdentity()) inRange = moveMesh(shape.mesh->mesh, whole.X);
+  } else {
+    shape.part = placed(*shape.primitive, whole.X);
+    inRange = isFinite(*shape.part);
+  }
+  if (inRange) return shape;
+  map.fault("at", "moves the shape out of the range of doubles");
+  return std::nullopt;
+}
+
+std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
+                                    const ShapePlace& place,
+                                    std::vector<std::filesystem::path>& files) {
+  std::vector<PlacedShape> shapes;
+  const YamlValue& list = *map.find("shapes");
+  if (list.kind != YamlValue::Kind::List || list.items.empty()) {
+    map.fault("shapes",
+              "a list of at least one shape, such as [{mesh: FILE}], is needed, not " +
+                  (list.kind == YamlValue::Kind::List ? "an empty one" : described(list)));
+    return shapes;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    const YamlMap item(list.items[i], map.pathOf("shapes") + "[" + std::to_string(i) + "]", &keys,
+                       map.source());
+    const std::string own = item.text("name").value_or(std::to_string(i + 1));
+    if (std::find(names.begin(), names.end(), own) != names.end())
+      item.fault("name", quotedWord(own) + " is the name of another shape");
+    names.push_back(own);
+    ShapePlace inside = place;
+    if (list.items.size() > 1) inside.name += "/" + own;
+    if (auto shape = readShape(item, inside, files)) shapes.push_back(std::move(*shape));
+  }
+  return shapes;
+}
+
+bool shift(PlacedShape& shape, const Vec3& by) {
+  shape.at.p += by;
+  if (shape.mesh) {
+    for (Vec3& vertex : shape.mesh->mesh.vertices) vertex += by;
+    return std::all_of(shape.mesh->mesh.vertices.begin(), shape.mesh->mesh.vertices.end(),
+                       [](const Vec3& vertex) { return vertex.allFinite(); });
+  }
+  for (Vec3& point : shape.part->points) point += by;
+  return isFinite(*shape.part);
+}
+
+void addFile(std::vector<std::filesystem::path>& files, const std::filesystem::path& file) {
+  if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+}
+
+}  // namespace corridor

@@ -1,0 +1,236 @@
+#include "planner/problem/state_yaml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "collision/core/nearest.h"
+#include "planner/problem/bounds.h"
+#include "planner/problem/joint_yaml.h"
+#include "planner/problem/keys.h"
+#include "planner/problem/urdf_robot.h"
+
+namespace corridor {
+
+/// Numbers by their names in the robot ("pan", "base/yaw"), and where they come from.
+struct StateReader::Given {
+  struct Number {
+    double value = 0;
+    int line = 0;
+    std::string path;
+  };
+  std::map<std::string, Number> numbers;
+};
+
+std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
+                                      const std::string& path, std::vector<std::string>& notes,
+                                      std::string& why) {
+  if (coordinate.kind == Coordinate::Kind::circle) {
+    if (-std::numbers::pi < value && value <= std::numbers::pi) return value;
+    double wrapped = wrappedYaw(value);
+    if (wrapped <= -std::numbers::pi) wrapped = std::numbers::pi;
+    notes.push_back(path + ": " + shortest(value) + " is read as " + shortest(wrapped) +
+                    ", which is the same but for full turns");
+    return wrapped;
+  }
+  const auto within = withinLimits(value, coordinate.lower, coordinate.upper, path, notes);
+  if (!within) why = path + ": " + outsideLimits(value, coordinate.lower, coordinate.upper);
+  return within;
+}
+
+std::optional<Configuration> StateReader::read(const YamlValue& value, const std::string& path,
+                                               const std::set<std::string>& others) {
+  Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem_.space.size()));
+  if (isAlone()) return readRobot(0, value, path, others, q) ? std::optional(q) : std::nullopt;
+
+  std::vector<std::string> names;
+  for (const ProblemRobot& robot : problem_.robots) names.push_back(robot.name);
+  if (value.kind != YamlValue::Kind::Map) {
+    source_.fault(value.line, path + ": a map of the robots is needed, {" + names.front() +
+                                  ": …}, not " + described(value));
+    return std::nullopt;
+  }
+  MapKeys keys{names, {}};
+  keys.legal.insert(keys.legal.end(), others.begin(), others.end());
+  const YamlMap map(value, path, &keys, source_);
+  bool sound = true;
+  for (std::size_t r = 0; r < names.size(); ++r) {
+    const YamlValue* own = map.require(names[r], "where this robot is");
+    sound &= own && readRobot(r, *own, map.pathOf(names[r]), {}, q);
+  }
+  return sound ? std::optional(q) : std::nullopt;
+}
+
+bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std::string& path,
+                            const std::set<std::string>& others, Configuration& q) {
+  const RobotModel& model = problem_.robots[robot].model;
+  if (model.mount != JointType::fixed) return readRigid(robot, value, path, others, q);
+  Given given;
+  if (value.kind == YamlValue::Kind::Scalar)
+    return fromNamed(robot, value.text, value.line, path, given) &&
+           apply(robot, given, value.line, path, q);
+  if (value.kind != YamlValue::Kind::Map) {
+    source_.fault(value.line, path +
+                                  ": a named state or joint values, such as {pan: 0.3, lift_deg: "
+                                  "20}, are needed, not " +
+                                  described(value));
+    return false;
+  }
+  const YamlMap map(value, path, nullptr, source_);
+  if (map.find("from")) {
+    const auto name = map.text("from");
+    if (!name || !fromNamed(robot, *name, map.find("from")->line, map.pathOf("from"), given))
+      return false;
+  }
+  return readJoints(robot, map, given, others) && apply(robot, given, value.line, path, q);
+}
+
+bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std::string& path,
+                            const std::set<std::string>& others, Configuration& q) {
+  const RobotModel& model = problem_.robots[robot].model;
+  const bool spatial = model.mount == JointType::floating;
+  PoseForm form{spatial,
+                (isAlone() ? "the robot" : problem_.robots[robot].name) +
+                    (spatial ? " moves in SE3 (rigid: SE3)" : " moves in SE2 (rigid: SE2)"),
+                &problemKeys().at(others.contains("within") ? "goal" : "start")};
+  const auto pose = readPose(value, path, form, source_, problem_.notes);
+  if (!pose) return false;
+  const Freedom& freedom = robots_[robot].freedoms.front();
+  const auto first =
+      static_cast<Eigen::Index>(problem_.space.coordinates()[freedom.coordinate].first);
+  if (spatial)
+    q.segment<7>(first) << pose->pose.p, pose->pose.q.coeffs();
+  else
+    q.segment<3>(first) << pose->pose.p.head<2>(), pose->yaw;
+  return isInBounds(freedom, q, value.line, path);
+}
+
+bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line,
+                            const std::string& path, Given& given) {
+  const RobotModel& model = problem_.robots[robot].model;
+  const auto state = model.states.find(name);
+  if (state == model.states.end()) {
+    std::vector<std::string> known;
+    for (const auto& [key, values] : model.states) known.push_back(key);
+    source_.fault(line, path + ": there is no state " + quotedWord(name) + didYouMean(name, known) +
+                            (known.empty() ? " (neither robot.yaml nor SRDF name any)"
+                                           : " (known: " + joined(known) + ")"));
+    return false;
+  }
+  for (const auto& [number, value] : state->second) {
+    given.numbers[number] = {value, line, path + " (" + name + "): " + number};
+    const auto j = findJoint(model, number);
+    const auto held = j ? robots_[robot].held.find(*j) : robots_[robot].held.end();
+    if (held != robots_[robot].held.end() && held->second != value)
+      problem_.notes.push_back(path + ": " + number + " is held at " + shortest(held->second) +
+                               ", not at the " + shortest(value) + " of state " + name);
+  }
+  return true;
+}
+
+bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given,
+                             const std::set<std::string>& others) {
+  const RobotModel& model = problem_.robots[robot].model;
+  const RobotSetup& setup = robots_[robot];
+  const std::size_t before = source_.faults.size();
+  std::set<std::string> known = others;
+  known.insert("from");
+  readJointValues(
+      map, model,
+      [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
+        const JointModel& joint = model.joints[j];
+        const std::string path = map.pathOf(entry.key);
+        if (const std::string why = whyNotActive(model, j); !why.empty())
+          return map.fault(entry.key, why);
+        if (const auto held = setup.held.find(j); held != setup.held.end())
+          return map.fault(entry.key, "is held at " + shortest(held->second) +
+                                          ", and not planned for (robot.yaml says which are)");
+        if (setup.heldPoses.contains(j))
+          return map.fault(entry.key, "is held, and not planned for (robot.yaml says which are)");
+        if (isWhole(joint.type)) {
+          const auto pose = readJointPose(entry.value, path, joint, source_, problem_.notes);
+          if (!pose) return;
+          for (const auto& [number, value] : numbersOf(joint, *pose))
+            given.numbers[number] = {value, entry.line, path};
+          return;
+        }
+        auto number = map.number(entry.key);
+        if (!number) return;
+        if (degrees) {
+          if (joint.type == JointType::continuous && wrappedYawDegrees(*number) != *number) {
+            const double wrapped = wrappedYawDegrees(*number);
+            problem_.notes.push_back(path + ": " + shortest(*number) + " is read as " +
+                                     shortest(wrapped) + ", which is the same but for full turns");
+            number = wrapped;
+          }
+          *number *= std::numbers::pi / 180;
+        }
+        given.numbers[joint.name] = {*number, entry.line, path};
+      },
+      known);
+  return source_.faults.size() == before;
+}
+
+bool StateReader::apply(std::size_t robot, const Given& given, int line, const std::string& path,
+                        Configuration& q) {
+  std::vector<std::string> missing;
+  bool sound = true;
+  const auto find = [&](const std::string& name) -> const Given::Number* {
+    const auto found = given.numbers.find(name);
+    if (found != given.numbers.end()) return &found->second;
+    missing.push_back(name);
+    return nullptr;
+  };
+  for (const Freedom& freedom : robots_[robot].freedoms) {
+    if (!isWhole(freedom.type)) {
+      if (const auto* number = find(freedom.name))
+        sound &= setSingle(freedom, number->value, number->line, number->path, q);
+      continue;
+    }
+    const bool planar = freedom.type == JointType::planar;
+    auto index = static_cast<Eigen::Index>(problem_.space.coordinates()[freedom.coordinate].first);
+    const std::size_t before = missing.size();
+    int at = line;
+    for (const char* part : planar ? std::vector{"/x", "/y", "/yaw"}
+                                   : std::vector{"/x", "/y", "/z", "/qx", "/qy", "/qz", "/qw"})
+      if (const auto* number = find(freedom.name + part)) {
+        q[index++] = number->value;
+        at = number->line;
+      }
+    if (missing.size() == before)
+      sound &= isInBounds(freedom, q, at, path + "." + freedom.name);
+    else
+      missing.resize(before), missing.push_back(freedom.name);
+  }
+  if (missing.empty()) return sound;
+  source_.fault(line, path + ": says nothing of " + joined(missing) +
+                          "; all joints that are planned for need a value");
+  return false;
+}
+
+bool StateReader::setSingle(const Freedom& freedom, double value, int line, const std::string& path,
+                            Configuration& q) {
+  const Coordinate& coordinate = problem_.space.coordinates()[freedom.coordinate];
+  std::string why;
+  const auto stored = coordinateValue(coordinate, value, path, problem_.notes, why);
+  if (stored)
+    q[static_cast<Eigen::Index>(coordinate.first)] = *stored;
+  else
+    source_.fault(line, why);
+  return stored.has_value();
+}
+
+bool StateReader::isInBounds(const Freedom& freedom, const Configuration& q, int line,
+                             const std::string& path) const {
+  for (const CoordinateGroup& group : problem_.space.groups()) {
+    if (group.coordinates.front() != freedom.coordinate) continue;
+    const std::string why = whyOutside(problem_, group, q);
+    if (why.empty()) continue;
+    source_.fault(line, path + ": " + why);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace corridor

@@ -1,0 +1,304 @@
+#include "planner/problem/urdf_robot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "collision/core/nearest.h"
+#include "planner/problem/joint_yaml.h"
+#include "planner/problem/keys.h"
+#include "planner/problem/shape_yaml.h"
+#include "planner/robot/urdf_file.h"
+
+namespace corridor {
+namespace {
+
+void addAll(FaultList& faults, const std::vector<Fault>& found) {
+  for (const Fault& fault : found) faults.add(fault.file, fault.line, fault.text);
+}
+
+/// The path that a key names. nullopt: faulted, or no such key.
+std::optional<std::filesystem::path> readFileName(const YamlMap& map, const char* key,
+                                                  const std::filesystem::path& folder) {
+  const auto name = map.text(key);
+  if (!name) return std::nullopt;
+  const std::filesystem::path path = folder / *name;
+  if (const std::string why = whyNoFile(path); !why.empty()) {
+    map.fault(key, path.string() + ": " + why);
+    return std::nullopt;
+  }
+  return path;
+}
+
+PackageMap readPackages(const YamlMap& file, const std::filesystem::path& folder) {
+  PackageMap packages;
+  const YamlValue* value = file.find("packages");
+  if (!value) return packages;
+  const YamlMap map(*value, "packages", nullptr, file.source());
+  for (const YamlValue::Entry* entry : map.entries()) {
+    const auto name = map.text(entry->key);
+    if (!name) continue;
+    packages[entry->key] = folder / *name;
+    std::error_code none;
+    if (!std::filesystem::is_directory(packages[entry->key], none))
+      map.fault(entry->key, packages[entry->key].string() + ": no such folder");
+  }
+  return packages;
+}
+
+/// URDF and SRDF. nullopt: faulted.
+std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const PackageMap& packages,
+                                    const std::optional<std::filesystem::path>& srdf,
+                                    FaultList& faults, std::vector<std::filesystem::path>& files) {
+  std::vector<Fault> found;
+  std::vector<std::filesystem::path> named;
+  auto model = readUrdf(urdf, packages, found, named);
+  for (const auto& file : named) addFile(files, file);
+  if (srdf) {
+    addFile(files, *srdf);
+    if (model) readSrdf(*srdf, *model, found);
+  }
+  addAll(faults, found);
+  return found.empty() ? std::move(model) : std::nullopt;
+}
+
+using Joints = std::vector<std::size_t>;
+
+Joints readGroup(const YamlMap& map, const RobotModel& model) {
+  Joints active;
+  const auto name = map.text("group");
+  if (!name) return active;
+  const auto group = model.groups.find(*name);
+  std::vector<std::string> known;
+  for (const auto& [key, value] : model.groups) known.push_back(key);
+  if (!map.find("srdf")) {
+    map.fault("group",
+              "groups are those of an SRDF, and none is given: srdf: FILE, or say "
+              "joints: [NAME, …]");
+  } else if (group == model.groups.end()) {
+    map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
+                           didYouMean(*name, known) + " (known: " + joined(known) + ")");
+  } else {
+    for (const std::string& joint : group->second)
+      if (const auto j = findJoint(model, joint); j && movesItself(model.joints[*j]))
+        active.push_back(*j);
+    if (active.empty())
+      map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");
+  }
+  return active;
+}
+
+Joints readJointList(const YamlMap& map, const RobotModel& model) {
+  Joints active;
+  const auto names = readWords(*map.find("joints"), "such as [pan, lift]", "joints", map.source());
+  if (!names) return active;
+  if (names->empty()) map.fault("joints", "at least one joint is needed");
+  for (const std::string& name : *names) {
+    const auto j = findJoint(model, name);
+    if (!j)
+      map.fault("joints", noSuchJoint(name, model));
+    else if (const std::string why = whyNotActive(model, *j); !why.empty())
+      map.fault("joints", name + " " + why);
+    else if (std::find(active.begin(), active.end(), *j) != active.end())
+      map.fault("joints", name + " is named twice");
+    else
+      active.push_back(*j);
+  }
+  return active;
+}
+
+/// `hold` into `setup`.
+void readHold(const YamlMap& file, RobotSetup& setup) {
+  const YamlValue* value = file.find("hold");
+  if (!value) return;
+  const RobotModel& model = setup.robot.model;
+  const YamlMap map(*value, "hold", nullptr, file.source());
+  readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
+    const JointModel& joint = model.joints[j];
+    if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
+    const std::string path = map.pathOf(entry.key);
+    if (isWhole(joint.type)) {
+      if (const auto pose =
+              readJointPose(entry.value, path, joint, file.source(), setup.robot.model.notes))
+        setup.heldPoses[j] = pose->pose;
+      return;
+    }
+    const auto number = map.number(entry.key);
+    if (!number) return;
+    const double radians = degrees ? *number * (std::numbers::pi / 180) : *number;
+    const auto held =
+        withinLimits(radians, joint.lower, joint.upper, path, setup.robot.model.notes);
+    if (held)
+      setup.held[j] = *held;
+    else
+      map.fault(entry.key, outsideLimits(radians, joint.lower, joint.upper));
+  });
+}
+
+/// `states`: named, each a map of joint values, over those of the SRDF.
+void readStates(const YamlMap& file, RobotModel& model) {
+  const YamlValue* value = file.find("states");
+  if (!value) return;
+  const YamlMap states(*value, "states", nullptr, file.source());
+  for (const YamlValue::Entry* named : states.entries()) {
+    const YamlMap map(named->value, states.pathOf(named->key), nullptr, file.source());
+    std::map<std::string, double> state;
+    readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
+      const JointModel& joint = model.joints[j];
+      if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
+      if (isWhole(joint.type)) {
+        if (const auto pose = readJointPose(entry.value, map.pathOf(entry.key), joint,
+                                            file.source(), model.notes))
+          for (const auto& [number, x] : numbersOf(joint, *pose)) state[number] = x;
+      } else if (const auto number = map.number(entry.key)) {
+        state[joint.name] = degrees ? *number * (std::numbers::pi / 180) : *number;
+      }
+    });
+    if (model.states.contains(named->key))
+      model.notes.push_back("state " + named->key + ": that of robot.yaml, not of the SRDF");
+    model.states[named->key] = std::move(state);
+    model.stateGroup.erase(named->key);
+  }
+}
+
+void readAllow(const YamlMap& file, RobotModel& model) {
+  const YamlValue* value = file.find("allow");
+  if (!value) return;
+  std::vector<std::string> links;
+  for (const LinkModel& link : model.links) links.push_back(link.name);
+  if (value->kind != YamlValue::Kind::List)
+    return file.fault(
+        "allow",
+        "a list of pairs of links is needed, such as [[hand, finger]], not " + described(*value));
+  for (const YamlValue& item : value->items) {
+    const auto pair = readWords(item, "such as [hand, finger]", "allow", file.source());
+    if (!pair) continue;
+    if (pair->size() != 2) {
+      file.source().fault(item.line, "allow: two links are needed, such as [hand, finger], not " +
+                                         std::to_string(pair->size()));
+      continue;
+    }
+    bool known = true;
+    for (const std::string& name : *pair)
+      if (std::find(links.begin(), links.end(), name) == links.end()) {
+        file.source().fault(
+            item.line, "allow: there is no link " + quotedWord(name) + didYouMean(name, links));
+        known = false;
+      }
+    if (known) model.allowed.push_back({(*pair)[0], (*pair)[1], "robot.yaml: allow"});
+  }
+}
+
+void readWeights(const YamlMap& file, RobotSetup& setup) {
+  const YamlValue* value = file.find("weights");
+  if (!value) return;
+  const YamlMap weights(*value, "weights", &robotKeys().at("weights"), file.source());
+  setup.rotationWeight = weights.number("rotation", Range::Positive).value_or(setup.rotationWeight);
+  const YamlValue* joints = weights.find("joints");
+  if (!joints) return;
+  const YamlMap map(*joints, "weights.joints", nullptr, file.source());
+  for (const YamlValue::Entry* entry : map.entries()) {
+    const auto weight = map.number(entry->key, Range::Positive);
+    if (!findJoint(setup.robot.model, entry->key))
+      map.fault(entry->key, noSuchJoint(entry->key, setup.robot.model));
+    else if (weight)
+      setup.jointWeights[entry->key] = *weight;
+  }
+}
+
+/// All that move by themselves, but for those with a value in `hold`.
+Joints allMoving(const RobotSetup& setup) {
+  Joints all;
+  for (std::size_t j = 0; j < setup.robot.model.joints.size(); ++j)
+    if (movesItself(setup.robot.model.joints[j]) && !setup.held.contains(j) &&
+        !setup.heldPoses.contains(j))
+      all.push_back(j);
+  return all;
+}
+
+}  // namespace
+
+bool movesItself(const JointModel& joint) {
+  return joint.type != JointType::fixed && !joint.mimic;
+}
+
+std::optional<double> withinLimits(double value, double lower, double upper,
+                                   const std::string& path, std::vector<std::string>& notes) {
+  if (lower <= value && value <= upper) return value;
+  if (!(lower - limitSlack <= value && value <= upper + limitSlack)) return std::nullopt;
+  const double limit = value < lower ? lower : upper;
+  notes.push_back(path + ": " + shortest(value) + " is read as its limit, " + shortest(limit));
+  return limit;
+}
+
+void chooseJoints(RobotSetup& setup, const std::vector<std::size_t>& active) {
+  setup.active = active;
+  RobotModel& model = setup.robot.model;
+  std::string held;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const JointModel& joint = model.joints[j];
+    if (!movesItself(joint) || setup.held.contains(j) || setup.heldPoses.contains(j) ||
+        std::find(active.begin(), active.end(), j) != active.end())
+      continue;
+    if (isWhole(joint.type)) {
+      setup.heldPoses[j] = {};
+      held += (held.empty() ? "" : ", ") + joint.name + " not moved";
+    } else {
+      const bool ends = joint.type != JointType::continuous;
+      setup.held[j] = ends ? std::clamp(0.0, joint.lower, joint.upper) : 0.0;
+      held += (held.empty() ? "" : ", ") + joint.name + " " + shortest(setup.held[j]);
+    }
+  }
+  if (!held.empty()) model.notes.push_back("joints that are not planned for are held: " + held);
+}
+
+std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
+                                        const std::filesystem::path& folder, RobotSetup setup) {
+  for (const char* key : {"shapes", "reference"})
+    if (map.find(key)) map.fault(key, "is for rigid robots; this one's shapes are in its URDF");
+  const PackageMap packages = readPackages(map, folder);
+  const auto urdf = readFileName(map, "urdf", folder);
+  const auto srdf = readFileName(map, "srdf", folder);
+  if (!urdf || (map.find("srdf") && !srdf)) return std::nullopt;
+  auto model = readModel(*urdf, packages, srdf, map.source().faults, setup.files);
+  if (!model) return std::nullopt;
+
+  setup.robot.model = std::move(*model);
+  setup.robot.model.name = name;
+  const std::size_t before = map.source().faults.size();
+  readHold(map, setup);
+  readStates(map, setup.robot.model);
+  readAllow(map, setup.robot.model);
+  readWeights(map, setup);
+  Joints active;
+  if (map.find("group") && map.find("joints"))
+    map.fault("joints", "one of group and joints is needed, not both");
+  else if (map.find("group"))
+    active = readGroup(map, setup.robot.model);
+  else if (map.find("joints"))
+    active = readJointList(map, setup.robot.model);
+  else if ((active = allMoving(setup)).empty())
+    map.fault("urdf", "has no joint that moves by itself");
+  for (const std::size_t j : active)
+    if (setup.held.contains(j) || setup.heldPoses.contains(j))
+      map.fault("hold", setup.robot.model.joints[j].name + " is planned for, and can't be held");
+  if (map.source().faults.size() != before) return std::nullopt;
+  chooseJoints(setup, active);
+  return setup;
+}
+
+std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults) {
+  RobotSetup setup;
+  auto model = readModel(file, {}, std::nullopt, faults, setup.files);
+  if (!model) return std::nullopt;
+  setup.robot.model = std::move(*model);
+  const Joints active = allMoving(setup);
+  if (active.empty()) {
+    faults.add(file.string(), 0, "has no joint that moves by itself");
+    return std::nullopt;
+  }
+  chooseJoints(setup, active);
+  return setup;
+}
+
+}  // namespace corridor

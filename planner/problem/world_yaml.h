@@ -1,0 +1,15 @@
+#pragma once
+
+#include "planner/problem/assembly.h"
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+
+/// Reads `world` and adds its obstacles to the problem. @param needed a problem without obstacles
+/// is faulted.
+void readWorld(const YamlMap& file, bool needed, Problem& problem);
+
+/// Reads `allow`, pairs of names of bodies. @pre the problem has all its bodies.
+AllowedBodies readAllow(const YamlMap& file, const Problem& problem);
+
+}  // namespace corridor
