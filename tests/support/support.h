@@ -17,6 +17,9 @@ std::optional<std::filesystem::path> omplAppFolder();
 /// CORRIDOR_STRESS).
 bool stressAsked();
 
+/// A new, empty folder for files of one test, which removes it at its end.
+std::filesystem::path newFolder();
+
 /// The seed of a random test: CORRIDOR_SEED where set, else `fallback`. Prints it.
 std::uint64_t testSeed(std::uint64_t fallback);
 
