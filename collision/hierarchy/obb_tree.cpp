@@ -1,7 +1,9 @@
 #include "collision/hierarchy/obb_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "collision/core/rounding.h"
 
@@ -64,8 +66,8 @@ ObbTree::ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params) {
     nodes_.push_back(node);
     if (task.count == 1) continue;
 
-    int order[3] = {0, 1, 2};
-    std::sort(order, order + 3, [&](int i, int j) { return node.box.half[i] > node.box.half[j]; });
+    std::array<int, 3> order = {0, 1, 2};
+    std::ranges::sort(order, std::ranges::greater(), [&](int i) { return node.box.half[i]; });
     for (const int axis : order) {
       const std::uint32_t below = partition(triangles_, meshTriangle_, task.first, task.count,
                                             frame.mean, frame.axes.col(axis));

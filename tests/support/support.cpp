@@ -1,8 +1,10 @@
 #include "tests/support/support.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <system_error>
 
 namespace corridor::test {
 namespace {
@@ -29,6 +31,12 @@ std::optional<std::filesystem::path> omplAppFolder() {
 
 bool stressAsked() {
   return std::getenv("CORRIDOR_STRESS") != nullptr;
+}
+
+std::filesystem::path newFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "corridor_test_XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
+  return name;
 }
 
 std::uint64_t testSeed(std::uint64_t fallback) {

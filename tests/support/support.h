@@ -17,6 +17,17 @@ std::optional<std::filesystem::path> omplAppFolder();
 /// CORRIDOR_STRESS).
 bool stressAsked();
 
+/// What limits of time are multiplied by: under AddressSanitizer searches take up to 15 times as
+/// long.
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kPatience = 20;
+#else
+constexpr double kPatience = 1;
+#endif
+
+/// A new, empty folder for files of one test, which removes it at its end.
+std::filesystem::path newFolder();
+
 /// The seed of a random test: CORRIDOR_SEED where set, else `fallback`. Prints it.
 std::uint64_t testSeed(std::uint64_t fallback);
 

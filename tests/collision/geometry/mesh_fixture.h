@@ -10,19 +10,13 @@
 
 #include "collision/core/error.h"
 #include "collision/geometry/mesh_file.h"
+#include "tests/support/support.h"
 
 namespace corridor::test {
 
 /// Tests that write small mesh files into a folder of their own.
 class MeshFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("corridor_" + std::string(info->test_suite_name()) + '_' + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
@@ -55,7 +49,7 @@ class MeshFileTest : public testing::Test {
     return complaint(write(name, bytes), options);
   }
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = newFolder();
 };
 
 /// The bytes of numbers, least significant first or last.

@@ -38,7 +38,7 @@ TEST_P(Fits, ContainsItsTrianglesInRationals) {
 
 TEST_P(Fits, SharedMeshes) {
   const auto data = test::dataFolder();
-  if (!data) GTEST_SKIP() << "no shared data (set CORRIDOR_DATA)";
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   for (const char* name :
        {"pqp_bunny", "slivers_A", "soup_far_A", "soup_tiny_B", "touching_boxes_B", "panda_hand"}) {
     const ObbTree tree(

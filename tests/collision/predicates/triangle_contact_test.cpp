@@ -28,7 +28,7 @@ bool touch(const Triangle& a, const Triangle& b, const Transform& X_WA = {},
 
 TEST(TriangleContact, SharedData) {
   const auto data = test::dataFolder();
-  if (!data) GTEST_SKIP() << "no shared data (set CORRIDOR_DATA)";
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   int files = 0, pairs = 0, wrong = 0;
   for (const auto& entry : std::filesystem::directory_iterator(*data / "collision" / "tripairs")) {
     std::ifstream in(entry.path());

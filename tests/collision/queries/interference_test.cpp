@@ -16,7 +16,7 @@ class Fits : public testing::TestWithParam<ObbFit> {};
 
 TEST_P(Fits, SharedWorkloads) {
   const auto data = test::dataFolder();
-  if (!data) GTEST_SKIP() << "no shared data (set CORRIDOR_DATA)";
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   QueryContext context;
   int poses = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {

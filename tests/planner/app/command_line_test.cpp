@@ -7,11 +7,12 @@
 #include <iterator>
 #include <string>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "tests/support/support.h"
 
 namespace {
 
@@ -25,10 +26,7 @@ struct Result {
 
 class CommandLine : public testing::Test {
  protected:
-  CommandLine()
-      : folder_(std::filesystem::path(testing::TempDir()) /
-                ("corridor_app_test" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
+  CommandLine() {
     write("cube.obj",
           "v -.1 -.1 -.1\nv .1 -.1 -.1\nv .1 .1 -.1\nv -.1 .1 -.1\nv -.1 -.1 .1\nv .1 -.1 .1\nv .1 "
           ".1 .1\nv -.1 .1 .1\n"
@@ -60,7 +58,7 @@ class CommandLine : public testing::Test {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = corridor::test::newFolder();
 };
 
 TEST_F(CommandLine, SolveThenVerify) {

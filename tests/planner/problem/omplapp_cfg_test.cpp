@@ -251,7 +251,7 @@ double numberOf(const std::filesystem::path& cfg, const std::string& key) {
 
 TEST(OmplAppProblems, AgreeWithTheReference) {
   const auto folder = omplAppFolder();
-  if (!folder) GTEST_SKIP() << "CORRIDOR_OMPLAPP is not set to OMPL.app's folder resources";
+  if (!folder) GTEST_SKIP() << "set CORRIDOR_OMPLAPP to OMPL.app's folder resources";
   for (const Reference& r : references()) {
     SCOPED_TRACE(r.file);
     const Problem p = readProblem(*folder / r.file);
@@ -325,7 +325,7 @@ Scene sceneOf(const Problem& problem, const Vec3& shift) {
 
 TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
   const auto folder = omplAppFolder();
-  if (!folder) GTEST_SKIP() << "CORRIDOR_OMPLAPP is not set to OMPL.app's folder resources";
+  if (!folder) GTEST_SKIP() << "set CORRIDOR_OMPLAPP to OMPL.app's folder resources";
   struct Sample {
     const char* name;
     std::size_t states;
@@ -356,7 +356,7 @@ TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
 
 TEST(OmplAppProblems, EveryOtherOneIsReadOrSaysWhyNot) {
   const auto folder = omplAppFolder();
-  if (!folder) GTEST_SKIP() << "CORRIDOR_OMPLAPP is not set to OMPL.app's folder resources";
+  if (!folder) GTEST_SKIP() << "set CORRIDOR_OMPLAPP to OMPL.app's folder resources";
   int read = 0, dynamic = 0;
   for (const char* part : {"2D", "3D"})
     for (const auto& entry : std::filesystem::directory_iterator(*folder / part)) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/problem/problem.h"
+#include "tests/support/support.h"
 
 namespace corridor::test {
 
@@ -15,11 +16,6 @@ namespace corridor::test {
 class ProblemTest : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("corridor_" + std::string(info->test_suite_name()) + '_' + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
     write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     write("robot.yaml", robot3);
     write("flat.yaml", robot2);
@@ -70,7 +66,7 @@ class ProblemTest : public testing::Test {
   inline static const std::string planarPoses =
       "start: {at: [5, 0]}\ngoal: {at: [0, 5]}\nbounds: {at: [[-9, -9], [9, 9]]}\n";
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = newFolder();
 };
 
 }  // namespace corridor::test

@@ -6,6 +6,7 @@
 #include "planner/problem/problem.h"
 #include "planner/solve/solve.h"
 #include "planner/solve/verify_solution.h"
+#include "tests/support/support.h"
 
 namespace corridor {
 namespace {
@@ -21,8 +22,9 @@ INSTANTIATE_TEST_SUITE_P(All, OwnProblems,
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST_P(OwnProblems, SolvedByItsDefaultsCertifiedAndVerified) {
-  const Problem problem = ownProblem(GetParam());
+  Problem problem = ownProblem(GetParam());
   EXPECT_LE(problem.planner.time, 60);
+  problem.planner.time *= test::kPatience;
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_TRUE(report.certified);

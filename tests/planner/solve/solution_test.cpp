@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
+#include "tests/support/support.h"
 
 namespace corridor {
 namespace {
@@ -16,9 +17,6 @@ using testing::HasSubstr;
 
 class SolutionFile : public testing::Test {
  protected:
-  SolutionFile() : folder_(std::filesystem::path(testing::TempDir()) / "corridor_solution_test") {
-    std::filesystem::create_directories(folder_);
-  }
   ~SolutionFile() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -60,7 +58,7 @@ class SolutionFile : public testing::Test {
     }
     return s;
   }
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = test::newFolder();
 };
 
 TEST_F(SolutionFile, RoundTripIsBitForBit) {
