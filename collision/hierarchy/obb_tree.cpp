@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "collision/core/rounding.h"
+#include "collision/volumes/part_obb.h"
 
 namespace corridor {
 namespace {
@@ -57,13 +58,9 @@ ObbTree::ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params) {
     const ObbFrame frame = fitFrame(own, params.fit);
     Node node;
     node.box = enclosingObb(own, frame.axes);
-    node.radius =
-        roundedUp(node.box.half.stableNorm() * (1 + 3 * orthonormalityDefect(frame.axes)));
     node.first = task.first;
     node.count = task.count;
-    axisDefect_ = std::max(axisDefect_, orthonormalityDefect(frame.axes));
-    centerReach_ = std::max(centerReach_, roundedUp(node.box.center.stableNorm()));
-    nodes_.push_back(node);
+    addNode(node);
     if (task.count == 1) continue;
 
     std::array<int, 3> order = {0, 1, 2};
@@ -78,6 +75,22 @@ ObbTree::ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params) {
     }
   }
   nodes_.shrink_to_fit();
+}
+
+ObbTree::ObbTree(const ConvexPart& part) : part_(part) {
+  for (const Vec3& p : part.points)
+    reach_ = std::max(reach_, roundedUp(p.stableNorm() + part.radius));
+  Node node;
+  node.box = enclosingObb(part);
+  addNode(node);
+}
+
+void ObbTree::addNode(const Node& node) {
+  const double defect = orthonormalityDefect(node.box.axes);
+  nodes_.push_back(node);
+  nodes_.back().radius = roundedUp(node.box.half.stableNorm() * (1 + 3 * defect));
+  axisDefect_ = std::max(axisDefect_, defect);
+  centerReach_ = std::max(centerReach_, roundedUp(node.box.center.stableNorm()));
 }
 
 std::size_t ObbTree::depth() const {
@@ -97,7 +110,8 @@ std::size_t ObbTree::depth() const {
 std::size_t ObbTree::bytes() const {
   return sizeof(*this) + nodes_.capacity() * sizeof(Node) +
          triangles_.capacity() * sizeof(Triangle) +
-         meshTriangle_.capacity() * sizeof(std::uint32_t);
+         meshTriangle_.capacity() * sizeof(std::uint32_t) +
+         (part_ ? part_->points.capacity() * sizeof(Vec3) : 0);
 }
 
 }  // namespace corridor

@@ -40,7 +40,8 @@ class ObbTree {
 
   /// @pre the mesh has a triangle, finite coordinates, and indices in range (`checkMesh`).
   explicit ObbTree(const TriangleMesh& mesh, const ObbTreeParams& params = {});
-  /// One leaf, which holds a convex part: no triangles. @pre a sound part (`checkPrimitive`).
+  /// One leaf, which holds a convex part: no triangles, `count` 0. @pre a sound part
+  /// (`checkPrimitive`).
   explicit ObbTree(const ConvexPart& part);
 
   /// What the one leaf holds, or null: the leaves hold triangles.
@@ -57,18 +58,20 @@ class ObbTree {
   /// largest |center|₂, rounded up.
   double axisDefect() const { return axisDefect_; }
   double centerReach() const { return centerReach_; }
-  /// Largest |corner|₂, rounded up.
+  /// Largest |x|₂ of all points, rounded up.
   double reach() const { return reach_; }
 
   std::size_t depth() const;
   std::size_t bytes() const;
 
   /// Proves in rationals that every node's box, as the set that `Obb` says, contains every triangle
-  /// of the node, that each triangle is in exactly one leaf, and that children partition their
-  /// parents. Returns the first complaint.
+  /// of the node, or the part with its ball or discs, that each triangle is in exactly one leaf,
+  /// and that children partition their parents. Returns the first complaint.
   std::optional<std::string> check() const;
 
  private:
+  void addNode(const Node& node);
+
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> meshTriangle_;

@@ -29,6 +29,26 @@ class ExactBox {
       if (abs(dot(d, crosses_[k])) > half_[k] * volume_) return false;
     return volume_ > 0;
   }
+  /// With a ball of radius r about p, or a disc of radius r at a right angle to d. They reach
+  /// r|g_i|, or r|g_i × d|/|d|, farther, g_i = crosses_i/volume the i-th row of U⁻¹: squared, that
+  /// is rational.
+  bool contains(const Vec3& p, double radius, const Vec3* from, const Vec3* to) const {
+    if (!contains(p)) return false;
+    Row d, axis;
+    for (int i = 0; i < 3; ++i) {
+      d[i] = Rational(p[i]) - center_[i];
+      if (from) axis[i] = Rational((*to)[i]) - Rational((*from)[i]);
+    }
+    const Rational square = from ? dot(axis, axis) : Rational(0), r = Rational(radius) * radius;
+    for (int k = 0; k < 3; ++k) {
+      const Rational left = half_[k] * volume_ - abs(dot(d, crosses_[k]));
+      const Row across = cross(crosses_[k], axis);
+      const bool holds = square > 0 ? left * left * square >= r * dot(across, across)
+                                    : left * left >= r * dot(crosses_[k], crosses_[k]);
+      if (!holds) return false;
+    }
+    return true;
+  }
 
  private:
   using Row = std::array<Rational, 3>;
@@ -49,6 +69,16 @@ std::optional<std::string> ObbTree::check() const {
   const auto named = [](const char* what, std::size_t i) {
     return std::string(what) + " " + std::to_string(i);
   };
+  if (part_) {
+    const ExactBox box(nodes_[0].box);
+    const auto& points = part_->points;
+    const bool discs = part_->flatEnds;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (!box.contains(points[i], part_->radius, discs ? &points[0] : nullptr,
+                        discs ? &points[1] : nullptr))
+        return named("the box does not contain what is around point", i);
+    return std::nullopt;
+  }
   std::vector<int> seen(triangles_.size(), 0);
   if (nodes_[0].first != 0 || nodes_[0].count != triangles_.size())
     return "the root does not hold all triangles";

@@ -3,29 +3,37 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/convex/convex_contact.h"
 #include "collision/core/rounding.h"
 #include "collision/predicates/triangle_contact.h"
+#include "collision/queries/relative_pose.h"
 #include "collision/volumes/overlap_obb_obb.h"
 
 namespace corridor {
 namespace {
 
-/// How far X_WA·(X_AB·p) may be from X_WB·p for |p| ≤ reach, brought back to frame A: a contact in
-/// W is, in A, a pair of points of the boxes at most this far apart, so boxes farther apart have
-/// none.
-double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Transform& X_WB,
-                         double reach) {
-  const Transform back = X_WA * X_AB;
-  // Each entry of `back` has at most 4 roundings of terms whose sizes sum up to `size`.
-  const double size = (X_WA.m.cwiseAbs() * X_AB.m.cwiseAbs()).sum();
-  const double sizeT =
-      (X_WA.m.cwiseAbs() * X_AB.t.cwiseAbs() + X_WA.t.cwiseAbs() + X_WB.t.cwiseAbs()).sum();
-  const double error = ((back.m - X_WB.m).norm() + 8 * kUnit * size) * reach +
-                       (back.t - X_WB.t).norm() + 8 * kUnit * sizeT;
-  // |M x| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|; where that is not positive nothing can be said and nothing
-  // is pruned.
-  const double shrink = 1 - 3 * orthonormalityDefect(X_WA.m);
-  return shrink > 0.5 ? roundedUp(error / shrink) : HUGE_VAL;
+ConvexSet leafSet(const ObbTree& tree, std::uint32_t triangle) {
+  return tree.part() ? ConvexSet(*tree.part()) : ConvexSet(tree.triangles()[triangle]);
+}
+
+/// Two leaves: all of the one's triangles, or its part, against all of the other's.
+std::optional<TrianglePair> leafContact(const ObbTree& a, const ObbTree::Node& na,
+                                        const Transform& X_WA, const ObbTree& b,
+                                        const ObbTree::Node& nb, const Transform& X_WB,
+                                        Counters& counters, std::uint64_t workEnd) {
+  const auto spare = [&] { return counters.boxTests + counters.triangleTests < workEnd; };
+  const auto number = [](const ObbTree& tree, std::uint32_t i) {
+    return tree.part() ? 0 : tree.meshTriangle(i);
+  };
+  const bool meshes = !a.part() && !b.part();
+  const std::uint32_t endA = a.part() ? 1 : na.first + na.count,
+                      endB = b.part() ? 1 : nb.first + nb.count;
+  for (std::uint32_t s = na.first; s < endA; ++s)
+    for (std::uint32_t t = nb.first; t < endB && spare(); ++t)
+      if (meshes ? trianglesTouch(a.triangles()[s], X_WA, b.triangles()[t], X_WB, counters)
+                 : convexSetsTouch({leafSet(a, s), X_WA}, {leafSet(b, t), X_WB}, counters))
+        return TrianglePair{number(a, s), number(b, t)};
+  return std::nullopt;
 }
 
 std::optional<TrianglePair> walk(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
@@ -43,10 +51,8 @@ std::optional<TrianglePair> walk(const ObbTree& a, const Transform& X_WA, const 
     ++context.counters.boxTests;
     if (obbsSeparated(na.box, nb.box, X_AB, margins, 0)) continue;
     if (na.isLeaf() && nb.isLeaf()) {
-      for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
-        for (std::uint32_t t = nb.first; t < nb.first + nb.count && work() < workEnd; ++t)
-          if (trianglesTouch(a.triangles()[s], X_WA, b.triangles()[t], X_WB, context.counters))
-            return TrianglePair{a.meshTriangle(s), b.meshTriangle(t)};
+      if (const auto hit = leafContact(a, na, X_WA, b, nb, X_WB, context.counters, workEnd))
+        return hit;
     } else if (nb.isLeaf() || (!na.isLeaf() && na.radius >= nb.radius)) {
       stack.push_back({na.right, j, 0});
       stack.push_back({i + 1, j, 0});

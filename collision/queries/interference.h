@@ -9,17 +9,18 @@
 
 namespace corridor {
 
-/// Two triangles that touch, by their numbers in the meshes.
+/// Two triangles that touch, by their numbers in the meshes; 0 for a convex part.
 struct TrianglePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Do closed triangles of a under X_WA and of b under X_WB share a point? The first pair found, or
-/// none.
+/// Do closed triangles of a (or its convex part, a solid) under X_WA and of b under X_WB share a
+/// point? The first pair found, or none.
 ///
 /// Exact for the twelve doubles of each map in real arithmetic (design: contract 1), for any finite
-/// maps; near-rigid ones are fast, since only then the boxes prune. @pre finite maps (`Scene`
-/// throws on others).
+/// maps; near-rigid ones are fast, since only then the boxes prune. With a convex part: never
+/// falsely none, and right outside the band of `convexSetsTouch`. @pre finite maps (`Scene` throws
+/// on others).
 std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
                                          const Transform& X_WB, QueryContext& context);
 

@@ -1,0 +1,48 @@
+#include "collision/convex/convex_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/rounding.h"
+
+namespace corridor {
+
+ConvexSet::ConvexSet(const ConvexPart& part) : points(part.points), ball(part.radius) {
+  if (!part.flatEnds) return;
+  const Vec3 d = part.points[1] - part.points[0];
+  const double square = d.squaredNorm();
+  // Where rounding has left no axis, the capsule around all cylinders that it may be.
+  if (!(square > 0x1p-900 && square < 0x1p900)) return;
+  axis = d / std::sqrt(square);
+  std::swap(ball, disc);
+}
+
+ConvexSet::ConvexSet(const Triangle& triangle) : points(triangle) {}
+
+PosedSet::PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {
+  double farthest = 0;
+  for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
+  // Squares below 2^-1022 vanish, lengths below 2^-511 with them: 2^-500 covers what they hide.
+  reach_ =
+      roundedUp(std::max(1.0, X.m.norm()) * (std::sqrt(farthest) + set.ball + set.disc + 0x1p-500));
+  error_ = roundedUp(kUnit * (20 * reach_ + 6 * X.t.norm()));
+}
+
+double PosedSet::coreHighest(const Vec3& m) const {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Vec3& p : set_.points) {
+    const double along = m.dot(p);
+    if (!(along <= highest) && !std::isnan(highest)) highest = along;  // NaN stays
+  }
+  return set_.disc > 0 ? highest + set_.disc * m.cross(set_.axis).norm() : highest;
+}
+
+double PosedSet::highest(const Vec3& n) const {
+  const Vec3 m = X_.m.transpose() * n;
+  return n.dot(X_.t) + (coreHighest(m) + set_.ball * m.norm());
+}
+
+}  // namespace corridor

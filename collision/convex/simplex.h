@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cmath>
+
+#include "collision/core/transform.h"
+
+/// The distance sub-algorithm of GJK: the point of a simplex closest to the origin, and a direction
+/// that is good even where the distance is tiny: the normal of the face that the point lies in,
+/// or the origin's offset made orthogonal to the edge, never the difference of near points alone.
+namespace corridor::gjk {
+
+/// Three numbers of a scalar type that Eigen doesn't know.
+template <class Real>
+struct Vector {
+  Real x{}, y{}, z{};
+
+  Vector() = default;
+  Vector(const Real& x0, const Real& y0, const Real& z0) : x(x0), y(y0), z(z0) {}
+  explicit Vector(const Vec3& v) : x(v[0]), y(v[1]), z(v[2]) {}
+
+  friend Vector operator+(const Vector& a, const Vector& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend Vector operator-(const Vector& a, const Vector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  Vector operator-() const { return {-x, -y, -z}; }
+  friend Vector operator*(const Vector& a, const Real& s) { return {a.x * s, a.y * s, a.z * s}; }
+  friend Real dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  friend bool operator==(const Vector& a, const Vector& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
+};
+
+template <class Real>
+Real length(const Vector<Real>& v) {
+  using std::sqrt;
+  return sqrt(dot(v, v));
+}
+
+/// The smallest face of a simplex that holds its point closest to the origin.
+template <class Real>
+struct Nearest {
+  Vector<Real> v;          ///< the point, exact in direction above all
+  Real squared = Real(0);  ///< its squared distance
+  int count = 0;
+  Vector<Real> corner[4];  ///< of that face
+  /// The origin is in the simplex (`count` 4), by more than rounding can feign.
+  bool inside = false;
+};
+
+template <class Real>
+Nearest<Real> nearest(const Vector<Real>& a) {
+  return {a, dot(a, a), 1, {a}, false};
+}
+
+template <class Real>
+Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b) {
+  const Vector<Real> d = b - a;
+  const Real square = dot(d, d), along = -dot(a, d);
+  if (!(along > Real(0))) return nearest(a);
+  if (!(along < square)) return nearest(b);
+  Vector<Real> v = a + d * (along / square);
+  v = v - d * (dot(v, d) / square);  // at a right angle to d, whatever was cancelled above
+  return {v, dot(v, v), 2, {a, b}, false};
+}
+
+template <class Real>
+Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
+  const Vector<Real> ab = b - a, bc = c - b, ca = a - c, n = cross(ab, bc);
+  const Real square = dot(n, n), zero(0);
+  // Which edges the origin's foot lies outside of; all of them where there is no plane.
+  const Real areaC = dot(n, cross(a, ab)), areaA = dot(n, cross(b, bc)),
+             areaB = dot(n, cross(c, ca));
+  const bool outAB = !(areaC > zero), outBC = !(areaA > zero), outCA = !(areaB > zero);
+  if (square > zero && !outAB && !outBC && !outCA) {
+    // Its distance from a convex combination, which is a point of the triangle whatever the
+    // rounding of its weights; its direction from the normal.
+    const Vector<Real> foot =
+        (a * areaA + b * areaB + c * areaC) * (Real(1) / (areaA + areaB + areaC));
+    return {n * (dot(n, a) / square), dot(foot, foot), 3, {a, b, c}, false};
+  }
+  Nearest<Real> best;
+  const auto offer = [&](bool out, const Vector<Real>& p, const Vector<Real>& q) {
+    if (!out) return;
+    const Nearest<Real> edge = nearest(p, q);
+    if (best.count == 0 || edge.squared < best.squared) best = edge;
+  };
+  offer(outAB, a, b);
+  offer(outBC, b, c);
+  offer(outCA, c, a);
+  return best.count > 0 ? best : nearest(a, b);
+}
+
+/// @param noise  metres: rounding of the corners' coordinates; heights of about as much are none.
+template <class Real>
+Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c,
+                      const Vector<Real>& d, const Real& noise) {
+  const Vector<Real>* const corners[4] = {&a, &b, &c, &d};
+  Real largest(0);
+  for (const Vector<Real>* p : corners) {
+    const Real s = dot(*p, *p);
+    if (s > largest) largest = s;
+  }
+  const Real unsure = noise * largest;  // of a determinant
+  Nearest<Real> best;
+  bool clear = true;
+  for (int k = 0; k < 4; ++k) {
+    const Vector<Real>&p = *corners[(k + 1) % 4], &q = *corners[(k + 2) % 4],
+          &r = *corners[(k + 3) % 4];
+    const Vector<Real> n = cross(q - p, r - p);
+    Real origin = -dot(n, p), apex = dot(n, *corners[k] - p);
+    if (apex < Real(0)) {
+      origin = -origin;
+      apex = -apex;
+    }
+    clear = clear && origin > unsure && apex > unsure;
+    if (origin > Real(0) && apex > unsure) continue;
+    const Nearest<Real> face = nearest(p, q, r);
+    if (best.count == 0 || face.squared < best.squared) best = face;
+  }
+  if (best.count > 0) return best;
+  return {{}, Real(0), 4, {a, b, c, d}, clear};
+}
+
+}  // namespace corridor::gjk

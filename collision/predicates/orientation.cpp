@@ -1,0 +1,56 @@
+#include "collision/predicates/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/rounding.h"
+#include "collision/predicates/exact_number.h"
+
+namespace corridor {
+namespace {
+
+template <class Int>
+int exactSign(const MappedPoint* const (&points)[4], const exact::Grid& grid) {
+  const auto at = [&](int i) { return exact::mapped<Int>(points[i]->X, points[i]->p, grid); };
+  const exact::Vector<Int> p = at(0);
+  return exact::sign(exact::dot(at(3) - p, exact::cross(at(1) - p, at(2) - p)));
+}
+
+}  // namespace
+
+int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
+                    const MappedPoint& s) {
+  const MappedPoint* const points[4] = {&p, &q, &r, &s};
+  Vec3 mapped[4];
+  double error = 0;
+  for (int i = 0; i < 4; ++i) {
+    const auto& [X, v] = *points[i];
+    mapped[i] = X * v;
+    // Three products and a translation: four roundings on the longest path.
+    error =
+        std::max(error, 4.1 * kUnit *
+                            (X.m.cwiseAbs().rowwise().sum().maxCoeff() * v.cwiseAbs().maxCoeff() +
+                             X.t.cwiseAbs().maxCoeff()));
+  }
+  const Vec3 a = mapped[1] - mapped[0], b = mapped[2] - mapped[0], c = mapped[3] - mapped[0];
+  // The bound of `trianglesTouch`' filter: entries below D, each off by e.
+  const double d =
+      std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+  const double e = 2 * roundedUp(error) + kUnit * d, D = d + e;
+  if (D > 0x1p-250 && D < 0x1p250) {
+    const double det = c.dot(a.cross(b)), bound = roundedUp((18 * e + 40 * kUnit * D) * D * D);
+    if (det > bound) return 1;
+    if (det < -bound) return -1;
+  }
+  exact::Grid grid;
+  for (const MappedPoint* point : points) grid.include({point->p, point->p, point->p}, point->X);
+  // As in `trianglesTouchExact`.
+  const int bits = 3 * grid.coordinateBits() + 6;
+  if (bits <= 512) return exactSign<exact::FixedInt<512>>(points, grid);
+  if (bits <= 1024) return exactSign<exact::FixedInt<1024>>(points, grid);
+  return exactSign<exact::BigInt>(points, grid);
+}
+
+}  // namespace corridor

@@ -1,0 +1,131 @@
+#include "collision/queries/containment.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/rounding.h"
+#include "collision/predicates/orientation.h"
+#include "collision/queries/relative_pose.h"
+#include "collision/volumes/overlap_obb_obb.h"
+
+namespace corridor {
+namespace {
+
+using Component = MeshComponents::Component;
+
+/// Rays that meet an edge or lie in a plane are cast again, in another direction. Directions are
+/// spread over the sphere (a spiral by the golden angle), none of them special to any mesh.
+constexpr int kCasts = 64;
+Vec3 direction(int cast) {
+  const double z = std::remainder(0.1234567 + 0.7548776662 * cast, 1.0) * 2,
+               angle = 1 + cast * std::numbers::pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+enum class Crossing { none, one, degenerate };
+
+/// Does the segment from q to the far end, which is on no triangle, cross the triangle?
+Crossing crossing(const MappedPoint& q, const MappedPoint& end, const Triangle& t,
+                  const Transform& X_WS) {
+  if (t[0] == t[1] && t[1] == t[2]) return Crossing::none;  // a point: nothing closed needs it
+  const MappedPoint v[3] = {{X_WS, t[0]}, {X_WS, t[1]}, {X_WS, t[2]}};
+  int sum = 0, zeros = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int side = orientationSign(q, end, v[i], v[(i + 1) % 3]);
+    sum += side;
+    zeros += side == 0;
+  }
+  if (std::abs(sum) + zeros < 3) return Crossing::none;  // left of one edge, right of another
+  if (zeros > 0) return Crossing::degenerate;
+  return orientationSign(v[0], v[1], v[2], q) == orientationSign(v[0], v[1], v[2], end)
+             ? Crossing::none
+             : Crossing::one;
+}
+
+/// How often the segment crosses component `k`; nullopt where it can't be told.
+std::optional<int> crossings(const MeshBody& solid, std::uint32_t k, const Transform& X_WS,
+                             const MappedPoint& q, const Vec3& q_S, double error, const Vec3& end_S,
+                             QueryContext& context) {
+  const ObbTree& tree = solid.tree;
+  const Vec3 x = (end_S - q_S).normalized(), y = x.unitOrthogonal();
+  Mat3 axes;
+  axes << x, y, x.cross(y);
+  const Triangle segment = {q_S, q_S, end_S};
+  const Obb box = enclosingObb(std::span(&segment, 1), axes);
+  const BoxPairMargins margins =
+      boxPairMargins(tree.axisDefect(), tree.centerReach(), orthonormalityDefect(axes),
+                     roundedUp(box.center.norm()), {});
+  const MappedPoint end{X_WS, end_S};
+  int count = 0;
+  auto& stack = context.stack;
+  stack.clear();
+  stack.push_back({0, 0, 0});
+  while (!stack.empty()) {
+    const std::uint32_t i = stack.back().a;
+    stack.pop_back();
+    const ObbTree::Node& node = tree.node(i);
+    ++context.counters.boxTests;
+    if (obbsSeparated(node.box, box, {}, margins, error)) continue;
+    if (!node.isLeaf()) {
+      stack.push_back({node.right, 0, 0});
+      stack.push_back({i + 1, 0, 0});
+      continue;
+    }
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+      if (solid.components.of[tree.meshTriangle(t)] != k) continue;
+      ++context.counters.triangleTests;
+      const Crossing found = crossing(q, end, tree.triangles()[t], X_WS);
+      if (found == Crossing::degenerate) return std::nullopt;
+      count += found == Crossing::one;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> containing(const MeshBody& solid, const Transform& X_WS, const Vec3& p,
+                                        const Transform& X_WP, QueryContext& context) {
+  const Transform X_SP = rigidInverse(X_WS) * X_WP;
+  const Vec3 q_S = X_SP * p;
+  // The product's own rounding: 4.1u of its terms a coordinate, √3 of it.
+  const double error = roundedUp(relativePoseError(X_WS, X_SP, X_WP, roundedUp(p.stableNorm())) +
+                                 8 * kUnit * (X_SP.m.norm() * p.stableNorm() + X_SP.t.norm()));
+  for (std::uint32_t k = 0; k < solid.components.components.size(); ++k) {
+    const Component& component = solid.components.components[k];
+    if (!component.watertight) continue;
+    const Vec3 outside = (component.lower - q_S).cwiseMax(q_S - component.upper);
+    if (outside.maxCoeff() >
+        error + 2 * kUnit * (q_S.norm() + component.lower.norm() + component.upper.norm()))
+      continue;
+    const Vec3 center = component.lower + 0.5 * (component.upper - component.lower);
+    const double far = 2 * (component.upper - component.lower).norm();
+    std::optional<int> count;
+    for (int cast = 0; cast < kCasts && !count; ++cast)
+      count =
+          crossings(solid, k, X_WS, {X_WP, p}, q_S, error, center + far * direction(cast), context);
+    if (!count || *count % 2 == 1) return component.triangle;  // not told: better in than out
+  }
+  return std::nullopt;
+}
+
+std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_WS,
+                                     const MeshBody& inner, const Transform& X_WI,
+                                     QueryContext& context) {
+  for (const Component& component : inner.components.components)
+    if (const auto triangle = containing(solid, X_WS, component.corner, X_WI, context))
+      return TrianglePair{*triangle, component.triangle};
+  return std::nullopt;
+}
+
+std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_WS,
+                                     const ConvexPart& inner, const Transform& X_WI,
+                                     QueryContext& context) {
+  if (const auto triangle = containing(solid, X_WS, inner.points[0], X_WI, context))
+    return TrianglePair{*triangle, 0};
+  return std::nullopt;
+}
+
+}  // namespace corridor

@@ -1,0 +1,59 @@
+#include "collision/volumes/part_obb.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/rounding.h"
+
+namespace corridor {
+namespace {
+
+/// Orthonormal axes that begin with u and go on towards v; the identity where u vanishes, any
+/// completion where v adds nothing.
+Mat3 axesAlong(const Vec3& u, const Vec3& v) {
+  const Vec3 x = u.stableNormalized();
+  if (!(std::abs(x.norm() - 1) < 0x1p-20)) return Mat3::Identity();
+  Vec3 y = v.stableNormalized();
+  y -= x * x.dot(y);
+  if (!(y.norm() > 0x1p-20)) y = x.unitOrthogonal();
+  y = (y - x * x.dot(y)).normalized();
+  y = (y - x * x.dot(y)).normalized();
+  Mat3 axes;
+  axes << x, y, x.cross(y);
+  return axes.allFinite() && orthonormalityDefect(axes) < 0x1p-40 ? axes : Mat3::Identity();
+}
+
+/// The least sum of half extents: right for flat sets, too, whose volume is none.
+const Obb& smaller(const Obb& a, const Obb& b) {
+  return a.half.sum() <= b.half.sum() ? a : b;
+}
+
+}  // namespace
+
+Obb enclosingObb(const ConvexPart& part) {
+  const auto& points = part.points;
+  std::vector<Triangle> corners;  // as degenerate triangles
+  for (const Vec3& p : points) corners.push_back({p, p, p});
+  const auto edge = [&](std::size_t i) {
+    return i < points.size() ? Vec3(points[i] - points[0]) : Vec3::Zero();
+  };
+  Obb box = enclosingObb(corners, axesAlong(edge(1), edge(2)));
+  if (points.size() > 2)
+    box = smaller(box, enclosingObb(corners, fitFrame(corners, ObbFit::hull).axes));
+  if (part.radius == 0) return box;
+
+  // A ball of radius r reaches r|g_i| along axis i, g_i the rows of U⁻¹; a disc across d̂ reaches
+  // r|g_i × d̂|. With η the axes' defect |g_i − u_i| ≤ 4η (U⁻¹ = (UᵀU)⁻¹Uᵀ, |UᵀU − I|₂ ≤ 3η), and
+  // |u_i| ≤ 1 + η; rounding d̂ and the cross product takes less than 16u.
+  const double loose = 6 * orthonormalityDefect(box.axes) + 16 * kUnit;
+  const Vec3 d = edge(1).stableNormalized();
+  const bool discs = part.flatEnds && std::abs(d.norm() - 1) < 0x1p-20;
+  for (int i = 0; i < 3; ++i) {
+    const double share = discs ? box.axes.col(i).cross(d).norm() : 1;
+    box.half[i] = roundedUp(box.half[i] + part.radius * (share + loose));
+  }
+  return box;
+}
+
+}  // namespace corridor
