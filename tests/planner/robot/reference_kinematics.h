@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include "planner/robot/kinematic_tree.h"
@@ -36,8 +39,8 @@ inline Mat3L crossL(const Vec3L& a) {
 }
 
 /// The definition of an edge and of forward kinematics once more, in long double and by other
-/// formulas than the code under test: all frames from the world down, slerp by the two sine
-/// weights, derivatives by the product rule.
+/// formulas than the code under test: quaternions joint by joint, slerp by the two sine weights,
+/// derivatives by the product rule.
 class ReferenceKinematics {
  public:
   ReferenceKinematics(const KinematicTree& tree, const ConfigurationSpace& space,
@@ -46,25 +49,29 @@ class ReferenceKinematics {
 
   std::vector<MovingPose> poses(Real t) const {
     std::vector<MovingPose> all(tree_.frames.size());
-    for (std::size_t f = 1; f < all.size(); ++f) {
-      const Frame& frame = tree_.frames[f];
-      MovingPose fixed;
-      fixed.m = rotation(frame.fixed.q.coeffs().cast<Real>().stableNormalized());
-      fixed.t = frame.fixed.p.cast<Real>();
-      all[f] = all[frame.parent] * fixed * joint(frame, t);
-    }
+    for (std::size_t f = 1; f < all.size(); ++f) all[f] = all[tree_.frames[f].parent] * place(f, t);
     return all;
   }
-  /// Of b, as seen from a.
+  /// Of b, as seen from a; what they have in common is left out, so that its rounding is, too.
   MovingPose relative(std::size_t a, std::size_t b, Real t) const {
-    const auto all = poses(t);
-    return all[a].inverse() * all[b];
+    MovingPose ofA, ofB;
+    while (a != b) {
+      (a > b ? ofA : ofB) = place(std::max(a, b), t) * (a > b ? ofA : ofB);
+      (a > b ? a : b) = tree_.frames[std::max(a, b)].parent;
+    }
+    return ofA.inverse() * ofB;
   }
 
  private:
-  static Mat3L rotation(const Vec4L& q) {
-    return Eigen::Quaternion<Real>(q).toRotationMatrix();
+  /// Of a frame in its parent's.
+  MovingPose place(std::size_t f, Real t) const {
+    const Frame& frame = tree_.frames[f];
+    MovingPose fixed;
+    fixed.m = rotation(frame.fixed.q.coeffs().cast<Real>().stableNormalized());
+    fixed.t = frame.fixed.p.cast<Real>();
+    return fixed * joint(frame, t);
   }
+  static Mat3L rotation(const Vec4L& q) { return Eigen::Quaternion<Real>(q).toRotationMatrix(); }
   const Coordinate& coordinate(std::size_t number) const {
     for (const Coordinate& c : space_.coordinates())
       if (c.first == number) return c;

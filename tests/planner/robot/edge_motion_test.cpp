@@ -1,0 +1,296 @@
+// Relative motions of frames against an independent long double kinematics.
+#include "planner/robot/edge_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/robot/random_trees.h"
+#include "tests/planner/robot/reference_kinematics.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::MovingPose;
+using test::RandomTrees;
+using test::Real;
+using test::ReferenceKinematics;
+
+constexpr double pi = std::numbers::pi;
+
+/// Windows are exact in t, as `certifyMotion` makes them.
+std::pair<double, double> window(RandomTrees& random) {
+  const double h = std::ldexp(0.5, -static_cast<int>(random.index(12)));
+  return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
+}
+
+/// Of the reference: 2^-64 a rounding, some 100 of them.
+double noise(const MovingPose& real, double reach) {
+  return 1e-17 * (1 + reach + static_cast<double>(real.t.norm()));
+}
+
+/// The header's promise: places and first-order displacements of all points within fixedError +
+/// reachError·|y|, the tube being zero.
+TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
+  RandomTrees random(test::testSeed(1));
+  double worst = 0, worstTwist = 0;  // of the errors as a share of their bound
+  std::vector<double> shares;
+  const int count = test::stressAsked() ? 1'000'000 : 100'000;
+  for (int n = 0; n < count; ++n) {
+    if (n % 5 == 0) random.makeTree(1 + random.index(12), n % 7 ? 1 : 1000);
+    random.makeEdge(n % 3 ? 2 : 20, n % 11 ? 3 : 100);
+    const Scene::FramePair pair[] = {random.pair()};
+    EdgeMotion motion(random.tree, random.space, pair, random.noTube());
+    motion.set(random.from, random.to);
+    const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
+    const auto [t, h] = window(random);
+    const MovingPose real = reference.relative(pair[0].a, pair[0].b, t);
+    for (const double half : {0.0, h}) {
+      const MotionWindow w = motion.window(0, t, half);
+      const Vec3 p = random.vector(n % 2 ? 3 : 0.01);
+      const Vec3 y = w.X_AB.m * p;
+      const double bound = w.fixedError + w.reachError * y.norm() + noise(real, p.norm());
+      const auto off = static_cast<double>(((y + w.X_AB.t).cast<Real>() - real.at(p)).norm());
+      ASSERT_LE(off, bound) << "case " << n << ", t = " << t;
+      if (half == 0) {
+        worst = std::max(worst, off / bound);
+        shares.push_back(off / bound);
+      }
+      const Vec3 step = w.linear + w.angular.cross(y);
+      const auto offTwist =
+          static_cast<double>((step.cast<Real>() - half * real.velocity(p)).norm());
+      ASSERT_LE(offTwist, bound) << "case " << n << ", t = " << t << ", h = " << half;
+      worstTwist = std::max(worstTwist, offTwist / bound);
+      ASSERT_GE(w.speed, w.linear.norm());
+      ASSERT_GE(w.angle, w.angular.norm());
+    }
+  }
+  std::nth_element(shares.begin(), shares.begin() + shares.size() / 2, shares.end());
+  std::cout << "error as a share of its bound: worst " << worst << ", median "
+            << shares[shares.size() / 2] << "; twist, worst " << worstTwist << '\n';
+  EXPECT_GT(worst, 1e-2) << "a bound that no case comes near is not measured by this test";
+}
+
+TEST(EdgeMotion, FarFromTheOriginNothingIsLostBetweenLinks) {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  for (const char* name : {"x", "y", "z", "shoulder", "elbow"}) {
+    Coordinate c;
+    c.name = name;
+    space.add(c);
+  }
+  Frame base, shoulder, elbow;
+  base.joint = Frame::Joint::shift;
+  base.count = 3;
+  base.variable = 0;
+  shoulder.parent = tree.add(base);
+  shoulder.joint = elbow.joint = Frame::Joint::turn;
+  shoulder.variable = 3;
+  elbow.parent = tree.add(shoulder);
+  elbow.fixed.p = {1, 0, 0};
+  elbow.variable = 4;
+  const std::size_t hand = tree.add(elbow);
+  const Scene::FramePair pairs[] = {{1, hand}, {0, hand}};
+  EdgeMotion motion(tree, space, pairs, Configuration::Zero(5));
+  motion.set((Configuration(5) << 1e6, 0, 0, 1, 2).finished(),
+             (Configuration(5) << 1.1e6, 3, 4, 1.5, 1).finished());
+  const MotionWindow w = motion.window(0, 0.5, 0.5);
+  EXPECT_LT(w.fixedError, 1e-13);
+  EXPECT_EQ(w.screws.size(), 2u);
+  EXPECT_GT(motion.window(1, 0.5, 0.5).fixedError, 1e-10);
+}
+
+/// The chain of `screws` is the motion: with each joint's share of the way applied at the middle's
+/// axes, it leads to the end of the window.
+TEST(EdgeMotion, ScrewsAreTheMotion) {
+  RandomTrees random(test::testSeed(2));
+  for (int n = 0; n < 20'000; ++n) {
+    random.makeTree(1 + random.index(6));
+    random.makeEdge(2);
+    const Scene::FramePair pair[] = {random.pair()};
+    EdgeMotion motion(random.tree, random.space, pair, random.noTube());
+    motion.set(random.from, random.to);
+    const auto [t, h] = window(random);
+    const MotionWindow w = motion.window(0, t, h);
+    const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
+    // Screws have no sign: one of the 2^k combinations of it must be right, and is the one whose
+    // twist is the window's.
+    const std::size_t k = w.screws.size();
+    bool found = false;
+    for (std::size_t signs = 0; signs < (std::size_t{1} << k) && !found; ++signs) {
+      Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+      Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+      for (std::size_t j = 0; j < k; ++j) {
+        const ScrewTravel& screw = w.screws[j];
+        const double amount = (signs >> j & 1) ? -screw.amount : screw.amount;
+        if (screw.kind == ScrewTravel::Kind::slide) {
+          linear += amount * screw.axis;
+          X = X * Eigen::Translation3d(amount * screw.axis);
+        } else {
+          angular += amount * screw.axis;
+          linear += amount * screw.axis.cross(w.X_AB.t - screw.point);
+          X = X * Eigen::Translation3d(screw.point) *
+              Eigen::AngleAxisd(amount, screw.axis.normalized()) *
+              Eigen::Translation3d(-screw.point);
+        }
+      }
+      if ((linear - w.linear).norm() + (angular - w.angular).norm() > 1e-12) continue;
+      const MovingPose end = reference.relative(pair[0].a, pair[0].b, t + h);
+      const Vec3 p = random.vector();
+      found = ((X * (w.X_AB * p)).cast<Real>() - end.at(p)).norm() < 1e-11;
+    }
+    ASSERT_TRUE(found) << "case " << n;
+  }
+}
+
+TEST(EdgeMotion, ManyPairsShareWhatTheyHaveInCommon) {
+  RandomTrees random(test::testSeed(3));
+  for (int n = 0; n < 500; ++n) {
+    random.makeTree(8);
+    std::vector<Scene::FramePair> pairs;
+    for (std::size_t a = 0; a < random.tree.frames.size(); ++a)
+      for (std::size_t b = a; b < random.tree.frames.size(); ++b) pairs.push_back({a, b});
+    EdgeMotion all(random.tree, random.space, pairs, random.noTube());
+    for (int edge = 0; edge < 3; ++edge) {
+      random.makeEdge(2);
+      all.set(random.from, random.to);
+      const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
+      for (int k = 0; k < 3; ++k) {
+        const auto [t, h] = window(random);
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+          const MotionWindow w = all.window(i, t, h);
+          const MovingPose real = reference.relative(pairs[i].a, pairs[i].b, t);
+          ASSERT_LE((w.X_AB.t.cast<Real>() - real.t).norm(), w.fixedError + noise(real, 0))
+              << n << ' ' << i;
+          ASSERT_LE((w.X_AB.m.cast<Real>() - real.m).norm(), 2 * w.reachError + noise(real, 0))
+              << n << ' ' << i;
+        }
+      }
+    }
+  }
+}
+
+/// One frame that turns about z by a coordinate of that kind.
+struct OneTurn {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  const Scene::FramePair pair[1] = {{0, 1}};
+
+  OneTurn(Coordinate::Kind kind, double multiplier = 1) {
+    Coordinate c;
+    c.kind = kind;
+    space.add(c);
+    Frame frame;
+    frame.joint = Frame::Joint::turn;
+    frame.variable = 0;
+    frame.multiplier = multiplier;
+    tree.add(frame);
+  }
+  std::unique_ptr<EdgeMotion> motion(double from, double to, double tube = 0) const {
+    auto m = std::make_unique<EdgeMotion>(tree, space, pair, Configuration::Constant(1, tube));
+    m->set(Configuration::Constant(1, from), Configuration::Constant(1, to));
+    return m;
+  }
+};
+
+double yaw(const MotionWindow& w) {
+  return std::atan2(w.X_AB.m(1, 0), w.X_AB.m(0, 0));
+}
+
+TEST(EdgeMotion, CirclesTakeTheShorterWay) {
+  const OneTurn circle(Coordinate::Kind::circle), line(Coordinate::Kind::line);
+  EXPECT_NEAR(std::abs(yaw(circle.motion(3, -3)->window(0, 0.5, 0))), pi, 1e-15);
+  EXPECT_NEAR(circle.motion(3, -3)->window(0, 0.5, 0.5).angle, pi - 3, 1e-13);
+  EXPECT_NEAR(yaw(circle.motion(7, 1)->window(0, 1, 0)), 1, 1e-14);
+  EXPECT_NEAR(yaw(line.motion(3, -3)->window(0, 0.5, 0)), 0, 1e-15);
+  EXPECT_NEAR(line.motion(3, -3)->window(0, 0.5, 0.5).angle, 3, 1e-13);
+}
+
+TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
+  const OneTurn circle(Coordinate::Kind::circle), line(Coordinate::Kind::line);
+  EXPECT_TRUE(circle.motion(0, pi)->ambiguous());
+  EXPECT_TRUE(circle.motion(pi / 2, -pi / 2 + 1e-10)->ambiguous());
+  EXPECT_FALSE(circle.motion(pi / 2, -pi / 2 + 1e-8)->ambiguous());
+  EXPECT_FALSE(circle.motion(pi, -pi)->ambiguous());
+  EXPECT_FALSE(line.motion(0, pi)->ambiguous());
+  // Beyond the seam a joint that follows by halves would jump.
+  EXPECT_TRUE(OneTurn(Coordinate::Kind::circle, 0.5).motion(3, -3)->ambiguous());
+  EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, 0.5).motion(1, -1)->ambiguous());
+  EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, -2).motion(3, -3)->ambiguous());
+}
+
+TEST(EdgeMotion, TubesFollowTheMultiplierAndStayWhereNothingMoves) {
+  const OneTurn follower(Coordinate::Kind::line, -2);
+  const MotionWindow moving = follower.motion(0, 1, 0.01)->window(0, 0.5, 0.5);
+  ASSERT_EQ(moving.screws.size(), 1u);
+  EXPECT_NEAR(moving.screws[0].amount, 1, 1e-14);
+  EXPECT_GE(moving.screws[0].amount, 1);
+  EXPECT_NEAR(moving.screws[0].tube, 0.02, 1e-16);
+  const auto still = follower.motion(1, 1, 0.01);
+  ASSERT_EQ(still->window(0, 0.5, 0.5).screws.size(), 1u);
+  EXPECT_EQ(still->window(0, 0.5, 0.5).screws[0].amount, 0);
+  const auto nothing = follower.motion(1, 1, 0);
+  EXPECT_TRUE(nothing->window(0, 0.5, 0.5).screws.empty());
+}
+
+/// A floating joint: the position on a straight line, the orientation about one axis.
+struct Floating {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  const Scene::FramePair pair[1] = {{0, 2}};
+
+  Floating() {
+    for (const char* name : {"x", "y", "z"}) {
+      Coordinate c;
+      c.name = name;
+      space.add(c);
+    }
+    Coordinate rotation;
+    rotation.kind = Coordinate::Kind::rotation;
+    space.add(rotation);
+    Frame shift, rotate;
+    shift.joint = Frame::Joint::shift;
+    shift.count = 3;
+    shift.variable = 0;
+    rotate.parent = tree.add(shift);
+    rotate.joint = Frame::Joint::rotate;
+    rotate.variable = 3;
+    tree.add(rotate);
+  }
+};
+
+TEST(EdgeMotion, ARigidBodyMovesAsRigidMotionSays) {
+  RandomTrees random(test::testSeed(4));
+  const Floating body;
+  for (int n = 0; n < 20'000; ++n) {
+    Configuration from(7), to(7);
+    for (auto* q : {&from, &to})
+      for (Eigen::Index i = 0; i < 7; ++i) (*q)[i] = (i < 3 ? 10 : 1) * random.real();
+    if (n % 3 == 0)
+      to.tail<4>() = from.tail<4>() + std::pow(10, random.real(-18, 0)) * to.tail<4>();
+    if (n % 5 == 0) to.tail<4>() = -2 * from.tail<4>();
+    EdgeMotion motion(body.tree, body.space, body.pair, Configuration::Zero(7));
+    motion.set(from, to);
+    const RigidMotion rigid =
+        RigidMotion::spatial({from.head<3>(), Eigen::Quaterniond(from.tail<4>())},
+                             {to.head<3>(), Eigen::Quaterniond(to.tail<4>())}, {});
+    EXPECT_EQ(motion.ambiguous(), rigid.ambiguous());
+    const auto [t, h] = window(random);
+    std::array<ScrewTravel, 2> screws;
+    const MotionWindow a = motion.window(0, t, h), b = rigid.window(t, h, screws);
+    const double fixed = a.fixedError + b.fixedError, reach = a.reachError + b.reachError;
+    EXPECT_LE((a.X_AB.t - b.X_AB.t).norm(), fixed);
+    EXPECT_LE((a.X_AB.m - b.X_AB.m).norm(), 2 * reach);
+    EXPECT_LE((a.linear - b.linear).norm(), fixed);
+    EXPECT_LE((a.angular - b.angular).norm(), reach);
+    EXPECT_LT(fixed, 1e-11);
+    EXPECT_LT(reach, 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace corridor
