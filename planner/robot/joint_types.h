@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/robot/robot_model.h"
+
+namespace corridor {
+
+/// As URDF calls them.
+std::string nameOf(JointType type);
+std::optional<JointType> jointType(std::string_view name);
+std::vector<std::string> jointTypeNames();
+
+}  // namespace corridor

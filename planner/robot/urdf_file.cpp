@@ -1,0 +1,205 @@
+#include "planner/robot/urdf_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <urdf_model/model.h>
+
+#include "planner/robot/rpy.h"
+#include "planner/robot/urdf_outline.h"
+#include "planner/robot/urdfdom.h"
+
+namespace corridor {
+namespace {
+
+/// One line of what urdfdom printed, at the link or joint that it names.
+void faultErrors(const std::vector<std::string>& errors, const UrdfOutline& outline,
+                 XmlFile& file) {
+  std::string text = "urdfdom, the reader of URDF, refuses it";
+  for (const std::string& error : errors) text += (&error == errors.data() ? ": " : "; ") + error;
+  const auto lineOf = [&](const auto& all) {
+    for (const auto& named : all) {
+      const std::string name = urdfdomName(named.name);
+      if (text.find("[" + name + "]") != text.npos || text.find("'" + name + "'") != text.npos)
+        return named.line;
+    }
+    return 0;
+  };
+  const int joint = lineOf(outline.joints);
+  file.fault(joint > 0 ? joint : lineOf(outline.links), text);
+}
+
+RigidPose poseOf(const urdf::Pose& pose, const Vec3& rpy) {
+  return {Vec3(pose.position.x, pose.position.y, pose.position.z), quaternionFromRpy(rpy)};
+}
+
+/// The same direction, its largest component in [1, 2), so that no square is out of range: powers
+/// of two round nothing.
+Vec3 axisOf(const urdf::Vector3& axis) {
+  const Vec3 v(axis.x, axis.y, axis.z);
+  const int exponent = std::ilogb(v.cwiseAbs().maxCoeff());
+  return {std::scalbn(v.x(), -exponent), std::scalbn(v.y(), -exponent),
+          std::scalbn(v.z(), -exponent)};
+}
+
+std::optional<Primitive> primitiveOf(const urdf::Geometry& geometry) {
+  if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry))
+    return Box{Vec3(box->dim.x, box->dim.y, box->dim.z)};
+  if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry))
+    return Sphere{sphere->radius};
+  if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry))
+    return Cylinder{cylinder->radius, cylinder->length};
+  return std::nullopt;
+}
+
+MeshFile placedMesh(const MeshFile& source, const Vec3& scale, const Transform& X) {
+  MeshFile result = source;
+  if (scale != Vec3::Ones()) {
+    for (Vec3& vertex : result.mesh.vertices) vertex = vertex.cwiseProduct(scale);
+    result.unitRule += "; times the URDF's scale " + shortestText(scale.x()) + " " +
+                       shortestText(scale.y()) + " " + shortestText(scale.z());
+  }
+  if (!(X == Transform{}))
+    for (Vec3& vertex : result.mesh.vertices) vertex = X * vertex;
+  return result;
+}
+
+class ModelBuilder {
+ public:
+  ModelBuilder(const UrdfOutline& outline, const urdf::ModelInterface& urdf,
+               const MeshStore& meshes, XmlFile& file)
+      : outline_(outline), urdf_(urdf), meshes_(meshes), file_(file) {}
+
+  RobotModel build(const std::vector<std::size_t>& order) {
+    model_.name = outline_.name;
+    for (std::size_t i = 0; i < outline_.links.size(); ++i) {
+      linkIndex_[outline_.links[i].name] = i;
+      addLink(outline_.links[i]);
+    }
+    std::vector<bool> hasParent(model_.links.size(), false);
+    for (const std::size_t j : order) {
+      jointIndex_[urdfdomName(outline_.joints[j].name)] = model_.joints.size();
+      addJoint(outline_.joints[j]);
+      const JointModel& joint = model_.joints.back();
+      hasParent[joint.child] = true;
+      model_.allowed.push_back(
+          {model_.links[joint.parent].name, model_.links[joint.child].name, "adjacent"});
+    }
+    model_.root = static_cast<std::size_t>(std::find(hasParent.begin(), hasParent.end(), false) -
+                                           hasParent.begin());
+    for (std::size_t k = 0; k < order.size(); ++k) setMimic(outline_.joints[order[k]], k);
+    return std::move(model_);
+  }
+
+ private:
+  void addLink(const UrdfLink& outline) {
+    LinkModel& link = model_.links.emplace_back();
+    link.name = outline.name;
+    const auto source = urdf_.getLink(urdfdomName(outline.name));
+    const std::size_t count = source ? source->collision_array.size() : 0;
+    if (count != outline.collisions.size())
+      return file_.fault(outline.line, owned("link", outline.name) + " has " +
+                                           std::to_string(outline.collisions.size()) +
+                                           " <collision>, and urdfdom hands on " +
+                                           std::to_string(count));
+    for (std::size_t i = 0; i < count; ++i)
+      addShape(*source->collision_array[i], outline.collisions[i],
+               count == 1 ? link.name : link.name + "/" + std::to_string(i + 1));
+  }
+
+  void addShape(const urdf::Collision& source, const UrdfCollision& outline, std::string name) {
+    PlacedShape shape;
+    shape.name = std::move(name);
+    shape.at = poseOf(source.origin, outline.rpy);
+    const Transform X{matrixFromRpy(outline.rpy), shape.at.p};
+    bool finite = true;
+    if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(source.geometry.get())) {
+      const MeshFile* const read = meshes_.find(outline.mesh);
+      if (!read) return;
+      shape.file = outline.mesh;
+      shape.mesh = placedMesh(*read, Vec3(mesh->scale.x, mesh->scale.y, mesh->scale.z), X);
+      for (const Vec3& vertex : shape.mesh->mesh.vertices) finite &= vertex.allFinite();
+    } else {
+      shape.primitive = primitiveOf(*source.geometry);
+      shape.part = placed(*shape.primitive, X);
+      shape.solid = true;
+      for (const Vec3& point : shape.part->points) finite &= point.allFinite();
+    }
+    if (!finite)
+      file_.fault(outline.line, owned("shape", shape.name) +
+                                    ": its origin, size or scale is out of the range of doubles");
+    model_.links.back().shapes.push_back(std::move(shape));
+  }
+
+  void addJoint(const UrdfJoint& outline) {
+    JointModel& joint = model_.joints.emplace_back();
+    joint.name = outline.name;
+    joint.type = *outline.type;
+    joint.parent = linkIndex_.at(outline.parent);
+    joint.child = linkIndex_.at(outline.child);
+    joint.line = outline.line;
+    const auto source = urdf_.getJoint(urdfdomName(outline.name));
+    if (!source)
+      return file_.fault(outline.line,
+                         owned("joint", outline.name) + " is not among what urdfdom hands on");
+    joint.X_PJ = poseOf(source->parent_to_joint_origin_transform, outline.rpy);
+    if (joint.type != JointType::fixed && joint.type != JointType::floating)
+      joint.axis = axisOf(source->axis);
+    if (joint.type == JointType::revolute || joint.type == JointType::prismatic) {
+      joint.lower = source->limits->lower;
+      joint.upper = source->limits->upper;
+    }
+  }
+
+  /// @pre the mimics are sound: no circles, leaders that move.
+  void setMimic(const UrdfJoint& outline, std::size_t index) {
+    if (model_.joints[index].type == JointType::fixed) return;
+    Mimic mimic{index, 1, 0};
+    for (auto source = urdf_.getJoint(urdfdomName(outline.name)); source && source->mimic;
+         source = urdf_.getJoint(source->mimic->joint_name)) {
+      mimic.offset += mimic.multiplier * source->mimic->offset;
+      mimic.multiplier *= source->mimic->multiplier;
+      mimic.joint = jointIndex_.at(source->mimic->joint_name);
+    }
+    if (mimic.joint != index) model_.joints[index].mimic = mimic;
+  }
+
+  const UrdfOutline& outline_;
+  const urdf::ModelInterface& urdf_;
+  const MeshStore& meshes_;
+  XmlFile& file_;
+  RobotModel model_;
+  std::unordered_map<std::string, std::size_t> linkIndex_;
+  std::unordered_map<std::string, std::size_t> jointIndex_;  // by urdfdom's name
+};
+
+}  // namespace
+
+std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const PackageMap& packages,
+                                   std::vector<Fault>& faults,
+                                   std::vector<std::filesystem::path>& files) {
+  files.push_back(file);
+  XmlFile xml(file, "a robot (URDF)");
+  MeshStore meshes(file, packages, files);
+  std::optional<RobotModel> model;
+  std::vector<std::string> notes;
+  if (XmlFile::Element* const root = xml.root()) {
+    const UrdfOutline outline = readUrdfOutline(xml, meshes, notes);
+    const std::vector<std::size_t> order = checkUrdfTree(outline, xml);
+    std::vector<std::string> errors;
+    if (xml.sound()) {
+      if (const auto urdf = parseByUrdfdom(*root, errors))
+        model = ModelBuilder(outline, *urdf, meshes, xml).build(order);
+      else
+        faultErrors(errors, outline, xml);
+    }
+  }
+  const bool sound = xml.sound() && meshes.faults().empty();
+  for (Fault& fault : xml.takeFaults()) faults.push_back(std::move(fault));
+  faults.insert(faults.end(), meshes.faults().begin(), meshes.faults().end());
+  if (!sound) return std::nullopt;
+  model->notes = std::move(notes);
+  return model;
+}
+
+}  // namespace corridor

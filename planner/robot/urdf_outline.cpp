@@ -1,0 +1,247 @@
+#include "planner/robot/urdf_outline.h"
+
+#include <algorithm>
+#include <array>
+
+#include "collision/core/nearest.h"
+#include "planner/robot/joint_types.h"
+
+namespace corridor {
+namespace {
+
+using Element = XmlFile::Element;
+using Numbers = std::optional<std::vector<double>>;
+
+/// A size: one number above 0, or three.
+void checkSize(XmlFile& file, Element& shape, const char* attribute, std::size_t count,
+               const std::string& owner) {
+  file.require(shape, attribute, owner);
+  const Numbers sizes = file.numbers(shape, attribute, count, owner);
+  if (sizes && !std::all_of(sizes->begin(), sizes->end(), [](double size) { return size > 0; }))
+    file.fault(shape.FindAttribute(attribute)->GetLineNum(),
+               owner + ": " + shape.Name() + " " + attribute + " must be above 0, not " +
+                   shape.Attribute(attribute));
+}
+
+void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
+               const std::string& owner) {
+  const Numbers scale = file.numbers(shape, "scale", 3, owner);
+  if (scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end())
+    file.fault(shape.FindAttribute("scale")->GetLineNum(),
+               owner + ": mesh scale must not be 0, which makes the mesh flat");
+  const auto name = file.text(shape, "filename", owner);
+  if (!name) return;
+  const MeshStore::Place place = meshes.add(*name);
+  collision.mesh = place.file;
+  if (!place.complaint.empty())
+    file.fault(shape.FindAttribute("filename")->GetLineNum(),
+               owner + ": mesh " + quotedWord(*name) + ": " + place.complaint);
+}
+
+void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
+                const std::string& owner) {
+  const std::string kind = shape.Name();
+  if (kind == "box") return checkSize(file, shape, "size", 3, owner);
+  if (kind == "sphere") return checkSize(file, shape, "radius", 1, owner);
+  if (kind == "cylinder") {
+    checkSize(file, shape, "radius", 1, owner);
+    return checkSize(file, shape, "length", 1, owner);
+  }
+  if (kind == "mesh") return checkMesh(file, shape, meshes, collision, owner);
+  const std::vector<std::string> known{"box", "cylinder", "sphere", "mesh"};
+  const auto near = nearest(kind, known);
+  file.fault(shape.GetLineNum(),
+             owner + ": unknown geometry <" + kind + ">; " +
+                 (kind == "capsule" ? "a capsule is a <cylinder> and two <sphere>, each in a "
+                                      "<collision> of its own"
+                  : near            ? "did you mean <" + *near + ">?"
+                                    : "<box>, <cylinder>, <sphere> or <mesh> is needed"));
+}
+
+/// @returns the rotation.
+Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner) {
+  Element* const element = file.child(parent, "origin", owner);
+  if (!element) return Vec3::Zero();
+  file.numbers(*element, "xyz", 3, owner);
+  const Numbers rpy = file.numbers(*element, "rpy", 3, owner);
+  return rpy ? Vec3((*rpy)[0], (*rpy)[1], (*rpy)[2]) : Vec3::Zero();
+}
+
+UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
+                            const std::string& owner) {
+  UrdfCollision collision;
+  collision.line = element.GetLineNum();
+  collision.rpy = readOrigin(file, element, owner);
+  Element* const geometry = file.child(element, "geometry", owner);
+  Element* const shape = geometry ? geometry->FirstChildElement() : nullptr;
+  if (!shape) {
+    file.fault(geometry ? geometry->GetLineNum() : element.GetLineNum(),
+               owner + ": " + (geometry ? "<geometry> is empty" : "<collision> has no <geometry>") +
+                   "; <box>, <cylinder>, <sphere> or <mesh> is needed");
+    return collision;
+  }
+  checkShape(file, *shape, meshes, collision, owner);
+  if (const Element* second = shape->NextSiblingElement())
+    file.fault(second->GetLineNum(),
+               owner + ": a second shape in one <geometry>; it needs a <collision> of its own");
+  return collision;
+}
+
+UrdfLink readLink(XmlFile& file, Element& element, MeshStore& meshes,
+                  std::vector<std::string>& notes) {
+  UrdfLink link{file.text(element, "name", "").value_or(""), element.GetLineNum(), {}};
+  const std::string owner = owned("link", link.name);
+  file.noteMisspelt(element, {"inertial", "visual", "collision"}, owner, notes);
+  for (Element* collision = element.FirstChildElement("collision"); collision;
+       collision = collision->NextSiblingElement("collision"))
+    link.collisions.push_back(readCollision(file, *collision, meshes, owner));
+  return link;
+}
+
+std::optional<JointType> readType(XmlFile& file, Element& element, const std::string& owner) {
+  const auto name = file.text(element, "type", owner);
+  if (!name) return std::nullopt;
+  if (const auto type = jointType(*name)) return type;
+  const std::vector<std::string> known = jointTypeNames();
+  const std::string near = didYouMean(*name, known);
+  file.fault(element.FindAttribute("type")->GetLineNum(),
+             owner + ": unknown type " + quotedWord(*name) +
+                 (near.empty() ? "; one of " + joined(known) + " is needed" : near));
+  return std::nullopt;
+}
+
+/// @returns "" where it is faulted.
+std::string readEnd(XmlFile& file, Element& joint, const char* end, const std::string& owner) {
+  if (const Element* element = file.child(joint, end, owner))
+    return file.text(*element, "link", owner).value_or("");
+  file.fault(joint.GetLineNum(), owner + ": <" + std::string(end) + " link=\"…\"/> is missing");
+  return "";
+}
+
+void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
+               const std::string& owner) {
+  Element* const axis = file.child(joint, "axis", owner);
+  if (!axis || !type || *type == JointType::fixed || *type == JointType::floating) return;
+  file.require(*axis, "xyz", owner);
+  const Numbers xyz = file.numbers(*axis, "xyz", 3, owner);
+  if (xyz && std::all_of(xyz->begin(), xyz->end(), [](double x) { return x == 0; }))
+    file.fault(axis->FindAttribute("xyz")->GetLineNum(),
+               owner + ": the axis is zero; a direction is needed, such as xyz=\"0 0 1\"");
+}
+
+void checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
+                const std::string& owner, std::vector<std::string>& notes) {
+  Element* const limit = file.child(joint, "limit", owner);
+  const bool needed = type == JointType::revolute || type == JointType::prismatic;
+  if (!limit) {
+    if (needed)
+      file.fault(
+          joint.GetLineNum(),
+          owner + ": <limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/> is missing" +
+              (type == JointType::revolute ? "; without limits the type is continuous" : ""));
+    return;
+  }
+  const Numbers lower = file.numbers(*limit, "lower", 1, owner);
+  const Numbers upper = file.numbers(*limit, "upper", 1, owner);
+  for (const char* name : {"effort", "velocity"}) {
+    file.require(*limit, name, owner);
+    file.numbers(*limit, name, 1, owner);
+  }
+  if (!needed) return;
+  const auto valueOf = [&](const char* name, const Numbers& numbers) {
+    return numbers ? numbers->front() : limit->FindAttribute(name) ? NAN : 0;
+  };
+  const double least = valueOf("lower", lower), most = valueOf("upper", upper);
+  if (least > most)
+    file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortestText(least) +
+                                        " is above the upper limit " + shortestText(most));
+  if (!limit->FindAttribute("lower") && !limit->FindAttribute("upper"))
+    notes.push_back(file.path().string() + ":" + std::to_string(limit->GetLineNum()) + ": " +
+                    owner +
+                    ": <limit> has neither lower nor upper, so both are 0, and the joint cannot "
+                    "move");
+}
+
+std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::string& owner) {
+  Element* const element = file.child(joint, "mimic", owner);
+  if (!element) return std::nullopt;
+  UrdfMimic mimic;
+  mimic.line = element->GetLineNum();
+  if (const Numbers multiplier = file.numbers(*element, "multiplier", 1, owner))
+    mimic.multiplier = multiplier->front();
+  file.numbers(*element, "offset", 1, owner);
+  const auto name = file.text(*element, "joint", owner);
+  if (!name) return std::nullopt;
+  mimic.joint = *name;
+  return mimic;
+}
+
+UrdfJoint readJoint(XmlFile& file, Element& element, std::vector<std::string>& notes) {
+  UrdfJoint joint;
+  joint.name = file.text(element, "name", "").value_or("");
+  joint.line = element.GetLineNum();
+  const std::string owner = owned("joint", joint.name);
+  file.noteMisspelt(element,
+                    {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics",
+                     "calibration", "safety_controller"},
+                    owner, notes);
+  joint.type = readType(file, element, owner);
+  joint.parent = readEnd(file, element, "parent", owner);
+  joint.child = readEnd(file, element, "child", owner);
+  joint.rpy = readOrigin(file, element, owner);
+  checkAxis(file, element, joint.type, owner);
+  checkLimit(file, element, joint.type, owner, notes);
+  joint.mimic = readMimic(file, element, owner);
+  return joint;
+}
+
+/// xacro's macros would be ignored as unknown elements.
+bool isXacro(XmlFile& file, const Element& element) {
+  for (const Element* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
+    if (std::string_view(child->Name()).starts_with("xacro:")) {
+      file.fault(child->GetLineNum(), "<" + std::string(child->Name()) +
+                                          ">: this is a xacro file; expand it first: xacro FILE "
+                                          "> robot.urdf");
+      return true;
+    }
+    if (isXacro(file, *child)) return true;
+  }
+  return false;
+}
+
+template <class Named>
+void addUnique(Named named, const char* kind, std::vector<Named>& all, XmlFile& file) {
+  if (named.name.empty()) return;
+  const auto first = std::find_if(all.begin(), all.end(),
+                                  [&](const Named& other) { return other.name == named.name; });
+  if (first != all.end())
+    file.fault(named.line, owned(kind, named.name) + " is there already, on line " +
+                               std::to_string(first->line) + "; names are unique");
+  else
+    all.push_back(std::move(named));
+}
+
+}  // namespace
+
+UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::string>& notes) {
+  UrdfOutline outline;
+  Element& root = *file.root();
+  if (isXacro(file, root)) return outline;
+  outline.name = file.text(root, "name", "").value_or("");
+  file.noteMisspelt(root, {"link", "joint", "material", "transmission", "gazebo", "sensor"},
+                    owned("robot", outline.name), notes);
+  for (Element* element = root.FirstChildElement(); element;
+       element = element->NextSiblingElement()) {
+    const std::string_view kind = element->Name();
+    if (kind == "link")
+      addUnique(readLink(file, *element, meshes, notes), "link", outline.links, file);
+    else if (kind == "joint")
+      addUnique(readJoint(file, *element, notes), "joint", outline.joints, file);
+  }
+  if (!root.FirstChildElement("link"))
+    file.fault(root.GetLineNum(), "the robot has no <link>; one at least is needed");
+  return outline;
+}
+
+}  // namespace corridor

@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "collision/core/nearest.h"
+#include "planner/robot/joint_types.h"
+#include "planner/robot/urdf_outline.h"
+
+namespace corridor {
+namespace {
+
+using Indices = std::unordered_map<std::string, std::size_t>;
+
+template <class Named>
+Indices indicesOf(const std::vector<Named>& all) {
+  Indices indices;
+  for (std::size_t i = 0; i < all.size(); ++i) indices[all[i].name] = i;
+  return indices;
+}
+
+template <class Named>
+std::vector<std::string> namesOf(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& named : all) names.push_back(named.name);
+  return names;
+}
+
+constexpr std::size_t none = SIZE_MAX;
+
+class Tree {
+ public:
+  Tree(const UrdfOutline& outline, XmlFile& file)
+      : links_(outline.links),
+        joints_(outline.joints),
+        file_(file),
+        linkIndex_(indicesOf(links_)),
+        jointIndex_(indicesOf(joints_)),
+        parentJoint_(links_.size(), none),
+        children_(links_.size()) {}
+
+  std::vector<std::size_t> check() {
+    bool joined = true;
+    for (std::size_t j = 0; j < joints_.size(); ++j) joined &= join(j);
+    // What hangs from a link that is misspelt is a root only because of that.
+    if (joined) checkShape();
+    for (const UrdfJoint& joint : joints_)
+      if (joint.mimic) checkMimic(joint);
+    return file_.sound() ? order() : std::vector<std::size_t>();
+  }
+
+ private:
+  /// @returns false: faulted.
+  bool join(std::size_t j) {
+    const UrdfJoint& joint = joints_[j];
+    const std::string owner = owned("joint", joint.name);
+    bool known = true;
+    for (const auto& [what, name] :
+         {std::pair{"parent", joint.parent}, std::pair{"child", joint.child}}) {
+      if (!name.empty() && !linkIndex_.contains(name))
+        file_.fault(joint.line, owner + ": its " + what + " " + quotedWord(name) +
+                                    " is not a link of this file" +
+                                    didYouMean(name, namesOf(links_)));
+      known &= linkIndex_.contains(name);
+    }
+    if (!known) return false;
+    if (joint.parent == joint.child) {
+      file_.fault(joint.line,
+                  owner + ": link " + quotedWord(joint.child) + " is its parent and its child");
+      return false;
+    }
+    const std::size_t child = linkIndex_.at(joint.child);
+    if (const std::size_t first = parentJoint_[child]; first != none) {
+      file_.fault(joint.line, owner + ": its child " + quotedWord(joint.child) +
+                                  " is the child of joint " + quotedWord(joints_[first].name) +
+                                  " already, on line " + std::to_string(joints_[first].line) +
+                                  "; a link has one parent");
+      return false;
+    }
+    parentJoint_[child] = j;
+    children_[linkIndex_.at(joint.parent)].push_back(j);
+    return true;
+  }
+
+  std::size_t parentOf(std::size_t link) const {
+    return parentJoint_[link] == none ? none : linkIndex_.at(joints_[parentJoint_[link]].parent);
+  }
+
+  void checkShape() {
+    std::size_t root = none;
+    for (std::size_t link = 0; link < links_.size(); ++link) {
+      if (parentJoint_[link] != none) continue;
+      if (root == none)
+        root = link;
+      else
+        file_.fault(links_[link].line,
+                    owned("link", links_[link].name) + " is no joint's child, and neither is " +
+                        quotedWord(links_[root].name) + " on line " +
+                        std::to_string(links_[root].line) + "; a robot has one root");
+    }
+    // Every link has one parent at most, so what no root reaches hangs from a circle.
+    std::vector<int> walk(links_.size(), 0);
+    for (std::size_t start = 0; start < links_.size(); ++start) {
+      std::size_t link = start;
+      for (; link != none && walk[link] == 0; link = parentOf(link))
+        walk[link] = static_cast<int>(start) + 1;
+      if (link != none && walk[link] == static_cast<int>(start) + 1) faultCircle(link);
+    }
+  }
+
+  void faultCircle(std::size_t link) {
+    std::vector<std::string> names{links_[link].name};
+    int line = joints_[parentJoint_[link]].line;
+    for (std::size_t other = parentOf(link); other != link; other = parentOf(other)) {
+      names.push_back(links_[other].name);
+      line = std::min(line, joints_[parentJoint_[other]].line);
+    }
+    names.push_back(links_[link].name);
+    std::reverse(names.begin(), names.end());
+    file_.fault(line, "the links " + joined(names) + " are joined in a circle; a tree is needed");
+  }
+
+  void checkMimic(const UrdfJoint& joint) {
+    const std::string owner = owned("joint", joint.name);
+    const UrdfMimic& mimic = *joint.mimic;
+    if (mimic.joint == joint.name) return file_.fault(mimic.line, owner + " mimics itself");
+    const auto found = jointIndex_.find(mimic.joint);
+    if (found == jointIndex_.end())
+      return file_.fault(mimic.line, owner + " mimics " + quotedWord(mimic.joint) +
+                                         ", which is not a joint of this file" +
+                                         didYouMean(mimic.joint, namesOf(joints_)));
+    if (!joint.type || joint.type == JointType::fixed) return;
+    const auto isWhole = [](JointType type) {
+      return type == JointType::planar || type == JointType::floating;
+    };
+    if (isWhole(*joint.type))
+      return file_.fault(mimic.line, owner + " is " + nameOf(*joint.type) +
+                                         ", and only a joint of one variable can mimic another");
+
+    // To the joint that moves by itself.
+    double multiplier = mimic.multiplier;
+    std::vector<std::string> chain{joint.name};
+    const UrdfJoint* leader = &joints_[found->second];
+    while (leader->mimic && leader->type != JointType::fixed) {
+      chain.push_back(leader->name);
+      const auto next = jointIndex_.find(leader->mimic->joint);
+      // Told where it is; a circle that this joint only leads into is told by its own joints.
+      if (next == jointIndex_.end()) return;
+      if (leader->mimic->joint == joint.name) {
+        chain.push_back(joint.name);
+        if (*std::min_element(chain.begin(), chain.end()) == joint.name)
+          file_.fault(mimic.line, "the joints " + joined(chain) + " mimic in a circle");
+        return;
+      }
+      if (chain.size() > joints_.size()) return;
+      multiplier *= leader->mimic->multiplier;
+      leader = &joints_[next->second];
+    }
+    if (!leader->type) return;
+    if (leader->type == JointType::fixed || isWhole(*leader->type))
+      return file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) + ", which is " +
+                                         nameOf(*leader->type) +
+                                         "; a joint of one variable is needed");
+    if (leader->type != JointType::continuous || multiplier == 0) return;
+    if (joint.type == JointType::prismatic)
+      file_.fault(mimic.line, owner + " is prismatic and mimics " + quotedWord(leader->name) +
+                                  ", which is continuous and the same after a full turn; one of "
+                                  "them needs another type");
+    else if (multiplier != std::round(multiplier))
+      file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) +
+                                  ", which is continuous and the same after a full turn, times " +
+                                  shortestText(multiplier) +
+                                  "; a whole number is needed, or a revolute " +
+                                  quotedWord(leader->name));
+  }
+
+  std::vector<std::size_t> order() const {
+    std::vector<std::size_t> ordered, open;
+    const auto push = [&](std::size_t link) {
+      open.insert(open.end(), children_[link].rbegin(), children_[link].rend());
+    };
+    for (std::size_t link = 0; link < links_.size(); ++link)
+      if (parentJoint_[link] == none) push(link);
+    while (!open.empty()) {
+      const std::size_t j = open.back();
+      open.pop_back();
+      ordered.push_back(j);
+      push(linkIndex_.at(joints_[j].child));
+    }
+    return ordered;
+  }
+
+  const std::vector<UrdfLink>& links_;
+  const std::vector<UrdfJoint>& joints_;
+  XmlFile& file_;
+  Indices linkIndex_, jointIndex_;
+  std::vector<std::size_t> parentJoint_;            // of each link
+  std::vector<std::vector<std::size_t>> children_;  // joints of each link
+};
+
+}  // namespace
+
+std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file) {
+  return Tree(outline, file).check();
+}
+
+}  // namespace corridor

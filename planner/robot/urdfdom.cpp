@@ -1,0 +1,71 @@
+#include "planner/robot/urdfdom.h"
+
+#include <algorithm>
+#include <console_bridge/console.h>
+#include <exception>
+#include <urdf_parser/urdf_parser.h>
+
+namespace corridor {
+namespace {
+
+/// Collects what is printed as an error while it lives; then all is as it was.
+class ErrorCatcher final : private console_bridge::OutputHandler {
+ public:
+  explicit ErrorCatcher(std::vector<std::string>& errors)
+      : errors_(errors),
+        before_(console_bridge::getOutputHandler()),
+        levelBefore_(console_bridge::getLogLevel()) {
+    console_bridge::useOutputHandler(this);
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_ERROR);
+  }
+  ~ErrorCatcher() override {
+    console_bridge::setLogLevel(levelBefore_);
+    if (before_)
+      console_bridge::useOutputHandler(before_);
+    else
+      console_bridge::noOutputHandler();
+  }
+  ErrorCatcher(const ErrorCatcher&) = delete;
+  ErrorCatcher& operator=(const ErrorCatcher&) = delete;
+
+ private:
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_.push_back(text);
+  }
+
+  std::vector<std::string>& errors_;
+  console_bridge::OutputHandler* before_;
+  console_bridge::LogLevel levelBefore_;
+};
+
+void removeAll(XmlFile::Element& parent, const char* name) {
+  while (XmlFile::Element* child = parent.FirstChildElement(name)) parent.DeleteChild(child);
+}
+
+}  // namespace
+
+std::string urdfdomName(std::string name) {
+  // urdfdom hands its messages, with what users wrote in them, to printf as the format.
+  std::replace(name.begin(), name.end(), '%', '?');
+  return name;
+}
+
+urdf::ModelInterfaceSharedPtr parseByUrdfdom(XmlFile::Element& robot,
+                                             std::vector<std::string>& errors) {
+  removeAll(robot, "material");
+  for (auto* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
+    removeAll(*link, "visual");
+  tinyxml2::XMLPrinter text;
+  robot.Accept(&text);
+  const ErrorCatcher catcher(errors);
+  urdf::ModelInterfaceSharedPtr model;
+  try {
+    model = urdf::parseURDF(urdfdomName(text.CStr()));
+  } catch (const std::exception& error) {
+    errors.push_back(error.what());
+  }
+  if (!model && errors.empty()) errors.push_back("no robot came back");
+  return errors.empty() ? model : nullptr;
+}
+
+}  // namespace corridor

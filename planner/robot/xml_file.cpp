@@ -1,0 +1,169 @@
+#include "planner/robot/xml_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include "collision/core/fault_list.h"
+#include "collision/core/nearest.h"
+
+namespace corridor {
+namespace {
+
+constexpr const char* blanks = " \t\r\n";
+
+std::vector<std::string> wordsOf(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t begin = text.find_first_not_of(blanks); begin != text.npos;) {
+    const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    words.emplace_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+/// @returns a complaint, or "".
+std::string parseNumber(const std::string& word, double& value) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  const char* const begin = word.data() + (plus ? 1 : 0);
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (stop != end || error == std::errc::invalid_argument)
+    return "a number is needed, not " + quotedWord(word);
+  // Too large or too small: strtod, unlike from_chars, says which.
+  if (error == std::errc::result_out_of_range) value = std::strtod(begin, nullptr);
+  if (!std::isfinite(value)) return "a finite number is needed, not " + quotedWord(word);
+  return "";
+}
+
+std::string explained(tinyxml2::XMLError error) {
+  switch (error) {
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute cannot be read; name=\"value\" is needed";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "an element cannot be read";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "the element that begins here is not closed by an end of its own name";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment is not closed";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deep";
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "there is no element";
+    default:
+      return "text, elements or an end are not where they belong";
+  }
+}
+
+}  // namespace
+
+std::string owned(const std::string& kind, std::string_view name) {
+  return kind + " " + quotedWord(name);
+}
+
+std::string shortestText(double value) {
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+XmlFile::XmlFile(std::filesystem::path file, const std::string& what) : path_(std::move(file)) {
+  open(what);
+}
+
+void XmlFile::open(const std::string& what) {
+  std::string text;
+  try {
+    text = readTextFile(path_, what);
+  } catch (const InputError& error) {
+    faults_ = error.faults();
+    return;
+  }
+  if (const auto zero = text.find('\0'); zero != text.npos)
+    return fault(static_cast<int>(1 + std::count(text.begin(), text.begin() + zero, '\n')),
+                 "is not XML: it has a byte 0; UTF-8 is needed");
+  if (const auto error = document_.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS)
+    return fault(document_.ErrorLineNum(), "is not sound XML: " + explained(error));
+  Element* const first = document_.RootElement();
+  if (!first) return fault(0, "<robot> is missing; " + what + " is needed");
+  if (std::string_view(first->Name()) != "robot")
+    return fault(first->GetLineNum(), "<robot> is needed, not <" + std::string(first->Name()) +
+                                          ">; " + what + " is needed");
+  if (const Element* second = first->NextSiblingElement())
+    return fault(second->GetLineNum(), "what follows </robot> belongs to nothing");
+  root_ = first;
+}
+
+void XmlFile::fault(int line, std::string text) {
+  // Names that a file uses may have anything in them.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
+  faults_.push_back({path_.string(), line, std::move(text)});
+}
+
+std::vector<Fault> XmlFile::takeFaults() {
+  std::stable_sort(faults_.begin(), faults_.end(),
+                   [](const Fault& a, const Fault& b) { return a.line < b.line; });
+  return std::move(faults_);
+}
+
+void XmlFile::require(const Element& element, const char* attribute, const std::string& owner) {
+  if (!element.FindAttribute(attribute))
+    fault(element.GetLineNum(), owner + ": <" + element.Name() + "> has no " + attribute);
+}
+
+std::optional<std::string> XmlFile::text(const Element& element, const char* attribute,
+                                         const std::string& owner) {
+  const tinyxml2::XMLAttribute* const found = element.FindAttribute(attribute);
+  if (found && *found->Value()) return found->Value();
+  fault(element.GetLineNum(),
+        (owner.empty() ? "" : owner + ": ") + "<" + element.Name() + "> has no " + attribute);
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> XmlFile::numbers(Element& element, const char* attribute,
+                                                    std::size_t count, const std::string& owner) {
+  const tinyxml2::XMLAttribute* const found = element.FindAttribute(attribute);
+  if (!found) return std::nullopt;
+  const auto complain = [&](const std::string& complaint) {
+    fault(found->GetLineNum(), owner + ": " + element.Name() + " " + attribute + ": " + complaint);
+    return std::nullopt;
+  };
+  const std::vector<std::string> words = wordsOf(found->Value());
+  if (words.size() != count)
+    return complain((count == 1 ? "a number is" : std::to_string(count) + " numbers are") +
+                    " needed, not " + quotedWord(found->Value()));
+  std::vector<double> values(count);
+  std::string plain;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const std::string complaint = parseNumber(words[i], values[i]); !complaint.empty())
+      return complain(complaint);
+    plain += (i == 0 ? "" : " ") + shortestText(values[i]);
+  }
+  element.SetAttribute(attribute, plain.c_str());
+  return values;
+}
+
+XmlFile::Element* XmlFile::child(Element& parent, const char* name, const std::string& owner) {
+  Element* const first = parent.FirstChildElement(name);
+  if (!first) return nullptr;
+  for (Element* next = first->NextSiblingElement(name); next; next = next->NextSiblingElement(name))
+    fault(next->GetLineNum(), owner + ": a second <" + name + ">, after that on line " +
+                                  std::to_string(first->GetLineNum()) + "; one is needed");
+  return first;
+}
+
+void XmlFile::noteMisspelt(Element& parent, const std::vector<std::string>& known,
+                           const std::string& owner, std::vector<std::string>& notes) {
+  for (Element* element = parent.FirstChildElement(); element;
+       element = element->NextSiblingElement()) {
+    const std::string name = element->Name();
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (const auto near = nearest(name, known))
+      notes.push_back(path_.string() + ":" + std::to_string(element->GetLineNum()) + ": " + owner +
+                      ": <" + name + "> is not known, and is ignored; did you mean <" + *near +
+                      ">?");
+  }
+}
+
+}  // namespace corridor

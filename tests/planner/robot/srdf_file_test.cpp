@@ -1,0 +1,142 @@
+#include "tests/planner/robot/urdf_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+/// A trunk with two arms of two joints, and a base on a planar joint.
+class SrdfFile : public UrdfTest {
+ protected:
+  void SetUp() override {
+    UrdfTest::SetUp();
+    model_ = modelOf(link("ground") + link("trunk") + link("l1") + link("l2") + link("r1") +
+                     link("r2") + link("tool") + joint("base", "planar", "ground", "trunk") +
+                     joint("left1", "revolute", "trunk", "l1", limit) +
+                     joint("left2", "revolute", "l1", "l2", limit) +
+                     joint("right1", "revolute", "trunk", "r1", limit) +
+                     joint("right2", "revolute", "r1", "r2", limit + "<mimic joint=\"right1\"/>") +
+                     joint("weld", "fixed", "l2", "tool"));
+  }
+
+  std::string complaintOfSrdf(const std::string& parts, const std::string& name = "r") {
+    std::vector<Fault> faults;
+    readSrdf(write("r.srdf", "<robot name=\"" + name + "\">\n" + parts + "\n</robot>\n"), model_,
+             faults);
+    return textOf(faults);
+  }
+  std::string group(const std::string& name) const {
+    std::string text;
+    for (const std::string& joint : model_.groups.at(name)) text += joint + " ";
+    return text;
+  }
+
+  RobotModel model_;
+};
+
+TEST_F(SrdfFile, Groups) {
+  EXPECT_EQ(complaintOfSrdf(R"(
+<group name="left"><chain base_link="trunk" tip_link="tool"/></group>
+<group name="across"><chain base_link="tool" tip_link="r1"/></group>
+<group name="links"><link name="r2"/><link name="ground"/><link name="l1"/></group>
+<group name="all"><group name="left"/><group name="links"/><joint name="base"/><joint name="world"/></group>
+<virtual_joint name="world" type="floating" parent_frame="world" child_link="ground"/>
+<passive_joint name="right2"/><passive_joint name="world"/>
+<end_effector name="nobody" group="looks" parent_link="here"/>)"),
+            "no complaint");
+  EXPECT_EQ(group("left"), "left1 left2 weld ");
+  EXPECT_EQ(group("across"), "left1 left2 weld right1 ");
+  EXPECT_EQ(group("links"), "left1 right2 ");
+  EXPECT_EQ(group("all"), "base left1 left2 weld right2 ");
+}
+
+TEST_F(SrdfFile, States) {
+  EXPECT_EQ(complaintOfSrdf(R"(
+<group name="left"><joint name="left1"/></group>
+<group name="right"><joint name="right1"/></group>
+<group_state name="up" group="left"><joint name="left1" value="0.5"/><joint name="weld" value="0"/></group_state>
+<group_state name="home" group="left"><joint name="left1" value="1"/></group_state>
+<group_state name="home" group="right"><joint name="right1" value="-1e-1"/></group_state>
+<group_state name="there"><joint name="base" value="1 2 3"/></group_state>)"),
+            "no complaint");
+  EXPECT_EQ(model_.states.at("up"), (std::map<std::string, double>{{"left1", 0.5}}));
+  EXPECT_EQ(model_.stateGroup.at("up"), "left");
+  EXPECT_EQ(model_.states.at("left/home").at("left1"), 1);
+  EXPECT_EQ(model_.states.at("right/home").at("right1"), -0.1);
+  EXPECT_EQ(model_.stateGroup.at("right/home"), "right");
+  EXPECT_FALSE(model_.states.contains("home"));
+  EXPECT_EQ(model_.states.at("there"),
+            (std::map<std::string, double>{{"base/x", 1}, {"base/y", 2}, {"base/yaw", 3}}));
+  EXPECT_FALSE(model_.stateGroup.contains("there"));
+  const std::string file = (folder_ / "r.srdf").string();
+  EXPECT_THAT(model_.notes,
+              testing::ElementsAre(
+                  file + ":5: state \"up\": the values of joints that do not move by themselves "
+                         "are ignored: weld",
+                  file + ":8: state \"there\" names no group; its values are taken as they are"));
+}
+
+TEST_F(SrdfFile, Pairs) {
+  const std::size_t adjacent = model_.allowed.size();
+  EXPECT_EQ(complaintOfSrdf(R"(
+<disable_collisions link1="l2" link2="r2" reason="Never"/>
+<disable_collisions link1="r2" link2="l2" reason="Again"/>
+<disable_collisions link1="l2" link2="l1" reason="Adjacent"/>
+<disable_collisions link1="l2" link2="trunk"/>
+<disable_default_collisions link="tool"/><enable_collisions link1="ground" link2="tool"/>)"),
+            "no complaint");
+  std::vector<std::string> pairs;
+  for (std::size_t i = adjacent; i < model_.allowed.size(); ++i)
+    pairs.push_back(model_.allowed[i].a + "~" + model_.allowed[i].b + " " +
+                    model_.allowed[i].reason);
+  EXPECT_THAT(pairs, testing::ElementsAre("l2~r2 SRDF: Never", "l2~trunk SRDF",
+                                          "tool~trunk SRDF: disable_default_collisions",
+                                          "tool~l1 SRDF: disable_default_collisions",
+                                          "tool~r1 SRDF: disable_default_collisions",
+                                          "tool~r2 SRDF: disable_default_collisions"));
+}
+
+TEST_F(SrdfFile, OfAnotherRobotIsTold) {
+  EXPECT_EQ(complaintOfSrdf("", "q"), "no complaint");
+  EXPECT_THAT(model_.notes, testing::ElementsAre((folder_ / "r.srdf").string() +
+                                                 ":1: is for robot \"q\", and is used for \"r\""));
+}
+
+TEST_F(SrdfFile, Faults) {
+  EXPECT_EQ(complaintOfSrdf(R"(<group name="a"><joint name="left3"/><link name="trnk"/></group>
+<group name="b"><chain base_link="trunk" tip_link="nowhere"/><group name="aa"/></group>
+<group name="c"><link name="ground"/></group>
+<group name="d"/>
+<group/>
+<group name="e"><joint name="left1"/><group name="f"/></group>
+<group name="f"><group name="e"/></group>
+<group name="f"/>
+<group_state name="s" group="g"><joint name="left1" value="x"/></group_state>
+<group_state name="t" group="e"><joint name="lft1" value="1"/><joint name="left1"/></group_state>
+<group_state name="t" group="e"><joint name="base" value="1"/></group_state>
+<disable_collisions link1="l3" link2="r1"/>
+<disable_collisions link1="l2"/>
+<passive_joint name="p"/>)"),
+            R"(r.srdf:2: group "a": the robot has no joint "left3"; did you mean "left1"?
+r.srdf:2: group "a": the robot has no link "trnk"; did you mean "trunk"?
+r.srdf:3: group "b": the robot has no link "nowhere"
+r.srdf:3: group "b": there is no group "aa" in this file; did you mean "a"?
+r.srdf:4: group "c" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
+r.srdf:5: group "d" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
+r.srdf:6: <group> has no name
+r.srdf:7: the groups e, f, e are in each other in a circle
+r.srdf:9: group "f" is there already, on line 8; names are unique
+r.srdf:10: state "s": there is no group "g" in this file
+r.srdf:10: state "s": joint "left1": joint value: a number is needed, not "x"
+r.srdf:11: state "t": the robot has no joint "lft1"; did you mean "left1"?
+r.srdf:11: state "t": <joint> has no value
+r.srdf:12: state "t": joint "base": joint value: 3 numbers are needed, not "1"
+r.srdf:12: state "t" is there already, on line 11; names are unique in a group
+r.srdf:13: the robot has no link "l3"; did you mean "l1"?
+r.srdf:14: <disable_collisions> has no link2
+r.srdf:15: the robot has no joint "p")");
+  std::vector<Fault> faults;
+  readSrdf(folder_ / "none.srdf", model_, faults);
+  EXPECT_EQ(textOf(faults), "none.srdf: no such file");
+}
+
+}  // namespace
+}  // namespace corridor::test

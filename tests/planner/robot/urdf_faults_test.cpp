@@ -1,0 +1,277 @@
+#include <console_bridge/console.h>
+
+#include "tests/planner/robot/urdf_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+class UrdfFaults : public UrdfTest {
+ protected:
+  /// Of two links and a joint on line 4.
+  std::string complaintOfJoint(const std::string& type, const std::string& content) {
+    return complaintOfParts(link("a") + link("b") + joint("j", type, "a", "b", content));
+  }
+  /// Of a collision element on line 2.
+  std::string complaintOfCollision(const std::string& content) {
+    return complaintOfParts(link("a", "<collision>" + content + "</collision>"));
+  }
+  std::string complaintOfShape(const std::string& shape) {
+    return complaintOfParts(link("a", collision(shape)));
+  }
+};
+
+TEST_F(UrdfFaults, Files) {
+  std::vector<Fault> faults;
+  EXPECT_FALSE(readUrdf(folder_ / "none.urdf", {}, faults, files_));
+  EXPECT_EQ(textOf(faults), "none.urdf: no such file");
+  EXPECT_EQ(complaintOf(" \n"), "r.urdf: is empty; a robot (URDF) is needed");
+  EXPECT_EQ(complaintOf(std::string("<robot>\n\0", 9)),
+            "r.urdf:2: is not XML: it has a byte 0; UTF-8 is needed");
+  EXPECT_EQ(complaintOf("<robot name=\"r\">\n<link name=\"a\">\n</robot>\n"),
+            "r.urdf:2: is not sound XML: the element that begins here is not closed by an end of "
+            "its own name");
+  EXPECT_EQ(complaintOf("<robot name=\"r\">\n<link name=a/>\n</robot>\n"),
+            "r.urdf:2: is not sound XML: an attribute cannot be read; name=\"value\" is needed");
+  EXPECT_EQ(complaintOf("<!-- nothing -->"),
+            "r.urdf: <robot> is missing; a robot (URDF) is needed");
+  EXPECT_EQ(complaintOf("<?xml version=\"1.0\"?>\n<mujoco/>"),
+            "r.urdf:2: <robot> is needed, not <mujoco>; a robot (URDF) is needed");
+  EXPECT_EQ(complaintOf("<robot name=\"r\"><link name=\"a\"/></robot>\n<robot name=\"s\"/>\n"),
+            "r.urdf:2: what follows </robot> belongs to nothing");
+  EXPECT_EQ(complaintOf("<robot/>"),
+            "r.urdf:1: <robot> has no name\nr.urdf:1: the robot has no <link>; one at least is "
+            "needed");
+  EXPECT_EQ(complaintOfParts(link("a", "\n<xacro:if value=\"1\"/>\n")),
+            "r.urdf:3: <xacro:if>: this is a xacro file; expand it first: xacro FILE > "
+            "robot.urdf");
+}
+
+TEST_F(UrdfFaults, Names) {
+  EXPECT_EQ(complaintOfParts("<link/>\n<joint/>"),
+            "r.urdf:2: <link> has no name\n"
+            "r.urdf:3: <joint> has no name\n"
+            "r.urdf:3: joint \"\": <joint> has no type\n"
+            "r.urdf:3: joint \"\": <parent link=\"…\"/> is missing\n"
+            "r.urdf:3: joint \"\": <child link=\"…\"/> is missing");
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("a") + joint("j", "fixed", "a", "b") +
+                             joint("j", "fixed", "a", "b")),
+            "r.urdf:4: link \"a\" is there already, on line 2; names are unique\n"
+            "r.urdf:6: joint \"j\" is there already, on line 5; names are unique");
+}
+
+TEST_F(UrdfFaults, Trees) {
+  EXPECT_EQ(complaintOfParts(link("base") + link("hand") + joint("j", "fixed", "bse", "hnd") +
+                             joint("k", "fixed", "elsewhere", "hand")),
+            "r.urdf:4: joint \"j\": its parent \"bse\" is not a link of this file; did you mean "
+            "\"base\"?\n"
+            "r.urdf:4: joint \"j\": its child \"hnd\" is not a link of this file; did you mean "
+            "\"hand\"?\n"
+            "r.urdf:5: joint \"k\": its parent \"elsewhere\" is not a link of this file");
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + joint("j", "fixed", "a", "a")),
+            "r.urdf:4: joint \"j\": link \"a\" is its parent and its child");
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c") +
+                             joint("k", "fixed", "b", "c")),
+            "r.urdf:6: joint \"k\": its child \"c\" is the child of joint \"j\" already, on line "
+            "5; a link has one parent");
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c")),
+            "r.urdf:3: link \"b\" is no joint's child, and neither is \"a\" on line 2; a robot "
+            "has one root");
+  // A circle beside the root, which urdfdom lets through; and one that is all there is.
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
+                             joint("i", "fixed", "c", "d") + joint("j", "fixed", "b", "c") +
+                             joint("k", "fixed", "c", "b")),
+            "r.urdf:7: the links b, c, b are joined in a circle; a tree is needed");
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + joint("j", "fixed", "a", "b") +
+                             joint("k", "fixed", "b", "a")),
+            "r.urdf:4: the links a, b, a are joined in a circle; a tree is needed");
+}
+
+TEST_F(UrdfFaults, Joints) {
+  EXPECT_EQ(complaintOfJoint("revolut", limit),
+            "r.urdf:4: joint \"j\": unknown type \"revolut\"; did you mean \"revolute\"?");
+  EXPECT_EQ(complaintOfJoint("ball", limit),
+            "r.urdf:4: joint \"j\": unknown type \"ball\"; one of fixed, revolute, continuous, "
+            "prismatic, planar, floating is needed");
+  EXPECT_EQ(complaintOfJoint("revolute", ""),
+            "r.urdf:4: joint \"j\": <limit lower=\"…\" upper=\"…\" effort=\"…\" "
+            "velocity=\"…\"/> is missing; without limits the type is continuous");
+  EXPECT_EQ(complaintOfJoint("prismatic", ""),
+            "r.urdf:4: joint \"j\": <limit lower=\"…\" upper=\"…\" effort=\"…\" "
+            "velocity=\"…\"/> is missing");
+  EXPECT_EQ(complaintOfJoint("revolute", R"(<limit lower="1" upper="-1"/>)"),
+            "r.urdf:4: joint \"j\": <limit> has no effort\n"
+            "r.urdf:4: joint \"j\": <limit> has no velocity\n"
+            "r.urdf:4: joint \"j\": the lower limit 1 is above the upper limit -1");
+  EXPECT_EQ(complaintOfJoint("revolute", R"(<limit lower="1" effort="0" velocity="0"/>)"),
+            "r.urdf:4: joint \"j\": the lower limit 1 is above the upper limit 0");
+  EXPECT_EQ(complaintOfJoint("continuous", R"(<axis xyz="0 0 0"/>)"),
+            "r.urdf:4: joint \"j\": the axis is zero; a direction is needed, such as xyz=\"0 0 "
+            "1\"");
+  EXPECT_EQ(complaintOfJoint("planar", "<axis/>"), "r.urdf:4: joint \"j\": <axis> has no xyz");
+  EXPECT_EQ(complaintOfJoint("fixed", "<origin/>\n<origin/>"),
+            "r.urdf:5: joint \"j\": a second <origin>, after that on line 4; one is needed");
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") +
+                             "<joint name=\"j\" type=\"fixed\"><parent/></joint>"),
+            "r.urdf:4: joint \"j\": <parent> has no link\n"
+            "r.urdf:4: joint \"j\": <child link=\"…\"/> is missing");
+}
+
+TEST_F(UrdfFaults, Numbers) {
+  const auto origin = [&](const std::string& xyz) {
+    return complaintOfJoint("fixed", "<origin\nxyz=\"" + xyz + "\"/>");
+  };
+  const std::string head = "r.urdf:5: joint \"j\": origin xyz: ";
+  EXPECT_EQ(origin("0 0"), head + "3 numbers are needed, not \"0 0\"");
+  EXPECT_EQ(origin("0 0 0 0"), head + "3 numbers are needed, not \"0 0 0 0\"");
+  EXPECT_EQ(origin("0 0 1.0abc"), head + "a number is needed, not \"1.0abc\"");
+  EXPECT_EQ(origin("0 0 1,5"), head + "a number is needed, not \"1,5\"");
+  EXPECT_EQ(origin("0 0 0x10"), head + "a number is needed, not \"0x10\"");
+  EXPECT_EQ(origin("0 nan 0"), head + "a finite number is needed, not \"nan\"");
+  EXPECT_EQ(origin("0 -inf 0"), head + "a finite number is needed, not \"-inf\"");
+  EXPECT_EQ(origin("0 1e999 0"), head + "a finite number is needed, not \"1e999\"");
+  EXPECT_EQ(origin("\t0 +1.5e0\n1e-999 "), "no complaint");
+  EXPECT_EQ(
+      complaintOfJoint("revolute", R"(<limit lower="a" upper="1 2" effort="" velocity="0"/>)"),
+      "r.urdf:4: joint \"j\": limit lower: a number is needed, not \"a\"\n"
+      "r.urdf:4: joint \"j\": limit upper: a number is needed, not \"1 2\"\n"
+      "r.urdf:4: joint \"j\": limit effort: a number is needed, not \"\"");
+}
+
+TEST_F(UrdfFaults, Mimics) {
+  const auto complaint = [&](const std::string& leader, const std::string& follower,
+                             const std::string& mimic) {
+    const std::string limits = leader == "continuous" ? "" : limit;
+    return complaintOfParts(link("a") + link("b") + link("c") +
+                            joint("pan", leader, "a", "b", limits) +
+                            joint("tilt", follower, "b", "c", limit + "\n<mimic " + mimic + "/>"));
+  };
+  EXPECT_EQ(complaint("revolute", "revolute", ""),
+            "r.urdf:7: joint \"tilt\": <mimic> has no joint");
+  EXPECT_EQ(complaint("revolute", "revolute", R"(joint="tilt")"),
+            "r.urdf:7: joint \"tilt\" mimics itself");
+  EXPECT_EQ(complaint("revolute", "revolute", R"(joint="pam" multiplier="x")"),
+            "r.urdf:7: joint \"tilt\" mimics \"pam\", which is not a joint of this file; did you "
+            "mean \"pan\"?\n"
+            "r.urdf:7: joint \"tilt\": mimic multiplier: a number is needed, not \"x\"");
+  EXPECT_EQ(complaint("fixed", "revolute", R"(joint="pan")"),
+            "r.urdf:7: joint \"tilt\" mimics \"pan\", which is fixed; a joint of one variable is "
+            "needed");
+  EXPECT_EQ(complaint("planar", "revolute", R"(joint="pan")"),
+            "r.urdf:7: joint \"tilt\" mimics \"pan\", which is planar; a joint of one variable is "
+            "needed");
+  EXPECT_EQ(complaint("revolute", "floating", R"(joint="pan")"),
+            "r.urdf:7: joint \"tilt\" is floating, and only a joint of one variable can mimic "
+            "another");
+  EXPECT_EQ(complaint("continuous", "revolute", R"(joint="pan" multiplier="0.5")"),
+            "r.urdf:7: joint \"tilt\" mimics \"pan\", which is continuous and the same after a "
+            "full turn, times 0.5; a whole number is needed, or a revolute \"pan\"");
+  EXPECT_EQ(complaint("continuous", "prismatic", R"(joint="pan")"),
+            "r.urdf:7: joint \"tilt\" is prismatic and mimics \"pan\", which is continuous and "
+            "the same after a full turn; one of them needs another type");
+  EXPECT_EQ(complaint("continuous", "revolute", R"(joint="pan" multiplier="-2")"), "no complaint");
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
+                             joint("j", "revolute", "a", "b", limit + "<mimic joint=\"k\"/>") +
+                             joint("k", "revolute", "b", "c", limit + "<mimic joint=\"l\"/>") +
+                             joint("l", "revolute", "c", "d", limit + "<mimic joint=\"k\"/>")),
+            "r.urdf:7: the joints k, l, k mimic in a circle");
+}
+
+TEST_F(UrdfFaults, Geometry) {
+  const std::string of = "r.urdf:2: link \"a\": ";
+  EXPECT_EQ(complaintOfCollision(""),
+            of + "<collision> has no <geometry>; <box>, <cylinder>, <sphere> or <mesh> is needed");
+  EXPECT_EQ(complaintOfShape(""),
+            of + "<geometry> is empty; <box>, <cylinder>, <sphere> or <mesh> is needed");
+  EXPECT_EQ(complaintOfShape("<spher radius=\"1\"/>"),
+            of + "unknown geometry <spher>; did you mean <sphere>?");
+  EXPECT_EQ(complaintOfShape("<torus/>"),
+            of + "unknown geometry <torus>; <box>, <cylinder>, <sphere> or <mesh> is needed");
+  EXPECT_EQ(complaintOfShape("<capsule radius=\"1\" length=\"2\"/>"),
+            of + "unknown geometry <capsule>; a capsule is a <cylinder> and two <sphere>, each in "
+                 "a <collision> of its own");
+  EXPECT_EQ(complaintOfShape("<sphere radius=\"1\"/>\n<sphere radius=\"2\"/>"),
+            "r.urdf:3: link \"a\": a second shape in one <geometry>; it needs a <collision> of "
+            "its own");
+  EXPECT_EQ(complaintOfShape("<box/>"), of + "<box> has no size");
+  EXPECT_EQ(complaintOfShape("<box size=\"1 2\"/>"),
+            of + "box size: 3 numbers are needed, not \"1 2\"");
+  EXPECT_EQ(complaintOfShape("<box size=\"1 0 2\"/>"), of + "box size must be above 0, not 1 0 2");
+  EXPECT_EQ(complaintOfShape("<cylinder radius=\"-1\"/>"),
+            of + "cylinder radius must be above 0, not -1\n" + of + "<cylinder> has no length");
+  EXPECT_EQ(complaintOfShape("<mesh/>"), of + "<mesh> has no filename");
+  EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scale=\"1 0 1\"/>"),
+            of + "mesh scale must not be 0, which makes the mesh flat");
+  EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scale=\"1e308 1 1e308\"/>"),
+            "no complaint");
+  EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scale=\"1 1 1e308\"/>"),
+            of + "shape \"a\": its origin, size or scale is out of the range of doubles");
+}
+
+TEST_F(UrdfFaults, MeshFiles) {
+  const auto complaint = [&](const std::string& name) {
+    return complaintOfShape("<mesh filename=\"" + name + "\"/>");
+  };
+  const std::string of = "r.urdf:2: link \"a\": mesh ";
+  EXPECT_EQ(complaint("none.stl"), of + "\"none.stl\": none.stl: no such file");
+  EXPECT_EQ(complaint("package://none.stl"),
+            of + "\"package://none.stl\": package://NAME/FILE is needed");
+  EXPECT_EQ(complaint("file://none.stl"),
+            of + "\"file://none.stl\": file:///FOLDER/FILE is needed");
+  EXPECT_EQ(complaint("http://x.org/a.stl"),
+            of + "\"http://x.org/a.stl\": a file beside the URDF, package://NAME/FILE or "
+                 "file:///FILE is needed");
+  packages_["arm_description"] = folder_;
+  EXPECT_EQ(complaint("package://arm_description/none.stl"),
+            of + "\"package://arm_description/none.stl\": none.stl: no such file");
+  EXPECT_EQ(complaint("package://arm_descripton/a.stl"),
+            of + "\"package://arm_descripton/a.stl\": package \"arm_descripton\" has no folder in "
+                 "the robot's packages; did you mean \"arm_description\"?, and "
+                 "arm_descripton/a.stl is no file");
+  // Faults of mesh files come with those of the URDF, each file's once.
+  write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
+  EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +
+                                           collision("<mesh filename=\"bad.obj\"/>")) +
+                             link("b")),
+            "r.urdf:3: link \"b\" is no joint's child, and neither is \"a\" on line 2; a robot "
+            "has one root\n"
+            "bad.obj:2: a coordinate must be a finite number, not \"nan\"");
+}
+
+TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
+  class Other final : public console_bridge::OutputHandler {
+    void log(const std::string&, console_bridge::LogLevel, const char*, int) override { ++lines; }
+
+   public:
+    int lines = 0;
+  } other;
+  console_bridge::useOutputHandler(&other);
+  const auto level = console_bridge::getLogLevel();
+  EXPECT_EQ(complaintOfParts(link("b") + link("a%s%n", "<inertial/>") +
+                             joint("j", "fixed", "b", "a%s%n")),
+            "r.urdf:3: urdfdom, the reader of URDF, refuses it: Inertial element must have a mass "
+            "element; Could not parse inertial element for Link [a?s?n]; link xml is not "
+            "initialized correctly");
+  EXPECT_EQ(complaintOf("<robot name=\"r\" version=\"2.0\"><link name=\"a\"/></robot>"),
+            "r.urdf: urdfdom, the reader of URDF, refuses it: Invalid 'version' specified; only "
+            "version 1.0 is currently supported");
+  EXPECT_EQ(console_bridge::getOutputHandler(), &other);
+  EXPECT_EQ(console_bridge::getLogLevel(), level);
+  EXPECT_EQ(other.lines, 0);
+  console_bridge::noOutputHandler();
+  complaintOfParts(link("a", "<inertial/>"));
+  EXPECT_EQ(console_bridge::getOutputHandler(), nullptr);
+  console_bridge::useOutputHandler(&other);
+  console_bridge::restorePreviousOutputHandler();
+}
+
+TEST_F(UrdfFaults, OfAllKindsAtOnceInOrder) {
+  write("bad.obj", "f 1 2 3\n");
+  const std::string text = complaintOfParts(
+      link("a", collision("<mesh filename=\"bad.obj\"/>")) + link("b", collision("<torus/>")) +
+      joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/><mimic joint=\"j\"/>"));
+  EXPECT_THAT(text, testing::MatchesRegex("r.urdf:3: .*<torus>.*\nr.urdf:4: .*zero.*\nr.urdf:4: "
+                                          ".*<limit.*\nr.urdf:4: .*mimics itself\nbad.obj:1: .*"));
+}
+
+}  // namespace
+}  // namespace corridor::test

@@ -1,0 +1,208 @@
+#include <cmath>
+#include <numbers>
+
+#include "planner/robot/rpy.h"
+#include "tests/planner/robot/urdf_fixture.h"
+#include "tests/support/support.h"
+
+namespace corridor::test {
+namespace {
+
+class UrdfFile : public UrdfTest {};
+
+TEST_F(UrdfFile, JointsOfAllTypesInTheTreesOrder) {
+  const RobotModel model = modelOf(
+      joint("lift", "prismatic", "b", "c", limit + "<axis xyz=\"0 0 3\"/>") +
+      joint("fly", "floating", "c", "d") +
+      joint("slip", "planar", "root", "e", "<axis xyz=\"0 0 1\"/>") +
+      joint("turn", "continuous", "root", "b", limit) +
+      joint("bend", "revolute", "e", "f",
+            limit + "<origin xyz=\"1 2 3\" rpy=\"0.1 0.2 0.3\"/><axis xyz=\"0 -1e-200 0\"/>") +
+      joint("weld", "fixed", "c", "g", "<limit effort=\"1\" velocity=\"1\"/>") + link("b") +
+      link("c") + link("d") + link("root") + link("e") + link("f") + link("g"));
+  EXPECT_EQ(model.name, "r");
+  EXPECT_EQ(model.links[model.root].name, "root");
+  EXPECT_EQ(model.mount, JointType::fixed);
+  ASSERT_EQ(model.joints.size(), 6u);
+  std::string order;
+  for (const JointModel& joint : model.joints) {
+    order += joint.name + " ";
+    EXPECT_EQ(joint.name == "lift" || joint.name == "bend", std::isfinite(joint.lower));
+  }
+  EXPECT_EQ(order, "slip bend turn lift fly weld ");
+  const JointModel& bend = model.joints[1];
+  EXPECT_EQ(bend.type, JointType::revolute);
+  EXPECT_EQ(model.links[bend.parent].name, "e");
+  EXPECT_EQ(model.links[bend.child].name, "f");
+  EXPECT_EQ(bend.lower, -1);
+  EXPECT_EQ(bend.upper, 2);
+  EXPECT_EQ(bend.line, 6);
+  EXPECT_EQ(bend.X_PJ.p, Vec3(1, 2, 3));
+  EXPECT_EQ(bend.X_PJ.q.coeffs(), quaternionFromRpy({0.1, 0.2, 0.3}).coeffs());
+  EXPECT_EQ(bend.axis.x(), 0);
+  EXPECT_LE(bend.axis.y(), -1);
+  EXPECT_EQ(model.joints[0].axis, Vec3::UnitZ());
+  EXPECT_EQ(model.joints[2].axis, Vec3::UnitX()) << "URDF's default";
+  EXPECT_EQ(model.joints[3].axis.normalized(), Vec3::UnitZ());
+  ASSERT_EQ(model.allowed.size(), 6u);
+  EXPECT_EQ(model.allowed[1].a, "e");
+  EXPECT_EQ(model.allowed[1].b, "f");
+  EXPECT_EQ(model.allowed[1].reason, "adjacent");
+  EXPECT_EQ(files_, std::vector{folder_ / "r.urdf"});
+  EXPECT_TRUE(model.notes.empty());
+}
+
+TEST_F(UrdfFile, MimicsOfMimicsFollowTheOneThatMoves) {
+  const RobotModel model =
+      modelOf(link("a") + link("b") + link("c") + link("d") +
+              joint("k", "prismatic", "a", "b",
+                    limit + "<mimic joint=\"l\" multiplier=\"-3\" offset=\"0.25\"/>") +
+              joint("l", "revolute", "b", "c",
+                    limit + "<mimic joint=\"m\" multiplier=\"2\" offset=\"1\"/>") +
+              joint("m", "revolute", "c", "d", limit));
+  EXPECT_FALSE(model.joints[2].mimic);
+  ASSERT_TRUE(model.joints[0].mimic && model.joints[1].mimic);
+  EXPECT_EQ(model.joints[0].mimic->joint, 2u);
+  EXPECT_EQ(model.joints[0].mimic->multiplier, -6);
+  EXPECT_EQ(model.joints[0].mimic->offset, -3 * 1 + 0.25);
+  EXPECT_EQ(model.joints[1].mimic->joint, 2u);
+  EXPECT_EQ(model.joints[1].mimic->multiplier, 2);
+}
+
+TEST_F(UrdfFile, FixedJointsMayMimicEachOther) {
+  const RobotModel model =
+      modelOf(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "b") +
+              joint("k", "fixed", "a", "c", "<mimic joint=\"j\"/>"));
+  EXPECT_FALSE(model.joints[1].mimic);
+}
+
+TEST_F(UrdfFile, PrimitivesStandWhereTheirOriginSays) {
+  const RobotModel model = modelOf(
+      link("a",
+           "<collision><origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/>"
+           "<geometry><box size=\"2 4 6\"/></geometry><material name=\"grey\"/></collision>" +
+               collision("<sphere radius=\"0.5\"/>") +
+               collision("<cylinder radius=\"0.25\" length=\"2\"/>")));
+  const auto& shapes = model.links[0].shapes;
+  ASSERT_EQ(shapes.size(), 3u);
+  EXPECT_EQ(shapes[0].name, "a/1");
+  EXPECT_EQ(shapes[2].name, "a/3");
+  for (const PlacedShape& shape : shapes) {
+    EXPECT_TRUE(shape.solid);
+    EXPECT_FALSE(shape.mesh);
+    ASSERT_TRUE(shape.part && shape.primitive);
+  }
+  EXPECT_EQ(std::get<Box>(*shapes[0].primitive).size, Vec3(2, 4, 6));
+  EXPECT_EQ(shapes[0].at.p, Vec3(1, 2, 3));
+  Vec3 min = shapes[0].part->points[0], max = min;
+  for (const Vec3& p : shapes[0].part->points) {
+    min = min.cwiseMin(p);
+    max = max.cwiseMax(p);
+  }
+  EXPECT_EQ(min, Vec3(-1, 1, 0)) << "a quarter turn is exact";
+  EXPECT_EQ(max, Vec3(3, 3, 6));
+  EXPECT_EQ(std::get<Sphere>(*shapes[1].primitive).radius, 0.5);
+  EXPECT_EQ(std::get<Cylinder>(*shapes[2].primitive).radius, 0.25);
+  EXPECT_EQ(std::get<Cylinder>(*shapes[2].primitive).length, 2);
+}
+
+TEST_F(UrdfFile, MeshesAreScaledTurnedAndShifted) {
+  const RobotModel model =
+      modelOf(link("a", collision("<mesh filename=\"wedge.obj\"/>")) +
+              link("b",
+                   "<collision><origin xyz=\"0 0 5\" rpy=\"1.5707963267948966 0 0\"/><geometry>"
+                   "<mesh filename=\"wedge.obj\" scale=\"-1 2 1\"/></geometry></collision>") +
+              joint("j", "fixed", "a", "b"));
+  const PlacedShape &plain = model.links[0].shapes[0], &placed = model.links[1].shapes[0];
+  EXPECT_EQ(plain.name, "a");
+  EXPECT_FALSE(plain.solid);
+  EXPECT_EQ(plain.file, folder_ / "wedge.obj");
+  ASSERT_EQ(plain.mesh->mesh.vertices.size(), placed.mesh->mesh.vertices.size());
+  for (std::size_t i = 0; i < plain.mesh->mesh.vertices.size(); ++i) {
+    const Vec3& v = plain.mesh->mesh.vertices[i];
+    EXPECT_EQ(placed.mesh->mesh.vertices[i], Vec3(-v.x(), -v.z(), 2 * v.y() + 5));
+  }
+  EXPECT_EQ(placed.mesh->mesh.triangles, plain.mesh->mesh.triangles) << "mirrored, as they are";
+  EXPECT_EQ(placed.mesh->unitRule, plain.mesh->unitRule + "; times the URDF's scale -1 2 1");
+  EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "wedge.obj"})) << "each once";
+}
+
+TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
+  const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+  write("else/where/in_map.obj", wedge);
+  write("beside/in_beside.obj", wedge);
+  packages_["mapped"] = folder_ / "else";
+  const std::string above = folder_.filename().string();
+  const RobotModel model = modelOf(link(
+      "a", collision("<mesh filename=\"package://mapped/where/in_map.obj\"/>") +
+               collision("<mesh filename=\"package://beside/in_beside.obj\"/>") +
+               collision("<mesh filename=\"package://" + above + "/wedge.obj\"/>") +
+               collision("<mesh filename=\"file://" + (folder_ / "wedge.obj").string() + "\"/>") +
+               collision("<mesh filename=\"beside/../wedge.obj\"/>")));
+  EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "else/where/in_map.obj",
+                                 folder_ / "beside/in_beside.obj", folder_ / "wedge.obj"}));
+  ASSERT_EQ(model.links[0].shapes.size(), 5u);
+}
+
+TEST_F(UrdfFile, WhatIsUnknownIsIgnoredAndToldWhereItLooksLikeAMistake) {
+  const RobotModel model = modelOf(
+      "<gazebo reference=\"a\"><x/></gazebo>\n<transmission name=\"t\"/>\n" +
+      link("a", "<visual><geometry><torus/></geometry></visual><colision/>") +
+      "<lnk name=\"b\"/>\n" + link("b") +
+      joint("j", "prismatic", "a", "b",
+            R"(<limit effort="0" velocity="0"/><hardware/><safety_controller k_velocity="1"/>)"));
+  EXPECT_EQ(model.notes.size(), 3u);
+  const std::string file = (folder_ / "r.urdf").string();
+  EXPECT_THAT(model.notes,
+              testing::UnorderedElementsAre(
+                  file + ":4: link \"a\": <colision> is not known, and is ignored; did you mean "
+                         "<collision>?",
+                  file + ":5: robot \"r\": <lnk> is not known, and is ignored; did you mean "
+                         "<link>?",
+                  file + ":7: joint \"j\": <limit> has neither lower nor upper, so both are 0, "
+                         "and the joint cannot move"));
+}
+
+TEST_F(UrdfFile, OddNamesGoThrough) {
+  const RobotModel model = modelOf(link("100%s &lt;a&gt;") + link("b c") +
+                                   joint("50%n", "revolute", "100%s &lt;a&gt;", "b c", limit));
+  EXPECT_EQ(model.links[0].name, "100%s <a>");
+  EXPECT_EQ(model.joints[0].name, "50%n");
+  EXPECT_EQ(model.joints[0].upper, 2);
+}
+
+TEST(Rpy, QuarterTurnsAreExact) {
+  constexpr double quarter = std::numbers::pi / 2;
+  for (int i = -4; i <= 4; ++i)
+    for (int j = -4; j <= 4; ++j)
+      for (int k = -4; k <= 4; ++k) {
+        const Mat3 R = matrixFromRpy({i * quarter, j * quarter, k * quarter});
+        EXPECT_EQ(R * R.transpose(), Mat3::Identity());
+        EXPECT_EQ(R.cwiseAbs().sum(), 3);
+        EXPECT_EQ(R.determinant(), 1);
+      }
+  EXPECT_EQ(matrixFromRpy({0, 0, quarter}) * Vec3::UnitX(), Vec3::UnitY());
+  EXPECT_EQ(matrixFromRpy({quarter, 0, 0}) * Vec3::UnitY(), Vec3::UnitZ());
+  EXPECT_EQ(matrixFromRpy({0, quarter, 0}) * Vec3::UnitZ(), Vec3::UnitX());
+  EXPECT_EQ(quaternionFromRpy(Vec3::Zero()).coeffs(), Eigen::Vector4d(0, 0, 0, 1));
+  EXPECT_EQ(quaternionFromRpy({2 * quarter, 0, 0}).coeffs(), Eigen::Vector4d(1, 0, 0, 0));
+  const Eigen::Quaterniond q = quaternionFromRpy({0, 0, quarter});
+  EXPECT_EQ(q.w(), q.z());
+}
+
+TEST(Rpy, TurnsAboutFixedAxesInTurn) {
+  srand(static_cast<unsigned>(testSeed(3)));
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 a = 4 * Vec3::Random();
+    const Mat3 R =
+        (Eigen::AngleAxisd(a.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(a.y(), Vec3::UnitY()) *
+         Eigen::AngleAxisd(a.x(), Vec3::UnitX()))
+            .toRotationMatrix();
+    EXPECT_LT((matrixFromRpy(a) - R).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_LT((quaternionFromRpy(a).toRotationMatrix() - R).cwiseAbs().maxCoeff(), 2e-15);
+    EXPECT_NEAR(quaternionFromRpy(a).norm(), 1, 2.3e-16);
+  }
+}
+
+}  // namespace
+}  // namespace corridor::test
