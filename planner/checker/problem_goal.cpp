@@ -19,7 +19,9 @@ bool inRegion(const Problem& problem, const Configuration& goal, const Configura
   for (const CoordinateGroup& group : problem.space.groups()) {
     if (group.kind == CoordinateGroup::Kind::joints) {
       for (const std::size_t c : group.coordinates)
-        if (!(differenceOf(problem.space.coordinates()[c], goal, q) <= region.joint * grow))
+        if (!(differenceOf(problem.space.coordinates()[c], goal, q) <=
+              std::max(region.joint * grow,
+                       problem.space.coordinates()[c].kind == Coordinate::Kind::circle ? same : 0)))
           return false;
     } else if (!(positionDifference(problem.space, group, goal, q) <= region.position * grow) ||
                !(rotationDifference(problem.space, group, goal, q) <=
