@@ -83,6 +83,7 @@ class Solve {
   }
 
   SolveReport run();
+  void setUp();
 
  private:
   bool discrete() const { return problem_.checker.edges == "discrete"; }
@@ -90,9 +91,10 @@ class Solve {
                                const std::string& value = "") const;
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
   void checkEnds();
+  void setUpEnds();
   void setUpSpace();
+  void setResolution();
   void setUpPlanner();
-  void setUpGoal();
   void setUpObjective();
   void tellProgress();
   void plan();
@@ -144,13 +146,6 @@ void Solve::checkEnds() {
 }
 
 void Solve::setUpSpace() {
-  if (const double r = problem_.checker.resolution; !(r >= kFinestResolution && r < 1)) {
-    const PlannerParameter at = parameterAt("checker.resolution");
-    throw InputError(Fault{at.file, at.line,
-                           "checker.resolution: " + shortest(r) + " is not in [" +
-                               shortest(kFinestResolution) + ", 1)"});
-  }
-  space_->setLongestValidSegmentFraction(problem_.checker.resolution);
   si_ = std::make_shared<ob::SpaceInformation>(space_);
   if (discrete()) {
     si_->setStateValidityChecker(std::make_shared<ExactStateValidityChecker>(si_, checker_));
@@ -160,8 +155,17 @@ void Solve::setUpSpace() {
     validator_ = std::make_shared<CertifiedMotionValidator>(si_, checker_);
   }
   si_->setMotionValidator(validator_);
-  setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler"));
-  si_->setup();
+}
+
+void Solve::setResolution() {
+  const double r = problem_.checker.resolution;
+  if (!(r >= kFinestResolution && r < 1)) {
+    const PlannerParameter at = parameterAt("checker.resolution");
+    throw InputError(Fault{at.file, at.line,
+                           "checker.resolution: " + shortest(r) + " is not in [" +
+                               shortest(kFinestResolution) + ", 1)"});
+  }
+  space_->setLongestValidSegmentFraction(r);
 }
 
 void Solve::setUpPlanner() {
@@ -176,8 +180,28 @@ void Solve::setUpPlanner() {
     }
 }
 
-void Solve::setUpGoal() {
+void Solve::setUp() {
+  ompl::msg::noOutputHandler();  // what users need to know is in the report
+  ompl::RNG::setSeed(problem_.seed);
+  setUpSpace();
   definition_ = std::make_shared<ob::ProblemDefinition>(si_);
+  std::vector<Fault> faults;
+  const auto collect = [&](auto step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  };
+  collect([&] { setResolution(); });
+  collect([&] { setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler")); });
+  si_->setup();
+  collect([&] { setUpPlanner(); });
+  collect([&] { setUpObjective(); });
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+void Solve::setUpEnds() {
   ob::ScopedState<> start(si_);
   space_->write(start_, start.get());
   definition_->addStartState(start);
@@ -193,7 +217,7 @@ void Solve::setUpObjective() {
     throw InputError(problem_.faultAt("objective",
                                       "objective max_min_clearance needs a clearance, which isn't "
                                       "computed yet; there are: length, mechanical_work"));
-  } else if (name == "length" || planner_->getSpecs().optimizingPaths) {
+  } else if (name == "length" || (planner_ && planner_->getSpecs().optimizingPaths)) {
     objective = std::make_shared<PathLengthObjective>(si_);
   }
   if (!objective) return;
@@ -297,13 +321,9 @@ void Solve::finish() {
 }
 
 SolveReport Solve::run() {
-  ompl::msg::noOutputHandler();  // what users need to know is in the report
-  ompl::RNG::setSeed(problem_.seed);
-  setUpSpace();
-  setUpPlanner();  // before the checks of start and goal: bad names cost no time
+  setUp();  // before the checks of start and goal: bad names cost no time
   checkEnds();
-  setUpGoal();
-  setUpObjective();
+  setUpEnds();
   plan();
   report_.time = clock_.seconds();
   report_.counters = checker_.counters();
@@ -311,6 +331,10 @@ SolveReport Solve::run() {
 }
 
 }  // namespace
+
+void checkSettings(const Problem& problem) {
+  Solve(problem, {}).setUp();
+}
 
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options) {
   return Solve(problem, options).run();

@@ -67,4 +67,8 @@ struct SolveReport {
 /// parameter or sampler; an objective that needs what isn't there.
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options = {});
 
+/// All that solveProblem would find wrong with planner, parameters, sampler, resolution and
+/// objective, at once. @throws InputError.
+void checkSettings(const Problem& problem);
+
 }  // namespace corridor
