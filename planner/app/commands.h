@@ -27,9 +27,17 @@ struct VerifyArguments {
 };
 int verifyCommand(const VerifyArguments& arguments);
 
+struct CheckArguments {
+  std::string problem;
+  std::optional<std::string> states;  ///< a file of states, one a line
+  bool json = false;
+};
+int checkCommand(const CheckArguments& arguments);
+
 struct InspectArguments {
   std::string file;
   std::optional<std::string> unit, up;  ///< of a mesh file
+  bool pairs = false;                   ///< of a problem: every pair
   bool json = false;
 };
 int inspectCommand(const InspectArguments& arguments);

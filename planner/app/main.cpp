@@ -16,7 +16,8 @@ namespace {
 using namespace corridor::app;
 
 constexpr const char* kExitStatus =
-    "Exit status: 0 done; 1 no (nothing found, or not proved); 2 bad input; 3 internal error; 130 "
+    "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input; 3 internal "
+    "error; 130 "
     "interrupted.";
 
 /// An option's value from `low` to `high`; `needed` says so. (CLI11's own ranges take NaN, and
@@ -37,7 +38,7 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
   command
       ->add_option("PROBLEM", a.problems,
-                   "problem.yaml, a folder that holds one, or an OMPL.app .cfg")
+                   "problem.yaml, a folder that holds one, an OMPL.app .cfg, or SET.json#INDEX")
       ->required();
   const char* planning = "Planning (over what the problem says)";
   command->add_option("--planner", a.planner, "by OMPL's name; a wrong one lists them all")
@@ -98,14 +99,33 @@ void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
   command->callback([&] { status = verifyCommand(a); });
 }
 
-void addInspect(CLI::App& program, InspectArguments& a, int& status) {
+void addCheck(CLI::App& program, CheckArguments& a, int& status) {
   CLI::App* command =
-      program.add_subcommand("inspect", "Tell what a mesh or a problem is, and what is skipped");
-  command->add_option("FILE", a.file, "a mesh file, or a problem")->required();
+      program.add_subcommand("check", "Check a problem, or many states of it, without planning");
+  command->add_option("PROBLEM", a.problem, "the problem")->required();
+  command->add_option("--states", a.states,
+                      "a file of states, one a line, numbers blank or comma separated, # comments: "
+                      "prints one line each, state,valid,pairs");
+  command->add_flag("--json", a.json, "results as JSON");
+  command->footer(
+      std::string(
+          "Example: corridor check problems/arm_at_shelf --states states.txt > valid.csv\n"
+          "The numbers of a state are those of the problem's joints, in the order that `corridor "
+          "inspect` prints.\n") +
+      kExitStatus);
+  command->callback([&] { status = checkCommand(a); });
+}
+
+void addInspect(CLI::App& program, InspectArguments& a, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "inspect", "Tell what a mesh, robot or problem is, and what is skipped");
+  command->add_option("FILE", a.file, "a mesh file, a URDF, or a problem")->required();
   command->add_option("--unit", a.unit, "of a mesh file: m, cm, mm or in")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
   command->add_option("--up", a.up, "of a mesh file: its up-axis, to be turned to z")
       ->check(CLI::IsMember({"x", "y", "z"}));
+  command->add_flag("--pairs", a.pairs,
+                    "of a problem: every pair of bodies, and why it isn't tested");
   command->add_flag("--json", a.json, "results as JSON");
   command->footer(std::string("Example: corridor inspect robots/piano/piano.obj\n") + kExitStatus);
   command->callback([&] { status = inspectCommand(a); });
@@ -119,7 +139,7 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
     return error.what() + ("; corridor " + given[0]->get_name()) + " --help tells more";
   if (firstWord.empty() || firstWord[0] == '-')
     return error.what() + std::string("; corridor --help tells more");
-  const std::vector<std::string> commands{"solve", "verify", "inspect"};
+  const std::vector<std::string> commands{"solve", "verify", "check", "inspect"};
   return "unknown command " + corridor::quotedWord(firstWord) +
          corridor::didYouMean(firstWord, commands) + "; there are: " + corridor::joined(commands);
 }
@@ -134,9 +154,11 @@ int main(int argc, char** argv) {
   int status = kDone;
   SolveArguments solve;
   VerifyArguments verify;
+  CheckArguments check;
   InspectArguments inspect;
   addSolve(program, solve, status);
   addVerify(program, verify, status);
+  addCheck(program, check, status);
   addInspect(program, inspect, status);
   try {
     program.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "planner/app/output.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <unistd.h>
@@ -34,6 +35,45 @@ std::string rounded(const Vec3& v, int dimension) {
   std::string text = "[";
   for (int i = 0; i < dimension; ++i) text += (i ? ", " : "") + rounded(v[i]);
   return text + "]";
+}
+
+namespace {
+
+struct TubeParts {
+  double metres = 0, radians = 0;
+};
+
+TubeParts largestParts(const ConfigurationSpace& space, const Configuration& tube) {
+  TubeParts parts;
+  for (const Coordinate& c : space.coordinates()) {
+    double& part = c.kind == Coordinate::Kind::line && !c.angular ? parts.metres : parts.radians;
+    part = std::max(part, tube[static_cast<Eigen::Index>(c.first)]);
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string tubeText(const ConfigurationSpace& space, const Configuration& tube) {
+  const TubeParts parts = largestParts(space, tube);
+  return rounded(parts.metres) + " m, " + rounded(parts.radians) + " rad";
+}
+
+nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube) {
+  const TubeParts parts = largestParts(space, tube);
+  return {{"position_m", parts.metres}, {"rotation_rad", parts.radians}};
+}
+
+std::string stateText(const ConfigurationSpace& space, const Configuration& q) {
+  std::string text;
+  const std::vector<std::string> names = space.numberNames();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i ? ", " : "") + names[i] + " = " + rounded(q[static_cast<Eigen::Index>(i)]);
+  return text;
+}
+
+nlohmann::ordered_json numbersJson(const Configuration& q) {
+  return std::vector<double>(q.begin(), q.end());
 }
 
 std::string grouped(std::uint64_t count) {

@@ -4,7 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "collision/core/transform.h"
+#include "planner/robot/configuration_space.h"
 
 namespace corridor::app {
 
@@ -27,6 +30,13 @@ void warn(const std::string& text);
 /// For people: four significant digits.
 std::string rounded(double value);
 std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
+/// "1e-12 m, 6e-12 rad": the largest part of a tube in lengths and in angles.
+std::string tubeText(const ConfigurationSpace& space, const Configuration& tube);
+nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
+/// "x = 1, y = 2, yaw = 0.5"
+std::string stateText(const ConfigurationSpace& space, const Configuration& q);
+nlohmann::ordered_json numbersJson(const Configuration& q);
+
 /// Digits in groups of three: 12,345.
 std::string grouped(std::uint64_t count);
 /// "1 edge", "2 edges"

@@ -105,25 +105,28 @@ void print(const SolveReport& r, const std::string& problem, const SolveArgument
   if (a.picture) out.line("picture", *a.picture);
 }
 
-ordered_json jsonOf(const SolveReport& r, const std::string& problem) {
-  ordered_json j = {
-      {"problem", problem},
-      {"result", nameOf(r.outcome)},
-      {"planner", r.planner},
-      {"seed", r.seed},
-      {"repeats", r.repeats},
-      {"time_s", r.time},
-      {"planning_time_s", r.planningTime},
-      {"states_checked", r.counters.states},
-      {"edges_checked", r.counters.edges},
-      {"undecided", r.counters.undecided},
-      {"box_tests", r.counters.boxTests},
-      {"triangle_tests", r.counters.triangleTests},
-      {"checker", r.checker},
-      {"certified", r.certified},
-      {"tolerance_m", r.motion.tolerance},
-      {"margin_m", r.motion.margin},
-      {"tube", {{"position_m", r.motion.tube.position}, {"rotation_rad", r.motion.tube.rotation}}}};
+ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& problem) {
+  ordered_json j = {{"problem", problem},
+                    {"result", nameOf(r.outcome)},
+                    {"planner", r.planner},
+                    {"seed", r.seed},
+                    {"repeats", r.repeats},
+                    {"time_s", r.time},
+                    {"planning_time_s", r.planningTime},
+                    {"states_checked", r.counters.states},
+                    {"edges_checked", r.counters.edges},
+                    {"undecided", r.counters.undecided},
+                    {"box_tests", r.counters.boxTests},
+                    {"triangle_tests", r.counters.triangleTests},
+                    {"checker", r.checker},
+                    {"certified", r.certified},
+                    {"tolerance_m", r.motion.tolerance},
+                    {"margin_m", r.motion.margin},
+                    {"tube", tubeJson(p.space, p.tube)}};
+  if (!r.warnings.empty()) {
+    j["warnings"] = ordered_json::array();
+    for (const Fault& fault : r.warnings) j["warnings"].push_back(fault.text);
+  }
   if (r.outcome == SolveOutcome::solved) {
     j["path"] = {{"states", r.path.size()},
                  {"length_m", r.length.metres},
@@ -136,7 +139,12 @@ ordered_json jsonOf(const SolveReport& r, const std::string& problem) {
   return j;
 }
 
-SolveReport solveOne(const std::string& file, const SolveArguments& a) {
+struct Solved {
+  Problem problem;
+  SolveReport report;
+};
+
+Solved solveOne(const std::string& file, const SolveArguments& a) {
   Problem problem = readProblem(file);
   SolveOptions options;
   options.setElsewhere = applyArguments(a, problem);
@@ -151,11 +159,12 @@ SolveReport solveOne(const std::string& file, const SolveArguments& a) {
   }
   SolveReport report = solveProblem(problem, options);
   if (show) std::fputs("\r\033[K", stderr);
+  for (const Fault& fault : report.warnings) warn(fault.str());
   if (report.outcome == SolveOutcome::solved) {
     if (a.output) writeSolution(makeSolution(problem, report), *a.output);
     if (a.picture) writeWhole(*a.picture, svgPicture(problem, report.path));
   }
-  return report;
+  return {std::move(problem), std::move(report)};
 }
 
 /// Before any time is spent on planning: is there a folder for the file?
@@ -184,9 +193,9 @@ int solveCommand(const SolveArguments& a) {
   ordered_json results = ordered_json::array();
   for (const std::string& file : a.problems) {
     try {
-      const SolveReport report = solveOne(file, a);
+      const auto [problem, report] = solveOne(file, a);
       if (a.json) {
-        results.push_back(jsonOf(report, file));
+        results.push_back(jsonOf(report, problem, file));
       } else {
         if (&file != &a.problems.front()) Lines(a.quiet).blank();
         print(report, file, a);

@@ -19,21 +19,24 @@ const char* nameOf(PathVerdict verdict) {
                                            : "undecided";
 }
 
-std::string text(const PathFinding& f, RigidSpace space) {
-  const Eigen::Quaterniond q = f.pose.q.normalized();
-  const bool planar = space == RigidSpace::SE2;
+/// "shelf" (triangle 3); parts have no triangles.
+std::string sideText(const std::string& name, std::uint32_t triangle, const Problem& problem) {
+  bool meshes = false;
+  for (const ProblemBody& body : problem.bodies)
+    if (body.name == name) meshes = !body.shapes.front().part;
+  return "\"" + name + "\"" + (meshes ? " (triangle " + std::to_string(triangle) + ")" : "");
+}
+
+std::string text(const PathFinding& f, const Problem& problem) {
   std::string line = std::string(nameOf(f.verdict)) + ": edge " + std::to_string(f.edge) +
                      " at t = " + rounded(f.t) + ": " + f.reason;
-  if (!f.moving.empty()) {
-    line += ": \"" + f.moving + "\" (triangle " + std::to_string(f.movingTriangle) + ") and \"" +
-            f.fixed + "\" (triangle " + std::to_string(f.fixedTriangle) + ")";
+  if (!f.a.empty()) {
+    line +=
+        ": " + sideText(f.a, f.triangleA, problem) + " and " + sideText(f.b, f.triangleB, problem);
     if (f.gap > 0) line += ", " + rounded(f.gap) + " m apart";
     line += ", near " + rounded(f.point);
   }
-  line += "; robot at " + rounded(f.pose.p, planar ? 2 : 3);
-  if (planar) return line + ", yaw " + rounded(f.yaw);
-  return line + ", quat_xyzw [" + rounded(q.x()) + ", " + rounded(q.y()) + ", " + rounded(q.z()) +
-         ", " + rounded(q.w()) + "]";
+  return line + "; at " + stateText(problem.space, f.configuration);
 }
 
 ordered_json numbers(const Vec3& v) {
@@ -45,19 +48,17 @@ ordered_json jsonOf(const PathFinding& f) {
           {"reason", f.reason},
           {"edge", f.edge},
           {"t", f.t},
-          {"at", numbers(f.pose.p)},
-          {"quat_xyzw", {f.pose.q.x(), f.pose.q.y(), f.pose.q.z(), f.pose.q.w()}},
-          {"yaw", f.yaw},
-          {"moving", f.moving},
-          {"moving_triangle", f.movingTriangle},
-          {"fixed", f.fixed},
-          {"fixed_triangle", f.fixedTriangle},
+          {"state", numbersJson(f.configuration)},
+          {"a", f.a},
+          {"triangle_a", f.triangleA},
+          {"b", f.b},
+          {"triangle_b", f.triangleB},
           {"point", numbers(f.point)},
           {"gap_m", f.gap}};
 }
 
-ordered_json jsonOf(const VerifyReport& r, const VerifyArguments& a) {
-  ordered_json j = {{"format", "corridor-verify-report-1"},
+ordered_json jsonOf(const VerifyReport& r, const Problem& problem, const VerifyArguments& a) {
+  ordered_json j = {{"format", "corridor-verify-report-2"},
                     {"problem", a.problem},
                     {"solution", a.solution},
                     {"verdict", nameOf(r.verdict)},
@@ -66,7 +67,8 @@ ordered_json jsonOf(const VerifyReport& r, const VerifyArguments& a) {
                     {"proven_clearance_m", r.motion.provenClearance},
                     {"smallest_distance_met_m", r.motion.smallestDistanceMet},
                     {"margin_m", r.margin},
-                    {"tube", {{"position_m", r.tube.position}, {"rotation_rad", r.tube.rotation}}},
+                    {"tube", tubeJson(problem.space, r.tube)},
+                    {"numbers", problem.space.numberNames()},
                     {"distance_queries", r.motion.distanceQueries},
                     {"violations", r.violations},
                     {"findings", ordered_json::array()}};
@@ -85,12 +87,11 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
     out.line("clearance", "at least " + rounded(r.motion.provenClearance) + " m, at most " +
                               rounded(r.motion.smallestDistanceMet) + " m");
   if (r.margin > 0) out.line("margin", rounded(r.margin) + " m");
-  out.line("tube", rounded(r.tube.position) + " m, " + rounded(r.tube.rotation) + " rad");
+  out.line("tube", tubeText(problem.space, r.tube));
   out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);
   for (const std::string& violation : r.violations) out.line("violation", violation);
-  for (const PathFinding& finding : r.motion.findings)
-    out.line("finding", text(finding, problem.space));
+  for (const PathFinding& finding : r.motion.findings) out.line("finding", text(finding, problem));
   out.line("distance queries", grouped(r.motion.distanceQueries));
 }
 
@@ -106,7 +107,7 @@ int verifyCommand(const VerifyArguments& a) {
   if (!a.json) {
     print(report, problem, a);
   } else if (!a.quiet) {
-    std::cout << jsonOf(report, a).dump(2) << '\n';
+    std::cout << jsonOf(report, problem, a).dump(2) << '\n';
   }
   return report.verdict == PathVerdict::proved ? kDone : kNo;
 }

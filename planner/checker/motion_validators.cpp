@@ -7,51 +7,55 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
 
-#include "planner/checker/rigid_state_space.h"
+#include "planner/checker/problem_state_space.h"
 
 namespace corridor {
 
 namespace ob = ompl::base;
 
-RigidMotionValidator::RigidMotionValidator(const ob::SpaceInformationPtr& si,
-                                           const RigidChecker& checker)
+CountingMotionValidator::CountingMotionValidator(const ob::SpaceInformationPtr& si,
+                                                 const Checker& checker)
     : MotionValidator(si), checker_(checker) {}
 
-bool RigidMotionValidator::count(bool valid) const {
+void CountingMotionValidator::write(const Configuration& q, ob::State* state) const {
+  si_->getStateSpace()->as<ProblemStateSpace>()->write(q, state);
+}
+
+bool CountingMotionValidator::count(bool valid) const {
   // OMPL reads these as plain numbers, and its planners with threads call us from all of them.
   std::atomic_ref(valid ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);
   return valid;
 }
 
-std::uint64_t RigidMotionValidator::checkedMotions() const {
+std::uint64_t CountingMotionValidator::checkedMotions() const {
   return std::uint64_t{std::atomic_ref(valid_).load(std::memory_order_relaxed)} +
          std::atomic_ref(invalid_).load(std::memory_order_relaxed);
 }
 
-bool RigidMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) const {
-  return count(isFree(readState(checker_.space(), s1), readState(checker_.space(), s2)));
+bool CountingMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) const {
+  return count(isFree(configurationOf(*si_, s1), configurationOf(*si_, s2)));
 }
 
-bool RigidMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2,
-                                       std::pair<ob::State*, double>& lastValid) const {
+bool CountingMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2,
+                                          std::pair<ob::State*, double>& lastValid) const {
   const std::optional<Progress> until =
-      lastFree(readState(checker_.space(), s1), readState(checker_.space(), s2));
+      lastFree(configurationOf(*si_, s1), configurationOf(*si_, s2));
   if (!until) return count(true);
   lastValid.second = until->t;
   if (lastValid.first && until->t > 0) {
-    writeState(checker_.space(), until->state, lastValid.first);
+    write(until->state, lastValid.first);
   } else if (lastValid.first && lastValid.first != s1) {
     si_->copyState(lastValid.first, s1);
   }
   return count(false);
 }
 
-bool CertifiedMotionValidator::isFree(const RigidState& from, const RigidState& to) const {
+bool CertifiedMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
   return checker_.inBounds(to) && checker_.edge(from, to, false).verdict == MotionVerdict::free;
 }
 
-std::optional<RigidMotionValidator::Progress> CertifiedMotionValidator::lastFree(
-    const RigidState& from, const RigidState& to) const {
+std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastFree(
+    const Configuration& from, const Configuration& to) const {
   if (!checker_.inBounds(to)) return Progress{};
   const MotionResult result = checker_.edge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
@@ -59,28 +63,28 @@ std::optional<RigidMotionValidator::Progress> CertifiedMotionValidator::lastFree
   // [0, t0] may be proved with a clearance that leaves nothing for a second proof.
   const double least = checker_.options().timeTolerance;
   for (double t = result.certifiedUntil; t >= least; t /= 2) {
-    const RigidState at = interpolate(checker_.space(), from, to, t);
+    const Configuration at = checker_.space().interpolate(from, to, t);
     if (checker_.certifiedState(at) && isFree(from, at)) return Progress{t, at};
   }
   return Progress{};
 }
 
-bool DiscreteMotionValidator::isValid(const RigidState& state) const {
+bool DiscreteMotionValidator::isValid(const Configuration& state) const {
   // Through OMPL, so that edges and states are judged by one rule.
   ob::ScopedState<> scoped(si_->getStateSpace());
-  writeState(checker_.space(), state, scoped.get());
+  write(state, scoped.get());
   return si_->isValid(scoped.get());
 }
 
-unsigned DiscreteMotionValidator::steps(const RigidState& from, const RigidState& to) const {
+unsigned DiscreteMotionValidator::steps(const Configuration& from, const Configuration& to) const {
   ob::ScopedState<> a(si_->getStateSpace()), b(si_->getStateSpace());
-  writeState(checker_.space(), from, a.get());
-  writeState(checker_.space(), to, b.get());
+  write(from, a.get());
+  write(to, b.get());
   return std::max(1u, si_->getStateSpace()->validSegmentCount(a.get(), b.get()));
 }
 
-bool DiscreteMotionValidator::isFree(const RigidState& from, const RigidState& to) const {
-  if (ambiguous(checker_.space(), from, to) || !isValid(to)) return false;
+bool DiscreteMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
+  if (checker_.space().ambiguous(from, to) || !isValid(to)) return false;
   const unsigned n = steps(from, to);
   // Middles first: contacts are found sooner there (OMPL's order).
   std::queue<std::pair<unsigned, unsigned>> parts;  // steps first … last are yet to be asked
@@ -88,21 +92,21 @@ bool DiscreteMotionValidator::isFree(const RigidState& from, const RigidState& t
   for (; !parts.empty(); parts.pop()) {
     const auto [first, last] = parts.front();
     const unsigned middle = (first + last) / 2;
-    if (!isValid(interpolate(checker_.space(), from, to, double(middle) / n))) return false;
+    if (!isValid(checker_.space().interpolate(from, to, double(middle) / n))) return false;
     if (first < middle) parts.emplace(first, middle - 1);
     if (middle < last) parts.emplace(middle + 1, last);
   }
   return true;
 }
 
-std::optional<RigidMotionValidator::Progress> DiscreteMotionValidator::lastFree(
-    const RigidState& from, const RigidState& to) const {
-  if (ambiguous(checker_.space(), from, to)) return Progress{};
+std::optional<CountingMotionValidator::Progress> DiscreteMotionValidator::lastFree(
+    const Configuration& from, const Configuration& to) const {
+  if (checker_.space().ambiguous(from, to)) return Progress{};
   const unsigned n = steps(from, to);
   Progress last;
   for (unsigned i = 1; i <= n; ++i) {
     const double t = double(i) / n;
-    const RigidState at = interpolate(checker_.space(), from, to, t);
+    const Configuration at = checker_.space().interpolate(from, to, t);
     if (!isValid(at)) break;
     if (i == n) return std::nullopt;
     last = {t, at};
@@ -110,7 +114,7 @@ std::optional<RigidMotionValidator::Progress> DiscreteMotionValidator::lastFree(
   // The shorter edge has other samples; it counts only if they are free too.
   while (last.t > 0 && !isFree(from, last.state)) {
     last.t = last.t > 1.0 / n ? last.t / 2 : 0;
-    last.state = interpolate(checker_.space(), from, to, last.t);
+    last.state = checker_.space().interpolate(from, to, last.t);
   }
   return last;
 }

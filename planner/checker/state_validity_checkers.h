@@ -2,7 +2,7 @@
 
 #include <ompl/base/StateValidityChecker.h>
 
-#include "planner/checker/rigid_checker.h"
+#include "planner/checker/checker.h"
 
 namespace corridor {
 
@@ -10,25 +10,24 @@ namespace corridor {
 /// length). Undecided is not valid.
 class CertifiedStateValidityChecker : public ompl::base::StateValidityChecker {
  public:
-  CertifiedStateValidityChecker(const ompl::base::SpaceInformationPtr& si,
-                                const RigidChecker& checker)
+  CertifiedStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)
       : StateValidityChecker(si), checker_(checker) {}
   bool isValid(const ompl::base::State* state) const override;
 
  private:
-  const RigidChecker& checker_;
+  const Checker& checker_;
 };
 
-/// For the discrete yardstick. Valid is: in bounds, and no triangles touch, exactly. Where a margin
+/// For the discrete yardstick. Valid is: in bounds, and nothing touches, exactly. Where a margin
 /// is asked for, it is kept, and certified.
 class ExactStateValidityChecker : public ompl::base::StateValidityChecker {
  public:
-  ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const RigidChecker& checker)
+  ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)
       : StateValidityChecker(si), checker_(checker) {}
   bool isValid(const ompl::base::State* state) const override;
 
  private:
-  const RigidChecker& checker_;
+  const Checker& checker_;
 };
 
 }  // namespace corridor

@@ -1,8 +1,10 @@
 #include "planner/solve/endpoint_help.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <random>
 #include <vector>
 
 namespace corridor {
@@ -14,90 +16,207 @@ std::string number(double value) {
   return text;
 }
 
-std::string coordinates(RigidSpace space, const Vec3& p) {
-  std::string text = "[" + number(p.x()) + ", " + number(p.y());
-  if (space == RigidSpace::SE3) text += ", " + number(p.z());
+/// A problem whose configuration is the pose of one rigid body; its joint, or null.
+const CoordinateGroup* onlyPose(const ConfigurationSpace& space) {
+  const bool one =
+      space.groups().size() == 1 && space.groups()[0].kind != CoordinateGroup::Kind::joints;
+  return one ? &space.groups()[0] : nullptr;
+}
+
+std::string position(const Configuration& q, const CoordinateGroup& pose) {
+  std::string text = "[";
+  for (std::size_t k = 0; k + 1 < pose.coordinates.size(); ++k)
+    text += (k ? ", " : "") + number(q[static_cast<Eigen::Index>(k)]);
   return text + "]";
 }
 
-/// Evenly spread unit vectors: a Fibonacci spiral, or a circle.
-std::vector<Vec3> directions(RigidSpace space) {
-  constexpr int count = 64;
-  std::vector<Vec3> all;
-  for (int i = 0; i < count; ++i) {
-    const double z = space == RigidSpace::SE3 ? 1 - (2 * i + 1.0) / count : 0;
-    const double angle = space == RigidSpace::SE3 ? i * std::numbers::pi * (3 - std::sqrt(5.0))
-                                                  : 2 * std::numbers::pi * i / count;
-    const double r = std::sqrt(1 - z * z);
-    all.push_back({r * std::cos(angle), r * std::sin(angle), z});
+/// "shelf" (triangle 12); the shape's number where the body has several.
+std::string described(const Checker& checker, std::size_t shape, std::uint32_t triangle) {
+  const std::size_t owner = checker.bodyOf(shape);
+  const ProblemBody& body = checker.problem().bodies[owner];
+  std::string details;
+  if (body.shapes.size() > 1) {
+    std::size_t first = shape;
+    while (first > 0 && checker.bodyOf(first - 1) == owner) --first;
+    details = "shape " + std::to_string(shape - first + 1);
   }
+  if (!checker.scene().bodies()[shape].body.part())
+    details += (details.empty() ? "" : ", ") + ("triangle " + std::to_string(triangle));
+  return "\"" + body.name + "\"" + (details.empty() ? "" : " (" + details + ")");
+}
+
+std::string described(const Checker& checker, const Contact& pair) {
+  const std::string a = described(checker, pair.bodyA, pair.triangleA),
+                    b = described(checker, pair.bodyB, pair.triangleB);
+  // In the problem's order: links first.
+  return checker.bodyOf(pair.bodyA) < checker.bodyOf(pair.bodyB) ? a + " and " + b
+                                                                 : b + " and " + a;
+}
+
+/// How far the tube may bring two shapes together, metres: no more than each joint's tube times its
+/// lever, summed over the joints between the two.
+double tubeOf(const Checker& checker, const Configuration& q, const Contact& pair) {
+  const std::vector<Frame>& frames = checker.problem().tree.frames;
+  const std::vector<Transform> poses = framePoses(checker.problem().tree, q);
+  const auto& placed = checker.scene().bodies();
+  std::size_t at[2] = {placed[pair.bodyA].frame, placed[pair.bodyB].frame};
+  double sum = 0;
+  while (at[0] != at[1]) {
+    const int side = at[0] > at[1] ? 0 : 1;  // parents come first
+    const Scene::Placed& shape = placed[side == 0 ? pair.bodyA : pair.bodyB];
+    const Frame& frame = frames[at[side]];
+    const double lever = (poses[at[side]].t - poses[shape.frame].t).norm() + shape.body.radius();
+    const double tube = frame.variable == Frame::noVariable
+                            ? 0
+                            : checker.problem().tube[static_cast<Eigen::Index>(frame.variable)];
+    switch (frame.joint) {
+      case Frame::Joint::none:
+        break;
+      case Frame::Joint::turn:
+        sum += std::abs(frame.multiplier) * tube * lever;
+        break;
+      case Frame::Joint::slide:
+        sum += std::abs(frame.multiplier) * tube;
+        break;
+      case Frame::Joint::shift:
+        sum += std::sqrt(static_cast<double>(frame.count)) * tube;
+        break;
+      case Frame::Joint::rotate:
+        sum += tube * lever;
+        break;
+    }
+    at[side] = frame.parent;
+  }
+  return sum;
+}
+
+/// Directions to look for a free configuration in, as steps of the numbers. Of a pose: evenly
+/// spread, a Fibonacci spiral or a circle of positions, the orientation is kept. Else: each line
+/// and circle alone, and random ones.
+std::vector<Configuration> directions(const ConfigurationSpace& space) {
+  constexpr int count = 64;
+  const auto size = static_cast<Eigen::Index>(space.size());
+  std::vector<Configuration> all;
+  if (const CoordinateGroup* pose = onlyPose(space)) {
+    const bool spatial = pose->kind == CoordinateGroup::Kind::floating;
+    for (int i = 0; i < count; ++i) {
+      const double z = spatial ? 1 - (2 * i + 1.0) / count : 0;
+      const double angle =
+          spatial ? i * std::numbers::pi * (3 - std::sqrt(5.0)) : 2 * std::numbers::pi * i / count;
+      const double r = std::sqrt(1 - z * z);
+      all.push_back(Configuration::Zero(size));
+      all.back()[0] = r * std::cos(angle);
+      all.back()[1] = r * std::sin(angle);
+      if (spatial) all.back()[2] = z;
+    }
+    return all;
+  }
+  std::mt19937_64 random(1);
+  std::vector<Configuration> mixed(count, Configuration::Zero(size));
+  for (const Coordinate& c : space.coordinates()) {
+    if (c.kind == Coordinate::Kind::rotation) continue;
+    const auto i = static_cast<Eigen::Index>(c.first);
+    for (const double sign : {1.0, -1.0}) {
+      all.push_back(Configuration::Zero(size));
+      all.back()[i] = sign;
+    }
+    for (Configuration& d : mixed) d[i] = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+  }
+  for (Configuration& d : mixed) all.push_back(d / std::max(d.cwiseAbs().maxCoeff(), 0x1p-10));
   return all;
 }
 
-/// The nearest position found that is free with the orientation kept: shells that grow by a tenth,
-/// then halving along the ray.
-std::optional<Vec3> nearestFree(const RigidState& state, const RigidChecker& checker) {
-  const auto freeAt = [&](const Vec3& p) {
-    RigidState moved = state;
-    moved.pose.p = p;
-    return checker.certifiedState(moved);
-  };
-  const double size = checker.scene().movingRadius();
-  for (double r = 1e-4 * size; r < 10 * size; r *= 1.1) {
-    for (const Vec3& d : directions(checker.space())) {
-      if (!freeAt(state.pose.p + r * d)) continue;
+struct NearestFree {
+  Configuration q;
+  double away = 0;  ///< metres; or the largest step of a number
+};
+
+/// The nearest configuration found that is free: shells that grow by a tenth, then halving along
+/// the ray.
+std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& checker) {
+  const auto freeAt = [&](const Configuration& step) { return checker.certifiedState(q + step); };
+  double size = 1, farthest = std::numbers::pi;  // of joints: rad or m
+  if (onlyPose(checker.space())) {
+    size = 0;
+    for (const Scene::Placed& placed : checker.scene().bodies())
+      if (placed.frame != 0) size = std::max(size, placed.body.radius());
+    farthest = 10 * size;
+  }
+  const std::vector<Configuration> rays = directions(checker.space());
+  for (double r = 1e-4 * size; r < farthest; r *= 1.1) {
+    for (const Configuration& d : rays) {
+      if (!freeAt(r * d)) continue;
       double inside = r / 1.1, outside = r;
       for (int i = 0; i < 10; ++i) {
         const double middle = (inside + outside) / 2;
-        (freeAt(state.pose.p + middle * d) ? outside : inside) = middle;
+        (freeAt(middle * d) ? outside : inside) = middle;
       }
-      return state.pose.p + outside * d;
+      return NearestFree{q + outside * d, outside};
     }
   }
   return std::nullopt;
 }
 
+std::string told(const std::optional<NearestFree>& free, const Configuration& q,
+                 const ConfigurationSpace& space) {
+  if (const CoordinateGroup* pose = onlyPose(space)) {
+    if (!free) return "no free position was found nearby with this orientation";
+    return "the nearest free position found is " + number(free->away) +
+           " m away: at: " + position(free->q, *pose);
+  }
+  if (!free) return "no free values were found nearby";
+  const std::vector<std::string> names = space.numberNames();
+  std::string values;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto k = static_cast<Eigen::Index>(i); free->q[k] != q[k])
+      values += (values.empty() ? "" : ", ") + names[i] + ": " + number(free->q[k]);
+  return "the nearest free values found are at most " + number(free->away) + " away: {" + values +
+         "}";
+}
+
+std::string outOfBounds(const std::string& name, const Configuration& q,
+                        const ConfigurationSpace& space) {
+  if (const CoordinateGroup* pose = onlyPose(space))
+    return name + ": " + position(q, *pose) + " is outside of the bounds";
+  std::string text;
+  for (const Coordinate& c : space.coordinates()) {
+    const double value = q[static_cast<Eigen::Index>(c.first)];
+    if (c.kind == Coordinate::Kind::line && !(c.lower <= value && value <= c.upper))
+      text += (text.empty() ? "" : ", ") + c.name + " = " + number(value) + " is not in [" +
+              number(c.lower) + ", " + number(c.upper) + "]";
+  }
+  return name + ": " + text;
+}
+
 }  // namespace
 
-std::optional<std::string> whyNotFree(const std::string& name, const RigidState& state,
-                                      const RigidChecker& checker) {
-  if (!checker.inBounds(state))
-    return name + ": " + coordinates(checker.space(), state.pose.p) + " is outside of the bounds";
-  const MotionResult result = checker.state(state);
+std::optional<std::string> whyNotFree(const std::string& name, const Configuration& q,
+                                      const Checker& checker) {
+  if (!checker.inBounds(q)) return outOfBounds(name, q, checker.space());
+  const MotionResult result = checker.state(q);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
 
-  std::string pair = "the robot";
-  if (result.pair) {
-    pair = "\"" + checker.scene().moving()[result.pair->movingBody].name() + "\" (triangle " +
-           std::to_string(result.pair->movingTriangle) + ") and \"" +
-           checker.scene().fixed()[result.pair->fixedBody].name() + "\" (triangle " +
-           std::to_string(result.pair->fixedTriangle) + ")";
-  }
+  const std::string pair = result.pair ? described(checker, *result.pair) : "two bodies";
+  const MotionOptions& options = checker.options();
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
-    const Tube& tube = checker.options().tube;
-    const double needed =
-        std::sqrt(3.0) * tube.position +
-        tube.rotation * checker.scene().movingRadius();  // reserve aside: the tolerance has it
+    // Reserve aside: the tolerance has it.
+    const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
     if (result.gap <= needed) {
       return name + ": the gap between " + pair + " is " + number(result.gap) +
              " m, and the tube needs " + number(needed) + " m; move it away, or set a smaller tube";
     }
     return name + ": the gap between " + pair + " is " + number(result.gap) + " m" +
-           (checker.options().margin > 0 ? " beyond the margin" : "") +
-           ", too small to prove at a tolerance of " + number(checker.options().tolerance) +
+           (options.margin > 0 ? " beyond the margin" : "") +
+           ", too small to prove at a tolerance of " + number(options.tolerance) +
            " m; move it away, or set checker: {tolerance: " + number(result.gap / 4) + "}";
   }
   if (result.verdict == MotionVerdict::undecided)
     return name + ": the check of it took too much work";
-  std::string text = name + " is in contact: " + pair +
-                     (checker.interference(state) ? " touch"
-                                                  : " are closer than the margin of " +
-                                                        number(checker.options().margin) + " m");
-  if (const auto free = nearestFree(state, checker)) {
-    return text + "; the nearest free position found is " + number((*free - state.pose.p).norm()) +
-           " m away: at: " + coordinates(checker.space(), *free);
-  }
-  return text + "; no free position was found nearby with this orientation";
+  return name + " is in contact: " + pair +
+         (checker.interference(q)
+              ? " touch"
+              : " are closer than the margin of " + number(options.margin) + " m") +
+         "; " + told(nearestFree(q, checker), q, checker.space());
 }
 
 }  // namespace corridor

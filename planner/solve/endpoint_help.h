@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "planner/checker/rigid_checker.h"
+#include "planner/checker/checker.h"
 
 namespace corridor {
 
@@ -11,7 +11,7 @@ namespace corridor {
 /// which triangles, how far and where the next free position is; or which pair is too close and
 /// what to set. nullopt if it can.
 /// @param name "start", "goal".
-std::optional<std::string> whyNotFree(const std::string& name, const RigidState& state,
-                                      const RigidChecker& checker);
+std::optional<std::string> whyNotFree(const std::string& name, const Configuration& q,
+                                      const Checker& checker);
 
 }  // namespace corridor

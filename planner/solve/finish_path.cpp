@@ -7,7 +7,8 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
 
-#include "planner/checker/rigid_state_space.h"
+#include "planner/checker/group_difference.h"
+#include "planner/checker/problem_state_space.h"
 
 namespace corridor {
 
@@ -22,23 +23,18 @@ constexpr int kEmptyRounds = 8;
 /// No path needed more; shortening never ends by itself, as it always finds another last digit.
 constexpr int kRounds = 60;
 
-bool sameState(RigidSpace space, const RigidState& a, const RigidState& b) {
-  return distance(space, 1, a, b) == 0;
-}
-
 }  // namespace
 
-Path readPath(RigidSpace space, const og::PathGeometric& path) {
+Path readPath(const og::PathGeometric& path) {
   Path states;
   for (const ompl::base::State* state : const_cast<og::PathGeometric&>(path).getStates())
-    states.push_back(readState(space, state));
+    states.push_back(configurationOf(*path.getSpaceInformation(), state));
   return states;
 }
 
 std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si,
-                                     RigidSpace space, og::PathGeometric& path,
-                                     const std::function<bool()>& stop) {
-  std::vector<Path> versions{readPath(space, path)};
+                                     og::PathGeometric& path, const std::function<bool()>& stop) {
+  std::vector<Path> versions{readPath(path)};
   og::PathSimplifier simplifier(si);
   const auto repeat = [&](auto attempt) {
     for (int round = 0, empty = 0; round < kRounds && empty < kEmptyRounds && !stop(); ++round) {
@@ -47,7 +43,7 @@ std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInfo
       attempt();
       const bool better = path.getStateCount() < states || path.length() < before * (1 - 1e-3);
       empty = better ? 0 : empty + 1;
-      if (better) versions.push_back(readPath(space, path));
+      if (better) versions.push_back(readPath(path));
     }
   };
   for (int pass = 0; pass < 2 && path.getStateCount() > 2; ++pass) {
@@ -58,34 +54,43 @@ std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInfo
   return versions;
 }
 
-Path withShortTurns(RigidSpace space, const Path& path) {
+Path withShortTurns(const ConfigurationSpace& space, const Path& path) {
   Path states;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (i > 0) {
-      if (sameState(space, path[i - 1], path[i]) && i + 1 < path.size()) continue;
-      const double angle = rotationAngle(space, path[i - 1], path[i]);
+      if (space.distance(path[i - 1], path[i]) == 0 && i + 1 < path.size()) continue;
+      const double angle = space.largestTurn(path[i - 1], path[i]);
       const int parts = static_cast<int>(angle / (std::numbers::pi / 2)) + 1;
       for (int k = 1; k < parts; ++k)
-        states.push_back(interpolate(space, path[i - 1], path[i], double(k) / parts));
+        states.push_back(space.interpolate(path[i - 1], path[i], double(k) / parts));
     }
     states.push_back(path[i]);
   }
   return states;
 }
 
-bool certifiedPath(const RigidChecker& checker, const Path& path) {
+bool certifiedPath(const Checker& checker, const Path& path) {
   if (path.empty() || !checker.certifiedState(path.front())) return false;
   for (std::size_t i = 1; i < path.size(); ++i)
     if (!checker.certifiedEdge(path[i - 1], path[i])) return false;
   return true;
 }
 
-PathLength lengthOf(RigidSpace space, const Path& path) {
+PathLength lengthOf(const ConfigurationSpace& space, const Path& path) {
   PathLength length;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    length.metres += (path[i].pose.p - path[i - 1].pose.p).norm();
-    length.radians += rotationAngle(space, path[i - 1], path[i]);
-  }
+  for (std::size_t i = 1; i < path.size(); ++i)
+    for (const CoordinateGroup& group : space.groups()) {
+      if (group.kind != CoordinateGroup::Kind::joints) {
+        length.metres += positionDifference(space, group, path[i - 1], path[i]);
+        length.radians += rotationDifference(space, group, path[i - 1], path[i]);
+        continue;
+      }
+      for (const std::size_t c : group.coordinates) {
+        const Coordinate& joint = space.coordinates()[c];
+        const bool turns = joint.angular || joint.kind == Coordinate::Kind::circle;
+        (turns ? length.radians : length.metres) += differenceOf(joint, path[i - 1], path[i]);
+      }
+    }
   return length;
 }
 

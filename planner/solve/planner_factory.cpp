@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 
 #include <ompl/base/Planner.h>
@@ -67,7 +68,8 @@ struct Entry {
 
 template <class Planner>
 Entry entry(const char* name, const char* about, bool repeats = true) {
-  return {{name, about, repeats}, [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr {
+  return {{name, about, repeats, std::string_view(about).starts_with("optimises")},
+          [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr {
             return std::make_shared<Planner>(si);
           }};
 }

@@ -17,6 +17,7 @@ struct PlannerInfo {
   std::string about;    ///< a few words
   bool repeats = true;  ///< the same seed gives the same path (no thread, no clock of its own), if
                         ///< the time doesn't run out
+  bool optimises = false;  ///< uses its time for better paths, if not told to stop at the first
 };
 
 /// All that `makePlanner` knows, in the order in which help lists them. To add one: a line in

@@ -7,6 +7,7 @@
 
 #include "planner/problem/format_key.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/solve/state_rows.h"
 
 namespace corridor {
 namespace {
@@ -29,129 +30,137 @@ std::string yamlText(const std::string& text) {
   return quoted + "\"";
 }
 
-const char* nameOf(RigidSpace space) {
-  return space == RigidSpace::SE3 ? "SE3" : "SE2";
+std::string listed(const std::vector<std::string>& words, const char* separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
 }
 
-std::vector<double> numbersOf(RigidSpace space, const RigidState& s) {
-  if (space == RigidSpace::SE2) return {s.pose.p.x(), s.pose.p.y(), s.yaw};
-  return {s.pose.p.x(), s.pose.p.y(), s.pose.p.z(), s.pose.q.x(),
-          s.pose.q.y(), s.pose.q.z(), s.pose.q.w()};
+double at(const Configuration& q, std::size_t i) {
+  return q[static_cast<Eigen::Index>(i)];
 }
 
-RigidState stateOf(RigidSpace space, const std::vector<double>& v) {
-  RigidState s;
-  if (space == RigidSpace::SE2) {
-    s.pose.p = {v[0], v[1], 0};
-    s.yaw = v[2];
-  } else {
-    s.pose.p = {v[0], v[1], v[2]};
-    s.pose.q = {v[6], v[3], v[4], v[5]};
-  }
-  return s;
+std::string row(const Configuration& q) {
+  std::string text = "[";
+  for (const double value : q) text += (text.size() > 1 ? ", " : "") + digits(value);
+  return text + "]";
 }
 
-std::size_t widthOf(RigidSpace space) {
-  return space == RigidSpace::SE2 ? 3 : 7;
-}
-
-std::string stateNames(RigidSpace space) {
-  return space == RigidSpace::SE2 ? "x y yaw" : "x y z qx qy qz qw";
+std::string quoted(const std::vector<std::string>& names) {
+  std::vector<std::string> texts;
+  for (const std::string& name : names) texts.push_back(yamlText(name));
+  return "[" + listed(texts, ", ") + "]";
 }
 
 std::string yamlOf(const Solution& solution) {
   std::ostringstream text;
-  text << "# A path for a rigid body. Check it: corridor verify PROBLEM SOLUTION\n"
+  const std::string space = rigidSpaceOf(solution.numbers);
+  text << "# A path. Check it: corridor verify PROBLEM SOLUTION\n"
        << "format: " << kFormat << "\n"
        << "problem: " << yamlText(solution.problem) << "\n"
        << "digest: " << solution.digest << "\n"
-       << "space: " << nameOf(solution.space) << "\n"
+       << (space.empty() ? "joints: " + quoted(solution.numbers) : "space: " + space) << "\n"
        << "planner: " << solution.planner << "\n"
        << "seed: " << solution.seed << "\n"
        << "certified: " << (solution.certified ? "true" : "false") << "\n"
        << "checker: " << yamlText(solution.checker) << "\n"
        << "tolerance: " << digits(solution.tolerance) << "  # m\n"
        << "margin: " << digits(solution.margin) << "  # m\n"
-       << "tube: {position: " << digits(solution.tube.position)
-       << ", rotation: " << digits(solution.tube.rotation)
-       << "}  # m, rad: the proof holds for every curve this close to the path\n"
-       << "path:  # " << stateNames(solution.space) << "\n";
-  for (const RigidState& state : solution.path) {
-    const char* separator = "  - [";
-    for (const double value : numbersOf(solution.space, state)) {
-      text << separator << digits(value);
-      separator = ", ";
-    }
-    text << "]\n";
-  }
+       << "tube: ";
+  if (space.empty())
+    text << row(solution.tube) << "  # m, rad, of each number";
+  else
+    text << "{position: " << digits(at(solution.tube, 0))
+         << ", rotation: " << digits(at(solution.tube, space == "SE2" ? 2 : 3)) << "}  # m, rad";
+  text << ": the proof holds for every curve this close to the path\n"
+       << "path:  # " << listed(solution.numbers, " ") << "\n";
+  for (const Configuration& state : solution.path) text << "  - " << row(state) << "\n";
   return text.str();
 }
 
-bool isState(RigidSpace space, const RigidState& state) {
-  return space == RigidSpace::SE2 || !state.pose.q.coeffs().isZero(0);
-}
-constexpr const char* kZeroQuaternion = "a quaternion of zeros is no rotation";
-
-Solution readPathFile(const std::filesystem::path& file, RigidSpace space) {
+Solution readPathFile(const std::filesystem::path& file, const ConfigurationSpace& space) {
   Solution solution;
-  solution.space = space;
+  solution.numbers = space.numberNames();
   solution.checker = "unknown";
-  FaultList faults(file.string());
-  std::istringstream lines(readTextFile(file, "a path"));
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    std::istringstream words(line);
-    std::vector<double> values;
-    std::string word, complaint;
-    while (words >> word) {
-      double value = 0;
-      if (const std::string wrong = parseNumber(word, Range::Any, value);
-          !wrong.empty() && complaint.empty())
-        complaint = wrong;
-      values.push_back(value);
-    }
-    if (values.empty()) continue;
-    if (complaint.empty() && values.size() != widthOf(space)) {
-      complaint = "a state of " + std::string(nameOf(space)) + " has " +
-                  std::to_string(widthOf(space)) + " numbers (" + stateNames(space) + "), not " +
-                  std::to_string(values.size());
-    }
-    if (!complaint.empty()) {
-      faults.add(file.string(), number, complaint);
-      continue;
-    }
-    solution.path.push_back(stateOf(space, values));
-    if (!isState(space, solution.path.back())) faults.add(file.string(), number, kZeroQuaternion);
-  }
-  if (solution.path.empty() && faults.size() == 0) faults.add(file.string(), 0, "no states");
-  faults.throwIfAny();
+  for (StateRow& row : readStateRows(file, space)) solution.path.push_back(std::move(row.q));
   return solution;
 }
 
-void readStates(const YamlValue& list, Solution& solution, YamlSource& source) {
+Configuration fromRow(const std::vector<double>& row) {
+  return Eigen::Map<const Configuration>(row.data(), Eigen::Index(row.size()));
+}
+
+void readStates(const YamlValue& list, const ConfigurationSpace& space, Solution& solution,
+                YamlSource& source) {
   if (list.kind != YamlValue::Kind::List || list.items.empty()) {
     source.fault(list.line, "path: a list of states is needed, not " + described(list));
     return;
   }
   for (const YamlValue& item : list.items) {
-    const auto values = readNumbers(item, widthOf(solution.space), "path", source);
+    const auto values = readNumbers(item, space.size(), "path", source);
     if (!values) continue;
-    solution.path.push_back(stateOf(solution.space, *values));
-    if (!isState(solution.space, solution.path.back()))
-      source.fault(item.line, std::string("path: ") + kZeroQuaternion);
+    if (const auto wrong = checkRow(*values, space))
+      source.fault(item.line, "path: " + *wrong);
+    else
+      solution.path.push_back(fromRow(*values));
   }
 }
 
-Solution readYaml(const std::filesystem::path& file, RigidSpace space) {
+/// The tube, where there is one; else rounding is all that it can be.
+void readTube(const YamlMap& map, bool rigid, Solution& solution, YamlSource& source) {
+  const std::size_t size = solution.numbers.size();
+  solution.tube = Configuration::Zero(static_cast<Eigen::Index>(size));
+  if (!rigid) {
+    if (const auto numbers = map.numbers("tube", size)) {
+      solution.tube = fromRow(*numbers);
+      if ((solution.tube.array() < 0).any()) map.fault("tube", "numbers of at least 0 are needed");
+    }
+    return;
+  }
+  const YamlValue* tube = map.find("tube");
+  if (!tube) return;
+  static const MapKeys keys{{"position", "rotation"}, {}};
+  const YamlMap inner(*tube, "tube", &keys, source);
+  const Eigen::Index dimension = size == 3 ? 2 : 3;
+  solution.tube.head(dimension).setConstant(
+      inner.number("position", Range::NotNegative).value_or(0));
+  solution.tube[dimension] = inner.number("rotation", Range::NotNegative).value_or(0);
+}
+
+/// Are the states of the file those of the problem's space?
+bool sameSpace(const YamlMap& map, const std::vector<std::string>& numbers, YamlSource& source) {
+  const std::string rigid = rigidSpaceOf(numbers);
+  const std::string key = map.find("joints") ? "joints" : "space";
+  const std::string needed = rigid.empty() ? "joints" : "space";
+  if (!map.find(key)) {
+    map.require(needed, rigid.empty() ? quoted(numbers) : "SE2 or SE3");
+    return false;
+  }
+  if (key == "space") {
+    const auto stated = map.choice("space", {"SE2", "SE3"});
+    if (stated && *stated != rigid)
+      map.fault("space", "the problem is in " +
+                             (rigid.empty() ? "the joints " + quoted(numbers) : rigid) +
+                             ", this solution in " + *stated);
+    return stated && *stated == rigid;
+  }
+  const auto stated = readWords(*map.find("joints"), quoted(numbers), "joints", source);
+  if (stated && *stated != numbers)
+    map.fault("joints", "the problem is in " +
+                            (rigid.empty() ? "the joints " + quoted(numbers) : rigid) +
+                            ", this solution in " + quoted(*stated));
+  return stated && *stated == numbers;
+}
+
+Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& space) {
   const YamlValue document = parseYaml(file.string(), readTextFile(file, "a solution"));
   FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
   Solution solution;
   if (hasFormat(document, kFormat, source)) {
-    static const MapKeys keys{{"format", "problem", "digest", "space", "planner", "seed",
+    static const MapKeys keys{{"format", "problem", "digest", "space", "joints", "planner", "seed",
                                "certified", "checker", "tolerance", "margin", "tube", "path"},
                               {}};
-    static const MapKeys tubeKeys{{"position", "rotation"}, {}};
     const YamlMap map(document, "", &keys, source);
     solution.problem = map.text("problem").value_or("");
     solution.digest = map.text("digest").value_or("");
@@ -161,20 +170,12 @@ Solution readYaml(const std::filesystem::path& file, RigidSpace space) {
     solution.checker = map.text("checker").value_or("");
     solution.tolerance = map.number("tolerance", Range::NotNegative).value_or(0);
     solution.margin = map.number("margin", Range::NotNegative).value_or(0);
-    if (const YamlValue* tube = map.find("tube")) {
-      const YamlMap inner(*tube, "tube", &tubeKeys, source);
-      solution.tube.position = inner.number("position", Range::NotNegative).value_or(0);
-      solution.tube.rotation = inner.number("rotation", Range::NotNegative).value_or(0);
-    }
-    map.require("space", "SE2 or SE3");
-    const auto stated = map.choice("space", {"SE2", "SE3"});
-    solution.space = space;
-    if (stated && *stated != nameOf(space)) {
-      map.fault("space", "the problem is in " + std::string(nameOf(space)) + ", this solution in " +
-                             *stated);
-    } else if (const YamlValue* path =
-                   map.require("path", "the states, such as - [0, 0, 0, 0, 0, 0, 1]")) {
-      readStates(*path, solution, source);
+    solution.numbers = space.numberNames();
+    if (sameSpace(map, solution.numbers, source)) {
+      readTube(map, !rigidSpaceOf(solution.numbers).empty(), solution, source);
+      if (const YamlValue* path =
+              map.require("path", "the states, such as - [0, 0, 0, 0, 0, 0, 1]"))
+        readStates(*path, space, solution, source);
     }
   }
   faults.throwIfAny();
@@ -187,14 +188,14 @@ Solution makeSolution(const Problem& problem, const SolveReport& report) {
   Solution solution;
   solution.problem = problem.file.string();
   solution.digest = problem.digest;
-  solution.space = problem.space;
+  solution.numbers = problem.space.numberNames();
   solution.planner = report.planner;
   solution.seed = report.seed;
   solution.certified = report.certified;
   solution.checker = report.checker;
   solution.tolerance = report.motion.tolerance;
   solution.margin = report.motion.margin;
-  solution.tube = report.motion.tube;
+  solution.tube = problem.tube;
   solution.path = report.path;
   return solution;
 }
@@ -228,7 +229,7 @@ void writeWhole(const std::filesystem::path& file, const std::string& text) {
   }
 }
 
-Solution readSolution(const std::filesystem::path& file, RigidSpace space) {
+Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space) {
   return file.extension() == ".path" ? readPathFile(file, space) : readYaml(file, space);
 }
 

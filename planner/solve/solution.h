@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "planner/solve/solve.h"
 
@@ -12,13 +13,14 @@ namespace corridor {
 struct Solution {
   std::string problem;  ///< the problem's file, relative to the solution's folder
   std::string digest;   ///< of the problem and all its files; empty: not known (`.path` files)
-  RigidSpace space = RigidSpace::SE3;
+  /// Of each number of a state: its name (ConfigurationSpace::numberNames).
+  std::vector<std::string> numbers;
   std::string planner;
   std::uint64_t seed = 0;
   bool certified = false;
   std::string checker;  ///< "certified", or what was asked for instead
   double tolerance = 0, margin = 0;
-  Tube tube;
+  Configuration tube;  ///< as Problem::tube
   Path path;
 };
 
@@ -33,7 +35,7 @@ void writeWhole(const std::filesystem::path& file, const std::string& text);
 
 /// Reads what `writeSolution` wrote, strictly; or an OMPL.app `.path` file: a state a line.
 /// @throws InputError with all faults: format, unknown, missing or repeated keys, states that
-/// aren't of `space`.
-Solution readSolution(const std::filesystem::path& file, RigidSpace space);
+/// aren't of the problem's space.
+Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space);
 
 }  // namespace corridor

@@ -8,9 +8,9 @@
 
 #include <ompl/base/Planner.h>
 #include <ompl/base/SpaceInformation.h>
-#include <ompl/base/goals/GoalState.h>
 #include <ompl/base/objectives/MechanicalWorkOptimizationObjective.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/samplers/informed/RejectionInfSampler.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
@@ -18,12 +18,12 @@
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
 #include "planner/checker/motion_validators.h"
-#include "planner/checker/problem_scene.h"
-#include "planner/checker/rigid_state_space.h"
+#include "planner/checker/problem_goal.h"
+#include "planner/checker/problem_state_space.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/endpoint_help.h"
-#include "planner/solve/goal_region.h"
+#include "planner/solve/goal.h"
 #include "planner/solve/planner_factory.h"
 
 namespace corridor {
@@ -52,15 +52,29 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// The length of a path, as the space measures it. OMPL's own throws where its direct sampling of
+/// ellipses doesn't know the space; there samples are drawn and those that can't help rejected.
+class PathLengthObjective : public ob::PathLengthOptimizationObjective {
+ public:
+  using PathLengthOptimizationObjective::PathLengthOptimizationObjective;
+  ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& definition,
+                                                   unsigned tries) const override {
+    if (si_->getStateSpace()->getType() == ob::STATE_SPACE_UNKNOWN)
+      return std::make_shared<ob::RejectionInfSampler>(definition, tries);
+    return PathLengthOptimizationObjective::allocInformedStateSampler(definition, tries);
+  }
+};
+
 /// A problem on its way through OMPL.
 class Solve {
  public:
   Solve(const Problem& problem, const SolveOptions& options)
       : problem_(problem),
         options_(options),
-        scene_(makeScene(problem)),
-        checker_(scene_, problem.space, problem.lower, problem.upper,
-                 motionOptions(problem, scene_)) {
+        checker_(problem),
+        space_(std::make_shared<ProblemStateSpace>(problem.space)),
+        start_(startOf(problem)),
+        goals_(goalsOf(problem)) {
     report_.motion = checker_.options();
     report_.seed = problem.seed;
     report_.planner = problem.planner.name;
@@ -69,6 +83,7 @@ class Solve {
   }
 
   SolveReport run();
+  void setUp();
 
  private:
   bool discrete() const { return problem_.checker.edges == "discrete"; }
@@ -76,9 +91,10 @@ class Solve {
                                const std::string& value = "") const;
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
   void checkEnds();
+  void setUpEnds();
   void setUpSpace();
+  void setResolution();
   void setUpPlanner();
-  void setUpGoal();
   void setUpObjective();
   void tellProgress();
   void plan();
@@ -89,13 +105,15 @@ class Solve {
   const Problem& problem_;
   const SolveOptions& options_;
   Clock clock_;
-  Scene scene_;
-  RigidChecker checker_;
-  std::vector<RigidState> goalSamples_;
+  Checker checker_;
+  std::shared_ptr<ProblemStateSpace> space_;
+  Configuration start_;
+  std::vector<Configuration> goals_, goalSamples_;
   ob::SpaceInformationPtr si_;
-  std::shared_ptr<RigidMotionValidator> validator_;
+  std::shared_ptr<CountingMotionValidator> validator_;
   ob::ProblemDefinitionPtr definition_;
   ob::PlannerPtr planner_;
+  bool optimises_ = false;
   std::mutex progressMutex_;
   double progressTold_ = 0;
   SolveReport report_;
@@ -111,29 +129,24 @@ PlannerParameter Solve::parameterAt(const std::string& place, const std::string&
 
 void Solve::checkEnds() {
   std::vector<Fault> faults;
-  if (const auto why = whyNotFree("start", startState(problem_), checker_))
+  if (const auto why = whyNotFree("start", start_, checker_))
     faults.push_back(problem_.faultAt("start", *why));
-  if (problem_.goalRegion) goalSamples_ = sampleGoalRegion(problem_, checker_, kGoalSamples);
-  if (goalSamples_.empty())
-    if (const auto why = whyNotFree("goal", goalState(problem_), checker_))
+  std::vector<std::string> whyNot;
+  goalSamples_ = sampleGoals(checker_, kGoalSamples, whyNot);
+  for (const std::string& why : whyNot) {
+    if (goalSamples_.empty())
       faults.push_back(problem_.faultAt(
           "goal", problem_.goalRegion
-                      ? "no free state was found within the goal; its middle: " + *why
-                      : *why));
+                      ? "no free state was found within the goal; its middle: " + why
+                      : why));
+    else if (!problem_.goalRegion)
+      report_.warnings.push_back(problem_.faultAt("goal", why));
+  }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
 void Solve::setUpSpace() {
-  const auto space =
-      makeStateSpace(problem_.space, problem_.lower, problem_.upper, problem_.rotationWeight);
-  if (const double r = problem_.checker.resolution; !(r >= kFinestResolution && r < 1)) {
-    const PlannerParameter at = parameterAt("checker.resolution");
-    throw InputError(Fault{at.file, at.line,
-                           "checker.resolution: " + shortest(r) + " is not in [" +
-                               shortest(kFinestResolution) + ", 1)"});
-  }
-  space->setLongestValidSegmentFraction(problem_.checker.resolution);
-  si_ = std::make_shared<ob::SpaceInformation>(space);
+  si_ = std::make_shared<ob::SpaceInformation>(space_);
   if (discrete()) {
     si_->setStateValidityChecker(std::make_shared<ExactStateValidityChecker>(si_, checker_));
     validator_ = std::make_shared<DiscreteMotionValidator>(si_, checker_);
@@ -142,8 +155,17 @@ void Solve::setUpSpace() {
     validator_ = std::make_shared<CertifiedMotionValidator>(si_, checker_);
   }
   si_->setMotionValidator(validator_);
-  setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler"));
-  si_->setup();
+}
+
+void Solve::setResolution() {
+  const double r = problem_.checker.resolution;
+  if (!(r >= kFinestResolution && r < 1)) {
+    const PlannerParameter at = parameterAt("checker.resolution");
+    throw InputError(Fault{at.file, at.line,
+                           "checker.resolution: " + shortest(r) + " is not in [" +
+                               shortest(kFinestResolution) + ", 1)"});
+  }
+  space_->setLongestValidSegmentFraction(r);
 }
 
 void Solve::setUpPlanner() {
@@ -152,21 +174,38 @@ void Solve::setUpPlanner() {
     parameters.push_back(parameterAt("planner.params." + key, key, value));
   planner_ = makePlanner(si_, problem_.planner.name, parameters, parameterAt("planner.name"));
   for (const PlannerInfo& info : knownPlanners())
-    if (info.name == problem_.planner.name) report_.repeats = info.repeats;
+    if (info.name == problem_.planner.name) {
+      report_.repeats = info.repeats;
+      optimises_ = info.optimises;
+    }
 }
 
-void Solve::setUpGoal() {
+void Solve::setUp() {
+  ompl::msg::noOutputHandler();  // what users need to know is in the report
+  ompl::RNG::setSeed(problem_.seed);
+  setUpSpace();
   definition_ = std::make_shared<ob::ProblemDefinition>(si_);
-  ob::ScopedState<> start(si_), goal(si_);
-  writeState(problem_.space, startState(problem_), start.get());
-  writeState(problem_.space, goalState(problem_), goal.get());
+  std::vector<Fault> faults;
+  const auto collect = [&](auto step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  };
+  collect([&] { setResolution(); });
+  collect([&] { setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler")); });
+  si_->setup();
+  collect([&] { setUpPlanner(); });
+  collect([&] { setUpObjective(); });
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+void Solve::setUpEnds() {
+  ob::ScopedState<> start(si_);
+  space_->write(start_, start.get());
   definition_->addStartState(start);
-  if (problem_.goalRegion)
-    definition_->setGoal(std::make_shared<RigidGoalRegion>(si_, problem_, goalSamples_));
-  else
-    // OMPL asks for less than the threshold: with 0 nothing would ever be in the goal.
-    definition_->setGoalState(
-        goal, std::max(problem_.goalThreshold.value_or(0), std::numeric_limits<double>::epsilon()));
+  definition_->setGoal(std::make_shared<ProblemGoal>(si_, problem_, goalSamples_));
 }
 
 void Solve::setUpObjective() {
@@ -178,16 +217,15 @@ void Solve::setUpObjective() {
     throw InputError(problem_.faultAt("objective",
                                       "objective max_min_clearance needs a clearance, which isn't "
                                       "computed yet; there are: length, mechanical_work"));
-  } else if (name == "length" ||
-             (problem_.planner.stopAtFirst && planner_->getSpecs().optimizingPaths)) {
-    objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+  } else if (name == "length" || (planner_ && planner_->getSpecs().optimizingPaths)) {
+    objective = std::make_shared<PathLengthObjective>(si_);
   }
-  // Where a problem says neither, OMPL's planners have rules of their own: PRM stops at the first,
-  // PRMstar uses its time.
   if (!objective) return;
-  objective->setCostThreshold(problem_.planner.stopAtFirst.value_or(false)
-                                  ? objective->infiniteCost()
-                                  : ob::Cost(problem_.objectiveThreshold));
+  // Where a problem doesn't say when to stop, planners have rules of their own: PRM stops at the
+  // first, PRMstar uses its time.
+  const bool first = problem_.planner.stopAtFirst.value_or(name.empty() && !optimises_);
+  objective->setCostThreshold(first ? objective->infiniteCost()
+                                    : ob::Cost(problem_.objectiveThreshold));
   definition_->setOptimizationObjective(objective);
 }
 
@@ -251,10 +289,7 @@ void Solve::plan() {
 
 /// The start kept bit for bit and the goal reached, whatever planner and simplifier say of that.
 bool Solve::joinsStartAndGoal(const Path& path) const {
-  if (path.empty()) return false;
-  const RigidState start = startState(problem_), &first = path.front();
-  return first.pose.p == start.pose.p && first.pose.q.coeffs() == start.pose.q.coeffs() &&
-         first.yaw == start.yaw && inGoal(problem_, path.back());
+  return !path.empty() && path.front() == start_ && inGoal(problem_, goals_, path.back());
 }
 
 void Solve::finish() {
@@ -264,10 +299,10 @@ void Solve::finish() {
   if (problem_.simplify) {
     const double until =
         std::max(problem_.planner.time, clock_.seconds() + kSimplifyShare * problem_.planner.time);
-    versions = simplifiedVersions(si_, problem_.space, path,
-                                  [&] { return clock_.seconds() >= until || interrupted(); });
+    versions =
+        simplifiedVersions(si_, path, [&] { return clock_.seconds() >= until || interrupted(); });
   } else {
-    versions = {readPath(problem_.space, path)};
+    versions = {readPath(path)};
   }
   for (std::size_t i = versions.size(); i-- > 0 && report_.outcome != SolveOutcome::solved;) {
     Path states = withShortTurns(problem_.space, versions[i]);
@@ -286,13 +321,9 @@ void Solve::finish() {
 }
 
 SolveReport Solve::run() {
-  ompl::msg::noOutputHandler();  // what users need to know is in the report
-  ompl::RNG::setSeed(problem_.seed);
-  setUpSpace();
-  setUpPlanner();  // before the checks of start and goal: bad names cost no time
+  setUp();  // before the checks of start and goal: bad names cost no time
   checkEnds();
-  setUpGoal();
-  setUpObjective();
+  setUpEnds();
   plan();
   report_.time = clock_.seconds();
   report_.counters = checker_.counters();
@@ -300,6 +331,10 @@ SolveReport Solve::run() {
 }
 
 }  // namespace
+
+void checkSettings(const Problem& problem) {
+  Solve(problem, {}).setUp();
+}
 
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options) {
   return Solve(problem, options).run();

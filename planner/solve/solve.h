@@ -6,6 +6,7 @@
 #include <string>
 
 #include "collision/core/counters.h"
+#include "collision/core/error.h"
 #include "planner/solve/finish_path.h"
 
 namespace corridor {
@@ -36,9 +37,10 @@ enum class SolveOutcome {
 /// What a solve did. Lengths in metres, times in seconds.
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
-  std::string why;  ///< where not solved: one line
+  std::string why;              ///< where not solved: one line
+  std::vector<Fault> warnings;  ///< goals that aren't used, and why, where there are others
 
-  Path path;               ///< where solved: no step turns more than 90°
+  Path path;               ///< where solved: nothing turns more than 90° in a step
   bool certified = false;  ///< every edge of `path` was proved in the last step
   std::string checker;     ///< "certified", or "discrete, resolution 0.01"
   std::string planner;
@@ -50,12 +52,13 @@ struct SolveReport {
   PathLength length;
   std::size_t rawStates = 0;  ///< of the planner's own path
   int version = 0;            ///< which simplified version is returned; 0: the planner's own
-  MotionOptions motion;       ///< tolerance, margin and tube of the proof
+  MotionOptions motion;       ///< tolerance and margin of the proof; its tube is the problem's
 };
 
-/// Solves a problem. Start and goal are checked first. The last step certifies the final states
-/// edge by edge; where one fails, the last version of the path that holds as a whole is returned.
-/// Ends within planner.time, but for an edge under way and 5 % for simplifying.
+/// Solves a problem. Start and goals are checked first: one free goal is needed. The last step
+/// certifies the final states edge by edge; where one fails, the last version of the path that
+/// holds as a whole is returned. Ends within planner.time, but for an edge under way and 5 % for
+/// simplifying.
 ///
 /// The same problem and seed give the same path, for planners that repeat (planner/README.md), if
 /// the time doesn't run out. OMPL's random numbers hang on one seed a process: don't call this from
@@ -63,5 +66,9 @@ struct SolveReport {
 /// @throws InputError: start or goal in contact, too close, or out of bounds; unknown planner,
 /// parameter or sampler; an objective that needs what isn't there.
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options = {});
+
+/// All that solveProblem would find wrong with planner, parameters, sampler, resolution and
+/// objective, at once. @throws InputError.
+void checkSettings(const Problem& problem);
 
 }  // namespace corridor

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "planner/view/projection.h"
+#include "planner/view/tessellate.h"
 
 namespace corridor {
 namespace {
@@ -36,22 +37,48 @@ struct Face {
 
 using Triangle3 = std::array<Vec3, 3>;
 
-/// Triangles once each: many files have both sides of every face.
-std::vector<Triangle3> distinctTriangles(const std::vector<ProblemMesh>& meshes) {
+/// The distinct triangles of a body, in its frame's coordinates: many files have both sides of
+/// every face.
+std::vector<Triangle3> distinctTriangles(const ProblemBody& body) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
-  for (const ProblemMesh& mesh : meshes)
-    for (std::size_t t = 0; t < mesh.source.mesh.triangles.size(); ++t) {
+  for (const PlacedShape& shape : body.shapes) {
+    const TriangleMesh mesh = shape.part ? view::tessellated(*shape.part) : shape.mesh->mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       std::array<std::array<double, 3>, 3> key;
       Triangle3 triangle;
       for (int i = 0; i < 3; ++i) {
-        triangle[i] = mesh.source.mesh.corner(t, i);
+        triangle[i] = mesh.corner(t, i);
         key[i] = {triangle[i].x(), triangle[i].y(), triangle[i].z()};
       }
       std::sort(key.begin(), key.end());
       if (seen.insert(key).second) triangles.push_back(triangle);
     }
+  }
   return triangles;
+}
+
+/// What moves: triangles with the frames that they are on.
+struct Moving {
+  std::vector<Triangle3> triangles;
+  std::vector<std::size_t> frames;
+};
+
+std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
+                                const Configuration& q) {
+  const std::vector<Transform> poses = framePoses(problem.tree, q);
+  std::vector<Triangle3> placed = moving.triangles;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    for (Vec3& p : placed[i]) p = poses[moving.frames[i]] * p;
+  return placed;
+}
+
+/// Of each robot the last frame that bears a body: a rigid body's own, an arm's hand.
+std::vector<std::size_t> lastFrames(const Problem& problem) {
+  std::vector<std::size_t> last(problem.robots.size(), 0);
+  for (const ProblemBody& body : problem.bodies)
+    if (body.robot) last[*body.robot] = std::max(last[*body.robot], body.frame);
+  return last;
 }
 
 using PlaneKey = std::array<long, 4>;
@@ -143,20 +170,31 @@ std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, ch
   }
 }
 
-/// Evenly spaced along the way, ends included; rotation counts as much as it moves the robot's rim.
-Path poses(const Problem& problem, const Path& path, double reach, int count) {
+/// Evenly spaced along the way, ends included. How long an edge counts is how far a few corners of
+/// what moves go.
+Path poses(const Problem& problem, const Moving& moving, const Path& path, int count) {
+  Moving sample;
+  const std::size_t stride = moving.triangles.size() / 64 + 1;
+  for (std::size_t i = 0; i < moving.triangles.size(); i += stride) {
+    sample.triangles.push_back(moving.triangles[i]);
+    sample.frames.push_back(moving.frames[i]);
+  }
   std::vector<double> at{0};
-  for (std::size_t i = 1; i < path.size(); ++i)
-    at.push_back(at.back() + distance(problem.space,
-                                      problem.space == RigidSpace::SE3 ? 2 * reach : reach,
-                                      path[i - 1], path[i]));
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const auto from = placedAt(problem, sample, path[i - 1]),
+               to = placedAt(problem, sample, path[i]);
+    double farthest = 0;
+    for (std::size_t k = 0; k < from.size(); ++k)
+      farthest = std::max(farthest, (to[k][0] - from[k][0]).norm());
+    at.push_back(at.back() + farthest);
+  }
   Path chosen{path.front()};
   for (int k = 1; k < count; ++k) {
     const double s = at.back() * k / count;
     const auto i = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), s) - at.begin());
     if (i == 0 || i >= path.size()) continue;
     chosen.push_back(
-        interpolate(problem.space, path[i - 1], path[i], (s - at[i - 1]) / (at[i] - at[i - 1])));
+        problem.space.interpolate(path[i - 1], path[i], (s - at[i - 1]) / (at[i] - at[i - 1])));
   }
   chosen.push_back(path.back());
   return chosen;
@@ -174,47 +212,60 @@ std::string palette(char name, const Vec3& dark, const Vec3& light) {
   return css;
 }
 
-std::string polyline(const Camera& camera, const Path& path) {
+/// The way of a frame's origin, which is curved where joints turn.
+std::string polyline(const Camera& camera, const Problem& problem, const Path& path,
+                     std::size_t frame) {
+  constexpr int parts = 12;
   std::string points;
-  for (const RigidState& state : path) {
-    const Vec3 p = camera.project(state.pose.p);
+  const auto add = [&](const Configuration& q) {
+    const Vec3 p = camera.project(framePoses(problem.tree, q)[frame].t);
     char text[48];
     std::snprintf(text, sizeof text, "%.1f,%.1f ", p.x(), p.y());
     points += text;
-  }
+  };
+  add(path.front());
+  for (std::size_t i = 1; i < path.size(); ++i)
+    for (int k = 1; k <= parts; ++k)
+      add(problem.space.interpolate(path[i - 1], path[i], double(k) / parts));
   return "<polyline points=\"" + points +
          "\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" opacity=\".7\"/>\n" +
          "<polyline points=\"" + points +
          "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
 }
 
+/// A single body in the plane is seen from above.
+bool isPlan(const Problem& problem) {
+  return problem.space.groups().size() == 1 &&
+         problem.space.groups()[0].kind == CoordinateGroup::Kind::planar;
+}
+
 }  // namespace
 
 std::string svgPicture(const Problem& problem, const Path& path) {
   constexpr double degree = std::numbers::pi / 180;
-  Camera camera = problem.space == RigidSpace::SE3 ? Camera(-60 * degree, 38 * degree)
-                                                   : Camera(-90 * degree, 90 * degree);
-  const auto world = distinctTriangles(problem.world), robot = distinctTriangles(problem.robot);
-
-  double reach = 0, feet = std::numeric_limits<double>::infinity();
-  for (const auto& triangle : robot)
-    for (const Vec3& p : triangle) {
-      reach = std::max(reach, p.norm());
-      feet = std::min(feet, p.z());
-    }
+  const bool plan = isPlan(problem);
+  Camera camera = plan ? Camera(-90 * degree, 90 * degree) : Camera(-60 * degree, 38 * degree);
+  std::vector<Triangle3> world;
+  Moving robot;
+  for (const ProblemBody& body : problem.bodies) {
+    const std::vector<Triangle3> triangles = distinctTriangles(body);
+    auto& side = body.frame == 0 ? world : robot.triangles;
+    side.insert(side.end(), triangles.begin(), triangles.end());
+    if (body.frame != 0) robot.frames.insert(robot.frames.end(), triangles.size(), body.frame);
+  }
   // About half of a robot's triangles are seen, at some 28 bytes each.
   const int ghostCount =
-      static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.size() + 1),
+      static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.triangles.size() + 1),
                                   std::size_t{kFewestGhosts}, std::size_t{kMostGhosts}));
-  const Path shown = poses(problem, path, reach, ghostCount);
   std::vector<std::vector<Triangle3>> placed;
   std::vector<Vec3> points;
-  for (const RigidState& state : shown) {
-    const Transform X = placement(problem.space, state);
-    auto& copy = placed.emplace_back(robot);
-    for (auto& triangle : copy)
-      for (Vec3& p : triangle) points.push_back(p = X * p);
-  }
+  double feet = std::numeric_limits<double>::infinity();
+  for (const Configuration& q : poses(problem, robot, path, ghostCount))
+    for (const Triangle3& triangle : placed.emplace_back(placedAt(problem, robot, q)))
+      for (const Vec3& p : triangle) {
+        points.push_back(p);
+        feet = std::min(feet, p.z());
+      }
   for (const auto& triangle : world) points.insert(points.end(), triangle.begin(), triangle.end());
   camera.fit(points, kWidth, kBorder);
 
@@ -232,7 +283,7 @@ std::string svgPicture(const Problem& problem, const Path& path) {
     faces.push_back(makeFace(camera, triangle));
     // A plan from above has no side faces to tell walls from the ground by: what reaches above the
     // robot's feet is dark.
-    if (problem.space == RigidSpace::SE2)
+    if (plan)
       faces.back().shade =
           std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;
     int& count = hides[planeOf(triangle, camera.worldPixel())];
@@ -264,7 +315,9 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   if (ghosts.size() > 1) svg += drawVisible(camera, ghosts.back(), 'g', kRobotLimit);
   svg += drawVisible(camera, ghosts.front(), 's', kRobotLimit);
   svg += "<g opacity=\".2\">\n" + drawVisible(camera, glass, 'w', kWorldLimit / 4) + "</g>\n";
-  return svg + polyline(camera, path) + "</svg>\n";
+  for (const std::size_t frame : lastFrames(problem))
+    if (frame != 0) svg += polyline(camera, problem, path, frame);
+  return svg + "</svg>\n";
 }
 
 }  // namespace corridor

@@ -7,7 +7,7 @@
 
 #include "planner/checker/motion_validators.h"
 #include "planner/checker/state_validity_checkers.h"
-#include "tests/planner/checker/boxes.h"
+#include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -15,15 +15,16 @@ namespace {
 
 namespace ob = ompl::base;
 using test::Hall;
+using test::Rigid;
 
 struct Kind {
-  RigidSpace space;
+  Rigid space;
   bool certified;
 };
 
 std::string nameOf(const testing::TestParamInfo<Kind>& info) {
   return std::string(info.param.certified ? "Certified" : "Discrete") +
-         (info.param.space == RigidSpace::SE3 ? "SE3" : "SE2");
+         (info.param.space == Rigid::SE3 ? "SE3" : "SE2");
 }
 
 class MotionValidators : public testing::TestWithParam<Kind> {
@@ -50,7 +51,7 @@ class MotionValidators : public testing::TestWithParam<Kind> {
   std::vector<double> bits(const ob::ScopedState<>& s) const { return s.reals(); }
 
   /// The state that a failed check leaves, by its contract; `last` and `s1` may be one.
-  void expectValid(const RigidState& s1, const ob::State* last, double t) const {
+  void expectValid(const Configuration& s1, const ob::State* last, double t) const {
     const auto from = hall_.scoped(s1);
     EXPECT_TRUE(hall_.si->isValid(last));
     EXPECT_TRUE(validator().checkMotion(from.get(), last)) << t;
@@ -106,8 +107,8 @@ TEST_P(MotionValidators, LastValidIsCloseToTheWallAndOnTheEdge) {
   // The bar's tip meets the wall at x = −0.5005, t = 0.41658.
   EXPECT_LE(lastValid.second, 0.41659);
   EXPECT_GE(lastValid.second, 0.40);
-  const RigidState at = readState(GetParam().space, last.get());
-  EXPECT_NEAR(at.pose.p.x(), -3 + 6 * lastValid.second, 1e-14);
+  const Configuration at = configurationOf(*hall_.si, last.get());
+  EXPECT_NEAR(at[0], -3 + 6 * lastValid.second, 1e-14);
   expectValid(hall_.at(-3, 0), last.get(), lastValid.second);
 }
 
@@ -151,8 +152,8 @@ TEST_P(MotionValidators, RandomEdgesKeepTheContract) {
   std::uniform_real_distribution<double> u(-1, 1);
   int failed = 0;
   for (int i = 0; i < 300; ++i) {
-    const RigidState a = hall_.at(5 * u(random), 5 * u(random), 3 * u(random)),
-                     b = hall_.at(5 * u(random), 5 * u(random), 3 * u(random));
+    const Configuration a = hall_.at(5 * u(random), 5 * u(random), 3 * u(random)),
+                        b = hall_.at(5 * u(random), 5 * u(random), 3 * u(random));
     const auto s1 = hall_.scoped(a), s2 = hall_.scoped(b);
     if (!hall_.si->isValid(s1.get())) continue;
     auto last = state(1, 1);
@@ -187,7 +188,7 @@ TEST_P(MotionValidators, ManyThreadsCountRightAndAgree) {
 }
 
 TEST(DiscreteMotionValidator, StepsOverAThinWallAndCertifiedDoesNot) {
-  const Hall hall(RigidSpace::SE3);
+  const Hall hall(Rigid::SE3);
   hall.si->setStateValidityChecker(
       std::make_shared<ExactStateValidityChecker>(hall.si, hall.checker));
   hall.si->getStateSpace()->setLongestValidSegmentFraction(0.2);
@@ -201,9 +202,8 @@ TEST(DiscreteMotionValidator, StepsOverAThinWallAndCertifiedDoesNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MotionValidators,
-                         testing::Values(Kind{RigidSpace::SE3, true}, Kind{RigidSpace::SE2, true},
-                                         Kind{RigidSpace::SE3, false},
-                                         Kind{RigidSpace::SE2, false}),
+                         testing::Values(Kind{Rigid::SE3, true}, Kind{Rigid::SE2, true},
+                                         Kind{Rigid::SE3, false}, Kind{Rigid::SE2, false}),
                          nameOf);
 
 }  // namespace

@@ -8,11 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
+#include "planner/solve/state_rows.h"
+#include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
 
 namespace corridor {
 namespace {
 
+using test::Rigid;
 using testing::HasSubstr;
 
 class SolutionFile : public testing::Test {
@@ -23,7 +26,11 @@ class SolutionFile : public testing::Test {
     return folder_ / name;
   }
   std::string complaint(const std::string& name, const std::string& text,
-                        RigidSpace space = RigidSpace::SE3) const {
+                        Rigid kind = Rigid::SE3) const {
+    return complaint(name, text, test::rigidProblem(kind).space);
+  }
+  std::string complaint(const std::string& name, const std::string& text,
+                        const ConfigurationSpace& space) const {
     try {
       readSolution(write(name, text), space);
     } catch (const InputError& error) {
@@ -35,26 +42,26 @@ class SolutionFile : public testing::Test {
     }
     return "";
   }
-  static Solution example(RigidSpace space) {
+  static Solution example(const ConfigurationSpace& space) {
     Solution s;
     s.problem = "a \"quoted\" \\ name.yaml";
     s.digest = "0042";
-    s.space = space;
+    s.numbers = space.numberNames();
     s.planner = "RRTConnect";
     s.seed = 18446744073709551615u;
     s.certified = true;
     s.checker = "certified";
     s.tolerance = 1.0 / 3;
     s.margin = 0.1;
-    s.tube = {1e-300, 5e-12};
+    const auto size = static_cast<Eigen::Index>(space.size());
+    s.tube = Configuration::Zero(size);
+    for (const Coordinate& c : space.coordinates())
+      s.tube[static_cast<Eigen::Index>(c.first)] =
+          c.kind == Coordinate::Kind::line && !c.angular ? 1e-300 : 5e-12;
     for (const double v : {0.1, 1.0 / 3, -1e-310}) {
-      RigidState state;
-      state.pose.p = {v, -v, space == RigidSpace::SE3 ? 3 * v : 0};
-      if (space == RigidSpace::SE3)
-        state.pose.q = {1, v, v / 7, -v};
-      else
-        state.yaw = v / 7;
-      s.path.push_back(state);
+      Configuration q(size);
+      for (Eigen::Index i = 0; i < size; ++i) q[i] = v / static_cast<double>(i + 1);
+      s.path.push_back(q);
     }
     return s;
   }
@@ -62,7 +69,9 @@ class SolutionFile : public testing::Test {
 };
 
 TEST_F(SolutionFile, RoundTripIsBitForBit) {
-  for (const RigidSpace space : {RigidSpace::SE2, RigidSpace::SE3}) {
+  for (const ConfigurationSpace& space :
+       {test::rigidProblem(Rigid::SE2).space, test::rigidProblem(Rigid::SE3).space,
+        test::armProblem().space}) {
     const Solution wrote = example(space);
     writeSolution(wrote, folder_ / "s.yaml");
     const Solution read = readSolution(folder_ / "s.yaml", space);
@@ -73,21 +82,19 @@ TEST_F(SolutionFile, RoundTripIsBitForBit) {
     EXPECT_EQ(read.checker, wrote.checker);
     EXPECT_EQ(read.tolerance, wrote.tolerance);
     EXPECT_EQ(read.margin, wrote.margin);
-    EXPECT_EQ(read.tube.position, wrote.tube.position);
-    EXPECT_EQ(read.tube.rotation, wrote.tube.rotation);
+    EXPECT_EQ(read.tube, wrote.tube);
+    EXPECT_EQ(read.numbers, wrote.numbers);
     EXPECT_THAT(read.problem, HasSubstr("a \"quoted\" \\ name.yaml"));
     ASSERT_EQ(read.path.size(), wrote.path.size());
-    for (std::size_t i = 0; i < read.path.size(); ++i) {
-      EXPECT_EQ(read.path[i].pose.p, wrote.path[i].pose.p);
-      EXPECT_EQ(read.path[i].pose.q.coeffs(), wrote.path[i].pose.q.coeffs());
-      EXPECT_EQ(read.path[i].yaw, wrote.path[i].yaw);
-    }
+    for (std::size_t i = 0; i < read.path.size(); ++i) EXPECT_EQ(read.path[i], wrote.path[i]);
   }
 }
 
 TEST_F(SolutionFile, NothingIsLeftWhereItCantBeWritten) {
-  EXPECT_THROW(writeSolution(example(RigidSpace::SE3), folder_ / "nowhere" / "s.yaml"), InputError);
-  writeSolution(example(RigidSpace::SE3), folder_ / "s.yaml");
+  EXPECT_THROW(
+      writeSolution(example(test::rigidProblem(Rigid::SE3).space), folder_ / "nowhere" / "s.yaml"),
+      InputError);
+  writeSolution(example(test::rigidProblem(Rigid::SE3).space), folder_ / "s.yaml");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 
@@ -107,21 +114,54 @@ TEST_F(SolutionFile, StrictReading) {
               HasSubstr("s.yaml:4: path"));
   EXPECT_THAT(complaint("s.yaml", head), HasSubstr("path"));
   EXPECT_THAT(complaint("s.yaml", head + "pth: []\n"), HasSubstr("\"pth\""));
-  EXPECT_EQ(complaint("s.yaml", head + "path: [[0, 0, 0]]\n", RigidSpace::SE2),
+  EXPECT_EQ(complaint("s.yaml", head + "path: [[0, 0, 0]]\n", Rigid::SE2),
             "s.yaml:2: space: the problem is in SE2, this solution in SE3");
   EXPECT_THAT(complaint("s.yaml", "format: corridor-problem-1\n"),
               HasSubstr("corridor-solution-1"));
   EXPECT_THAT(complaint("s.yaml", ""), HasSubstr("empty"));
 }
 
+TEST_F(SolutionFile, JointsAreNamed) {
+  const ConfigurationSpace space = test::armProblem().space;
+  const std::string head = "format: corridor-solution-1\njoints: [shoulder, elbow, wrist]\n";
+  EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 1, 2]\n", space), "");
+  EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 1]\n", space),
+            "s.yaml:4: path: a list of 3 numbers is needed, not a list of 2");
+  EXPECT_EQ(
+      complaint("s.yaml", "format: corridor-solution-1\nspace: SE3\npath: [[0, 0, 0]]\n", space),
+      "s.yaml:2: space: the problem is in the joints [\"shoulder\", \"elbow\", \"wrist\"], "
+      "this solution in SE3");
+  EXPECT_EQ(complaint("s.yaml",
+                      "format: corridor-solution-1\njoints: [elbow, shoulder, wrist]\npath: [[0, "
+                      "0, 0]]\n",
+                      space),
+            "s.yaml:2: joints: the problem is in the joints [\"shoulder\", \"elbow\", \"wrist\"], "
+            "this solution in [\"elbow\", \"shoulder\", \"wrist\"]");
+  EXPECT_EQ(complaint("s.yaml", head + "path: [[0, 1, 2]]\ntube: [0, -1, 0]\n", space),
+            "s.yaml:4: tube: numbers of at least 0 are needed");
+}
+
+TEST_F(SolutionFile, StateRowsTakeCommasAndComments) {
+  const ConfigurationSpace space = test::armProblem().space;
+  const auto rows =
+      readStateRows(write("s.txt", "# shoulder elbow wrist\n1, 2,3\n\n-1 0 .5 # low\n"), space);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].q, Vec3(1, 2, 3));
+  EXPECT_EQ(rows[1].q, Vec3(-1, 0, 0.5));
+  EXPECT_EQ(rows[1].line, 4);
+  EXPECT_EQ(complaint("a.path", "1 2 3\n1 2\n", space),
+            "a.path:2: a state has 3 numbers (shoulder elbow wrist), not 2");
+}
+
 TEST_F(SolutionFile, OmplAppPaths) {
-  const Solution solution = readSolution(write("a.path", "1 2 0.5 \n\n3 4 -0.25"), RigidSpace::SE2);
+  const Solution solution =
+      readSolution(write("a.path", "1 2 0.5 \n\n3 4 -0.25"), test::rigidProblem(Rigid::SE2).space);
   ASSERT_EQ(solution.path.size(), 2u);
-  EXPECT_EQ(solution.path[1].xyYaw(), Vec3(3, 4, -0.25));
+  EXPECT_EQ(solution.path[1], Vec3(3, 4, -0.25));
   EXPECT_TRUE(solution.digest.empty());
-  EXPECT_EQ(complaint("a.path", "1 2 3\n1 2\n", RigidSpace::SE2),
+  EXPECT_EQ(complaint("a.path", "1 2 3\n1 2\n", Rigid::SE2),
             "a.path:2: a state of SE2 has 3 numbers (x y yaw), not 2");
-  EXPECT_THAT(complaint("a.path", "1 2 x\n", RigidSpace::SE2), HasSubstr("a.path:1: "));
+  EXPECT_THAT(complaint("a.path", "1 2 x\n", Rigid::SE2), HasSubstr("a.path:1: "));
   EXPECT_EQ(complaint("a.path", "0 0 0 0 0 0 0\n"),
             "a.path:1: a quaternion of zeros is no rotation");
 }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,12 +12,14 @@
 #include "collision/core/error.h"
 #include "planner/solve/planner_factory.h"
 #include "planner/solve/verify_solution.h"
-#include "tests/planner/solve/hall_problem.h"
+#include "tests/planner/checker/hall.h"
 
 namespace corridor {
 namespace {
 
+using test::armProblem;
 using test::hallProblem;
+using test::Rigid;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -29,8 +32,8 @@ std::string complaintOf(const Problem& problem, const SolveOptions& options = {}
   return "";
 }
 
-class Spaces : public testing::TestWithParam<RigidSpace> {};
-INSTANTIATE_TEST_SUITE_P(Both, Spaces, testing::Values(RigidSpace::SE2, RigidSpace::SE3));
+class Spaces : public testing::TestWithParam<Rigid> {};
+INSTANTIATE_TEST_SUITE_P(Both, Spaces, testing::Values(Rigid::SE2, Rigid::SE3));
 
 TEST_P(Spaces, SolvedCertifiedAndVerified) {
   const Problem problem = hallProblem(GetParam());
@@ -43,7 +46,7 @@ TEST_P(Spaces, SolvedCertifiedAndVerified) {
   EXPECT_GT(report.counters.boxTests, 0u);
   EXPECT_GE(report.length.metres, 2 * std::hypot(3, 4));
   for (std::size_t i = 1; i < report.path.size(); ++i)
-    EXPECT_LE(rotationAngle(GetParam(), report.path[i - 1], report.path[i]), 1.5708);
+    EXPECT_LE(problem.space.largestTurn(report.path[i - 1], report.path[i]), 1.5708);
   const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
   EXPECT_EQ(verified.verdict, PathVerdict::proved);
   EXPECT_GT(verified.motion.provenClearance, 0);
@@ -53,9 +56,8 @@ TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
   Problem problem = hallProblem(GetParam());
   const auto bits = [&] {
     std::vector<double> numbers;
-    for (const RigidState& s : solveProblem(problem).path)
-      numbers.insert(numbers.end(),
-                     {s.pose.p.x(), s.pose.p.y(), s.pose.p.z(), s.pose.q.x(), s.pose.q.w(), s.yaw});
+    for (const Configuration& q : solveProblem(problem).path)
+      numbers.insert(numbers.end(), q.begin(), q.end());
     return numbers;
   };
   const auto first = bits();
@@ -67,7 +69,7 @@ TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
 
 TEST_P(Spaces, GoalRegion) {
   Problem problem = hallProblem(GetParam());
-  problem.goalRegion = Problem::GoalRegion{0.3, 0.2};
+  problem.goalRegion = Problem::GoalRegion{0.3, 0.2, 0};
   for (const char* planner : {"RRT", "RRTConnect", "InformedRRTstar"}) {
     problem.planner.name = planner;
     problem.planner.stopAtFirst = true;
@@ -84,7 +86,7 @@ TEST_P(Spaces, AThresholdOfZeroCanBeReached) {
   problem.planner.name = "RRT";  // asks the goal whether it is reached
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
-  EXPECT_EQ(report.path.back().pose.p, problem.goal.p);
+  EXPECT_EQ(report.path.back().head(2), problem.goals[0].head(2));
 }
 
 TEST_P(Spaces, MutatedPathsAreRefuted) {
@@ -102,14 +104,14 @@ TEST_P(Spaces, MutatedPathsAreRefuted) {
               p = {p.front(), p.back()};
             }).motion.verdict,
             PathVerdict::refuted);
-  const auto start = verdict([](Path& p) { p.front().pose.p.x() += 1e-9; });
+  const auto start = verdict([](Path& p) { p.front()[0] += 1e-9; });
   EXPECT_EQ(start.verdict, PathVerdict::refuted);
   EXPECT_THAT(start.violations,
               testing::ElementsAre(StartsWith("the first state is not the start")));
-  const auto goal = verdict([](Path& p) { p.back().pose.p.y() += 1e-9; });
+  const auto goal = verdict([](Path& p) { p.back()[1] += 1e-9; });
   EXPECT_THAT(goal.violations,
               testing::ElementsAre(StartsWith("the last state is not in the goal")));
-  const auto outside = verdict([](Path& p) { p[p.size() / 2].pose.p.x() = 5.5; });
+  const auto outside = verdict([](Path& p) { p[p.size() / 2][0] = 5.5; });
   EXPECT_THAT(outside.violations, testing::Contains(HasSubstr("x = 5.5 is not in [-5, 5]")));
 }
 
@@ -117,7 +119,7 @@ TEST_P(Spaces, DiscreteStepsThroughTheWallAndVerifyRefutesIt) {
   Problem problem = hallProblem(GetParam());
   problem.checker.edges = "discrete";
   problem.checker.resolution = 0.2;
-  problem.robot[0].source.mesh = test::boxMesh({0.1, 0.1, 0.1});
+  problem.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved);
   EXPECT_FALSE(report.certified);
@@ -126,7 +128,7 @@ TEST_P(Spaces, DiscreteStepsThroughTheWallAndVerifyRefutesIt) {
 }
 
 TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
-  const test::Hall hall(RigidSpace::SE3);
+  const test::Hall hall(Rigid::SE3);
   ASSERT_GE(knownPlanners().size(), 30u);
   for (const PlannerInfo& info : knownPlanners()) {
     const auto planner = makePlanner(hall.si, info.name, {});
@@ -137,12 +139,12 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
 }
 
 TEST(Solve, BadNamesListWhatThereIs) {
-  Problem problem = hallProblem(RigidSpace::SE3);
+  Problem problem = hallProblem(Rigid::SE3);
   problem.planner.name = "RRTConect";
   EXPECT_THAT(complaintOf(problem),
               StartsWith("hall.yaml:8: unknown planner \"RRTConect\"; did you mean "
                          "\"RRTConnect\"?; there are: RRTConnect, RRT, "));
-  problem = hallProblem(RigidSpace::SE3);
+  problem = hallProblem(Rigid::SE3);
   problem.planner.params = {{"rnge", "1"}};
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:7: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?; it has: "
@@ -159,7 +161,7 @@ TEST(Solve, BadNamesListWhatThereIs) {
   EXPECT_EQ(
       complaintOf(problem, options),
       "--set: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");
-  problem = hallProblem(RigidSpace::SE3);
+  problem = hallProblem(Rigid::SE3);
   problem.sampler = "gausian";
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:11: unknown sampler \"gausian\"; did you mean \"gaussian\"?; there are: "
@@ -176,7 +178,7 @@ TEST(Solve, BadNamesListWhatThereIs) {
 }
 
 TEST(Solve, SamplersSolve) {
-  Problem problem = hallProblem(RigidSpace::SE2);
+  Problem problem = hallProblem(Rigid::SE2);
   problem.planner.name = "PRM";
   for (const char* sampler : {"uniform", "gaussian", "obstacle_based", "bridge_test"}) {
     problem.sampler = sampler;
@@ -185,47 +187,101 @@ TEST(Solve, SamplersSolve) {
 }
 
 TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
-  Problem problem = hallProblem(RigidSpace::SE3);
-  problem.start.p = {-0.4, -2, 0};
+  Problem problem = hallProblem(Rigid::SE3);
+  problem.start.head(3) = Vec3(-0.4, -2, 0);
   const std::string complaint = complaintOf(problem);
   EXPECT_THAT(complaint, StartsWith("hall.yaml:4: start is in contact: \"bar\" (triangle "));
   EXPECT_THAT(complaint, HasSubstr(" and \"wall\" (triangle "));
   // The tip is 0.1005 m beyond the wall's face.
   EXPECT_THAT(complaint, HasSubstr(" touch; the nearest free position found is 0.1"));
-  problem.goal.p = {0.3, -2, 0};
+  problem.goals[0].head(3) = Vec3(0.3, -2, 0);
   EXPECT_THAT(complaintOf(problem),
               HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
 }
 
 TEST(Solve, MarginAndTube) {
-  Problem problem = hallProblem(RigidSpace::SE3);
-  problem.start.p = {-0.6, -2, 0};  // 0.0995 from the wall
+  Problem problem = hallProblem(Rigid::SE3);
+  problem.start.head(3) = Vec3(-0.6, -2, 0);  // 0.0995 from the wall
   problem.margin = 0.2;
   EXPECT_THAT(complaintOf(problem),
               HasSubstr("are closer than the margin of 0.2 m; the nearest free position"));
   problem.margin = 0;
-  problem.start.p = {-0.5005 - 0.01, -2, 0};
-  problem.tube = Tube{0.02, 0};
+  problem.start.head(3) = Vec3(-0.5005 - 0.01, -2, 0);
+  problem.tube.head(3).setConstant(0.02);
   EXPECT_THAT(complaintOf(problem),
               HasSubstr(" m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
 }
 
 TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
-  Problem problem = hallProblem(RigidSpace::SE3);
-  problem.start.p = {-6, 0, 0};
+  Problem problem = hallProblem(Rigid::SE3);
+  problem.start.head(3) = Vec3(-6, 0, 0);
   EXPECT_EQ(complaintOf(problem), "hall.yaml:4: start: [-6, 0, 0] is outside of the bounds");
-  problem = hallProblem(RigidSpace::SE3);
-  problem.goal.p = {0, -2, 0};
-  problem.goalRegion = Problem::GoalRegion{0.01, 0.01};
+  problem = hallProblem(Rigid::SE3);
+  problem.goals[0].head(3) = Vec3(0, -2, 0);
+  problem.goalRegion = Problem::GoalRegion{0.01, 0.01, 0};
   EXPECT_THAT(
       complaintOf(problem),
       StartsWith(
           "hall.yaml:5: no free state was found within the goal; its middle: goal is in contact"));
 }
 
+Problem armAt(double shoulder, double elbow, double wrist) {
+  Problem problem = armProblem();
+  problem.start = Vec3(shoulder, elbow, wrist);
+  return problem;
+}
+
+TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
+  Problem problem = armProblem();
+  problem.planner.stopAtFirst = true;
+  problem.planner.time = 10;
+  for (const char* planner :
+       {"RRTConnect", "RRT", "KPIECE1", "SBL", "PRM", "RRTstar", "InformedRRTstar", "BITstar"}) {
+    problem.planner.name = planner;
+    const SolveReport report = solveProblem(problem);
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << planner << ": " << report.why;
+    EXPECT_TRUE(report.certified);
+    EXPECT_EQ(report.length.metres, 0);
+    EXPECT_GE(report.length.radians, 2.8 - 1e-12);
+    EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved)
+        << planner;
+  }
+}
+
+TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreTold) {
+  Problem problem = armProblem();
+  problem.goals = {Vec3(std::numbers::pi / 4, 0, 0), Vec3(2, -0.5, 0.3), Vec3(-2, 0, 0)};
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0].str(),
+              StartsWith("arm.yaml:5: goal 1 of 3 is in contact: \"lower\" and \"post\" touch; the "
+                         "nearest free values found are at most "));
+  EXPECT_TRUE(report.path.back() == problem.goals[1] || report.path.back() == problem.goals[2]);
+  EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
+  problem.goals.resize(1);
+  EXPECT_THAT(complaintOf(problem), StartsWith("arm.yaml:5: goal is in contact: "));
+}
+
+TEST(Arm, GoalRegionOfJoints) {
+  Problem problem = armProblem();
+  problem.goalRegion = Problem::GoalRegion{0, 0, 0.1};
+  problem.goals = {Vec3(std::numbers::pi, 0.5, -0.05)};  // across the seam of the shoulder
+  problem.planner.name = "RRT";
+  const SolveReport report = solveProblem(problem);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
+}
+
+TEST(Arm, StartInSelfContactNamesTheLinks) {
+  EXPECT_THAT(complaintOf(armAt(0, 2.45, 2.45)),
+              StartsWith("arm.yaml:4: start is in contact: \"upper\" and \"hand\" (shape "));
+  EXPECT_EQ(complaintOf(armAt(0, 3, 0)), "arm.yaml:4: start: elbow = 3 is not in [-2.5, 2.5]");
+}
+
 TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
-  Problem problem = hallProblem(RigidSpace::SE3);
-  problem.world[0].source.mesh = test::boxMesh({0.001, 20, 20});  // no gap
+  Problem problem = hallProblem(Rigid::SE3);
+  problem.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});  // no gap
   for (const char* planner : {"RRTConnect", "RRT", "PRM", "RRTstar", "KPIECE1"}) {
     problem.planner.name = planner;
     problem.planner.time = 0.5;
@@ -239,8 +295,8 @@ TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
 }
 
 TEST(Solve, StopsWhenInterrupted) {
-  Problem problem = hallProblem(RigidSpace::SE3);
-  problem.world[0].source.mesh = test::boxMesh({0.001, 20, 20});
+  Problem problem = hallProblem(Rigid::SE3);
+  problem.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});
   std::atomic<bool> interrupted = false;
   SolveOptions options;
   options.interrupted = &interrupted;

@@ -1,0 +1,125 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "planner/app/commands.h"
+#include "planner/app/output.h"
+#include "planner/checker/problem_goal.h"
+#include "planner/problem/state_yaml.h"
+#include "planner/solve/endpoint_help.h"
+#include "planner/solve/solve.h"
+#include "planner/solve/state_rows.h"
+
+namespace corridor::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A state of a file, and what is wrong with it.
+struct CheckedState {
+  bool valid = false;
+  std::vector<std::string> pairs;        ///< "hand~table": not free
+  std::vector<std::string> outOfBounds;  ///< names of coordinates
+};
+
+CheckedState checkState(const Checker& checker, Configuration q, std::vector<std::string>& notes) {
+  CheckedState checked;
+  for (const Coordinate& c : checker.space().coordinates()) {
+    if (c.kind == Coordinate::Kind::rotation) continue;
+    double& number = q[static_cast<Eigen::Index>(c.first)];
+    std::string why;
+    if (const auto value = coordinateValue(c, number, c.name, notes, why))
+      number = *value;
+    else
+      checked.outOfBounds.push_back(c.name);
+  }
+  checker.space().normalise(q);
+  const std::vector<ProblemBody>& bodies = checker.problem().bodies;
+  for (const Scene::Pair& pair : checker.pairsNotFree(q))
+    checked.pairs.push_back(bodies[pair.a].name + "~" + bodies[pair.b].name);
+  checked.valid = checked.pairs.empty() && checked.outOfBounds.empty();
+  return checked;
+}
+
+int checkStates(const Problem& problem, const CheckArguments& a) {
+  const std::vector<StateRow> rows = readStateRows(*a.states, problem.space);
+  const Checker checker(problem);
+  bool all = true;
+  std::size_t noted = 0;
+  ordered_json states = ordered_json::array();
+  if (!a.json) std::cout << "state,valid,pairs\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<std::string> notes;
+    const CheckedState state = checkState(checker, rows[i].q, notes);
+    noted += !notes.empty();
+    all &= state.valid;
+    if (a.json) {
+      states.push_back({{"state", i},
+                        {"line", rows[i].line},
+                        {"valid", state.valid},
+                        {"pairs", state.pairs},
+                        {"out_of_bounds", state.outOfBounds}});
+      continue;
+    }
+    std::cout << i << ',' << state.valid << ',';
+    const char* separator = "";
+    for (const std::string& pair : state.pairs) {
+      std::cout << separator << pair;
+      separator = ";";
+    }
+    for (const std::string& name : state.outOfBounds) {
+      std::cout << separator << "bounds:" << name;
+      separator = ";";
+    }
+    std::cout << '\n';
+  }
+  if (noted)
+    warn(*a.states + ": in " + counted(noted, "state") +
+         ", angles were wrapped or values a rounding beyond a limit taken for it");
+  if (a.json)
+    std::cout << ordered_json{{"format", "corridor-check-report-1"},
+                              {"problem", a.problem},
+                              {"numbers", problem.space.numberNames()},
+                              {"valid", all},
+                              {"states", states}}
+                     .dump(2)
+              << '\n';
+  return all ? kDone : kNo;
+}
+
+int checkEnds(const Problem& problem, const CheckArguments& a) {
+  checkSettings(problem);
+  const Checker checker(problem);
+  const Lines out(a.json);
+  ordered_json ends;
+  const auto tell = [&](const std::string& name, const Configuration& q) {
+    const auto why = whyNotFree(name, q, checker);
+    ends[name] = why.value_or("free");
+    out.line(name, why.value_or("free"), why ? Tone::bad : Tone::good);
+    return !why;
+  };
+  out.line("problem", a.problem);
+  bool all = tell("start", startOf(problem));
+  const std::vector<Configuration> goals = goalsOf(problem);
+  for (std::size_t i = 0; i < goals.size(); ++i)
+    all &= tell(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
+  const std::size_t tested = checker.scene().pairs().size();
+  if (tested == 0) warn(a.problem + ": 0 pairs are tested, every state is valid");
+  if (a.json)
+    std::cout << ordered_json{{"format", "corridor-check-report-1"},
+                              {"problem", a.problem},
+                              {"valid", all},
+                              {"ends", ends}}
+                     .dump(2)
+              << '\n';
+  return all ? kDone : kNo;
+}
+
+}  // namespace
+
+int checkCommand(const CheckArguments& a) {
+  const Problem problem = readProblem(a.problem);
+  return a.states ? checkStates(problem, a) : checkEnds(problem, a);
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,162 @@
+#include <iostream>
+#include <map>
+
+#include "planner/app/inspect.h"
+#include "planner/app/output.h"
+#include "planner/checker/problem_goal.h"
+#include "planner/solve/endpoint_help.h"
+#include "planner/solve/state_rows.h"
+
+namespace corridor::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A problem as it is told, in lines or as JSON.
+class ProblemReport {
+ public:
+  ProblemReport(const Problem& problem, const InspectArguments& a)
+      : problem_(problem), a_(a), checker_(problem), out_(a.json) {}
+
+  int run() {
+    json_ = {{"format", "corridor-inspect-problem-2"},
+             {"file", a_.file},
+             {"name", problem_.name},
+             {"digest", problem_.digest}};
+    out_.line("problem", a_.file);
+    out_.line("name", problem_.name);
+    tellSpace();
+    tellNumbers();
+    tellBodies();
+    tellPairs();
+    json_["notes"] = problem_.notes;
+    for (const std::string& note : problem_.notes) out_.line("note", note);
+    const bool free = tellEnds();
+    tellTrees();
+    if (a_.json) std::cout << json_.dump(2) << '\n';
+    return free ? kDone : kNo;
+  }
+
+ private:
+  void tellSpace() {
+    const std::string rigid = rigidSpaceOf(problem_.space.numberNames());
+    json_["space"] = rigid.empty() ? "joints" : rigid;
+    json_["numbers"] = problem_.space.numberNames();
+    json_["coordinates"] = ordered_json::array();
+    if (!rigid.empty()) out_.line("space", rigid);
+    for (const Coordinate& c : problem_.space.coordinates()) {
+      ordered_json j = {{"name", c.name}, {"weight", c.weight}};
+      std::string text = "\"" + c.name + "\": ";
+      if (c.kind == Coordinate::Kind::line) {
+        const char* unit = c.angular ? "rad" : "m";
+        j["kind"] = "line";
+        j["unit"] = unit;
+        j["lower"] = c.lower;
+        j["upper"] = c.upper;
+        text += rounded(c.lower) + " to " + rounded(c.upper) + " " + unit;
+      } else {
+        j["kind"] = c.kind == Coordinate::Kind::circle ? "circle" : "rotation";
+        text += c.kind == Coordinate::Kind::circle ? "all round" : "any";
+      }
+      json_["coordinates"].push_back(j);
+      out_.line(rigid.empty() ? "joint" : "coordinate", text);
+    }
+  }
+
+  void tellNumbers() {
+    json_["tolerance_m"] = checker_.options().tolerance;
+    json_["margin_m"] = problem_.margin;
+    json_["tube"] = tubeJson(problem_.space, problem_.tube);
+    out_.line("tolerance", rounded(checker_.options().tolerance) + " m");
+    out_.line("margin", rounded(problem_.margin) + " m");
+    out_.line("tube", tubeText(problem_.space, problem_.tube));
+  }
+
+  void tellBodies() {
+    json_["bodies"] = ordered_json::array();
+    for (const ProblemBody& body : problem_.bodies) {
+      ordered_json j = {
+          {"name", body.name}, {"moves", body.frame != 0}, {"shapes", ordered_json::array()}};
+      std::string text;
+      for (const PlacedShape& shape : body.shapes) {
+        j["shapes"].push_back(shapeJson(shape));
+        text += (text.empty() ? "" : "; ") + shapeText(shape);
+      }
+      json_["bodies"].push_back(j);
+      out_.line(body.robot ? "robot" : "world", "\"" + body.name + "\": " + text);
+    }
+  }
+
+  std::string pairName(const ProblemPair& pair) const {
+    return problem_.bodies[pair.a].name + "~" + problem_.bodies[pair.b].name;
+  }
+
+  void tellPairs() {
+    std::map<std::string, std::size_t> skipped;
+    std::size_t tested = 0;
+    json_["pair_list"] = ordered_json::array();
+    for (const ProblemPair& pair : problem_.pairs) {
+      if (pair.skipped.empty())
+        ++tested;
+      else
+        ++skipped[pair.skipped];
+      json_["pair_list"].push_back({{"a", problem_.bodies[pair.a].name},
+                                    {"b", problem_.bodies[pair.b].name},
+                                    {"skipped", pair.skipped}});
+      if (a_.pairs)
+        out_.line("pair", pairName(pair) + ": " +
+                              (pair.skipped.empty() ? "tested" : "not tested: " + pair.skipped));
+    }
+    json_["pairs"] = {{"tested", tested}, {"skipped", skipped}};
+    out_.line("pairs tested",
+              grouped(tested) + (tested ? "" : ": NOTHING IS TESTED, every state is valid"),
+              tested ? Tone::plain : Tone::bad);
+    for (const auto& [reason, count] : skipped)
+      out_.line("pairs skipped", grouped(count) + ": " + reason);
+    out_.line("never a pair", "world with itself (it stands still), a body with itself");
+  }
+
+  bool tellEnds() {
+    bool free = tellEnd("start", startOf(problem_), json_["start"]);
+    const std::vector<Configuration> goals = goalsOf(problem_);
+    if (goals.size() == 1) return tellEnd("goal", goals[0], json_["goal"]) && free;
+    bool any = false;
+    json_["goal"] = ordered_json::array();
+    for (std::size_t i = 0; i < goals.size(); ++i)
+      any |= tellEnd("goal " + std::to_string(i + 1), goals[i], json_["goal"].emplace_back());
+    return any && free;
+  }
+
+  bool tellEnd(const std::string& name, const Configuration& q, ordered_json& json) {
+    const auto why = whyNotFree(name, q, checker_);
+    json = why.value_or("free");
+    out_.line(name, why.value_or("free"), why ? Tone::bad : Tone::plain);
+    return !why;
+  }
+
+  void tellTrees() {
+    std::size_t built = 0, meshes = 0;
+    for (const Scene::Placed& placed : checker_.scene().bodies()) {
+      built += !placed.body.part() && placed.body.treeBuilt();
+      meshes += !placed.body.part();
+    }
+    json_["trees_built"] = built;
+    out_.line("trees built", std::to_string(built) + " of " + std::to_string(meshes) +
+                                 ", for start and goal; the others at first need");
+  }
+
+  const Problem& problem_;
+  const InspectArguments& a_;
+  Checker checker_;
+  Lines out_;
+  ordered_json json_;
+};
+
+}  // namespace
+
+int inspectProblem(const InspectArguments& a) {
+  const Problem problem = readProblem(a.file);
+  return ProblemReport(problem, a).run();
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,133 @@
+#include <cmath>
+#include <iostream>
+
+#include "collision/core/fault_list.h"
+#include "planner/app/inspect.h"
+#include "planner/app/output.h"
+#include "planner/problem/robot_file.h"
+
+namespace corridor::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* nameOf(JointType type) {
+  switch (type) {
+    case JointType::fixed:
+      return "fixed";
+    case JointType::revolute:
+      return "revolute";
+    case JointType::continuous:
+      return "continuous";
+    case JointType::prismatic:
+      return "prismatic";
+    case JointType::planar:
+      return "planar";
+    case JointType::floating:
+      return "floating";
+  }
+  return "";
+}
+
+std::string jointText(const RobotModel& model, const JointModel& joint) {
+  std::string text = "\"" + joint.name + "\": " + nameOf(joint.type) + ", " +
+                     model.links[joint.parent].name + " to " + model.links[joint.child].name;
+  if (std::isfinite(joint.lower) || std::isfinite(joint.upper))
+    text += ", " + rounded(joint.lower) + " to " + rounded(joint.upper) +
+            (joint.type == JointType::prismatic ? " m" : " rad");
+  if (joint.mimic)
+    text += ", " + rounded(joint.mimic->multiplier) + " of " +
+            model.joints[joint.mimic->joint].name + " + " + rounded(joint.mimic->offset);
+  return text;
+}
+
+ordered_json jointJson(const RobotModel& model, const JointModel& joint) {
+  ordered_json j = {{"name", joint.name},
+                    {"type", nameOf(joint.type)},
+                    {"parent", model.links[joint.parent].name},
+                    {"child", model.links[joint.child].name}};
+  if (std::isfinite(joint.lower)) j["lower"] = joint.lower;
+  if (std::isfinite(joint.upper)) j["upper"] = joint.upper;
+  if (joint.mimic)
+    j["mimic"] = {{"joint", model.joints[joint.mimic->joint].name},
+                  {"multiplier", joint.mimic->multiplier},
+                  {"offset", joint.mimic->offset}};
+  return j;
+}
+
+std::string shapesText(const LinkModel& link) {
+  std::string text = "\"" + link.name + "\": ";
+  if (link.shapes.empty()) text += "no shapes";
+  for (std::size_t i = 0; i < link.shapes.size(); ++i)
+    text += (i ? "; " : "") + shapeText(link.shapes[i]);
+  return text;
+}
+
+}  // namespace
+
+std::string shapeText(const PlacedShape& shape) {
+  if (!shape.mesh) return shape.primitive ? nameOf(*shape.primitive) : "convex";
+  return counted(shape.mesh->mesh.triangles.size(), "triangle") +
+         (shape.solid ? " (solid), " : ", ") + shape.file.string();
+}
+
+ordered_json shapeJson(const PlacedShape& shape) {
+  ordered_json j =
+      shape.mesh
+          ? meshJson(*shape.mesh)
+          : ordered_json{{"primitive", shape.primitive ? nameOf(*shape.primitive) : "convex"}};
+  j["name"] = shape.name;
+  if (shape.mesh) j["file"] = shape.file.string();
+  j["solid"] = shape.solid || shape.part.has_value();
+  return j;
+}
+
+int inspectRobot(const InspectArguments& a) {
+  FaultList faults(a.file);
+  const auto setup = readRobotFile(a.file, faults);
+  faults.throwIfAny();
+  const RobotModel& model = setup->robot.model;
+  ordered_json j = {{"format", "corridor-inspect-robot-1"},
+                    {"file", a.file},
+                    {"name", model.name},
+                    {"root", model.links[model.root].name},
+                    {"joints", ordered_json::array()},
+                    {"links", ordered_json::array()},
+                    {"allowed", ordered_json::array()},
+                    {"groups", model.groups},
+                    {"states", model.states},
+                    {"notes", model.notes}};
+  const Lines out(a.json);
+  out.line("robot", a.file);
+  out.line("name", model.name);
+  out.line("root", model.links[model.root].name);
+  for (const JointModel& joint : model.joints) {
+    j["joints"].push_back(jointJson(model, joint));
+    out.line("joint", jointText(model, joint));
+  }
+  for (const LinkModel& link : model.links) {
+    ordered_json l = {{"name", link.name}, {"shapes", ordered_json::array()}};
+    for (const PlacedShape& shape : link.shapes) l["shapes"].push_back(shapeJson(shape));
+    j["links"].push_back(l);
+    out.line("link", shapesText(link));
+  }
+  for (const AllowedPair& pair : model.allowed)
+    j["allowed"].push_back({{"a", pair.a}, {"b", pair.b}, {"reason", pair.reason}});
+  out.line("pairs allowed to touch", grouped(model.allowed.size()));
+  for (const auto& [group, joints] : model.groups) {
+    std::string names;
+    for (const std::string& joint : joints) names += (names.empty() ? "" : ", ") + joint;
+    out.line("group", "\"" + group + "\": " + names);
+  }
+  for (const auto& [state, values] : model.states) {
+    std::string text;
+    for (const auto& [joint, value] : values)
+      text += (text.empty() ? "" : ", ") + joint + ": " + rounded(value);
+    out.line("state", "\"" + state + "\": {" + text + "}");
+  }
+  for (const std::string& note : model.notes) out.line("note", note);
+  if (a.json) std::cout << j.dump(2) << '\n';
+  return kDone;
+}
+
+}  // namespace corridor::app

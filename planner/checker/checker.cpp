@@ -1,0 +1,156 @@
+#include "planner/checker/checker.h"
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+#include <unordered_map>
+
+#include "planner/robot/edge_motion.h"
+
+namespace corridor {
+namespace {
+
+/// Of each shape of `makeScene`: its body.
+std::vector<std::size_t> bodiesOfShapes(const Problem& problem) {
+  std::vector<std::size_t> owner;
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b)
+    owner.insert(owner.end(), problem.bodies[b].shapes.size(), b);
+  return owner;
+}
+
+}  // namespace
+
+Scene makeScene(const Problem& problem) {
+  ObbTreeParams params;
+  params.fit = problem.checker.fit == "vertices" ? ObbFit::vertices
+               : problem.checker.fit == "hull"   ? ObbFit::hull
+                                                 : ObbFit::triangles;
+  std::vector<Scene::Placed> placed;
+  std::vector<std::size_t> firstShape;
+  for (const ProblemBody& body : problem.bodies) {
+    firstShape.push_back(placed.size());
+    for (const PlacedShape& shape : body.shapes)
+      placed.push_back({shape.part ? Body(shape.name, *shape.part)
+                                   : Body(shape.name, shape.mesh->mesh, shape.solid, params),
+                        body.frame});
+  }
+  firstShape.push_back(placed.size());
+  std::vector<Scene::Pair> pairs;
+  for (const ProblemPair& pair : problem.pairs) {
+    if (!pair.skipped.empty()) continue;
+    for (std::size_t a = firstShape[pair.a]; a < firstShape[pair.a + 1]; ++a)
+      for (std::size_t b = firstShape[pair.b]; b < firstShape[pair.b + 1]; ++b)
+        pairs.push_back({a, b});
+  }
+  return Scene(std::move(placed), std::move(pairs));
+}
+
+/// What a thread writes to.
+struct Checker::Workspace {
+  QueryContext context;
+  EdgeMotion motion;
+};
+
+/// One workspace a thread, made when a thread first asks. No state outlives the pool.
+class Checker::Pool {
+ public:
+  Workspace& mine(const Checker& checker) {
+    const std::lock_guard lock(mutex_);
+    std::unique_ptr<Workspace>& workspace = workspaces_[std::this_thread::get_id()];
+    if (!workspace) {
+      const Problem& problem = checker.problem_;
+      workspace.reset(new Workspace{
+          {}, EdgeMotion(problem.tree, problem.space, checker.scene_.framePairs(), problem.tube)});
+    }
+    return *workspace;
+  }
+
+  Counters total() const {
+    const std::lock_guard lock(mutex_);
+    Counters sum;
+    for (const auto& [thread, workspace] : workspaces_) sum += workspace->context.counters;
+    return sum;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::unordered_map<std::thread::id, std::unique_ptr<Workspace>> workspaces_;
+};
+
+Checker::Checker(const Problem& problem)
+    : problem_(problem),
+      scene_(makeScene(problem)),
+      bodyOf_(bodiesOfShapes(problem)),
+      pool_(std::make_unique<Pool>()) {
+  options_.tolerance = problem.checker.tolerance.value_or(scene_.defaultTolerance());
+  options_.reserve = options_.tolerance;
+  options_.margin = problem.margin;
+}
+
+Checker::~Checker() = default;
+
+Checker::Workspace& Checker::mine() const {
+  return pool_->mine(*this);
+}
+
+Counters Checker::counters() const {
+  return pool_->total();
+}
+
+bool Checker::inBounds(const Configuration& q) const {
+  return space().isFinite(q) && space().inBounds(q);
+}
+
+MotionResult Checker::state(const Configuration& q) const {
+  Workspace& workspace = mine();
+  workspace.motion.set(q, q);
+  const MotionResult result = scene_.certify(workspace.motion, options_, workspace.context);
+  --workspace.context.counters.edges;
+  ++workspace.context.counters.states;
+  return result;
+}
+
+MotionResult Checker::edge(const Configuration& from, const Configuration& to,
+                           bool earliest) const {
+  Workspace& workspace = mine();
+  MotionOptions options = options_;
+  options.earliest = earliest;
+  workspace.motion.set(from, to);
+  return scene_.certify(workspace.motion, options, workspace.context);
+}
+
+std::optional<Contact> Checker::interference(const Configuration& q) const {
+  QueryContext& context = mine().context;
+  const std::uint64_t before = context.counters.states;
+  const std::optional<Contact> contact = scene_.interference(framePoses(problem_.tree, q), context);
+  context.counters.states = before + 1;  // the scene counts pairs of bodies
+  return contact;
+}
+
+std::vector<Scene::Pair> Checker::pairsNotFree(const Configuration& q) const {
+  Workspace& workspace = mine();
+  workspace.motion.set(q, q);
+  const Counters before = workspace.context.counters;
+  const std::vector<MotionResult> results =
+      scene_.certifyEachPair(workspace.motion, options_, workspace.context);
+  workspace.context.counters.edges = before.edges;
+  workspace.context.counters.states = before.states + 1;
+  std::vector<Scene::Pair> pairs;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].verdict == MotionVerdict::free) continue;
+    const auto [a, b] = std::minmax(bodyOf_[scene_.pairs()[i].a], bodyOf_[scene_.pairs()[i].b]);
+    const auto same = [a = a, b = b](const Scene::Pair& p) { return p.a == a && p.b == b; };
+    if (std::none_of(pairs.begin(), pairs.end(), same)) pairs.push_back({a, b});
+  }
+  return pairs;
+}
+
+bool Checker::certifiedState(const Configuration& q) const {
+  return inBounds(q) && state(q).verdict == MotionVerdict::free;
+}
+
+bool Checker::certifiedEdge(const Configuration& from, const Configuration& to) const {
+  return inBounds(from) && inBounds(to) && edge(from, to, false).verdict == MotionVerdict::free;
+}
+
+}  // namespace corridor

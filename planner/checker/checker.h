@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "collision/world/scene.h"
+#include "planner/problem/problem.h"
+
+namespace corridor {
+
+/// The bodies of a problem's tested pairs and the others, a shape each, in the problem's order; no
+/// tree is built yet.
+Scene makeScene(const Problem& problem);
+
+/// What a problem's states and edges are checked for; the plain half of the OMPL classes beside it.
+/// Safe to call from many threads at once: each has a QueryContext and an EdgeMotion of its own.
+class Checker {
+ public:
+  /// The problem must outlive the checker. Its bodies are copied.
+  explicit Checker(const Problem& problem);
+  ~Checker();
+
+  const Problem& problem() const { return problem_; }
+  const ConfigurationSpace& space() const { return problem_.space; }
+  const Scene& scene() const { return scene_; }
+  /// Tolerance and margin that the problem asks for. What is called free keeps the tolerance as a
+  /// reserve, which may be undecided anyway: so no returned path hangs on its last digits, and
+  /// proving one again takes work in proportion to its length over the tolerance.
+  const MotionOptions& options() const { return options_; }
+  /// The body of the problem that a shape of the scene belongs to.
+  std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
+
+  /// Inclusive; what isn't finite, or has a quaternion of zeros, is outside.
+  bool inBounds(const Configuration& q) const;
+  /// Bounds aside. @pre finite.
+  MotionResult state(const Configuration& q) const;
+  /// Bounds aside. @pre finite.
+  MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
+  /// Exact static interference: neither margin nor tolerance nor tube. @pre finite.
+  std::optional<Contact> interference(const Configuration& q) const;
+  /// The pairs of bodies of the problem of which `state` isn't free, each once. @pre finite.
+  std::vector<Scene::Pair> pairsNotFree(const Configuration& q) const;
+
+  /// In bounds and `state` is free.
+  bool certifiedState(const Configuration& q) const;
+  /// Both ends in bounds (so all of it is) and `edge` is free.
+  bool certifiedEdge(const Configuration& from, const Configuration& to) const;
+
+  /// Of all threads; call it while no query runs.
+  Counters counters() const;
+
+ private:
+  struct Workspace;
+  class Pool;
+  Workspace& mine() const;
+
+  const Problem& problem_;
+  Scene scene_;
+  std::vector<std::size_t> bodyOf_;
+  MotionOptions options_;
+  std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace corridor

@@ -1,0 +1,85 @@
+#include "planner/checker/problem_goal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/core/rounding.h"
+#include "planner/checker/group_difference.h"
+
+namespace corridor {
+namespace {
+
+bool inRegion(const Problem& problem, const Configuration& goal, const Configuration& q,
+              double grow) {
+  // Normalising a quaternion is off by less than 4u a component, an angle of two such by less than
+  // 32u, and finding it by as much.
+  const double same = 64 * kUnit;
+  const Problem::GoalRegion& region = *problem.goalRegion;
+  for (const CoordinateGroup& group : problem.space.groups()) {
+    if (group.kind == CoordinateGroup::Kind::joints) {
+      for (const std::size_t c : group.coordinates)
+        if (!(differenceOf(problem.space.coordinates()[c], goal, q) <=
+              std::max(region.joint * grow,
+                       problem.space.coordinates()[c].kind == Coordinate::Kind::circle ? same : 0)))
+          return false;
+    } else if (!(positionDifference(problem.space, group, goal, q) <= region.position * grow) ||
+               !(rotationDifference(problem.space, group, goal, q) <=
+                 std::max(region.angle * grow, same))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+double outside(const Problem& problem, const Configuration& goal, const Configuration& q) {
+  const std::vector<Coordinate>& coordinates = problem.space.coordinates();
+  const Problem::GoalRegion& region = *problem.goalRegion;
+  double sum = 0;
+  for (const CoordinateGroup& group : problem.space.groups()) {
+    if (group.kind == CoordinateGroup::Kind::joints) {
+      for (const std::size_t c : group.coordinates)
+        sum += coordinates[c].weight *
+               std::max(differenceOf(coordinates[c], goal, q) - region.joint, 0.0);
+    } else {
+      sum += coordinates[group.coordinates.front()].weight *
+             std::max(positionDifference(problem.space, group, goal, q) - region.position, 0.0);
+      sum += coordinates[group.coordinates.back()].weight *
+             std::max(rotationDifference(problem.space, group, goal, q) - region.angle, 0.0);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+Configuration startOf(const Problem& problem) {
+  Configuration q = problem.start;
+  problem.space.normalise(q);
+  return q;
+}
+
+std::vector<Configuration> goalsOf(const Problem& problem) {
+  std::vector<Configuration> goals = problem.goals;
+  for (Configuration& goal : goals) problem.space.normalise(goal);
+  return goals;
+}
+
+bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, const Configuration& q,
+            double slack) {
+  return std::any_of(goals.begin(), goals.end(), [&](const Configuration& goal) {
+    if (problem.goalRegion) return inRegion(problem, goal, q, 1 + slack);
+    if (problem.goalThreshold)
+      return problem.space.distance(goal, q) <= *problem.goalThreshold * (1 + slack);
+    return problem.space.equal(goal, q);
+  });
+}
+
+double outsideGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
+                         const Configuration& q) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Configuration& goal : goals) least = std::min(least, outside(problem, goal, q));
+  return least;
+}
+
+}  // namespace corridor

@@ -1,0 +1,196 @@
+#include "planner/checker/problem_state_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <ompl/base/ProjectionEvaluator.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SO2StateSpace.h>
+#include <ompl/base/spaces/SO3StateSpace.h>
+#include <ompl/tools/config/MagicConstants.h>
+
+namespace corridor {
+
+namespace ob = ompl::base;
+
+namespace {
+
+using Kind = Coordinate::Kind;
+using Group = CoordinateGroup::Kind;
+
+/// The group that a coordinate belongs to, by index.
+std::vector<std::size_t> groupsOfCoordinates(const ConfigurationSpace& space) {
+  std::vector<std::size_t> owner(space.coordinates().size(), 0);
+  for (std::size_t g = 0; g < space.groups().size(); ++g)
+    for (const std::size_t c : space.groups()[g].coordinates) owner[c] = g;
+  return owner;
+}
+
+double rangeOf(const Coordinate& c) {
+  // Of a rotation the quaternion's angle, as in distances.
+  return c.kind == Kind::line     ? c.upper - c.lower
+         : c.kind == Kind::circle ? std::numbers::pi
+                                  : std::numbers::pi / 2;
+}
+
+/// Some numbers of a configuration as they are.
+class Numbers : public ob::ProjectionEvaluator {
+ public:
+  Numbers(const ProblemStateSpace& space, std::vector<const Coordinate*> coordinates)
+      : ProjectionEvaluator(&space), space_(space), coordinates_(std::move(coordinates)) {}
+
+  unsigned getDimension() const override { return static_cast<unsigned>(coordinates_.size()); }
+  void defaultCellSizes() override {
+    bounds_.resize(getDimension());
+    cellSizes_.resize(getDimension());
+    for (unsigned i = 0; i < getDimension(); ++i) {
+      const Coordinate& c = *coordinates_[i];
+      const double low = c.kind == Kind::line ? c.lower : -std::numbers::pi,
+                   high = c.kind == Kind::line ? c.upper : std::numbers::pi;
+      bounds_.setLow(i, low);
+      bounds_.setHigh(i, high);
+      cellSizes_[i] = (high - low) / ompl::magic::PROJECTION_DIMENSION_SPLITS;
+    }
+  }
+  void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> projection) const override {
+    const Configuration q = space_.read(state);
+    for (std::size_t i = 0; i < coordinates_.size(); ++i)
+      projection[static_cast<Eigen::Index>(i)] =
+          q[static_cast<Eigen::Index>(coordinates_[i]->first)];
+  }
+
+ private:
+  const ProblemStateSpace& space_;
+  std::vector<const Coordinate*> coordinates_;
+};
+
+}  // namespace
+
+ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(space) {
+  setName("Problem" + getName());
+  const std::vector<Coordinate>& coordinates = space.coordinates();
+  const std::vector<std::size_t> groups = groupsOfCoordinates(space);
+  for (std::size_t i = 0; i < coordinates.size();) {
+    const Coordinate& first = coordinates[i];
+    if (first.kind != Kind::line) {
+      parts_.push_back({first.kind, first.first, first.size()});
+      if (first.kind == Kind::circle)
+        addSubspace(std::make_shared<ob::SO2StateSpace>(), first.weight);
+      else
+        addSubspace(std::make_shared<ob::SO3StateSpace>(), first.weight);
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    double weight = 0;  // tells samplers how near is near, here and in the other parts
+    while (end < coordinates.size() && coordinates[end].kind == Kind::line &&
+           groups[end] == groups[i])
+      weight = std::max(weight, coordinates[end++].weight);
+    const auto lines = std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(end - i));
+    ob::RealVectorBounds bounds(static_cast<unsigned>(end - i));
+    for (unsigned k = 0; i + k < end; ++k) {
+      bounds.setLow(k, coordinates[i + k].lower);
+      bounds.setHigh(k, coordinates[i + k].upper);
+    }
+    lines->setBounds(bounds);
+    addSubspace(lines, weight);
+    parts_.push_back({Kind::line, first.first, end - i});
+    i = end;
+  }
+  // What OMPL's informed samplers know how to sample.
+  const bool alone =
+      space.groups().size() == 1 && parts_.size() == 2 && coordinates.front().weight == 1;
+  if (alone && space.groups()[0].kind == Group::planar) type_ = ob::STATE_SPACE_SE2;
+  if (alone && space.groups()[0].kind == Group::floating) type_ = ob::STATE_SPACE_SE3;
+  lock();
+}
+
+Configuration ProblemStateSpace::read(const ob::State* state) const {
+  Configuration q(static_cast<Eigen::Index>(space_.size()));
+  const auto* compound = state->as<ob::CompoundState>();
+  for (unsigned i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    double* numbers = q.data() + part.first;
+    if (part.kind == Kind::line) {
+      const double* values = compound->as<ob::RealVectorStateSpace::StateType>(i)->values;
+      std::copy(values, values + part.count, numbers);
+    } else if (part.kind == Kind::circle) {
+      *numbers = compound->as<ob::SO2StateSpace::StateType>(i)->value;
+    } else {
+      const auto& r = *compound->as<ob::SO3StateSpace::StateType>(i);
+      const double values[] = {r.x, r.y, r.z, r.w};
+      std::copy(values, values + 4, numbers);
+    }
+  }
+  return q;
+}
+
+void ProblemStateSpace::write(const Configuration& q, ob::State* state) const {
+  auto* compound = state->as<ob::CompoundState>();
+  for (unsigned i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    const double* numbers = q.data() + part.first;
+    if (part.kind == Kind::line) {
+      std::copy(numbers, numbers + part.count,
+                compound->as<ob::RealVectorStateSpace::StateType>(i)->values);
+    } else if (part.kind == Kind::circle) {
+      compound->as<ob::SO2StateSpace::StateType>(i)->value = *numbers;
+    } else {
+      auto& r = *compound->as<ob::SO3StateSpace::StateType>(i);
+      r.x = numbers[0];
+      r.y = numbers[1];
+      r.z = numbers[2];
+      r.w = numbers[3];
+    }
+  }
+}
+
+void ProblemStateSpace::interpolate(const ob::State* from, const ob::State* to, double t,
+                                    ob::State* state) const {
+  write(space_.interpolate(read(from), read(to), t), state);
+}
+
+double ProblemStateSpace::distance(const ob::State* a, const ob::State* b) const {
+  return space_.distance(read(a), read(b));
+}
+
+bool ProblemStateSpace::equalStates(const ob::State* a, const ob::State* b) const {
+  return space_.equal(read(a), read(b));
+}
+
+double ProblemStateSpace::getMaximumExtent() const {
+  double sum = 0;
+  for (const CoordinateGroup& group : space_.groups()) {
+    const bool joints = group.kind == Group::joints;
+    double squares = 0;
+    for (const std::size_t i : group.coordinates) {
+      const Coordinate& c = space_.coordinates()[i];
+      if (!joints && i == group.coordinates.back())
+        sum += c.weight * rangeOf(c);
+      else
+        squares += std::pow(c.weight * rangeOf(c), 2);
+    }
+    sum += std::sqrt(squares);
+  }
+  return sum;
+}
+
+void ProblemStateSpace::registerProjections() {
+  const std::vector<Coordinate>& all = space_.coordinates();
+  std::vector<const Coordinate*> chosen;
+  for (const CoordinateGroup& group : space_.groups())
+    if (chosen.empty() && group.kind != Group::joints)
+      for (std::size_t k = 0; k + 1 < group.coordinates.size(); ++k)
+        chosen.push_back(&all[group.coordinates[k]]);
+  if (chosen.empty())
+    for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 3); ++i)
+      chosen.push_back(&all[i]);
+  registerDefaultProjection(std::make_shared<Numbers>(*this, std::move(chosen)));
+}
+
+Configuration configurationOf(const ob::SpaceInformation& si, const ob::State* state) {
+  return si.getStateSpace()->as<ProblemStateSpace>()->read(state);
+}
+
+}  // namespace corridor

@@ -1,0 +1,54 @@
+#include "planner/view/tessellate.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+namespace corridor::view {
+namespace {
+
+constexpr int kMeridians = 16, kParallels = 8;
+
+Vec3 farthest(const ConvexPart& part, const Vec3& axis, const Vec3& direction) {
+  Vec3 best = part.points.front();
+  for (const Vec3& p : part.points)
+    if (p.dot(direction) > best.dot(direction)) best = p;
+  const Vec3 out = part.flatEnds ? Vec3(direction - direction.dot(axis) * axis) : direction;
+  return best + part.radius * (out.norm() > 1e-9 ? Vec3(out.normalized()) : Vec3::Zero());
+}
+
+}  // namespace
+
+TriangleMesh tessellated(const ConvexPart& part) {
+  // Cylinders and capsules get rings about their axis.
+  const bool round = part.radius > 0 && part.points.size() == 2;
+  const Vec3 axis = round ? Vec3((part.points[1] - part.points[0]).normalized()) : Vec3::UnitZ();
+  const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+  TriangleMesh mesh;
+  std::map<std::tuple<double, double, double>, std::uint32_t> known;
+  const auto vertex = [&](int parallel, int meridian) {
+    const double polar = std::numbers::pi * parallel / kParallels,
+                 angle = 2 * std::numbers::pi * (meridian % kMeridians) / kMeridians;
+    const bool pole = parallel == 0 || parallel == kParallels;
+    const Vec3 flat = pole ? Vec3(0 * u) : Vec3(std::cos(angle) * u + std::sin(angle) * v);
+    const Vec3 p = farthest(
+        part, axis, std::sin(polar) * flat + (pole ? (parallel ? -1 : 1) : std::cos(polar)) * axis);
+    const auto [found, added] =
+        known.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (added) mesh.vertices.push_back(p);
+    return found->second;
+  };
+  for (int i = 0; i < kParallels; ++i)
+    for (int k = 0; k < kMeridians; ++k) {
+      const std::uint32_t a = vertex(i, k), b = vertex(i + 1, k), c = vertex(i + 1, k + 1),
+                          d = vertex(i, k + 1);
+      if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
+      if (a != c && c != d && d != a) mesh.triangles.push_back({a, c, d});
+    }
+  return mesh;
+}
+
+}  // namespace corridor::view

@@ -1,0 +1,187 @@
+#pragma once
+
+#include <memory>
+#include <numbers>
+
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/SpaceInformation.h>
+
+#include "planner/checker/checker.h"
+#include "planner/checker/problem_state_space.h"
+
+namespace corridor::test {
+
+/// The surface of a box with these edge lengths, about the origin of its frame at `at`.
+inline TriangleMesh boxMesh(const Vec3& size, const Vec3& at = Vec3::Zero()) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(
+        at + 0.5 * size.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+inline PlacedShape meshShape(const std::string& name, const TriangleMesh& mesh) {
+  PlacedShape shape;
+  shape.name = name;
+  shape.mesh.emplace();
+  shape.mesh->mesh = mesh;
+  return shape;
+}
+
+inline PlacedShape partShape(const std::string& name, const Primitive& primitive,
+                             const Vec3& at = Vec3::Zero()) {
+  PlacedShape shape;
+  shape.name = name;
+  shape.primitive = primitive;
+  shape.at.p = at;
+  Transform X;
+  X.t = at;
+  shape.part = placed(primitive, X);
+  return shape;
+}
+
+/// 2^-40 of each range, as the contract has it for lines of one range and for angles.
+inline Configuration roundingTube(const ConfigurationSpace& space) {
+  Configuration tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
+  for (const Coordinate& c : space.coordinates())
+    tube[static_cast<Eigen::Index>(c.first)] =
+        0x1p-40 * (c.kind == Coordinate::Kind::line ? c.upper - c.lower : 2 * std::numbers::pi);
+  return tube;
+}
+
+enum class Rigid { SE2, SE3 };
+
+/// One rigid body in [−5, 5]², or in [−5, 5]³; nothing that moves or stands yet.
+inline Problem rigidProblem(Rigid kind, double rotationWeight = 1) {
+  using Kind = Coordinate::Kind;
+  Problem problem;
+  problem.robots.resize(1);
+  const bool spatial = kind == Rigid::SE3;
+  CoordinateGroup group{
+      spatial ? CoordinateGroup::Kind::floating : CoordinateGroup::Kind::planar, "bar", {}};
+  for (const char* name : {"x", "y", "z"})
+    if (spatial || *name != 'z')
+      group.coordinates.push_back(problem.space.add({Kind::line, name, 0, -5, 5, false, 1}));
+  group.coordinates.push_back(
+      problem.space.add({spatial ? Kind::rotation : Kind::circle, spatial ? "rotation" : "yaw", 0,
+                         0, 0, true, rotationWeight}));
+  problem.space.addGroup(group);
+  Frame shift, turn;
+  shift.name = "bar's position";
+  shift.joint = Frame::Joint::shift;
+  shift.variable = 0;
+  shift.count = spatial ? 3 : 2;
+  turn.name = "bar";
+  turn.parent = problem.tree.add(shift);
+  turn.joint = spatial ? Frame::Joint::rotate : Frame::Joint::turn;
+  turn.variable = shift.count;
+  problem.tree.add(turn);
+  problem.tube = roundingTube(problem.space);
+  return problem;
+}
+
+inline Configuration poseOf(Rigid kind, double x, double y, double yaw = 0) {
+  Configuration q(kind == Rigid::SE3 ? 7 : 3);
+  if (kind == Rigid::SE3)
+    q << x, y, 0, 0, 0, std::sin(yaw / 2), std::cos(yaw / 2);
+  else
+    q << x, y, yaw;
+  return q;
+}
+
+/// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³ with a wall of 0.001 at x = 0 that has a gap above
+/// y = 2: from one side of the wall to the other.
+inline Problem hallProblem(Rigid kind) {
+  Problem problem = rigidProblem(kind);
+  problem.file = "hall.yaml";
+  problem.name = "hall";
+  problem.digest = "0123456789abcdef";
+  problem.bodies = {{"bar", 2, 0, {meshShape("bar", boxMesh({1, 0.2, 0.2}))}},
+                    {"wall", 0, {}, {meshShape("wall", boxMesh({0.001, 7, 10}, {0, -1.5, 0}))}}};
+  problem.pairs = {{0, 1, ""}};
+  problem.start = poseOf(kind, -3, -2);
+  problem.goals = {poseOf(kind, 3, -2, 3)};
+  problem.planner.time = 20;
+  problem.lines = {{"start", 4},
+                   {"goal", 5},
+                   {"planner", 7},
+                   {"planner.name", 8},
+                   {"planner.params.range", 9},
+                   {"sampler", 11},
+                   {"objective", 12}};
+  return problem;
+}
+
+/// The hall as OMPL sees it.
+struct Hall {
+  explicit Hall(Rigid rigid)
+      : kind(rigid),
+        problem(hallProblem(rigid)),
+        checker(problem),
+        space(std::make_shared<ProblemStateSpace>(problem.space)),
+        si(std::make_shared<ompl::base::SpaceInformation>(space)) {}
+
+  Configuration at(double x, double y, double yaw = 0) const { return poseOf(kind, x, y, yaw); }
+  ompl::base::ScopedState<> scoped(const Configuration& q) const {
+    ompl::base::ScopedState<> state(si);
+    space->write(q, state.get());
+    return state;
+  }
+
+  Rigid kind;
+  Problem problem;
+  Checker checker;
+  std::shared_ptr<ProblemStateSpace> space;
+  ompl::base::SpaceInformationPtr si;
+};
+
+/// An arm in the plane z = 0: three links of 1 m, each a capsule and the last a mesh, joints about
+/// z at the origin and at the links' ends; a post at (1.2, 1.2) and a slab.
+inline Problem armProblem() {
+  using Kind = Coordinate::Kind;
+  Problem problem;
+  problem.file = "arm.yaml";
+  problem.name = "arm";
+  problem.robots.resize(1);
+  CoordinateGroup group;
+  std::size_t parent = 0;
+  const char* names[] = {"shoulder", "elbow", "wrist"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // The shoulder goes all round.
+    group.coordinates.push_back(
+        problem.space.add({i == 0 ? Kind::circle : Kind::line, names[i], 0, -2.5, 2.5, true, 1}));
+    Frame frame;
+    frame.name = names[i];
+    frame.parent = parent;
+    if (i > 0) frame.fixed.p = {1, 0, 0};
+    frame.joint = Frame::Joint::turn;
+    frame.variable = i;
+    parent = problem.tree.add(frame);
+  }
+  problem.space.addGroup(group);
+  const Capsule capsule{0.1, 0.8};
+  PlacedShape upper = partShape("upper", capsule), lower = partShape("lower", capsule);
+  for (PlacedShape* shape : {&upper, &lower})  // along x
+    shape->part->points = {{0.1, 0, 0}, {0.9, 0, 0}};
+  problem.bodies = {{"upper", 1, 0, {upper}},
+                    {"lower", 2, 0, {lower}},
+                    {"hand",
+                     3,
+                     0,
+                     {meshShape("hand/1", boxMesh({0.5, 0.1, 0.1}, {0.3, 0, 0})),
+                      meshShape("hand/2", boxMesh({0.1, 0.4, 0.1}, {0.55, 0, 0}))}},
+                    {"post", 0, {}, {partShape("post", Cylinder{0.1, 2}, {1.2, 1.2, 0})}},
+                    {"slab", 0, {}, {meshShape("slab", boxMesh({0.05, 1, 1}, {-1.5, 0, 0}))}}};
+  problem.pairs = {{0, 1, "adjacent"}, {0, 2, ""}, {0, 3, ""}, {0, 4, ""}, {1, 2, "adjacent"},
+                   {1, 3, ""},         {1, 4, ""}, {2, 3, ""}, {2, 4, ""}};
+  problem.start = Configuration::Zero(3);
+  problem.goals = {Configuration(Vec3(2.0, -0.5, 0.3))};
+  problem.tube = roundingTube(problem.space);
+  problem.planner.time = 20;
+  problem.lines = {{"start", 4}, {"goal", 5}};
+  return problem;
+}
+
+}  // namespace corridor::test
