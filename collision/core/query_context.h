@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "collision/core/counters.h"
+#include "collision/core/transform.h"
 
 namespace corridor {
 
@@ -20,6 +22,12 @@ class QueryContext {
   std::vector<NodePair> stack;  ///< of the traversal under way
   std::vector<NodePair> pending,
       next;  ///< what motion queries hand down to shorter windows of time
+  /// Motions that the window of time under way has asked for, and their maps at its middle.
+  struct Posed {
+    std::size_t motion;
+    Transform X_AB;
+  };
+  std::vector<Posed> posed;
 };
 
 }  // namespace corridor

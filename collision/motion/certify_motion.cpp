@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "collision/core/rounding.h"
+#include "collision/motion/moving_parts.h"
 #include "collision/motion/moving_triangles.h"
 #include "collision/queries/interference.h"
 #include "collision/volumes/overlap_obb_obb.h"
@@ -15,8 +18,8 @@ namespace {
 /// One query: walks windows of time depth first, earlier half first.
 class Certifier {
  public:
-  Certifier(const RigidMotion& motion, std::span<const TreePair> pairs,
-            const MotionOptions& options, QueryContext& context)
+  Certifier(MotionSource& motion, std::span<const MotionPair> pairs, const MotionOptions& options,
+            QueryContext& context)
       : motion_(motion),
         pairs_(pairs),
         options_(options),
@@ -27,6 +30,11 @@ class Certifier {
     auto& pending = context_.pending;
     pending.clear();
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) pending.push_back({0, 0, k});
+    // Those of one motion together, and so they stay in every list: each window of a motion is
+    // asked for once.
+    std::stable_sort(pending.begin(), pending.end(), [&](const NodePair& p, const NodePair& q) {
+      return pairs_[p.bodies].motion < pairs_[q.bodies].motion;
+    });
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
     if (options_.earliest ? walkInOrder({0, 1, 0, pending.size()}, 0) : walkByLevels()) return {};
@@ -56,26 +64,34 @@ class Certifier {
     std::size_t begin, end;
   };
 
-  /// Looks at the window's pairs, `from` its list; what it cannot separate is appended to `to`.
+  /// Looks at the window's pairs, `from` its list; what it cannot separate is appended to `to`, in
+  /// the same order.
   /// @return contact: at the middle.
   Descent look(const Window& w, const std::vector<NodePair>& from, std::vector<NodePair>& to,
                int level) {
     const double h = (w.t1 - w.t0) / 2;
     middle_ = w.t0 + h;  // dyadic: exact
-    MotionWindow window = motion_.window(middle_, h);
-    window.fixedError += options_.reserve;  // asked of a proof, not of a contact: as the tube is
-    ++counters_.poses;
+    MotionWindow window;
+    auto& posed = context_.posed;
+    posed.clear();
     const std::size_t later = to.size();
     leftoversEnd_ = later + (w.end - w.begin) + kLeftovers;
     for (std::size_t i = w.begin; i < w.end; ++i) {
       const NodePair pair = from[i];  // a copy: `to` may be the same list
+      if (const std::size_t m = pairs_[pair.bodies].motion;
+          posed.empty() || posed.back().motion != m) {
+        window = motion_.window(m, middle_, h);
+        window.fixedError +=
+            options_.reserve;  // asked of a proof, not of a contact: as the tube is
+        posed.push_back({m, window.X_AB});
+        ++counters_.poses;
+      }
       const Descent descent = descend(pair, window, h, to);
       if (descent == Descent::done) continue;
       for (std::size_t k = i + 1; k < w.end; ++k) to.push_back(NodePair(from[k]));  // not looked at
       return descent;
     }
-    return level < kProbedLevels && probe(window.X_WB, to, later) ? Descent::contact
-                                                                  : Descent::done;
+    return level < kProbedLevels && probe(to, later) ? Descent::contact : Descent::done;
   }
 
   /// For the verdict alone: the coarse windows level by level, so that a contact anywhere is found
@@ -153,9 +169,9 @@ class Certifier {
   /// Walks the trees below one pair of nodes. What this window cannot separate goes to `later`.
   Descent descend(const NodePair& root, const MotionWindow& window, double h,
                   std::vector<NodePair>& later) {
-    const ObbTree &a = *pairs_[root.bodies].fixed, &b = *pairs_[root.bodies].moving;
+    const ObbTree &a = *pairs_[root.bodies].a, &b = *pairs_[root.bodies].b;
     const BoxPairMargins margins = boxPairMargins(a.axisDefect(), a.centerReach(), b.axisDefect(),
-                                                  b.centerReach(), window.X_WB);
+                                                  b.centerReach(), window.X_AB);
     auto& stack = context_.stack;
     stack.clear();
     stack.push_back(root);
@@ -168,26 +184,19 @@ class Certifier {
       const NodePair pair = stack.back();
       stack.pop_back();
       const ObbTree::Node &na = a.node(pair.a), &nb = b.node(pair.b);
-      // The sphere about box b: every point y of it has |y| ≤ |c| + ρ and turns by at most |ω × c|
-      // + α·ρ.
-      const Vec3 c = window.X_WB.m * nb.box.center;
-      const Vec3 lever = window.angular.cross(c);
-      const double reach = nb.box.center.norm() + nb.radius;
-      const double turn = lever.norm() + window.angle * (nb.radius + 16 * kUnit * reach);
-      BoxTravel travel;
-      travel.linear = window.linear + lever;
-      travel.angular = window.angular;
-      travel.curvature = roundedUp(window.curvature(turn));
-      travel.cap = roundedUp(window.speed + turn);
-      const double pad = roundedUp(options_.margin + window.fixedError + window.reachError * reach);
+      const Vec3 c = window.X_AB.m * nb.box.center;
+      const PointTravel sphere = travelOf(window, c + window.X_AB.t, nb.radius);
+      const BoxTravel travel = {window.linear + window.angular.cross(c), window.angular,
+                                sphere.bend, sphere.curvature, sphere.cap};
+      const double pad = roundedUp(options_.margin + sphere.pad);
       ++counters_.boxTests;
-      if (obbsSeparated(na.box, nb.box, window.X_WB, margins, pad, travel)) continue;
+      if (obbsSeparated(na.box, nb.box, window.X_AB, margins, pad, travel)) continue;
 
       // Time before space where the window's travel dominates the boxes. The factors are measured,
       // soundness does not need them.
       const double size = std::max(na.radius, nb.radius);
       if (travel.cap > options_.tolerance && h > kShortest &&
-          (4 * travel.curvature * window.angle > size || 0.2 * travel.cap > size)) {
+          (4 * (travel.bend * window.angle + travel.curvature) > size || 0.2 * travel.cap > size)) {
         later.push_back(pair);
       } else if (na.isLeaf() && nb.isLeaf()) {
         const Descent leaf = leafPair(pair, window, h, later);
@@ -209,31 +218,35 @@ class Certifier {
     return Descent::done;
   }
 
-  /// All triangles of one leaf against all of another (one each, but for indivisible leaves).
+  /// All that one leaf holds against all of another (one triangle each, but for indivisible leaves
+  /// and convex parts).
   Descent leafPair(const NodePair& pair, const MotionWindow& window, double h,
                    std::vector<NodePair>& later) {
-    const TreePair& bodies = pairs_[pair.bodies];
-    const ObbTree::Node &na = bodies.fixed->node(pair.a), &nb = bodies.moving->node(pair.b);
+    const MotionPair& bodies = pairs_[pair.bodies];
+    const ObbTree &a = *bodies.a, &b = *bodies.b;
+    const ObbTree::Node &na = a.node(pair.a), &nb = b.node(pair.b);
+    const auto number = [](const ObbTree& tree, std::uint32_t i) {
+      return tree.part() ? 0 : tree.meshTriangle(i);
+    };
+    const std::uint32_t endA = a.part() ? na.first + 1 : na.first + na.count;
+    const std::uint32_t endB = b.part() ? nb.first + 1 : nb.first + nb.count;
     bool open = false;
-    for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
-      for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
+    for (std::uint32_t s = na.first; s < endA; ++s)
+      for (std::uint32_t t = nb.first; t < endB; ++t) {
         if (work() >= workEnd_) return outOfWork();
-        const MovingTrianglesAnswer found =
-            decideMovingTriangles(bodies.fixed->triangles()[s], bodies.moving->triangles()[t],
-                                  window, options_.margin, counters_);
+        const MovingTrianglesAnswer found = decide(a, s, b, t, window);
         if (found.separated) continue;
-        const Contact triangles{bodies.movingBody, bodies.fixedBody, bodies.moving->meshTriangle(t),
-                                bodies.fixed->meshTriangle(s)};
+        const Contact here{bodies.bodyA, bodies.bodyB, number(a, s), number(b, t)};
         if (found.contact) {
           contactTime_ = middle_;
-          contactPair_ = triangles;
+          contactPair_ = here;
           return Descent::contact;
         }
         // Refining does not help, or need not.
         if (found.stuck || !(found.travel > options_.tolerance) || h <= kShortest) {
           wide_ = found.travel > options_.tolerance;
           result_.reason = UndecidedReason::clearance;
-          result_.pair = triangles;
+          result_.pair = here;
           result_.gap = found.gap;
           return Descent::undecided;
         }
@@ -243,23 +256,37 @@ class Certifier {
     return Descent::done;
   }
 
-  /// Is one of the pairs from[begin, …) in contact at the pose itself?
-  bool probe(const Transform& X_WB, const std::vector<NodePair>& from, std::size_t begin) {
+  /// What a's s-th triangle, or a itself, and b's t-th one do in the window.
+  MovingTrianglesAnswer decide(const ObbTree& a, std::uint32_t s, const ObbTree& b, std::uint32_t t,
+                               const MotionWindow& window) {
+    const double margin = options_.margin;
+    if (a.part())
+      return b.part() ? decideMovingParts(*a.part(), *b.part(), window, margin, counters_)
+                      : decideMovingParts(*a.part(), b.triangles()[t], window, margin, counters_);
+    return b.part() ? decideMovingParts(a.triangles()[s], *b.part(), window, margin, counters_)
+                    : decideMovingTriangles(a.triangles()[s], b.triangles()[t], window, margin,
+                                            counters_);
+  }
+
+  /// Is one of the pairs from[begin, …), left by the window that was looked at last, in contact at
+  /// its middle's pose itself?
+  bool probe(const std::vector<NodePair>& from, std::size_t begin) {
+    auto posed = context_.posed.begin();
     for (std::size_t i = begin; i < from.size(); ++i) {
-      const TreePair& bodies = pairs_[from[i].bodies];
-      const ObbTree &a = *bodies.fixed, &b = *bodies.moving;
-      if (const auto hit =
-              interferenceBelow(a, b, X_WB, {from[i].a, from[i].b, 0}, context_, workEnd_)) {
+      const MotionPair& bodies = pairs_[from[i].bodies];
+      while (posed->motion != bodies.motion) ++posed;  // both lists have the same order
+      if (const auto hit = interferenceBelow(*bodies.a, *bodies.b, posed->X_AB,
+                                             {from[i].a, from[i].b, 0}, context_, workEnd_)) {
         contactTime_ = middle_;
-        contactPair_ = {bodies.movingBody, bodies.fixedBody, hit->b, hit->a};
+        contactPair_ = {bodies.bodyA, bodies.bodyB, hit->a, hit->b};
         return true;
       }
     }
     return false;
   }
 
-  const RigidMotion& motion_;
-  std::span<const TreePair> pairs_;
+  MotionSource& motion_;
+  std::span<const MotionPair> pairs_;
   const MotionOptions& options_;
   QueryContext& context_;
   Counters& counters_;
@@ -274,7 +301,7 @@ class Certifier {
 
 }  // namespace
 
-MotionResult certifyMotion(const RigidMotion& motion, std::span<const TreePair> pairs,
+MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context) {
   ++context.counters.edges;
   MotionResult result;

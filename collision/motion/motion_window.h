@@ -44,14 +44,17 @@ struct MotionWindow {
   double speed = 0;                     ///< |linear|, rounded up
   double angle = 0;                     ///< |angular|, rounded up
   std::span<const ScrewTravel> screws;  ///< from a's side to b's
-  /// Rounding of all the above: every point is off by at most fixedError + reachError·|y| metres.
+  /// Rounding of all the above: at every s, every point of the real b is within fixedError +
+  /// reachError·|y| metres of where these numbers, taken as exact, have it, and so are its
+  /// distances from the axes. What else may stray may be in it, too.
   double fixedError = 0;
   double reachError = 0;
 };
 
 /// Bounds for all points of b within `radius` of a point: along any vector n,
 ///   |n·(x(s) − x(0) − s·(linear + angular × y))| ≤ bend·|n × angular| + curvature·|n|
-/// and |x(s) − x(0)| ≤ cap, for the nominal chain; tube and rounding take `pad` more. Rounded up.
+/// and |x(s) − x(0)| ≤ cap; tube and rounding take `pad` more (what the tube takes at the middle;
+/// its growth along the window is in `cap` and `curvature`). Rounded up.
 struct PointTravel {
   double cap = 0, bend = 0, curvature = 0, pad = 0;
 };

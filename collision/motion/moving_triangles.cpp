@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "collision/core/rounding.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/distance_triangle_triangle.h"
@@ -13,19 +15,35 @@ namespace {
 
 /// The corners of b, and what each of them does in the window whatever the direction.
 struct MovingCorners {
-  Triangle lever, posed,
-      spin;  ///< b's corners from the reference point, and in the world; ω × lever
-  Vec3 reach, cap, error;
+  Triangle posed, first;  ///< in a's frame; displacement to first order
+  PointTravel travel[3];
+  /// Where a single turn is all that bends the motion (`bend`), its second and third order in full:
+  /// displacements of at most (½)ω × (ω × d) and α²/6 ω × d, d from the axis.
+  bool turns = false;
+  Triangle second, third;
+  Vec3 loose;  ///< rounding of the terms above
 
   MovingCorners(const Triangle& b, const MotionWindow& window) {
     for (int i = 0; i < 3; ++i) {
-      lever[i] = window.X_WB.m * b[i];
-      posed[i] = lever[i] + window.X_WB.t;
-      spin[i] = window.angular.cross(lever[i]);
-      reach[i] = lever[i].norm();
-      cap[i] =
-          window.speed + spin[i].norm() * (1 + 8 * kUnit) + 8 * kUnit * window.angle * reach[i];
-      error[i] = roundedUp(window.fixedError + window.reachError * reach[i]);
+      const Vec3 lever = window.X_AB.m * b[i];
+      posed[i] = lever + window.X_AB.t;
+      first[i] = window.linear + window.angular.cross(lever);
+      travel[i] = travelOf(window, posed[i], 0);
+      // Products' own rounding, relative to their terms.
+      loose[i] = 32 * kUnit * (window.speed + window.angle * lever.norm());
+    }
+    turns = travel[0].bend > 0 || travel[1].bend > 0 || travel[2].bend > 0;
+    if (!turns) return;
+    Vec3 point = Vec3::Zero();
+    for (const ScrewTravel& screw : window.screws)
+      if (screw.kind == ScrewTravel::Kind::turn && screw.amount > 0) point = screw.point;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 d = posed[i] - point;
+      const Vec3 spin = window.angular.cross(d);
+      second[i] = 0.5 * window.angular.cross(spin);
+      third[i] = window.angle * window.angle / 6 * spin;
+      loose[i] += 32 * kUnit * window.angle * (1 + window.angle * window.angle) *
+                  (d.norm() + posed[i].cwiseAbs().sum() + window.X_AB.t.cwiseAbs().sum());
     }
   }
 };
@@ -41,23 +59,20 @@ void lower(double& least, double x) {
   if (!(x >= least) && !std::isnan(least)) least = x;
 }
 
-Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b,
-               const MotionWindow& window) {
+Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
   Gaps gaps;
   const double highest = std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
   for (int i = 0; i < 3; ++i) {
-    const Vec3& spin = b.spin[i];
-    // Second order as in `MotionWindow`, but along n itself: ½|n·(ω × (ω × y))| + (α²/6)|n·(ω ×
-    // y)|. The products' own rounding, relative to their terms (α ≤ π/2): 32u of |v| + α|y|.
-    const double directional = std::abs(n.dot(window.linear + spin)) +
-                               0.5 * std::abs(n.dot(window.angular.cross(spin))) +
-                               window.angle * window.angle / 6 * std::abs(n.dot(spin)) +
-                               32 * kUnit * (window.speed + window.angle * b.reach[i]);
-    const double travel = roundedUp(std::min(b.cap[i], directional));
+    const PointTravel& travel = b.travel[i];
+    // One turn: (1 − cos)|n·(k × (k × d))| + (α − sin)|n·(k × d)|, sharper than its bound by
+    // `bend`.
+    const double beyond = b.turns ? std::abs(n.dot(b.second[i])) + std::abs(n.dot(b.third[i])) : 0;
+    const double directional = std::abs(n.dot(b.first[i])) + beyond + travel.curvature + b.loose[i];
+    const double most = roundedUp(std::min(travel.cap, directional));
     const double along = n.dot(b.posed[i]);
-    lower(gaps.moving, along - travel - b.error[i] - highest);
+    lower(gaps.moving, along - most - travel.pad - highest);
     lower(gaps.middle, along - highest);
-    lower(gaps.still, along - b.error[i] - highest);
+    lower(gaps.still, along - travel.pad - highest);
   }
   return gaps;
 }
@@ -104,9 +119,9 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
   const Triangle& posed = corners.posed;
   double largest = 0;
   for (int i = 0; i < 3; ++i)
-    largest =
-        std::max({largest, corners.lever[i].cwiseAbs().maxCoeff(), a[i].cwiseAbs().maxCoeff()});
-  const double size = window.X_WB.t.cwiseAbs().maxCoeff() + largest;
+    largest = std::max(
+        {largest, (posed[i] - window.X_AB.t).cwiseAbs().maxCoeff(), a[i].cwiseAbs().maxCoeff()});
+  const double size = 2 * window.X_AB.t.cwiseAbs().maxCoeff() + largest;
   // With |n|₁ ≤ √3(1 + 4u) and S = `size` above every coordinate: n·p has three products, 3·√3·uS
   // < 5.2uS on either side; a posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS, √3 of it along
   // n: 21.3uS; the difference rounds 4uS more. Together < 36uS.
@@ -120,17 +135,17 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
   const Vec3 n = unit(closest.b - closest.a);  // NaN where they meet: nothing is separated then
 
   MovingTrianglesAnswer answer;
-  Gaps gaps = gapsAlong(n, a, corners, window);
+  Gaps gaps = gapsAlong(n, a, corners);
   if (gaps.moving > needed) {
     answer.separated = true;
     return answer;
   }
-  answer.travel = roundedUp(corners.cap.maxCoeff());
+  answer.travel = std::max({corners.travel[0].cap, corners.travel[1].cap, corners.travel[2].cap});
   answer.gap = std::max(0.0, distance - margin);
   if (margin > 0 && distance + slack <= margin) {
     answer.contact = true;
   } else if (!(gaps.middle > slack)) {  // else a proof for the rounded pose itself
-    answer.contact = trianglesTouch(a, {}, b, window.X_WB, counters);
+    answer.contact = trianglesTouch(a, {}, b, window.X_AB, counters);
     --counters.triangleTests;  // the same pair
   }
   if (answer.contact) return answer;
@@ -138,7 +153,7 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
   // A quarter of the gap lost to the tilt of n: look for a better direction before giving up.
   if (gaps.middle - margin < 0.75 * (distance - margin)) {
     offerFeatureDirections(a, posed, n, [&](const Vec3& m) {
-      const Gaps other = gapsAlong(m, a, corners, window);
+      const Gaps other = gapsAlong(m, a, corners);
       if (other.moving > gaps.moving) gaps.moving = other.moving;
       if (other.still > gaps.still) gaps.still = other.still;
     });

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "collision/core/counters.h"
-#include "collision/motion/rigid_motion.h"
+#include "collision/motion/motion_window.h"
 #include "collision/predicates/triangle.h"
 
 namespace corridor {
 
-/// What a window of time says of a fixed triangle a and a triangle b that moves.
+/// What a window of time says of a triangle a at rest and a triangle b that moves.
 struct MovingTrianglesAnswer {
   bool separated = false;  ///< proved farther apart than the margin, all along the window
   bool contact =

@@ -32,6 +32,12 @@ constexpr double kLeastError = 0x1p-400;
 
 }  // namespace
 
+void RigidMotion::setLine(const Vec3& from, const Vec3& to) {
+  from_ = from;
+  delta_ = to - from;
+  direction_ = delta_.stableNormalized();
+}
+
 void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle, double angleError) {
   Mat3 K;
   K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
@@ -52,8 +58,7 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
     return Eigen::Quaterniond(Eigen::Vector4d(scaled / scaled.norm()));
   };
   RigidMotion m;
-  m.from_ = from.p;
-  m.delta_ = to.p - from.p;
+  m.setLine(from.p, to.p);
   const Eigen::Quaterniond q0 = normalised(from.q), q1 = normalised(to.q);
   const bool equal = from.q.coeffs() == to.q.coeffs() || from.q.coeffs() == -to.q.coeffs();
   Eigen::Quaterniond turn = q1 * q0.conjugate();
@@ -73,8 +78,7 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
 
 RigidMotion RigidMotion::planar(const Vec3& from, const Vec3& to, const Tube& tube) {
   RigidMotion m;
-  m.from_ = Vec3(from[0], from[1], 0);
-  m.delta_ = Vec3(to[0] - from[0], to[1] - from[1], 0);
+  m.setLine(Vec3(from[0], from[1], 0), Vec3(to[0], to[1], 0));
   const double c = std::cos(from[2]), s = std::sin(from[2]);
   Mat3 R0;
   R0 << c, -s, 0, s, c, 0, 0, 0, 1;
@@ -96,13 +100,18 @@ Transform RigidMotion::at(double t) const {
   return {R0_ + std::sin(phi) * KR0_ + (1 - std::cos(phi)) * KKR0_, from_ + t * delta_};
 }
 
-MotionWindow RigidMotion::window(double t, double h) const {
+MotionWindow RigidMotion::window(double t, double h, std::span<ScrewTravel, 2> screws) const {
   MotionWindow w;
-  w.X_WB = at(t);
+  w.X_AB = at(t);
   w.linear = h * delta_;
   w.angular = (h * angle_) * axis_;
   w.speed = roundedUp(w.linear.norm());
   w.angle = roundedUp(h * angle_);
+  std::size_t count = 0;
+  if (w.speed > kTiny)
+    screws[count++] = {ScrewTravel::Kind::slide, direction_, Vec3::Zero(), w.speed, 0};
+  if (w.angle > kTiny) screws[count++] = {ScrewTravel::Kind::turn, axis_, w.X_AB.t, w.angle, 0};
+  w.screws = screws.first(count);
   w.fixedError = fixedError_;
   w.reachError = reachError_;
   return w;

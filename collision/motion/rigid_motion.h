@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <Eigen/Geometry>
 
 #include "collision/core/transform.h"
@@ -31,22 +33,41 @@ class RigidMotion {
   /// No coordinate changes.
   bool still() const { return delta_.isZero(0) && angle_ == 0; }
 
-  /// @pre 0 ≤ t − h, t + h ≤ 1, both exact.
-  MotionWindow window(double t, double h) const;
-  /// The rounded pose at t: that of `window(t, 0)`.
+  /// What the body does in [t − h, t + h], seen from the world: a slide, then a turn about its
+  /// reference point. The tube is in the errors. The window looks at `screws`. @pre 0 ≤ t − h,
+  /// t + h ≤ 1, both exact.
+  MotionWindow window(double t, double h, std::span<ScrewTravel, 2> screws) const;
+  /// The rounded pose at t: that of every window about it.
   Transform at(double t) const;
 
  private:
   RigidMotion() = default;
+  void setLine(const Vec3& from, const Vec3& to);
   void setRotation(const Mat3& R0, const Vec3& axis, double angle, double angleError);
 
   Vec3 from_ = Vec3::Zero(), delta_ = Vec3::Zero();
   Mat3 R0_ = Mat3::Identity(), KR0_ = Mat3::Zero(),
-       KKR0_ = Mat3::Zero();  // Rodrigues: R(t) = R0 + sin φ·K R0 + (1 − cos φ)·K² R0
-  Vec3 axis_ = Vec3::Zero();  // in the world
+       KKR0_ = Mat3::Zero();       // Rodrigues: R(t) = R0 + sin φ·K R0 + (1 − cos φ)·K² R0
+  Vec3 axis_ = Vec3::Zero();       // in the world
+  Vec3 direction_ = Vec3::Zero();  // of delta_, unit
   double angle_ = 0;
   double fixedError_ = 0, reachError_ = 0;
   bool ambiguous_ = false;
+};
+
+/// One rigid body against the world: motion 0, and the only one.
+class RigidEdge final : public MotionSource {
+ public:
+  explicit RigidEdge(const RigidMotion& motion) : motion_(motion) {}
+
+  MotionWindow window(std::size_t, double t, double h) override {
+    return motion_.window(t, h, screws_);
+  }
+  bool ambiguous() const override { return motion_.ambiguous(); }
+
+ private:
+  RigidMotion motion_;
+  std::array<ScrewTravel, 2> screws_;
 };
 
 }  // namespace corridor

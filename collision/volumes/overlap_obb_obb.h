@@ -57,10 +57,12 @@ inline BoxPairMargins boxPairMargins(double defectA, double reachA, double defec
 
 /// How box b moves while the map is the one at the middle of a window of time (collision/motion):
 /// box b's points go from x to x + s·(linear + angular × (x − c_B)) + remainder, |s| ≤ 1, with
-/// |L·remainder| ≤ curvature·|L × angular| for any vector L, and never by more than `cap`.
+/// |L·remainder| ≤ bend·|L × angular| + curvature·|L| for any vector L, and never by more than
+/// `cap` (`PointTravel`).
 struct BoxTravel {
   Vec3 linear = Vec3::Zero();   ///< of b's centre, in a's frame, metres
   Vec3 angular = Vec3::Zero();  ///< in a's frame, radians
+  double bend = 0;              ///< metres
   double curvature = 0;         ///< metres
   double cap = 0;               ///< metres: the isotropic bound
 };
@@ -92,13 +94,13 @@ struct NoTravel {
 
 /// First order exact, second order bounded, never more than the isotropic cap (numerics:
 /// directional bounds). For a unit-ish L a point c_B + Σ x_k u_k of b moves along L by at most
-/// |L·v| + Σ b_k |u_k·(L × ω)| + curvature·|L × ω|.
+/// |L·v| + Σ b_k |u_k·(L × ω)| + bend·|L × ω| + curvature·|L|.
 struct DirectionalTravel {
   const Mat3& R;
   const Vec3& b;
   Vec3 v, w;  // in coordinates of box a
   Vec3 wB;    // u_k·ω
-  double curvature, cap, sum;
+  double bend, curvature, cap, sum;
 
   DirectionalTravel(const BoxPair& pair, const Obb& a, const Obb& box, const BoxTravel& travel)
       : R(pair.R),
@@ -106,22 +108,23 @@ struct DirectionalTravel {
         v(a.axes.transpose() * travel.linear),
         w(a.axes.transpose() * travel.angular),
         wB(pair.R.transpose() * w),
+        bend(travel.bend),
         curvature(travel.curvature),
         cap(travel.cap),
-        sum(v.cwiseAbs().sum() + 2 * w.cwiseAbs().sum() * (b.sum() + curvature)) {
+        sum(v.cwiseAbs().sum() + 2 * w.cwiseAbs().sum() * (b.sum() + bend) + curvature) {
   }  // 3η_R of the terms that use R's orthonormality
 
   double magnitude() const { return sum; }
   double alongFaceA(int i) const {  // u_k·(e_i × ω) = R_(i+2)k ω_(i+1) − R_(i+1)k ω_(i+2)
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-    double s = std::abs(v[i]) + curvature * length(w[i1], w[i2]);
+    double s = std::abs(v[i]) + bend * length(w[i1], w[i2]) + curvature;
     for (int k = 0; k < 3; ++k) s += b[k] * std::abs(R(i2, k) * w[i1] - R(i1, k) * w[i2]);
     return std::min(s, cap);
   }
   double alongFaceB(int j) const {  // u_k·(u_j × ω) = ±u_l·ω
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
     const double s = std::abs(v.dot(R.col(j))) + b[j1] * std::abs(wB[j2]) +
-                     b[j2] * std::abs(wB[j1]) + curvature * length(wB[j1], wB[j2]);
+                     b[j2] * std::abs(wB[j1]) + bend * length(wB[j1], wB[j2]) + curvature;
     return std::min(s, cap);
   }
   double alongEdges(int i1, int i2, int i, int j) const {  // L × ω = u_j (e_i·ω) − e_i (u_j·ω)
@@ -132,7 +135,8 @@ struct DirectionalTravel {
       s += b[k] * std::abs(along);
       square += along * along;
     }
-    return std::min(s + curvature * std::sqrt(square), cap * length(R(i1, j), R(i2, j)));
+    const double l = length(R(i1, j), R(i2, j));
+    return std::min(s + bend * std::sqrt(square) + curvature * l, cap * l);
   }
 };
 

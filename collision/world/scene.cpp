@@ -1,113 +1,60 @@
 #include "collision/world/scene.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
-#include <optional>
+#include <map>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "collision/core/rounding.h"
-#include "collision/geometry/mesh_health.h"
 #include "collision/queries/interference.h"
 
 namespace corridor {
-
-struct Body::Impl {
-  std::string name;
-  TriangleMesh mesh;
-  ObbTreeParams params;
-  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
-       center = Vec3::Zero();
-  double radius = 0, sphereRadius = 0;
-  mutable std::once_flag once;
-  mutable std::atomic<bool> built = false;
-  mutable std::optional<ObbTree> tree;
-};
-
-Body::Body(std::string name, TriangleMesh mesh, const ObbTreeParams& params)
-    : impl_(std::make_unique<Impl>()) {
-  if (mesh.triangles.empty()) throw std::invalid_argument("body " + name + " has no triangle");
-  if (const auto complaint = checkMesh(mesh))
-    throw std::invalid_argument("body " + name + ": " + *complaint);
-  impl_->name = std::move(name);
-  impl_->mesh = std::move(mesh);
-  impl_->params = params;
-  const auto corners = [&](auto take) {
-    for (std::size_t t = 0; t < impl_->mesh.triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) take(impl_->mesh.corner(t, i));
-  };
-  corners([&](const Vec3& p) {
-    impl_->lower = impl_->lower.cwiseMin(p);
-    impl_->upper = impl_->upper.cwiseMax(p);
-  });
-  impl_->center = impl_->lower + 0.5 * (impl_->upper - impl_->lower);
-  corners([&](const Vec3& p) {
-    impl_->radius = std::max(impl_->radius, roundedUp(p.stableNorm()));
-    impl_->sphereRadius =
-        std::max(impl_->sphereRadius, roundedUp((p - impl_->center).stableNorm()));
-  });
-}
-
-Body::~Body() = default;
-Body::Body(Body&&) noexcept = default;
-Body& Body::operator=(Body&&) noexcept = default;
-
-const std::string& Body::name() const {
-  return impl_->name;
-}
-const TriangleMesh& Body::mesh() const {
-  return impl_->mesh;
-}
-bool Body::treeBuilt() const {
-  return impl_->built;
-}
-double Body::radius() const {
-  return impl_->radius;
-}
-const Vec3& Body::sphereCenter() const {
-  return impl_->center;
-}
-double Body::sphereRadius() const {
-  return impl_->sphereRadius;
-}
-const Vec3& Body::lower() const {
-  return impl_->lower;
-}
-const Vec3& Body::upper() const {
-  return impl_->upper;
-}
-
-const ObbTree& Body::tree() const {
-  std::call_once(impl_->once, [this] {
-    impl_->tree.emplace(impl_->mesh, impl_->params);
-    impl_->built = true;
-  });
-  return *impl_->tree;
-}
-
 namespace {
 
-/// Can the moving body's sphere, over the whole window and with all pads, meet the fixed body's
-/// axis-aligned box? No tree is needed for this, so that bodies which nothing comes near never get
-/// one.
-bool mayMeet(const Body& moving, const Body& fixed, const MotionWindow& window, double margin) {
-  const Vec3 y = window.X_WB.m * moving.sphereCenter();
-  const Vec3 c = y + window.X_WB.t;
-  const Vec3 outside = (fixed.lower() - c).cwiseMax(c - fixed.upper()).cwiseMax(Vec3::Zero());
-  // stableNorm: an overflow of `outside` would separate.
-  const double reach = y.stableNorm() + moving.sphereRadius();
-  const double travel = window.speed + window.angular.cross(y).stableNorm() +
-                        window.angle * (moving.sphereRadius() + 16 * kUnit * reach);
-  const double pad = margin + window.fixedError + window.reachError * reach;
+/// Can body b's sphere, over the whole window and with all pads, meet body a's axis-aligned box? No
+/// tree is needed for this, so that bodies which nothing comes near never get one.
+bool mayMeet(const Body& a, const Body& b, const MotionWindow& window, double margin) {
+  const Vec3 y = window.X_AB.m * b.sphereCenter();
+  const Vec3 c = y + window.X_AB.t;
+  const Vec3 outside = (a.lower() - c).cwiseMax(c - a.upper()).cwiseMax(Vec3::Zero());
+  const PointTravel travel = travelOf(window, c, b.sphereRadius());
   // c is off by less than 8u of its terms a coordinate, the differences by u of both of theirs:
-  // √3·(8 + 2)·u.
-  const double size = reach + window.X_WB.t.cwiseAbs().sum() + fixed.lower().cwiseAbs().sum() +
-                      fixed.upper().cwiseAbs().sum();
+  // √3·(8 + 2)·u. stableNorm: an overflow of `outside` would separate.
+  const double size = y.stableNorm() + b.sphereRadius() + window.X_AB.t.cwiseAbs().sum() +
+                      a.lower().cwiseAbs().sum() + a.upper().cwiseAbs().sum();
   return !(roundedDown(outside.stableNorm()) >
-           roundedUp(moving.sphereRadius() + travel + pad + 32 * kUnit * size));
+           roundedUp(b.sphereRadius() + travel.cap + travel.pad + margin + 32 * kUnit * size));
+}
+
+/// The same for two bodies at rest under any two maps.
+bool mayMeet(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB) {
+  // No matrix of doubles is a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|. Far from
+  // rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
+  const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
+  if (!(defectA < 0x1p-10 && defectB < 0x1p-10)) return true;
+  MotionWindow still;
+  still.X_AB = rigidInverse(X_WA) * X_WB;
+  // What X_AB is off from M_A⁻¹(X_WB x − t_A): M_A⁻¹ = M_Aᵀ + (1 − M_AᵀM_A)M_A⁻¹, the latter below
+  // 3η_A(1 + 4η_A) < 4η_A; and less than 32u of all terms. The sphere's radius grows by 3η_B, and
+  // by M_A's defect.
+  still.reachError = 5 * (defectA + defectB) + 32 * kUnit;
+  still.fixedError =
+      (4 * defectA + 32 * kUnit) * (X_WA.t.cwiseAbs().sum() + X_WB.t.cwiseAbs().sum());
+  if (X_WA == Transform()) {  // exact: x ↦ 1·x + 0·y + …
+    still.reachError = 3 * defectB;
+    still.fixedError = 0;
+  }
+  return mayMeet(a, b, still, 0);
+}
+
+/// Is one of two bodies whose surfaces don't touch in the other, which is solid?
+bool insideEachOther(const Body&, const Transform&, const Body&, const Transform&, QueryContext&) {
+  return false;  // collision/queries/containment.h
 }
 
 /// The one door for numbers of motion queries: a negative margin, say, would prove too much.
@@ -117,102 +64,117 @@ void require(const MotionOptions& options) {
   };
   if (!finite(options.tolerance, false))
     throw std::invalid_argument("the tolerance of a motion query is to be positive and finite");
-  if (!finite(options.margin, true) || !finite(options.reserve, true) ||
-      !finite(options.tube.position, true) || !finite(options.tube.rotation, true))
-    throw std::invalid_argument("margin, reserve and tube are to be finite and not negative");
+  if (!finite(options.margin, true) || !finite(options.reserve, true))
+    throw std::invalid_argument("margin and reserve are to be finite and not negative");
   if (!finite(options.timeTolerance, false))
     throw std::invalid_argument("the time tolerance is to be positive and finite");
 }
 
-void require(const RigidPose& pose) {
-  if (!pose.p.allFinite() || !pose.q.coeffs().allFinite() || pose.q.coeffs().isZero(0))
-    throw std::invalid_argument("a pose is to be finite, its quaternion not zero");
-}
-
-void require(const Vec3& xyYaw) {
-  if (!xyYaw.allFinite()) throw std::invalid_argument("a pose is to be finite");
-}
-
-double sideRadius(const std::vector<Body>& bodies) {
-  Vec3 lower = bodies[0].lower(), upper = bodies[0].upper();
-  for (const Body& body : bodies) {
-    lower = lower.cwiseMin(body.lower());
-    upper = upper.cwiseMax(body.upper());
-  }
-  return 0.5 * (upper - lower).norm();
-}
-
 }  // namespace
 
-Scene::Scene(std::vector<Body> moving, std::vector<Body> fixed)
-    : moving_(std::move(moving)), fixed_(std::move(fixed)) {
-  if (moving_.empty()) throw std::invalid_argument("a scene needs a moving body");
-  for (const Body& body : moving_) movingRadius_ = std::max(movingRadius_, body.radius());
+Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
+    : bodies_(std::move(bodies)), pairs_(std::move(pairs)) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> motions;
+  motionOf_.reserve(pairs_.size());
+  for (Pair& pair : pairs_) {
+    if (pair.a >= bodies_.size() || pair.b >= bodies_.size())
+      throw std::invalid_argument("a pair of bodies that the scene doesn't have");
+    if (bodies_[pair.b].frame < bodies_[pair.a].frame) std::swap(pair.a, pair.b);
+    const FramePair frames{bodies_[pair.a].frame, bodies_[pair.b].frame};
+    const auto [found, added] = motions.try_emplace({frames.a, frames.b}, framePairs_.size());
+    if (added) framePairs_.push_back(frames);
+    motionOf_.push_back(found->second);
+  }
+  order_.resize(pairs_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::size_t i, std::size_t k) { return motionOf_[i] < motionOf_[k]; });
 }
 
 double Scene::defaultTolerance() const {
-  const double moving = sideRadius(moving_);
-  const double radius = fixed_.empty() ? moving : std::min(moving, sideRadius(fixed_));
+  struct Bounds {
+    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  };
+  std::map<std::size_t, Bounds> sides;
+  for (const FramePair& pair : framePairs_) sides[pair.a], sides[pair.b];
+  for (const Placed& placed : bodies_)
+    if (const auto side = sides.find(placed.frame); side != sides.end()) {
+      side->second.lower = side->second.lower.cwiseMin(placed.body.lower());
+      side->second.upper = side->second.upper.cwiseMax(placed.body.upper());
+    }
+  double radius = std::numeric_limits<double>::infinity();
+  for (const auto& [frame, side] : sides)
+    radius = std::min(radius, 0.5 * (side.upper - side.lower).norm());
+  if (sides.empty()) radius = 1;  // nothing is ever asked of it
   // A single point has no radius; any positive number will do.
   return 1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8);
 }
 
-std::optional<Contact> Scene::interference(const Transform& X_WB, QueryContext& context) const {
-  if (!X_WB.isFinite()) throw std::invalid_argument("a pose is to be finite");
-  MotionWindow still;
-  still.X_WB = X_WB;
-  // No matrix of doubles is a rotation: |Mx| ≤ (1 + 3η)|x|, which `reachError` holds. Far from
-  // rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
-  const double defect = orthonormalityDefect(X_WB.m);
-  const bool nearRigid = defect < 0x1p-10;
-  still.reachError = 3 * defect;
-  for (std::size_t i = 0; i < moving_.size(); ++i)
-    for (std::size_t k = 0; k < fixed_.size(); ++k) {
-      if (nearRigid && !mayMeet(moving_[i], fixed_[k], still, 0)) continue;
-      if (const auto hit =
-              corridor::interference(fixed_[k].tree(), {}, moving_[i].tree(), X_WB, context))
-        return Contact{i, k, hit->b, hit->a};
-    }
+std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
+                                           QueryContext& context) const {
+  for (const FramePair& pair : framePairs_)
+    for (const std::size_t frame : {pair.a, pair.b})
+      if (frame >= X_WF.size() || !X_WF[frame].isFinite())
+        throw std::invalid_argument("every frame is to have a finite pose");
+  for (const Pair& pair : pairs_) {
+    const Placed &a = bodies_[pair.a], &b = bodies_[pair.b];
+    const Transform &X_WA = X_WF[a.frame], &X_WB = X_WF[b.frame];
+    if (!mayMeet(a.body, X_WA, b.body, X_WB)) continue;
+    if (const auto hit = corridor::interference(a.body.tree(), X_WA, b.body.tree(), X_WB, context))
+      return Contact{pair.a, pair.b, hit->a, hit->b};
+    if (insideEachOther(a.body, X_WA, b.body, X_WB, context)) return Contact{pair.a, pair.b, 0, 0};
+  }
   return std::nullopt;
 }
 
-MotionResult Scene::certify(const RigidMotion& motion, const MotionOptions& options,
+MotionResult Scene::certifyPairs(std::span<const std::size_t> pairs, MotionSource& motion,
+                                 const MotionOptions& options, QueryContext& context) const {
+  std::vector<MotionPair> near;
+  MotionWindow window;
+  std::size_t asked = framePairs_.size();
+  if (!motion.ambiguous())
+    for (const std::size_t i : pairs) {
+      const Pair& pair = pairs_[i];
+      if (motionOf_[i] != asked) {
+        asked = motionOf_[i];
+        window = motion.window(asked, 0.5, 0.5);
+      }
+      const Body &a = bodies_[pair.a].body, &b = bodies_[pair.b].body;
+      if (mayMeet(a, b, window, options.margin + options.reserve))
+        near.push_back({&a.tree(), &b.tree(), asked, pair.a, pair.b});
+    }
+  MotionResult result = certifyMotion(motion, near, options, context);
+  if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
+  // Surfaces that stay apart at t = 0 by more than all rounding: the rounded pose decides for the
+  // real one, and for all of what is certified.
+  for (const MotionPair& pair : near) {
+    const Body &a = bodies_[pair.bodyA].body, &b = bodies_[pair.bodyB].body;
+    if (!a.solid() && !b.solid()) continue;
+    if (!insideEachOther(a, {}, b, motion.window(pair.motion, 0, 0).X_AB, context)) continue;
+    context.counters.undecided -= result.verdict == MotionVerdict::undecided;
+    result = {};
+    result.verdict = MotionVerdict::contact;
+    result.certifiedUntil = result.contactTime = 0;
+    result.pair = Contact{pair.bodyA, pair.bodyB, 0, 0};
+    break;
+  }
+  return result;
+}
+
+MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context) const {
-  const MotionWindow whole = motion.window(0.5, 0.5);
-  std::vector<TreePair> pairs;
-  for (std::size_t i = 0; i < moving_.size(); ++i)
-    for (std::size_t k = 0; k < fixed_.size(); ++k)
-      if (mayMeet(moving_[i], fixed_[k], whole, options.margin + options.reserve))
-        pairs.push_back({&moving_[i].tree(), &fixed_[k].tree(), i, k});
-  return certifyMotion(motion, pairs, options, context);
+  require(options);
+  return certifyPairs(order_, motion, options, context);
 }
 
-MotionResult Scene::certifyEdge(const RigidPose& from, const RigidPose& to,
-                                const MotionOptions& options, QueryContext& context) const {
-  require(options), require(from), require(to);
-  return certify(RigidMotion::spatial(from, to, options.tube), options, context);
-}
-
-MotionResult Scene::certifyEdgePlanar(const Vec3& from, const Vec3& to,
-                                      const MotionOptions& options, QueryContext& context) const {
-  require(options), require(from), require(to);
-  return certify(RigidMotion::planar(from, to, options.tube), options, context);
-}
-
-MotionResult Scene::certifyState(const RigidPose& pose, const MotionOptions& options,
-                                 QueryContext& context) const {
-  const MotionResult result = certifyEdge(pose, pose, options, context);
-  --context.counters.edges;
-  ++context.counters.states;
-  return result;
-}
-
-MotionResult Scene::certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,
-                                       QueryContext& context) const {
-  const MotionResult result = certifyEdgePlanar(xyYaw, xyYaw, options, context);
-  --context.counters.edges;
-  ++context.counters.states;
-  return result;
+std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,
+                                                 QueryContext& context) const {
+  require(options);
+  std::vector<MotionResult> results;
+  results.reserve(pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    results.push_back(certifyPairs({&i, 1}, motion, options, context));
+  return results;
 }
 
 }  // namespace corridor

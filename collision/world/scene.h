@@ -94,9 +94,13 @@ class Scene {
                                             QueryContext& context) const;
 
  private:
+  MotionResult certifyPairs(std::span<const std::size_t> pairs, MotionSource& motion,
+                            const MotionOptions& options, QueryContext& context) const;
+
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;
   std::vector<std::size_t> motionOf_;  // of each pair
+  std::vector<std::size_t> order_;     // of the pairs: those of one motion together
   std::vector<FramePair> framePairs_;
 };
 

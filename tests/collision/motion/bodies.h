@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collision/motion/certify_motion.h"
+#include "collision/motion/rigid_motion.h"
 
 /// Bodies and motions that the tests of certified motions share.
 namespace corridor::test {
@@ -23,8 +23,9 @@ inline TriangleMesh box(const Vec3& low, const Vec3& high) {
 
 inline MotionResult certify(const ObbTree& moving, const ObbTree& fixed, const RigidMotion& motion,
                             const MotionOptions& options, QueryContext& context) {
-  const TreePair pair{&moving, &fixed};
-  return certifyMotion(motion, {&pair, 1}, options, context);
+  const MotionPair pair{&fixed, &moving};
+  RigidEdge edge(motion);
+  return certifyMotion(edge, {&pair, 1}, options, context);
 }
 
 inline RigidPose at(const Vec3& p) {

@@ -126,8 +126,9 @@ TEST(CertifyMotion, MarginTubeAndWorkLimit) {
   QueryContext context;
   MotionOptions options;
   options.tolerance = 1e-7;
+  Tube tube;
   const auto verdict = [&](const RigidPose& from, const RigidPose& to) {
-    return certify(cube, wall, RigidMotion::spatial(from, to, options.tube), options, context);
+    return certify(cube, wall, RigidMotion::spatial(from, to, tube), options, context);
   };
   options.margin = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
@@ -135,14 +136,14 @@ TEST(CertifyMotion, MarginTubeAndWorkLimit) {
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::contact);
   EXPECT_EQ(verdict(a, a).verdict, MotionVerdict::contact) << "a state is an edge of zero length";
   options.margin = 0;
-  options.tube = {0.05, 0.01};  // √3·0.05 + 0.01·√0.75 = 0.095
+  tube = {0.05, 0.01};  // √3·0.05 + 0.01·√0.75 = 0.095
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
-  options.tube = {0.06, 0.01};
+  tube = {0.06, 0.01};
   const MotionResult r = verdict(a, b);
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_EQ(r.reason, UndecidedReason::clearance);
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
-  options.tube = {};
+  tube = {};
   options.reserve = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
   options.reserve = 0.1001;
@@ -202,9 +203,8 @@ TEST(CertifyMotion, RandomEdges) {
                           a.q};
     MotionOptions options;
     options.tolerance = 1e-7;
-    options.tube = {0x1p-40 * 4, 0x1p-40 * 6};
     QueryContext context;
-    const RigidMotion motion = RigidMotion::spatial(a, b, options.tube);
+    const RigidMotion motion = RigidMotion::spatial(a, b, {0x1p-40 * 4, 0x1p-40 * 6});
     const MotionResult r = certify(moving, fixed, motion, options, context);
     options.earliest = true;
     const MotionResult first = certify(moving, fixed, motion, options, context);
@@ -339,15 +339,13 @@ TEST(CertifyMotion, GrazingIsSaidOnlyOfNarrowGaps) {
   add(tip, Vec3(0.25, 0, -1e-9), Vec3(0.25, -1, -1), Vec3(0.25, 1, -1));
   add(wall, Vec3(0.5, -1, -1), Vec3(0.5, 1, -1), Vec3(0.5, 0, 1));
   const ObbTree moving(robot), fixed[] = {ObbTree(tip), ObbTree(wall)};
-  const TreePair pairs[] = {{&moving, &fixed[0], 0, 0}, {&moving, &fixed[1], 0, 1}};
+  const MotionPair pairs[] = {{&fixed[0], &moving, 0, 0, 2}, {&fixed[1], &moving, 0, 1, 2}};
   MotionOptions options;
   options.tolerance = 1e-12;
-  options.tube.position = 1e-8;
   options.earliest = true;
   QueryContext context;
-  const MotionResult r =
-      certifyMotion(RigidMotion::spatial(at(Vec3::Zero()), at(Vec3::UnitX()), options.tube), pairs,
-                    options, context);
+  RigidEdge edge(RigidMotion::spatial(at(Vec3::Zero()), at(Vec3::UnitX()), {1e-8, 0}));
+  const MotionResult r = certifyMotion(edge, pairs, options, context);
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_FALSE(r.grazing);
   EXPECT_LE(r.certifiedUntil, 0.25);

@@ -51,10 +51,10 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
     const RigidMotion motion = RigidMotion::spatial(a, b, {});
     const ReferenceMotion reference(a, b);
     const double t = n % 10 == 0 ? n / 10 % 2 : cases.real(0, 1);
-    const MotionWindow w = motion.window(t, 0);
+    const MotionWindow w = RigidEdge(motion).window(0, t, 0);
     const Vec3 p = cases.vector(3);
     const long double off =
-        ((w.X_WB.m * p + w.X_WB.t).cast<long double>() - reference.point(t, p)).norm();
+        ((w.X_AB.m * p + w.X_AB.t).cast<long double>() - reference.point(t, p)).norm();
     const double bound = w.fixedError + w.reachError * p.norm();
     worst = std::max(worst, static_cast<double>(off) / bound);
     ASSERT_LE(off, bound) << "case " << n << ", t = " << t;
@@ -75,21 +75,22 @@ TEST(RigidMotion, WindowsBoundTheTravel) {
     const ReferenceMotion reference(a, b);
     const double h = std::ldexp(0.5, -(n % 12));
     const double t = h + 2 * h * std::floor(cases.real(0, 0.5 / h));
-    const MotionWindow w = motion.window(t, h);
+    RigidEdge edge(motion);
+    const MotionWindow w = edge.window(0, t, h);
     const Vec3 p = cases.vector(3), direction = cases.vector().normalized();
-    const Vec3 y = w.X_WB.m * p, spin = w.angular.cross(y);
-    const double error = 2 * (w.fixedError + w.reachError * y.norm());
+    const Vec3 y = w.X_AB.m * p, spin = w.angular.cross(y);
+    const PointTravel bounds = travelOf(w, y + w.X_AB.t, 0);
+    const double error = 2 * bounds.pad;
     for (const double s : {-1.0, 1.0, cases.real()}) {
       const Eigen::Matrix<long double, 3, 1> moved =
           reference.point(static_cast<long double>(t) + s * h, p) - reference.point(t, p);
       const auto travel = static_cast<double>(moved.norm());
-      const double cap = w.speed + spin.norm();
-      ASSERT_LE(travel, cap + error) << "case " << n;
+      ASSERT_LE(travel, bounds.cap + error) << "case " << n;
       const double along = std::abs(static_cast<double>(moved.dot(direction.cast<long double>())));
       const double directional = std::abs(direction.dot(w.linear + spin)) +
-                                 w.curvature(spin.norm()) * direction.cross(w.angular).norm();
+                                 bounds.bend * direction.cross(w.angular).norm() + bounds.curvature;
       ASSERT_LE(along, directional + error) << "case " << n;
-      if (travel > 1e-3) tightest = std::max(tightest, travel / cap);
+      if (travel > 1e-3) tightest = std::max(tightest, travel / bounds.cap);
       if (along > 1e-3) tightestDirectional = std::max(tightestDirectional, along / directional);
     }
   }
@@ -117,13 +118,13 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
   for (int n = 0; n < 20'000; ++n) {
     const double range = n % 2 ? 3 : 300;
     Vec3 a = cases.vector(range), b = cases.vector(range);
-    const MotionWindow w = RigidMotion::planar(a, b, {}).window(0.375, 0);
+    const MotionWindow w = RigidEdge(RigidMotion::planar(a, b, {})).window(0, 0.375, 0);
     const long double twoPi = 2 * std::numbers::pi_v<long double>;
     const long double turn =
         std::remainder(static_cast<long double>(b[2]) - static_cast<long double>(a[2]), twoPi);
     const long double yaw = a[2] + 0.375L * turn;
     const long double off =
-        std::hypot(std::cos(yaw) - w.X_WB.m(0, 0), std::sin(yaw) - w.X_WB.m(1, 0));
+        std::hypot(std::cos(yaw) - w.X_AB.m(0, 0), std::sin(yaw) - w.X_AB.m(1, 0));
     ASSERT_LE(off, w.reachError) << n;
   }
 }

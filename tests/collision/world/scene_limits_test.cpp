@@ -3,25 +3,25 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/world/scene.h"
+#include "collision/world/rigid_scene.h"
 
 namespace corridor {
 namespace {
 
-Scene scene(const Triangle& moving, const Triangle& fixed) {
+RigidScene scene(const Triangle& moving, const Triangle& fixed) {
   const auto body = [](const Triangle& t) {
     std::vector<Body> one;
     one.emplace_back("body", TriangleMesh{{t[0], t[1], t[2]}, {{0, 1, 2}}});
     return one;
   };
-  return Scene(body(moving), body(fixed));
+  return RigidScene(body(moving), body(fixed));
 }
 
 /// The square of the distance of sphere and box overflows; the spheres' radius does not.
 TEST(SceneLimits, HugeBodiesAreNotSkipped) {
   const double b = 1e170, l = 1e160;
-  const Scene s = scene({Vec3(-b, 0, 0), Vec3(b, b, 0), Vec3(b, -b, 0)},
-                        {Vec3(l, 0, -l), Vec3(l, 0, l), Vec3(l, 1e150, 0)});
+  const RigidScene s = scene({Vec3(-b, 0, 0), Vec3(b, b, 0), Vec3(b, -b, 0)},
+                             {Vec3(l, 0, -l), Vec3(l, 0, l), Vec3(l, 1e150, 0)});
   QueryContext context;
   EXPECT_TRUE(s.interference({}, context));
 }
@@ -39,15 +39,15 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
     const double exact =
         (big + other) + (std::fma(X.m(0, 0), p[0], -big) + std::fma(X.m(0, 1), p[1], -other));
     const double s = 1e-3 * std::abs(exact);
-    const Scene point =
+    const RigidScene point =
         scene({p, p, p}, {Vec3(exact - s, 0, 0), Vec3(exact + s, 0, 0), Vec3(exact, s, 0)});
     EXPECT_TRUE(point.interference(X, context)) << i;
   }
 }
 
 TEST(SceneLimits, RefusesWhatIsOutOfRange) {
-  const Scene s = scene({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
-                        {Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)});
+  const RigidScene s = scene({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                             {Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)});
   QueryContext context;
   MotionOptions good;
   good.tolerance = 1e-7;
@@ -62,9 +62,9 @@ TEST(SceneLimits, RefusesWhatIsOutOfRange) {
   refused([](MotionOptions& o) { o.tolerance = 0; });
   refused([](MotionOptions& o) { o.margin = -1; });
   refused([&](MotionOptions& o) { o.margin = nan; });
-  refused([](MotionOptions& o) { o.tube.position = -1; });
-  refused([](MotionOptions& o) { o.tube.rotation = HUGE_VAL; });
   refused([](MotionOptions& o) { o.timeTolerance = 0; });
+  EXPECT_THROW(s.certifyState({}, good, context, {-1, 0}), std::invalid_argument);
+  EXPECT_THROW(s.certifyState({}, good, context, {0, HUGE_VAL}), std::invalid_argument);
   EXPECT_THROW(s.certifyState({Vec3(nan, 0, 0), {}}, good, context), std::invalid_argument);
   EXPECT_THROW(s.certifyState({Vec3::Zero(), {0, 0, 0, 0}}, good, context), std::invalid_argument);
   EXPECT_THROW(s.certifyStatePlanar(Vec3(0, 0, nan), good, context), std::invalid_argument);

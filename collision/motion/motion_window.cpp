@@ -1,0 +1,110 @@
+#include "collision/motion/motion_window.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/rounding.h"
+
+/// Derivation. With T_j(φ) the turn by φ about the j-th axis, or the slide along it, where that
+/// axis is at the window's middle, a point of b that is at x at the middle goes along
+///   x(s, ε) = T_1(sδ_1 + ε_1) … T_k(sδ_k + ε_k) x        (product of exponentials),
+/// δ_j ≥ 0 (flip axes), |s| ≤ 1. Let r_j be the distance of x from axis j (of a ball: from its
+/// point); z_j = T_j(sδ_j) … T_k(sδ_k) x the point that only the joints from j on have moved.
+///
+/// Cap (no enlargement). x(s) − x = Σ_j T_1(sδ_1) … T_(j−1)(sδ_(j−1)) [T_j(sδ_j) x − x]: what is
+/// before j is an isometry, what is after it is at the middle. A turn's bracket is a chord
+/// 2 r_j sin(min(|sδ_j|, π)/2), a slide's |sδ_j|. So |z_j − x| ≤ D_j = Σ_(i ≥ j) of these at s = 1,
+/// and |x(s) − x| ≤ D_1. Of `displaced`, D_(j+1) comes before joint j is added.
+///
+/// Remainder. ∂x/∂φ_j is a_j × (z_(j+1) − p_j), turned by what is before j: its length is the
+/// distance of z_(j+1) from axis j, at most r̄_j = r_j + D_(j+1); a slide's is 1. A second
+/// derivative by i ≤ j turns that about axis i: at most the same where i is a turn, 0 where it is a
+/// slide. So
+///   |x''(s)| ≤ Σ_(turns j) δ_j² r̄_j + 2 Σ_(turns i) δ_i Σ_(j > i) δ_j r̄_j   (slides: r̄_j = 1)
+/// and by Taylor's formula along any n, |n·(x(s) − x − s x'(0))| ≤ ½ max|x''|·|n|. `rate` is the
+/// inner sum.
+///
+/// One turn alone, by δ about k, with no slide after it (slides before it only add what is linear
+/// in s): with y the lever from the axis, |y − (k·y)k| = r_j, φ = sδ, Rodrigues' formula leaves
+///   (1 − cos φ) k × (k × y) + (sin φ − φ) k × y,
+/// at a right angle to k and of length r|e^(iφ) − 1 − iφ| ≤ r φ²/2: along n at most
+/// ½ r δ²|n × k| = ½ r δ |n × angular|. That is `bend`.
+///
+/// Tube. x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1): what is
+/// after j is nominal. A bracket is at most |ε_j| times the distance of z_(j+1) from axis j, r̄_j
+/// again (slides: 1). At the middle itself D = 0, so r_j τ_j goes to `pad`; D_(j+1) τ_j is the
+/// window's and goes to `cap` and `curvature`: a shorter window has less of it.
+///
+/// Rounding. The window vouches for its own numbers (`fixedError`, `reachError`): those of a point
+/// at x are off by at most E = fixedError + reachError·|y|, y its lever, and so are its distances
+/// from the axes; all r_j grow by that. Here: y, x − p_j and the products are off by a few u of
+/// their terms, `loose`; sums of positive terms by u each, the factor in the end.
+namespace corridor {
+namespace {
+
+/// At least 2 sin(min(δ, π)/2), and at most 0.5 % more: Taylor's polynomial of degree 5 is above
+/// the sine for δ ≥ 0, and grows up to δ = 3, where it is 2.002.
+double chord(double amount) {
+  if (!(amount < 3)) return 2;
+  const double square = amount * amount;
+  return amount * (1 - square * (1.0 / 24 - square / 1920));
+}
+
+double taxicab(const Vec3& v) {
+  return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
+}
+
+/// Metres: squares under 2^-1022 vanish, and lengths under 2^-511 with them.
+constexpr double kLeastLength = 0x1p-500;
+
+}  // namespace
+
+PointTravel travelOf(const MotionWindow& window, const Vec3& x_A, double radius) {
+  const Vec3 y = x_A - window.X_AB.t;
+  const double loose = 16 * kUnit * (taxicab(y) + taxicab(window.X_AB.t) + radius) + kLeastLength;
+  const double lever = y.norm();
+  const double error = window.fixedError + window.reachError * (lever + radius + loose);
+  const double grown = radius + error + loose;
+
+  double displaced = 0, rate = 0, second = 0, pad = error, stray = 0;
+  double sole = 0;  // r δ of a turn that is alone so far
+  int turns = 0;
+  for (std::size_t j = window.screws.size(); j-- > 0;) {
+    const ScrewTravel& screw = window.screws[j];
+    if (screw.kind == ScrewTravel::Kind::slide) {
+      displaced += screw.amount;
+      rate += screw.amount;
+      pad += screw.tube;
+      continue;
+    }
+    const Vec3 d = x_A - screw.point;
+    const double r = (screw.kind == ScrewTravel::Kind::turn ? screw.axis.cross(d) : d).norm() +
+                     grown + 16 * kUnit * taxicab(d);
+    pad += r * screw.tube;
+    stray += displaced * screw.tube;
+    if (screw.amount == 0) continue;
+    const double onward = (r + displaced) * screw.amount;
+    sole = turns == 0 && rate == 0 ? onward : 0;
+    ++turns;
+    second += screw.amount * (onward + 2 * rate);
+    rate += onward;
+    displaced += r * chord(screw.amount);
+  }
+
+  const double scale = 1 + kUnit * static_cast<double>(64 + 8 * window.screws.size());
+  const double firstOrder = (window.linear + window.angular.cross(y)).norm() +
+                            window.angle * (radius + error + loose) +
+                            16 * kUnit * (window.speed + window.angle * lever) + 0.5 * second;
+  PointTravel travel;
+  travel.cap = scale * (std::min(displaced, firstOrder) + stray);
+  // The directions of `angular` and of the axis may differ by rounding.
+  const double tilt = sole > 0 && turns == 1 ? window.reachError + 8 * kUnit : 0.5;
+  travel.bend = sole > 0 && turns == 1 ? scale * 0.5 * sole : 0;
+  travel.curvature = scale * (tilt * second + stray);
+  travel.pad = scale * pad;
+  return travel;
+}
+
+}  // namespace corridor

@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/rounding.h"
+#include "collision/geometry/mesh_health.h"
+#include "collision/world/scene.h"
+
+namespace corridor {
+
+struct Body::Impl {
+  std::string name;
+  TriangleMesh mesh;
+  std::optional<ConvexPart> part;
+  bool solid = false;
+  ObbTreeParams params;
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
+       center = Vec3::Zero();
+  double radius = 0, sphereRadius = 0;
+  mutable std::once_flag once;
+  mutable std::atomic<bool> built = false;
+  mutable std::optional<ObbTree> tree;
+
+  /// Bounds of balls of radius `grow` about the points that `each` goes through, whose boxes are
+  /// `reach` farther than the points along the axes.
+  template <class Each>
+  void bound(const Each& each, double grow, const Vec3& reach) {
+    each([&](const Vec3& p) {
+      lower = lower.cwiseMin(p - reach);
+      upper = upper.cwiseMax(p + reach);
+    });
+    center = lower + 0.5 * (upper - lower);
+    each([&](const Vec3& p) {
+      radius = std::max(radius, roundedUp(p.stableNorm() + grow));
+      sphereRadius = std::max(sphereRadius, roundedUp((p - center).stableNorm() + grow));
+    });
+  }
+};
+
+Body::Body(std::string name, TriangleMesh mesh, bool solid, const ObbTreeParams& params)
+    : impl_(std::make_unique<Impl>()) {
+  if (mesh.triangles.empty()) throw std::invalid_argument("body " + name + " has no triangle");
+  if (const auto complaint = checkMesh(mesh))
+    throw std::invalid_argument("body " + name + ": " + *complaint);
+  if (solid && !inspectMesh(mesh).watertight)
+    throw std::invalid_argument("body " + name + " is not watertight, so it can't be solid");
+  impl_->name = std::move(name);
+  impl_->mesh = std::move(mesh);
+  impl_->solid = solid;
+  impl_->params = params;
+  impl_->bound(
+      [&](auto take) {
+        for (std::size_t t = 0; t < impl_->mesh.triangles.size(); ++t)
+          for (int i = 0; i < 3; ++i) take(impl_->mesh.corner(t, i));
+      },
+      0, Vec3::Zero());
+}
+
+Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) {
+  if (part.points.empty()) throw std::invalid_argument("body " + name + " has no points");
+  impl_->name = std::move(name);
+  impl_->solid = true;
+  impl_->part = std::move(part);
+  const ConvexPart& p = *impl_->part;
+  Vec3 reach = Vec3::Constant(p.radius);
+  if (p.flatEnds) {  // a disc of normal a reaches √(1 − a_i²) of its radius along axis i
+    const Vec3 a = (p.points[1] - p.points[0]).stableNormalized();
+    for (int i = 0; i < 3; ++i)
+      reach[i] *= std::min(1.0, std::hypot(a[(i + 1) % 3], a[(i + 2) % 3]) + 16 * kUnit);
+  }
+  double largest = p.radius;
+  for (const Vec3& q : p.points) largest = std::max(largest, q.cwiseAbs().maxCoeff());
+  if (p.radius > 0) reach.array() += 4 * kUnit * largest;  // the sums and differences round
+  impl_->bound(
+      [&](auto take) {
+        for (const Vec3& q : p.points) take(q);
+      },
+      p.radius, reach);
+}
+
+Body::~Body() = default;
+Body::Body(Body&&) noexcept = default;
+Body& Body::operator=(Body&&) noexcept = default;
+
+const std::string& Body::name() const {
+  return impl_->name;
+}
+const TriangleMesh& Body::mesh() const {
+  return impl_->mesh;
+}
+const ConvexPart* Body::part() const {
+  return impl_->part ? &*impl_->part : nullptr;
+}
+bool Body::solid() const {
+  return impl_->solid;
+}
+bool Body::treeBuilt() const {
+  return impl_->built;
+}
+double Body::radius() const {
+  return impl_->radius;
+}
+const Vec3& Body::sphereCenter() const {
+  return impl_->center;
+}
+double Body::sphereRadius() const {
+  return impl_->sphereRadius;
+}
+const Vec3& Body::lower() const {
+  return impl_->lower;
+}
+const Vec3& Body::upper() const {
+  return impl_->upper;
+}
+
+const ObbTree& Body::tree() const {
+  std::call_once(impl_->once, [this] {
+    if (impl_->part) {
+      impl_->tree.emplace(*impl_->part);
+    } else {
+      impl_->tree.emplace(impl_->mesh, impl_->params);
+    }
+    impl_->built = true;
+  });
+  return *impl_->tree;
+}
+
+}  // namespace corridor

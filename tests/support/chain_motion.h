@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "collision/core/rounding.h"
+#include "collision/motion/certify_motion.h"
+
+namespace corridor::test {
+
+/// A chain of turns and slides from a to b, joint values linear in t, by products of exponentials
+/// in long double: the reference for points, and (rounded) a MotionSource.
+class ChainMotion final : public MotionSource {
+ public:
+  using Vec3L = Eigen::Matrix<long double, 3, 1>;
+  using Mat3L = Eigen::Matrix<long double, 3, 3>;
+  struct Joint {
+    bool slides = false;
+    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< where all values are 0; any length but 0
+    double from = 0, to = 0;
+  };
+  struct Pose {
+    Mat3L R = Mat3L::Identity();
+    Vec3L t = Vec3L::Zero();
+    Vec3L operator*(const Vec3L& p) const { return R * p + t; }
+  };
+
+  explicit ChainMotion(std::vector<Joint> joints) : joints_(std::move(joints)) {}
+
+  /// After the first `count` joints.
+  Pose pose(long double t, std::size_t count) const {
+    Pose X;
+    for (std::size_t j = 0; j < count; ++j) {
+      const Joint& joint = joints_[j];
+      const long double value = joint.from + t * (static_cast<long double>(joint.to) - joint.from);
+      const Vec3L axis = joint.axis.cast<long double>().normalized(),
+                  point = joint.point.cast<long double>();
+      if (joint.slides) {
+        X.t += X.R * axis * value;
+      } else {
+        const Mat3L R = turn(axis, value);
+        X.t += X.R * (point - R * point);
+        X.R = (X.R * R).eval();
+      }
+    }
+    return X;
+  }
+  Pose pose(long double t) const { return pose(t, joints_.size()); }
+
+  MotionWindow window(std::size_t, double t, double h) override {
+    const Pose X = pose(t);
+    Vec3L linear = Vec3L::Zero(), angular = Vec3L::Zero();
+    long double size = X.t.norm();
+    screws_.clear();
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Joint& joint = joints_[j];
+      const Pose before = pose(t, j);
+      const Vec3L axis = before.R * joint.axis.cast<long double>().normalized(),
+                  point = before * joint.point.cast<long double>();
+      const long double half = h * (static_cast<long double>(joint.to) - joint.from);
+      if (joint.slides) {
+        linear += half * axis;
+      } else {
+        linear += half * axis.cross(X.t - point);
+        angular += half * axis;
+      }
+      size += point.norm() + std::abs(half) * (1 + (X.t - point).norm());
+      screws_.push_back({joint.slides ? ScrewTravel::Kind::slide : ScrewTravel::Kind::turn,
+                         axis.cast<double>(), point.cast<double>(),
+                         roundedUp(static_cast<double>(std::abs(half))), 0});
+    }
+    MotionWindow w;
+    w.X_AB = {X.R.cast<double>(), X.t.cast<double>()};
+    w.linear = linear.cast<double>();
+    w.angular = angular.cast<double>();
+    w.speed = roundedUp(w.linear.norm());
+    w.angle = roundedUp(w.angular.norm());
+    w.screws = screws_;
+    // Each number is rounded once: 4u of all lengths, and 4u of all angles, of which there may be
+    // many.
+    w.fixedError = 16 * kUnit * static_cast<double>(size);
+    w.reachError = 16 * kUnit * static_cast<double>(1 + angular.norm());
+    return w;
+  }
+  bool ambiguous() const override { return false; }
+
+  static Mat3L turn(const Vec3L& axis, long double value) {
+    Mat3L K;
+    K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
+    const long double half = std::sin(value / 2);
+    return Mat3L::Identity() + std::sin(value) * K + 2 * half * half * K * K;
+  }
+
+ private:
+  std::vector<Joint> joints_;
+  std::vector<ScrewTravel> screws_;
+};
+
+}  // namespace corridor::test
