@@ -85,7 +85,8 @@ class RandomTrees {
  private:
   Eigen::Quaterniond quaternion() {
     const double size = std::pow(10.0, oneIn(4) ? real(-2, 2) : 0);
-    return Eigen::Quaterniond(Eigen::Vector4d(size * real(), size * real(), size * real(), size * real()));
+    return Eigen::Quaterniond(
+        Eigen::Vector4d(size * real(), size * real(), size * real(), size * real()));
   }
 
   void addJoint(Frame frame) {
@@ -117,9 +118,9 @@ class RandomTrees {
         frame.multiplier = oneIn(3) ? -1 : real(-2, 2);
         frame.offset = oneIn(2) ? 0 : real();
       } else {
-        frame.variable = firstOf(frame.joint == Frame::Joint::turn && oneIn(3)
-                                     ? Coordinate::Kind::circle
-                                     : Coordinate::Kind::line);
+        frame.variable =
+            firstOf(frame.joint == Frame::Joint::turn && oneIn(3) ? Coordinate::Kind::circle
+                                                                  : Coordinate::Kind::line);
       }
     }
     tree.add(frame);

@@ -62,9 +62,7 @@ class ReferenceKinematics {
   }
 
  private:
-  static Mat3L rotation(const Vec4L& q) {
-    return Eigen::Quaternion<Real>(q).toRotationMatrix();
-  }
+  static Mat3L rotation(const Vec4L& q) { return Eigen::Quaternion<Real>(q).toRotationMatrix(); }
   const Coordinate& coordinate(std::size_t number) const {
     for (const Coordinate& c : space_.coordinates())
       if (c.first == number) return c;
