@@ -38,6 +38,11 @@ inline Mat3L crossL(const Vec3L& a) {
   return K;
 }
 
+/// What the doubles of a map say in long double.
+inline Vec3L exactly(const Transform& X, const Vec3& p) {
+  return X.m.cast<Real>() * p.cast<Real>() + X.t.cast<Real>();
+}
+
 /// The definition of an edge and of forward kinematics once more, in long double and by other
 /// formulas than the code under test: quaternions joint by joint, slerp by the two sine weights,
 /// derivatives by the product rule.

@@ -102,13 +102,14 @@ TEST_F(SharedRobots, CanBeMadeOfSpheres) {
 TEST_F(SharedRobots, ColladaMeshesAreReadByRossRule) {
   SKIP_WITHOUT_DATA();
   const RobotModel model = read(kinova + "robots/kinova.urdf");
+  // The guide gives five digits.
   const auto expectBounds = [&](const char* file, const Vec3& min, const Vec3& max) {
     for (const LinkModel& link : model.links)
       for (const PlacedShape& shape : link.shapes) {
         if (shape.file.filename() != file) continue;
         const MeshHealth health = inspectMesh(shape.mesh->mesh);
-        EXPECT_LT((health.min - min).norm(), 1e-6) << file << " " << health.min.transpose();
-        EXPECT_LT((health.max - max).norm(), 1e-6) << file << " " << health.max.transpose();
+        EXPECT_LT((health.min - min).norm(), 3e-6) << file << " " << health.min.transpose();
+        EXPECT_LT((health.max - max).norm(), 3e-6) << file << " " << health.max.transpose();
         return;
       }
     ADD_FAILURE() << file << " is in no link";

@@ -150,9 +150,9 @@ TEST_F(UrdfFaults, Mimics) {
   EXPECT_EQ(complaint("revolute", "revolute", R"(joint="tilt")"),
             "r.urdf:7: joint \"tilt\" mimics itself");
   EXPECT_EQ(complaint("revolute", "revolute", R"(joint="pam" multiplier="x")"),
+            "r.urdf:7: joint \"tilt\": mimic multiplier: a number is needed, not \"x\"\n"
             "r.urdf:7: joint \"tilt\" mimics \"pam\", which is not a joint of this file; did you "
-            "mean \"pan\"?\n"
-            "r.urdf:7: joint \"tilt\": mimic multiplier: a number is needed, not \"x\"");
+            "mean \"pan\"?");
   EXPECT_EQ(complaint("fixed", "revolute", R"(joint="pan")"),
             "r.urdf:7: joint \"tilt\" mimics \"pan\", which is fixed; a joint of one variable is "
             "needed");
@@ -201,10 +201,10 @@ TEST_F(UrdfFaults, Geometry) {
   EXPECT_EQ(complaintOfShape("<mesh/>"), of + "<mesh> has no filename");
   EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scale=\"1 0 1\"/>"),
             of + "mesh scale must not be 0, which makes the mesh flat");
-  EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scale=\"1e308 1 1e308\"/>"),
+  EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scale=\"1e300 1 1e300\"/>"),
             "no complaint");
   EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scale=\"1 1 1e308\"/>"),
-            of + "shape \"a\": its origin, size or scale is out of the range of doubles");
+            "r.urdf:2: shape \"a\": its origin, size or scale is out of the range of doubles");
 }
 
 TEST_F(UrdfFaults, MeshFiles) {
@@ -234,7 +234,7 @@ TEST_F(UrdfFaults, MeshFiles) {
                              link("b")),
             "r.urdf:3: link \"b\" is no joint's child, and neither is \"a\" on line 2; a robot "
             "has one root\n"
-            "bad.obj:2: a coordinate must be a finite number, not \"nan\"");
+            "bad.obj:2: coordinate \"nan\" is not finite");
 }
 
 TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
@@ -249,8 +249,7 @@ TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
   EXPECT_EQ(complaintOfParts(link("b") + link("a%s%n", "<inertial/>") +
                              joint("j", "fixed", "b", "a%s%n")),
             "r.urdf:3: urdfdom, the reader of URDF, refuses it: Inertial element must have a mass "
-            "element; Could not parse inertial element for Link [a?s?n]; link xml is not "
-            "initialized correctly");
+            "element; Could not parse inertial element for Link [a?s?n]");
   EXPECT_EQ(complaintOf("<robot name=\"r\" version=\"2.0\"><link name=\"a\"/></robot>"),
             "r.urdf: urdfdom, the reader of URDF, refuses it: Invalid 'version' specified; only "
             "version 1.0 is currently supported");
