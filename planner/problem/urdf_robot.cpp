@@ -64,6 +64,11 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Pac
 
 using Joints = std::vector<std::size_t>;
 
+/// Not held by its own limits.
+bool canMove(const JointModel& joint) {
+  return movesItself(joint) && joint.lower != joint.upper;
+}
+
 Joints readGroup(const YamlMap& map, const RobotModel& model) {
   Joints active;
   const auto name = map.text("group");
@@ -80,7 +85,7 @@ Joints readGroup(const YamlMap& map, const RobotModel& model) {
                            didYouMean(*name, known) + " (known: " + joined(known) + ")");
   } else {
     for (const std::string& joint : group->second)
-      if (const auto j = findJoint(model, joint); j && movesItself(model.joints[*j]))
+      if (const auto j = findJoint(model, joint); j && canMove(model.joints[*j]))
         active.push_back(*j);
     if (active.empty())
       map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");
@@ -99,6 +104,8 @@ Joints readJointList(const YamlMap& map, const RobotModel& model) {
       map.fault("joints", noSuchJoint(name, model));
     else if (const std::string why = whyNotActive(model, *j); !why.empty())
       map.fault("joints", name + " " + why);
+    else if (!canMove(model.joints[*j]))
+      map.fault("joints", name + " can't move: its limits are equal");
     else if (std::find(active.begin(), active.end(), *j) != active.end())
       map.fault("joints", name + " is named twice");
     else
@@ -210,7 +217,7 @@ void readWeights(const YamlMap& file, RobotSetup& setup) {
 Joints allMoving(const RobotSetup& setup) {
   Joints all;
   for (std::size_t j = 0; j < setup.robot.model.joints.size(); ++j)
-    if (movesItself(setup.robot.model.joints[j]) && !setup.held.contains(j) &&
+    if (canMove(setup.robot.model.joints[j]) && !setup.held.contains(j) &&
         !setup.heldPoses.contains(j))
       all.push_back(j);
   return all;

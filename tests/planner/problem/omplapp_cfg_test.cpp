@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -27,15 +28,15 @@ class OmplAppCfg : public ProblemTest {
 TEST_F(OmplAppCfg, PlanarProblem) {
   const Problem p = readProblem(cfg(meshes + planar));
   EXPECT_EQ(p.name, "problem");
-  EXPECT_EQ(p.space, RigidSpace::SE2);
-  EXPECT_EQ(p.rotationWeight, 0.5);
-  EXPECT_EQ(p.start.p, Vec3(5, 0, 0));
-  EXPECT_DOUBLE_EQ(p.startYaw, 7 - 2 * std::numbers::pi);
+  EXPECT_TRUE(isPlanar(p));
+  EXPECT_EQ(p.space.coordinates().at(2).weight, 0.5);
+  EXPECT_EQ(p.start.head(2), Eigen::Vector2d(5, 0));
+  EXPECT_DOUBLE_EQ(p.start[2], 7 - 2 * std::numbers::pi);
   EXPECT_EQ(p.lines.at("start"), 4);
-  EXPECT_EQ(p.lower, Vec3(0, 0, 0)) << "the world's box";
-  EXPECT_EQ(p.upper, Vec3(5, 5, 0)) << "enlarged to hold start and goal";
+  EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0)) << "the world's box";
+  EXPECT_EQ(upperOf(p), Vec3(5, 5, 0)) << "enlarged to hold start and goal";
   double lowest = 1;
-  for (const Vec3& v : p.robot[0].source.mesh.vertices) lowest = std::min(lowest, v.z());
+  for (const Vec3& v : meshOf(p, "wedge").vertices) lowest = std::min(lowest, v.z());
   EXPECT_EQ(lowest, 0) << "z is not recentred in the plane";
 }
 
@@ -49,18 +50,18 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
       "volume.max.x = 4\nvolume.max.y = 9\nvolume.max.z = 9\n"
       "[benchmark]\ntime_limit = 3.5\nmem_limit = 100\n[planner]\naps=\nRRT=\nrrt.range=0.25"));
   EXPECT_EQ(p.name, "Wedges");
-  EXPECT_EQ(p.space, RigidSpace::SE3);
-  EXPECT_EQ(p.rotationWeight, 1);
-  EXPECT_DOUBLE_EQ(p.start.q.w(), std::cos(3.5));
-  EXPECT_DOUBLE_EQ(p.start.q.z(), std::sin(3.5)) << "the axis is normalised";
-  EXPECT_EQ(p.goal.q.coeffs(), Eigen::Vector4d(0, 0, 0, 1)) << "a zero axis turns nothing";
+  EXPECT_FALSE(isPlanar(p));
+  EXPECT_EQ(p.space.coordinates().at(3).weight, 1);
+  EXPECT_DOUBLE_EQ(p.start[6], std::cos(3.5));
+  EXPECT_DOUBLE_EQ(p.start[5], std::sin(3.5)) << "the axis is normalised";
+  EXPECT_EQ(p.goals.at(0).tail(4), Eigen::Vector4d(0, 0, 0, 1)) << "a zero axis turns nothing";
   EXPECT_EQ(p.goalThreshold, 0.1);
   EXPECT_EQ(p.objective, "length");
   EXPECT_EQ(p.objectiveThreshold, 3);
   EXPECT_EQ(p.sampler, "gaussian");
   EXPECT_EQ(p.checker.resolution, 0.02);
-  EXPECT_EQ(p.lower, Vec3(-1, -1, -1));
-  EXPECT_EQ(p.upper, Vec3(5, 9, 9));
+  EXPECT_EQ(lowerOf(p), Vec3(-1, -1, -1));
+  EXPECT_EQ(upperOf(p), Vec3(5, 9, 9));
   EXPECT_EQ(p.planner.time, 3.5);
   EXPECT_EQ(p.planner.name, "RRT");
   EXPECT_EQ(p.planner.params, (std::map<std::string, std::string>{{"range", "0.25"}}));
@@ -83,7 +84,7 @@ TEST_F(OmplAppCfg, PlannersAreChosenOnlyWhereThereIsOne) {
 
 TEST_F(OmplAppCfg, IncompleteVolumeIsIgnored) {
   const Problem p = readProblem(cfg(meshes + planar + "volume.min.x = -100\n"));
-  EXPECT_EQ(p.lower, Vec3(0, 0, 0));
+  EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
   EXPECT_THAT(p.notes,
               testing::Contains("bounds: those of the world, since volume is not given whole"));
 }
@@ -130,7 +131,7 @@ TEST_F(OmplAppCfg, Faults) {
 /// OMPL.app's own problems, against figures worked out by an independent reading of its files.
 struct Reference {
   const char* file;
-  RigidSpace space;
+  bool spatial;
   std::size_t robotTriangles, worldTriangles;
   int importedVertices;
   Vec3 centre;    ///< of the robot, in its file
@@ -140,7 +141,7 @@ struct Reference {
 
 const std::vector<Reference>& references() {
   static const std::vector<Reference> all{{"2D/BugTrap_planar.cfg",
-                                           RigidSpace::SE2,
+                                           false,
                                            28,
                                            264,
                                            56,
@@ -149,7 +150,7 @@ const std::vector<Reference>& references() {
                                            {-55, -55.01, -0.001485},
                                            {55, 55.011, 8.1695}},
                                           {"2D/Maze_planar.cfg",
-                                           RigidSpace::SE2,
+                                           false,
                                            40,
                                            1892,
                                            80,
@@ -158,7 +159,7 @@ const std::vector<Reference>& references() {
                                            {-55, -55, 0},
                                            {55, 55, 10.63}},
                                           {"3D/Abstract.cfg",
-                                           RigidSpace::SE3,
+                                           true,
                                            48,
                                            1400,
                                            112,
@@ -167,7 +168,7 @@ const std::vector<Reference>& references() {
                                            {-233.12, -222.2, -3.9451},
                                            {239.92, 250.74, 468.98}},
                                           {"3D/Easy.cfg",
-                                           RigidSpace::SE3,
+                                           true,
                                            56,
                                            176,
                                            112,
@@ -176,7 +177,7 @@ const std::vector<Reference>& references() {
                                            {14.46, -24.25, -504.86},
                                            {457.96, 321.25, -72.855}},
                                           {"3D/Home.cfg",
-                                           RigidSpace::SE3,
+                                           true,
                                            120,
                                            696,
                                            280,
@@ -185,7 +186,7 @@ const std::vector<Reference>& references() {
                                            {-383.8, -371.47, -0.19685},
                                            {325, 337.89, 142.33}},
                                           {"3D/Twistycool.cfg",
-                                           RigidSpace::SE3,
+                                           true,
                                            56,
                                            176,
                                            112,
@@ -194,7 +195,7 @@ const std::vector<Reference>& references() {
                                            {14.46, -24.25, -504.86},
                                            {457.96, 321.25, -72.855}},
                                           {"3D/alpha-1.5.cfg",
-                                           RigidSpace::SE3,
+                                           true,
                                            2016,
                                            2016,
                                            10248,
@@ -203,7 +204,7 @@ const std::vector<Reference>& references() {
                                            {-131.87, -42.493, -91.763},
                                            {106.82, 125.33, -3.0743}},
                                           {"3D/cubicles.cfg",
-                                           RigidSpace::SE3,
+                                           true,
                                            40,
                                            626,
                                            72,
@@ -212,7 +213,7 @@ const std::vector<Reference>& references() {
                                            {-508.88, -230.13, -123.75},
                                            {319.62, 531.87, 101}},
                                           {"3D/cubicles_opt.cfg",
-                                           RigidSpace::SE3,
+                                           true,
                                            40,
                                            626,
                                            72,
@@ -255,15 +256,16 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
   for (const Reference& r : references()) {
     SCOPED_TRACE(r.file);
     const Problem p = readProblem(*folder / r.file);
-    EXPECT_EQ(p.space, r.space);
-    const TriangleMesh &robot = p.robot.at(0).source.mesh, &world = p.world.at(0).source.mesh;
+    EXPECT_EQ(isPlanar(p), !r.spatial);
+    const TriangleMesh &robot = p.bodies.at(0).shapes.at(0).mesh->mesh,
+                       &world = p.bodies.at(1).shapes.at(0).mesh->mesh;
     EXPECT_EQ(robot.triangles.size(), r.robotTriangles);
     EXPECT_EQ(world.triangles.size(), r.worldTriangles);
     const auto [worldMin, worldMax] = boundsOf(world);
     expectNear(worldMin, r.worldMin, "world's lower corner");
     expectNear(worldMax, r.worldMax, "world's upper corner");
     // The centre: what recentring took from the robot as its file has it.
-    const OmplAppMesh file = readOmplAppMesh(p.robot[0].file);
+    const OmplAppMesh file = readOmplAppMesh(p.bodies[0].shapes[0].file);
     EXPECT_EQ(file.importedVertices, r.importedVertices);
     const Vec3 centre = boundsOf(file.mesh).first - boundsOf(robot).first;
     for (int k = 0; k < 3; ++k)
@@ -271,22 +273,23 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
     expectNear(boundsOf(file.mesh).first, r.robotMin, "robot's lower corner");
 
     const auto number = [&](const std::string& key) { return numberOf(*folder / r.file, key); };
-    const bool spatial = r.space == RigidSpace::SE3;
-    EXPECT_EQ(p.start.p,
-              Vec3(number("start.x"), number("start.y"), spatial ? number("start.z") : 0));
-    EXPECT_EQ(p.goal.p, Vec3(number("goal.x"), number("goal.y"), spatial ? number("goal.z") : 0));
+    const bool spatial = r.spatial;
+    EXPECT_EQ(p.start.head(2), Eigen::Vector2d(number("start.x"), number("start.y")));
+    EXPECT_EQ(p.goals.at(0).head(2), Eigen::Vector2d(number("goal.x"), number("goal.y")));
     if (spatial) {
+      EXPECT_EQ(p.start[2], number("start.z"));
+      EXPECT_EQ(p.goals[0][2], number("goal.z"));
       const Eigen::Quaterniond q(Eigen::AngleAxisd(
           number("goal.theta"),
           Vec3(number("goal.axis.x"), number("goal.axis.y"), number("goal.axis.z")).normalized()));
-      EXPECT_LT((p.goal.q.coeffs() - q.coeffs()).norm(), 1e-15);
+      EXPECT_LT((p.goals[0].tail(4) - q.coeffs()).norm(), 1e-15);
     } else {
-      EXPECT_EQ(p.goalYaw, number("goal.theta"));
+      EXPECT_EQ(p.goals[0][2], number("goal.theta"));
     }
-    EXPECT_EQ(p.lower, Vec3(number("volume.min.x"), number("volume.min.y"),
-                            spatial ? number("volume.min.z") : 0));
-    EXPECT_EQ(p.upper, Vec3(number("volume.max.x"), number("volume.max.y"),
-                            spatial ? number("volume.max.z") : 0));
+    EXPECT_EQ(lowerOf(p), Vec3(number("volume.min.x"), number("volume.min.y"),
+                               spatial ? number("volume.min.z") : 0));
+    EXPECT_EQ(upperOf(p), Vec3(number("volume.max.x"), number("volume.max.y"),
+                               spatial ? number("volume.max.z") : 0));
     EXPECT_EQ(p.planner.name, "RRTConnect");
     EXPECT_EQ(p.goalThreshold, 1e-6);
   }
@@ -297,17 +300,17 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
 
 /// OMPL.app's sample solutions: states that its checker found free, which a wrong placement would
 /// not leave so.
-std::vector<Transform> posesOf(const std::filesystem::path& file, RigidSpace space) {
+std::vector<Transform> posesOf(const std::filesystem::path& file, bool spatial) {
   std::vector<Transform> poses;
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     std::istringstream words(line);
     std::vector<double> v;
     for (double number; words >> number;) v.push_back(number);
-    if (space == RigidSpace::SE3 && v.size() == 7)
+    if (spatial && v.size() == 7)
       poses.push_back({Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized().toRotationMatrix(),
                        Vec3(v[0], v[1], v[2])});
-    else if (space == RigidSpace::SE2 && v.size() == 3)
+    else if (!spatial && v.size() == 3)
       poses.push_back(
           {Eigen::AngleAxisd(v[2], Vec3::UnitZ()).toRotationMatrix(), Vec3(v[0], v[1], 0)});
   }
@@ -315,12 +318,12 @@ std::vector<Transform> posesOf(const std::filesystem::path& file, RigidSpace spa
 }
 
 Scene sceneOf(const Problem& problem, const Vec3& shift) {
-  std::vector<Body> robot, world;
-  TriangleMesh mesh = problem.robot.at(0).source.mesh;
+  TriangleMesh mesh = problem.bodies.at(0).shapes.at(0).mesh->mesh;
   for (Vec3& vertex : mesh.vertices) vertex += shift;
-  robot.emplace_back("robot", std::move(mesh));
-  world.emplace_back("world", problem.world.at(0).source.mesh);
-  return Scene(std::move(robot), std::move(world));
+  std::vector<Scene::Placed> bodies;
+  bodies.push_back({Body("robot", std::move(mesh)), 1});
+  bodies.push_back({Body("world", problem.bodies.at(1).shapes.at(0).mesh->mesh), 0});
+  return Scene(std::move(bodies), {{0, 1}});
 }
 
 TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
@@ -337,15 +340,16 @@ TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
         Sample{"3D/cubicles", 211, 122}}) {
     SCOPED_TRACE(sample.name);
     const Problem p = readProblem(*folder / (std::string(sample.name) + ".cfg"));
-    const auto poses = posesOf(*folder / (std::string(sample.name) + ".path"), p.space);
+    const auto poses = posesOf(*folder / (std::string(sample.name) + ".path"), !isPlanar(p));
     EXPECT_EQ(poses.size(), sample.states);
-    const Vec3 centre = readOmplAppMesh(p.robot[0].file).vertexAverage;
+    const Vec3 centre = readOmplAppMesh(p.bodies[0].shapes[0].file).vertexAverage;
     const Scene scene = sceneOf(p, Vec3::Zero()), wrong = sceneOf(p, centre);
     QueryContext context;
     int contacts = 0, wrongContacts = 0;
     for (const Transform& pose : poses) {
-      contacts += scene.interference(pose, context).has_value();
-      wrongContacts += wrong.interference(pose, context).has_value();
+      const std::array<Transform, 2> frames{Transform{}, pose};
+      contacts += scene.interference(frames, context).has_value();
+      wrongContacts += wrong.interference(frames, context).has_value();
     }
     EXPECT_EQ(contacts, 0);
     if (sample.contactsIfNotRecentred >= 0) {

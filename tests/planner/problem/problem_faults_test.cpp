@@ -14,8 +14,8 @@ class ProblemFaults : public ProblemTest {
 };
 
 constexpr const char* topKeys =
-    " (known: format, robot, world, start, goal, bounds, margin, tube, planner, sampler, simplify, "
-    "checker, seed)";
+    " (known: format, robot, robots, base, world, allow, start, goal, bounds, margin, tube, "
+    "planner, sampler, simplify, checker, seed)";
 
 TEST_F(ProblemFaults, Files) {
   EXPECT_EQ(complaint(folder_ / "nowhere.yaml"), "nowhere.yaml: no such file");
@@ -70,15 +70,15 @@ TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
                   poses),
       std::string("problem.yaml:2: unknown key \"robto\"; did you mean \"robot\"?") + topKeys +
           "\nproblem.yaml:3: unknown key \"mehs\" in world.a; did you mean \"mesh\"? (known: mesh, "
-          "unit, up, at, "
-          "rpy_deg, rpy, quat_xyzw)");
+          "box, sphere, capsule, cylinder, convex, unit, up, solid, at, rpy_deg, rpy, quat_xyzw, "
+          "shapes)");
 }
 
 TEST_F(ProblemFaults, MissingKeys) {
   EXPECT_EQ(
       complaintOf("seed: 1\n"),
       "problem.yaml: missing key \"format\": the file begins with format: corridor-problem-1\n"
-      "problem.yaml: missing key \"robot\": the robot's file, such as robot: "
+      "problem.yaml: missing one of robot and robots: the robot's file, such as robot: "
       "../../robots/piano/robot.yaml\n"
       "problem.yaml: missing key \"world\": the obstacles, such as world: {table: {mesh: "
       "table.obj, unit: m}}");
@@ -94,7 +94,8 @@ TEST_F(ProblemFaults, MissingKeys) {
             "problem.yaml:3: world: at least one obstacle is needed");
   EXPECT_EQ(
       complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {a: {unit: m}}\n" + poses),
-      "problem.yaml:3: missing key \"mesh\" in world.a: the shape's file, such as mesh: table.obj");
+      "problem.yaml:3: missing one shape in world.a: mesh: FILE, box: [x, y, z], sphere: radius, "
+      "capsule or cylinder: {radius: …, length: …}, or convex: FILE");
 }
 
 TEST_F(ProblemFaults, WrongTypes) {
@@ -229,27 +230,24 @@ TEST_F(ProblemFaults, Bounds) {
 }
 
 TEST_F(ProblemFaults, WhatIsNotSupportedYetSaysWhatIs) {
-  const std::string meshes = "shapes are meshes, as in {mesh: table.obj, unit: m, at: [0, 0, 0]}";
-  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  a: {box: [1, 1, "
-                        "1], at: [0, 0, 0]}\n"
-                        "  b: {mesh: wedge.obj, solid: true}\n" +
-                        poses),
-            "problem.yaml:4: \"box\" in world.a is not supported yet; " + meshes +
-                "\nproblem.yaml:5: \"solid\" in world.b is not supported yet; meshes are surfaces, "
-                "and touching them is contact");
-  EXPECT_EQ(with("base: {at: [0, 0, 0]}\nallow: [[a, b]]\n"),
-            "problem.yaml:8: \"base\" is not supported yet; rigid robots move freely: their place "
-            "is given by start and goal\n"
-            "problem.yaml:9: \"allow\" is not supported yet; every part of the robot is kept from "
-            "every obstacle");
-  EXPECT_EQ(with("tube: {joints: 0.1}\nchecker: {volume: sphere}\n"),
-            "problem.yaml:8: \"joints\" in tube is not supported yet; rigid bodies have position "
-            "(m) and rotation or rotation_deg\n"
-            "problem.yaml:9: \"volume\" in checker is not supported yet; trees are of oriented "
+  EXPECT_EQ(with("checker: {volume: sphere}\n"),
+            "problem.yaml:8: \"volume\" in checker is not supported yet; trees are of oriented "
             "boxes; leave it out");
-  EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\nname: arm\nurdf: arm.urdf\n"),
-            "robot.yaml:3: \"urdf\" is not supported yet; robots are rigid bodies: rigid: SE3 (or "
-            "SE2) and shapes: [{mesh: robot.obj, unit: m}]");
+}
+
+TEST_F(ProblemFaults, KeysThatAreNotForRigidRobots) {
+  EXPECT_EQ(
+      with("base: {at: [0, 0, 0]}\ntube: {joints: 0.1}\n"),
+      "problem.yaml:8: base: a rigid robot moves freely: start and goal say where it is; leave "
+      "it out\n"
+      "problem.yaml:9: tube.joints: rigid bodies have position (m) and rotation or "
+      "rotation_deg");
+  EXPECT_EQ(complaintOf(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0], within: {joints: "
+                               "1}}\n"),
+            "problem.yaml:6: goal.within.joints: there are no joints here; say at and angle");
+  EXPECT_EQ(complaintOfRobot(std::string(robot3) + "srdf: a.srdf\nweights: {joints: {pan: 1}}\n"),
+            "robot.yaml:5: srdf: is for robots with joints (urdf: FILE); this one is rigid\n"
+            "robot.yaml:6: weights.joints: this robot is rigid and has no joints");
 }
 
 TEST_F(ProblemFaults, Meshes) {
@@ -276,15 +274,18 @@ TEST_F(ProblemFaults, Robots) {
       complaintOf("format: corridor-problem-1\nrobot: no.yaml\nworld: {a: {mesh: wedge.obj}}\n" +
                   poses),
       "problem.yaml:2: robot: no.yaml: no such file");
-  EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\n"),
-            "robot.yaml: missing key \"rigid\": SE3 (moves and turns freely) or SE2 (moves in x "
-            "and y, turns about z)\n"
-            "robot.yaml: missing key \"shapes\": the robot's meshes, such as shapes: [{mesh: "
+  EXPECT_EQ(
+      complaintOfRobot("format: corridor-robot-1\n"),
+      "robot.yaml: missing one of rigid and urdf: rigid: SE3 (moves and turns freely), rigid: "
+      "SE2 (moves in x and y, turns about z), or urdf: arm.urdf (has joints)");
+  EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\nrigid: SE3\n"),
+            "robot.yaml: missing key \"shapes\": the robot's shapes, such as shapes: [{mesh: "
             "piano.obj, unit: m}]");
   EXPECT_EQ(
       complaintOfRobot("format: corridor-robot-1\nrigid: SE4\nshapes: []\n"),
       "robot.yaml:2: rigid: one of SE3, SE2 is needed, not \"SE4\"; did you mean \"SE3\"?\n"
-      "robot.yaml:3: shapes: a list of at least one {mesh: FILE} is needed, not an empty one");
+      "robot.yaml:3: shapes: a list of at least one shape, such as [{mesh: FILE}], is needed, not "
+      "an empty one");
   EXPECT_EQ(
       complaintOfRobot(std::string(robot3) + "reference: middle\nweights: {rotation: 0}\n"),
       "robot.yaml:5: reference: a point [x, y, z] or the word centroid is needed, not \"middle\"\n"
@@ -310,7 +311,8 @@ TEST_F(ProblemFaults, AllOfAFileAndOfItsRobotAtOnce) {
           topKeys +
           "\nproblem.yaml:9: seed: a whole number from 0 to 2^64 - 1 is needed, not \"x\"\n"
           "robot.yaml:3: unknown key \"unti\" in shapes[0]; did you mean \"unit\"? (known: "
-          "mesh, unit, up, at, rpy_deg, rpy, quat_xyzw, name)\n"
+          "mesh, box, sphere, capsule, cylinder, convex, unit, up, solid, at, rpy_deg, rpy, "
+          "quat_xyzw, name)\n"
           "robot.yaml:3: shapes[0].mesh: gone.stl: no such file");
 }
 

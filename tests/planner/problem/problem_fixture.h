@@ -7,10 +7,37 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/problem/bounds.h"
 #include "planner/problem/problem.h"
 #include "tests/support/support.h"
 
 namespace corridor::test {
+
+inline const ProblemBody& bodyOf(const Problem& problem, const std::string& name) {
+  for (const ProblemBody& body : problem.bodies)
+    if (body.name == name) return body;
+  throw std::runtime_error("no body " + name);
+}
+/// The mesh of a body, of its shape i.
+inline const TriangleMesh& meshOf(const Problem& problem, const std::string& name,
+                                  std::size_t i = 0) {
+  return bodyOf(problem, name).shapes.at(i).mesh.value().mesh;
+}
+/// Bounds of the robot that moves as a whole.
+inline Vec3 lowerOf(const Problem& problem) {
+  return boundsOf(problem, problem.space.groups().front()).lower;
+}
+inline Vec3 upperOf(const Problem& problem) {
+  return boundsOf(problem, problem.space.groups().front()).upper;
+}
+inline bool isPlanar(const Problem& problem) {
+  return problem.robots.at(0).model.mount == JointType::planar;
+}
+inline Configuration numbers(std::initializer_list<double> list) {
+  Configuration q(static_cast<Eigen::Index>(list.size()));
+  std::copy(list.begin(), list.end(), q.data());
+  return q;
+}
 
 /// Tests that write small problems into a folder of their own, with a robot and a mesh beside them.
 class ProblemTest : public testing::Test {

@@ -37,34 +37,40 @@ planner:
 sampler: gaussian
 simplify: false
 checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, fit: hull}
+allow: [[wedge, stone]]
 seed: 18446744073709551615
 )";
 
 TEST_F(ProblemYaml, EveryKeyIsRead) {
   const Problem p = read(everything);
-  EXPECT_EQ(p.space, RigidSpace::SE3);
-  ASSERT_EQ(p.robot.size(), 1u);
-  EXPECT_EQ(p.robot[0].name, "wedge");
-  EXPECT_EQ(p.robot[0].source.mesh.triangles.size(), 4u);
-  ASSERT_EQ(p.world.size(), 2u);
-  EXPECT_EQ(p.world[0].name, "rock");
-  EXPECT_EQ(p.world[1].name, "stone");
-  EXPECT_EQ(p.start.p, Vec3(5, 0, 0));
+  EXPECT_FALSE(isPlanar(p));
+  ASSERT_EQ(p.robots.size(), 1u);
+  ASSERT_EQ(p.bodies.size(), 3u);
+  EXPECT_EQ(p.bodies[0].name, "wedge");
+  EXPECT_EQ(p.bodies[0].robot, 0u);
+  EXPECT_EQ(meshOf(p, "wedge").triangles.size(), 4u);
+  EXPECT_EQ(p.bodies[1].name, "rock");
+  EXPECT_FALSE(p.bodies[1].robot);
+  EXPECT_EQ(p.bodies[2].name, "stone");
+  EXPECT_EQ(p.start.head(3), Vec3(5, 0, 0));
   const Eigen::Quaterniond q = Eigen::AngleAxisd(30 * degree, Vec3::UnitZ()) *
                                Eigen::AngleAxisd(20 * degree, Vec3::UnitY()) *
                                Eigen::AngleAxisd(10 * degree, Vec3::UnitX());
-  EXPECT_LT((p.start.q.coeffs() - q.coeffs()).norm(), 1e-15);
-  EXPECT_EQ(p.goal.q.coeffs(), Eigen::Vector4d(0, 0.6, 0, 0.8));
+  EXPECT_LT((p.start.tail(4) - q.coeffs()).norm(), 1e-15);
+  ASSERT_EQ(p.goals.size(), 1u);
+  EXPECT_EQ(p.goals[0], numbers({0, 5, 0, 0, 0.6, 0, 0.8}));
   ASSERT_TRUE(p.goalRegion);
   EXPECT_EQ(p.goalRegion->position, 0.05);
   EXPECT_DOUBLE_EQ(p.goalRegion->angle, 5 * degree);
   EXPECT_FALSE(p.goalThreshold);
-  EXPECT_EQ(p.lower, Vec3(-9, -9, -9));
-  EXPECT_EQ(p.upper, Vec3(9, 8, 7));
+  EXPECT_EQ(lowerOf(p), Vec3(-9, -9, -9));
+  EXPECT_EQ(upperOf(p), Vec3(9, 8, 7));
   EXPECT_EQ(p.margin, 0.005);
-  ASSERT_TRUE(p.tube);
-  EXPECT_EQ(p.tube->position, 0.001);
-  EXPECT_DOUBLE_EQ(p.tube->rotation, degree);
+  ASSERT_EQ(p.pairs.size(), 2u);
+  EXPECT_EQ(p.pairs[0].skipped, "");
+  EXPECT_EQ(p.pairs[1].skipped, "allow");
+  EXPECT_EQ(p.tube.head(3), Vec3(0.001, 0.001, 0.001));
+  EXPECT_DOUBLE_EQ(p.tube[3], degree);
   EXPECT_EQ(p.planner.name, "RRT");
   EXPECT_EQ(p.planner.time, 2.5);
   EXPECT_EQ(p.planner.stopAtFirst, false);
@@ -78,7 +84,9 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.checker.fit, "hull");
   EXPECT_EQ(p.seed, 18446744073709551615u);
   for (const std::string& key : problemKeys().at("").legal)
-    EXPECT_TRUE(p.lines.contains(key)) << key << " is missing in this test";
+    if (key != "robots" && key != "base") {
+      EXPECT_TRUE(p.lines.contains(key)) << key << " is missing in this test";
+    }
 }
 
 TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
@@ -90,12 +98,14 @@ TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
   EXPECT_EQ(p.sampler, "uniform");
   EXPECT_EQ(p.checker.edges, "certified");
   EXPECT_EQ(p.margin, 0);
-  EXPECT_FALSE(p.tube);
+  EXPECT_EQ(p.tube.head(3), Vec3::Constant(0x1p-40 * 5)) << "of the longest range";
+  EXPECT_EQ(p.tube[3], 0x1p-40 * 2 * std::numbers::pi);
   EXPECT_TRUE(p.simplify);
   EXPECT_EQ(p.seed, 1u);
-  EXPECT_EQ(p.rotationWeight, 1);  // of the quaternion angle: half a metre per radian of rotation
-  EXPECT_EQ(p.lower, Vec3(0, 0, 0));
-  EXPECT_EQ(p.upper, Vec3(5, 5, 3));
+  // Of the quaternion angle: half a metre per radian of rotation.
+  EXPECT_EQ(p.space.coordinates().at(3).weight, 1);
+  EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
+  EXPECT_EQ(upperOf(p), Vec3(5, 5, 3));
   EXPECT_THAT(p.notes,
               ElementsAre("bounds: those of the world, start and goal, since none are given"));
   EXPECT_EQ(readProblem(folder_).digest, p.digest) << "the folder stands for its problem.yaml";
@@ -114,12 +124,12 @@ TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
 
 TEST_F(ProblemYaml, MeshesArePlacedOnceInDouble) {
   const Problem p = read(everything);
-  const auto& rock = p.world[0].source.mesh.vertices;
+  const auto& rock = meshOf(p, "rock").vertices;
   // (0, 2, 0) in cm, y up: (0, 0, 0.02); a quarter turn about z leaves it; then the shift.
   EXPECT_EQ(rock[2], Vec3(1, 2, 3 + 0.01 * 2));
   // (1, 0, 0) in cm: x goes to y, and not a last bit goes elsewhere.
   EXPECT_EQ(rock[1], Vec3(1, 2 + 0.01, 3));
-  const auto& stone = p.world[1].source.mesh.vertices;
+  const auto& stone = meshOf(p, "stone").vertices;
   EXPECT_EQ(stone[1], Vec3(-1, 0, 0));
   EXPECT_EQ(stone[3], Vec3(0, 0, 3));
 }
@@ -128,20 +138,18 @@ TEST_F(ProblemYaml, PlanarPosesAndWrappedYaws) {
   const std::string bounds = "bounds: {at: [[-9, -9], [9, 9]]}\n";
   Problem p = read(planarHead + "start: {at: [5, 0], yaw_deg: 270}\ngoal: {at: [0, 5], yaw: -1}\n" +
                    bounds);
-  EXPECT_EQ(p.space, RigidSpace::SE2);
-  EXPECT_EQ(p.robot[0].name, "flat") << "an unnamed robot is called by its file";
-  EXPECT_EQ(p.start.p, Vec3(5, 0, 0));
-  EXPECT_EQ(p.startYaw, -90 * degree);
-  EXPECT_EQ(p.goalYaw, -1);
-  EXPECT_DOUBLE_EQ(p.goal.q.z(), std::sin(-0.5));
-  EXPECT_EQ(p.rotationWeight, 0.5);
+  EXPECT_TRUE(isPlanar(p));
+  EXPECT_EQ(p.bodies[0].name, "flat") << "an unnamed robot is called by its file";
+  EXPECT_EQ(p.start, numbers({5, 0, -90 * degree}));
+  EXPECT_EQ(p.goals[0], numbers({0, 5, -1}));
+  EXPECT_EQ(p.space.coordinates().at(2).weight, 0.5);
   EXPECT_THAT(
       p.notes,
       ElementsAre("start.yaw_deg: 270 is read as -90, which is the same but for full turns"));
   p = read(planarHead + "start: {at: [5, 0], yaw_deg: -180}\ngoal: {at: [0, 5], yaw: 10}\n" +
            bounds);
-  EXPECT_EQ(p.startYaw, std::numbers::pi);
-  EXPECT_DOUBLE_EQ(p.goalYaw, 10 - 4 * std::numbers::pi);
+  EXPECT_EQ(p.start[2], std::numbers::pi);
+  EXPECT_DOUBLE_EQ(p.goals[0][2], 10 - 4 * std::numbers::pi);
   EXPECT_EQ(p.notes.size(), 2u);
 }
 
@@ -157,14 +165,16 @@ reference: centroid
 weights: {rotation: 3}
 )");
   const Problem p = read(head + poses);
-  ASSERT_EQ(p.robot.size(), 3u);
-  EXPECT_EQ(p.robot[0].name, "twins/left");
-  EXPECT_EQ(p.robot[1].name, "twins/2");
+  const auto& shapes = bodyOf(p, "twins").shapes;
+  ASSERT_EQ(shapes.size(), 3u);
+  EXPECT_EQ(shapes[0].name, "twins/left");
+  EXPECT_EQ(shapes[1].name, "twins/2");
   // Eight distinct vertices: the repeated shape does not count twice.
   const Vec3 centroid(2.25, 0.5, 0.75);
-  EXPECT_EQ(p.robot[0].source.mesh.vertices[3], Vec3(0, 0, 3) - centroid);
-  EXPECT_EQ(p.robot[2].source.mesh.vertices[0], Vec3(4, 0, 0) - centroid);
-  EXPECT_EQ(p.rotationWeight, 6) << "3 metres per radian of rotation, twice the quaternion angle";
+  EXPECT_EQ(meshOf(p, "twins", 0).vertices[3], Vec3(0, 0, 3) - centroid);
+  EXPECT_EQ(meshOf(p, "twins", 2).vertices[0], Vec3(4, 0, 0) - centroid);
+  EXPECT_EQ(p.space.coordinates().at(3).weight, 6)
+      << "3 metres per radian of rotation, twice the quaternion angle";
   EXPECT_THAT(
       p.notes,
       ElementsAre("reference of twins: the centroid (2.25, 0.5, 0.75) of its distinct vertices"));
@@ -172,9 +182,9 @@ weights: {rotation: 3}
 
 TEST_F(ProblemYaml, ReferencePointIsSubtracted) {
   write("robot.yaml", std::string(robot3) + "reference: [1, 2, 3]\n");
-  EXPECT_EQ(read(head + poses).robot[0].source.mesh.vertices[3], Vec3(-1, -2, 0));
+  EXPECT_EQ(meshOf(read(head + poses), "wedge").vertices[3], Vec3(-1, -2, 0));
   write("flat.yaml", std::string(robot2) + "reference: centroid\n");
-  EXPECT_EQ(read(planarHead + planarPoses).robot[0].source.mesh.vertices[3], Vec3(-0.25, -0.5, 3))
+  EXPECT_EQ(meshOf(read(planarHead + planarPoses), "flat").vertices[3], Vec3(-0.25, -0.5, 3))
       << "a planar robot keeps its height";
 }
 
@@ -189,7 +199,8 @@ TEST_F(ProblemYaml, DigestIsThatOfAllFilesInOrder) {
     return std::string(digest.begin(), digest.end());
   };
   const std::string wedge = hashOf("wedge.obj");
-  EXPECT_EQ(p.digest, sha256Hex(hashOf("problem.yaml") + hashOf("robot.yaml") + wedge + wedge));
+  EXPECT_EQ(p.digest, sha256Hex(hashOf("problem.yaml") + hashOf("robot.yaml") + wedge))
+      << "a file that is named twice counts once";
 }
 
 TEST_F(ProblemYaml, FilesAreRelativeToTheFileThatNamesThem) {
@@ -203,7 +214,7 @@ TEST_F(ProblemYaml, FilesAreRelativeToTheFileThatNamesThem) {
             poses);
   const Problem p = readProblem(folder_ / "problems/p");
   EXPECT_EQ(p.name, "p");
-  EXPECT_EQ(p.robot[0].name, "w");
+  EXPECT_EQ(p.bodies[0].name, "w");
 }
 
 TEST(Placement, RotationsByDegreesAreExactWhereTheyCanBe) {

@@ -1,0 +1,185 @@
+#include "tests/planner/problem/arm_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+/// The text of every message about joints, states and robots, whole.
+class ArmFaults : public ArmTest {
+ protected:
+  std::string start(const std::string& value) const {
+    return complaintOf(armHead + "start: " + value + "\ngoal: ready\n");
+  }
+  std::string goal(const std::string& value) const {
+    return complaintOf(armHead + "start: ready\ngoal: " + value + "\n");
+  }
+  std::string with(const std::string& lines) const {
+    return complaintOf(armHead + armStates + lines);
+  }
+  /// Of robot.yaml with these lines, from line 3.
+  std::string robot(const std::string& lines) const {
+    write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\n" + lines);
+    return complaintOf(armHead +
+                       "start: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 1, lift: 0, "
+                       "slide: 0.02}\n");
+  }
+};
+
+TEST_F(ArmFaults, States) {
+  EXPECT_EQ(start("redy"),
+            "problem.yaml:5: start: there is no state \"redy\"; did you mean \"ready\"? (known: "
+            "ready)");
+  EXPECT_EQ(start("{from: home, pan: 1}"),
+            "problem.yaml:5: start.from: there is no state \"home\" (known: ready)");
+  EXPECT_EQ(start("{pan: 1}"),
+            "problem.yaml:5: start: says nothing of lift; all joints that are planned for need a "
+            "value");
+  EXPECT_EQ(
+      start("{pan: 1, lfit: 0}"),
+      "problem.yaml:5: start.lfit: there is no joint \"lfit\"; did you mean \"lift\"? (known: "
+      "pan, lift, slide)");
+  EXPECT_EQ(start("{pan: 1, lift: 0, slide: 0.02, wrist: 1, follow: 0}"),
+            "problem.yaml:5: start.slide: is held at 0.01, and not planned for (robot.yaml says "
+            "which are)\n"
+            "problem.yaml:5: start.wrist: is fixed\n"
+            "problem.yaml:5: start.follow: follows slide (mimic)");
+  EXPECT_EQ(start("{pan: 1, lift: 3.2}"),
+            "problem.yaml:5: start.lift: 3.2 is outside of its limits, [-3.14159, 3.14159]");
+  EXPECT_EQ(start("{pan: 1, pan_deg: 2, lift: 0}"),
+            "problem.yaml:5: start.pan_deg: say pan (radians) or pan_deg (degrees), not both");
+  EXPECT_EQ(start("{pan: x, lift: 0}"), "problem.yaml:5: start.pan: a number is needed, not \"x\"");
+  EXPECT_EQ(start("{pan: 1, slide_deg: 2, lift: 0}"),
+            "problem.yaml:5: start.slide_deg: slide slides: say slide, in metres");
+  EXPECT_EQ(start("[1, 2]"),
+            "problem.yaml:5: start: a named state or joint values, such as {pan: 0.3, lift_deg: "
+            "20}, are needed, not a list");
+  EXPECT_EQ(complaintOf(armHead + "goal: ready\n"),
+            "problem.yaml: missing key \"start\": where its joints are, such as start: ready");
+}
+
+TEST_F(ArmFaults, Goals) {
+  EXPECT_EQ(goal("[]"),
+            "problem.yaml:6: goal: a list of at least one goal is needed, not an empty "
+            "one");
+  EXPECT_EQ(goal("[ready, redy]"),
+            "problem.yaml:6: goal[1]: there is no state \"redy\"; did you mean \"ready\"? (known: "
+            "ready)");
+  EXPECT_EQ(
+      goal("[{from: ready, within: {joints: 1}}]"),
+      "problem.yaml:6: goal[0].within: several goals share one: goal: {any: […], within: {…}}");
+  EXPECT_EQ(goal("{from: ready, within: {at: 1}}"),
+            "problem.yaml:6: goal.within.at: nothing moves as a whole here; say joints (rad, or m "
+            "where they slide)");
+}
+
+TEST_F(ArmFaults, Bounds) {
+  EXPECT_EQ(with("bounds: {lift: [-4, 1]}\n"),
+            "problem.yaml:7: bounds.lift: -4 is outside of its limits, [-3.14159, 3.14159]");
+  EXPECT_EQ(
+      with("bounds: {lift: [1, -1]}\n"),
+      "problem.yaml:7: bounds.lift: the lower bound first, then the upper one: 1 is not below "
+      "-1");
+  EXPECT_EQ(with("bounds: {slide: [0.02, 0.03]}\n"),
+            "problem.yaml:7: bounds.slide: is not planned for, and needs no bounds");
+  EXPECT_EQ(with("bounds: {pan: [-0.5, 0.5]}\n"),
+            "problem.yaml:6: goal.pan: 1 is outside of its limits, [-0.5, 0.5]");
+}
+
+TEST_F(ArmFaults, AllowAndTube) {
+  EXPECT_EQ(with("allow: [[base, psot]]\n"),
+            "problem.yaml:7: allow: there is no body \"psot\"; did you mean \"post\"?");
+  EXPECT_EQ(with("allow: [[base]]\n"),
+            "problem.yaml:7: allow: two bodies are needed, such as [hand, table], not 1");
+  EXPECT_EQ(
+      with("allow: [base, post]\n"),
+      "problem.yaml:7: allow: a list of names is needed, such as [hand, table], not \"base\"\n"
+      "problem.yaml:7: allow: a list of names is needed, such as [hand, table], not \"post\"");
+  EXPECT_EQ(with("allow: base\n"),
+            "problem.yaml:7: allow: a list of pairs of bodies is needed, such as [[hand, table]], "
+            "not \"base\"");
+  EXPECT_EQ(
+      complaintOf(
+          "format: corridor-problem-1\nrobot: arm.yaml\nworld: {upper: {sphere: 1, at: [0, 0, "
+          "9]}}\n" +
+          armStates + "allow: [[upper, base]]\n"),
+      "problem.yaml:6: allow: \"upper\" is a link and an obstacle; call the obstacle "
+      "otherwise");
+  EXPECT_EQ(with("tube: {position: 0.1}\n"),
+            "problem.yaml:7: tube.position: nothing moves as a whole here; say joints (rad, or m "
+            "where they slide)");
+}
+
+TEST_F(ArmFaults, RobotFiles) {
+  EXPECT_EQ(robot("joints: [pan, lfit, wrist, follow, pan]\n"),
+            "arm.yaml:3: joints: there is no joint \"lfit\"; did you mean \"lift\"? (known: pan, "
+            "lift, slide)\n"
+            "arm.yaml:3: joints: wrist is fixed\n"
+            "arm.yaml:3: joints: follow follows slide (mimic)\n"
+            "arm.yaml:3: joints: pan is named twice");
+  EXPECT_EQ(robot("joints: pan\n"),
+            "arm.yaml:3: joints: a list of names is needed, such as [pan, lift], not \"pan\"");
+  EXPECT_EQ(robot("group: arm\n"),
+            "arm.yaml:3: group: groups are those of an SRDF, and none is given: srdf: FILE, or say "
+            "joints: [NAME, …]");
+  EXPECT_EQ(robot("srdf: arm.srdf\ngroup: amr\n"),
+            "arm.yaml:4: group: there is no group \"amr\" in the SRDF; did you mean \"arm\"? "
+            "(known: arm, nothing)");
+  EXPECT_EQ(robot("srdf: arm.srdf\ngroup: nothing\n"),
+            "arm.yaml:4: group: the group \"nothing\" has no joint that moves by itself");
+  EXPECT_EQ(robot("srdf: arm.srdf\ngroup: arm\njoints: [pan]\n"),
+            "arm.yaml:5: joints: one of group and joints is needed, not both");
+  EXPECT_EQ(robot("joints: [pan, lift]\nhold: {pan: 1, slide: 2, wirst: 0, follow: 1}\n"),
+            "arm.yaml:4: hold.slide: 2 is outside of its limits, [0.01, 0.05]\n"
+            "arm.yaml:4: hold.wirst: there is no joint \"wirst\" (known: pan, lift, slide)\n"
+            "arm.yaml:4: hold.follow: follows slide (mimic)\n"
+            "arm.yaml:4: hold: pan is planned for, and can't be held");
+  EXPECT_EQ(
+      robot("states: {home: {pna: 1}}\nallow: [[base, hand]]\nweights: {joints: {tilt: 1, "
+            "pan: 0}}\n"),
+      "arm.yaml:3: states.home.pna: there is no joint \"pna\"; did you mean \"pan\"? (known: "
+      "pan, lift, slide)\n"
+      "arm.yaml:4: allow: there is no link \"hand\"\n"
+      "arm.yaml:5: weights.joints.tilt: there is no joint \"tilt\" (known: pan, lift, slide)\n"
+      "arm.yaml:5: weights.joints.pan: must be above 0, not 0");
+  EXPECT_EQ(robot("srdf: gone.srdf\npackages: {a: gone}\nreference: centroid\n"),
+            "arm.yaml:3: srdf: gone.srdf: no such file\n"
+            "arm.yaml:4: packages.a: gone: no such folder\n"
+            "arm.yaml:5: reference: is for rigid robots; this one's shapes are in its URDF");
+  EXPECT_EQ(robot("rigid: SE3\n"),
+            "arm.yaml:2: urdf: one of rigid and urdf is needed, and rigid says it already");
+  write("statue.urdf", "<robot name='statue'><link name='stone'/></robot>");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: statue.urdf\nstart: {}\ngoal: {}\n"),
+            "statue.urdf: has no joint that moves by itself");
+}
+
+TEST_F(ArmFaults, SeveralRobots) {
+  const std::string two =
+      "format: corridor-problem-1\nrobots: {left: {file: arm.yaml}, right: {file: arm.yaml}}\n";
+  EXPECT_EQ(complaintOf(two + "start: {left: ready}\ngoal: ready\n"),
+            "problem.yaml:3: missing key \"right\" in start: where this robot is\n"
+            "problem.yaml:4: goal: a map of the robots is needed, {left: …}, not \"ready\"");
+  EXPECT_EQ(
+      complaintOf(two + "start: {left: ready, rihgt: ready}\ngoal: {left: ready, right: redy}\n"),
+      "problem.yaml:3: unknown key \"rihgt\" in start; did you mean \"right\"? (known: left, "
+      "right)\n"
+      "problem.yaml:4: goal.right: there is no state \"redy\"; did you mean \"ready\"? (known: "
+      "ready)");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobots: {left: {file: gone.yaml}, a/b: {base: "
+                        "{at: [0, 0, 0]}}}\nbase: {at: [0, 0, 0]}\nrobot: arm.yaml\n"),
+            "problem.yaml:2: robots: one of robot and robots is needed, and robot says it already");
+  EXPECT_EQ(
+      complaintOf("format: corridor-problem-1\nrobots: {left: {file: gone.yaml}, a/b: {base: "
+                  "{at: [0, 0, 0]}}}\nbase: {at: [0, 0, 0]}\nworld: {a: {sphere: 1}}\n"),
+      "problem.yaml:2: robots.left.file: gone.yaml: no such file\n"
+      "problem.yaml:2: robots.a/b: can't be the name of a robot\n"
+      "problem.yaml:2: missing key \"file\" in robots.a/b: the robot's file, such as file: "
+      "../../robots/arm6/robot.yaml\n"
+      "problem.yaml:3: base: each of several robots has its own: robots: {left: {file: …, base: "
+      "…}}");
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nweights: {rotation: 0}\n");
+  EXPECT_EQ(complaintOf(two + "start: {left: ready}\ngoal: ready\nworld: {a: {sphere: 1}}\n"),
+            "arm.yaml:3: weights.rotation: must be above 0, not 0")
+      << "a file that is named twice is faulted once";
+}
+
+}  // namespace
+}  // namespace corridor::test

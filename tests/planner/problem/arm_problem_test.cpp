@@ -1,0 +1,272 @@
+#include <cmath>
+#include <numbers>
+
+#include "tests/planner/problem/arm_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::IsEmpty;
+constexpr double degree = std::numbers::pi / 180;
+
+class ArmProblem : public ArmTest {};
+
+std::vector<std::string> namesOf(const Problem& p) {
+  std::vector<std::string> names;
+  for (const Coordinate& c : p.space.coordinates()) names.push_back(c.name);
+  return names;
+}
+
+TEST_F(ArmProblem, GroupStatesAndPairs) {
+  const Problem p = read(armHead + armStates);
+  EXPECT_THAT(namesOf(p), ElementsAre("pan", "lift"));
+  const auto& pan = p.space.coordinates()[0];
+  EXPECT_EQ(pan.kind, Coordinate::Kind::circle);
+  const auto& lift = p.space.coordinates()[1];
+  EXPECT_EQ(lift.kind, Coordinate::Kind::line);
+  EXPECT_EQ(lift.lower, -3.14159);
+  EXPECT_TRUE(lift.angular);
+  EXPECT_EQ(p.start, numbers({0, 0.5}));
+  EXPECT_THAT(p.goals, ElementsAre(numbers({1, 0.3})));
+  std::vector<std::string> bodies;
+  for (const ProblemBody& body : p.bodies) bodies.push_back(body.name);
+  EXPECT_THAT(bodies, ElementsAre("base", "upper", "lower", "finger", "thumb", "post"));
+  EXPECT_EQ(p.pairs.size(), 15u) << "each pair once";
+  EXPECT_EQ(skipped(p, "base", "upper"), "adjacent");
+  EXPECT_EQ(skipped(p, "base", "lower"), "SRDF: Never");
+  EXPECT_EQ(skipped(p, "lower", "finger"), "adjacent") << "through a link without shapes";
+  EXPECT_EQ(skipped(p, "finger", "thumb"), "never move against each other") << "slide is held";
+  EXPECT_EQ(skipped(p, "base", "post"), "never move against each other");
+  EXPECT_EQ(skipped(p, "base", "finger"), "");
+  EXPECT_EQ(skipped(p, "upper", "post"), "");
+  EXPECT_THAT(p.notes,
+              Contains("not tested, since they never move against each other: base ~ post"));
+  EXPECT_THAT(p.notes, Contains("joints that are not planned for are held: slide 0.01"))
+      << "the value nearest to 0 within its limits";
+}
+
+TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
+  const Problem p = read(armHead + "base: {at: [1, 2, 3], rpy_deg: [0, 0, 90]}\nstart: ready\n" +
+                         "goal: {pan: 1, lift: 0.3}\n");
+  const auto poses = framePoses(p.tree, numbers({0, 90 * degree}));
+  const auto& robot = p.robots.at(0);
+  EXPECT_LT((poses[robot.linkFrames[0]].t - Vec3(1, 2, 3)).norm(), 1e-15);
+  for (std::size_t l = 0; l < robot.model.links.size(); ++l) {
+    const Vec3 at = poses[robot.linkFrames[l]].t;
+    // Lower's z shows along the base's x, which is the world's y.
+    if (robot.model.links[l].name == "flange") {
+      EXPECT_LT((at - Vec3(1, 2.4, 3.7)).norm(), 1e-12);
+    }
+    if (robot.model.links[l].name == "finger") {
+      EXPECT_LT((at - Vec3(1, 2.4, 3.69)).norm(), 1e-12) << "slide held at 0.01";
+    }
+    if (robot.model.links[l].name == "thumb") {
+      EXPECT_LT((at - Vec3(1, 2.4, 3.71)).norm(), 1e-12) << "follows at -0.01";
+    }
+  }
+}
+
+TEST_F(ArmProblem, AllMovingJointsWithoutAGroup) {
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nweights: {joints: {lift: 2}}\n");
+  const Problem p = read(armHead +
+                         "start: {pan_deg: 30, lift: 0, slide: 0.02}\ngoal: {pan: 0, "
+                         "lift_deg: 90, slide: 0.05}\ntube: {joints: 0.001}\n");
+  EXPECT_THAT(namesOf(p), ElementsAre("pan", "lift", "slide"));
+  EXPECT_EQ(p.start, numbers({30 * degree, 0, 0.02}));
+  EXPECT_EQ(p.goals.at(0), numbers({0, 90 * degree, 0.05}));
+  EXPECT_EQ(p.space.coordinates()[1].weight, 2);
+  EXPECT_EQ(p.space.coordinates()[0].weight, 1);
+  EXPECT_FALSE(p.space.coordinates()[2].angular);
+  EXPECT_EQ(p.tube, numbers({0.001, 0.001, 0.001}));
+  EXPECT_EQ(skipped(p, "finger", "thumb"), "") << "one follows the other the other way";
+  EXPECT_EQ(skipped(p, "base", "lower"), "") << "no SRDF";
+}
+
+TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
+  write("arm.yaml",
+        "format: corridor-robot-1\nurdf: arm.urdf\njoints: [slide, pan]\nhold: {lift_deg: 90}\n"
+        "states: {home: {pan: 1, slide: 0.02, lift: 0}}\nallow: [[finger, thumb]]\n");
+  const Problem p = read(armHead + "start: home\ngoal: {from: home, pan_deg: 10}\n");
+  EXPECT_THAT(namesOf(p), ElementsAre("slide", "pan"));
+  EXPECT_EQ(p.start, numbers({0.02, 1}));
+  EXPECT_EQ(p.goals.at(0), numbers({0.02, 10 * degree}));
+  EXPECT_EQ(skipped(p, "finger", "thumb"), "robot.yaml: allow");
+  EXPECT_THAT(p.notes,
+              Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
+}
+
+TEST_F(ArmProblem, ABareUrdfWillDo) {
+  const Problem p = read(
+      "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
+      "goal: {pan: 1, lift: 0, slide: 0.02}\n");
+  EXPECT_EQ(p.robots.at(0).model.name, "armbot");
+  EXPECT_EQ(p.bodies.size(), 5u) << "and no world";
+}
+
+TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndTold) {
+  const Problem p =
+      read(armHead + "start: {pan: 0, lift: 3.1416}\ngoal: {pan: 4, lift: -3.14159}\n");
+  EXPECT_EQ(p.start, numbers({0, 3.14159}));
+  EXPECT_DOUBLE_EQ(p.goals.at(0)[0], 4 - 2 * std::numbers::pi);
+  EXPECT_EQ(p.goals.at(0)[1], -3.14159) << "limits are inclusive";
+  EXPECT_THAT(p.notes, Contains("start.lift: 3.1416 is read as its limit, 3.14159"));
+  EXPECT_THAT(p.notes, Contains("goal.pan: 4 is read as -2.2831853071795862, which is the same but "
+                                "for full turns"));
+  const Problem d =
+      read(armHead + "start: {pan_deg: -180, lift: 0}\ngoal: {pan_deg: 270, lift: 0}\n");
+  EXPECT_EQ(d.start[0], std::numbers::pi);
+  EXPECT_EQ(d.goals.at(0)[0], -90 * degree);
+  EXPECT_THAT(d.notes, Contains("goal.pan_deg: 270 is read as -90, which is the same but for full "
+                                "turns"));
+}
+
+TEST_F(ArmProblem, SeveralGoalsAndARegion) {
+  Problem p = read(armHead +
+                   "start: ready\ngoal: {any: [ready, {pan: 1, lift: 0}], within: {joints_deg: "
+                   "2}}\n");
+  EXPECT_THAT(p.goals, ElementsAre(numbers({0, 0.5}), numbers({1, 0})));
+  ASSERT_TRUE(p.goalRegion);
+  EXPECT_DOUBLE_EQ(p.goalRegion->joint, 2 * degree);
+  p = read(armHead + "start: ready\ngoal: [ready, {pan: 1, lift: 0}]\n");
+  EXPECT_EQ(p.goals.size(), 2u);
+  EXPECT_FALSE(p.goalRegion);
+  p = read(armHead + "start: ready\ngoal: {from: ready, within: {joints: 0.1}}\n");
+  EXPECT_THAT(p.goals, ElementsAre(numbers({0, 0.5})));
+  EXPECT_EQ(p.goalRegion->joint, 0.1);
+  p = read(head + "start: {at: [5, 0, 0]}\ngoal: [{at: [0, 5, 0]}, {at: [1, 5, 0]}]\n");
+  EXPECT_EQ(p.goals.size(), 2u) << "of a rigid robot, too";
+}
+
+TEST_F(ArmProblem, BoundsNarrowLimits) {
+  const Problem p = read(armHead + armStates + "bounds: {pan: [-1, 2], lift_deg: [-90, 90]}\n");
+  const auto& pan = p.space.coordinates()[0];
+  EXPECT_EQ(pan.kind, Coordinate::Kind::line) << "with bounds, it doesn't go round";
+  EXPECT_EQ(pan.upper, 2);
+  EXPECT_EQ(p.space.coordinates()[1].lower, -90 * degree);
+}
+
+TEST_F(ArmProblem, AllowListsMayUseTheRobotsName) {
+  Problem p =
+      read(armHead + armStates + "allow: [[arm7/base, post], [lower, post], [flange, post]]\n");
+  EXPECT_EQ(skipped(p, "base", "post"), "allow");
+  EXPECT_EQ(skipped(p, "lower", "post"), "allow");
+  EXPECT_EQ(skipped(p, "upper", "post"), "");
+}
+
+TEST_F(ArmProblem, TwoRobotsAndTheirPairs) {
+  const Problem p = read(
+      "format: corridor-problem-1\nrobots:\n  left: {file: arm.yaml}\n  right: {file: arm.yaml, "
+      "base: {at: [1, 0, 0]}}\n  block: {file: robot.yaml}\nworld: {post: {sphere: 0.1, at: [0, 0, "
+      "3]}}\n"
+      "start: {left: ready, right: {pan: 0, lift: 1}, block: {at: [9, 0, 0]}}\n"
+      "goal: {left: ready, right: {pan: 2, lift: 1}, block: {at: [9, 0, 1]}, within: {joints: 0.1, "
+      "at: "
+      "0.2}}\nbounds: {left: {pan: [-1, 1]}}\nallow: [[left/upper, right/upper]]\n");
+  EXPECT_THAT(namesOf(p), ElementsAre("left/pan", "left/lift", "right/pan", "right/lift", "block/x",
+                                      "block/y", "block/z", "block/rotation"));
+  EXPECT_EQ(p.start, numbers({0, 0.5, 0, 1, 9, 0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(p.space.groups().size(), 2u) << "all joints, and the block";
+  EXPECT_EQ(skipped(p, "left/upper", "right/upper"), "allow");
+  EXPECT_EQ(skipped(p, "left/upper", "right/lower"), "");
+  EXPECT_EQ(skipped(p, "left/base", "right/base"), "never move against each other");
+  EXPECT_EQ(skipped(p, "left/base", "left/lower"), "SRDF: Never");
+  EXPECT_EQ(skipped(p, "right/upper", "block"), "");
+  EXPECT_EQ(p.goalRegion->position, 0.2);
+  const auto poses = framePoses(p.tree, p.start);
+  EXPECT_EQ(poses[p.robots[1].linkFrames[0]].t, Vec3(1, 0, 0));
+  EXPECT_EQ(poses[p.robots[2].linkFrames[0]].t, Vec3(9, 0, 0));
+  EXPECT_THAT(p.notes, Contains("bounds of block: those of the world, start and goal, since none "
+                                "are given"));
+}
+
+TEST_F(ArmProblem, PlanarAndFloatingJoints) {
+  write("mobile.urdf",
+        "<robot name='mobile'>\n<link name='world'/>\n" +
+            link("cart", "<box size='0.5 0.5 0.2'/>", 0.1) +
+            link("kite", "<sphere radius='0.1'/>", 0) +
+            joint("drive", "planar", "world", "cart", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
+            joint("line", "floating", "cart", "kite", "<origin xyz='0 0 2'/>") + "</robot>\n");
+  write("mobile.yaml", "format: corridor-robot-1\nurdf: mobile.urdf\nweights: {rotation: 0.3}\n");
+  const std::string mobile =
+      "format: corridor-problem-1\nrobot: mobile.yaml\nworld: {post: {sphere: 0.1}}\n"
+      "start: {drive: {at: [1, 2], yaw_deg: 90}, line: {at: [0, 0, 1]}}\n"
+      "goal: {drive: {at: [2, 2]}, line: {at: [1, 0, 1], rpy_deg: [0, 0, 180]}}\n";
+  const Problem p =
+      read(mobile +
+           "bounds: {drive: {at: [[0, 0], [3, 3]]}, line: {at: [[-1, -1, -1], [1, 1, 1]]}}\n"
+           "tube: {position: 0.01, rotation: 0.02}\n");
+  EXPECT_THAT(namesOf(p), ElementsAre("drive/x", "drive/y", "drive/yaw", "line/x", "line/y",
+                                      "line/z", "line/rotation"));
+  EXPECT_EQ(p.space.coordinates()[2].weight, 0.3);
+  EXPECT_EQ(p.space.coordinates()[6].weight, 0.6);
+  EXPECT_EQ(p.tube, numbers({0.01, 0.01, 0.02, 0.01, 0.01, 0.01, 0.02, 0, 0, 0}));
+  EXPECT_EQ(p.space.coordinates()[0].upper, 3);
+  const auto poses = framePoses(p.tree, p.start);
+  const auto& frames = p.robots[0].linkFrames;
+  EXPECT_LT((poses[frames[1]].t - Vec3(1, 2, 1)).norm(), 1e-15);
+  EXPECT_LT((poses[frames[1]].m.col(0) - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_LT((poses[frames[2]].t - Vec3(1, 2, 4)).norm(), 1e-15);
+  EXPECT_EQ(
+      complaintOf(mobile),
+      "problem.yaml: missing bounds of the joint drive: bounds: {drive: {at: [[x, y], [x, y]]}} is "
+      "needed, since it has no limits\n"
+      "problem.yaml: missing bounds of the joint line: bounds: {line: {at: [[x, y, z], [x, y, "
+      "z]]}} is needed, since it has no limits");
+  EXPECT_EQ(
+      complaintOf(mobile + "bounds: {drive: {at: [[0, 0], [1, 1]]}, line: {at: [[-1, -1, -1], "
+                           "[1, 1, 1]]}}\n"),
+      "problem.yaml:4: start.drive: outside of the bounds: y = 2 is not in [0, 1]\n"
+      "problem.yaml:5: goal.drive: outside of the bounds: x = 2 is not in [0, 1]");
+}
+
+TEST_F(ArmProblem, APlanarJointMovesInThePlaneOfItsAxis) {
+  write("wall.urdf",
+        "<robot name='wall'>\n<link name='world'/>\n" + link("disc", "<sphere radius='0.1'/>", 0) +
+            joint("drift", "planar", "world", "disc", "<axis xyz='0 -1 0'/>") + "</robot>\n");
+  const Problem p = read(
+      "format: corridor-problem-1\nrobot: wall.urdf\nworld: {post: {sphere: 0.1}}\nbounds: {drift: "
+      "{at: "
+      "[[-3, -3], [3, 3]]}}\nstart: {drift: {at: [1, 2], yaw_deg: 90}}\ngoal: {drift: {at: [0, "
+      "0]}}\n");
+  const Transform X = framePoses(p.tree, p.start)[p.robots[0].linkFrames[1]];
+  EXPECT_NEAR(X.t.y(), 0, 1e-15);
+  EXPECT_NEAR(X.t.norm(), std::sqrt(5.0), 1e-15);
+  EXPECT_LT((X.m * Vec3::UnitY() - Vec3::UnitY()).norm(), 1e-15);
+  EXPECT_LT((X.m * Vec3::UnitX() - Vec3::UnitZ()).norm(), 1e-15) << "90 degrees about -y";
+}
+
+TEST_F(ArmProblem, AContinuousJointThatIsFollowedByHalfDoesNotGoRound) {
+  write("gear.urdf", "<robot name='gear'>\n<link name='base'/>\n" +
+                         link("wheel", "<sphere radius='0.1'/>", 1) +
+                         link("disc", "<sphere radius='0.1'/>", 2) +
+                         joint("spin", "continuous", "base", "wheel", "<axis xyz='0 0 1'/>") +
+                         joint("slow", "continuous", "base", "disc",
+                               "<axis xyz='0 0 1'/><mimic joint='spin' multiplier='0.5'/>") +
+                         "</robot>\n");
+  const Problem p =
+      read("format: corridor-problem-1\nrobot: gear.urdf\nstart: {spin: 0}\ngoal: {spin: 3}\n");
+  EXPECT_EQ(p.space.coordinates().at(0).kind, Coordinate::Kind::line);
+  EXPECT_THAT(p.notes, Contains("spin: goes from -pi to pi only, since a joint that follows it "
+                                "(mimic) would jump where it wraps"));
+}
+
+TEST_F(ArmProblem, AProblemWithoutPairsSaysSo) {
+  const Problem p = read(
+      "format: corridor-problem-1\nrobot: arm.yaml\nstart: ready\ngoal: ready\nallow: [[base, "
+      "finger], [base, thumb], [upper, finger], [upper, thumb]]\n");
+  EXPECT_THAT(p.notes,
+              Contains("no pair of bodies is tested: nothing can collide in this problem"));
+}
+
+TEST_F(ArmProblem, DigestAndFilesInTheOrderOfNaming) {
+  const Problem p = read(armHead + armStates);
+  std::vector<std::string> names;
+  for (const auto& file : p.files) names.push_back(file.filename().string());
+  EXPECT_THAT(names, ElementsAre("problem.yaml", "arm.yaml", "arm.urdf", "arm.srdf"));
+  EXPECT_EQ(p.digest, digestOfFiles(p.files));
+}
+
+}  // namespace
+}  // namespace corridor::test

@@ -1,0 +1,90 @@
+#include "tests/planner/problem/arm_fixture.h"
+#include "tests/support/support.h"
+
+namespace corridor::test {
+namespace {
+
+class MbmJson : public ArmTest {
+ protected:
+  std::filesystem::path set(const std::string& problems,
+                            const std::string& joints = "\"lift\", \"pan\"") const {
+    return write("sets/box.json",
+                 "{\"format\": \"mbm-scene-1\", \"urdf\": \"arm.urdf\", \"srdf\": "
+                 "\"arm.srdf\",\n\"joint_names\": [" +
+                     joints + "],\n\"problems\": [" + problems + "]}");
+  }
+  std::string complaintOfSet(const std::filesystem::path& file, const std::string& index) const {
+    return complaint(file.string() + index);
+  }
+  inline static const std::string two =
+      R"({"index": 2, "start": [0, 4], "goals": [[3.1416, 0]], "fixed_joints": {"ghost": 1},
+"objects": [
+{"id": "can", "type": "cylinder", "position": [1, 0, 0], "orientation_xyzw": [0, 0, 0, 1], "length": 2, "radius": 0.1},
+{"id": "base", "type": "box", "position": [3, 0, 0], "orientation_xyzw": [0, 0, 1, 0], "size": [1, 1, 1]},
+{"id": "ball", "type": "sphere", "position": [3, 3, 0], "orientation_xyzw": [0, 0, 1, 0], "radius": 1}]})";
+};
+
+TEST_F(MbmJson, ReadsTheProblemOfAnIndex) {
+  const Problem p = readProblem(set(two).string() + "#2");
+  EXPECT_EQ(p.name, "box#2");
+  EXPECT_EQ(p.planner.name, "RRTConnect");
+  EXPECT_EQ(p.space.coordinates().at(0).name, "lift") << "in the order of joint_names";
+  EXPECT_DOUBLE_EQ(p.start[1], 4 - 2 * 3.14159265358979323846);
+  EXPECT_EQ(p.goals.at(0), numbers({3.14159, 0}));
+  ASSERT_EQ(p.bodies.size(), 8u);
+  EXPECT_EQ(p.bodies[5].name, "can");
+  EXPECT_TRUE(p.bodies[5].shapes[0].part->flatEnds);
+  EXPECT_EQ(p.bodies[6].name, "base");
+  EXPECT_EQ(skipped(p, "upper", "can"), "");
+  EXPECT_EQ(p.digest,
+            digestOfFiles({folder_ / "sets/box.json", folder_ / "arm.urdf", folder_ / "arm.srdf"}));
+}
+
+TEST_F(MbmJson, Faults) {
+  EXPECT_EQ(complaintOfSet(set(two), ""),
+            "sets/box.json: name one of its problems, as in box.json#2; there are 2");
+  EXPECT_EQ(complaintOfSet(set(two), "#7"), "sets/box.json: has no problem #7; there are 2");
+  EXPECT_EQ(complaintOfSet(set("{\"index\": 1}, {\"index\": 2}, {\"index\": 3}"), "#0"),
+            "sets/box.json: has no problem #0; there are 1 to 3");
+  EXPECT_EQ(complaintOfSet(set("{\"index\": 1}"), "#1"), "sets/box.json: missing key \"objects\"");
+  EXPECT_EQ(complaintOfSet(set(two, "\"lift\", \"pen\", \"wrist\""), "#2"),
+            "sets/box.json: joint_names: there is no joint \"pen\"; did you mean \"pan\"? (known: "
+            "pan, lift, slide)\nsets/box.json: joint_names: wrist is fixed");
+  EXPECT_EQ(complaintOfSet(set(two, "\"lift\""), "#2"),
+            "sets/box.json: start: a list of 1 numbers is needed");
+  EXPECT_EQ(
+      complaintOfSet(set(R"({"index": 1, "start": [9, 0], "goals": [], "objects": []})"), "#1"),
+      "sets/box.json: start.lift: 9 is outside of its limits, [-3.14159, 3.14159]\n"
+      "sets/box.json: goals: at least one is needed");
+  EXPECT_EQ(
+      complaintOfSet(
+          set(R"({"index": 1, "start": [0, 0], "goals": [[0, 0]], "objects": [{"id": "a", "type": "torus"}]})"),
+          "#1"),
+      "sets/box.json: a.type: one of box, cylinder, sphere is needed, not \"torus\"");
+  EXPECT_EQ(complaint(write("x.json", "{\n\"a\": ,\n}")),
+            "x.json:2: is not JSON, or ends too early");
+  EXPECT_EQ(complaint(write("x.json", "[]")),
+            "x.json: a set of problems (format: mbm-scene-1) is needed");
+  EXPECT_EQ(complaint(folder_ / "gone.json"), "gone.json: no such file");
+  std::filesystem::remove(folder_ / "arm.srdf");
+  EXPECT_EQ(complaintOfSet(set(two), "#2"),
+            "sets/box.json: srdf: arm.srdf is in no folder above this file");
+}
+
+TEST(MbmSets, AllAreRead) {
+  const auto data = dataFolder();
+  if (!data) GTEST_SKIP() << "CORRIDOR_DATA is not set to the folder of the development data";
+  int read = 0;
+  for (const char* robot : {"panda", "ur5"})
+    for (const auto& entry : std::filesystem::directory_iterator(*data / "mbm" / robot))
+      for (const char* index : {"#1", "#50"}) {
+        const Problem p = readProblem(entry.path().string() + index);
+        EXPECT_EQ(p.start.size(), robot == std::string("panda") ? 7 : 6);
+        EXPECT_TRUE(p.space.inBounds(p.start) && p.space.inBounds(p.goals.at(0)));
+        ++read;
+      }
+  EXPECT_EQ(read, 28);
+}
+
+}  // namespace
+}  // namespace corridor::test
