@@ -1,0 +1,77 @@
+// Forward kinematics of the shared data's robots, from URDF to frames, against the reference.
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "planner/problem/assembly.h"
+#include "planner/problem/urdf_robot.h"
+#include "planner/robot/edge_motion.h"
+#include "planner/robot/urdf_file.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+/// Metres, and of quaternions; the reference has 12 digits.
+constexpr double kTolerance = 1e-9;
+
+void expectPose(const Transform& X, const std::vector<double>& expected, const std::string& link) {
+  const Vec3 p(expected[0], expected[1], expected[2]);
+  const Eigen::Quaterniond q(expected[6], expected[3], expected[4], expected[5]);
+  EXPECT_LT((X.t - p).norm(), kTolerance) << link;
+  const Eigen::Vector4d is = Eigen::Quaterniond(X.m).coeffs(), should = q.coeffs();
+  EXPECT_LT(std::min((is - should).norm(), (is + should).norm()), kTolerance) << link;
+}
+
+TEST(SharedKinematics, EveryLinkIsWhereTheReferenceHasIt) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  const std::filesystem::path robots = *data / "robots";
+  const auto reference = nlohmann::json::parse(std::ifstream(robots / "fk_reference.json"));
+  std::size_t poses = 0;
+  for (const auto& robot : reference.at("robots")) {
+    const std::string file = robot.at("urdf");
+    SCOPED_TRACE(file);
+    std::vector<Fault> faults;
+    RobotSetup setup;
+    const auto model =
+        readUrdf(robots / file, {{"example-robot-data", robots / "example-robot-data"}}, faults,
+                 setup.files);
+    ASSERT_TRUE(model) << InputError(faults).what();
+    setup.robot.model = *model;
+    std::vector<std::size_t> moving;
+    for (std::size_t j = 0; j < model->joints.size(); ++j)
+      if (movesItself(model->joints[j])) moving.push_back(j);
+    chooseJoints(setup, moving);
+    Problem problem;
+    std::vector<RobotSetup> setups{setup};
+    assembleRobots(setups, problem);
+    const auto& frames = problem.robots.front().linkFrames;
+    const std::size_t root = frames[model->root];
+    std::vector<Scene::FramePair> pairs;
+    for (const std::size_t frame : frames) pairs.push_back({root, frame});
+    const auto size = static_cast<Eigen::Index>(problem.space.size());
+    EdgeMotion motion(problem.tree, problem.space, pairs, Configuration::Zero(size));
+    Configuration last = Configuration::Zero(size);
+    for (const auto& state : robot.at("states")) {
+      Configuration q(size);
+      for (const Coordinate& c : problem.space.coordinates())
+        q[static_cast<Eigen::Index>(c.first)] = state.at("q").at(c.name);
+      const std::vector<Transform> placed = framePoses(problem.tree, q);
+      motion.set(last, q);
+      last = q;
+      for (std::size_t link = 0; link < frames.size(); ++link) {
+        const std::string& name = model->links[link].name;
+        const std::vector<double> expected = state.at("links").at(name);
+        expectPose(rigidInverse(placed[root]) * placed[frames[link]], expected, name);
+        expectPose(motion.window(link, 1, 0).X_AB, expected, name);
+        ++poses;
+      }
+    }
+  }
+  EXPECT_GT(poses, 200u);
+}
+
+}  // namespace
+}  // namespace corridor
