@@ -17,12 +17,12 @@ std::optional<std::filesystem::path> omplAppFolder();
 /// CORRIDOR_STRESS).
 bool stressAsked();
 
-/// What limits of time are multiplied by: under AddressSanitizer searches take up to 15 times as
-/// long.
+/// About how much slower this build is than a release: limits of time are multiplied, and long
+/// counts divided by it.
 #ifdef __SANITIZE_ADDRESS__
-constexpr double kPatience = 20;
+constexpr int kSlowdown = 20;
 #else
-constexpr double kPatience = 1;
+constexpr int kSlowdown = 1;
 #endif
 
 /// A new, empty folder for files of one test, which removes it at its end.

@@ -99,7 +99,7 @@ struct Grazing {
 
 TEST(CertifyMotion, GrazingByConstruction) {
   std::mt19937_64 random(test::testSeed(8));
-  const int count = test::stressAsked() ? 100'000 : 10'000;
+  const int count = (test::stressAsked() ? 100'000 : 10'000) / test::kSlowdown;
   int apart = 0, together = 0, falseFree = 0, falseContact = 0, notFree = 0, notFound = 0;
   for (int n = 0; apart + together < count; ++n) {
     const double size = std::pow(10.0, n % 5 - 2);

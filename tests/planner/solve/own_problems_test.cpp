@@ -24,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(All, OwnProblems,
 TEST_P(OwnProblems, SolvedByItsDefaultsCertifiedAndVerified) {
   Problem problem = ownProblem(GetParam());
   EXPECT_LE(problem.planner.time, 60);
-  problem.planner.time *= test::kPatience;
+  problem.planner.time *= test::kSlowdown;
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_TRUE(report.certified);
@@ -51,7 +51,7 @@ TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
     return report.path.empty() ? PathVerdict::undecided
                                : verifySolution(problem, makeSolution(problem, report)).verdict;
   };
-  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+  for (std::uint64_t seed = 1; seed <= 100 / test::kSlowdown; ++seed)
     ASSERT_EQ(verdict(seed), PathVerdict::proved) << "certified, seed " << seed;
   problem.checker.edges = "discrete";
   int refuted = 0;
