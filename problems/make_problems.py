@@ -197,6 +197,26 @@ def make_hook_maze():
     write(prism(outline[::-1], 0.05, 0.25), ROBOTS / 'hook/hook.obj')
 
 
+# What robots with joints work in (the robots: robots/make_robots.py)
+
+def make_robot_worlds():
+    boards = [((0, -0.52, z), (0.34, 0.52, z + 0.02)) for z in (0.40, 0.78, 1.13, 1.48)]
+    sides = [((0, y, 0), (0.34, y + 0.02, 1.50)) for y in (-0.52, -0.01, 0.50)]
+    back = [((0.33, -0.52, 0.40), (0.34, 0.52, 1.50))]
+    write(carve(boards + sides + back), PROBLEMS / 'arm_at_shelf/shelf.stl', scale=1000)
+
+    size, wall, height = (0.30, 0.22), 0.008, 0.09
+    x, y = size[0] / 2, size[1] / 2
+    write(carve([((-x, -y, 0), (x, y, height))], [((-x + wall, -y + wall, wall), (x - wall, y - wall, height))]), PROBLEMS / 'two_arms/bin.obj')
+
+    door, high = 0.45, 1.1
+    walls = [((-3.1, -2.1, 0), (-3, 2.1, high)), ((3, -2.1, 0), (3.1, 2.1, high)), ((-3.1, -2.1, 0), (3.1, -2, high)), ((-3.1, 2, 0), (3.1, 2.1, high)),
+             ((-0.05, -2, 0), (0.05, 2, high))]
+    write(carve(walls, [((-0.05, -0.3 - door, 0), (0.05, -0.3 + door, high))]), PROBLEMS / 'rover_door/walls.obj')
+    legs = [((sx * 0.45 - 0.03, sy * 0.7 - 0.03, 0), (sx * 0.45 + 0.03, sy * 0.7 + 0.03, 0.55)) for sx in (-1, 1) for sy in (-1, 1)]
+    write(carve(legs + [((-0.5, -0.75, 0.55), (0.5, 0.75, 0.59))]), PROBLEMS / 'rover_door/table.obj')
+
+
 if __name__ == '__main__':
     make_piano()
     make_bug_trap()
@@ -205,3 +225,4 @@ if __name__ == '__main__':
     make_thin_plate()
     make_rod_hole()
     make_hook_maze()
+    make_robot_worlds()

@@ -24,7 +24,7 @@ struct Nearest {
 
 /// Weights of the point of least norm of the plane through the chosen corners, where all are
 /// positive: then it is the nearest of their hull.
-void trySubset(const std::vector<Corner>& corners, unsigned subset, Nearest& best) {
+void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, Nearest& best) {
   std::array<std::size_t, 4> chosen{};
   int count = 0;
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -60,6 +60,9 @@ void trySubset(const std::vector<Corner>& corners, unsigned subset, Nearest& bes
   for (std::size_t i = 0; i < corners.size(); ++i)
     point += found.weights[i] * corners[i].difference();
   found.square = point.squaredNorm();
+  // Four corners around the origin: it is one of the hull. Of a hull that is all but flat nothing
+  // but rounding may say so; any combination is a point of the hull, but not the nearest then.
+  if (count == 4 && !(std::sqrt(found.square) <= kFine * size)) return;
   if (found.square < best.square) best = found;
 }
 
@@ -108,7 +111,8 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b) {
     const Corner corner{a.farthest(v), b.farthest(-v)};
     const Real slab = v.dot(corner.difference()) / length;
     lower = std::max(lower, slab);
-    if (length - lower <= kFine * (corner.onA.norm() + corner.onB.norm())) break;
+    const Real size = corner.onA.norm() + corner.onB.norm();
+    if (length - lower <= kFine * size) break;
     if (std::any_of(corners.begin(), corners.end(), [&](const Corner& old) {
           return old.onA == corner.onA && old.onB == corner.onB;
         }))
@@ -116,7 +120,7 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b) {
     corners.push_back(corner);
     Nearest best;
     for (unsigned subset = 1; subset < 1u << corners.size(); ++subset)
-      trySubset(corners, subset, best);
+      trySubset(corners, subset, size, best);
     if (!(best.square < length * length)) break;  // rounding has the last word
     std::vector<Corner> kept;
     onA = onB = RealVec::Zero();
