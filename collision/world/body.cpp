@@ -24,9 +24,10 @@ struct Body::Impl {
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
        center = Vec3::Zero();
   double radius = 0, sphereRadius = 0;
-  mutable std::once_flag once;
+  mutable std::once_flag once, componentsOnce;
   mutable std::atomic<bool> built = false;
   mutable std::optional<ObbTree> tree;
+  mutable MeshComponents components;
 
   /// Bounds of balls of radius `grow` about the points that `each` goes through, whose boxes are
   /// `reach` farther than the points along the axes.
@@ -49,11 +50,14 @@ Body::Body(std::string name, TriangleMesh mesh, bool solid, const ObbTreeParams&
   if (mesh.triangles.empty()) throw std::invalid_argument("body " + name + " has no triangle");
   if (const auto complaint = checkMesh(mesh))
     throw std::invalid_argument("body " + name + ": " + *complaint);
-  if (solid && !inspectMesh(mesh).watertight)
-    throw std::invalid_argument("body " + name + " is not watertight, so it can't be solid");
   impl_->name = std::move(name);
   impl_->mesh = std::move(mesh);
   impl_->solid = solid;
+  if (solid)
+    for (const MeshComponents::Component& component : components().components)
+      if (!component.watertight)
+        throw std::invalid_argument("body " + impl_->name +
+                                    " is not watertight: it can't be solid");
   impl_->params = params;
   impl_->bound(
       [&](auto take) {
@@ -118,6 +122,12 @@ const Vec3& Body::lower() const {
 }
 const Vec3& Body::upper() const {
   return impl_->upper;
+}
+
+const MeshComponents& Body::components() const {
+  std::call_once(impl_->componentsOnce,
+                 [this] { impl_->components = findComponents(impl_->mesh); });
+  return impl_->components;
 }
 
 const ObbTree& Body::tree() const {

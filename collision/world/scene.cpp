@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
+#include "collision/queries/containment.h"
 #include "collision/queries/interference.h"
 
 namespace corridor {
@@ -52,9 +53,22 @@ bool mayMeet(const Body& a, const Transform& X_WA, const Body& b, const Transfor
   return mayMeet(a, b, still, 0);
 }
 
-/// Is one of two bodies whose surfaces don't touch in the other, which is solid?
-bool insideEachOther(const Body&, const Transform&, const Body&, const Transform&, QueryContext&) {
-  return false;  // collision/queries/containment.h
+/// Is a component of `inner` inside `solid`, surfaces that don't touch? A convex part has looked at
+/// what is inside it when it looked for contacts.
+std::optional<TrianglePair> inside(const Body& solid, const Transform& X_WS, const Body& inner,
+                                   const Transform& X_WI, QueryContext& context) {
+  if (!solid.solid() || solid.part()) return std::nullopt;
+  const MeshBody around{solid.tree(), solid.components()};
+  if (inner.part()) return enclosed(around, X_WS, *inner.part(), X_WI, context);
+  return enclosed(around, X_WS, {inner.tree(), inner.components()}, X_WI, context);
+}
+
+/// Of two bodies whose surfaces don't touch: is one in the other?
+std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
+                                            const Transform& X_WB, QueryContext& context) {
+  if (const auto hit = inside(a, X_WA, b, X_WB, context)) return hit;
+  if (const auto hit = inside(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
+  return std::nullopt;
 }
 
 /// The one door for numbers of motion queries: a negative margin, say, would prove too much.
@@ -122,7 +136,8 @@ std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
     if (!mayMeet(a.body, X_WA, b.body, X_WB)) continue;
     if (const auto hit = corridor::interference(a.body.tree(), X_WA, b.body.tree(), X_WB, context))
       return Contact{pair.a, pair.b, hit->a, hit->b};
-    if (insideEachOther(a.body, X_WA, b.body, X_WB, context)) return Contact{pair.a, pair.b, 0, 0};
+    if (const auto hit = insideEachOther(a.body, X_WA, b.body, X_WB, context))
+      return Contact{pair.a, pair.b, hit->a, hit->b};
   }
   return std::nullopt;
 }
@@ -150,12 +165,13 @@ MotionResult Scene::certifyPairs(std::span<const std::size_t> pairs, MotionSourc
   for (const MotionPair& pair : near) {
     const Body &a = bodies_[pair.bodyA].body, &b = bodies_[pair.bodyB].body;
     if (!a.solid() && !b.solid()) continue;
-    if (!insideEachOther(a, {}, b, motion.window(pair.motion, 0, 0).X_AB, context)) continue;
+    const auto hit = insideEachOther(a, {}, b, motion.window(pair.motion, 0, 0).X_AB, context);
+    if (!hit) continue;
     context.counters.undecided -= result.verdict == MotionVerdict::undecided;
     result = {};
     result.verdict = MotionVerdict::contact;
     result.certifiedUntil = result.contactTime = 0;
-    result.pair = Contact{pair.bodyA, pair.bodyB, 0, 0};
+    result.pair = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
     break;
   }
   return result;

@@ -9,6 +9,7 @@
 
 #include "collision/core/query_context.h"
 #include "collision/geometry/convex_part.h"
+#include "collision/geometry/mesh_components.h"
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/motion/certify_motion.h"
@@ -30,10 +31,11 @@ class Body {
   Body& operator=(Body&&) noexcept;
 
   const std::string& name() const;
-  const TriangleMesh& mesh() const;  ///< empty for a primitive
-  const ConvexPart* part() const;    ///< null for a mesh
-  bool solid() const;                ///< true for primitives
-  const ObbTree& tree() const;       ///< builds it if nobody has
+  const TriangleMesh& mesh() const;          ///< empty for a primitive
+  const ConvexPart* part() const;            ///< null for a mesh
+  bool solid() const;                        ///< true for primitives
+  const ObbTree& tree() const;               ///< builds it if nobody has
+  const MeshComponents& components() const;  ///< of a mesh; found if nobody has
   bool treeBuilt() const;
   /// Radius about the origin of the frame of all points, rounded up.
   double radius() const;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
 #include "collision/motion/certify_motion.h"
