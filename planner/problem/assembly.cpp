@@ -77,15 +77,6 @@ class RobotAssembly {
     problem_.space.addGroup(std::move(group));
   }
 
-  /// Where a joint that goes round is followed by one that would jump when it wraps, it doesn't.
-  bool mayWrap(std::size_t j) const {
-    return std::all_of(model_.joints.begin(), model_.joints.end(), [&](const JointModel& other) {
-      if (!other.mimic || other.mimic->joint != j) return true;
-      return other.type != JointType::prismatic &&
-             other.mimic->multiplier == std::round(other.mimic->multiplier);
-    });
-  }
-
   void addJoint(std::size_t j) {
     const JointModel& joint = model_.joints[j];
     if (isWhole(joint.type)) return addWhole(joint.name, joint.type);
@@ -94,14 +85,9 @@ class RobotAssembly {
         joint.lower,         joint.upper,          joint.type != JointType::prismatic,
         weightOf(joint.name)};
     if (joint.type == JointType::continuous) {
+      coordinate.kind = Kind::circle;
       coordinate.lower = -pi;
       coordinate.upper = pi;
-      if (mayWrap(j))
-        coordinate.kind = Kind::circle;
-      else
-        problem_.notes.push_back(coordinate.name +
-                                 ": goes from -pi to pi only, since a joint that follows it "
-                                 "(mimic) would jump where it wraps");
     }
     setup_.freedoms.push_back({joint.name, joint.type, problem_.space.add(coordinate)});
     jointCoordinates.push_back(setup_.freedoms.back().coordinate);

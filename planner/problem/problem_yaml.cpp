@@ -157,7 +157,8 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   problem.files = {file};
   std::vector<RobotSetup> robots = readRobots(map, file.parent_path());
   const bool known = !robots.empty();
-  const bool worldNeeded = !map.find("robots") && (!known || robots.front().isRigid());
+  const bool worldNeeded =
+      !map.find("robots") && (!map.find("robot") || (known && robots.front().isRigid()));
   if (known) assembleRobots(robots, problem);
   readWorld(map, worldNeeded, problem);
   AllowedBodies allowed;

@@ -134,12 +134,21 @@ std::optional<std::string> YamlMap::requireOne(const std::vector<std::string>& k
   return std::nullopt;
 }
 
+namespace {
+
+/// A complaint, or "" and `number` set.
+std::string parseNumber(const YamlValue& value, Range range, double& number) {
+  return value.kind == YamlValue::Kind::Scalar && value.isPlain
+             ? parseNumber(value.text, range, number)
+             : "a number is needed, not " + described(value);
+}
+
+}  // namespace
+
 std::optional<double> readNumber(const YamlValue& value, Range range, const std::string& path,
                                  const YamlSource& source) {
   double result = 0;
-  const std::string complaint = value.kind == YamlValue::Kind::Scalar && value.isPlain
-                                    ? parseNumber(value.text, range, result)
-                                    : "a number is needed, not " + described(value);
+  const std::string complaint = parseNumber(value, range, result);
   if (complaint.empty()) return result;
   source.fault(value.line, path + ": " + complaint);
   return std::nullopt;
@@ -147,7 +156,12 @@ std::optional<double> readNumber(const YamlValue& value, Range range, const std:
 
 std::optional<double> YamlMap::number(std::string_view key, Range range) const {
   const YamlValue* value = find(key);
-  return value ? readNumber(*value, range, pathOf(key), *source_) : std::nullopt;
+  if (!value) return std::nullopt;
+  double result = 0;
+  const std::string complaint = parseNumber(*value, range, result);
+  if (complaint.empty()) return result;
+  fault(key, complaint);
+  return std::nullopt;
 }
 
 std::optional<std::uint64_t> YamlMap::wholeNumber(std::string_view key) const {
