@@ -33,8 +33,8 @@ double rotationDifference(const ConfigurationSpace& space, const CoordinateGroup
   const auto i = static_cast<Eigen::Index>(c.first);
   const Eigen::Vector4d p = a.segment<4>(i).normalized(), q = b.segment<4>(i).normalized();
   // Well conditioned at every angle, as an arc cosine isn't; q and −q are one rotation.
-  const auto [near, far] = std::minmax((p - q).norm(), (p + q).norm());
-  return 4 * std::atan2(near, far);
+  const double minus = (p - q).norm(), plus = (p + q).norm();
+  return 4 * std::atan2(std::min(minus, plus), std::max(minus, plus));
 }
 
 }  // namespace corridor

@@ -1,11 +1,13 @@
 /// What a certified edge costs against sampling it: `edge_cost_benchmark PROBLEM… [--edges N]`.
 ///
-/// For each problem (YAML or OMPL.app's .cfg), random edges of 2, 5, 10 and 20 % of the scene's
-/// size, starting at valid states. Per edge: the certified query; Corridor's own interference test
-/// and FCL's (BVHModel<OBBRSS>, Debian's build) at n samples, that is n + 1 evenly spaced poses, up
-/// to the first contact. Same edges, same run, one thread; times are sums over the edges that the
-/// certified query calls free, and those it does not, apart; the medians of three repeats. CSV on
-/// stdout.
+/// For each problem (YAML, OMPL.app's .cfg, SET.json#INDEX), random edges that start at valid
+/// states. Of a rigid body: 2, 5, 10 and 20 % of the scene's size long; of joints: 0.1, 0.3, 1 and
+/// 2 (the root of the sum of squares, rad and m) in a random direction. Per edge: the certified
+/// query; Corridor's own interference test and FCL's (BVHModel<OBBRSS> and FCL's own primitives,
+/// Debian's build; poses by Corridor's kinematics) at n samples, that is n + 1 evenly spaced poses,
+/// up to the first contact. Same edges, same pairs, same run, one thread; times are sums over the
+/// edges that the certified query calls free, and those it does not, apart; the medians of three
+/// repeats. CSV on stdout.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,36 +16,35 @@
 #include <iostream>
 #include <limits>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #ifdef CORRIDOR_WITH_FCL
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/collision_object.h>
 #endif
 
-#include "collision/world/scene.h"
-#include "planner/problem/problem.h"
+#include "planner/checker/checker.h"
 
 namespace corridor {
 namespace {
 
 struct Edge {
-  RigidPose from, to;
-  Vec3 fromPlanar, toPlanar;
+  Configuration from, to;
 };
 
-Transform poseAt(const Problem& problem, const Edge& e, double t) {
-  return problem.space == RigidSpace::SE2 ? RigidMotion::planar(e.fromPlanar, e.toPlanar, {}).at(t)
-                                          : RigidMotion::spatial(e.from, e.to, {}).at(t);
-}
-
 #ifdef CORRIDOR_WITH_FCL
-using FclModel = fcl::BVHModel<fcl::OBBRSS<double>>;
-std::shared_ptr<FclModel> fclModel(const TriangleMesh& mesh) {
-  auto model = std::make_shared<FclModel>();
+using FclGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
+
+FclGeometry fclMesh(const TriangleMesh& mesh) {
+  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSS<double>>>();
   std::vector<fcl::Triangle> triangles;
   for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
   model->beginModel();
@@ -51,7 +52,126 @@ std::shared_ptr<FclModel> fclModel(const TriangleMesh& mesh) {
   model->endModel();
   return model;
 }
+
+/// A shape in the frame of its body. Convex hulls aren't compared: no scene here has one.
+struct FclShape {
+  FclGeometry geometry;
+  std::size_t frame = 0;
+  fcl::Transform3d at = fcl::Transform3d::Identity();
+};
+
+FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
+  FclShape made{nullptr, frame};
+  if (shape.mesh) {
+    made.geometry = fclMesh(shape.mesh->mesh);
+    return made;
+  }
+  made.at.linear() = shape.at.q.normalized().toRotationMatrix();
+  made.at.translation() = shape.at.p;
+  if (const auto* box = std::get_if<Box>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Boxd>(box->size);
+  else if (const auto* sphere = std::get_if<Sphere>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Sphered>(sphere->radius);
+  else if (const auto* capsule = std::get_if<Capsule>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Capsuled>(capsule->radius, capsule->length);
+  else if (const auto* cylinder = std::get_if<Cylinder>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Cylinderd>(cylinder->radius, cylinder->length);
+  else
+    throw std::runtime_error("FCL is given no convex hulls");
+  return made;
+}
+
+/// The problem's shapes as FCL has them, the same pairs.
+class FclScene {
+ public:
+  explicit FclScene(const Checker& checker) : pairs_(checker.scene().pairs()) {
+    for (const ProblemBody& body : checker.problem().bodies)
+      for (const PlacedShape& shape : body.shapes) shapes_.push_back(fclShape(shape, body.frame));
+  }
+  bool touches(const std::vector<Transform>& X_WF) {
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      fcl::Transform3d pose = fcl::Transform3d::Identity();
+      pose.linear() = X_WF[shapes_[i].frame].m;
+      pose.translation() = X_WF[shapes_[i].frame].t;
+      objects_.resize(shapes_.size(), nullptr);
+      if (!objects_[i]) objects_[i] = std::make_shared<fcl::CollisionObjectd>(shapes_[i].geometry);
+      objects_[i]->setTransform(pose * shapes_[i].at);
+      objects_[i]->computeAABB();
+    }
+    const fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    for (const Scene::Pair& pair : pairs_) {
+      if (!objects_[pair.a]->getAABB().overlap(objects_[pair.b]->getAABB())) continue;
+      result.clear();
+      if (fcl::collide(objects_[pair.a].get(), objects_[pair.b].get(), request, result) > 0)
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<Scene::Pair> pairs_;
+  std::vector<FclShape> shapes_;
+  std::vector<std::shared_ptr<fcl::CollisionObjectd>> objects_;
+};
 #endif
+
+/// Random states and edges of a problem.
+class Edges {
+ public:
+  Edges(const Problem& problem, std::uint64_t seed) : problem_(problem), random_(seed) {}
+
+  bool rigid() const {
+    return problem_.space.groups().size() == 1 &&
+           problem_.space.groups()[0].kind != CoordinateGroup::Kind::joints;
+  }
+  /// @param length a share of the scene's size, or a norm of joint values. May leave the bounds.
+  Edge random(double length) {
+    Edge e{uniform(), {}};
+    e.to = e.from;
+    double size = 0, squares = 0;
+    Configuration step = Configuration::Zero(e.from.size());
+    for (const Coordinate& c : problem_.space.coordinates()) {
+      const auto i = static_cast<Eigen::Index>(c.first);
+      if (c.kind == Coordinate::Kind::rotation) {
+        Eigen::Map<Eigen::Quaterniond> q(e.to.data() + c.first);
+        q = Eigen::Quaterniond(Eigen::AngleAxisd(length * 3.14159 * real(),
+                                                 Vec3(real(), real(), real()).normalized())) *
+            q;
+      } else if (rigid() && c.kind == Coordinate::Kind::circle) {
+        e.to[i] += length * 3.14159 * real();
+      } else {
+        step[i] = normal_(random_);
+        squares += step[i] * step[i];
+        size += (c.upper - c.lower) * (c.upper - c.lower);
+      }
+    }
+    e.to += step / std::sqrt(squares) * length * (rigid() ? std::sqrt(size) : 1);
+    return e;
+  }
+
+ private:
+  double real(double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random_);
+  }
+  Configuration uniform() {
+    Configuration q(static_cast<Eigen::Index>(problem_.space.size()));
+    for (const Coordinate& c : problem_.space.coordinates()) {
+      const auto i = static_cast<Eigen::Index>(c.first);
+      if (c.kind == Coordinate::Kind::line)
+        q[i] = real(c.lower, c.upper);
+      else if (c.kind == Coordinate::Kind::circle)
+        q[i] = real(-3.14159, 3.14159);
+      else
+        for (int k = 0; k < 4; ++k) q[i + k] = normal_(random_);
+    }
+    return q;
+  }
+
+  const Problem& problem_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
 
 double seconds(const std::function<void()>& work) {
   std::vector<double> times;
@@ -67,104 +187,57 @@ double seconds(const std::function<void()>& work) {
 
 void run(const std::string& file, int count) {
   const Problem problem = readProblem(file);
-  std::vector<Body> moving, fixed;
-  for (const ProblemMesh& m : problem.robot) moving.emplace_back(m.name, m.source.mesh);
-  for (const ProblemMesh& m : problem.world) fixed.emplace_back(m.name, m.source.mesh);
-  const Scene scene(std::move(moving), std::move(fixed));
-  const bool planar = problem.space == RigidSpace::SE2;
-  QueryContext context;
-  MotionOptions options;
-  options.tolerance = scene.defaultTolerance();
-  const double size = (problem.upper - problem.lower).norm();
-  options.tube = {0x1p-40 * size, 0x1p-40 * 2 * 3.2};
-  const auto certify = [&](const Edge& e) {
-    return planar ? scene.certifyEdgePlanar(e.fromPlanar, e.toPlanar, options, context)
-                  : scene.certifyEdge(e.from, e.to, options, context);
-  };
+  const Checker checker(problem);
+  const auto certify = [&](const Edge& e) { return checker.edge(e.from, e.to, false); };
 #ifdef CORRIDOR_WITH_FCL
-  std::vector<std::shared_ptr<FclModel>> fclMoving, fclFixed;
-  for (const Body& b : scene.moving()) fclMoving.push_back(fclModel(b.mesh()));
-  for (const Body& b : scene.fixed()) fclFixed.push_back(fclModel(b.mesh()));
-  const auto fclTouches = [&](const Transform& X) {
-    fcl::Transform3d pose = fcl::Transform3d::Identity();
-    pose.linear() = X.m;
-    pose.translation() = X.t;
-    fcl::CollisionRequestd request;
-    fcl::CollisionResultd result;
-    for (const auto& m : fclMoving)
-      for (const auto& f : fclFixed) {
-        result.clear();
-        if (fcl::collide(f.get(), fcl::Transform3d::Identity(), m.get(), pose, request, result) > 0)
-          return true;
-      }
-    return false;
-  };
+  FclScene fclScene(checker);
 #endif
-  std::mt19937_64 random(20261121);
-  const auto real = [&](double low = -1, double high = 1) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
-  for (const double share : {0.02, 0.05, 0.1, 0.2}) {
+  Edges random(problem, 20261121);
+  for (const double length :
+       random.rigid() ? std::vector{0.02, 0.05, 0.1, 0.2} : std::vector{0.1, 0.3, 1.0, 2.0}) {
     std::vector<Edge> free, other;
     int undecided = 0;
     while (static_cast<int>(free.size() + other.size()) < count) {
-      Edge e;
-      Vec3 p, q;
-      const Vec3 direction = Vec3(real(), real(), planar ? 0 : real()).normalized();
-      for (int k = 0; k < 3; ++k) p[k] = real(problem.lower[k], problem.upper[k]);
-      if (planar) p[2] = 0;
-      q = p + share * size * direction;
-      const double turn = share * 3.14159 * real();
-      e.from.p = p;
-      e.from.q = Eigen::Quaterniond(real(), real(), real(), real()).normalized();
-      e.to.p = q;
-      e.to.q =
-          Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vec3(real(), real(), real()).normalized())) *
-          e.from.q;
-      const double yaw = real(-3.14159, 3.14159);
-      e.fromPlanar = Vec3(p[0], p[1], yaw);
-      e.toPlanar = Vec3(q[0], q[1], yaw + turn);
-      if (((q.array() < problem.lower.array()) || (q.array() > problem.upper.array()))
-              .head(planar ? 2 : 3)
-              .any())
-        continue;
-      if (scene.interference(poseAt(problem, e, 0), context)) continue;
+      const Edge e = random.random(length);
+      if (!checker.inBounds(e.to) || checker.interference(e.from)) continue;
       const MotionVerdict verdict = certify(e).verdict;
       undecided += verdict == MotionVerdict::undecided;
       (verdict == MotionVerdict::free ? free : other).push_back(e);
     }
     for (const auto* edges : {&free, &other}) {
       if (edges->empty()) continue;
-      context.counters = {};
+      const Counters before = checker.counters();
       int wrong = 0;
       const double n = static_cast<double>(edges->size());
       const double certified = seconds([&] {
                                  for (const Edge& e : *edges) certify(e);
                                }) /
                                n * 1e6;
-      const Counters per = context.counters;
-      std::cout << problem.name << ',' << share << ',' << (edges == &free ? "free" : "contact")
+      const Counters after = checker.counters();
+      std::cout << problem.name << ',' << length << ',' << (edges == &free ? "free" : "contact")
                 << ',' << edges->size() << ',' << undecided << ',' << certified << ','
-                << static_cast<double>(per.boxTests) / 3 / n << ','
-                << static_cast<double>(per.triangleTests) / 3 / n << ','
-                << static_cast<double>(per.poses) / 3 / n;
+                << static_cast<double>(after.boxTests - before.boxTests) / 3 / n << ','
+                << static_cast<double>(after.triangleTests - before.triangleTests) / 3 / n << ','
+                << static_cast<double>(after.poses - before.poses) / 3 / n;
       for (const int samples : {10, 100}) {
         const auto discrete = [&](const auto& touches) {
           return seconds([&] {
                    for (const Edge& e : *edges)
                      for (int i = 0; i <= samples; ++i)
-                       if (touches(poseAt(problem, e, static_cast<double>(i) / samples))) {
+                       if (touches(problem.space.interpolate(e.from, e.to,
+                                                             static_cast<double>(i) / samples))) {
                          wrong += edges == &free;
                          break;
                        }
                  }) /
                  n * 1e6;
         };
-        std::cout << ',' << discrete([&](const Transform& X) {
-          return scene.interference(X, context).has_value();
+        std::cout << ',' << discrete([&](const Configuration& q) {
+          return checker.interference(q).has_value();
         });
 #ifdef CORRIDOR_WITH_FCL
-        const double fcl = discrete(fclTouches);
+        const double fcl = discrete(
+            [&](const Configuration& q) { return fclScene.touches(framePoses(problem.tree, q)); });
         std::cout << ',' << fcl << ',' << fcl / certified;
 #else
         std::cout << ",,";

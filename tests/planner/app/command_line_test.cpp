@@ -102,6 +102,122 @@ TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   EXPECT_EQ(nlohmann::json::parse(run("inspect problem.yaml --json").out)["pairs"]["tested"], 1);
 }
 
+/// Two links that turn about z, and a post beside them.
+class ArmCommandLine : public CommandLine {
+ protected:
+  ArmCommandLine() {
+    write(
+        "arm.urdf",
+        "<robot name=\"arm\">\n"
+        "<link name=\"base\"/>\n"
+        "<link name=\"upper\"><collision><origin xyz=\"0.5 0 0\"/><geometry><box size=\"0.8 0.1 "
+        "0.1\"/></geometry></collision></link>\n"
+        "<link name=\"lower\"><collision><origin xyz=\"0.5 0 0\"/><geometry><box size=\"0.8 0.1 "
+        "0.1\"/></geometry></collision></link>\n"
+        "<joint name=\"shoulder\" type=\"revolute\"><parent link=\"base\"/><child link=\"upper\"/>"
+        "<axis xyz=\"0 0 1\"/><limit lower=\"-3\" upper=\"3\" effort=\"1\" "
+        "velocity=\"1\"/></joint>\n"
+        "<joint name=\"elbow\" type=\"revolute\"><parent link=\"upper\"/><child link=\"lower\"/>"
+        "<origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/><limit lower=\"-2\" upper=\"2\" effort=\"1\" "
+        "velocity=\"1\"/></joint>\n"
+        "</robot>\n");
+    write("arm.yaml",
+          "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
+          "0]}\n"
+          "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
+  }
+};
+
+TEST_F(ArmCommandLine, SolveThenVerify) {
+  const Result solved = run("solve arm.yaml -o s.yaml --picture p.svg");
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("certified: yes\n"));
+  EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"shoulder\", \"elbow\"]\n"));
+  EXPECT_THAT(read("p.svg"), StartsWith("<svg"));
+  const Result verified = run("verify arm.yaml s.yaml");
+  EXPECT_EQ(verified.status, 0) << verified.err << verified.out;
+  write("s.yaml",
+        "format: corridor-solution-1\njoints: [shoulder, elbow]\npath: [[0, 0], [2.8, 0.5]]\n");
+  const Result refuted = run("verify arm.yaml s.yaml");
+  EXPECT_EQ(refuted.status, 1);
+  EXPECT_THAT(refuted.out, HasSubstr("\"lower\" and \"post\""));
+  EXPECT_THAT(refuted.out, HasSubstr("; at shoulder = "));
+}
+
+TEST_F(ArmCommandLine, CheckOfManyStates) {
+  write("states.txt",
+        "# shoulder elbow\n0, 0\n\n1.5708 0  # in the post\n2.9 -2\n0 2.5\n3.000001 0\n");
+  const Result checked = run("check arm.yaml --states states.txt");
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_EQ(checked.out, "state,valid,pairs\n0,1,\n1,0,lower~post\n2,1,\n3,0,bounds:elbow\n4,1,\n");
+  EXPECT_EQ(checked.err,
+            "corridor: warning: states.txt: in 1 state, angles were wrapped or values a rounding "
+            "beyond a limit taken for it\n");
+  write("free.txt", "0 0\n0.1 0.1\n");
+  EXPECT_EQ(run("check arm.yaml --states free.txt").status, 0);
+  const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
+  EXPECT_EQ(json["format"], "corridor-check-report-1");
+  EXPECT_EQ(json["states"][1]["pairs"][0], "lower~post");
+  EXPECT_EQ(json["states"][1]["line"], 4);
+  EXPECT_EQ(json["states"][3]["out_of_bounds"][0], "elbow");
+}
+
+TEST_F(ArmCommandLine, CheckFaultsStatesByLine) {
+  write("states.txt", "0 0 0\n0 0\n0 x\n");
+  const Result checked = run("check arm.yaml --states states.txt");
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_EQ(checked.err,
+            "states.txt:1: a state has 2 numbers (shoulder elbow), not 3\n"
+            "states.txt:3: a number is needed, not \"x\"\n");
+  EXPECT_EQ(checked.out, "");
+}
+
+TEST_F(ArmCommandLine, CheckOfStartAndGoal) {
+  const Result sound = run("check arm.yaml");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  EXPECT_EQ(sound.out, "problem: arm.yaml\nstart: free\ngoal: free\n");
+  write("touch.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
+        "0]}\n"
+        "start: {shoulder: 1.57, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
+  const Result touch = run("check touch.yaml");
+  EXPECT_EQ(touch.status, 1);
+  EXPECT_THAT(touch.out, HasSubstr("start: start is in contact: \"lower\" and \"post\" touch; the "
+                                   "nearest free values found are at most 0."));
+  write("bad.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
+        "0]}\n"
+        "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n"
+        "planner: {name: RRT, params: {rnge: 1}}\nsampler: max_clearance\n");
+  const Result bad = run("check bad.yaml");
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT has no parameter \"rnge\""));
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: sampler max_clearance needs a clearance"));  // all
+}
+
+TEST_F(ArmCommandLine, InspectTellsPairsAndRobots) {
+  const Result problem = run("inspect arm.yaml --pairs");
+  EXPECT_EQ(problem.status, 0) << problem.err;
+  EXPECT_THAT(problem.out, HasSubstr("joint: \"elbow\": -2 to 2 rad\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pair: upper~lower: not tested: adjacent\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pair: lower~post: tested\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pairs tested: 2\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pairs skipped: 1: adjacent\n"));
+  const auto json = nlohmann::json::parse(run("inspect arm.yaml --json").out);
+  EXPECT_EQ(json["pairs"]["tested"], 2);
+  EXPECT_EQ(json["pair_list"].size(), 3u);
+  write("alone.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld: {}\n"
+        "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
+  EXPECT_THAT(run("inspect alone.yaml").out,
+              HasSubstr("pairs tested: 0: NOTHING IS TESTED, every state is valid\n"));
+  const Result robot = run("inspect arm.urdf");
+  EXPECT_EQ(robot.status, 0) << robot.err;
+  EXPECT_THAT(robot.out, HasSubstr("joint: \"elbow\": revolute, upper to lower, -2 to 2 rad\n"));
+  EXPECT_THAT(robot.out, HasSubstr("link: \"lower\": box\n"));
+  EXPECT_EQ(run("inspect robot.yaml").status, 0);
+}
+
 TEST_F(CommandLine, SameSeedSameFile) {
   EXPECT_EQ(run("solve problem.yaml --seed 5 -o a.yaml").status, 0);
   EXPECT_EQ(run("solve problem.yaml --seed 5 -o b.yaml").status, 0);
@@ -161,7 +277,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   const auto said = [&](const std::string& arguments) { return run(arguments).err; };
   EXPECT_EQ(said(""), "A subcommand is required; corridor --help tells more\n");
   EXPECT_EQ(said("slove problem.yaml"),
-            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, "
+            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, check, "
             "inspect\n");
   EXPECT_EQ(said("verify problem.yaml"),
             "SOLUTION is required; corridor verify --help tells more\n");
@@ -177,7 +293,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
 }
 
 TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
-  for (const char* command : {"solve", "verify", "inspect"}) {
+  for (const char* command : {"solve", "verify", "check", "inspect"}) {
     const Result help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Example: corridor ") + command));

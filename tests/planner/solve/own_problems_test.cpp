@@ -17,8 +17,9 @@ Problem ownProblem(const std::string& name) {
 
 class OwnProblems : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(All, OwnProblems,
-                         testing::Values("bug_trap", "cubicles", "hook_maze", "piano", "rod_hole",
-                                         "thin_plate", "twisted_tubes"),
+                         testing::Values("arm_at_shelf", "bug_trap", "cubicles", "gantry_bins",
+                                         "hook_maze", "piano", "rod_hole", "rover_door",
+                                         "snake_posts", "thin_plate", "twisted_tubes", "two_arms"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST_P(OwnProblems, SolvedByItsDefaultsCertifiedAndVerified) {
@@ -37,7 +38,29 @@ TEST(OwnProblems, AllAreListedHere) {
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems"))
     folders += std::filesystem::exists(entry.path() / "problem.yaml");
-  EXPECT_EQ(folders, 7);
+  EXPECT_EQ(folders, 12);
+}
+
+/// Without its pairs of one arm with the other the same problem has other answers.
+TEST(TwoArms, AreTestedAgainstEachOther) {
+  Problem problem = ownProblem("two_arms");
+  const auto between = [&](const ProblemPair& pair) {
+    const auto &a = problem.bodies[pair.a].robot, &b = problem.bodies[pair.b].robot;
+    return a && b && *a != *b;
+  };
+  Problem apart = problem;
+  std::size_t tested = 0;
+  for (ProblemPair& pair : apart.pairs)
+    if (between(pair) && pair.skipped.empty()) {
+      ++tested;
+      pair.skipped = "left out by this test";
+    }
+  EXPECT_GT(tested, 0u);
+  const SolveReport report = solveProblem(apart);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_EQ(verifySolution(apart, makeSolution(apart, report)).verdict, PathVerdict::proved);
+  const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
+  EXPECT_EQ(verified.verdict, PathVerdict::refuted);
 }
 
 /// A blade of 2 mm and a plate of 0.1 mm: steps of 1 % jump it. Sampled edges return paths straight
