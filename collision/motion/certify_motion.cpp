@@ -32,9 +32,11 @@ class Certifier {
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) pending.push_back({0, 0, k});
     // Those of one motion together, and so they stay in every list: each window of a motion is
     // asked for once.
-    std::stable_sort(pending.begin(), pending.end(), [&](const NodePair& p, const NodePair& q) {
+    const auto before = [&](const NodePair& p, const NodePair& q) {
       return pairs_[p.bodies].motion < pairs_[q.bodies].motion;
-    });
+    };
+    if (!std::is_sorted(pending.begin(), pending.end(), before))
+      std::stable_sort(pending.begin(), pending.end(), before);
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
     if (options_.earliest ? walkInOrder({0, 1, 0, pending.size()}, 0) : walkByLevels()) return {};

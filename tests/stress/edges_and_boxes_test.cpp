@@ -8,6 +8,7 @@
 
 #include "collision/volumes/overlap_obb_obb.h"
 #include "collision/world/scene.h"
+#include "planner/robot/edge_motion.h"
 #include "planner/verify/verify_path.h"
 #include "tests/support/support.h"
 
@@ -58,14 +59,15 @@ TriangleMesh soup(Random& random, int triangles, double size, double edge) {
 struct Case {
   const char* name;
   TriangleMesh moving, fixed;
-  double size, step;  // of positions, and of one edge
-  bool planar;
+  double size, step;  // of positions (angles of the arm), and of one edge
+  enum Mount { floating, planar, arm } mount;
 };
 
 std::vector<Case> cases(Random& random) {
-  std::vector<Case> all(4);
-  all[0] = {"soup in a soup", soup(random, 12, 0.3, 0.3), soup(random, 60, 3, 0.5), 3, 1, false};
-  all[1] = {"bar in a room of boxes", {}, {}, 4, 1.5, false};
+  std::vector<Case> all(5);
+  all[0] = {"soup in a soup", soup(random, 12, 0.3, 0.3), soup(random, 60, 3, 0.5), 3, 1,
+            Case::floating};
+  all[1] = {"bar in a room of boxes", {}, {}, 4, 1.5, Case::floating};
   addBox(all[1].moving, Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1));
   addBox(all[1].fixed, Vec3(-50, -50, -5), Vec3(50, 50, -4));  // large triangles, small robot
   for (int i = 0; i < 12; ++i) {
@@ -73,51 +75,112 @@ std::vector<Case> cases(Random& random) {
     addBox(all[1].fixed, c - Vec3(0.5, 0.3, 0.8), c + Vec3(0.5, 0.3, 0.8),
            rotation(random).normalized().toRotationMatrix());
   }
-  all[2] = {"slats", {}, {}, 1.5, 1, false};
+  all[2] = {"slats", {}, {}, 1.5, 1, Case::floating};
   addBox(all[2].moving, Vec3(-0.6, -0.02, -0.2), Vec3(0.6, 0.02, 0.2));
   for (int i = -4; i <= 4; ++i)
     addBox(all[2].fixed, Vec3(-2, 0.3 * i, -2), Vec3(2, 0.3 * i + 0.01, 0.2));
-  all[3] = {"hook in the plane", {}, {}, 4, 1.5, true};
+  all[3] = {"hook in the plane", {}, {}, 4, 1.5, Case::planar};
   addBox(all[3].moving, Vec3(-0.8, -0.1, -0.1), Vec3(0.8, 0.1, 0.1));
   addBox(all[3].moving, Vec3(0.6, -0.1, -0.1), Vec3(0.8, 0.7, 0.1));
   for (int i = 0; i < 20; ++i) {
     const Vec3 c = Vec3(1, 1, 0).cwiseProduct(vector(random, 4));
     addBox(all[3].fixed, c - Vec3(0.3, 0.3, 0.5), c + Vec3(0.3, 0.3, 0.5));
   }
+  all[4] = {"arm in a soup", {}, soup(random, 60, 3, 0.5), 3, 0.7, Case::arm};
+  addBox(all[4].moving, Vec3(-0.1, -0.1, -0.1), Vec3(0.8, 0.1, 0.1));
   return all;
 }
+
+/// The robot of a case: its last frame carries the moving mesh; of an arm, the two before it, too.
+struct Robot {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  std::vector<std::size_t> frames;
+
+  explicit Robot(const Case& c) {
+    using Kind = Coordinate::Kind;
+    Frame shift, turn;
+    shift.joint = Frame::Joint::shift;
+    shift.variable = 0;
+    const auto line = [&](Kind kind) {
+      Coordinate coordinate;
+      coordinate.kind = kind;
+      coordinate.lower = -100, coordinate.upper = 100;
+      space.add(coordinate);
+    };
+    if (c.mount == Case::arm) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        Frame joint;
+        joint.parent = tree.frames.size() - 1;
+        joint.joint = j == 2 ? Frame::Joint::slide : Frame::Joint::turn;
+        joint.axis = j == 2 ? Vec3::UnitX() : j % 2 ? Vec3(0, 1, 0.2) : Vec3(0.1, 0, 1);
+        joint.fixed.p = Vec3(j > 0 ? 0.8 : 0, 0, 0);
+        joint.variable = j;
+        line(Kind::line);
+        const std::size_t added = tree.add(joint);
+        if (j > 0) frames.push_back(added);
+      }
+      return;
+    }
+    const bool planar = c.mount == Case::planar;
+    shift.count = planar ? 2 : 3;
+    for (std::size_t i = 0; i < shift.count; ++i) line(Kind::line);
+    turn.parent = tree.add(shift);
+    turn.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+    turn.variable = shift.count;
+    line(planar ? Kind::circle : Kind::rotation);
+    frames.push_back(tree.add(turn));
+  }
+
+  /// An edge: every other one of a floating body turns little.
+  std::pair<Configuration, Configuration> edge(Random& random, const Case& c, bool little) const {
+    Configuration from(space.size()), to(space.size());
+    for (Eigen::Index k = 0; k < from.size(); ++k) {
+      from[k] = uniform(random, -c.size, c.size);
+      to[k] = from[k] + uniform(random, -c.step, c.step);
+    }
+    if (c.mount == Case::planar) from[2] = uniform(random, -3, 3), to[2] = uniform(random, -3, 3);
+    if (c.mount == Case::floating) {
+      from.tail<4>() = rotation(random).coeffs();
+      to.tail<4>() = rotation(random).coeffs();
+      if (little) to.tail<4>() = (from.tail<4>() + 0.2 * to.tail<4>()).eval();
+    }
+    return {from, to};
+  }
+};
 
 TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
   Random random(test::testSeed(20));
   const int edges = test::stressAsked() ? 5000 : 500;  // a scene
   int undecided = 0, all = 0;
   for (const Case& c : cases(random)) {
-    std::vector<Body> moving, fixed;
-    moving.emplace_back("robot", c.moving);
-    fixed.emplace_back("world", c.fixed);
-    const Scene scene(std::move(moving), std::move(fixed));
-    MotionOptions options;
-    options.tolerance = scene.defaultTolerance();
+    const Robot robot(c);
     PathProblem problem;
-    problem.moving = {{"robot", &c.moving}};
-    problem.fixed = {{"world", &c.fixed}};
+    problem.tree = &robot.tree;
+    problem.space = &robot.space;
+    problem.bodies.push_back({"world", &c.fixed, nullptr, false, 0});
+    std::vector<Scene::Placed> bodies;
+    std::vector<Scene::Pair> pairs;
+    bodies.push_back({Body("world", c.fixed), 0});
+    for (const std::size_t frame : robot.frames) {
+      pairs.push_back({0, bodies.size()});
+      if (bodies.size() > 2) pairs.push_back({bodies.size() - 2, bodies.size()});
+      problem.bodies.push_back({"robot", &c.moving, nullptr, false, frame});
+      bodies.push_back({Body("robot", c.moving), frame});
+    }
+    for (const Scene::Pair& pair : pairs) problem.pairs.push_back({pair.a, pair.b});
+    const Scene scene(std::move(bodies), std::move(pairs));
+    MotionOptions options;
+    problem.tolerance = options.tolerance = scene.defaultTolerance();
+    problem.tube = Configuration::Zero(static_cast<Eigen::Index>(robot.space.size()));
+    EdgeMotion motion(robot.tree, robot.space, scene.framePairs(), problem.tube);
     QueryContext context;
     int count[3] = {}, silent = 0;
     for (int i = 0; i < edges; ++i, ++all) {
-      const Vec3 p = vector(random, c.size), q = p + vector(random, c.step);
-      MotionResult r;
-      PathReport report;
-      if (c.planar) {
-        const Vec3 from(p[0], p[1], uniform(random, -3, 3)), to(q[0], q[1], uniform(random, -3, 3));
-        r = scene.certifyEdgePlanar(from, to, options, context);
-        report = verifyPath(problem, std::vector<Vec3>{from, to});
-      } else {
-        RigidPose from{p, rotation(random)}, to{q, rotation(random)};
-        if (i % 2)  // every other edge turns little
-          to.q.coeffs() = from.q.coeffs() + 0.2 * to.q.coeffs();
-        r = scene.certifyEdge(from, to, options, context);
-        report = verifyPath(problem, std::vector<RigidPose>{from, to});
-      }
+      const auto [from, to] = robot.edge(random, c, i % 2);
+      motion.set(from, to);
+      const MotionResult r = scene.certify(motion, options, context);
+      const PathReport report = verifyPath(problem, {from, to});
       ++count[static_cast<int>(r.verdict)];
       silent += report.verdict == PathVerdict::undecided;
       if (r.verdict == MotionVerdict::free) {
