@@ -52,10 +52,8 @@ struct EdgeMotion::Impl {
     std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
     std::vector<Step> steps;               // from a's side to b's
     std::vector<ScrewTravel> screws;
-    // Of the edge: error of the pose; what the screws' errors add per metre or radian that they
-    // move by h (`rate`) and by their tubes; and how far they turn so.
-    LeverError pose, rate, tube;
-    double turnRate = 0, turnTube = 0;
+    // Of the edge: the error of the pose and of the axes, and that of the twist per unit of h.
+    LeverError still, rate;
   };
 
   const ConfigurationSpace& space;
@@ -176,29 +174,23 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewAt(std::size_t index) {
 ///     τ_A + τ_B + ρ_A·T + 7uT.
 /// The screws: an axis is off by ρ, its own 32u and 6u for the product, its point by τ; both are
 /// turned into A on two branches. A point at lever y from b's origin is seen off by the pose's
-/// error, and its lever from an axis at L from there by e(y) = pose(y) + τ + axis error·(|y| + L).
-/// The joint moves it by its amount w ≤ h·rate + tube. So
-///   the twist is off by Σ w·e(y), by the rate's own error, and by some (16 + steps)·u of w(|y| +
-///   L)
-///     for its arithmetic;
-///   what `travelOf` derives from axes and points, with D the sum of all turns: the cap by Σ w·e;
-///     the remainder to the twist, ½ Σ r̄_j w_j (w_j + 2 Σ w_i), r̄_j itself off by e_j + Σ w_i e_i,
-///     by D(1 + D) Σ w·e.
-/// All that is below (1 + D)² Σ w·e.
+/// error, and its lever from an axis at L from there by e(y) = pose(y) + τ + axis error·(|y| + L),
+/// which its distance from the axis in `travelOf` is off by, too. The joint moves it by at most
+/// w = h·rate, so that the twist is off by Σ w·e(y), by the rate's own error, and by some (16 +
+/// steps)·u of w(|y| + L) for its arithmetic. `window` states the largest e(y) and the twist's.
 void EdgeMotion::Impl::setErrors(Path& path) const {
   double length = 0;
   for (const Step& step : path.steps) length += places[views[step.view].place].joint.length();
   LeverError turned;  // of what is seen from A when that is not the ancestor
-  path.pose = {};
-  if (path.b != kItself) path.pose = {views[path.b].shiftError, views[path.b].rotationError};
+  LeverError pose, axes;
+  if (path.b != kItself) pose = {views[path.b].shiftError, views[path.b].rotationError};
   if (path.a != kItself) {
     const View& a = views[path.a];
     turned = {a.shiftError + (a.rotationError + 8 * kUnit) * length, a.rotationError + 10 * kUnit};
-    path.pose.fixed += turned.fixed;
-    path.pose.reach += turned.reach;
+    pose.fixed += turned.fixed;
+    pose.reach += turned.reach;
   }
-  path.rate = path.tube = {};
-  path.turnRate = path.turnTube = 0;
+  path.rate = {};
   const double arithmetic = (16 + static_cast<double>(path.steps.size())) * kUnit;
   double lever = 0;  // L, no less than the distance from a joint's origin to b's
   for (auto step = path.steps.rbegin(); step != path.steps.rend(); ++step) {
@@ -208,21 +200,19 @@ void EdgeMotion::Impl::setErrors(Path& path) const {
     if (joint.joint() != Frame::Joint::none) {
       const double rate = std::abs(joint.rate()) + joint.rateError();
       const double axisError = view.rotationError + turned.reach + 40 * kUnit + arithmetic;
-      LeverError error{axisError, 0}, rateError{joint.rateError(), 0};
       if (turns(joint.joint())) {
-        error = {path.pose.fixed + view.shiftError + turned.fixed + axisError * lever,
-                 path.pose.reach + axisError};
-        rateError = {joint.rateError() * lever, joint.rateError()};
-        path.turnRate += rate;
-        path.turnTube += joint.tube();
+        const double pointError = view.shiftError + turned.fixed + axisError * lever;
+        axes.fixed = std::max(axes.fixed, pointError);
+        axes.reach = std::max(axes.reach, axisError);
+        path.rate.fixed += rate * (pose.fixed + pointError) + joint.rateError() * lever;
+        path.rate.reach += rate * (pose.reach + axisError) + joint.rateError();
+      } else {
+        path.rate.fixed += rate * axisError + joint.rateError();
       }
-      path.rate.fixed += rate * error.fixed + rateError.fixed;
-      path.rate.reach += rate * error.reach + rateError.reach;
-      path.tube.fixed += joint.tube() * error.fixed;
-      path.tube.reach += joint.tube() * error.reach;
     }
     if (!step->up) lever += joint.length();
   }
+  path.still = {pose.fixed + axes.fixed, pose.reach + axes.reach};
 }
 
 EdgeMotion::EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,
@@ -304,12 +294,10 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
   w.screws = path.screws;
   w.speed = roundedUp(w.linear.norm());
   w.angle = roundedUp(w.angular.norm());
-  const double D = 1 + path.turnRate * h + path.turnTube;
-  const auto total = [&](double pose, double rate, double tube) {
-    return roundedUp((pose + D * D * (h * rate + tube)) * (1 + 0x1p-20)) + kLeastError;
-  };
-  w.fixedError = total(path.pose.fixed, path.rate.fixed, path.tube.fixed);
-  w.reachError = total(path.pose.reach, path.rate.reach, path.tube.reach);
+  // Products of errors, which are below 2^-20 of the errors.
+  constexpr double more = 1 + 0x1p-20;
+  w.fixedError = roundedUp(more * (path.still.fixed + h * path.rate.fixed)) + kLeastError;
+  w.reachError = roundedUp(more * (path.still.reach + h * path.rate.reach)) + kLeastError;
   return w;
 }
 

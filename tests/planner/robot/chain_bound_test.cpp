@@ -69,8 +69,8 @@ TEST(ChainBound, IsNeverExceeded) {
     const double noise = 1e-17 * (1 + p.norm() + x.norm());  // of the reference
     for (const double s : {-1.0, 1.0, random.real(), 0.0}) {
       const auto real = reference.relative(pair[0].a, pair[0].b, t + static_cast<Real>(s) * h);
-      const Vec3L moved = real.at(p) - x.cast<Real>();
-      const Vec3L otherMoved = real.at(other) - (w.X_AB * other).cast<Real>();
+      const Vec3L moved = real.at(p) - test::exactly(w.X_AB, p);
+      const Vec3L otherMoved = real.at(other) - test::exactly(w.X_AB, other);
       ASSERT_LE(moved.norm(), travel.cap + travel.pad + noise) << "case " << n;
       ASSERT_LE(otherMoved.norm(), ball.cap + ball.pad + noise) << "case " << n;
       const Vec3 step = s * (w.linear + w.angular.cross(y));
@@ -189,7 +189,7 @@ TEST(ChainBound, IsAttained) {
       const PointTravel travel = travelOf(w, w.X_AB * p, 0);
       const Vec3L moved =
           ReferenceKinematics(tree, space, from, to).relative(pair[0].a, pair[0].b, 1).at(p) -
-          (w.X_AB * p).cast<Real>();
+          test::exactly(w.X_AB, p);
       EXPECT_LE(moved.norm(), travel.cap + travel.pad) << chain.name;
       return static_cast<double>(moved.norm()) / travel.cap;
     };

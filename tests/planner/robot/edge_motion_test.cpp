@@ -54,15 +54,15 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
       const Vec3 p = random.vector(n % 2 ? 3 : 0.01);
       const Vec3 y = w.X_AB.m * p;
       const double bound = w.fixedError + w.reachError * y.norm() + noise(real, p.norm());
-      const auto off = static_cast<double>(((y + w.X_AB.t).cast<Real>() - real.at(p)).norm());
+      const auto off = static_cast<double>((test::exactly(w.X_AB, p) - real.at(p)).norm());
       ASSERT_LE(off, bound) << "case " << n << ", t = " << t;
       if (half == 0) {
         worst = std::max(worst, off / bound);
         shares.push_back(off / bound);
       }
-      const Vec3 step = w.linear + w.angular.cross(y);
-      const auto offTwist =
-          static_cast<double>((step.cast<Real>() - half * real.velocity(p)).norm());
+      const test::Vec3L step = w.linear.cast<Real>() +
+                               w.angular.cast<Real>().cross(w.X_AB.m.cast<Real>() * p.cast<Real>());
+      const auto offTwist = static_cast<double>((step - half * real.velocity(p)).norm());
       ASSERT_LE(offTwist, bound) << "case " << n << ", t = " << t << ", h = " << half;
       worstTwist = std::max(worstTwist, offTwist / bound);
       ASSERT_GE(w.speed, w.linear.norm());
