@@ -4,6 +4,7 @@
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/checker/problem_goal.h"
+#include "planner/checker/reach.h"
 #include "planner/solve/endpoint_help.h"
 #include "planner/solve/state_rows.h"
 
@@ -93,24 +94,32 @@ class ProblemReport {
 
   void tellPairs() {
     std::map<std::string, std::size_t> skipped;
-    std::size_t tested = 0;
+    std::size_t tested = 0, far = 0;
+    const std::vector<ReachBox> reach = reachOf(problem_);
     json_["pair_list"] = ordered_json::array();
     for (const ProblemPair& pair : problem_.pairs) {
-      if (pair.skipped.empty())
-        ++tested;
-      else
-        ++skipped[pair.skipped];
+      const bool isFar = outOfReach(problem_, reach[pair.a], reach[pair.b]);
+      const bool isTested = pair.skipped.empty();
+      tested += isTested;
+      far += isTested && isFar;
+      if (!isTested) ++skipped[pair.skipped];
       json_["pair_list"].push_back({{"a", problem_.bodies[pair.a].name},
                                     {"b", problem_.bodies[pair.b].name},
-                                    {"skipped", pair.skipped}});
+                                    {"skipped", pair.skipped},
+                                    {"out_of_reach", isFar}});
       if (a_.pairs)
         out_.line("pair", pairName(pair) + ": " +
-                              (pair.skipped.empty() ? "tested" : "not tested: " + pair.skipped));
+                              (isTested ? "tested" : "not tested: " + pair.skipped) +
+                              (isFar ? " (out of reach)" : ""));
     }
-    json_["pairs"] = {{"tested", tested}, {"skipped", skipped}};
+    json_["pairs"] = {{"tested", tested}, {"out_of_reach", far}, {"skipped", skipped}};
     out_.line("pairs tested",
               grouped(tested) + (tested ? "" : ": NOTHING IS TESTED, every state is valid"),
               tested ? Tone::plain : Tone::bad);
+    if (far)
+      out_.line("of them out of reach",
+                grouped(far) + (far == tested ? ": nothing can be in the way" : ""),
+                far == tested ? Tone::bad : Tone::plain);
     for (const auto& [reason, count] : skipped)
       out_.line("pairs skipped", grouped(count) + ": " + reason);
     out_.line("never a pair", "world with itself (it stands still), a body with itself");

@@ -27,6 +27,9 @@ constexpr int kMostGhosts = 14,
               kFewestGhosts = 4;  // robots drawn between start and goal: fewer where one is costly
 constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 40'000, kGhostsLimit = 180'000;  // bytes
 constexpr int kShades = 8;
+/// Meshes of moving bodies with more triangles are drawn coarser: cells of this share of the scene.
+constexpr std::size_t kFewTriangles = 500;
+constexpr double kCell = 1.0 / 250;
 
 /// A triangle of the picture.
 struct Face {
@@ -39,11 +42,13 @@ using Triangle3 = std::array<Vec3, 3>;
 
 /// The distinct triangles of a body, in its frame's coordinates: many files have both sides of
 /// every face.
-std::vector<Triangle3> distinctTriangles(const ProblemBody& body) {
+std::vector<Triangle3> distinctTriangles(const ProblemBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
   for (const PlacedShape& shape : body.shapes) {
-    const TriangleMesh mesh = shape.part ? view::tessellated(*shape.part) : shape.mesh->mesh;
+    TriangleMesh mesh = shape.part ? view::tessellated(*shape.part) : shape.mesh->mesh;
+    if (body.frame != 0 && mesh.triangles.size() > kFewTriangles)
+      mesh = view::coarsened(mesh, cell);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       std::array<std::array<double, 3>, 3> key;
       Triangle3 triangle;
@@ -79,6 +84,20 @@ std::vector<std::size_t> lastFrames(const Problem& problem) {
   for (const ProblemBody& body : problem.bodies)
     if (body.robot) last[*body.robot] = std::max(last[*body.robot], body.frame);
   return last;
+}
+
+/// The diagonal of all bodies, at the start.
+double sceneSize(const Problem& problem, const Configuration& q) {
+  const std::vector<Transform> poses = framePoses(problem.tree, q);
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const ProblemBody& body : problem.bodies)
+    for (const PlacedShape& shape : body.shapes)
+      for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
+        const Vec3 x = poses[body.frame] * p;
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+      }
+  return (high - low).norm();
 }
 
 using PlaneKey = std::array<long, 4>;
@@ -247,8 +266,9 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   Camera camera = plan ? Camera(-90 * degree, 90 * degree) : Camera(-60 * degree, 38 * degree);
   std::vector<Triangle3> world;
   Moving robot;
+  const double cell = kCell * sceneSize(problem, path.front());
   for (const ProblemBody& body : problem.bodies) {
-    const std::vector<Triangle3> triangles = distinctTriangles(body);
+    const std::vector<Triangle3> triangles = distinctTriangles(body, cell);
     auto& side = body.frame == 0 ? world : robot.triangles;
     side.insert(side.end(), triangles.begin(), triangles.end());
     if (body.frame != 0) robot.frames.insert(robot.frames.end(), triangles.size(), body.frame);

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 #include <tuple>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -49,6 +50,24 @@ TriangleMesh tessellated(const ConvexPart& part) {
       if (a != c && c != d && d != a) mesh.triangles.push_back({a, c, d});
     }
   return mesh;
+}
+
+TriangleMesh coarsened(const TriangleMesh& mesh, double cell) {
+  TriangleMesh coarse;
+  std::map<std::tuple<double, double, double>, std::uint32_t> cells;
+  std::vector<std::uint32_t> standIn;
+  for (const Vec3& p : mesh.vertices) {
+    const Vec3 at = (p / cell).array().floor();
+    const auto [found, added] =
+        cells.try_emplace({at.x(), at.y(), at.z()}, static_cast<std::uint32_t>(cells.size()));
+    if (added) coarse.vertices.push_back(p);
+    standIn.push_back(found->second);
+  }
+  for (const auto& t : mesh.triangles) {
+    const std::uint32_t a = standIn[t[0]], b = standIn[t[1]], c = standIn[t[2]];
+    if (a != b && b != c && c != a) coarse.triangles.push_back({a, b, c});
+  }
+  return coarse;
 }
 
 }  // namespace corridor::view

@@ -1,0 +1,129 @@
+#include "planner/checker/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace corridor {
+namespace {
+
+/// Where a frame's origin may be, and how it may be turned: by R alone, by R and then about the
+/// world's z, or in any way.
+struct FrameReach {
+  ReachBox origin;
+  Mat3 R = Mat3::Identity();
+  enum class Turned { no, aboutZ, any } turned = Turned::no;
+};
+
+/// The places, as seen from the frame's origin, of what is in a box of its coordinates.
+ReachBox around(const FrameReach& frame, const ReachBox& box) {
+  const Vec3 c = frame.R * (box.lower + box.upper) / 2,
+             h = frame.R.cwiseAbs() * (box.upper - box.lower) / 2;
+  ReachBox out{c - h, c + h};
+  if (frame.turned == FrameReach::Turned::no) return out;
+  const Vec3 far = out.lower.cwiseAbs().cwiseMax(out.upper.cwiseAbs());
+  const double r = frame.turned == FrameReach::Turned::any ? far.norm() : far.head<2>().norm();
+  out.lower.head<2>().setConstant(-r);
+  out.upper.head<2>().setConstant(r);
+  if (frame.turned == FrameReach::Turned::any) {
+    out.lower.z() = -r;
+    out.upper.z() = r;
+  }
+  return out;
+}
+
+ReachBox operator+(const ReachBox& a, const ReachBox& b) {
+  return {a.lower + b.lower, a.upper + b.upper};
+}
+
+/// The range of a number of a configuration.
+std::pair<double, double> rangeOf(const ConfigurationSpace& space, std::size_t number) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const Coordinate& c : space.coordinates())
+    if (c.kind == Coordinate::Kind::line && c.first == number) return {c.lower, c.upper};
+  return {-infinity, infinity};
+}
+
+FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame& frame) {
+  using Turned = FrameReach::Turned;
+  FrameReach reach = parent;
+  reach.origin = parent.origin + around(parent, {frame.fixed.p, frame.fixed.p});
+  reach.R = parent.R * frame.fixed.q.normalized().toRotationMatrix();
+  const Vec3 axis = frame.axis.stableNormalized();
+  switch (frame.joint) {
+    case Frame::Joint::none:
+      break;
+    case Frame::Joint::turn:
+      if (frame.variable == Frame::noVariable)
+        reach.R = reach.R * Eigen::AngleAxisd(frame.offset, axis).toRotationMatrix();
+      else if (reach.turned == Turned::any || (reach.R * axis).head<2>().norm() > 1e-9)
+        reach.turned = Turned::any;
+      else
+        reach.turned = Turned::aboutZ;
+      break;
+    case Frame::Joint::slide: {
+      double low = frame.offset, high = frame.offset;
+      if (frame.variable != Frame::noVariable) {
+        const auto [lower, upper] = rangeOf(problem.space, frame.variable);
+        low += std::min(frame.multiplier * lower, frame.multiplier * upper);
+        high += std::max(frame.multiplier * lower, frame.multiplier * upper);
+      }
+      const Vec3 a = low * axis, b = high * axis;
+      reach.origin = reach.origin + around(reach, {a.cwiseMin(b), a.cwiseMax(b)});
+      break;
+    }
+    case Frame::Joint::shift: {
+      ReachBox box;
+      for (std::size_t k = 0; k < frame.count; ++k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        std::tie(box.lower[i], box.upper[i]) = rangeOf(problem.space, frame.variable + k);
+      }
+      reach.origin = reach.origin + around(reach, box);
+      break;
+    }
+    case Frame::Joint::rotate:
+      reach.turned = Turned::any;
+      break;
+  }
+  return reach;
+}
+
+ReachBox boundsOf(const ProblemBody& body) {
+  ReachBox box{Vec3::Constant(std::numeric_limits<double>::infinity()),
+               Vec3::Constant(-std::numeric_limits<double>::infinity())};
+  for (const PlacedShape& shape : body.shapes) {
+    const double radius = shape.part ? shape.part->radius : 0;
+    for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
+      box.lower = box.lower.cwiseMin(p - Vec3::Constant(radius));
+      box.upper = box.upper.cwiseMax(p + Vec3::Constant(radius));
+    }
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<ReachBox> reachOf(const Problem& problem) {
+  std::vector<FrameReach> frames(1);
+  for (std::size_t i = 1; i < problem.tree.frames.size(); ++i)
+    frames.push_back(
+        childOf(problem, frames[problem.tree.frames[i].parent], problem.tree.frames[i]));
+  std::vector<ReachBox> boxes;
+  for (const ProblemBody& body : problem.bodies)
+    boxes.push_back(frames[body.frame].origin + around(frames[body.frame], boundsOf(body)));
+  return boxes;
+}
+
+bool outOfReach(const Problem& problem, const ReachBox& a, const ReachBox& b) {
+  const Vec3 gap = (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(Vec3::Zero());
+  const double size = (a.upper - a.lower).norm() + (b.upper - b.lower).norm();
+  // A tube moves no point farther than its lengths, and its angles times the sizes.
+  const double pad = problem.margin + problem.tube.sum() * (1 + size) + 1e-9 * size;
+  return gap.norm() > pad;
+}
+
+}  // namespace corridor
