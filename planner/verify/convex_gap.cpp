@@ -23,7 +23,7 @@ struct Nearest {
 };
 
 /// Weights of the point of least norm of the plane through the chosen corners, where all are
-/// positive: then it is the nearest of their hull.
+/// positive: then it is the nearest of their hull. All four of four are to be tried last.
 void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, Nearest& best) {
   std::array<std::size_t, 4> chosen{};
   int count = 0;
@@ -60,9 +60,10 @@ void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, N
   for (std::size_t i = 0; i < corners.size(); ++i)
     point += found.weights[i] * corners[i].difference();
   found.square = point.squaredNorm();
-  // Four corners around the origin: it is one of the hull. Of a hull that is all but flat nothing
-  // but rounding may say so; any combination is a point of the hull, but not the nearest then.
-  if (count == 4 && !(std::sqrt(found.square) <= kFine * size)) return;
+  // Four corners around the origin: it is one of the hull, up to rounding. Of a hull that is all
+  // but flat, rounding may say so where it isn't; but then no combination is nearer than the faces.
+  if (count == 4 && !(std::sqrt(found.square) <= 0x1p-30L * size && 4 * found.square < best.square))
+    return;
   if (found.square < best.square) best = found;
 }
 
