@@ -24,19 +24,20 @@ struct Answer {
   int rounds = 0;
 };
 
-/// How far candidates may be off and how long one may try: unit roundoff of the scalar as used, and
-/// rounds. Rims need many rounds, each adding about a third of a digit; polytopes as many as they
-/// have faces that face each other.
+/// How far candidates may be off and how long one may try: unit roundoff of the scalar as used,
+/// the share of the distance at which bounds agree (the quick search leaves what is closer to the
+/// other), and rounds. Rims need many rounds, each adding about a third of a digit; polytopes as
+/// many as they have faces that face each other.
 template <class Real>
 struct Effort;
 template <>
 struct Effort<double> {
-  static constexpr double unit = 0x1p-53;
+  static constexpr double unit = 0x1p-53, agreed = 0x1p-36;
   static constexpr int rounds = 64;
 };
 template <>
 struct Effort<DoubleDouble> {
-  static constexpr double unit = 0x1p-98;
+  static constexpr double unit = 0x1p-98, agreed = 0;
   static constexpr int rounds = 1000;
 };
 
@@ -75,13 +76,14 @@ class Support {
 
  private:
   /// m's share at a right angle to the axis, as a unit vector; zero where it has none. Taken twice:
-  /// a small share is mostly rounding along the axis at first.
+  /// a small share is mostly rounding at first, of any direction; where the second time takes away
+  /// half of it, it was nothing else.
   Vector<Real> radial(const Vector<Real>& m) const {
     Vector<Real> e = m;
-    for (int i = 0; i < 2; ++i) {
+    for (const double least : {Effort<Real>::unit, 0.5}) {
       e = e - axis_ * dot(e, axis_);
       const Real size = length(e);
-      if (!(size > Real(Effort<Real>::unit))) return {};
+      if (!(size > Real(least))) return {};
       e = e * (Real(1) / size);
     }
     return e;
@@ -92,7 +94,7 @@ class Support {
 };
 
 /// @param size  metres: above every coordinate involved. The search ends when upper and lower agree
-/// to 2^-50 of it or 2^-36 of the distance.
+/// to 2^-50 of it or a share (`Effort`) of the distance.
 /// @param accept  asked with the direction and its gap, whenever the gap is wider than any before;
 /// true ends the search.
 /// @param near  a distance at which the search ends, too: closer does not matter.
@@ -117,7 +119,7 @@ Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Ac
                           static_cast<double>(n.z)};
       if ((answer.accepted = accept(answer.direction, lower))) return answer;
     }
-    const double enough = std::max(0x1p-50 * size, 0x1p-36 * distance);
+    const double enough = std::max(0x1p-50 * size, Effort<Real>::agreed * distance);
     if (answer.upper <= near || answer.upper - answer.lower <= enough) return answer;
     for (int i = 0; i < face.count; ++i)
       if (w == face.corner[i]) return answer;  // nothing new that way
@@ -136,7 +138,7 @@ Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Ac
         face = nearest(c[0], c[1], c[2], w, noise);
     }
     if (face.count == 4) {
-      answer.overlap = face.inside;
+      answer.overlap = true;
       answer.upper = 0;
       return answer;
     }

@@ -46,15 +46,14 @@ template <class Real>
 struct Nearest {
   Vector<Real> v;          ///< the point, exact in direction above all
   Real squared = Real(0);  ///< its squared distance
+  /// 4: the origin is inside, by more than rounding can feign.
   int count = 0;
   Vector<Real> corner[4];  ///< of that face
-  /// The origin is in the simplex (`count` 4), by more than rounding can feign.
-  bool inside = false;
 };
 
 template <class Real>
 Nearest<Real> nearest(const Vector<Real>& a) {
-  return {a, dot(a, a), 1, {a}, false};
+  return {a, dot(a, a), 1, {a}};
 }
 
 template <class Real>
@@ -65,7 +64,7 @@ Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b) {
   if (!(along < square)) return nearest(b);
   Vector<Real> v = a + d * (along / square);
   v = v - d * (dot(v, d) / square);  // at a right angle to d, whatever was cancelled above
-  return {v, dot(v, v), 2, {a, b}, false};
+  return {v, dot(v, v), 2, {a, b}};
 }
 
 template <class Real>
@@ -81,7 +80,7 @@ Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector
     // rounding of its weights; its direction from the normal.
     const Vector<Real> foot =
         (a * areaA + b * areaB + c * areaC) * (Real(1) / (areaA + areaB + areaC));
-    return {n * (dot(n, a) / square), dot(foot, foot), 3, {a, b, c}, false};
+    return {n * (dot(n, a) / square), dot(foot, foot), 3, {a, b, c}};
   }
   Nearest<Real> best;
   const auto offer = [&](bool out, const Vector<Real>& p, const Vector<Real>& q) {
@@ -107,7 +106,6 @@ Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector
   }
   const Real unsure = noise * largest;  // of a determinant
   Nearest<Real> best;
-  bool clear = true;
   for (int k = 0; k < 4; ++k) {
     const Vector<Real>&p = *corners[(k + 1) % 4], &q = *corners[(k + 2) % 4],
           &r = *corners[(k + 3) % 4];
@@ -117,13 +115,12 @@ Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector
       origin = -origin;
       apex = -apex;
     }
-    clear = clear && origin > unsure && apex > unsure;
-    if (origin > Real(0) && apex > unsure) continue;
+    if (origin > unsure && apex > unsure) continue;
     const Nearest<Real> face = nearest(p, q, r);
     if (best.count == 0 || face.squared < best.squared) best = face;
   }
   if (best.count > 0) return best;
-  return {{}, Real(0), 4, {a, b, c, d}, clear};
+  return {{}, Real(0), 4, {a, b, c, d}};
 }
 
 }  // namespace corridor::gjk

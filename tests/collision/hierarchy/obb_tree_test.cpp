@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "collision/core/query_context.h"
@@ -89,6 +90,52 @@ INSTANTIATE_TEST_SUITE_P(All, Fits,
                                   : p.param == ObbFit::triangles ? "triangles"
                                                                  : "hull";
                          });
+
+/// One leaf around a primitive, proved in rationals, and tight.
+TEST(ObbTree, OfAConvexPart) {
+  std::mt19937_64 random(test::testSeed(6));
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  for (int n = 0; n < 400; ++n) {
+    const double thin = n % 7 == 0 ? 1e-6 : 1, offset = n % 3 == 0 ? 1e6 : 1;
+    const double r = thin * real(0.1, 1), l = (n % 2 ? thin : 1) * real(0.1, 1);
+    Primitive p;
+    double wanted = 0;  // sum of half extents
+    switch (n % 5) {
+      case 0:
+        p = Box{Vec3(l, r, 0.5)}, wanted = (l + r + 0.5) / 2;
+        break;
+      case 1:
+        p = Sphere{r}, wanted = 3 * r;
+        break;
+      case 2:
+        p = Capsule{r, l}, wanted = 3 * r + l / 2;
+        break;
+      case 3:
+        p = Cylinder{r, l}, wanted = 2 * r + l / 2;
+        break;
+      default: {
+        Convex hull;
+        for (int i = 0; i < 1 + n % 30; ++i) hull.points.emplace_back(real(), real() * l, real());
+        p = hull;
+        wanted = 6;
+      }
+    }
+    const Transform X{
+        Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix(),
+        offset * Vec3(real(), real(), real())};
+    const ConvexPart part = placed(p, X);
+    const ObbTree tree(part);
+    EXPECT_EQ(tree.check(), std::nullopt) << nameOf(p) << " " << n;
+    ASSERT_EQ(tree.nodes().size(), 1U);
+    EXPECT_TRUE(tree.node(0).isLeaf());
+    ASSERT_NE(tree.part(), nullptr);
+    EXPECT_TRUE(tree.triangles().empty());
+    for (const Vec3& q : part.points) EXPECT_GE(tree.reach(), q.norm() + part.radius);
+    EXPECT_LE(tree.node(0).box.half.sum(), wanted * (1 + 1e-9) + 1e-14 * offset) << nameOf(p);
+  }
+}
 
 /// A box is fitted to the shape, not to its tessellation: refining one face of a cube a
 /// thousandfold changes the moments of neither the surface nor the hull.

@@ -1,0 +1,70 @@
+#include "collision/convex/gjk.h"
+
+#include <iomanip>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "tests/collision/convex/touching_pairs.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::Feature;
+using test::Shape;
+using test::Touching;
+
+/// Characterisation: how far upper and lower bound of the cores' distance are apart when the search
+/// ends, over the largest coordinate's scale, and how many rounds it took. The table in gjk.h is
+/// this test's output; it fails where reality is worse than the table.
+TEST(Gjk, WorstErrors) {
+  Touching make(test::testSeed(24));
+  const char* names[] = {"box", "sphere", "capsule", "cylinder", "convex", "triangle"};
+  for (const Shape sa : test::kShapes)
+    for (const Shape sb : test::kShapes) {
+      if (sb < sa) continue;
+      double plain = 0, fine = 0;
+      int plainRounds = 0, fineRounds = 0;
+      for (int n = 0; n < 2'000; ++n) {
+        const Feature a = make.feature(sa), b = make.feature(sb);
+        const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
+        const Transform X_WA = make.pose(a, Vec3::Zero(), normal);
+        Transform X_WB = make.pose(b, Vec3::Zero(), -normal);
+        X_WB.t += normal * std::pow(10.0, -1 - n % 13);
+        const PosedSet setA(a.set(), X_WA), setB(b.set(), X_WB);
+        const double size = setA.reach() + setB.reach() + X_WA.t.norm() + X_WB.t.norm();
+        const auto never = [](const Vec3&, double) { return false; };
+        const auto error = [&](const gjk::Answer& answer) {
+          return (answer.upper - answer.lower) / size;
+        };
+        const double near = 0x1p-49 * size;
+        const gjk::Answer d = gjk::search<double>(setA, setB, size, near, never);
+        const gjk::Answer dd = gjk::search<DoubleDouble>(setA, setB, size, near, never);
+        plain = std::max(plain, error(d));
+        plainRounds = std::max(plainRounds, d.rounds);
+        if (dd.overlap || dd.upper <= near) continue;
+        // What counts: of 2^-36 of the distance, or 2^-50 of the size.
+        fine = std::max(fine, (dd.upper - dd.lower) / std::max(size, 0x1p14 * dd.upper));
+        fineRounds = std::max(fineRounds, dd.rounds);
+      }
+      std::cout << "///   " << std::left << std::setw(9) << names[int(sa)] << std::setw(9)
+                << names[int(sb)] << std::setprecision(1) << std::scientific << plain
+                << std::setw(4) << std::right << plainRounds << "   " << fine << std::setw(4)
+                << fineRounds << "\n";
+      EXPECT_LE(fine, 0x1.01p-50) << names[int(sa)] << " " << names[int(sb)];
+      EXPECT_LT(fineRounds, 200);
+    }
+}
+
+TEST(DoubleDouble, HasAHundredBits) {
+  const DoubleDouble third = DoubleDouble(1) / DoubleDouble(3);
+  EXPECT_LT(std::abs(static_cast<double>(third * DoubleDouble(3) - DoubleDouble(1))), 0x1p-100);
+  const DoubleDouble root = sqrt(DoubleDouble(2));
+  EXPECT_LT(std::abs(static_cast<double>(root * root - DoubleDouble(2))), 0x1p-98);
+  EXPECT_EQ(static_cast<double>(DoubleDouble(1) + DoubleDouble(0x1p-80) - DoubleDouble(1)),
+            0x1p-80);
+}
+
+}  // namespace
+}  // namespace corridor
