@@ -25,11 +25,12 @@ constexpr double kPiece =
     70;  // pixels: larger triangles are cut, so that they can be sorted by depth
 constexpr int kMostGhosts = 14,
               kFewestGhosts = 4;  // robots drawn between start and goal: fewer where one is costly
-constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 40'000, kGhostsLimit = 180'000;  // bytes
+constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 60'000, kGhostsLimit = 180'000;  // bytes
 constexpr int kShades = 8;
-/// Meshes of moving bodies with more triangles are drawn coarser: cells of this share of the scene.
-constexpr std::size_t kFewTriangles = 500;
-constexpr double kCell = 1.0 / 250;
+/// Meshes of moving bodies with more triangles are drawn coarser: cells of this share of the scene,
+/// larger ones where all that moves has more triangles than a copy has room for.
+constexpr std::size_t kFewTriangles = 500, kMostTriangles = 5000;
+constexpr double kCell = 1.0 / 250, kLargestCell = 1.0 / 60;
 
 /// A triangle of the picture.
 struct Face {
@@ -69,6 +70,20 @@ struct Moving {
   std::vector<std::size_t> frames;
 };
 
+/// Few enough triangles for a copy, where `size` (of the scene, metres) allows that.
+Moving whatMoves(const Problem& problem, double size) {
+  for (double cell = kCell * size;; cell *= 1.25) {
+    Moving moving;
+    for (const ProblemBody& body : problem.bodies) {
+      if (body.frame == 0) continue;
+      const std::vector<Triangle3> triangles = distinctTriangles(body, cell);
+      moving.triangles.insert(moving.triangles.end(), triangles.begin(), triangles.end());
+      moving.frames.insert(moving.frames.end(), triangles.size(), body.frame);
+    }
+    if (moving.triangles.size() <= kMostTriangles || !(cell < kLargestCell * size)) return moving;
+  }
+}
+
 std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
                                 const Configuration& q) {
   const std::vector<Transform> poses = framePoses(problem.tree, q);
@@ -100,16 +115,16 @@ double sceneSize(const Problem& problem, const Configuration& q) {
   return (high - low).norm();
 }
 
-using PlaneKey = std::array<long, 4>;
+using PlaneKey = std::array<long, 5>;
 
-/// The same for triangles in one plane: unit normal to 1 %, offset to 2 pixels.
-PlaneKey planeOf(const Triangle3& triangle, double pixel) {
+/// The same for triangles of one body in one plane: unit normal to 1 %, offset to 2 pixels.
+PlaneKey planeOf(std::size_t body, const Triangle3& triangle, double pixel) {
   Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   int largest = 0;
   normal.cwiseAbs().maxCoeff(&largest);
   if (normal[largest] < 0) normal = -normal;
   const Vec3 n = 100 * normal;
-  return {std::lround(n.x()), std::lround(n.y()), std::lround(n.z()),
+  return {static_cast<long>(body), std::lround(n.x()), std::lround(n.y()), std::lround(n.z()),
           std::lround(normal.dot(triangle[0]) / (2 * pixel))};
 }
 
@@ -265,14 +280,14 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   const bool plan = isPlan(problem);
   Camera camera = plan ? Camera(-90 * degree, 90 * degree) : Camera(-60 * degree, 38 * degree);
   std::vector<Triangle3> world;
-  Moving robot;
-  const double cell = kCell * sceneSize(problem, path.front());
-  for (const ProblemBody& body : problem.bodies) {
-    const std::vector<Triangle3> triangles = distinctTriangles(body, cell);
-    auto& side = body.frame == 0 ? world : robot.triangles;
-    side.insert(side.end(), triangles.begin(), triangles.end());
-    if (body.frame != 0) robot.frames.insert(robot.frames.end(), triangles.size(), body.frame);
-  }
+  std::vector<std::size_t> worldBodies;  // of each triangle
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b)
+    if (problem.bodies[b].frame == 0) {
+      const std::vector<Triangle3> triangles = distinctTriangles(problem.bodies[b], 0);
+      world.insert(world.end(), triangles.begin(), triangles.end());
+      worldBodies.insert(worldBodies.end(), triangles.size(), b);
+    }
+  const Moving robot = whatMoves(problem, sceneSize(problem, path.front()));
   // About half of a robot's triangles are seen, at some 28 bytes each.
   const int ghostCount =
       static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.triangles.size() + 1),
@@ -299,21 +314,22 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   std::vector<Face> faces;
   std::map<PlaneKey, int>
       hides;  // pixels of robots, by the planes in front of them: a wall is seen through as a whole
-  for (const auto& triangle : world) {
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const Triangle3& triangle = world[i];
     faces.push_back(makeFace(camera, triangle));
     // A plan from above has no side faces to tell walls from the ground by: what reaches above the
     // robot's feet is dark.
     if (plan)
       faces.back().shade =
           std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;
-    int& count = hides[planeOf(triangle, camera.worldPixel())];
+    int& count = hides[planeOf(worldBodies[i], triangle, camera.worldPixel())];
     robots.cover(faces.back().corners, [&](std::size_t pixel, double depth) {
       count += std::isfinite(robots.depth(pixel)) && depth > robots.depth(pixel) + 1;
     });
   }
   std::vector<Face> solid, glass;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (hides[planeOf(world[i], camera.worldPixel())] > 3)
+    if (hides[planeOf(worldBodies[i], world[i], camera.worldPixel())] > 3)
       glass.push_back(faces[i]);
     else
       cut(faces[i], solid);
