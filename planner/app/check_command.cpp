@@ -41,6 +41,14 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
   return checked;
 }
 
+/// As a field of a CSV line, RFC 4180: names are their users' choice.
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 int checkStates(const Problem& problem, const CheckArguments& a) {
   const std::vector<StateRow> rows = readStateRows(*a.states, problem.space);
   const Checker checker(problem);
@@ -61,17 +69,11 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
                         {"out_of_bounds", state.outOfBounds}});
       continue;
     }
-    std::cout << i << ',' << state.valid << ',';
-    const char* separator = "";
-    for (const std::string& pair : state.pairs) {
-      std::cout << separator << pair;
-      separator = ";";
-    }
-    for (const std::string& name : state.outOfBounds) {
-      std::cout << separator << "bounds:" << name;
-      separator = ";";
-    }
-    std::cout << '\n';
+    std::string why;
+    for (const std::string& pair : state.pairs) why += (why.empty() ? "" : ";") + pair;
+    for (const std::string& name : state.outOfBounds)
+      why += (why.empty() ? "bounds:" : ";bounds:") + name;
+    std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
   }
   if (noted)
     warn(*a.states + ": in " + counted(noted, "state") +

@@ -41,8 +41,10 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
     if (above.filename() == package && whyNoFile(above / rest).empty()) return {above / rest, ""};
   std::vector<std::string> names;
   for (const auto& entry : packages_) names.push_back(entry.first);
-  return {beside, "package " + quotedWord(package) + " has no folder in the robot's packages" +
-                      didYouMean(package, names) + ", and " + beside.string() + " is no file"};
+  const std::string near = didYouMean(package, names);
+  return {beside, "package " + quotedWord(package) + " has no folder" +
+                      (near.empty() ? " (robot.yaml: packages: {" + package + ": FOLDER})" : near) +
+                      ", and " + beside.string() + " is no file"};
 }
 
 MeshStore::Place MeshStore::locate(const std::string& name) const {

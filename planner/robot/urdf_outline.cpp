@@ -210,16 +210,19 @@ bool isXacro(XmlFile& file, const Element& element) {
   return false;
 }
 
+/// @returns false: faulted, and left out.
 template <class Named>
-void addUnique(Named named, const char* kind, std::vector<Named>& all, XmlFile& file) {
-  if (named.name.empty()) return;
+bool addUnique(Named named, const char* kind, std::vector<Named>& all, XmlFile& file) {
+  if (named.name.empty()) return false;
   const auto first = std::find_if(all.begin(), all.end(),
                                   [&](const Named& other) { return other.name == named.name; });
-  if (first != all.end())
+  if (first != all.end()) {
     file.fault(named.line, owned(kind, named.name) + " is there already, on line " +
                                std::to_string(first->line) + "; names are unique");
-  else
-    all.push_back(std::move(named));
+    return false;
+  }
+  all.push_back(std::move(named));
+  return true;
 }
 
 }  // namespace
@@ -235,9 +238,11 @@ UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::s
        element = element->NextSiblingElement()) {
     const std::string_view kind = element->Name();
     if (kind == "link")
-      addUnique(readLink(file, *element, meshes, notes), "link", outline.links, file);
+      outline.complete &=
+          addUnique(readLink(file, *element, meshes, notes), "link", outline.links, file);
     else if (kind == "joint")
-      addUnique(readJoint(file, *element, notes), "joint", outline.joints, file);
+      outline.complete &=
+          addUnique(readJoint(file, *element, notes), "joint", outline.joints, file);
   }
   if (!root.FirstChildElement("link"))
     file.fault(root.GetLineNum(), "the robot has no <link>; one at least is needed");

@@ -45,6 +45,7 @@ struct UrdfOutline {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  bool complete = true;  ///< no link or joint was left out for want of a name of its own
 };
 
 /// @pre file.root(). Meshes are read into `meshes`. Numbers in the XML are rewritten in plain

@@ -30,7 +30,8 @@ constexpr std::size_t none = SIZE_MAX;
 class Tree {
  public:
   Tree(const UrdfOutline& outline, XmlFile& file)
-      : links_(outline.links),
+      : outline_(outline),
+        links_(outline.links),
         joints_(outline.joints),
         file_(file),
         linkIndex_(indicesOf(links_)),
@@ -39,9 +40,10 @@ class Tree {
         children_(links_.size()) {}
 
   std::vector<std::size_t> check() {
-    bool joined = true;
+    bool joined = outline_.complete;
     for (std::size_t j = 0; j < joints_.size(); ++j) joined &= join(j);
-    // What hangs from a link that is misspelt is a root only because of that.
+    // What hangs from a link that is misspelt, or from a joint that was left out, is a root only
+    // because of that.
     if (joined) checkShape();
     for (const UrdfJoint& joint : joints_)
       if (joint.mimic) checkMimic(joint);
@@ -189,6 +191,7 @@ class Tree {
     return ordered;
   }
 
+  const UrdfOutline& outline_;
   const std::vector<UrdfLink>& links_;
   const std::vector<UrdfJoint>& joints_;
   XmlFile& file_;

@@ -311,7 +311,10 @@ Real Verifier::look(const Interval& part, OpenPair& open) {
     if (open.bound <= problem_.margin && part.half > 0)
       open.bound = std::max(open.bound, lookClosely(m, reach, part.half, wanted));
     if (open.bound <= problem_.margin && (travel <= problem_.tolerance || part.depth >= kDepth))
-      close(part, open.pair, m, PathVerdict::undecided, "clearance below the tolerance");
+      close(part, open.pair, m, PathVerdict::undecided,
+            m.gap.lower - reach.rounding - problem_.margin > problem_.tolerance
+                ? "the tube may take all of the clearance"
+                : "clearance below the tolerance");
     else if (open.bound <= problem_.margin && queries_ >= problem_.workLimit)
       close(part, open.pair, m, PathVerdict::undecided, "work limit reached");
   }

@@ -62,7 +62,8 @@ enum class PathVerdict {
   refuted,   ///< some finding is: a contact at a pose within rounding of the path (relative 2^-50),
              ///< a point closer than margin or tube allow, an ambiguous half turn, or a state that
              ///< is no state
-  undecided  ///< neither: the clearance left is somewhere less than twice the tolerance, or the
+  undecided  ///< neither: the clearance left is somewhere less than twice the tolerance, or than
+             ///< what the tube moves at most whatever the direction (`Reach::tube`), or the
              ///< work limit was reached
 };
 

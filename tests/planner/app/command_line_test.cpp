@@ -162,6 +162,15 @@ TEST_F(ArmCommandLine, CheckOfManyStates) {
   EXPECT_EQ(json["states"][3]["out_of_bounds"][0], "elbow");
 }
 
+TEST_F(ArmCommandLine, CheckQuotesNamesWithCommas) {
+  write("commas.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld: {'post \"a\", b': {sphere: 0.1, at: "
+        "[0, 1.5, 0]}}\nstart: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
+  write("states.txt", "1.5708 0\n");
+  EXPECT_EQ(run("check commas.yaml --states states.txt").out,
+            "state,valid,pairs\n0,0,\"lower~post \"\"a\"\", b\"\n");
+}
+
 TEST_F(ArmCommandLine, CheckFaultsStatesByLine) {
   write("states.txt", "0 0 0\n0 0\n0 x\n");
   const Result checked = run("check arm.yaml --states states.txt");

@@ -57,6 +57,10 @@ TEST_F(UrdfFaults, Names) {
                              joint("j", "fixed", "a", "b")),
             "r.urdf:4: link \"a\" is there already, on line 2; names are unique\n"
             "r.urdf:6: joint \"j\" is there already, on line 5; names are unique");
+  // What the joint left out would have joined is no second root.
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "b") +
+                             joint("j", "fixed", "b", "c")),
+            "r.urdf:6: joint \"j\" is there already, on line 5; names are unique");
 }
 
 TEST_F(UrdfFaults, Trees) {
@@ -224,9 +228,11 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("package://arm_description/none.stl"),
             of + "\"package://arm_description/none.stl\": none.stl: no such file");
   EXPECT_EQ(complaint("package://arm_descripton/a.stl"),
-            of + "\"package://arm_descripton/a.stl\": package \"arm_descripton\" has no folder in "
-                 "the robot's packages; did you mean \"arm_description\"?, and "
-                 "arm_descripton/a.stl is no file");
+            of + "\"package://arm_descripton/a.stl\": package \"arm_descripton\" has no folder; "
+                 "did you mean \"arm_description\"?, and arm_descripton/a.stl is no file");
+  EXPECT_EQ(complaint("package://hand/a.stl"),
+            of + "\"package://hand/a.stl\": package \"hand\" has no folder (robot.yaml: packages: "
+                 "{hand: FOLDER}), and hand/a.stl is no file");
   // Faults of mesh files come with those of the URDF, each file's once.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +

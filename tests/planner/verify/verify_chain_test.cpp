@@ -111,6 +111,18 @@ TEST(VerifyChain, TubesOfJointsCount) {
   EXPECT_NE(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
 }
 
+TEST(VerifyChain, SaysWhereTheTubeIsWhatDecides) {
+  // In front of a stretched arm, where its tube of turns hardly moves it towards the obstacle.
+  Chain chain(2, boxPart(Vec3(1.952, -0.2, -0.2), Vec3(2.2, 0.2, 0.2)));
+  chain.problem.tube = joints({0.001, 0.001});
+  const PathReport report = verifyPath(chain.problem, {joints({0, 0}), joints({0, 0})});
+  ASSERT_EQ(report.verdict, PathVerdict::undecided);
+  EXPECT_EQ(report.findings[0].reason, "the tube may take all of the clearance");
+  chain.problem.tube = joints({0, 0});
+  EXPECT_EQ(verifyPath(chain.problem, {joints({0, 0}), joints({0, 0})}).verdict,
+            PathVerdict::proved);
+}
+
 TEST(VerifyChain, RandomPathsAgainstDenseSampling) {
   std::mt19937_64 random(test::testSeed(7));
   const int paths = test::stressAsked() ? 300 : 60;
