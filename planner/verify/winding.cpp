@@ -1,35 +1,40 @@
 #include "planner/verify/winding.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace corridor::verify {
 
 std::vector<std::vector<std::uint32_t>> componentsOf(const TriangleMesh& mesh) {
   std::map<std::array<double, 3>, std::uint32_t> places;
-  std::vector<std::uint32_t> root;
+  const auto placeOf = [&](const Vec3& p) {
+    return places
+        .try_emplace({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0},
+                     static_cast<std::uint32_t>(places.size()))
+        .first->second;
+  };
+  std::vector<std::uint32_t> root(mesh.triangles.size());
+  std::iota(root.begin(), root.end(), 0u);
   const auto find = [&](std::uint32_t i) {
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
-  const auto placeOf = [&](const Vec3& p) {
-    const auto [at, fresh] = places.try_emplace({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0},
-                                                static_cast<std::uint32_t>(root.size()));
-    if (fresh) root.push_back(at->second);
-    return at->second;
-  };
-  std::vector<std::uint32_t> placeOfTriangle;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t first = placeOf(mesh.corner(t, 0));
-    for (int i = 1; i < 3; ++i) root[find(placeOf(mesh.corner(t, i)))] = find(first);
-    placeOfTriangle.push_back(first);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;  // and a triangle there
+  for (std::uint32_t t = 0; t < root.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t p = placeOf(mesh.corner(t, i)), q = placeOf(mesh.corner(t, (i + 1) % 3));
+      if (p == q) continue;
+      const auto [at, fresh] = edges.try_emplace(std::minmax(p, q), t);
+      if (!fresh) root[find(t)] = find(at->second);
+    }
   }
   std::map<std::uint32_t, std::vector<std::uint32_t>> byRoot;
-  for (std::uint32_t t = 0; t < placeOfTriangle.size(); ++t)
-    byRoot[find(placeOfTriangle[t])].push_back(t);
+  for (std::uint32_t t = 0; t < root.size(); ++t) byRoot[find(t)].push_back(t);
   std::vector<std::vector<std::uint32_t>> components;
   for (auto& [unused, triangles] : byRoot) components.push_back(std::move(triangles));
   return components;

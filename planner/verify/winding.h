@@ -7,7 +7,9 @@
 
 namespace corridor::verify {
 
-/// The connected components of a mesh (corners at the same place are one), each with its triangles.
+/// The components of a mesh, each with its triangles: those that share an edge hang together
+/// (corners at the same place are one). Shells that meet in a corner alone are components of their
+/// own: one may be in the other, and together they turn twice about what is in both, or not at all.
 std::vector<std::vector<std::uint32_t>> componentsOf(const TriangleMesh& mesh);
 
 /// Is the point inside any one of the components? Each is taken as closed; the solid angles of its

@@ -1,4 +1,6 @@
 // Paths of arms, primitives and solids: closed forms, and random ones against dense sampling.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "tests/planner/verify/meshes.h"
@@ -195,6 +197,19 @@ TEST(VerifyChain, SolidsHoldWhatIsInside) {
   TriangleMesh mirrored = large;
   for (Vec3& v : mirrored.vertices) v.y() = -v.y();
   EXPECT_EQ(still(mirrored, true, small, false), PathVerdict::refuted);
+}
+
+TEST(VerifyChain, ShellsThatMeetInACornerAreSolidsOfTheirOwn) {
+  const TriangleMesh large = boxMesh({0, 0, 0}, {4, 4, 4}), small = boxMesh({0, 0, 0}, {2, 2, 2});
+  TriangleMesh inward = small;
+  for (auto& t : inward.triangles) std::swap(t[0], t[1]);
+  const auto crumb = [](double x) { return boxMesh(Vec3::Constant(x), Vec3::Constant(x + 0.1)); };
+  // Together they turn twice, or not at all, about what is in both.
+  for (const TriangleMesh& inner : {small, inward}) {
+    EXPECT_EQ(still(both(large, inner), true, crumb(1), false), PathVerdict::refuted);
+    EXPECT_EQ(still(both(large, inner), true, crumb(3), false), PathVerdict::refuted);
+    EXPECT_EQ(still(both(large, inner), true, crumb(5), false), PathVerdict::proved);
+  }
 }
 
 }  // namespace
