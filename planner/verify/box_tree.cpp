@@ -88,7 +88,12 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   a_ = &a;
   b_ = &b;
   X_AB_ = X_AB;
-  direction_.setZero();
+  const auto only = [](const BoxTree& tree) { return tree.piece(0).part; };
+  partA_.reset();
+  partB_.reset();
+  if (only(a)) partA_ = placed(*only(a), Placement{});
+  if (only(b)) partB_ = placed(*only(b), X_AB);
+  setDirection(RealVec::Zero());
   ++stamp_;
   if (boxesB_.size() < b.size()) {
     boxesB_.resize(b.size());
@@ -121,6 +126,22 @@ const BodyDistance::Box& BodyDistance::boxB(std::uint32_t node) {
   return box;
 }
 
+void BodyDistance::setDirection(const RealVec& unit) {
+  direction_ = unit;
+  if (partA_) partEndA_ = unit.dot(partA_->farthest(unit)) + partA_->ball();
+  if (partB_) partStartB_ = unit.dot(partB_->farthest(-unit)) - partB_->ball();
+}
+
+Real BodyDistance::endA(const Box& box) const {
+  if (partA_) return partEndA_;
+  return direction_.dot(box.centre) + direction_.cwiseAbs().dot(box.half);
+}
+
+Real BodyDistance::startB(const Box& box) const {
+  if (partB_) return partStartB_;
+  return direction_.dot(box.centre) - direction_.cwiseAbs().dot(box.half);
+}
+
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
   const Box boxOfA = boxA(a);
   const Box& boxOfB = boxB(b);
@@ -130,9 +151,7 @@ Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
         std::abs(boxOfA.centre[i] - boxOfB.centre[i]) - boxOfA.half[i] - boxOfB.half[i];
     if (gap > 0) square += gap * gap;
   }
-  const Real slab = direction_.dot(boxOfB.centre - boxOfA.centre) -
-                    direction_.cwiseAbs().dot(boxOfA.half + boxOfB.half);
-  return std::max(std::sqrt(square), slab);
+  return std::max(std::sqrt(square), startB(boxOfB) - endA(boxOfA));
 }
 
 std::array<RealVec, 3> BodyDistance::cornersA(std::uint32_t piece) const {
@@ -148,20 +167,21 @@ std::array<RealVec, 3> BodyDistance::cornersB(std::uint32_t piece) const {
 }
 
 ConvexSet BodyDistance::setA(std::uint32_t piece) const {
-  if (const ConvexPart* part = a_->piece(piece).part) return placed(*part, Placement{});
+  if (partA_) return *partA_;
   const auto corners = cornersA(piece);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
 ConvexSet BodyDistance::setB(std::uint32_t piece) const {
-  if (const ConvexPart* part = b_->piece(piece).part) return placed(*part, X_AB_);
+  if (partB_) return *partB_;
   const auto corners = cornersB(piece);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
-TriangleGap BodyDistance::gap(PiecePair pair) const {
-  if (a_->piece(pair.a).part || b_->piece(pair.b).part)
-    return convexGap(setA(pair.a), setB(pair.b));
+TriangleGap BodyDistance::gap(PiecePair pair, Real enough) const {
+  if (partA_ && partB_) return convexGap(*partA_, *partB_, enough);
+  if (partA_) return convexGap(*partA_, setB(pair.b), enough);
+  if (partB_) return convexGap(setA(pair.a), *partB_, enough);
   return triangleGap(cornersA(pair.a).data(), cornersB(pair.b).data());
 }
 
@@ -177,13 +197,23 @@ std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole) {
 BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
                               const std::function<bool(PiecePair)>& touches) {
   BodyGap best;
-  direction_.setZero();
+  setDirection(RealVec::Zero());
   Real enough = stop;
   const auto test = [&](PiecePair pair) {
     TriangleGap found;
-    if (!a_->piece(pair.a).part && !b_->piece(pair.b).part)  // cheaper, where that is enough
-      found.lower = slabWidth(cornersA(pair.a).data(), cornersB(pair.b).data(), direction_);
-    if (found.lower < enough) found = gap(pair);
+    // A slab is cheaper, where that is enough.
+    const auto along = [&](const RealVec& corner) { return direction_.dot(corner); };
+    Real endOfA = partEndA_, startOfB = partStartB_;
+    if (!partA_) {
+      const auto corners = cornersA(pair.a);
+      endOfA = std::max({along(corners[0]), along(corners[1]), along(corners[2])});
+    }
+    if (!partB_) {
+      const auto corners = cornersB(pair.b);
+      startOfB = std::min({along(corners[0]), along(corners[1]), along(corners[2])});
+    }
+    found.lower = startOfB - endOfA;
+    if (found.lower < enough) found = gap(pair, enough);
     best.lower = std::min(best.lower, found.lower);
     if (found.upper < best.upper) {
       best.upper = found.upper;
@@ -194,7 +224,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
           std::min(stop, std::max(kSame * best.upper,
                                   std::nextafter(doubt, std::numeric_limits<Real>::infinity())));
       const RealVec between = found.onB - found.onA;
-      if (const Real length = between.norm(); length > 0) direction_ = between / length;
+      if (const Real length = between.norm(); length > 0) setDirection(between / length);
     }
     if (found.lower > doubt || !touches(pair)) return false;
     best = {0, 0, pair, found.onA, found.onB, true};

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "planner/verify/convex_gap.h"
@@ -84,7 +85,8 @@ class BodyDistance {
 
   ConvexSet setA(std::uint32_t piece) const;
   ConvexSet setB(std::uint32_t piece) const;  ///< in a's frame
-  TriangleGap gap(PiecePair pair) const;
+  /// To the last digits, or to where `lower` is `enough`.
+  TriangleGap gap(PiecePair pair, Real enough = std::numeric_limits<Real>::infinity()) const;
 
  private:
   struct Box {
@@ -94,6 +96,10 @@ class BodyDistance {
     std::uint32_t a, b;
     Real lower;
   };
+  /// Where a's box ends along `direction_` and b's starts; its part, where it is one.
+  Real endA(const Box& box) const;
+  Real startB(const Box& box) const;
+  void setDirection(const RealVec& unit);
   Box boxA(std::uint32_t node) const;
   const Box& boxB(std::uint32_t node);
   Real boxGap(std::uint32_t a, std::uint32_t b);
@@ -106,8 +112,10 @@ class BodyDistance {
   const BoxTree* a_ = nullptr;
   const BoxTree* b_ = nullptr;
   Placement X_AB_;
-  RealVec direction_ = RealVec::Zero();  ///< of the closest points so far, unit or zero: slabs
-                                         ///< along it are bounds, for boxes too
+  std::optional<ConvexSet> partA_, partB_;  ///< in a's frame, of trees that are one part
+  RealVec direction_ = RealVec::Zero();     ///< of the closest points so far, unit or zero: slabs
+                                            ///< along it are bounds, for boxes too
+  Real partEndA_ = 0, partStartB_ = 0;      ///< of the parts, along direction_
   std::vector<Box> boxesB_;
   std::vector<std::uint64_t> stamps_;  ///< of boxesB_: the placement that made them
   std::uint64_t stamp_ = 0;

@@ -96,7 +96,7 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement) {
   return set;
 }
 
-TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b) {
+TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, Real enough) {
   std::vector<Corner> corners{{a.points[0], b.points[0]}};
   RealVec onA = a.points[0], onB = b.points[0];
   Real lower = -std::numeric_limits<Real>::infinity();
@@ -113,15 +113,18 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b) {
     const Real slab = v.dot(corner.difference()) / length;
     lower = std::max(lower, slab);
     const Real size = corner.onA.norm() + corner.onB.norm();
-    if (length - lower <= kFine * size) break;
+    if (length - lower <= kFine * size || lower - balls >= enough) break;
     if (std::any_of(corners.begin(), corners.end(), [&](const Corner& old) {
           return old.onA == corner.onA && old.onB == corner.onB;
         }))
       break;  // nothing new to be had
     corners.push_back(corner);
+    // What is nearer than before has the new corner in it.
     Nearest best;
-    for (unsigned subset = 1; subset < 1u << corners.size(); ++subset)
-      trySubset(corners, subset, size, best);
+    best.square = length * length;
+    const unsigned newest = 1u << (corners.size() - 1);
+    for (unsigned others = 0; others < newest; ++others)
+      trySubset(corners, newest | others, size, best);
     if (!(best.square < length * length)) break;  // rounding has the last word
     std::vector<Corner> kept;
     onA = onB = RealVec::Zero();

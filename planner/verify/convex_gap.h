@@ -29,8 +29,10 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement);
 /// `lower` from a slab; any direction gives a true bound. Found by the point of least norm of the
 /// difference of the sets' cores, from at most four of its corners at a time (Gilbert, Johnson,
 /// Keerthi 1988); which of them is settled by trying all subsets, as is plainest.
+/// The search ends early once `lower` is `enough`; `upper` is then no more than a bound.
 /// Rounding as for triangles: 2^-50 of the size covers it amply.
-TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b);
+TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b,
+                      Real enough = std::numeric_limits<Real>::infinity());
 
 /// The gap of the slab along `direction` (from a to b), of any length, while every core point x of
 /// a moves to x + linearA + angularA × x, and those of b likewise. Balls move with their centres.
