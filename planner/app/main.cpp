@@ -104,7 +104,8 @@ void addCheck(CLI::App& program, CheckArguments& a, int& status) {
       program.add_subcommand("check", "Check a problem, or many states of it, without planning");
   command->add_option("PROBLEM", a.problem, "the problem")->required();
   command->add_option("--states", a.states,
-                      "a file of states, one a line, numbers blank or comma separated, # comments: "
+                      "a file of states (- is the standard input), one a line, numbers blank or "
+                      "comma separated, # comments: "
                       "prints one line each, state,valid,pairs");
   command->add_flag("--json", a.json, "results as JSON");
   command->footer(

@@ -48,8 +48,7 @@ class SrdfReader {
   }
 
   void note(const Element& element, const std::string& text) {
-    model_.notes.push_back(file_.path().string() + ":" + std::to_string(element.GetLineNum()) +
-                           ": " + text);
+    model_.notes.push_back(file_.at(element.GetLineNum(), text));
   }
 
   /// The index of what an attribute names. nullopt: faulted.
@@ -90,6 +89,12 @@ class SrdfReader {
     const auto tip = findLink(element, "tip_link", owner);
     if (!base || !tip) return;
     const Joints aboveBase = jointsAbove(*base), aboveTip = jointsAbove(*tip);
+    if (aboveTip.size() < aboveBase.size() &&
+        std::includes(aboveBase.begin(), aboveBase.end(), aboveTip.begin(), aboveTip.end()))
+      return file_.fault(element.GetLineNum(),
+                         owner + ": the chain is upside down: its base_link " +
+                             quotedWord(links_[*base]) + " hangs from its tip_link " +
+                             quotedWord(links_[*tip]) + "; swap them");
     std::set_symmetric_difference(aboveBase.begin(), aboveBase.end(), aboveTip.begin(),
                                   aboveTip.end(), std::inserter(joints, joints.end()));
   }

@@ -114,7 +114,8 @@ TEST_F(SrdfFile, Faults) {
 <group_state name="t" group="e"><joint name="base" value="1"/></group_state>
 <disable_collisions link1="l3" link2="r1"/>
 <disable_collisions link1="l2"/>
-<passive_joint name="p"/>)"),
+<passive_joint name="p"/>
+<group name="up"><chain base_link="tool" tip_link="trunk"/></group>)"),
             R"(r.srdf:2: group "a": the robot has no joint "left3"; did you mean "left1"?
 r.srdf:2: group "a": the robot has no link "trnk"; did you mean "trunk"?
 r.srdf:3: group "b": the robot has no link "nowhere"
@@ -132,7 +133,8 @@ r.srdf:12: state "t": joint "base": joint value: 3 numbers are needed, not "1"
 r.srdf:12: state "t" is there already, on line 11; names are unique in a group
 r.srdf:13: the robot has no link "l3"; did you mean "l1"?
 r.srdf:14: <disable_collisions> has no link2
-r.srdf:15: the robot has no joint "p")");
+r.srdf:15: the robot has no joint "p"
+r.srdf:16: group "up": the chain is upside down: its base_link "tool" hangs from its tip_link "trunk"; swap them)");
   std::vector<Fault> faults;
   readSrdf(folder_ / "none.srdf", model_, faults);
   EXPECT_EQ(textOf(faults), "none.srdf: no such file");
