@@ -56,10 +56,14 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 }
 
 std::string knownWords(const std::vector<std::string>& words) {
+  return " (known: " + joinedFirst(words) + ")";
+}
+
+std::string joinedFirst(const std::vector<std::string>& words) {
   constexpr std::size_t most = 30;
-  if (words.size() <= most) return " (known: " + joined(words) + ")";
+  if (words.size() <= most) return joined(words);
   const std::vector<std::string> first(words.begin(), words.begin() + most);
-  return " (known: " + joined(first) + " and " + std::to_string(words.size() - most) + " more)";
+  return joined(first) + " and " + std::to_string(words.size() - most) + " more";
 }
 
 std::string joined(const std::vector<std::string>& words) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <iostream>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -171,6 +172,9 @@ int main(int argc, char** argv) {
   } catch (const corridor::InputError& error) {
     std::cerr << error.what() << '\n';
     return kBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles\n";
+    return kInternal;
   } catch (const std::exception& error) {
     std::cerr << "corridor: internal error: " << error.what() << '\n';
     return kInternal;

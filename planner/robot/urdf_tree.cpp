@@ -126,7 +126,8 @@ class Tree {
     }
     names.push_back(links_[link].name);
     std::reverse(names.begin(), names.end());
-    file_.fault(line, "the links " + joined(names) + " are joined in a circle; a tree is needed");
+    file_.fault(line,
+                "the links " + joinedFirst(names) + " are joined in a circle; a tree is needed");
   }
 
   void findLeader(std::size_t j) {
@@ -151,7 +152,7 @@ class Tree {
       inCircle_[other] = true;  // told once
       names.push_back(joints_[leader_[other]].name);
     }
-    file_.fault(joints_[j].mimic->line, "the joints " + joined(names) + " mimic in a circle");
+    file_.fault(joints_[j].mimic->line, "the joints " + joinedFirst(names) + " mimic in a circle");
   }
 
   void checkMimic(std::size_t j) {

@@ -313,6 +313,15 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
   fault("solve fine.yaml",
         testing::Eq("fine.yaml:8: checker.resolution: 1e-300 is not in [1e-09, 1)\n"));
   fault("verify problem.yaml none.yaml", StartsWith("none.yaml: "));
+  write("package.urdf",
+        "<robot name=\"r\">\n<link name=\"a\"><collision><geometry><mesh "
+        "filename=\"package://p/m.obj\"/></geometry></collision></link>\n</robot>\n");
+  fault("inspect package.urdf",
+        testing::Eq("package.urdf:2: link \"a\": mesh \"package://p/m.obj\": package \"p\" has no "
+                    "folder (robot.yaml: packages: {p: FOLDER}), and p/m.obj is no file\n"));
+  fault("check problem.yaml --states .", testing::Eq(".: is a folder; a file is needed\n"));
+  fault("check problem.yaml --states /dev/zero",
+        testing::Eq("/dev/zero: is not an ordinary file\n"));
   write("problem.yaml", problem("0.05, 0, 0"));
   fault("solve problem.yaml -o s.yaml",
         StartsWith("problem.yaml:5: start is in contact: \"cube\" (triangle "));

@@ -90,6 +90,29 @@ TEST_F(UrdfFaults, Trees) {
             "r.urdf:4: the links a, b, a are joined in a circle; a tree is needed");
 }
 
+TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
+  std::string parts = link("base");
+  for (int i = 0; i < 101; ++i) parts += joint("j" + std::to_string(i), "fixed", "bse", "base");
+  const std::string text = complaintOfParts(parts);
+  const std::string line = "its parent \"bse\" is not a link of this file";
+  EXPECT_THAT(text, testing::HasSubstr("joint \"j99\": " + line + "; did you mean \"base\"?\n"));
+  EXPECT_THAT(text, testing::EndsWith("joint \"j100\": " + line));
+}
+
+TEST_F(UrdfFaults, LongCirclesAreToldByTheirFirst) {
+  std::string parts = link("l0");
+  for (int i = 0; i < 40; ++i) {
+    parts += link("l" + std::to_string(i + 1));
+    parts += joint("j" + std::to_string(i), "revolute", "l" + std::to_string(i),
+                   "l" + std::to_string(i + 1),
+                   limit + "<mimic joint=\"j" + std::to_string((i + 1) % 40) + "\"/>");
+  }
+  EXPECT_THAT(
+      complaintOfParts(parts),
+      testing::MatchesRegex("r.urdf:4: the joints j0, j1, .*, j28, j29 and 11 more mimic in a "
+                            "circle"));
+}
+
 TEST_F(UrdfFaults, Joints) {
   EXPECT_EQ(complaintOfJoint("revolut", limit),
             "r.urdf:4: joint \"j\": unknown type \"revolut\"; did you mean \"revolute\"?");
