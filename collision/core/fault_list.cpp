@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iostream>
+#include <iterator>
 #include <system_error>
 
 namespace corridor {
@@ -41,20 +43,43 @@ std::string whyNoFile(const std::filesystem::path& file) {
   return "";
 }
 
-std::string readTextFile(const std::filesystem::path& file, const std::string& what) {
-  if (const std::string why = whyNoFile(file); !why.empty())
-    throw InputError(Fault{file.string(), 0, why});
+namespace {
+
+/// @throws InputError
+std::ifstream opened(const std::filesystem::path& file, const std::string& name) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw InputError(
-        Fault{file.string(), 0, std::string("cannot be read: ") + std::strerror(errno)});
+    throw InputError(Fault{name, 0, std::string("cannot be read: ") + std::strerror(errno)});
+  return stream;
+}
+
+/// @returns the text. @throws InputError
+std::string notEmpty(std::string text, const std::string& name, const std::string& what) {
+  if (text.find_first_not_of(" \t\r\n") == text.npos)
+    throw InputError(Fault{name, 0, "is empty; " + what + " is needed"});
+  return text;
+}
+
+}  // namespace
+
+std::string readTextFile(const std::filesystem::path& file, const std::string& what) {
+  if (const std::string why = whyNoFile(file); !why.empty())
+    throw InputError(Fault{file.string(), 0, why});
+  std::ifstream stream = opened(file, file.string());
   std::string text(std::filesystem::file_size(file), '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.find_first_not_of(" \t\r\n") == text.npos)
-    throw InputError(Fault{file.string(), 0, "is empty; " + what + " is needed"});
-  return text;
+  return notEmpty(std::move(text), file.string(), what);
+}
+
+std::string readTextStream(const std::filesystem::path& file, const std::string& what) {
+  if (file == "-" || file == "/dev/stdin")
+    return notEmpty({std::istreambuf_iterator<char>(std::cin), {}}, file.string(), what);
+  std::error_code none;
+  if (!std::filesystem::is_fifo(file, none)) return readTextFile(file, what);
+  std::ifstream stream = opened(file, file.string());
+  return notEmpty({std::istreambuf_iterator<char>(stream), {}}, file.string(), what);
 }
 
 }  // namespace corridor

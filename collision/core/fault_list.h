@@ -33,6 +33,9 @@ class FaultList {
 /// @throws InputError: no such file, a folder, unreadable, empty.
 std::string readTextFile(const std::filesystem::path& file, const std::string& what);
 
+/// The same, and of pipes; "-" is the standard input.
+std::string readTextStream(const std::filesystem::path& file, const std::string& what);
+
 /// What keeps a path from being an ordinary file ("no such file …"), or "".
 std::string whyNoFile(const std::filesystem::path& file);
 

@@ -38,8 +38,10 @@ std::optional<std::string> nearest(std::string_view word,
   std::optional<std::string> best;
   std::size_t bestDistance = 0;
   for (const std::string& candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    const std::size_t limit = std::max<std::size_t>(1, longer / 3);
+    if (longer - std::min(word.size(), candidate.size()) > limit) continue;
     const std::size_t distance = editDistance(lowered(word), lowered(candidate));
-    const std::size_t limit = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
     if (distance <= limit && distance < word.size() && (!best || distance < bestDistance)) {
       best = candidate;
       bestDistance = distance;
@@ -51,6 +53,17 @@ std::optional<std::string> nearest(std::string_view word,
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
   const auto near = nearest(word, candidates);
   return near ? "; did you mean \"" + *near + "\"?" : "";
+}
+
+std::string knownWords(const std::vector<std::string>& words) {
+  return " (known: " + joinedFirst(words) + ")";
+}
+
+std::string joinedFirst(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 30;
+  if (words.size() <= most) return joined(words);
+  const std::vector<std::string> first(words.begin(), words.begin() + most);
+  return joined(first) + " and " + std::to_string(words.size() - most) + " more";
 }
 
 std::string joined(const std::vector<std::string>& words) {

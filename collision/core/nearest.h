@@ -20,6 +20,12 @@ std::optional<std::string> nearest(std::string_view word,
 /// `; did you mean "…"?` or nothing.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
+/// ` (known: a, b, c)`, as `joinedFirst`.
+std::string knownWords(const std::vector<std::string>& words);
+
+/// "a, b, c"; of many the first few: "a, b, c and 970 more".
+std::string joinedFirst(const std::vector<std::string>& words);
+
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words);
 

@@ -40,7 +40,7 @@ class ProblemReport {
 
  private:
   void tellSpace() {
-    const std::string rigid = rigidSpaceOf(problem_.space.numberNames());
+    const std::string rigid = rigidSpaceOf(problem_.space);
     json_["space"] = rigid.empty() ? "joints" : rigid;
     json_["numbers"] = problem_.space.numberNames();
     json_["coordinates"] = ordered_json::array();

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <iostream>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -104,7 +105,8 @@ void addCheck(CLI::App& program, CheckArguments& a, int& status) {
       program.add_subcommand("check", "Check a problem, or many states of it, without planning");
   command->add_option("PROBLEM", a.problem, "the problem")->required();
   command->add_option("--states", a.states,
-                      "a file of states, one a line, numbers blank or comma separated, # comments: "
+                      "a file of states (- is the standard input), one a line, numbers blank or "
+                      "comma separated, # comments: "
                       "prints one line each, state,valid,pairs");
   command->add_flag("--json", a.json, "results as JSON");
   command->footer(
@@ -170,6 +172,9 @@ int main(int argc, char** argv) {
   } catch (const corridor::InputError& error) {
     std::cerr << error.what() << '\n';
     return kBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles\n";
+    return kInternal;
   } catch (const std::exception& error) {
     std::cerr << "corridor: internal error: " << error.what() << '\n';
     return kInternal;

@@ -39,28 +39,48 @@ std::string rounded(const Vec3& v, int dimension) {
 
 namespace {
 
-struct TubeParts {
+struct Amounts {
   double metres = 0, radians = 0;
 };
 
-TubeParts largestParts(const ConfigurationSpace& space, const Configuration& tube) {
-  TubeParts parts;
+bool isLength(const Coordinate& c) {
+  return c.kind == Coordinate::Kind::line && !c.angular;
+}
+
+Amounts largestParts(const ConfigurationSpace& space, const Configuration& tube) {
+  Amounts parts;
   for (const Coordinate& c : space.coordinates()) {
-    double& part = c.kind == Coordinate::Kind::line && !c.angular ? parts.metres : parts.radians;
+    double& part = isLength(c) ? parts.metres : parts.radians;
     part = std::max(part, tube[static_cast<Eigen::Index>(c.first)]);
   }
   return parts;
 }
 
+/// Metres and radians, or what there is of them in the space.
+std::string amountText(const ConfigurationSpace& space, const Amounts& amounts,
+                       const char* between) {
+  bool lengths = false, angles = false;
+  for (const Coordinate& c : space.coordinates()) (isLength(c) ? lengths : angles) = true;
+  return (lengths ? rounded(amounts.metres) + " m" : "") + (lengths && angles ? between : "") +
+         (angles ? rounded(amounts.radians) + " rad" : "");
+}
+
 }  // namespace
 
+std::string lengthText(const ConfigurationSpace& space, double metres, double radians) {
+  const bool whole = std::any_of(
+      space.groups().begin(), space.groups().end(),
+      [](const CoordinateGroup& group) { return group.kind != CoordinateGroup::Kind::joints; });
+  return amountText(space, {metres, radians}, whole ? ", turning " : ", ");
+}
+
 std::string tubeText(const ConfigurationSpace& space, const Configuration& tube) {
-  const TubeParts parts = largestParts(space, tube);
-  return rounded(parts.metres) + " m, " + rounded(parts.radians) + " rad";
+  const Amounts parts = largestParts(space, tube);
+  return amountText(space, parts, ", ");
 }
 
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube) {
-  const TubeParts parts = largestParts(space, tube);
+  const Amounts parts = largestParts(space, tube);
   return {{"position_m", parts.metres}, {"rotation_rad", parts.radians}};
 }
 

@@ -30,7 +30,10 @@ void warn(const std::string& text);
 /// For people: four significant digits.
 std::string rounded(double value);
 std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
-/// "1e-12 m, 6e-12 rad": the largest part of a tube in lengths and in angles.
+/// "2 m, turning 3 rad" where something moves as a whole, else "2 m, 3 rad" or the one of them that
+/// there is in the space.
+std::string lengthText(const ConfigurationSpace& space, double metres, double radians);
+/// "1e-12 m, 6e-12 rad": the largest part of a tube in lengths and in angles, as far as there are.
 std::string tubeText(const ConfigurationSpace& space, const Configuration& tube);
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
 /// "x = 1, y = 2, yaw = 0.5"

@@ -80,7 +80,8 @@ const char* nameOf(SolveOutcome outcome) {
   return "";
 }
 
-void print(const SolveReport& r, const std::string& problem, const SolveArguments& a) {
+void print(const SolveReport& r, const Problem& p, const std::string& problem,
+           const SolveArguments& a) {
   const bool solved = r.outcome == SolveOutcome::solved;
   const Lines out(a.quiet);
   out.line("problem", problem);
@@ -96,8 +97,7 @@ void print(const SolveReport& r, const std::string& problem, const SolveArgument
   out.line("box tests N_v", grouped(r.counters.boxTests));
   out.line("triangle tests N_p", grouped(r.counters.triangleTests));
   if (!solved) return;
-  out.line("path length",
-           rounded(r.length.metres) + " m, turning " + rounded(r.length.radians) + " rad");
+  out.line("path length", lengthText(p.space, r.length.metres, r.length.radians));
   out.line("path states", grouped(r.path.size()));
   out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
@@ -198,7 +198,7 @@ int solveCommand(const SolveArguments& a) {
         results.push_back(jsonOf(report, problem, file));
       } else {
         if (&file != &a.problems.front()) Lines(a.quiet).blank();
-        print(report, file, a);
+        print(report, problem, file, a);
       }
       if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNo});
     } catch (const InputError& error) {

@@ -19,8 +19,7 @@ std::string noSuchJoint(const std::string& name, const RobotModel& model) {
   std::vector<std::string> known;
   for (const JointModel& joint : model.joints)
     if (joint.type != JointType::fixed && !joint.mimic) known.push_back(joint.name);
-  return "there is no joint " + quotedWord(name) + didYouMean(name, known) +
-         " (known: " + joined(known) + ")";
+  return "there is no joint " + quotedWord(name) + didYouMean(name, known) + knownWords(known);
 }
 
 std::string whyNotActive(const RobotModel& model, std::size_t j) {

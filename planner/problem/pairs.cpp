@@ -28,20 +28,25 @@ LinkPair sorted(const std::string& a, const std::string& b) {
 }
 
 /// Why pairs of links of a robot are not tested: what SRDF and robot.yaml allow, and links that are
-/// joined by a joint, directly or through links without shapes.
+/// joined by a joint, directly or through links without shapes. Of the joints between them one may
+/// move: two let them come together anywhere.
 std::map<LinkPair, std::string> allowedLinks(const RobotModel& model,
                                              const std::set<std::string>& withShapes) {
   std::map<LinkPair, std::string> reasons;
   for (const AllowedPair& pair : model.allowed)
     reasons.emplace(sorted(pair.a, pair.b), pair.reason);
-  std::vector<std::size_t> above(model.links.size(), model.root);  // the parent
-  for (const JointModel& joint : model.joints) above[joint.child] = joint.parent;
+  std::vector<const JointModel*> above(model.links.size(), nullptr);
+  for (const JointModel& joint : model.joints) above[joint.child] = &joint;
   for (std::size_t link = 0; link < model.links.size(); ++link) {
-    std::size_t next = link;
-    do next = above[next];
-    while (next != model.root && !withShapes.contains(model.links[next].name));
-    if (next != link)
-      reasons.emplace(sorted(model.links[link].name, model.links[next].name), "adjacent");
+    int moving = 0;
+    for (const JointModel* joint = above[link]; joint; joint = above[joint->parent]) {
+      moving += joint->type != JointType::fixed;
+      if (moving > 1) break;
+      const std::string& other = model.links[joint->parent].name;
+      if (!withShapes.contains(other)) continue;
+      reasons.emplace(sorted(model.links[link].name, other), "adjacent");
+      break;
+    }
   }
   return reasons;
 }

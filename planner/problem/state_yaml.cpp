@@ -113,9 +113,9 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
   if (state == model.states.end()) {
     std::vector<std::string> known;
     for (const auto& [key, values] : model.states) known.push_back(key);
-    source_.fault(line, path + ": there is no state " + quotedWord(name) + didYouMean(name, known) +
-                            (known.empty() ? " (neither robot.yaml nor SRDF name any)"
-                                           : " (known: " + joined(known) + ")"));
+    source_.fault(
+        line, path + ": there is no state " + quotedWord(name) + didYouMean(name, known) +
+                  (known.empty() ? " (neither robot.yaml nor SRDF name any)" : knownWords(known)));
     return false;
   }
   for (const auto& [number, value] : state->second) {

@@ -82,7 +82,7 @@ Joints readGroup(const YamlMap& map, const RobotModel& model) {
               "joints: [NAME, …]");
   } else if (group == model.groups.end()) {
     map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
-                           didYouMean(*name, known) + " (known: " + joined(known) + ")");
+                           didYouMean(*name, known) + knownWords(known));
   } else {
     for (const std::string& joint : group->second)
       if (const auto j = findJoint(model, joint); j && canMove(model.joints[*j]))
@@ -188,8 +188,8 @@ void readAllow(const YamlMap& file, RobotModel& model) {
     bool known = true;
     for (const std::string& name : *pair)
       if (std::find(links.begin(), links.end(), name) == links.end()) {
-        file.source().fault(
-            item.line, "allow: there is no link " + quotedWord(name) + didYouMean(name, links));
+        file.source().fault(item.line, "allow: there is no link " + quotedWord(name) +
+                                           didYouMean(name, links) + knownWords(links));
         known = false;
       }
     if (known) model.allowed.push_back({(*pair)[0], (*pair)[1], "robot.yaml: allow"});

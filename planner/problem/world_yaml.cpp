@@ -96,7 +96,7 @@ AllowedBodies readAllow(const YamlMap& file, const Problem& problem) {
       else if (found.size() > 1)
         fault(quotedWord(name) + " is a link and an obstacle; call the obstacle otherwise");
       else if (!isBareLink(name, problem))
-        fault("there is no body " + quotedWord(name) + didYouMean(name, names));
+        fault("there is no body " + quotedWord(name) + didYouMean(name, names) + knownWords(names));
     }
     if (bodies.size() == 2) allowed.push_back({bodies[0], bodies[1]});
   }

@@ -35,7 +35,8 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
   const std::filesystem::path beside = (folder_ / package / rest).lexically_normal();
   if (whyNoFile(beside).empty()) return {beside, ""};
   // The usual layout of a package is PACKAGE/urdf/robot.urdf.
-  const std::filesystem::path absolute = std::filesystem::absolute(folder_).lexically_normal();
+  const std::filesystem::path absolute =
+      std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
   for (std::filesystem::path above = absolute; above != above.root_path();
        above = above.parent_path())
     if (above.filename() == package && whyNoFile(above / rest).empty()) return {above / rest, ""};
@@ -68,14 +69,11 @@ MeshStore::Place MeshStore::add(const std::string& name) {
   try {
     mesh = readMeshFile(place.file);
   } catch (const InputError& error) {
-    faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
+    place.complaint = error.faults().front().str();
+    if (const std::size_t more = error.faults().size() - 1)
+      place.complaint += " (and " + std::to_string(more) + " more)";
   }
   return place;
-}
-
-const MeshFile* MeshStore::find(const std::filesystem::path& file) const {
-  const std::optional<MeshFile>& mesh = meshes_.at(file);
-  return mesh ? &*mesh : nullptr;
 }
 
 }  // namespace corridor

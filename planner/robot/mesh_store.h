@@ -18,7 +18,7 @@ class MeshStore {
   /// Where a URDF's mesh may be.
   struct Place {
     std::filesystem::path file;
-    std::string complaint;  ///< "": found
+    std::string complaint;  ///< "": found, and read; or unreadable, and told before
   };
 
   /// @param files gets each file when it is first named, found or not.
@@ -27,10 +27,8 @@ class MeshStore {
 
   /// Finds and reads what a URDF calls `name`.
   Place add(const std::string& name);
-  /// @pre added, and found. nullptr: unreadable, which is among `faults`.
-  const MeshFile* find(const std::filesystem::path& file) const;
-  /// Those of mesh files.
-  const std::vector<Fault>& faults() const { return faults_; }
+  /// @pre added, without complaint.
+  const MeshFile& get(const std::filesystem::path& file) const { return *meshes_.at(file); }
 
  private:
   Place locate(const std::string& name) const;
@@ -39,8 +37,7 @@ class MeshStore {
   std::filesystem::path folder_;
   const PackageMap& packages_;
   std::vector<std::filesystem::path>& files_;
-  std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;
-  std::vector<Fault> faults_;
+  std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;  // none: unreadable
 };
 
 }  // namespace corridor

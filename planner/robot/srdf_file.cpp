@@ -27,6 +27,11 @@ class SrdfReader {
     if (name && name != model_.name)
       note(root,
            "is for robot " + quotedWord(name) + ", and is used for " + quotedWord(model_.name));
+    file_.checkChildren(root,
+                        {"group", "group_state", "virtual_joint", "passive_joint",
+                         "disable_collisions", "enable_collisions", "disable_default_collisions"},
+                        {"end_effector", "joint_property", "link_sphere_approximation"},
+                        owned("robot", model_.name), model_.notes);
     forEach(root, "virtual_joint", [&](Element& element) {
       if (const char* joint = element.Attribute("name")) virtualJoints_.insert(joint);
     });
@@ -48,8 +53,7 @@ class SrdfReader {
   }
 
   void note(const Element& element, const std::string& text) {
-    model_.notes.push_back(file_.path().string() + ":" + std::to_string(element.GetLineNum()) +
-                           ": " + text);
+    model_.notes.push_back(file_.at(element.GetLineNum(), text));
   }
 
   /// The index of what an attribute names. nullopt: faulted.
@@ -90,6 +94,12 @@ class SrdfReader {
     const auto tip = findLink(element, "tip_link", owner);
     if (!base || !tip) return;
     const Joints aboveBase = jointsAbove(*base), aboveTip = jointsAbove(*tip);
+    if (aboveTip.size() < aboveBase.size() &&
+        std::includes(aboveBase.begin(), aboveBase.end(), aboveTip.begin(), aboveTip.end()))
+      return file_.fault(element.GetLineNum(),
+                         owner + ": the chain is upside down: its base_link " +
+                             quotedWord(links_[*base]) + " hangs from its tip_link " +
+                             quotedWord(links_[*tip]) + "; swap them");
     std::set_symmetric_difference(aboveBase.begin(), aboveBase.end(), aboveTip.begin(),
                                   aboveTip.end(), std::inserter(joints, joints.end()));
   }
@@ -98,7 +108,7 @@ class SrdfReader {
     std::string name;
     Element* element = nullptr;
     Joints joints;
-    std::vector<std::string> subgroups;
+    std::vector<std::size_t> subgroups;
   };
 
   void readGroups(Element& root) {
@@ -113,11 +123,10 @@ class SrdfReader {
       groupNames_.push_back(*name);
     });
     for (Group& group : groups_) readGroup(group);
-    for (const Group& group : groups_) {
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const Group& group = groups_[i];
       const std::size_t before = file_.faultCount();
-      std::vector<std::string> path;
-      Joints joints;
-      collect(group, path, joints);
+      const Joints joints = collect(i);
       if (joints.empty() && file_.faultCount() == before && !faulty_.contains(group.name))
         file_.fault(group.element->GetLineNum(),
                     owned("group", group.name) +
@@ -135,6 +144,8 @@ class SrdfReader {
   void readGroup(Group& group) {
     const std::string owner = owned("group", group.name);
     const std::size_t before = file_.faultCount();
+    file_.checkChildren(*group.element, {"joint", "link", "chain", "group"}, {}, owner,
+                        model_.notes);
     forEach(*group.element, "joint", [&](Element& element) {
       if (const auto joint = findJoint(element, "name", owner)) group.joints.insert(*joint);
     });
@@ -147,8 +158,8 @@ class SrdfReader {
     forEach(*group.element, "group", [&](Element& element) {
       const auto name = file_.text(element, "name", owner);
       if (!name) return;
-      if (findGroup(*name))
-        group.subgroups.push_back(*name);
+      if (const Group* inner = findGroup(*name))
+        group.subgroups.push_back(static_cast<std::size_t>(inner - groups_.data()));
       else
         file_.fault(element.GetLineNum(), owner + ": there is no " + owned("group", *name) +
                                               " in this file" + didYouMean(*name, groupNames_));
@@ -156,20 +167,35 @@ class SrdfReader {
     if (file_.faultCount() != before) faulty_.insert(group.name);
   }
 
-  /// @param path the groups that this one is in, from the outermost.
-  void collect(const Group& group, std::vector<std::string>& path, Joints& joints) {
-    if (!path.empty() && path.front() == group.name) {
-      // Told once, by the first of the circle.
-      if (*std::min_element(path.begin(), path.end()) != group.name) return;
-      return file_.fault(
-          group.element->GetLineNum(),
-          "the groups " + joined(path) + ", " + group.name + " are in each other in a circle");
+  /// The joints of a group and of those that are in it, at any depth.
+  Joints collect(std::size_t root) {
+    Joints joints;
+    std::vector<std::size_t> above(groups_.size(), none), open{root};
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const Group& group = groups_[open[k]];
+      joints.insert(group.joints.begin(), group.joints.end());
+      for (const std::size_t inner : group.subgroups) {
+        if (inner == root) {
+          faultCircle(root, open[k], above);
+          return joints;
+        }
+        if (above[inner] != none) continue;
+        above[inner] = open[k];
+        open.push_back(inner);
+      }
     }
-    if (std::find(path.begin(), path.end(), group.name) != path.end()) return;
-    path.push_back(group.name);
-    joints.insert(group.joints.begin(), group.joints.end());
-    for (const std::string& name : group.subgroups) collect(*findGroup(name), path, joints);
-    path.pop_back();
+    return joints;
+  }
+
+  void faultCircle(std::size_t root, std::size_t last, const std::vector<std::size_t>& above) {
+    std::vector<std::string> names{groupNames_[root]};
+    for (std::size_t i = last; i != root; i = above[i]) names.push_back(groupNames_[i]);
+    // Told once, by the first of the circle.
+    if (*std::min_element(names.begin(), names.end()) != names.front()) return;
+    names.push_back(names.front());
+    std::reverse(names.begin(), names.end());
+    file_.fault(groups_[root].element->GetLineNum(),
+                "the groups " + joinedFirst(names) + " are in each other in a circle");
   }
 
   struct State {
@@ -185,6 +211,7 @@ class SrdfReader {
       if (!name) return;
       State state{*name, "", element.GetLineNum(), {}};
       const std::string owner = owned("state", *name);
+      file_.checkChildren(element, {"joint"}, {}, owner, model_.notes);
       if (const char* group = element.Attribute("group")) {
         state.group = group;
         if (!findGroup(group))

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <unordered_map>
 #include <urdf_model/model.h>
 
+#include "collision/core/nearest.h"
 #include "planner/robot/rpy.h"
 #include "planner/robot/urdf_outline.h"
 #include "planner/robot/urdfdom.h"
@@ -64,6 +67,11 @@ MeshFile placedMesh(const MeshFile& source, const Vec3& scale, const Transform& 
   return result;
 }
 
+struct Range {
+  double lower, upper;
+  std::string text() const { return "[" + shortestText(lower) + ", " + shortestText(upper) + "]"; }
+};
+
 class ModelBuilder {
  public:
   ModelBuilder(const UrdfOutline& outline, const urdf::ModelInterface& urdf,
@@ -87,7 +95,9 @@ class ModelBuilder {
     }
     model_.root = static_cast<std::size_t>(std::find(hasParent.begin(), hasParent.end(), false) -
                                            hasParent.begin());
-    for (std::size_t k = 0; k < order.size(); ++k) setMimic(outline_.joints[order[k]], k);
+    setMimics();
+    for (std::size_t k = 0; k < order.size(); ++k)
+      narrowLeader(outline_.joints[order[k]], model_.joints[k]);
     return std::move(model_);
   }
 
@@ -114,10 +124,9 @@ class ModelBuilder {
     const Transform X{matrixFromRpy(outline.rpy), shape.at.p};
     bool finite = true;
     if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(source.geometry.get())) {
-      const MeshFile* const read = meshes_.find(outline.mesh);
-      if (!read) return;
       shape.file = outline.mesh;
-      shape.mesh = placedMesh(*read, Vec3(mesh->scale.x, mesh->scale.y, mesh->scale.z), X);
+      shape.mesh = placedMesh(meshes_.get(outline.mesh),
+                              Vec3(mesh->scale.x, mesh->scale.y, mesh->scale.z), X);
       for (const Vec3& vertex : shape.mesh->mesh.vertices) finite &= vertex.allFinite();
     } else {
       shape.primitive = primitiveOf(*source.geometry);
@@ -152,16 +161,61 @@ class ModelBuilder {
   }
 
   /// @pre the mimics are sound: no circles, leaders that move.
-  void setMimic(const UrdfJoint& outline, std::size_t index) {
-    if (model_.joints[index].type == JointType::fixed) return;
-    Mimic mimic{index, 1, 0};
-    for (auto source = urdf_.getJoint(urdfdomName(outline.name)); source && source->mimic;
-         source = urdf_.getJoint(source->mimic->joint_name)) {
-      mimic.offset += mimic.multiplier * source->mimic->offset;
-      mimic.multiplier *= source->mimic->multiplier;
-      mimic.joint = jointIndex_.at(source->mimic->joint_name);
+  void setMimics() {
+    std::vector<bool> done(model_.joints.size(), false);
+    std::vector<std::size_t> chain;
+    for (std::size_t k = 0; k < model_.joints.size(); ++k) {
+      for (std::size_t j = k; !done[j] && mimicOf(j); j = leaderOf(j)) {
+        done[j] = true;
+        chain.push_back(j);
+      }
+      for (; !chain.empty(); chain.pop_back()) {
+        const urdf::JointMimic& source = *mimicOf(chain.back());
+        Mimic mimic{leaderOf(chain.back()), source.multiplier, source.offset};
+        if (const auto& above = model_.joints[mimic.joint].mimic)
+          mimic = {above->joint, mimic.multiplier * above->multiplier,
+                   mimic.multiplier * above->offset + mimic.offset};
+        model_.joints[chain.back()].mimic = mimic;
+      }
     }
-    if (mimic.joint != index) model_.joints[index].mimic = mimic;
+  }
+  std::shared_ptr<const urdf::JointMimic> mimicOf(std::size_t j) const {
+    const auto source = urdf_.getJoint(urdfdomName(model_.joints[j].name));
+    return source && source->type != urdf::Joint::FIXED ? source->mimic : nullptr;
+  }
+  std::size_t leaderOf(std::size_t j) const { return jointIndex_.at(mimicOf(j)->joint_name); }
+
+  /// A joint that others mimic goes only where they stay within their own limits.
+  void narrowLeader(const UrdfJoint& outline, const JointModel& follower) {
+    const bool limited =
+        follower.type == JointType::revolute || follower.type == JointType::prismatic;
+    if (!follower.mimic || !limited || !outline.ranged) return;
+    const auto [index, multiplier, offset] = *follower.mimic;
+    JointModel& leader = model_.joints[index];
+    const bool round = leader.type == JointType::continuous;
+    const Range before =
+        round ? Range{-std::numbers::pi, std::numbers::pi} : Range{leader.lower, leader.upper};
+    Range range = before;
+    if (multiplier != 0) {
+      const double a = (follower.lower - offset) / multiplier + 0.0;  // no -0
+      const double b = (follower.upper - offset) / multiplier + 0.0;
+      range = {std::max(before.lower, std::min(a, b)), std::min(before.upper, std::max(a, b))};
+    }
+    const Range own{follower.lower, follower.upper};
+    const bool stands = multiplier == 0 && (offset < own.lower || own.upper < offset);
+    if (stands || range.lower > range.upper)
+      return file_.fault(outline.mimic->line, owned("joint", follower.name) + ": its limits, " +
+                                                  own.text() +
+                                                  ", are out of reach while it mimics " +
+                                                  quotedWord(leader.name) + " in " + before.text());
+    if (range.lower == before.lower && range.upper == before.upper) return;
+    leader.type = round ? JointType::revolute : leader.type;
+    leader.lower = range.lower;
+    leader.upper = range.upper;
+    model_.notes.push_back(file_.at(
+        outline.mimic->line, owned("joint", leader.name) + " has the range " + range.text() +
+                                 ", not " + before.text() + ", since " + quotedWord(follower.name) +
+                                 ", which mimics it, has " + own.text()));
   }
 
   const UrdfOutline& outline_;
@@ -194,11 +248,10 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Pack
         faultErrors(errors, outline, xml);
     }
   }
-  const bool sound = xml.sound() && meshes.faults().empty();
+  const bool sound = xml.sound();
   for (Fault& fault : xml.takeFaults()) faults.push_back(std::move(fault));
-  faults.insert(faults.end(), meshes.faults().begin(), meshes.faults().end());
   if (!sound) return std::nullopt;
-  model->notes = std::move(notes);
+  model->notes.insert(model->notes.begin(), notes.begin(), notes.end());
   return model;
 }
 

@@ -24,7 +24,8 @@ void checkSize(XmlFile& file, Element& shape, const char* attribute, std::size_t
 }
 
 void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
-               const std::string& owner) {
+               const std::string& owner, std::vector<std::string>& notes) {
+  file.checkAttributes(shape, {"filename", "scale"}, owner, notes);
   const Numbers scale = file.numbers(shape, "scale", 3, owner);
   if (scale && std::find(scale->begin(), scale->end(), 0.0) != scale->end())
     file.fault(shape.FindAttribute("scale")->GetLineNum(),
@@ -39,7 +40,7 @@ void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& 
 }
 
 void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
-                const std::string& owner) {
+                const std::string& owner, std::vector<std::string>& notes) {
   const std::string kind = shape.Name();
   if (kind == "box") return checkSize(file, shape, "size", 3, owner);
   if (kind == "sphere") return checkSize(file, shape, "radius", 1, owner);
@@ -47,7 +48,7 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
     checkSize(file, shape, "radius", 1, owner);
     return checkSize(file, shape, "length", 1, owner);
   }
-  if (kind == "mesh") return checkMesh(file, shape, meshes, collision, owner);
+  if (kind == "mesh") return checkMesh(file, shape, meshes, collision, owner, notes);
   const std::vector<std::string> known{"box", "cylinder", "sphere", "mesh"};
   const auto near = nearest(kind, known);
   file.fault(shape.GetLineNum(),
@@ -59,19 +60,26 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
 }
 
 /// @returns the rotation.
-Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner) {
+Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner,
+                std::vector<std::string>& notes) {
   Element* const element = file.child(parent, "origin", owner);
   if (!element) return Vec3::Zero();
+  if (const auto* quaternion = element->FindAttribute("quat_xyzw"))  // of URDF 1.2
+    file.fault(quaternion->GetLineNum(), owner + ": origin quat_xyzw is not read; rpy is needed");
+  else
+    file.checkAttributes(*element, {"xyz", "rpy"}, owner, notes);
   file.numbers(*element, "xyz", 3, owner);
   const Numbers rpy = file.numbers(*element, "rpy", 3, owner);
   return rpy ? Vec3((*rpy)[0], (*rpy)[1], (*rpy)[2]) : Vec3::Zero();
 }
 
 UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
-                            const std::string& owner) {
+                            const std::string& owner, std::vector<std::string>& notes) {
   UrdfCollision collision;
   collision.line = element.GetLineNum();
-  collision.rpy = readOrigin(file, element, owner);
+  file.checkChildren(element, {"origin", "geometry"},
+                     {"material", "verbose", "contact_coefficients"}, owner, notes);
+  collision.rpy = readOrigin(file, element, owner, notes);
   Element* const geometry = file.child(element, "geometry", owner);
   Element* const shape = geometry ? geometry->FirstChildElement() : nullptr;
   if (!shape) {
@@ -80,7 +88,7 @@ UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
                    "; <box>, <cylinder>, <sphere> or <mesh> is needed");
     return collision;
   }
-  checkShape(file, *shape, meshes, collision, owner);
+  checkShape(file, *shape, meshes, collision, owner, notes);
   if (const Element* second = shape->NextSiblingElement())
     file.fault(second->GetLineNum(),
                owner + ": a second shape in one <geometry>; it needs a <collision> of its own");
@@ -91,10 +99,12 @@ UrdfLink readLink(XmlFile& file, Element& element, MeshStore& meshes,
                   std::vector<std::string>& notes) {
   UrdfLink link{file.text(element, "name", "").value_or(""), element.GetLineNum(), {}};
   const std::string owner = owned("link", link.name);
-  file.noteMisspelt(element, {"inertial", "visual", "collision"}, owner, notes);
+  file.checkChildren(element, {"collision"},
+                     {"visual", "inertial", "material", "sensor", "contact", "gazebo"}, owner,
+                     notes);
   for (Element* collision = element.FirstChildElement("collision"); collision;
        collision = collision->NextSiblingElement("collision"))
-    link.collisions.push_back(readCollision(file, *collision, meshes, owner));
+    link.collisions.push_back(readCollision(file, *collision, meshes, owner, notes));
   return link;
 }
 
@@ -129,7 +139,8 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
                owner + ": the axis is zero; a direction is needed, such as xyz=\"0 0 1\"");
 }
 
-void checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
+/// @returns whether there is a range: lower, upper, or both.
+bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
                 const std::string& owner, std::vector<std::string>& notes) {
   Element* const limit = file.child(joint, "limit", owner);
   const bool needed = type == JointType::revolute || type == JointType::prismatic;
@@ -139,7 +150,7 @@ void checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
           joint.GetLineNum(),
           owner + ": <limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/> is missing" +
               (type == JointType::revolute ? "; without limits the type is continuous" : ""));
-    return;
+    return false;
   }
   const Numbers lower = file.numbers(*limit, "lower", 1, owner);
   const Numbers upper = file.numbers(*limit, "upper", 1, owner);
@@ -147,7 +158,10 @@ void checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
     file.require(*limit, name, owner);
     file.numbers(*limit, name, 1, owner);
   }
-  if (!needed) return;
+  if (!needed) return false;
+  file.checkAttributes(
+      *limit, {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
+      owner, notes);
   const auto valueOf = [&](const char* name, const Numbers& numbers) {
     return numbers ? numbers->front() : limit->FindAttribute(name) ? NAN : 0;
   };
@@ -155,16 +169,19 @@ void checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
   if (least > most)
     file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortestText(least) +
                                         " is above the upper limit " + shortestText(most));
-  if (!limit->FindAttribute("lower") && !limit->FindAttribute("upper"))
-    notes.push_back(file.path().string() + ":" + std::to_string(limit->GetLineNum()) + ": " +
-                    owner +
-                    ": <limit> has neither lower nor upper, so both are 0, and the joint cannot "
-                    "move");
+  if (limit->FindAttribute("lower") || limit->FindAttribute("upper")) return true;
+  if (!joint.FirstChildElement("mimic"))
+    notes.push_back(file.at(
+        limit->GetLineNum(),
+        owner + ": <limit> has neither lower nor upper, so both are 0, and the joint cannot move"));
+  return false;
 }
 
-std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::string& owner) {
+std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::string& owner,
+                                   std::vector<std::string>& notes) {
   Element* const element = file.child(joint, "mimic", owner);
   if (!element) return std::nullopt;
+  file.checkAttributes(*element, {"joint", "multiplier", "offset"}, owner, notes);
   UrdfMimic mimic;
   mimic.line = element->GetLineNum();
   if (const Numbers multiplier = file.numbers(*element, "multiplier", 1, owner))
@@ -181,17 +198,16 @@ UrdfJoint readJoint(XmlFile& file, Element& element, std::vector<std::string>& n
   joint.name = file.text(element, "name", "").value_or("");
   joint.line = element.GetLineNum();
   const std::string owner = owned("joint", joint.name);
-  file.noteMisspelt(element,
-                    {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics",
-                     "calibration", "safety_controller"},
-                    owner, notes);
+  file.checkChildren(element, {"origin", "parent", "child", "axis", "limit", "mimic"},
+                     {"dynamics", "calibration", "safety_controller", "hardwareInterface"}, owner,
+                     notes);
   joint.type = readType(file, element, owner);
   joint.parent = readEnd(file, element, "parent", owner);
   joint.child = readEnd(file, element, "child", owner);
-  joint.rpy = readOrigin(file, element, owner);
+  joint.rpy = readOrigin(file, element, owner, notes);
   checkAxis(file, element, joint.type, owner);
-  checkLimit(file, element, joint.type, owner, notes);
-  joint.mimic = readMimic(file, element, owner);
+  joint.ranged = checkLimit(file, element, joint.type, owner, notes);
+  joint.mimic = readMimic(file, element, owner, notes);
   return joint;
 }
 
@@ -232,8 +248,9 @@ UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::s
   Element& root = *file.root();
   if (isXacro(file, root)) return outline;
   outline.name = file.text(root, "name", "").value_or("");
-  file.noteMisspelt(root, {"link", "joint", "material", "transmission", "gazebo", "sensor"},
-                    owned("robot", outline.name), notes);
+  file.checkChildren(root, {"link", "joint"},
+                     {"material", "transmission", "gazebo", "sensor", "ros2_control"},
+                     owned("robot", outline.name), notes);
   for (Element* element = root.FirstChildElement(); element;
        element = element->NextSiblingElement()) {
     const std::string_view kind = element->Name();

@@ -37,6 +37,7 @@ struct UrdfJoint {
   std::optional<JointType> type;  ///< nullopt: faulted
   std::string parent, child;      ///< "": faulted
   Vec3 rpy = Vec3::Zero();        ///< of its origin, whose rest is urdfdom's
+  bool ranged = false;            ///< its <limit> has lower or upper, or both
   std::optional<UrdfMimic> mimic;
 };
 

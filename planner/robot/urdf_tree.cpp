@@ -36,6 +36,8 @@ class Tree {
         file_(file),
         linkIndex_(indicesOf(links_)),
         jointIndex_(indicesOf(joints_)),
+        leader_(joints_.size(), none),
+        inCircle_(joints_.size(), false),
         parentJoint_(links_.size(), none),
         children_(links_.size()) {}
 
@@ -45,8 +47,9 @@ class Tree {
     // What hangs from a link that is misspelt, or from a joint that was left out, is a root only
     // because of that.
     if (joined) checkShape();
-    for (const UrdfJoint& joint : joints_)
-      if (joint.mimic) checkMimic(joint);
+    for (std::size_t j = 0; j < joints_.size(); ++j) findLeader(j);
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      if (leader_[j] != none) checkMimic(j);
     return file_.sound() ? order() : std::vector<std::size_t>();
   }
 
@@ -60,8 +63,7 @@ class Tree {
          {std::pair{"parent", joint.parent}, std::pair{"child", joint.child}}) {
       if (!name.empty() && !linkIndex_.contains(name))
         file_.fault(joint.line, owner + ": its " + what + " " + quotedWord(name) +
-                                    " is not a link of this file" +
-                                    didYouMean(name, namesOf(links_)));
+                                    " is not a link of this file" + hint(name, links_));
       known &= linkIndex_.contains(name);
     }
     if (!known) return false;
@@ -81,6 +83,12 @@ class Tree {
     parentJoint_[child] = j;
     children_[linkIndex_.at(joint.parent)].push_back(j);
     return true;
+  }
+
+  /// The nearest name, of the first hundred faults: a file may have any number of both.
+  template <class Named>
+  std::string hint(const std::string& name, const std::vector<Named>& all) const {
+    return file_.faultCount() < 100 ? didYouMean(name, namesOf(all)) : "";
   }
 
   std::size_t parentOf(std::size_t link) const {
@@ -118,18 +126,39 @@ class Tree {
     }
     names.push_back(links_[link].name);
     std::reverse(names.begin(), names.end());
-    file_.fault(line, "the links " + joined(names) + " are joined in a circle; a tree is needed");
+    file_.fault(line,
+                "the links " + joinedFirst(names) + " are joined in a circle; a tree is needed");
   }
 
-  void checkMimic(const UrdfJoint& joint) {
+  void findLeader(std::size_t j) {
+    const UrdfJoint& joint = joints_[j];
+    if (!joint.mimic) return;
+    const UrdfMimic& mimic = *joint.mimic;
+    const std::string owner = owned("joint", joint.name);
+    const auto found = jointIndex_.find(mimic.joint);
+    if (mimic.joint == joint.name)
+      file_.fault(mimic.line, owner + " mimics itself");
+    else if (found == jointIndex_.end())
+      file_.fault(mimic.line, owner + " mimics " + quotedWord(mimic.joint) +
+                                  ", which is not a joint of this file" +
+                                  hint(mimic.joint, joints_));
+    else
+      leader_[j] = found->second;
+  }
+
+  void faultMimicCircle(std::size_t j) {
+    std::vector<std::string> names{joints_[j].name};
+    for (std::size_t other = j; !inCircle_[other]; other = leader_[other]) {
+      inCircle_[other] = true;  // told once
+      names.push_back(joints_[leader_[other]].name);
+    }
+    file_.fault(joints_[j].mimic->line, "the joints " + joinedFirst(names) + " mimic in a circle");
+  }
+
+  void checkMimic(std::size_t j) {
+    const UrdfJoint& joint = joints_[j];
     const std::string owner = owned("joint", joint.name);
     const UrdfMimic& mimic = *joint.mimic;
-    if (mimic.joint == joint.name) return file_.fault(mimic.line, owner + " mimics itself");
-    const auto found = jointIndex_.find(mimic.joint);
-    if (found == jointIndex_.end())
-      return file_.fault(mimic.line, owner + " mimics " + quotedWord(mimic.joint) +
-                                         ", which is not a joint of this file" +
-                                         didYouMean(mimic.joint, namesOf(joints_)));
     if (!joint.type || joint.type == JointType::fixed) return;
     const auto isWhole = [](JointType type) {
       return type == JointType::planar || type == JointType::floating;
@@ -140,23 +169,17 @@ class Tree {
 
     // To the joint that moves by itself.
     double multiplier = mimic.multiplier;
-    std::vector<std::string> chain{joint.name};
-    const UrdfJoint* leader = &joints_[found->second];
-    while (leader->mimic && leader->type != JointType::fixed) {
-      chain.push_back(leader->name);
-      const auto next = jointIndex_.find(leader->mimic->joint);
-      // Told where it is; a circle that this joint only leads into is told by its own joints.
-      if (next == jointIndex_.end()) return;
-      if (leader->mimic->joint == joint.name) {
-        chain.push_back(joint.name);
-        if (*std::min_element(chain.begin(), chain.end()) == joint.name)
-          file_.fault(mimic.line, "the joints " + joined(chain) + " mimic in a circle");
-        return;
-      }
-      if (chain.size() > joints_.size()) return;
-      multiplier *= leader->mimic->multiplier;
-      leader = &joints_[next->second];
+    std::size_t last = leader_[j];
+    for (std::size_t steps = 0; joints_[last].mimic && joints_[last].type != JointType::fixed;
+         ++steps) {
+      // A leader without a leader is told where it is; a circle that this joint only leads into is
+      // told by its own joints.
+      if (last == j && !inCircle_[j]) faultMimicCircle(j);
+      if (last == j || leader_[last] == none || steps > joints_.size()) return;
+      multiplier *= joints_[last].mimic->multiplier;
+      last = leader_[last];
     }
+    const UrdfJoint* const leader = &joints_[last];
     if (!leader->type) return;
     if (leader->type == JointType::fixed || isWhole(*leader->type))
       return file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) + ", which is " +
@@ -196,6 +219,8 @@ class Tree {
   const std::vector<UrdfJoint>& joints_;
   XmlFile& file_;
   Indices linkIndex_, jointIndex_;
+  std::vector<std::size_t> leader_;                 // of each joint: what it mimics
+  std::vector<bool> inCircle_;                      // joints whose circle is told
   std::vector<std::size_t> parentJoint_;            // of each link
   std::vector<std::vector<std::size_t>> children_;  // joints of each link
 };

@@ -37,6 +37,18 @@ std::string parseNumber(const std::string& word, double& value) {
   return "";
 }
 
+bool contains(const std::vector<std::string>& all, const std::string& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+bool holdsGeometry(const XmlFile::Element& element) {
+  if (std::string_view(element.Name()) == "geometry") return true;
+  for (const XmlFile::Element* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement())
+    if (holdsGeometry(*child)) return true;
+  return false;
+}
+
 std::string explained(tinyxml2::XMLError error) {
   switch (error) {
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
@@ -153,16 +165,42 @@ XmlFile::Element* XmlFile::child(Element& parent, const char* name, const std::s
   return first;
 }
 
-void XmlFile::noteMisspelt(Element& parent, const std::vector<std::string>& known,
-                           const std::string& owner, std::vector<std::string>& notes) {
+std::string XmlFile::at(int line, const std::string& text) const {
+  return path_.string() + ":" + std::to_string(line) + ": " + text;
+}
+
+void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& read,
+                            const std::vector<std::string>& ignored, const std::string& owner,
+                            std::vector<std::string>& notes) {
+  std::vector<std::string> known = read;
+  known.insert(known.end(), ignored.begin(), ignored.end());
   for (Element* element = parent.FirstChildElement(); element;
        element = element->NextSiblingElement()) {
     const std::string name = element->Name();
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    if (const auto near = nearest(name, known))
-      notes.push_back(path_.string() + ":" + std::to_string(element->GetLineNum()) + ": " + owner +
-                      ": <" + name + "> is not known, and is ignored; did you mean <" + *near +
-                      ">?");
+    if (contains(known, name)) continue;
+    const std::string unknown = owner + ": <" + name + "> is not known";
+    const auto near = nearest(name, known);
+    const std::string hint = near ? "; did you mean <" + *near + ">?" : "";
+    if (near && contains(read, *near))
+      fault(element->GetLineNum(), unknown + hint);
+    else if (holdsGeometry(*element))
+      fault(element->GetLineNum(), unknown + ", and the <geometry> in it would be lost" + hint);
+    else if (name.find(':') == name.npos)
+      notes.push_back(at(element->GetLineNum(), unknown + ", and is ignored" + hint));
+  }
+}
+
+void XmlFile::checkAttributes(const Element& element, const std::vector<std::string>& read,
+                              const std::string& owner, std::vector<std::string>& notes) {
+  for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute;
+       attribute = attribute->Next()) {
+    const std::string name = attribute->Name();
+    if (contains(read, name)) continue;
+    const std::string unknown = owner + ": " + element.Name() + ": " + name + " is not known";
+    if (const std::string hint = didYouMean(name, read); !hint.empty())
+      fault(attribute->GetLineNum(), unknown + hint);
+    else
+      notes.push_back(at(attribute->GetLineNum(), unknown + ", and is ignored"));
   }
 }
 

@@ -27,6 +27,8 @@ class XmlFile {
   const std::filesystem::path& path() const { return path_; }
 
   void fault(int line, std::string text);
+  /// "file:line: text", for notes.
+  std::string at(int line, const std::string& text) const;
   bool sound() const { return faults_.empty(); }
   std::size_t faultCount() const { return faults_.size(); }
   /// By line.
@@ -43,9 +45,15 @@ class XmlFile {
   void require(const Element& element, const char* attribute, const std::string& owner);
   /// The child of that name, if there is one; further ones are faulted.
   Element* child(Element& parent, const char* name, const std::string& owner);
-  /// What children are called that are ignored although their name is nearly a known one.
-  void noteMisspelt(Element& parent, const std::vector<std::string>& known,
-                    const std::string& owner, std::vector<std::string>& notes);
+  /// Children that are neither read nor rightly ignored: faulted where something would be lost (the
+  /// name is nearly one that is read, or there is a <geometry> within), else noted. Those of other
+  /// formats ("drake:joint") are ignored.
+  void checkChildren(Element& parent, const std::vector<std::string>& read,
+                     const std::vector<std::string>& ignored, const std::string& owner,
+                     std::vector<std::string>& notes);
+  /// The same for attributes that may be left out.
+  void checkAttributes(const Element& element, const std::vector<std::string>& read,
+                       const std::string& owner, std::vector<std::string>& notes);
 
  private:
   void open(const std::string& what);

@@ -54,7 +54,7 @@ std::string quoted(const std::vector<std::string>& names) {
 
 std::string yamlOf(const Solution& solution) {
   std::ostringstream text;
-  const std::string space = rigidSpaceOf(solution.numbers);
+  const std::string& space = solution.space;
   text << "# A path. Check it: corridor verify PROBLEM SOLUTION\n"
        << "format: " << kFormat << "\n"
        << "problem: " << yamlText(solution.problem) << "\n"
@@ -80,6 +80,7 @@ std::string yamlOf(const Solution& solution) {
 
 Solution readPathFile(const std::filesystem::path& file, const ConfigurationSpace& space) {
   Solution solution;
+  solution.space = rigidSpaceOf(space);
   solution.numbers = space.numberNames();
   solution.checker = "unknown";
   for (StateRow& row : readStateRows(file, space)) solution.path.push_back(std::move(row.q));
@@ -107,10 +108,10 @@ void readStates(const YamlValue& list, const ConfigurationSpace& space, Solution
 }
 
 /// The tube, where there is one; else rounding is all that it can be.
-void readTube(const YamlMap& map, bool rigid, Solution& solution, YamlSource& source) {
+void readTube(const YamlMap& map, Solution& solution, YamlSource& source) {
   const std::size_t size = solution.numbers.size();
   solution.tube = Configuration::Zero(static_cast<Eigen::Index>(size));
-  if (!rigid) {
+  if (solution.space.empty()) {
     if (const auto numbers = map.numbers("tube", size)) {
       solution.tube = fromRow(*numbers);
       if ((solution.tube.array() < 0).any()) map.fault("tube", "numbers of at least 0 are needed");
@@ -128,8 +129,9 @@ void readTube(const YamlMap& map, bool rigid, Solution& solution, YamlSource& so
 }
 
 /// Are the states of the file those of the problem's space?
-bool sameSpace(const YamlMap& map, const std::vector<std::string>& numbers, YamlSource& source) {
-  const std::string rigid = rigidSpaceOf(numbers);
+bool sameSpace(const YamlMap& map, const Solution& solution, YamlSource& source) {
+  const std::vector<std::string>& numbers = solution.numbers;
+  const std::string& rigid = solution.space;
   const std::string key = map.find("joints") ? "joints" : "space";
   const std::string needed = rigid.empty() ? "joints" : "space";
   if (!map.find(key)) {
@@ -170,9 +172,10 @@ Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& s
     solution.checker = map.text("checker").value_or("");
     solution.tolerance = map.number("tolerance", Range::NotNegative).value_or(0);
     solution.margin = map.number("margin", Range::NotNegative).value_or(0);
+    solution.space = rigidSpaceOf(space);
     solution.numbers = space.numberNames();
-    if (sameSpace(map, solution.numbers, source)) {
-      readTube(map, !rigidSpaceOf(solution.numbers).empty(), solution, source);
+    if (sameSpace(map, solution, source)) {
+      readTube(map, solution, source);
       if (const YamlValue* path =
               map.require("path", "the states, such as - [0, 0, 0, 0, 0, 0, 1]"))
         readStates(*path, space, solution, source);
@@ -188,6 +191,7 @@ Solution makeSolution(const Problem& problem, const SolveReport& report) {
   Solution solution;
   solution.problem = problem.file.string();
   solution.digest = problem.digest;
+  solution.space = rigidSpaceOf(problem.space);
   solution.numbers = problem.space.numberNames();
   solution.planner = report.planner;
   solution.seed = report.seed;

@@ -13,6 +13,7 @@ namespace corridor {
 struct Solution {
   std::string problem;  ///< the problem's file, relative to the solution's folder
   std::string digest;   ///< of the problem and all its files; empty: not known (`.path` files)
+  std::string space;    ///< "SE2", "SE3", or "": joints
   /// Of each number of a state: its name (ConfigurationSpace::numberNames).
   std::vector<std::string> numbers;
   std::string planner;

@@ -7,17 +7,24 @@
 
 namespace corridor {
 
-std::string rigidSpaceOf(const std::vector<std::string>& numberNames) {
-  static const std::vector<std::string> spatial{"x", "y", "z", "qx", "qy", "qz", "qw"},
-      planar{"x", "y", "yaw"};
-  return numberNames == spatial ? "SE3" : numberNames == planar ? "SE2" : "";
+std::string rigidSpaceOf(const ConfigurationSpace& space) {
+  if (space.groups().size() != 1) return "";
+  switch (space.groups().front().kind) {
+    case CoordinateGroup::Kind::planar:
+      return "SE2";
+    case CoordinateGroup::Kind::floating:
+      return "SE3";
+    case CoordinateGroup::Kind::joints:
+      break;
+  }
+  return "";
 }
 
 std::optional<std::string> checkRow(const std::vector<double>& row,
                                     const ConfigurationSpace& space) {
   if (row.size() != space.size()) {
     const std::vector<std::string> names = space.numberNames();
-    const std::string rigid = rigidSpaceOf(names);
+    const std::string rigid = rigidSpaceOf(space);
     std::string listed;
     for (const std::string& name : names) listed += (listed.empty() ? "" : " ") + name;
     return "a state" + (rigid.empty() ? "" : " of " + rigid) + " has " +
@@ -33,7 +40,7 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
                                     const ConfigurationSpace& space) {
   std::vector<StateRow> rows;
   FaultList faults(file.string());
-  std::istringstream lines(readTextFile(file, "states, one a line"));
+  std::istringstream lines(readTextStream(file, "states, one a line"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     line.resize(std::min(line.size(), line.find('#')));

@@ -52,9 +52,10 @@ class CommandLine : public testing::Test {
     std::ifstream in(folder_ / name);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" CORRIDOR_PROGRAM "' " +
-                                arguments + " >out.txt 2>err.txt";
+  /// @param input a command whose output it reads, "echo 0 | ".
+  Result run(const std::string& arguments, const std::string& input = "") const {
+    const std::string command = "cd '" + folder_.string() + "' && " + input +
+                                "'" CORRIDOR_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
@@ -66,6 +67,7 @@ TEST_F(CommandLine, SolveThenVerify) {
   EXPECT_EQ(solved.status, 0) << solved.err;
   EXPECT_THAT(solved.out, HasSubstr("result: solved\n"));
   EXPECT_THAT(solved.out, HasSubstr("certified: yes\n"));
+  EXPECT_THAT(solved.out, testing::ContainsRegex("path length: [0-9.]+ m, turning [0-9.]+ rad\n"));
   EXPECT_EQ(solved.err, "");
   EXPECT_THAT(read("p.svg"), StartsWith("<svg"));
   EXPECT_LT(std::filesystem::file_size(folder_ / "p.svg"), 400'000u);
@@ -132,6 +134,7 @@ TEST_F(ArmCommandLine, SolveThenVerify) {
   const Result solved = run("solve arm.yaml -o s.yaml --picture p.svg");
   EXPECT_EQ(solved.status, 0) << solved.err;
   EXPECT_THAT(solved.out, HasSubstr("certified: yes\n"));
+  EXPECT_THAT(solved.out, testing::ContainsRegex("path length: [0-9.]+ rad\n"));
   EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"shoulder\", \"elbow\"]\n"));
   EXPECT_THAT(read("p.svg"), StartsWith("<svg"));
   const Result verified = run("verify arm.yaml s.yaml");
@@ -160,6 +163,51 @@ TEST_F(ArmCommandLine, CheckOfManyStates) {
   EXPECT_EQ(json["states"][1]["pairs"][0], "lower~post");
   EXPECT_EQ(json["states"][1]["line"], 4);
   EXPECT_EQ(json["states"][3]["out_of_bounds"][0], "elbow");
+}
+
+TEST_F(ArmCommandLine, CheckOfStatesFromAPipe) {
+  const std::string states = "printf '0 0\\n1.5708 0\\n' | ";
+  for (const char* input : {"-", "/dev/stdin", "/proc/self/fd/0"}) {
+    const Result checked = run(std::string("check arm.yaml --states ") + input, states);
+    EXPECT_EQ(checked.status, 1) << checked.err;
+    EXPECT_EQ(checked.out, "state,valid,pairs\n0,1,\n1,0,lower~post\n") << input;
+  }
+  const Result wrong = run("check arm.yaml --states -", "echo 0 x | ");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(wrong.err, "-:1: a number is needed, not \"x\"\n");
+  EXPECT_EQ(run("check arm.yaml --states - </dev/null").err,
+            "-: is empty; states, one a line is needed\n");
+}
+
+/// Joints may have any names; it isn't their names that make a rigid body.
+TEST_F(ArmCommandLine, AnArmOfJointsCalledXYAndYawIsNoRigidBody) {
+  std::string urdf = "<robot name=\"arm\">\n<link name=\"l0\"/>\n", parent = "l0";
+  for (const std::string name : {"x", "y", "yaw"}) {
+    urdf += "<link name=\"" + name +
+            "\"><collision><geometry><sphere radius=\"0.1\"/></geometry>"
+            "</collision></link>\n<joint name=\"" +
+            name + "\" type=\"revolute\"><parent link=\"" + parent + "\"/><child link=\"" + name +
+            "\"/><origin xyz=\"0.5 0 0\"/><axis xyz=\"0 0 1\"/>"
+            "<limit lower=\"-2\" upper=\"2\" effort=\"1\" velocity=\"1\"/></joint>\n";
+    parent = name;
+  }
+  write("arm.urdf", urdf + "</robot>\n");
+  write(
+      "arm.yaml",
+      "format: corridor-problem-1\nrobot: arm.urdf\nworld: {post: {sphere: 0.1, at: [0, 1.5, 0]}}\n"
+      "start: {x: 0, y: 0, yaw: 0}\ngoal: {x: 1, y: 0, yaw: 0}\n");
+  EXPECT_EQ(nlohmann::json::parse(run("inspect arm.yaml --json").out)["space"], "joints");
+  EXPECT_EQ(run("solve arm.yaml -o s.yaml").status, 0);
+  EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"x\", \"y\", \"yaw\"]\n"));
+  EXPECT_EQ(run("verify arm.yaml s.yaml").status, 0);
+  write("s.yaml", "format: corridor-solution-1\nspace: SE2\npath: [[0, 0, 0], [1, 0, 0]]\n");
+  EXPECT_EQ(
+      run("verify arm.yaml s.yaml").err,
+      "s.yaml:2: space: the problem is in the joints [\"x\", \"y\", \"yaw\"], this solution in "
+      "SE2\n");
+  write("states.txt", "0 0\n");
+  EXPECT_EQ(run("check arm.yaml --states states.txt").err,
+            "states.txt:1: a state has 3 numbers (x y yaw), not 2\n");
 }
 
 TEST_F(ArmCommandLine, CheckQuotesNamesWithCommas) {
@@ -265,6 +313,15 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
   fault("solve fine.yaml",
         testing::Eq("fine.yaml:8: checker.resolution: 1e-300 is not in [1e-09, 1)\n"));
   fault("verify problem.yaml none.yaml", StartsWith("none.yaml: "));
+  write("package.urdf",
+        "<robot name=\"r\">\n<link name=\"a\"><collision><geometry><mesh "
+        "filename=\"package://p/m.obj\"/></geometry></collision></link>\n</robot>\n");
+  fault("inspect package.urdf",
+        testing::Eq("package.urdf:2: link \"a\": mesh \"package://p/m.obj\": package \"p\" has no "
+                    "folder (robot.yaml: packages: {p: FOLDER}), and p/m.obj is no file\n"));
+  fault("check problem.yaml --states .", testing::Eq(".: is a folder; a file is needed\n"));
+  fault("check problem.yaml --states /dev/zero",
+        testing::Eq("/dev/zero: is not an ordinary file\n"));
   write("problem.yaml", problem("0.05, 0, 0"));
   fault("solve problem.yaml -o s.yaml",
         StartsWith("problem.yaml:5: start is in contact: \"cube\" (triangle "));

@@ -86,7 +86,8 @@ TEST_F(ArmFaults, Bounds) {
 
 TEST_F(ArmFaults, AllowAndTube) {
   EXPECT_EQ(with("allow: [[base, psot]]\n"),
-            "problem.yaml:7: allow: there is no body \"psot\"; did you mean \"post\"?");
+            "problem.yaml:7: allow: there is no body \"psot\"; did you mean \"post\"? "
+            "(known: base, upper, lower, finger, thumb, post)");
   EXPECT_EQ(with("allow: [[base]]\n"),
             "problem.yaml:7: allow: two bodies are needed, such as [hand, table], not 1");
   EXPECT_EQ(
@@ -137,7 +138,8 @@ TEST_F(ArmFaults, RobotFiles) {
             "pan: 0}}\n"),
       "arm.yaml:3: states.home.pna: there is no joint \"pna\"; did you mean \"pan\"? (known: "
       "pan, lift, slide)\n"
-      "arm.yaml:4: allow: there is no link \"hand\"\n"
+      "arm.yaml:4: allow: there is no link \"hand\" (known: base, upper, lower, flange, finger, "
+      "thumb)\n"
       "arm.yaml:5: weights.joints.tilt: there is no joint \"tilt\" (known: pan, lift, slide)\n"
       "arm.yaml:5: weights.joints.pan: must be above 0, not 0");
   EXPECT_EQ(robot("srdf: gone.srdf\npackages: {a: gone}\nreference: centroid\n"),

@@ -47,6 +47,34 @@ TEST_F(ArmProblem, GroupStatesAndPairs) {
       << "the value nearest to 0 within its limits";
 }
 
+TEST_F(ArmProblem, OverTwoMovingJointsLinksAreNotAdjacent) {
+  const std::string turns = "<axis xyz='0 0 1'/>";
+  const std::string ball = "<sphere radius='0.1'/>";
+  const auto chain = [&](const std::string& first, const std::string& second,
+                         const std::string& third) {
+    write("arm.urdf",
+          "<robot name='armbot'>\n" + link("base", ball, 0) + "<link name='a'/><link name='b'/>" +
+              link("hand", ball, 0) + joint("i", first, "base", "a", turns) +
+              joint("j", second, "a", "b", turns) + joint("k", third, "b", "hand", turns) +
+              joint("l", "continuous", "hand", "tip", turns) + link("tip", ball, 0) + "</robot>\n");
+    std::string zero;
+    int i = 0;
+    for (const std::string& type : {first, second, third, std::string("continuous")})
+      if (const char name = "ijkl"[i++]; type == "continuous")
+        zero += (zero.empty() ? "{" : ", ") + std::string(1, name) + ": 0";
+    const Problem p = read("format: corridor-problem-1\nrobot: arm.urdf\nstart: " + zero +
+                           "}\ngoal: " + zero + "}\n");
+    EXPECT_EQ(skipped(p, "hand", "tip"), "adjacent");
+    EXPECT_EQ(skipped(p, "base", "tip"), "");
+    return skipped(p, "base", "hand");
+  };
+  EXPECT_EQ(chain("continuous", "continuous", "continuous"), "");
+  EXPECT_EQ(chain("continuous", "fixed", "continuous"), "");
+  EXPECT_EQ(chain("fixed", "continuous", "fixed"), "adjacent");
+  EXPECT_EQ(chain("fixed", "fixed", "continuous"), "adjacent");
+  EXPECT_EQ(chain("fixed", "fixed", "fixed"), "adjacent");
+}
+
 TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
   const Problem p = read(armHead + "base: {at: [1, 2, 3], rpy_deg: [0, 0, 90]}\nstart: ready\n" +
                          "goal: {pan: 1, lift: 0.3}\n");

@@ -100,6 +100,32 @@ TEST_F(SrdfFile, OfAnotherRobotIsTold) {
                                                  ":1: is for robot \"q\", and is used for \"r\""));
 }
 
+TEST_F(SrdfFile, WhatIsUnknown) {
+  EXPECT_EQ(
+      complaintOfSrdf(R"(<disable_collision link1="l1" link2="r1"/>
+<group name="a"><jont name="left1"/></group>
+<groups/>)"),
+      R"(r.srdf:2: robot "r": <disable_collision> is not known; did you mean <disable_collisions>?
+r.srdf:3: group "a": <jont> is not known; did you mean <joint>?
+r.srdf:4: robot "r": <groups> is not known; did you mean <group>?)");
+  EXPECT_EQ(complaintOfSrdf("<link_sphere_approximation link=\"l1\"/>\n<mask/>"), "no complaint");
+  EXPECT_THAT(model_.notes,
+              testing::Contains((folder_ / "r.srdf").string() +
+                                ":3: robot \"r\": <mask> is not known, and is ignored"));
+}
+
+/// Three of the next in each of forty: paths among them are 3^40.
+TEST_F(SrdfFile, GroupsInGroupsTakeNoTime) {
+  std::string text;
+  for (int i = 0; i < 40; ++i) {
+    const std::string inner = "<group name=\"g" + std::to_string(i + 1) + "\"/>";
+    text += "<group name=\"g" + std::to_string(i) + "\">" + inner + inner + inner + "</group>\n";
+  }
+  EXPECT_EQ(complaintOfSrdf(text + "<group name=\"g40\"><joint name=\"left1\"/></group>"),
+            "no complaint");
+  EXPECT_EQ(group("g0"), "left1 ");
+}
+
 TEST_F(SrdfFile, Faults) {
   EXPECT_EQ(complaintOfSrdf(R"(<group name="a"><joint name="left3"/><link name="trnk"/></group>
 <group name="b"><chain base_link="trunk" tip_link="nowhere"/><group name="aa"/></group>
@@ -114,7 +140,8 @@ TEST_F(SrdfFile, Faults) {
 <group_state name="t" group="e"><joint name="base" value="1"/></group_state>
 <disable_collisions link1="l3" link2="r1"/>
 <disable_collisions link1="l2"/>
-<passive_joint name="p"/>)"),
+<passive_joint name="p"/>
+<group name="up"><chain base_link="tool" tip_link="trunk"/></group>)"),
             R"(r.srdf:2: group "a": the robot has no joint "left3"; did you mean "left1"?
 r.srdf:2: group "a": the robot has no link "trnk"; did you mean "trunk"?
 r.srdf:3: group "b": the robot has no link "nowhere"
@@ -132,7 +159,8 @@ r.srdf:12: state "t": joint "base": joint value: 3 numbers are needed, not "1"
 r.srdf:12: state "t" is there already, on line 11; names are unique in a group
 r.srdf:13: the robot has no link "l3"; did you mean "l1"?
 r.srdf:14: <disable_collisions> has no link2
-r.srdf:15: the robot has no joint "p")");
+r.srdf:15: the robot has no joint "p"
+r.srdf:16: group "up": the chain is upside down: its base_link "tool" hangs from its tip_link "trunk"; swap them)");
   std::vector<Fault> faults;
   readSrdf(folder_ / "none.srdf", model_, faults);
   EXPECT_EQ(textOf(faults), "none.srdf: no such file");

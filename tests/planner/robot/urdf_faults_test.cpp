@@ -90,6 +90,29 @@ TEST_F(UrdfFaults, Trees) {
             "r.urdf:4: the links a, b, a are joined in a circle; a tree is needed");
 }
 
+TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
+  std::string parts = link("base");
+  for (int i = 0; i < 101; ++i) parts += joint("j" + std::to_string(i), "fixed", "bse", "base");
+  const std::string text = complaintOfParts(parts);
+  const std::string line = "its parent \"bse\" is not a link of this file";
+  EXPECT_THAT(text, testing::HasSubstr("joint \"j99\": " + line + "; did you mean \"base\"?\n"));
+  EXPECT_THAT(text, testing::EndsWith("joint \"j100\": " + line));
+}
+
+TEST_F(UrdfFaults, LongCirclesAreToldByTheirFirst) {
+  std::string parts = link("l0");
+  for (int i = 0; i < 40; ++i) {
+    parts += link("l" + std::to_string(i + 1));
+    parts += joint("j" + std::to_string(i), "revolute", "l" + std::to_string(i),
+                   "l" + std::to_string(i + 1),
+                   limit + "<mimic joint=\"j" + std::to_string((i + 1) % 40) + "\"/>");
+  }
+  EXPECT_THAT(
+      complaintOfParts(parts),
+      testing::MatchesRegex("r.urdf:4: the joints j0, j1, .*, j28, j29 and 11 more mimic in a "
+                            "circle"));
+}
+
 TEST_F(UrdfFaults, Joints) {
   EXPECT_EQ(complaintOfJoint("revolut", limit),
             "r.urdf:4: joint \"j\": unknown type \"revolut\"; did you mean \"revolute\"?");
@@ -180,6 +203,22 @@ TEST_F(UrdfFaults, Mimics) {
             "r.urdf:7: the joints k, l, k mimic in a circle");
 }
 
+TEST_F(UrdfFaults, LimitsOfMimicsOutOfReach) {
+  const auto complaint = [&](const std::string& mimic) {
+    return complaintOfParts(
+        link("a") + link("b") + link("c") + joint("pan", "revolute", "a", "b", limit) +
+        joint("tilt", "revolute", "b", "c", limit + "\n<mimic joint=\"pan\" " + mimic + "/>"));
+  };
+  EXPECT_EQ(complaint("offset=\"3.5\""),
+            "r.urdf:7: joint \"tilt\": its limits, [-1, 2], are out of reach while it mimics "
+            "\"pan\" in [-1, 2]");
+  EXPECT_EQ(complaint("multiplier=\"0\" offset=\"-2\""),
+            "r.urdf:7: joint \"tilt\": its limits, [-1, 2], are out of reach while it mimics "
+            "\"pan\" in [-1, 2]");
+  EXPECT_EQ(complaint("multiplier=\"0\" offset=\"2\""), "no complaint");
+  EXPECT_EQ(complaint("offset=\"3\""), "no complaint") << "limits are inclusive";
+}
+
 TEST_F(UrdfFaults, Geometry) {
   const std::string of = "r.urdf:2: link \"a\": ";
   EXPECT_EQ(complaintOfCollision(""),
@@ -211,6 +250,32 @@ TEST_F(UrdfFaults, Geometry) {
             "r.urdf:2: shape \"a\": its origin, size or scale is out of the range of doubles");
 }
 
+TEST_F(UrdfFaults, WhatWouldBeLost) {
+  const std::string of = "r.urdf:2: link \"a\": ";
+  EXPECT_EQ(complaintOfParts(link("a", "<colision/>") + "<lnk name=\"b\"/>"),
+            of + "<colision> is not known; did you mean <collision>?\n"
+                 "r.urdf:3: robot \"r\": <lnk> is not known; did you mean <link>?");
+  EXPECT_EQ(
+      complaintOfParts(link("a", "<group>" + collision("<box size=\"1 1 1\"/>") + "</group>")),
+      of + "<group> is not known, and the <geometry> in it would be lost");
+  EXPECT_EQ(complaintOfParts(link("a") + collision("<box size=\"1 1 1\"/>")),
+            "r.urdf:3: robot \"r\": <collision> is not known, and the <geometry> in it would be "
+            "lost");
+  EXPECT_EQ(
+      complaintOfCollision("<orgin xyz=\"1 0 0\"/><geometry><box size=\"1 1 1\"/></geometry>"),
+      of + "<orgin> is not known; did you mean <origin>?");
+  EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scael=\"2 2 2\"/>"),
+            of + "mesh: scael is not known; did you mean \"scale\"?");
+  EXPECT_EQ(complaintOfJoint("fixed", "<origin xyz=\"0 0 1\" ryp=\"0 0 1\"/>"),
+            "r.urdf:4: joint \"j\": origin: ryp is not known; did you mean \"rpy\"?");
+  EXPECT_EQ(complaintOfJoint("fixed", "<origin quat_xyzw=\"0 0 0 1\"/>"),
+            "r.urdf:4: joint \"j\": origin quat_xyzw is not read; rpy is needed");
+  EXPECT_EQ(complaintOfJoint("continuous", "<axes xyz=\"0 0 1\"/>"),
+            "r.urdf:4: joint \"j\": <axes> is not known; did you mean <axis>?");
+  EXPECT_EQ(complaintOfJoint("revolute", R"(<limit lowr="-1" upper="2" effort="0" velocity="0"/>)"),
+            "r.urdf:4: joint \"j\": limit: lowr is not known; did you mean \"lower\"?");
+}
+
 TEST_F(UrdfFaults, MeshFiles) {
   const auto complaint = [&](const std::string& name) {
     return complaintOfShape("<mesh filename=\"" + name + "\"/>");
@@ -233,14 +298,21 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("package://hand/a.stl"),
             of + "\"package://hand/a.stl\": package \"hand\" has no folder (robot.yaml: packages: "
                  "{hand: FOLDER}), and hand/a.stl is no file");
-  // Faults of mesh files come with those of the URDF, each file's once.
+  // An unreadable mesh is told where the URDF names it, each file once.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +
                                            collision("<mesh filename=\"bad.obj\"/>")) +
                              link("b")),
-            "r.urdf:3: link \"b\" is no joint's child, and neither is \"a\" on line 2; a robot "
-            "has one root\n"
-            "bad.obj:2: coordinate \"nan\" is not finite");
+            of +
+                "\"bad.obj\": bad.obj:2: coordinate \"nan\" is not finite\n"
+                "r.urdf:3: link \"b\" is no joint's child, and neither is \"a\" on line 2; a robot "
+                "has one root");
+  write("worse.obj", "v 0 0 0\nv 1 0 nan\nv 1 0 inf\n");
+  EXPECT_EQ(complaint("worse.obj"),
+            of + "\"worse.obj\": worse.obj:2: coordinate \"nan\" is not finite (and 1 more)");
+  std::filesystem::create_directory(folder_ / "folder.stl");
+  EXPECT_EQ(complaint("folder.stl"),
+            of + "\"folder.stl\": folder.stl: is a folder; a file is needed");
 }
 
 TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
@@ -274,8 +346,9 @@ TEST_F(UrdfFaults, OfAllKindsAtOnceInOrder) {
   const std::string text = complaintOfParts(
       link("a", collision("<mesh filename=\"bad.obj\"/>")) + link("b", collision("<torus/>")) +
       joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/><mimic joint=\"j\"/>"));
-  EXPECT_THAT(text, testing::MatchesRegex("r.urdf:3: .*<torus>.*\nr.urdf:4: .*zero.*\nr.urdf:4: "
-                                          ".*<limit.*\nr.urdf:4: .*mimics itself\nbad.obj:1: .*"));
+  EXPECT_THAT(text, testing::MatchesRegex(
+                        "r.urdf:2: .*bad.obj:1: .*\nr.urdf:3: .*<torus>.*\nr.urdf:4: .*zero.*\n"
+                        "r.urdf:4: .*<limit.*\nr.urdf:4: .*mimics itself"));
 }
 
 }  // namespace

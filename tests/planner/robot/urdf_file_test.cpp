@@ -53,12 +53,13 @@ TEST_F(UrdfFile, JointsOfAllTypesInTheTreesOrder) {
 }
 
 TEST_F(UrdfFile, MimicsOfMimicsFollowTheOneThatMoves) {
+  const std::string wide = R"(<limit lower="-20" upper="20" effort="0" velocity="0"/>)";
   const RobotModel model =
       modelOf(link("a") + link("b") + link("c") + link("d") +
               joint("k", "prismatic", "a", "b",
-                    limit + "<mimic joint=\"l\" multiplier=\"-3\" offset=\"0.25\"/>") +
+                    wide + "<mimic joint=\"l\" multiplier=\"-3\" offset=\"0.25\"/>") +
               joint("l", "revolute", "b", "c",
-                    limit + "<mimic joint=\"m\" multiplier=\"2\" offset=\"1\"/>") +
+                    wide + "<mimic joint=\"m\" multiplier=\"2\" offset=\"1\"/>") +
               joint("m", "revolute", "c", "d", limit));
   EXPECT_FALSE(model.joints[2].mimic);
   ASSERT_TRUE(model.joints[0].mimic && model.joints[1].mimic);
@@ -67,6 +68,37 @@ TEST_F(UrdfFile, MimicsOfMimicsFollowTheOneThatMoves) {
   EXPECT_EQ(model.joints[0].mimic->offset, -3 * 1 + 0.25);
   EXPECT_EQ(model.joints[1].mimic->joint, 2u);
   EXPECT_EQ(model.joints[1].mimic->multiplier, 2);
+}
+
+TEST_F(UrdfFile, AMimicsLimitsNarrowTheRangeOfTheJointThatItFollows) {
+  const auto range = [&](const std::string& leader, const std::string& limits,
+                         const std::string& mimic) {
+    const RobotModel model =
+        modelOf(link("a") + link("b") + link("c") +
+                joint("pan", leader, "a", "b", leader == "continuous" ? "" : limit) +
+                joint("tilt", "revolute", "b", "c",
+                      "<limit " + limits + " effort=\"0\" velocity=\"0\"/>\n<mimic joint=\"pan\" " +
+                          mimic + "/>"));
+    EXPECT_TRUE(model.joints[0].type != JointType::continuous || model.notes.empty());
+    std::string text =
+        std::to_string(model.joints[0].lower) + " to " + std::to_string(model.joints[0].upper);
+    for (const std::string& note : model.notes)
+      text += "; " + note.substr(folder_.string().size() + 1);
+    return text;
+  };
+  const std::string told = "; r.urdf:7: joint \"pan\" has the range ";
+  const std::string why = ", since \"tilt\", which mimics it, has ";
+  EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", ""), "-1.000000 to 2.000000");
+  EXPECT_EQ(range("revolute", R"(lower="0" upper="3")", R"(multiplier="2" offset="1")"),
+            "-0.500000 to 1.000000" + told + "[-0.5, 1], not [-1, 2]" + why + "[0, 3]");
+  EXPECT_EQ(range("revolute", R"(lower="0" upper="0.5")", R"(multiplier="-1")"),
+            "-0.500000 to 0.000000" + told + "[-0.5, 0], not [-1, 2]" + why + "[0, 0.5]");
+  EXPECT_EQ(range("continuous", R"(lower="-2" upper="8")", R"(multiplier="2")"),
+            "-1.000000 to 3.141593" + told +
+                "[-1, 3.141592653589793], not [-3.141592653589793, 3.141592653589793]" + why +
+                "[-2, 8]");
+  EXPECT_EQ(range("continuous", R"(lower="-4" upper="4")", ""), "-inf to inf");
+  EXPECT_EQ(range("revolute", "", ""), "-1.000000 to 2.000000") << "no limits of its own";
 }
 
 TEST_F(UrdfFile, FixedJointsMayMimicEachOther) {
@@ -144,21 +176,25 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
-TEST_F(UrdfFile, WhatIsUnknownIsIgnoredAndToldWhereItLooksLikeAMistake) {
+TEST_F(UrdfFile, WhatIsUnknownAndHasNoGeometryIsIgnoredAndTold) {
   const RobotModel model = modelOf(
       "<gazebo reference=\"a\"><x/></gazebo>\n<transmission name=\"t\"/>\n" +
-      link("a", "<visual><geometry><torus/></geometry></visual><colision/>") +
-      "<lnk name=\"b\"/>\n" + link("b") +
-      joint("j", "prismatic", "a", "b",
-            R"(<limit effort="0" velocity="0"/><hardware/><safety_controller k_velocity="1"/>)"));
-  EXPECT_EQ(model.notes.size(), 3u);
+      link("a",
+           "<visual><geometry><torus/></geometry></visual><contact/><drake:x/><vsual/>"
+           "<collision_group/>") +
+      "<lamp name=\"b\"/>\n" + link("b") +
+      joint(
+          "j", "prismatic", "a", "b",
+          R"(<limit effort="0" velocity="0"/><origin at="1"/><hardware/><safety_controller k_velocity="1"/>)"));
   const std::string file = (folder_ / "r.urdf").string();
   EXPECT_THAT(model.notes,
               testing::UnorderedElementsAre(
-                  file + ":4: link \"a\": <colision> is not known, and is ignored; did you mean "
-                         "<collision>?",
-                  file + ":5: robot \"r\": <lnk> is not known, and is ignored; did you mean "
-                         "<link>?",
+                  file + ":4: link \"a\": <vsual> is not known, and is ignored; did you mean "
+                         "<visual>?",
+                  file + ":4: link \"a\": <collision_group> is not known, and is ignored",
+                  file + ":5: robot \"r\": <lamp> is not known, and is ignored",
+                  file + ":7: joint \"j\": <hardware> is not known, and is ignored",
+                  file + ":7: joint \"j\": origin: at is not known, and is ignored",
                   file + ":7: joint \"j\": <limit> has neither lower nor upper, so both are 0, "
                          "and the joint cannot move"));
 }

@@ -46,6 +46,7 @@ class SolutionFile : public testing::Test {
     Solution s;
     s.problem = "a \"quoted\" \\ name.yaml";
     s.digest = "0042";
+    s.space = rigidSpaceOf(space);
     s.numbers = space.numberNames();
     s.planner = "RRTConnect";
     s.seed = 18446744073709551615u;
@@ -83,11 +84,18 @@ TEST_F(SolutionFile, RoundTripIsBitForBit) {
     EXPECT_EQ(read.tolerance, wrote.tolerance);
     EXPECT_EQ(read.margin, wrote.margin);
     EXPECT_EQ(read.tube, wrote.tube);
+    EXPECT_EQ(read.space, wrote.space);
     EXPECT_EQ(read.numbers, wrote.numbers);
     EXPECT_THAT(read.problem, HasSubstr("a \"quoted\" \\ name.yaml"));
     ASSERT_EQ(read.path.size(), wrote.path.size());
     for (std::size_t i = 0; i < read.path.size(); ++i) EXPECT_EQ(read.path[i], wrote.path[i]);
   }
+}
+
+TEST_F(SolutionFile, WhatMovesAsAWholeHasASpace) {
+  EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE2).space), "SE2");
+  EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE3).space), "SE3");
+  EXPECT_EQ(rigidSpaceOf(test::armProblem().space), "");
 }
 
 TEST_F(SolutionFile, NothingIsLeftWhereItCantBeWritten) {
