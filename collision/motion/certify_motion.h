@@ -59,6 +59,8 @@ class MotionSource {
   virtual MotionWindow window(std::size_t i, double t, double h) = 0;
   /// The shorter way is not unique within 1e-9 rad somewhere (half turns): no edge.
   virtual bool ambiguous() const = 0;
+  /// Nothing moves: one pose stands for all of it (the tube aside).
+  virtual bool still() const = 0;
 
  protected:
   MotionSource() = default;

@@ -64,6 +64,7 @@ class RigidEdge final : public MotionSource {
     return motion_.window(t, h, screws_);
   }
   bool ambiguous() const override { return motion_.ambiguous(); }
+  bool still() const override { return motion_.still(); }
 
  private:
   RigidMotion motion_;

@@ -62,7 +62,7 @@ struct EdgeMotion::Impl {
   std::vector<Path> paths;
   std::uint64_t stamp = 0;
   double t = 0;  // of the stamp
-  bool ambiguous = false;
+  bool ambiguous = false, still = false;
 
   Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
        std::span<const Scene::FramePair> pairs, const Configuration& tube);
@@ -226,9 +226,13 @@ void EdgeMotion::set(const Configuration& from, const Configuration& to) {
   ++m.stamp;
   m.t = 0;
   m.ambiguous = m.space.ambiguous(from, to);
+  m.still = true;
   for (Impl::Place& place : m.places) {
     place.joint.set(from, to);
-    if (place.joint.still()) place.X = place.joint.at(0);
+    if (place.joint.still())
+      place.X = place.joint.at(0);
+    else
+      m.still = false;
     m.ambiguous = m.ambiguous || place.joint.ambiguous();
   }
   for (Impl::View& view : m.views) {
@@ -303,6 +307,10 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
 
 bool EdgeMotion::ambiguous() const {
   return impl_->ambiguous;
+}
+
+bool EdgeMotion::still() const {
+  return impl_->still;
 }
 
 }  // namespace corridor

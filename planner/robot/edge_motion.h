@@ -28,6 +28,7 @@ class EdgeMotion final : public MotionSource {
 
   MotionWindow window(std::size_t pair, double t, double h) override;
   bool ambiguous() const override;
+  bool still() const override;
 
  private:
   struct Impl;

@@ -85,6 +85,7 @@ class ChainMotion final : public MotionSource {
     return w;
   }
   bool ambiguous() const override { return false; }
+  bool still() const override { return false; }
 
   static Mat3L turn(const Vec3L& axis, long double value) {
     Mat3L K;
