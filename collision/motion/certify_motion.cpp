@@ -221,7 +221,7 @@ class Certifier {
       // soundness does not need them.
       const double size = std::max(na.radius, nb.radius);
       if (travel.cap > options_.tolerance && h > kShortest &&
-          (4 * (travel.bend * window.angle + travel.curvature) > size || 0.2 * travel.cap > size)) {
+          (32 * (travel.bend * window.angle + travel.curvature) > size || 1 * travel.cap > size)) {
         later.push_back(pair);
       } else if (na.isLeaf() && nb.isLeaf()) {
         const Descent leaf = leafPair(pair, window, h, later);
