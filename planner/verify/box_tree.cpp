@@ -96,14 +96,14 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   }
 }
 
-BodyDistance::Box BodyDistance::boxA(std::uint32_t node) const {
+CentredBox BodyDistance::boxA(std::uint32_t node) const {
   const RealVec lower = a_->node(node).lower.cast<Real>(),
                 upper = a_->node(node).upper.cast<Real>();
   return {(lower + upper) / 2, (upper - lower) / 2};
 }
 
-const BodyDistance::Box& BodyDistance::boxB(std::uint32_t node) {
-  Box& box = boxesB_[node];
+const CentredBox& BodyDistance::boxB(std::uint32_t node) {
+  CentredBox& box = boxesB_[node];
   if (stamps_[node] == stamp_) return box;
   stamps_[node] = stamp_;
   const std::uint32_t leaf = b_->node(node).leaf;
@@ -122,8 +122,8 @@ const BodyDistance::Box& BodyDistance::boxB(std::uint32_t node) {
 }
 
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
-  const Box boxOfA = boxA(a);
-  const Box& boxOfB = boxB(b);
+  const CentredBox boxOfA = boxA(a);
+  const CentredBox& boxOfB = boxB(b);
   Real square = 0;
   for (int i = 0; i < 3; ++i) {
     const Real gap =
@@ -223,13 +223,14 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
   return best;
 }
 
-bool BodyDistance::near(Real within, std::size_t most, std::vector<PiecePair>& pairs) {
+bool BodyDistance::near(Real within, std::size_t most, const Settled& settled,
+                        std::vector<PiecePair>& pairs) {
   pairs.clear();
   stack_.assign(1, item(0, 0));
   while (!stack_.empty()) {
     const Item at = stack_.back();
     stack_.pop_back();
-    if (at.lower >= within) continue;
+    if (at.lower >= within || settled(boxA(at.a), boxB(at.b))) continue;
     const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
     if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
       if (pairs.size() == most) return false;

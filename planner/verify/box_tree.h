@@ -61,6 +61,11 @@ struct BodyGap {
       false;  ///< `touches` said so of `pair`; the search ended there, upper = lower = 0
 };
 
+/// A box along the axes of a's frame.
+struct CentredBox {
+  RealVec centre, half;
+};
+
 /// Distances of two bodies, b placed in the frame of a; owns the scratch memory.
 class BodyDistance {
  public:
@@ -78,24 +83,23 @@ class BodyDistance {
   BodyGap measure(PiecePair guess, Real doubt, Real stop,
                   const std::function<bool(PiecePair)>& touches);
 
-  /// All pairs of pieces whose boxes are not `within` or more apart, but no more than `most`.
-  /// @returns false if there are more; all others are at least `within` apart.
-  bool near(Real within, std::size_t most, std::vector<PiecePair>& pairs);
+  /// All pairs of pieces whose boxes are not `within` or more apart, nor in boxes that are
+  /// `settled`, but no more than `most`.
+  /// @returns false if there are more; all others are at least `within` apart, or settled.
+  using Settled = std::function<bool(const CentredBox& a, const CentredBox& b)>;
+  bool near(Real within, std::size_t most, const Settled& settled, std::vector<PiecePair>& pairs);
 
   ConvexSet setA(std::uint32_t piece) const;
   ConvexSet setB(std::uint32_t piece) const;  ///< in a's frame
   TriangleGap gap(PiecePair pair) const;
 
  private:
-  struct Box {
-    RealVec centre, half;
-  };
   struct Item {
     std::uint32_t a, b;
     Real lower;
   };
-  Box boxA(std::uint32_t node) const;
-  const Box& boxB(std::uint32_t node);
+  CentredBox boxA(std::uint32_t node) const;
+  const CentredBox& boxB(std::uint32_t node);
   Real boxGap(std::uint32_t a, std::uint32_t b);
   Item item(std::uint32_t a, std::uint32_t b) { return {a, b, boxGap(a, b)}; }
   /// The two halves of an item that isn't a pair of leaves.
@@ -108,7 +112,7 @@ class BodyDistance {
   Placement X_AB_;
   RealVec direction_ = RealVec::Zero();  ///< of the closest points so far, unit or zero: slabs
                                          ///< along it are bounds, for boxes too
-  std::vector<Box> boxesB_;
+  std::vector<CentredBox> boxesB_;
   std::vector<std::uint64_t> stamps_;  ///< of boxesB_: the placement that made them
   std::uint64_t stamp_ = 0;
   std::vector<Item> stack_;

@@ -195,12 +195,13 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
     EXPECT_LE(distance.measure({}, 0, upper / 2, never).lower, upper);
     EXPECT_GE(distance.measure({}, 0, lower / 2, never).lower, lower / 2 * (1 - 0x1p-29L));
     std::vector<PiecePair> near;
-    ASSERT_TRUE(distance.near(0.5L, SIZE_MAX, near));
+    const auto none = [](const CentredBox&, const CentredBox&) { return false; };
+    ASSERT_TRUE(distance.near(0.5L, SIZE_MAX, none, near));
     std::size_t among = 0;
     for (const PiecePair& pair : near) among += distance.gap(pair).upper < 0.5L;
     EXPECT_EQ(among, within);
     if (within > 1) {
-      EXPECT_FALSE(distance.near(0.5L, within - 1, near));
+      EXPECT_FALSE(distance.near(0.5L, within - 1, none, near));
     }
   }
 }
