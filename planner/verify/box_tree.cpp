@@ -22,6 +22,10 @@ BoxTree::BoxTree(const TriangleMesh& mesh) {
       radius_ = std::max(radius_, mesh.corner(t, i).cast<Real>().norm());
     }
     piece.triangle = t;
+    const RealVec first = piece.corners[0].cast<Real>();
+    const RealVec normal =
+        (piece.corners[1].cast<Real>() - first).cross(piece.corners[2].cast<Real>() - first);
+    if (const Real length = normal.norm(); length > 0) piece.normal = normal / length;
     pieces_.push_back(piece);
   }
   radius_ *= 1 + 0x1p-60L;
@@ -88,7 +92,11 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   a_ = &a;
   b_ = &b;
   X_AB_ = X_AB;
-  direction_.setZero();
+  partA_.reset();
+  partB_.reset();
+  if (a.piece(0).part) partA_ = placed(*a.piece(0).part, Placement{});
+  if (b.piece(0).part) partB_ = placed(*b.piece(0).part, X_AB);
+  lookAlong(RealVec::Zero());
   ++stamp_;
   if (boxesB_.size() < b.size()) {
     boxesB_.resize(b.size());
@@ -121,6 +129,13 @@ const CentredBox& BodyDistance::boxB(std::uint32_t node) {
   return box;
 }
 
+void BodyDistance::lookAlong(const RealVec& between) {
+  const Real length = between.norm();
+  direction_ = length > 0 ? RealVec(between / length) : RealVec::Zero();
+  if (partA_) endOfA_ = direction_.dot(partA_->farthest(direction_)) + partA_->ball();
+  if (partB_) startOfB_ = direction_.dot(partB_->farthest(-direction_)) - partB_->ball();
+}
+
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
   const CentredBox boxOfA = boxA(a);
   const CentredBox& boxOfB = boxB(b);
@@ -130,9 +145,27 @@ Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
         std::abs(boxOfA.centre[i] - boxOfB.centre[i]) - boxOfA.half[i] - boxOfB.half[i];
     if (gap > 0) square += gap * gap;
   }
-  const Real slab = direction_.dot(boxOfB.centre - boxOfA.centre) -
-                    direction_.cwiseAbs().dot(boxOfA.half + boxOfB.half);
-  return std::max(std::sqrt(square), slab);
+  const RealVec extents = direction_.cwiseAbs();
+  const Real endOfA = partA_ ? endOfA_ : direction_.dot(boxOfA.centre) + extents.dot(boxOfA.half);
+  const Real startOfB =
+      partB_ ? startOfB_ : direction_.dot(boxOfB.centre) - extents.dot(boxOfB.half);
+  Real gap = std::max(std::sqrt(square), startOfB - endOfA);
+  // Boxes hold little of long triangles that aren't along their axes; planes hold them.
+  if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !partA_)
+    gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB));
+  if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !partB_)
+    gap = std::max(gap, planeGap(X_AB_.rotation * b_->piece(leaf).normal, cornersB(leaf), boxOfA));
+  return gap;
+}
+
+Real BodyDistance::planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
+                            const CentredBox& box) {
+  // Any direction gives a true bound: that the corners are in one plane isn't relied on.
+  const Real centre = normal.dot(box.centre), half = normal.cwiseAbs().dot(box.half);
+  const Real at[3] = {normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])};
+  return std::max(centre - std::max({at[0], at[1], at[2]}),
+                  std::min({at[0], at[1], at[2]}) - centre) -
+         half;
 }
 
 std::array<RealVec, 3> BodyDistance::cornersA(std::uint32_t piece) const {
@@ -148,20 +181,19 @@ std::array<RealVec, 3> BodyDistance::cornersB(std::uint32_t piece) const {
 }
 
 ConvexSet BodyDistance::setA(std::uint32_t piece) const {
-  if (const ConvexPart* part = a_->piece(piece).part) return placed(*part, Placement{});
+  if (partA_) return *partA_;
   const auto corners = cornersA(piece);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
 ConvexSet BodyDistance::setB(std::uint32_t piece) const {
-  if (const ConvexPart* part = b_->piece(piece).part) return placed(*part, X_AB_);
+  if (partB_) return *partB_;
   const auto corners = cornersB(piece);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
-TriangleGap BodyDistance::gap(PiecePair pair) const {
-  if (a_->piece(pair.a).part || b_->piece(pair.b).part)
-    return convexGap(setA(pair.a), setB(pair.b));
+TriangleGap BodyDistance::gap(PiecePair pair, const RealVec& guess, Real enough) const {
+  if (partA_ || partB_) return convexGap(setA(pair.a), setB(pair.b), guess, enough);
   return triangleGap(cornersA(pair.a).data(), cornersB(pair.b).data());
 }
 
@@ -177,13 +209,21 @@ std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole) {
 BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
                               const std::function<bool(PiecePair)>& touches) {
   BodyGap best;
-  direction_.setZero();
+  lookAlong(RealVec::Zero());
   Real enough = stop;
   const auto test = [&](PiecePair pair) {
     TriangleGap found;
-    if (!a_->piece(pair.a).part && !b_->piece(pair.b).part)  // cheaper, where that is enough
-      found.lower = slabWidth(cornersA(pair.a).data(), cornersB(pair.b).data(), direction_);
-    if (found.lower < enough) found = gap(pair);
+    if (!partA_ && !partB_) {  // slabs are cheaper, where they are enough
+      const auto a = cornersA(pair.a), b = cornersB(pair.b);
+      const RealVec normals[2] = {a_->piece(pair.a).normal,
+                                  X_AB_.rotation * b_->piece(pair.b).normal};
+      found.lower = slabWidth(a.data(), b.data(), direction_);
+      for (const RealVec& n : normals)
+        if (found.lower < enough)
+          found.lower = std::max(
+              {found.lower, slabWidth(a.data(), b.data(), n), slabWidth(a.data(), b.data(), -n)});
+    }
+    if (found.lower < enough) found = gap(pair, direction_, enough);
     best.lower = std::min(best.lower, found.lower);
     if (found.upper < best.upper) {
       best.upper = found.upper;
@@ -193,8 +233,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
       enough =
           std::min(stop, std::max(kSame * best.upper,
                                   std::nextafter(doubt, std::numeric_limits<Real>::infinity())));
-      const RealVec between = found.onB - found.onA;
-      if (const Real length = between.norm(); length > 0) direction_ = between / length;
+      if (found.onA != found.onB) lookAlong(found.onB - found.onA);
     }
     if (found.lower > doubt || !touches(pair)) return false;
     best = {0, 0, pair, found.onA, found.onB, true};

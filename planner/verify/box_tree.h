@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "planner/verify/convex_gap.h"
@@ -13,7 +14,8 @@ namespace corridor::verify {
 
 /// What a body is made of: a triangle of its mesh, or its convex part.
 struct Piece {
-  Corners corners;  ///< of a triangle
+  Corners corners;                   ///< of a triangle
+  RealVec normal = RealVec::Zero();  ///< of a triangle: unit, rounded; 0 where it has none
   std::uint32_t triangle = 0;
   const ConvexPart* part = nullptr;
 };
@@ -91,7 +93,9 @@ class BodyDistance {
 
   ConvexSet setA(std::uint32_t piece) const;
   ConvexSet setB(std::uint32_t piece) const;  ///< in a's frame
-  TriangleGap gap(PiecePair pair) const;
+  /// `guess` and `enough` as in convexGap.
+  TriangleGap gap(PiecePair pair, const RealVec& guess = RealVec::Zero(),
+                  Real enough = std::numeric_limits<Real>::infinity()) const;
 
  private:
   struct Item {
@@ -100,18 +104,24 @@ class BodyDistance {
   };
   CentredBox boxA(std::uint32_t node) const;
   const CentredBox& boxB(std::uint32_t node);
+  /// Of the closest points so far.
+  void lookAlong(const RealVec& between);
   Real boxGap(std::uint32_t a, std::uint32_t b);
   Item item(std::uint32_t a, std::uint32_t b) { return {a, b, boxGap(a, b)}; }
   /// The two halves of an item that isn't a pair of leaves.
   std::array<Item, 2> split(const Item& item);
+  /// Of a triangle and a box: by the slab along the triangle's normal, either way.
+  static Real planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
+                       const CentredBox& box);
   std::array<RealVec, 3> cornersA(std::uint32_t piece) const;
   std::array<RealVec, 3> cornersB(std::uint32_t piece) const;
 
   const BoxTree* a_ = nullptr;
   const BoxTree* b_ = nullptr;
   Placement X_AB_;
-  RealVec direction_ = RealVec::Zero();  ///< of the closest points so far, unit or zero: slabs
-                                         ///< along it are bounds, for boxes too
+  std::optional<ConvexSet> partA_, partB_;  ///< where the body is one
+  RealVec direction_ = RealVec::Zero();     ///< unit or zero: slabs along it are bounds, for boxes
+  Real endOfA_ = 0, startOfB_ = 0;          ///< of the parts, along it
   std::vector<CentredBox> boxesB_;
   std::vector<std::uint64_t> stamps_;  ///< of boxesB_: the placement that made them
   std::uint64_t stamp_ = 0;
