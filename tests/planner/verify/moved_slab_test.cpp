@@ -169,6 +169,33 @@ TEST(MovedSlab, IsAttained) {
   EXPECT_LT(gained / cases, 0.35L);  // of what it is whatever the direction
 }
 
+// A point that turns about z comes closer to what is between it and the axis in second order only,
+// by 1 − cos(h|Δ| + τ): motion and stray together, not each for itself.
+TEST(MovedSlab, SecondOrderIsOfMotionAndStrayTogether) {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  Frame turn;
+  turn.joint = Frame::Joint::turn;
+  turn.variable = space.coordinates()[space.add(Coordinate{})].first;
+  const Limb limb = limbOf(tree, 0, tree.add(turn));
+  const ConvexSet a{{RealVec(0.5L, 0, 0)}, 0, false, RealVec::Zero()},
+      b{{RealVec(1, 0, 0)}, 0, false, RealVec::Zero()};
+  for (const double way : {0.0, 0.02, 0.05, 0.2})
+    for (const double stray : {0.0, 0.01, 0.05}) {
+      const Configuration from = Configuration::Constant(1, -way), to = -from,
+                          tube = Configuration::Constant(1, stray);
+      const EdgeCurve curve(tree, space.coordinates(), from, to);
+      const BodyMotion moving =
+          motionSeenFrom({}, curve.at(limb, 0.5L), curve.straysAt(limb, 0.5L, tube));
+      const Reach reach = curve.reach(limb, 1, tube);
+      const Real bound = MovedSlab({}, moving, 0.5L, RealVec::UnitX()).width(a, b) -
+                         (0.25L * reach.bend + 0.5L * reach.bendCross + reach.bendTube) / 2;
+      const Real all = way + stray, least = std::cos(all) - 0.5L;
+      EXPECT_LE(bound, least + 1e-15L) << way << " " << stray;
+      EXPECT_GE(bound, least - all * all * all * all / 24 - 1e-12L) << way << " " << stray;
+    }
+}
+
 TEST(MovedSlab, BoxesHoldWhatIsInThem) {
   std::mt19937_64 random(test::testSeed(10));
   for (int i = 0; i < 500; ++i) {
