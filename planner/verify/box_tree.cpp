@@ -22,6 +22,10 @@ BoxTree::BoxTree(const TriangleMesh& mesh) {
       radius_ = std::max(radius_, mesh.corner(t, i).cast<Real>().norm());
     }
     piece.triangle = t;
+    const RealVec first = piece.corners[0].cast<Real>();
+    const RealVec normal =
+        (piece.corners[1].cast<Real>() - first).cross(piece.corners[2].cast<Real>() - first);
+    if (const Real length = normal.norm(); length > 0) piece.normal = normal / length;
     pieces_.push_back(piece);
   }
   radius_ *= 1 + 0x1p-60L;
@@ -88,12 +92,11 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   a_ = &a;
   b_ = &b;
   X_AB_ = X_AB;
-  const auto only = [](const BoxTree& tree) { return tree.piece(0).part; };
   partA_.reset();
   partB_.reset();
-  if (only(a)) partA_ = placed(*only(a), Placement{});
-  if (only(b)) partB_ = placed(*only(b), X_AB);
-  setDirection(RealVec::Zero());
+  if (a.piece(0).part) partA_ = placed(*a.piece(0).part, Placement{});
+  if (b.piece(0).part) partB_ = placed(*b.piece(0).part, X_AB);
+  lookAlong(RealVec::Zero());
   ++stamp_;
   if (boxesB_.size() < b.size()) {
     boxesB_.resize(b.size());
@@ -101,14 +104,14 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   }
 }
 
-BodyDistance::Box BodyDistance::boxA(std::uint32_t node) const {
+CentredBox BodyDistance::boxA(std::uint32_t node) const {
   const RealVec lower = a_->node(node).lower.cast<Real>(),
                 upper = a_->node(node).upper.cast<Real>();
   return {(lower + upper) / 2, (upper - lower) / 2};
 }
 
-const BodyDistance::Box& BodyDistance::boxB(std::uint32_t node) {
-  Box& box = boxesB_[node];
+const CentredBox& BodyDistance::boxB(std::uint32_t node) {
+  CentredBox& box = boxesB_[node];
   if (stamps_[node] == stamp_) return box;
   stamps_[node] = stamp_;
   const std::uint32_t leaf = b_->node(node).leaf;
@@ -126,32 +129,43 @@ const BodyDistance::Box& BodyDistance::boxB(std::uint32_t node) {
   return box;
 }
 
-void BodyDistance::setDirection(const RealVec& unit) {
-  direction_ = unit;
-  if (partA_) partEndA_ = unit.dot(partA_->farthest(unit)) + partA_->ball();
-  if (partB_) partStartB_ = unit.dot(partB_->farthest(-unit)) - partB_->ball();
-}
-
-Real BodyDistance::endA(const Box& box) const {
-  if (partA_) return partEndA_;
-  return direction_.dot(box.centre) + direction_.cwiseAbs().dot(box.half);
-}
-
-Real BodyDistance::startB(const Box& box) const {
-  if (partB_) return partStartB_;
-  return direction_.dot(box.centre) - direction_.cwiseAbs().dot(box.half);
+void BodyDistance::lookAlong(const RealVec& between) {
+  const Real length = between.norm();
+  direction_ = length > 0 ? RealVec(between / length) : RealVec::Zero();
+  if (partA_) endOfA_ = direction_.dot(partA_->farthest(direction_)) + partA_->ball();
+  if (partB_) startOfB_ = direction_.dot(partB_->farthest(-direction_)) - partB_->ball();
 }
 
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
-  const Box boxOfA = boxA(a);
-  const Box& boxOfB = boxB(b);
+  const CentredBox boxOfA = boxA(a);
+  const CentredBox& boxOfB = boxB(b);
   Real square = 0;
   for (int i = 0; i < 3; ++i) {
     const Real gap =
         std::abs(boxOfA.centre[i] - boxOfB.centre[i]) - boxOfA.half[i] - boxOfB.half[i];
     if (gap > 0) square += gap * gap;
   }
-  return std::max(std::sqrt(square), startB(boxOfB) - endA(boxOfA));
+  const RealVec extents = direction_.cwiseAbs();
+  const Real endOfA = partA_ ? endOfA_ : direction_.dot(boxOfA.centre) + extents.dot(boxOfA.half);
+  const Real startOfB =
+      partB_ ? startOfB_ : direction_.dot(boxOfB.centre) - extents.dot(boxOfB.half);
+  Real gap = std::max(std::sqrt(square), startOfB - endOfA);
+  // Boxes hold little of long triangles that aren't along their axes; planes hold them.
+  if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !partA_)
+    gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB));
+  if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !partB_)
+    gap = std::max(gap, planeGap(X_AB_.rotation * b_->piece(leaf).normal, cornersB(leaf), boxOfA));
+  return gap;
+}
+
+Real BodyDistance::planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
+                            const CentredBox& box) {
+  // Any direction gives a true bound: that the corners are in one plane isn't relied on.
+  const Real centre = normal.dot(box.centre), half = normal.cwiseAbs().dot(box.half);
+  const Real at[3] = {normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])};
+  return std::max(centre - std::max({at[0], at[1], at[2]}),
+                  std::min({at[0], at[1], at[2]}) - centre) -
+         half;
 }
 
 std::array<RealVec, 3> BodyDistance::cornersA(std::uint32_t piece) const {
@@ -178,10 +192,8 @@ ConvexSet BodyDistance::setB(std::uint32_t piece) const {
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
-TriangleGap BodyDistance::gap(PiecePair pair, Real enough) const {
-  if (partA_ && partB_) return convexGap(*partA_, *partB_, enough);
-  if (partA_) return convexGap(*partA_, setB(pair.b), enough);
-  if (partB_) return convexGap(setA(pair.a), *partB_, enough);
+TriangleGap BodyDistance::gap(PiecePair pair, const RealVec& guess, Real enough) const {
+  if (partA_ || partB_) return convexGap(setA(pair.a), setB(pair.b), guess, enough);
   return triangleGap(cornersA(pair.a).data(), cornersB(pair.b).data());
 }
 
@@ -197,23 +209,21 @@ std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole) {
 BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
                               const std::function<bool(PiecePair)>& touches) {
   BodyGap best;
-  setDirection(RealVec::Zero());
+  lookAlong(RealVec::Zero());
   Real enough = stop;
   const auto test = [&](PiecePair pair) {
     TriangleGap found;
-    // A slab is cheaper, where that is enough.
-    const auto along = [&](const RealVec& corner) { return direction_.dot(corner); };
-    Real endOfA = partEndA_, startOfB = partStartB_;
-    if (!partA_) {
-      const auto corners = cornersA(pair.a);
-      endOfA = std::max({along(corners[0]), along(corners[1]), along(corners[2])});
+    if (!partA_ && !partB_) {  // slabs are cheaper, where they are enough
+      const auto a = cornersA(pair.a), b = cornersB(pair.b);
+      const RealVec normals[2] = {a_->piece(pair.a).normal,
+                                  X_AB_.rotation * b_->piece(pair.b).normal};
+      found.lower = slabWidth(a.data(), b.data(), direction_);
+      for (const RealVec& n : normals)
+        if (found.lower < enough)
+          found.lower = std::max(
+              {found.lower, slabWidth(a.data(), b.data(), n), slabWidth(a.data(), b.data(), -n)});
     }
-    if (!partB_) {
-      const auto corners = cornersB(pair.b);
-      startOfB = std::min({along(corners[0]), along(corners[1]), along(corners[2])});
-    }
-    found.lower = startOfB - endOfA;
-    if (found.lower < enough) found = gap(pair, enough);
+    if (found.lower < enough) found = gap(pair, direction_, enough);
     best.lower = std::min(best.lower, found.lower);
     if (found.upper < best.upper) {
       best.upper = found.upper;
@@ -223,8 +233,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
       enough =
           std::min(stop, std::max(kSame * best.upper,
                                   std::nextafter(doubt, std::numeric_limits<Real>::infinity())));
-      const RealVec between = found.onB - found.onA;
-      if (const Real length = between.norm(); length > 0) setDirection(between / length);
+      if (found.onA != found.onB) lookAlong(found.onB - found.onA);
     }
     if (found.lower > doubt || !touches(pair)) return false;
     best = {0, 0, pair, found.onA, found.onB, true};
@@ -253,13 +262,14 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
   return best;
 }
 
-bool BodyDistance::near(Real within, std::size_t most, std::vector<PiecePair>& pairs) {
+bool BodyDistance::near(Real within, std::size_t most, const Settled& settled,
+                        std::vector<PiecePair>& pairs) {
   pairs.clear();
   stack_.assign(1, item(0, 0));
   while (!stack_.empty()) {
     const Item at = stack_.back();
     stack_.pop_back();
-    if (at.lower >= within) continue;
+    if (at.lower >= within || settled(boxA(at.a), boxB(at.b))) continue;
     const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
     if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
       if (pairs.size() == most) return false;

@@ -14,7 +14,8 @@ namespace corridor::verify {
 
 /// What a body is made of: a triangle of its mesh, or its convex part.
 struct Piece {
-  Corners corners;  ///< of a triangle
+  Corners corners;                   ///< of a triangle
+  RealVec normal = RealVec::Zero();  ///< of a triangle: unit, rounded; 0 where it has none
   std::uint32_t triangle = 0;
   const ConvexPart* part = nullptr;
 };
@@ -62,6 +63,11 @@ struct BodyGap {
       false;  ///< `touches` said so of `pair`; the search ended there, upper = lower = 0
 };
 
+/// A box along the axes of a's frame.
+struct CentredBox {
+  RealVec centre, half;
+};
+
 /// Distances of two bodies, b placed in the frame of a; owns the scratch memory.
 class BodyDistance {
  public:
@@ -79,44 +85,44 @@ class BodyDistance {
   BodyGap measure(PiecePair guess, Real doubt, Real stop,
                   const std::function<bool(PiecePair)>& touches);
 
-  /// All pairs of pieces whose boxes are not `within` or more apart, but no more than `most`.
-  /// @returns false if there are more; all others are at least `within` apart.
-  bool near(Real within, std::size_t most, std::vector<PiecePair>& pairs);
+  /// All pairs of pieces whose boxes are not `within` or more apart, nor in boxes that are
+  /// `settled`, but no more than `most`.
+  /// @returns false if there are more; all others are at least `within` apart, or settled.
+  using Settled = std::function<bool(const CentredBox& a, const CentredBox& b)>;
+  bool near(Real within, std::size_t most, const Settled& settled, std::vector<PiecePair>& pairs);
 
   ConvexSet setA(std::uint32_t piece) const;
   ConvexSet setB(std::uint32_t piece) const;  ///< in a's frame
-  /// To the last digits, or to where `lower` is `enough`.
-  TriangleGap gap(PiecePair pair, Real enough = std::numeric_limits<Real>::infinity()) const;
+  /// `guess` and `enough` as in convexGap.
+  TriangleGap gap(PiecePair pair, const RealVec& guess = RealVec::Zero(),
+                  Real enough = std::numeric_limits<Real>::infinity()) const;
 
  private:
-  struct Box {
-    RealVec centre, half;
-  };
   struct Item {
     std::uint32_t a, b;
     Real lower;
   };
-  /// Where a's box ends along `direction_` and b's starts; its part, where it is one.
-  Real endA(const Box& box) const;
-  Real startB(const Box& box) const;
-  void setDirection(const RealVec& unit);
-  Box boxA(std::uint32_t node) const;
-  const Box& boxB(std::uint32_t node);
+  CentredBox boxA(std::uint32_t node) const;
+  const CentredBox& boxB(std::uint32_t node);
+  /// Of the closest points so far.
+  void lookAlong(const RealVec& between);
   Real boxGap(std::uint32_t a, std::uint32_t b);
   Item item(std::uint32_t a, std::uint32_t b) { return {a, b, boxGap(a, b)}; }
   /// The two halves of an item that isn't a pair of leaves.
   std::array<Item, 2> split(const Item& item);
+  /// Of a triangle and a box: by the slab along the triangle's normal, either way.
+  static Real planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
+                       const CentredBox& box);
   std::array<RealVec, 3> cornersA(std::uint32_t piece) const;
   std::array<RealVec, 3> cornersB(std::uint32_t piece) const;
 
   const BoxTree* a_ = nullptr;
   const BoxTree* b_ = nullptr;
   Placement X_AB_;
-  std::optional<ConvexSet> partA_, partB_;  ///< in a's frame, of trees that are one part
-  RealVec direction_ = RealVec::Zero();     ///< of the closest points so far, unit or zero: slabs
-                                            ///< along it are bounds, for boxes too
-  Real partEndA_ = 0, partStartB_ = 0;      ///< of the parts, along direction_
-  std::vector<Box> boxesB_;
+  std::optional<ConvexSet> partA_, partB_;  ///< where the body is one
+  RealVec direction_ = RealVec::Zero();     ///< unit or zero: slabs along it are bounds, for boxes
+  Real endOfA_ = 0, startOfB_ = 0;          ///< of the parts, along it
+  std::vector<CentredBox> boxesB_;
   std::vector<std::uint64_t> stamps_;  ///< of boxesB_: the placement that made them
   std::uint64_t stamp_ = 0;
   std::vector<Item> stack_;

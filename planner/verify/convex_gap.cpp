@@ -96,9 +96,9 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement) {
   return set;
 }
 
-TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, Real enough) {
-  std::vector<Corner> corners{{a.points[0], b.points[0]}};
-  RealVec onA = a.points[0], onB = b.points[0];
+TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& guess, Real enough) {
+  RealVec onA = a.farthest(guess), onB = b.farthest(-guess);
+  std::vector<Corner> corners{{onA, onB}};
   Real lower = -std::numeric_limits<Real>::infinity();
   const Real balls = a.ball() + b.ball();
   bool meet = false;
@@ -153,18 +153,6 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, Real enough) {
     gap.onA = gap.onB = meet ? onA : RealVec(onA + v * (balls > 0 ? a.ball() / balls : 0));
   }
   return gap;
-}
-
-Real movedSlabWidth(const ConvexSet& a, const Displacement& moveA, const ConvexSet& b,
-                    const Displacement& moveB, const RealVec& direction) {
-  const Real length = direction.norm();
-  if (!(length > 0)) return -std::numeric_limits<Real>::infinity();
-  // n·(x + linear + angular × x) = n·linear + (n + n × angular)·x: a support of the set itself.
-  const RealVec alongA = direction + direction.cross(moveA.angular);
-  const RealVec alongB = direction + direction.cross(moveB.angular);
-  const Real nearA = alongA.dot(a.farthest(alongA)) + direction.dot(moveA.linear);
-  const Real nearB = alongB.dot(b.farthest(-alongB)) + direction.dot(moveB.linear);
-  return (nearB - nearA) / length - a.ball() - b.ball();
 }
 
 }  // namespace corridor::verify

@@ -29,17 +29,11 @@ ConvexSet placed(const ConvexPart& part, const Placement& placement);
 /// `lower` from a slab; any direction gives a true bound. Found by the point of least norm of the
 /// difference of the sets' cores, from at most four of its corners at a time (Gilbert, Johnson,
 /// Keerthi 1988); which of them is settled by trying all subsets, as is plainest.
-/// The search ends early once `lower` is `enough`; `upper` is then no more than a bound.
 /// Rounding as for triangles: 2^-50 of the size covers it amply.
+/// @param guess where the search starts: a direction from a to b, of any length; 0 for none.
+/// @param enough a distance that needn't be told from a larger one: `lower` of this much ends it.
 TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b,
+                      const RealVec& guess = RealVec::Zero(),
                       Real enough = std::numeric_limits<Real>::infinity());
-
-/// The gap of the slab along `direction` (from a to b), of any length, while every core point x of
-/// a moves to x + linearA + angularA × x, and those of b likewise. Balls move with their centres.
-struct Displacement {
-  RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
-};
-Real movedSlabWidth(const ConvexSet& a, const Displacement& moveA, const ConvexSet& b,
-                    const Displacement& moveB, const RealVec& direction);
 
 }  // namespace corridor::verify

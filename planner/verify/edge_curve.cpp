@@ -98,53 +98,109 @@ EdgeCurve::Line EdgeCurve::valueOf(const Frame& frame) const {
           Real(frame.multiplier) * line.way};
 }
 
-FrameState EdgeCurve::at(const Limb& limb, Real t) const {
-  FrameState state;
-  Placement& at = state.at;
-  const auto turns = [&](const RealVec& vector) {  // about an axis through the place reached
-    state.angular += vector;
-    state.linear -= vector.cross(at.position);
-  };
+template <class See>
+Placement EdgeCurve::walk(const Limb& limb, Real t, const See& see) const {
+  Placement at;
   for (const std::size_t f : limb.path) {
     const Frame& frame = tree_.frames[f];
     at.position += at.rotation * frame.fixed.p.cast<Real>();
     at.rotation = at.rotation * rotationOf(frame.fixed.q.coeffs().cast<Real>());
+    see(frame, at);
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
       case Frame::Joint::turn: {
         const Line value = valueOf(frame);
-        const RealVec axis = axisOf(frame);
-        turns(value.way * (at.rotation * axis));
-        at.rotation = at.rotation * turnBy(axis, value.from + t * value.way);
+        at.rotation = at.rotation * turnBy(axisOf(frame), value.from + t * value.way);
         break;
       }
       case Frame::Joint::slide: {
         const Line value = valueOf(frame);
-        const RealVec axis = at.rotation * axisOf(frame);
-        state.linear += value.way * axis;
-        at.position += (value.from + t * value.way) * axis;
+        at.position += (value.from + t * value.way) * (at.rotation * axisOf(frame));
         break;
       }
       case Frame::Joint::shift: {
-        RealVec from = RealVec::Zero(), way = RealVec::Zero();
+        RealVec shift = RealVec::Zero();
         for (std::size_t k = 0; k < frame.count; ++k) {
-          from[static_cast<Eigen::Index>(k)] = lines_[frame.variable + k].from;
-          way[static_cast<Eigen::Index>(k)] = lines_[frame.variable + k].way;
+          const Line& line = lines_[frame.variable + k];
+          shift[static_cast<Eigen::Index>(k)] = line.from + t * line.way;
         }
-        state.linear += at.rotation * way;
-        at.position += at.rotation * (from + t * way);
+        at.position += at.rotation * shift;
         break;
       }
-      case Frame::Joint::rotate: {
-        const Arc& arc = arcOf(frame);
-        turns(at.rotation * arc.turn);
-        at.rotation = at.rotation * arcAt(arc, t);
+      case Frame::Joint::rotate:
+        at.rotation = at.rotation * arcAt(arcOf(frame), t);
         break;
-      }
     }
   }
+  return at;
+}
+
+FrameState EdgeCurve::at(const Limb& limb, Real t) const {
+  FrameState state;
+  const auto turns = [&](const RealVec& vector, const Placement& at) {
+    state.angular += vector;
+    state.linear -= vector.cross(at.position);
+  };
+  state.at = walk(limb, t, [&](const Frame& frame, const Placement& at) {
+    switch (frame.joint) {
+      case Frame::Joint::none:
+        break;
+      case Frame::Joint::turn:
+        turns(valueOf(frame).way * (at.rotation * axisOf(frame)), at);
+        break;
+      case Frame::Joint::slide:
+        state.linear += valueOf(frame).way * (at.rotation * axisOf(frame));
+        break;
+      case Frame::Joint::shift:
+        for (std::size_t k = 0; k < frame.count; ++k)
+          state.linear +=
+              lines_[frame.variable + k].way * at.rotation.col(static_cast<Eigen::Index>(k));
+        break;
+      case Frame::Joint::rotate:
+        turns(at.rotation * arcOf(frame).turn, at);
+        break;
+    }
+  });
   return state;
+}
+
+Strays EdgeCurve::straysAt(const Limb& limb, Real t, const Configuration& tube) const {
+  Strays strays;
+  const auto twist = [&](std::size_t number, const RealVec& linear, const RealVec& angular) {
+    const Real stray = tube[static_cast<Eigen::Index>(number)];
+    auto at = std::find_if(strays.twists.begin(), strays.twists.end(),
+                           [&](const Strays::Twist& other) { return other.number == number; });
+    if (at == strays.twists.end())
+      at = strays.twists.insert(at, {RealVec::Zero(), RealVec::Zero(), number});
+    at->linear += stray * linear;
+    at->angular += stray * angular;
+  };
+  walk(limb, t, [&](const Frame& frame, const Placement& at) {
+    if (frame.variable == Frame::noVariable) return;
+    switch (frame.joint) {
+      case Frame::Joint::none:
+        break;
+      case Frame::Joint::turn: {
+        const RealVec axis = Real(frame.multiplier) * (at.rotation * axisOf(frame));
+        twist(frame.variable, -axis.cross(at.position), axis);
+        break;
+      }
+      case Frame::Joint::slide:
+        twist(frame.variable, Real(frame.multiplier) * (at.rotation * axisOf(frame)),
+              RealVec::Zero());
+        break;
+      case Frame::Joint::shift:
+        for (std::size_t k = 0; k < frame.count; ++k)
+          twist(frame.variable + k, at.rotation.col(static_cast<Eigen::Index>(k)), RealVec::Zero());
+        break;
+      case Frame::Joint::rotate:
+        strays.pivots.push_back(
+            {at.position, Real(tube[static_cast<Eigen::Index>(frame.variable)])});
+        break;
+    }
+  });
+  return strays;
 }
 
 Configuration EdgeCurve::configuration(Real t) const {
@@ -167,18 +223,18 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
   Reach reach;
   // From the frame back to the base: `length` is that of the chain after the joint at hand; turns
   // before it are not known yet, so that their share of `bend` is added when they come: with D the
-  // sum of |Δ_j| R_j and |Δ_j| of the joints after them, 2 |Δ_i| D.
-  Real length = radius, after = 0, manyTurns = 1;
+  // sum of |Δ_j| R_j and |Δ_j| of the joints after them (`speed` so far), 2 |Δ_i| D. So with τ.
+  Real length = radius, manyTurns = 1;
   const auto turn = [&](Real delta, Real stray) {
-    reach.bend += delta * (delta * length + 2 * after);
+    reach.bend += delta * (delta * length + 2 * reach.speed);
+    reach.bendCross += 2 * (delta * stray * length + delta * reach.tube + stray * reach.speed);
+    reach.bendTube += stray * (stray * length + 2 * reach.tube);
     reach.speed += delta * length;
     reach.tube += stray * length;
-    after += delta * length;
   };
   const auto slide = [&](Real delta, Real stray, Real longest) {
     reach.speed += delta;
     reach.tube += stray;
-    after += delta;
     length += longest + stray;
   };
   const auto strayOf = [&](std::size_t number) {
@@ -222,10 +278,12 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
     length += frame.fixed.p.cast<Real>().norm();
   }
   const Real frames = std::max<Real>(1, Real(limb.path.size()) / 54);
-  reach.size = (length + reach.speed) * manyTurns * frames * kUp;
+  reach.size = (length + reach.speed + reach.tube) * manyTurns * frames * kUp;
   reach.speed *= kUp;
   reach.bend *= kUp;
   reach.tube *= kUp;
+  reach.bendCross *= kUp;
+  reach.bendTube *= kUp;
   return reach;
 }
 

@@ -21,6 +21,23 @@ struct FrameState {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
 };
 
+/// What strays from a curve within its tube do to the points of a frame, to first order; in the
+/// coordinates of the base, at a time. A point x moves by Σ over the twists of c·(linear + angular
+/// × x), each c anywhere in [−1, 1], and by Σ over the pivots of w × (x − at), each w any vector of
+/// at most `angle`.
+struct Strays {
+  struct Twist {
+    RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
+    std::size_t number = 0;  ///< of the configuration: the joints that follow it stray as one
+  };
+  struct Pivot {
+    RealVec at = RealVec::Zero();
+    Real angle = 0;
+  };
+  std::vector<Twist> twists;
+  std::vector<Pivot> pivots;
+};
+
 /// A frame as seen from one of its ancestors: the joints from `base`, which are not counted, to
 /// `frame`.
 struct Limb {
@@ -42,9 +59,19 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
 /// second's share of x'), the second's share not longer than |Δ_j| R_j, and slides in a straight
 /// line have none of their own. A stray of each variable within its tube moves x by at most `tube`
 /// = Σ_turns τ_j R_j + Σ_slides τ_j.
+///
+/// Let joint j stray by δ_j from where it is at a time s after t, all |δ_j| ≤ τ_j: from its value
+/// at t it is s·Δ_j + δ_j away. Going there from t in a straight line, all joints at once, is a
+/// motion of the same kind with |s||Δ_j| + τ_j in place of |Δ_j|. (A rotation's stray is a turn by
+/// at most τ about any axis, after the s·Δ: two turns one after the other about one point, with the
+/// same R, add up like one.) So x is off its first order by at most half of `bend` with those,
+/// which is a quadratic form in them:
+///   |x − x(t) − s x'(t) − Σ δ_j ∂x/∂q_j(t)| ≤ (s² bend + |s| bendCross + bendTube) / 2.
 struct Reach {
   Real speed = 0, bend = 0, tube = 0;
-  Real size = 0;  ///< bounds every length that enters the pose; rounding is 2^-50 of it
+  Real bendCross = 0;  ///< twice the bilinear form of Δ and τ
+  Real bendTube = 0;   ///< the form of τ
+  Real size = 0;       ///< bounds every length that enters the pose; rounding is 2^-50 of it
 };
 
 /// The curve of an edge by Corridor's definition, in the verifier's own arithmetic: lines linear in
@@ -67,6 +94,7 @@ class EdgeCurve {
   /// The shorter way round is not unique within 1e-9 rad: the edge is nothing that could be proved.
   bool ambiguous() const { return ambiguous_; }
   FrameState at(const Limb& limb, Real t) const;
+  Strays straysAt(const Limb& limb, Real t, const Configuration& tube) const;
   Configuration configuration(Real t) const;  ///< rounded
   Reach reach(const Limb& limb, Real radius, const Configuration& tube) const;
 
@@ -80,6 +108,10 @@ class EdgeCurve {
     Real omega = 0;                    // between them
     RealVec turn = RealVec::Zero();    // rotation vector of the whole, in the joint's frame
   };
+  /// The way along the limb at t. Calls see(frame, X) at every joint, X being the place before it
+  /// moves. @returns where the way ends.
+  template <class See>
+  Placement walk(const Limb& limb, Real t, const See& see) const;
   const Arc& arcOf(const Frame& frame) const;
   RealMat arcAt(const Arc& arc, Real t) const;
   Line valueOf(const Frame& frame) const;

@@ -9,6 +9,7 @@
 
 #include "planner/verify/box_tree.h"
 #include "planner/verify/edge_curve.h"
+#include "planner/verify/moved_slab.h"
 #include "planner/verify/winding.h"
 
 namespace corridor {
@@ -24,9 +25,6 @@ constexpr int kDepth = 60;
 /// found at once. Then the deepest part is next, so that a place that can't be decided is found
 /// without halving all others as far.
 constexpr int kCoarse = 5;
-/// Pairs of pieces that one interval may prove one by one, by slabs of their own; with more it is
-/// halved instead.
-constexpr std::size_t kNear = 400;
 /// Once all is proved, the bound of the clearance may take this many queries more, and four times
 /// those of the proof.
 constexpr std::uint64_t kRefinement = 4000;
@@ -34,7 +32,8 @@ constexpr Real kRefined = 0.9L;
 
 /// A pair of bodies along one edge: what its reach weights allow.
 struct PairReach {
-  Real speed = 0, bend = 0, tube = 0, rounding = 0;
+  Reach sum;
+  Real rounding = 0;
 };
 
 /// A pair of bodies in a part of an edge.
@@ -87,7 +86,9 @@ class Verifier {
   /// Looks at one pair in [middle − half, middle + half]: its bound, unless the edge is refuted.
   Real look(const Interval& part, OpenPair& pair);
   /// The bound by a slab for each pair of pieces that comes near.
-  Real lookClosely(const Measured& m, const PairReach& reach, Real half, Real wanted);
+  Real lookClosely(const Interval& part, std::size_t pair, const Measured& m);
+  /// Bounding the tube by direction may bring a verdict: it takes more than the tolerance.
+  bool tubeMatters(const PairReach& reach) const { return reach.sum.tube > problem_.tolerance; }
   void close(const Interval& part, std::size_t pair, const Measured& m, PathVerdict verdict,
              const std::string& reason);
   void closeInvalid(std::size_t edge, const Configuration& state, const std::string& reason);
@@ -194,19 +195,21 @@ std::size_t Verifier::limb(std::size_t base, std::size_t frame) {
 
 PairReach Verifier::reachOf(std::size_t edge, std::size_t pair) const {
   const Pair& p = pairs_[pair];
-  PairReach sum;
-  Real size = 0;
+  PairReach reach;
+  Reach& sum = reach.sum;
   for (const auto& [limb, body] : {std::pair{p.limbA, p.a}, std::pair{p.limbB, p.b}}) {
-    const Reach reach = curves_[edge].reach(limbs_[limb], trees_[body].radius(), problem_.tube);
-    sum.speed += reach.speed;
-    sum.bend += reach.bend;
-    sum.tube += reach.tube;
-    size += reach.size;
+    const Reach one = curves_[edge].reach(limbs_[limb], trees_[body].radius(), problem_.tube);
+    sum.speed += one.speed;
+    sum.bend += one.bend;
+    sum.tube += one.tube;
+    sum.bendCross += one.bendCross;
+    sum.bendTube += one.bendTube;
+    sum.size += one.size;
   }
   // 2^-50 = 2^14 u for each limb; the relative placement, the boxes (32u) and the slabs (16u) and
   // displacements of as much.
-  sum.rounding = 0x1p-49L * size;
-  return sum;
+  reach.rounding = 0x1p-49L * sum.size;
+  return reach;
 }
 
 const FrameState& Verifier::stateOf(std::size_t edge, std::size_t limb, Real t) {
@@ -282,7 +285,7 @@ Real Verifier::look(const Interval& part, OpenPair& open) {
   const RealMat back = m.a.at.rotation.transpose();
   const Placement X_AB{back * m.b.at.rotation, back * (m.b.at.position - m.a.at.position)};
   distance_.place(trees_[p.a], trees_[p.b], X_AB);
-  const Real travel = reach.speed * part.half, pad = reach.tube + reach.rounding;
+  const Real travel = reach.sum.speed * part.half, pad = reach.sum.tube + reach.rounding;
   const Real wanted = std::max<Real>(problem_.margin, interesting());
   contact_.reset();
   ++queries_;
@@ -308,8 +311,8 @@ Real Verifier::look(const Interval& part, OpenPair& open) {
     close(part, open.pair, m, PathVerdict::refuted, "closer than the tube allows");
   } else {
     open.bound = std::max(open.bound, m.gap.lower - travel - pad);
-    if (open.bound <= problem_.margin && part.half > 0)
-      open.bound = std::max(open.bound, lookClosely(m, reach, part.half, wanted));
+    if (open.bound <= problem_.margin && (part.half > 0 || tubeMatters(reach)))
+      open.bound = std::max(open.bound, lookClosely(part, open.pair, m));
     if (open.bound <= problem_.margin && (travel <= problem_.tolerance || part.depth >= kDepth))
       close(part, open.pair, m, PathVerdict::undecided,
             m.gap.lower - reach.rounding - problem_.margin > problem_.tolerance
@@ -321,56 +324,29 @@ Real Verifier::look(const Interval& part, OpenPair& open) {
   return open.bound;
 }
 
-/// At the middle every point has a velocity v = linear + angular × x; at the place s in [−half,
-/// half] it is off the line x + s·v by at most bend·s²/2. Along a direction n, fixed in the frame
-/// of the pair's common ancestor, the width of the slab between the two sets of such lines is a
-/// minimum of functions linear in s less a maximum of such: concave, so that its least value is at
-/// one of the two ends. What is nowhere near needs no slab: nothing travels farther than
-/// speed·half.
-Real Verifier::lookClosely(const Measured& m, const PairReach& reach, Real half, Real wanted) {
-  const Real bent = reach.bend * half * half / 2, pad = reach.tube + reach.rounding;
-  if (m.gap.lower - bent - pad <= problem_.margin) return -kInfinity;
-  const Real travel = reach.speed * half;
-  // Not farther than what matters to the proof, nor than what the bound of the clearance can gain.
-  Real within = travel + pad + wanted;
-  if (!std::isfinite(within) || !distance_.near(within, kNear, near_)) {
-    within = travel + pad + problem_.margin + problem_.tolerance;
-    if (!distance_.near(within, kNear, near_)) return -kInfinity;
+Real Verifier::lookClosely(const Interval& part, std::size_t pair, const Measured& m) {
+  const PairReach& reach = reaches_[part.edge][pair];
+  const Real half = part.half;
+  PairMotion motion;
+  motion.half = half;
+  motion.travel = reach.sum.speed * half;
+  motion.tube = reach.sum.tube;
+  motion.rounding = reach.rounding;
+  Strays a, b;
+  if (tubeMatters(reach)) {
+    const EdgeCurve& curve = curves_[part.edge];
+    a = curve.straysAt(limbs_[pairs_[pair].limbA], part.middle, problem_.tube);
+    b = curve.straysAt(limbs_[pairs_[pair].limbB], part.middle, problem_.tube);
+    motion.secondOrder =
+        (half * half * reach.sum.bend + half * reach.sum.bendCross + reach.sum.bendTube) / 2;
+  } else {
+    motion.secondOrder = half * half * reach.sum.bend / 2 + reach.sum.tube;
   }
-  const RealMat back = m.a.at.rotation.transpose();
-  const auto displacement = [&](const FrameState& state, Real s) {
-    const RealVec spin = back * state.angular;
-    return Displacement{s * (back * (state.linear + state.angular.cross(m.a.at.position))),
-                        s * spin};
-  };
-  Real bound = within - travel - pad;
-  for (const PiecePair& pieces : near_) {
-    const TriangleGap gap = distance_.gap(pieces);
-    const ConvexSet a = distance_.setA(pieces.a), b = distance_.setB(pieces.b);
-    Real best = gap.lower - travel;
-    // Any direction is as good as it proves: that of the two pieces' closest points; where these
-    // face each other at an angle, that of the bodies', or a face's.
-    const auto attempt = [&](const RealVec& n) {
-      if (best - pad >= wanted) return;
-      Real width = kInfinity;
-      for (const Real s : {-half, half})
-        width =
-            std::min(width, movedSlabWidth(a, displacement(m.a, s), b, displacement(m.b, s), n));
-      best = std::max(best, width - bent);
-    };
-    attempt(gap.onB - gap.onA);
-    attempt(m.gap.onB - m.gap.onA);
-    for (const ConvexSet* set : {&a, &b}) {
-      if (set->points.size() != 3) continue;
-      const RealVec normal =
-          (set->points[1] - set->points[0]).cross(set->points[2] - set->points[0]);
-      attempt(normal);
-      attempt(-normal);
-    }
-    bound = std::min(bound, best - pad);
-    if (bound <= problem_.margin) return -kInfinity;
-  }
-  return bound;
+  motion.a = motionSeenFrom(m.a.at, m.a, std::move(a));
+  motion.b = motionSeenFrom(m.a.at, m.b, std::move(b));
+  const Real little = problem_.margin + problem_.tolerance;
+  return boundBySlabs(distance_, m.gap, motion,
+                      {problem_.margin, little, std::max(little, interesting())}, near_);
 }
 
 void Verifier::lookAtAll(Interval& part) {
@@ -470,8 +446,8 @@ void Verifier::refine() {
   while (!proved_.empty() && queries_ < limit) {
     const Interval worst = proved_.top();
     const PairReach& reach = reaches_[worst.edge][worst.pairs[0].pair];
-    if (worst.bound >= kRefined * (smallest_ - reach.tube) ||
-        reach.speed * worst.half <= problem_.tolerance || worst.depth >= kDepth)
+    if (worst.bound >= kRefined * (smallest_ - reach.sum.tube) ||
+        reach.sum.speed * worst.half <= problem_.tolerance || worst.depth >= kDepth)
       break;
     proved_.pop();
     for (const int side : {-1, 1}) {

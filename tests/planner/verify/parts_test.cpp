@@ -10,13 +10,16 @@
 #include "planner/verify/edge_curve.h"
 #include "planner/verify/exact_contact.h"
 #include "tests/planner/verify/meshes.h"
+#include "tests/planner/verify/random_arm.h"
 #include "tests/support/support.h"
 
 namespace corridor::verify {
 namespace {
 
+using test::placementOf;
 using test::poseOf;
 using test::randomPose;
+using test::randomSet;
 using test::randomSoup;
 using test::randomVec;
 
@@ -160,10 +163,6 @@ TEST(TriangleGap, ClosedForms) {
   EXPECT_EQ(triangleGap(a, edges).upper, 3);
 }
 
-Placement placementOf(const RigidPose& pose) {
-  return {pose.q.normalized().toRotationMatrix().cast<Real>(), pose.p.cast<Real>()};
-}
-
 TEST(BodyDistance, EqualsTheDoubleLoop) {
   std::mt19937_64 random(test::testSeed(2));
   const TriangleMesh meshB = randomSoup(random, 40, 1, 0.2),
@@ -195,60 +194,18 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
     EXPECT_LE(distance.measure({}, 0, upper / 2, never).lower, upper);
     EXPECT_GE(distance.measure({}, 0, lower / 2, never).lower, lower / 2 * (1 - 0x1p-29L));
     std::vector<PiecePair> near;
-    ASSERT_TRUE(distance.near(0.5L, SIZE_MAX, near));
+    const auto none = [](const CentredBox&, const CentredBox&) { return false; };
+    ASSERT_TRUE(distance.near(0.5L, SIZE_MAX, none, near));
     std::size_t among = 0;
     for (const PiecePair& pair : near) among += distance.gap(pair).upper < 0.5L;
     EXPECT_EQ(among, within);
     if (within > 1) {
-      EXPECT_FALSE(distance.near(0.5L, within - 1, near));
+      EXPECT_FALSE(distance.near(0.5L, within - 1, none, near));
     }
   }
 }
 
-// A tree of three joints of each kind, among them a joint that follows another.
-struct Arm {
-  KinematicTree tree;
-  ConfigurationSpace space;
-  std::size_t tip = 0, side = 0;
-
-  explicit Arm(std::mt19937_64& random) {
-    const auto variable = [&](Coordinate::Kind kind) {
-      Coordinate c;
-      c.kind = kind;
-      return space.coordinates()[space.add(c)].first;
-    };
-    const auto frame = [&](std::size_t parent, Frame::Joint joint, std::size_t first) {
-      Frame f;
-      f.parent = parent;
-      f.fixed = randomPose(random, 0.7);
-      f.joint = joint;
-      f.axis = randomVec(random, 1);
-      f.variable = first;
-      f.count = 3;
-      return tree.add(f);
-    };
-    const std::size_t x = variable(Coordinate::Kind::line);
-    variable(Coordinate::Kind::line), variable(Coordinate::Kind::line);
-    const std::size_t q = variable(Coordinate::Kind::rotation),
-                      pan = variable(Coordinate::Kind::line),
-                      lift = variable(Coordinate::Kind::circle),
-                      slide = variable(Coordinate::Kind::line);
-    std::size_t at = frame(0, Frame::Joint::shift, x);
-    at = frame(at, Frame::Joint::rotate, q);
-    const std::size_t fork = at = frame(at, Frame::Joint::turn, pan);
-    at = frame(at, Frame::Joint::turn, lift);
-    tip = frame(at, Frame::Joint::slide, slide);
-    side = frame(fork, Frame::Joint::turn, pan);
-    tree.frames[side].multiplier = -0.7;
-    tree.frames[side].offset = 0.2;
-  }
-  Configuration random(std::mt19937_64& generator) const {
-    Configuration q(static_cast<Eigen::Index>(space.size()));
-    std::uniform_real_distribution<double> uniform(-1.5, 1.5);
-    for (double& value : q) value = uniform(generator);
-    return q;
-  }
-};
+using test::Arm;
 
 TEST(EdgeCurve, PointsStayWithinTheirReach) {
   std::mt19937_64 random(test::testSeed(3));
@@ -304,21 +261,6 @@ TEST(EdgeCurve, EndsWhereItShould) {
       for (Eigen::Index k = 0; k < 3; ++k) EXPECT_EQ(end[k], q[k]);
     }
   }
-}
-
-ConvexSet randomSet(std::mt19937_64& random, int kind, const Vec3& shift) {
-  ConvexPart part;
-  if (kind == 0) part = {{Vec3::Zero()}, 0.4, false};
-  if (kind == 1) part = {{Vec3(0, 0, -0.35), Vec3(0, 0, 0.35)}, 0.2, false};
-  if (kind == 2) part = {{Vec3(0, 0, -0.4), Vec3(0, 0, 0.4)}, 0.3, true};
-  if (kind == 3)
-    for (int i = 0; i < 8; ++i)
-      part.points.emplace_back(i & 1 ? 0.15 : -0.15, i & 2 ? 0.3 : -0.3, i & 4 ? 0.45 : -0.45);
-  if (kind == 4)
-    for (int i = 0; i < 3; ++i) part.points.push_back(randomVec(random, 0.5));
-  RigidPose pose = randomPose(random, 0.2);
-  pose.p += shift;
-  return placed(part, placementOf(pose));
 }
 
 TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {

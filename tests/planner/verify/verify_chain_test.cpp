@@ -103,26 +103,70 @@ TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
             PathVerdict::proved);
 }
 
+// Beside the tip of a stretched arm, which the tubes of both turns move it to.
 TEST(VerifyChain, TubesOfJointsCount) {
-  Chain chain(2, {{Vec3(0, 1.95 + 0.01, 0)}, 0, false});
-  const std::vector<Configuration> path = {joints({kPi / 2, 0}), joints({kPi / 2, 0})};
+  Chain chain(2, {{Vec3(1.9, 0.05 + 0.01, 0)}, 0, false});
+  const std::vector<Configuration> path = {joints({0, 0}), joints({0, 0})};
   EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
-  chain.problem.tube = joints({0.001, 0.001});  // 0.001·1.95 + 0.001·0.95
+  // 1.9·τ + 0.9·τ of 0.01, and half of (1.95 + 3·0.95) τ²
+  chain.problem.tube = joints({0.00355, 0.00355});
   EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
-  chain.problem.tube = joints({0.004, 0.004});
-  EXPECT_NE(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
-}
-
-TEST(VerifyChain, SaysWhereTheTubeIsWhatDecides) {
-  // In front of a stretched arm, where its tube of turns hardly moves it towards the obstacle.
-  Chain chain(2, boxPart(Vec3(1.952, -0.2, -0.2), Vec3(2.2, 0.2, 0.2)));
-  chain.problem.tube = joints({0.001, 0.001});
-  const PathReport report = verifyPath(chain.problem, {joints({0, 0}), joints({0, 0})});
+  EXPECT_EQ(verifyPath(chain.problem, {path[0]}).verdict, PathVerdict::proved);
+  chain.problem.tube = joints({0.00358, 0.00358});
+  const PathReport report = verifyPath(chain.problem, path);
   ASSERT_EQ(report.verdict, PathVerdict::undecided);
   EXPECT_EQ(report.findings[0].reason, "the tube may take all of the clearance");
-  chain.problem.tube = joints({0, 0});
-  EXPECT_EQ(verifyPath(chain.problem, {joints({0, 0}), joints({0, 0})}).verdict,
-            PathVerdict::proved);
+  EXPECT_EQ(verifyPath(chain.problem, {joints({0.00358, 0.00358})}).verdict, PathVerdict::refuted);
+}
+
+TEST(VerifyChain, WhatATubeDoesAcrossTheDirectionTakesNothing) {
+  // In front of a stretched arm, where turns within the tube move it sideways.
+  Chain chain(2, boxPart(Vec3(1.952, -0.2, -0.2), Vec3(2.2, 0.2, 0.2)));
+  chain.problem.tube = joints({0.001, 0.001});
+  EXPECT_EQ(verifyPath(chain.problem, {joints({0, 0})}).verdict, PathVerdict::proved);
+  // A turn by 0.1 moves no end of the second rod by less than its radius times that, to second
+  // order.
+  chain.problem.tube = joints({0.1, 0.1});
+  EXPECT_EQ(verifyPath(chain.problem, {joints({0, 0})}).verdict, PathVerdict::undecided);
+}
+
+// All joints turn about z, a millimetre above a table: their tubes of 30 mm at the tip are along
+// it. Beside a wall they take what there is.
+TEST(VerifyChain, AnArmSlidesOverATableWithATube) {
+  Chain chain(3, boxPart(Vec3(-4, -4, -1), Vec3(4, 4, -0.051)));
+  chain.problem.tube = joints({0.01, 0.01, 0.01});
+  const std::vector<Configuration> path = {joints({-1, 0.3, 0.4}), joints({0.5, -0.2, 0.1})};
+  const PathReport report = verifyPath(chain.problem, path);
+  EXPECT_EQ(report.verdict, PathVerdict::proved);
+  EXPECT_LE(report.provenClearance, 0.001);
+  Chain beside(3, boxPart(Vec3(0, 0.08, -1), Vec3(4, 1, 1)));
+  beside.problem.tube = chain.problem.tube;
+  const std::vector<Configuration> along = {joints({0, 0, 0}), joints({-0.2, 0.05, 0.01})};
+  EXPECT_EQ(verifyPath(beside.problem, along).verdict, PathVerdict::undecided);
+  beside.problem.tube = joints({0, 0, 0});
+  EXPECT_EQ(verifyPath(beside.problem, along).verdict, PathVerdict::proved);
+  EXPECT_EQ(verifyPath(beside.problem, {joints({0.01, 0.01, 0.01})}).verdict,
+            PathVerdict::refuted);  // a state within that tube
+  beside.problem.tube = joints({0.003, 0.003, 0.003});
+  EXPECT_EQ(verifyPath(beside.problem, along).verdict, PathVerdict::proved);
+}
+
+// A joint that turns back what the one before it turned: the hand stays level, and its far end
+// strays sideways only, as all of it.
+TEST(VerifyChain, JointsThatFollowOneVariableStrayAsOne) {
+  Chain chain(2, boxPart(Vec3(-2, -0.2, -0.2), Vec3(2, 0.948, 0.2)));
+  chain.tree.frames[2].variable = 0;
+  chain.tree.frames[2].multiplier = -1;
+  chain.problem.tube = joints({0.01, 0});
+  chain.problem.pairs = {{0, 2}};
+  const std::vector<Configuration> path = {joints({kPi / 2 - 0.01, 0}),
+                                           joints({kPi / 2 + 0.01, 0})};
+  EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
+  chain.tree.frames[2].variable = 1;
+  chain.problem.tube = joints({0.01, 0.01});
+  const std::vector<Configuration> same = {joints({kPi / 2 - 0.01, kPi / 2 - 0.01}),
+                                           joints({kPi / 2 + 0.01, kPi / 2 + 0.01})};
+  EXPECT_EQ(verifyPath(chain.problem, same).verdict, PathVerdict::undecided);
 }
 
 TEST(VerifyChain, RandomPathsAgainstDenseSampling) {

@@ -1,0 +1,157 @@
+#include "planner/verify/moved_slab.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace corridor::verify {
+namespace {
+
+constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+/// Pairs of pieces that one interval may prove one by one, by slabs of their own; with more it is
+/// better halved.
+constexpr std::size_t kNear = 400;
+/// The same where halving brings nothing more, since the tube reaches farther than the motion.
+constexpr std::size_t kNearInTube = 64 * kNear;
+
+}  // namespace
+
+BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Strays strays) {
+  const RealMat back = at.rotation.transpose();
+  const auto seen = [&](RealVec& linear, RealVec& angular) {
+    linear = back * (linear + angular.cross(at.position));
+    angular = back * angular;
+  };
+  BodyMotion motion{state.linear, state.angular, std::move(strays)};
+  seen(motion.linear, motion.angular);
+  for (Strays::Twist& twist : motion.strays.twists) seen(twist.linear, twist.angular);
+  for (Strays::Pivot& pivot : motion.strays.pivots) pivot.at = back * (pivot.at - at.position);
+  return motion;
+}
+
+MovedSlab::MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half,
+                     const RealVec& direction) {
+  const Real length = direction.norm();
+  if (!(length > 0)) return;
+  normal_ = direction / length;
+  a_ = sideOf(a, half, normal_);
+  b_ = sideOf(b, half, -normal_);
+}
+
+MovedSlab::Side MovedSlab::sideOf(const BodyMotion& motion, Real half, const RealVec& along) const {
+  // n·(linear + angular × x) = n·linear + (n × angular)·x.
+  const auto seen = [&](const RealVec& linear, const RealVec& angular) {
+    return Affine{along.cross(angular), along.dot(linear)};
+  };
+  const Affine velocity = seen(motion.linear, motion.angular);
+  Side side;
+  side.back = {along - half * velocity.slope, -half * velocity.constant};
+  side.forth = {along + half * velocity.slope, half * velocity.constant};
+  for (const Strays::Twist& twist : motion.strays.twists)
+    side.twists.push_back(seen(twist.linear, twist.angular));
+  side.pivots = motion.strays.pivots;
+  return side;
+}
+
+Real MovedSlab::straysOf(const Side& side, const RealVec& x) const {
+  Real sum = 0;
+  for (const Affine& twist : side.twists) sum += std::abs(twist.at(x));
+  for (const Strays::Pivot& pivot : side.pivots)
+    sum += pivot.angle * normal_.cross(x - pivot.at).norm();
+  return sum;
+}
+
+MovedSlab::Support MovedSlab::supportOf(const Side& side, const ConvexSet& set) const {
+  Support most{-kInfinity, -kInfinity};
+  for (const RealVec& x : set.points) {
+    const Real strays = straysOf(side, x);
+    most.back = std::max(most.back, side.back.at(x) + strays);
+    most.forth = std::max(most.forth, side.forth.at(x) + strays);
+  }
+  if (set.flatEnds) {
+    const auto across = [&](const RealVec& g) { return (g - set.axis * set.axis.dot(g)).norm(); };
+    Real strays = 0;
+    for (const Affine& twist : side.twists) strays += across(twist.slope);
+    for (const Strays::Pivot& pivot : side.pivots) strays += pivot.angle;
+    most.back += set.radius * (across(side.back.slope) + strays);
+    most.forth += set.radius * (across(side.forth.slope) + strays);
+  }
+  most.back += set.ball();
+  most.forth += set.ball();
+  return most;
+}
+
+MovedSlab::Support MovedSlab::supportOf(const Side& side, const CentredBox& box) const {
+  const auto within = [&](const RealVec& g) { return g.cwiseAbs().dot(box.half); };
+  Real strays = straysOf(side, box.centre);
+  for (const Affine& twist : side.twists) strays += within(twist.slope);
+  if (!side.pivots.empty()) {
+    const Real radius = box.half.norm();
+    for (const Strays::Pivot& pivot : side.pivots) strays += pivot.angle * radius;
+  }
+  return {side.back.at(box.centre) + within(side.back.slope) + strays,
+          side.forth.at(box.centre) + within(side.forth.slope) + strays};
+}
+
+Real MovedSlab::width(const ConvexSet& a, const ConvexSet& b) const {
+  if (normal_.isZero(0)) return -kInfinity;
+  const Support ofA = supportOf(a_, a), ofB = supportOf(b_, b);
+  return std::min(-ofA.back - ofB.back, -ofA.forth - ofB.forth);
+}
+
+Real MovedSlab::width(const CentredBox& a, const CentredBox& b) const {
+  if (normal_.isZero(0)) return -kInfinity;
+  const Support ofA = supportOf(a_, a), ofB = supportOf(b_, b);
+  return std::min(-ofA.back - ofB.back, -ofA.forth - ofB.forth);
+}
+
+Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
+                  const Sought& sought, std::vector<PiecePair>& scratch) {
+  const Real lost = motion.secondOrder + motion.rounding;
+  // Whatever the direction.
+  const Real most = motion.travel + motion.tube + motion.rounding;
+  const auto slabAlong = [&](const RealVec& direction) {
+    return MovedSlab(motion.a, motion.b, motion.half, direction);
+  };
+  const MovedSlab general = slabAlong(measured.onB - measured.onA);
+  // Any direction is as good as it proves: that of the bodies' closest points, that of the two
+  // pieces', or, where these face each other at an angle, a face's.
+  const auto boundOf = [&](PiecePair pieces) {
+    const ConvexSet a = placed.setA(pieces.a), b = placed.setB(pieces.b);
+    Real best = general.width(a, b) - lost;
+    if (best >= sought.wanted) return best;
+    const auto attempt = [&](const RealVec& n) {
+      if (best < sought.wanted) best = std::max(best, slabAlong(n).width(a, b) - lost);
+    };
+    const TriangleGap gap = placed.gap(pieces);
+    best = std::max(best, gap.lower - most);
+    attempt(gap.onB - gap.onA);
+    for (const ConvexSet* set : {&a, &b}) {
+      if (set->points.size() != 3) continue;
+      const RealVec normal =
+          (set->points[1] - set->points[0]).cross(set->points[2] - set->points[0]);
+      attempt(normal);
+      attempt(-normal);
+    }
+    return best;
+  };
+  if (measured.lower - lost <= sought.needed || boundOf(measured.pair) <= sought.needed)
+    return -kInfinity;
+  // What no slab is needed for, and what is proved by the box that it is in, is left out.
+  const std::size_t count = motion.tube > motion.travel ? kNearInTube : kNear;
+  for (Real bound : {sought.wanted, sought.little}) {
+    const auto settled = [&](const CentredBox& a, const CentredBox& b) {
+      return general.width(a, b) - lost >= bound;
+    };
+    if (!std::isfinite(bound) || !placed.near(bound + most, count, settled, scratch)) continue;
+    for (const PiecePair& pieces : scratch) {
+      bound = std::min(bound, boundOf(pieces));
+      if (bound <= sought.needed) return -kInfinity;
+    }
+    return bound;
+  }
+  return -kInfinity;
+}
+
+}  // namespace corridor::verify

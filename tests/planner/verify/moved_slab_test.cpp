@@ -1,0 +1,217 @@
+// The slab between two moving bodies: what it says of strays and motion, against what they do.
+#include "planner/verify/moved_slab.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/verify/random_arm.h"
+#include "tests/support/support.h"
+
+namespace corridor::verify {
+namespace {
+
+using test::Arm;
+using test::placementOf;
+using test::randomPose;
+using test::randomSet;
+using test::randomVec;
+
+constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+
+ConvexSet moved(const ConvexSet& set, const Placement& by) {
+  ConvexSet image = set;
+  for (RealVec& x : image.points) x = by.rotation * x + by.position;
+  image.axis = by.rotation * set.axis;
+  return image;
+}
+
+Real gapAlong(const ConvexSet& a, const ConvexSet& b, const RealVec& n) {
+  return n.dot(b.farthest(-n)) - b.ball() - n.dot(a.farthest(n)) - a.ball();
+}
+
+/// How far the farthest point is from the origin, with its ball or disc.
+Real radiusOf(const ConvexSet& set) {
+  Real radius = 0;
+  for (const RealVec& x : set.points) radius = std::max(radius, x.norm());
+  return radius + set.radius;
+}
+
+/// Two bodies on an arm, in a part of an edge, with a tube; and the slab between them along `n`.
+struct Case {
+  const Arm& arm;
+  Limb limbA, limbB;
+  ConvexSet a, b;  // in their frames
+  Configuration from, to, tube;
+  Real middle, half;
+  std::optional<EdgeCurve> curve;
+  PairMotion motion;
+  Placement atA;  // at the middle
+  RealVec n;      // in a's frame there, unit
+
+  Case(const Arm& onArm, bool fork, std::mt19937_64& random, double size, int kinds)
+      : arm(onArm),
+        limbA(limbOf(arm.tree, fork ? 3 : 0, fork ? arm.side : 0)),
+        limbB(limbOf(arm.tree, fork ? 3 : 0, arm.tip)),
+        a(randomSet(random, kinds % 5, Vec3::Zero())),
+        b(randomSet(random, kinds / 5 % 5, randomVec(random, 0.3))),
+        from(arm.random(random)),
+        to(from),
+        tube(Configuration::Zero(from.size())),
+        middle(0.5L),
+        half(0.5L) {
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const Configuration other = arm.random(random);
+    to += size * (other - from);
+    for (double& stray : tube) stray = 0.3 * size * uniform(random);
+    curve.emplace(arm.tree, arm.space.coordinates(), from, to);
+    middle = static_cast<Real>(0.5 + 0.2 * uniform(random));
+    half = static_cast<Real>(0.3 * uniform(random));
+    const FrameState stateA = curve->at(limbA, middle), stateB = curve->at(limbB, middle);
+    atA = stateA.at;
+    motion.half = half;
+    motion.a = motionSeenFrom(atA, stateA, curve->straysAt(limbA, middle, tube));
+    motion.b = motionSeenFrom(atA, stateB, curve->straysAt(limbB, middle, tube));
+    for (const auto& [limb, set] : {std::pair{&limbA, &a}, std::pair{&limbB, &b}}) {
+      const Reach reach = curve->reach(*limb, radiusOf(*set), tube);
+      motion.travel += reach.speed * half;
+      motion.tube += reach.tube;
+      motion.secondOrder +=
+          (half * half * reach.bend + half * reach.bendCross + reach.bendTube) / 2;
+    }
+    n = randomVec(random, 1).cast<Real>().normalized();
+  }
+  Case(const Case&) = delete;
+
+  ConvexSet placedB() const {
+    const Placement at = curve->at(limbB, middle).at;
+    const RealMat back = atA.rotation.transpose();
+    return moved(b, {back * at.rotation, back * (at.position - atA.position)});
+  }
+  Real firstOrder() const { return MovedSlab(motion.a, motion.b, half, n).width(a, placedB()); }
+  Real still() const { return gapAlong(a, placedB(), n); }
+
+  /// The width along n at the time middle + s, of a curve that strays by `share` ∈ [−1, 1] of each
+  /// tube, and turns by `turn` after its rotation (in the base's coordinates; base 0 only).
+  Real widthAt(Real s, const Configuration& share, const RealVec& turn) const {
+    Configuration q = curve->configuration(middle + s);
+    const Eigen::Quaterniond rotation(q[6], q[3], q[4], q[5]);
+    q += share.cwiseProduct(tube);
+    q.segment<4>(3) = rotation.coeffs();
+    if (turn.norm() > 0) {
+      // From the base's coordinates into those of the joint: before it, a shift's frame and its
+      // own.
+      const RealMat before = curve->at(limbOf(arm.tree, 0, 1), middle).at.rotation *
+                             placementOf(arm.tree.frames[2].fixed).rotation;
+      const Eigen::Vector3d w = (before.transpose() * turn).cast<double>();
+      const Eigen::Quaterniond by(Eigen::AngleAxisd(w.norm(), w.normalized()));
+      q.segment<4>(3) = (by * rotation).coeffs();
+    }
+    const EdgeCurve stray(arm.tree, arm.space.coordinates(), q, q);
+    const RealVec along = atA.rotation * n;
+    return gapAlong(moved(a, stray.at(limbA, 0).at), moved(b, stray.at(limbB, 0).at), along);
+  }
+
+  /// The least width found: all corners of the tube's box, at both ends, and turns about the axes
+  /// that count for each corner of b; and some of what is inside.
+  Real leastWidth(std::mt19937_64& random) const {
+    const Eigen::Index numbers[] = {0, 1, 2, 7, 8, 9};
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    std::vector<RealVec> turns = {RealVec::Zero()};
+    if (!motion.b.strays.pivots.empty()) {
+      const Strays::Pivot& pivot = motion.b.strays.pivots[0];
+      for (const RealVec& x : placedB().points)
+        turns.push_back(atA.rotation * ((x - pivot.at).cross(-n).normalized() * pivot.angle));
+    }
+    Real least = kInfinity;
+    for (unsigned corner = 0; corner < 64; ++corner) {
+      Configuration share = Configuration::Zero(tube.size());
+      for (unsigned k = 0; k < 6; ++k) share[numbers[k]] = corner >> k & 1u ? 1 : -1;
+      for (const RealVec& turn : turns)
+        for (const Real s : {-half, half}) least = std::min(least, widthAt(s, share, turn));
+      for (double& part : share) part = uniform(random);
+      const RealVec turn = turns.back() * static_cast<Real>(uniform(random));
+      least = std::min(least, widthAt(half * static_cast<Real>(uniform(random)), share, turn));
+    }
+    return least;
+  }
+};
+
+TEST(MovedSlab, NoCurveOfTheTubeGetsBelowIt) {
+  std::mt19937_64 random(test::testSeed(8));
+  const int cases = test::stressAsked() ? 3000 : 200;
+  Real fullest = 0;
+  for (int i = 0; i < cases; ++i) {
+    const Arm arm(random);
+    const double size = i % 3 == 0 ? 1 : i % 3 == 1 ? 0.1 : 0.001;
+    const Case one(arm, i % 2 == 1, random, size, i / 2);
+    const Real bound = one.firstOrder() - one.motion.secondOrder, least = one.leastWidth(random);
+    EXPECT_GE(least, bound - 1e-13L) << i;
+    fullest = std::max(fullest, (one.still() - least) / (one.still() - bound));
+  }
+  EXPECT_GT(fullest, 0.999L);
+}
+
+// Where motion and tube are small, the first order is all, and some curve attains it.
+TEST(MovedSlab, IsAttained) {
+  std::mt19937_64 random(test::testSeed(9));
+  Real worst = kInfinity, gained = 0;
+  int cases = 0;
+  for (int i = 0; i < 150; ++i) {
+    const Arm arm(random);
+    for (const int kind : {0, 1, 3, 4}) {  // no cylinders: bounds of a disc
+      const Case one(arm, i % 2 == 1, random, 1e-6, kind + 5 * kind);
+      const Real lost = one.still() - one.firstOrder() + one.motion.secondOrder;
+      worst = std::min(worst, (one.still() - one.leastWidth(random)) / lost);
+      gained += lost / (one.motion.travel + one.motion.tube);
+      ++cases;
+    }
+  }
+  EXPECT_GT(worst, 0.999L);
+  EXPECT_LT(gained / cases, 0.35L);  // of what it is whatever the direction
+}
+
+// A point that turns about z comes closer to what is between it and the axis in second order only,
+// by 1 − cos(h|Δ| + τ): motion and stray together, not each for itself.
+TEST(MovedSlab, SecondOrderIsOfMotionAndStrayTogether) {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  Frame turn;
+  turn.joint = Frame::Joint::turn;
+  turn.variable = space.coordinates()[space.add(Coordinate{})].first;
+  const Limb limb = limbOf(tree, 0, tree.add(turn));
+  const ConvexSet a{{RealVec(0.5L, 0, 0)}, 0, false, RealVec::Zero()},
+      b{{RealVec(1, 0, 0)}, 0, false, RealVec::Zero()};
+  for (const double way : {0.0, 0.02, 0.05, 0.2})
+    for (const double stray : {0.0, 0.01, 0.05}) {
+      const Configuration from = Configuration::Constant(1, -way), to = -from,
+                          tube = Configuration::Constant(1, stray);
+      const EdgeCurve curve(tree, space.coordinates(), from, to);
+      const BodyMotion moving =
+          motionSeenFrom({}, curve.at(limb, 0.5L), curve.straysAt(limb, 0.5L, tube));
+      const Reach reach = curve.reach(limb, 1, tube);
+      const Real bound = MovedSlab({}, moving, 0.5L, RealVec::UnitX()).width(a, b) -
+                         (0.25L * reach.bend + 0.5L * reach.bendCross + reach.bendTube) / 2;
+      const Real all = way + stray, least = std::cos(all) - 0.5L;
+      EXPECT_LE(bound, least + 1e-15L) << way << " " << stray;
+      EXPECT_GE(bound, least - all * all * all * all / 24 - 1e-12L) << way << " " << stray;
+    }
+}
+
+TEST(MovedSlab, BoxesHoldWhatIsInThem) {
+  std::mt19937_64 random(test::testSeed(10));
+  for (int i = 0; i < 500; ++i) {
+    const Arm arm(random);
+    const Case one(arm, i % 2 == 1, random, 0.1, i / 2);
+    const auto boxOf = [](const ConvexSet& set) {
+      RealVec lower = set.points[0], upper = set.points[0];
+      for (const RealVec& x : set.points) lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+      const RealVec more = RealVec::Constant(set.radius);
+      return CentredBox{(lower + upper) / 2, (upper - lower) / 2 + more};
+    };
+    const MovedSlab slab(one.motion.a, one.motion.b, one.half, one.n);
+    EXPECT_LE(slab.width(boxOf(one.a), boxOf(one.placedB())), one.firstOrder() + 1e-15L) << i;
+  }
+  EXPECT_EQ(MovedSlab({}, {}, 1, RealVec::Zero()).width(CentredBox{}, CentredBox{}), -kInfinity);
+}
+
+}  // namespace
+}  // namespace corridor::verify
