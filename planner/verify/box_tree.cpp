@@ -92,16 +92,14 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   a_ = &a;
   b_ = &b;
   X_AB_ = X_AB;
+  extents_ = X_AB.rotation.cwiseAbs();
   partA_.reset();
   partB_.reset();
   if (a.piece(0).part) partA_ = placed(*a.piece(0).part, Placement{});
   if (b.piece(0).part) partB_ = placed(*b.piece(0).part, X_AB);
   lookAlong(RealVec::Zero());
   ++stamp_;
-  if (boxesB_.size() < b.size()) {
-    boxesB_.resize(b.size());
-    stamps_.resize(b.size(), 0);
-  }
+  if (boxesB_.size() < b.size()) boxesB_.resize(b.size());
 }
 
 CentredBox BodyDistance::boxA(std::uint32_t node) const {
@@ -110,21 +108,22 @@ CentredBox BodyDistance::boxA(std::uint32_t node) const {
   return {(lower + upper) / 2, (upper - lower) / 2};
 }
 
-const CentredBox& BodyDistance::boxB(std::uint32_t node) {
-  CentredBox& box = boxesB_[node];
-  if (stamps_[node] == stamp_) return box;
-  stamps_[node] = stamp_;
+const BodyDistance::PlacedBox& BodyDistance::boxB(std::uint32_t node) {
+  PlacedBox& box = boxesB_[node];
+  if (box.stamp == stamp_) return box;
+  box.stamp = stamp_;
+  const RealVec lower = b_->node(node).lower.cast<Real>();
+  const RealVec upper = b_->node(node).upper.cast<Real>();
+  box.centre = X_AB_.rotation * ((lower + upper) / 2) + X_AB_.position;
+  box.half = (upper - lower) / 2;
   const std::uint32_t leaf = b_->node(node).leaf;
-  if (leaf != BoxTree::noLeaf && !b_->piece(leaf).part) {
+  if (leaf != BoxTree::noLeaf && !partB_) {
     const auto t = cornersB(leaf);
-    const RealVec lower = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
-    const RealVec upper = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
-    box = {(lower + upper) / 2, (upper - lower) / 2};
+    const RealVec least = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+    const RealVec most = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+    box.around = {(least + most) / 2, (most - least) / 2};
   } else {
-    const RealVec lower = b_->node(node).lower.cast<Real>();
-    const RealVec upper = b_->node(node).upper.cast<Real>();
-    box.centre = X_AB_.rotation * ((lower + upper) / 2) + X_AB_.position;
-    box.half = X_AB_.rotation.cwiseAbs() * ((upper - lower) / 2);
+    box.around = {box.centre, extents_ * box.half};
   }
   return box;
 }
@@ -136,23 +135,28 @@ void BodyDistance::lookAlong(const RealVec& between) {
   if (partB_) startOfB_ = direction_.dot(partB_->farthest(-direction_)) - partB_->ball();
 }
 
-Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b) {
+Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
   const CentredBox boxOfA = boxA(a);
-  const CentredBox& boxOfB = boxB(b);
-  Real square = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Real gap =
-        std::abs(boxOfA.centre[i] - boxOfB.centre[i]) - boxOfA.half[i] - boxOfB.half[i];
-    if (gap > 0) square += gap * gap;
-  }
-  const RealVec extents = direction_.cwiseAbs();
-  const Real endOfA = partA_ ? endOfA_ : direction_.dot(boxOfA.centre) + extents.dot(boxOfA.half);
+  const PlacedBox& boxOfB = boxB(b);
+  // Along a's axes, then along b's.
+  const auto apart = [](const RealVec& between, const RealVec& halves) {
+    const RealVec gaps = (between.cwiseAbs() - halves).cwiseMax(RealVec::Zero());
+    return gaps.norm();
+  };
+  Real gap = apart(boxOfB.around.centre - boxOfA.centre, boxOfB.around.half + boxOfA.half);
+  if (gap >= enough) return gap;
+  gap = std::max(gap, apart(X_AB_.rotation.transpose() * (boxOfB.centre - boxOfA.centre),
+                            boxOfB.half + extents_.transpose() * boxOfA.half));
+  if (gap >= enough) return gap;
+  const RealVec along = direction_.cwiseAbs();
+  const Real endOfA = partA_ ? endOfA_ : direction_.dot(boxOfA.centre) + along.dot(boxOfA.half);
   const Real startOfB =
-      partB_ ? startOfB_ : direction_.dot(boxOfB.centre) - extents.dot(boxOfB.half);
-  Real gap = std::max(std::sqrt(square), startOfB - endOfA);
+      partB_ ? startOfB_ : direction_.dot(boxOfB.around.centre) - along.dot(boxOfB.around.half);
+  gap = std::max(gap, startOfB - endOfA);
+  if (gap >= enough) return gap;
   // Boxes hold little of long triangles that aren't along their axes; planes hold them.
   if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !partA_)
-    gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB));
+    gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB.around));
   if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !partB_)
     gap = std::max(gap, planeGap(X_AB_.rotation * b_->piece(leaf).normal, cornersB(leaf), boxOfA));
   return gap;
@@ -197,13 +201,13 @@ TriangleGap BodyDistance::gap(PiecePair pair, const RealVec& guess, Real enough)
   return triangleGap(cornersA(pair.a).data(), cornersB(pair.b).data());
 }
 
-std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole) {
+std::array<BodyDistance::Item, 2> BodyDistance::split(const Item& whole, Real enough) {
   const BoxTree::Node &a = a_->node(whole.a), &b = b_->node(whole.b);
   const bool leafA = a.leaf != BoxTree::noLeaf, leafB = b.leaf != BoxTree::noLeaf;
   const bool splitB =
-      !leafB && (leafA || boxB(whole.b).half.maxCoeff() >= boxA(whole.a).half.maxCoeff());
-  if (splitB) return {item(whole.a, b.left), item(whole.a, b.right)};
-  return {item(a.left, whole.b), item(a.right, whole.b)};
+      !leafB && (leafA || boxB(whole.b).around.half.maxCoeff() >= boxA(whole.a).half.maxCoeff());
+  if (splitB) return {item(whole.a, b.left, enough), item(whole.a, b.right, enough)};
+  return {item(a.left, whole.b, enough), item(a.right, whole.b, enough)};
 }
 
 BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
@@ -240,7 +244,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
     return true;
   };
 
-  stack_.assign(1, item(0, 0));
+  stack_.assign(1, item(0, 0, enough));
   if (stack_.back().lower < enough && test(guess)) return best;
   while (!stack_.empty()) {
     const Item at = stack_.back();
@@ -254,7 +258,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
       if (test({leafA, leafB})) return best;
       continue;
     }
-    auto [first, second] = split(at);
+    auto [first, second] = split(at, enough);
     if (first.lower < second.lower) std::swap(first, second);
     stack_.push_back(first);
     stack_.push_back(second);  // the nearer one next
@@ -265,18 +269,18 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
 bool BodyDistance::near(Real within, std::size_t most, const Settled& settled,
                         std::vector<PiecePair>& pairs) {
   pairs.clear();
-  stack_.assign(1, item(0, 0));
+  stack_.assign(1, item(0, 0, within));
   while (!stack_.empty()) {
     const Item at = stack_.back();
     stack_.pop_back();
-    if (at.lower >= within || settled(boxA(at.a), boxB(at.b))) continue;
+    if (at.lower >= within || settled(boxA(at.a), boxB(at.b).around)) continue;
     const std::uint32_t leafA = a_->node(at.a).leaf, leafB = b_->node(at.b).leaf;
     if (leafA != BoxTree::noLeaf && leafB != BoxTree::noLeaf) {
       if (pairs.size() == most) return false;
       pairs.push_back({leafA, leafB});
       continue;
     }
-    for (const Item& half : split(at)) stack_.push_back(half);
+    for (const Item& half : split(at, within)) stack_.push_back(half);
   }
   return true;
 }

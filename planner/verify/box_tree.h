@@ -103,13 +103,20 @@ class BodyDistance {
     Real lower;
   };
   CentredBox boxA(std::uint32_t node) const;
-  const CentredBox& boxB(std::uint32_t node);
+  /// A node of b, placed: the box around it along a's axes, and its own, along b's.
+  struct PlacedBox {
+    CentredBox around;
+    RealVec centre = RealVec::Zero(), half = RealVec::Zero();  ///< half along b's axes
+    std::uint64_t stamp = 0;                                   ///< the placement that made it
+  };
+  const PlacedBox& boxB(std::uint32_t node);
   /// Of the closest points so far.
   void lookAlong(const RealVec& between);
-  Real boxGap(std::uint32_t a, std::uint32_t b);
-  Item item(std::uint32_t a, std::uint32_t b) { return {a, b, boxGap(a, b)}; }
+  /// A bound by one means after the other, until it is `enough`.
+  Real boxGap(std::uint32_t a, std::uint32_t b, Real enough);
+  Item item(std::uint32_t a, std::uint32_t b, Real enough) { return {a, b, boxGap(a, b, enough)}; }
   /// The two halves of an item that isn't a pair of leaves.
-  std::array<Item, 2> split(const Item& item);
+  std::array<Item, 2> split(const Item& item, Real enough);
   /// Of a triangle and a box: by the slab along the triangle's normal, either way.
   static Real planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
                        const CentredBox& box);
@@ -119,11 +126,11 @@ class BodyDistance {
   const BoxTree* a_ = nullptr;
   const BoxTree* b_ = nullptr;
   Placement X_AB_;
+  RealMat extents_ = RealMat::Identity();   ///< |X_AB_.rotation|
   std::optional<ConvexSet> partA_, partB_;  ///< where the body is one
   RealVec direction_ = RealVec::Zero();     ///< unit or zero: slabs along it are bounds, for boxes
   Real endOfA_ = 0, startOfB_ = 0;          ///< of the parts, along it
-  std::vector<CentredBox> boxesB_;
-  std::vector<std::uint64_t> stamps_;  ///< of boxesB_: the placement that made them
+  std::vector<PlacedBox> boxesB_;
   std::uint64_t stamp_ = 0;
   std::vector<Item> stack_;
 };
