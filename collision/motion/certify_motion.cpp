@@ -39,7 +39,8 @@ class Certifier {
       std::stable_sort(pending.begin(), pending.end(), before);
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
-    if (!options_.earliest && !motion_.still() && touchesAtSamples()) {
+    sampled_ = !options_.earliest && !motion_.still();
+    if (sampled_ && touchesAtSamples()) {
       contact(0, false);
       return result_;
     }
@@ -58,8 +59,9 @@ class Certifier {
   /// Levels of halving at which a middle whose window was not certified is tested for contact as a
   /// static pose: likely collisions first.
   static constexpr int kProbedLevels = 4;
-  /// Where a motion is sampled before it is walked: the end, then ever finer between.
+  /// Where a motion is sampled before it is walked: the end, then the middles of the first levels.
   static constexpr double kSamples[] = {1, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
+  static constexpr int kSampledLevels = 3;
   /// Half windows are not halved below 2^-48 of the motion: much below, their middles would no
   /// longer be exact.
   static constexpr double kShortest = 0x1p-48;
@@ -99,7 +101,8 @@ class Certifier {
       for (std::size_t k = i + 1; k < w.end; ++k) to.push_back(NodePair(from[k]));  // not looked at
       return descent;
     }
-    return level < kProbedLevels && probe(to, later) ? Descent::contact : Descent::done;
+    const bool sampled = sampled_ && level < kSampledLevels;
+    return level < kProbedLevels && !sampled && probe(to, later) ? Descent::contact : Descent::done;
   }
 
   /// For the verdict alone: the coarse windows level by level, so that a contact anywhere is found
@@ -317,6 +320,7 @@ class Certifier {
   Counters& counters_;
   std::uint64_t workEnd_ = 0;
   std::size_t leftoversEnd_ = 0;
+  bool sampled_ = false;
   double middle_ = 0;        // of the window under way
   double contactTime_ = -1;  // of the earliest contact known
   Contact contactPair_;
