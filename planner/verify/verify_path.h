@@ -23,14 +23,15 @@ namespace corridor {
 /// from there during the interval (h half of it in t, reach_j a constant: the length of the chain
 /// after the joint). If d > travel + margin + tube + rounding, then the interval is proved for this
 /// pair. Else every pair of triangles that comes near is given a slab of its own, along which only
-/// the velocity at the middle counts, and a constant times h²; where that fails, the interval is
-/// halved, until the travel is under the tolerance. Distances come from plain AABB trees in long
-/// double, each certified by a slab between the two triangles (or parts); contacts of triangles are
-/// decided in rational arithmetic.
+/// the velocity at the middle counts, and what the tube does (where it is more than the tolerance),
+/// and a constant times (h + tube)²; where that fails, the interval is halved, until the travel is
+/// under the tolerance. Distances come from plain AABB trees in long double, each certified by a
+/// slab between the two triangles (or parts); contacts of triangles are decided in rational
+/// arithmetic.
 ///
 /// Folder: edge_curve (what an edge is, forward kinematics, reach weights), triangle_gap and
-/// convex_gap (two pieces), box_tree (two bodies), exact_contact (rationals), winding (inside a
-/// solid), verify_path (the bisection).
+/// convex_gap (two pieces), moved_slab (two that move), box_tree (two bodies), exact_contact
+/// (rationals), winding (inside a solid), verify_path (the bisection).
 
 struct VerifyBody {
   std::string name;
@@ -63,7 +64,7 @@ enum class PathVerdict {
              ///< a point closer than margin or tube allow, an ambiguous half turn, or a state that
              ///< is no state
   undecided  ///< neither: the clearance left is somewhere less than twice the tolerance, or than
-             ///< what the tube moves at most whatever the direction (`Reach::tube`), or the
+             ///< what the tube takes of it by MovedSlab's first order and Reach's second, or the
              ///< work limit was reached
 };
 
