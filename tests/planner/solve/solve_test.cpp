@@ -248,6 +248,23 @@ TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
   }
 }
 
+TEST(Arm, TreesGrowByAShareOfATurnUnlessToldOtherwise) {
+  Problem problem = armProblem();
+  problem.simplify = false;
+  problem.planner.stopAtFirst = true;
+  const auto path = [&](const char* range) {
+    problem.planner.params.clear();
+    if (range) problem.planner.params = {{"range", range}};
+    return solveProblem(problem).path;
+  };
+  const Path own = path(nullptr);
+  ASSERT_FALSE(own.empty());
+  for (std::size_t i = 0; i + 1 < own.size(); ++i)
+    EXPECT_LE(problem.space.distance(own[i], own[i + 1]), 0.7 * (1 + 1e-12));
+  EXPECT_EQ(own, path("0.7"));
+  EXPECT_NE(own, path("0"));
+}
+
 TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreTold) {
   Problem problem = armProblem();
   problem.goals = {Vec3(std::numbers::pi / 4, 0, 0), Vec3(2, -0.5, 0.3), Vec3(-2, 0, 0)};
