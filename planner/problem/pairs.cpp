@@ -3,6 +3,7 @@
 #include <set>
 
 #include "planner/problem/assembly.h"
+#include "planner/problem/joint_yaml.h"
 
 namespace corridor {
 namespace {
@@ -29,7 +30,7 @@ LinkPair sorted(const std::string& a, const std::string& b) {
 
 /// Why pairs of links of a robot are not tested: what SRDF and robot.yaml allow, and links that are
 /// joined by a joint, directly or through links without shapes. Of the joints between them one may
-/// move: two let them come together anywhere.
+/// turn or slide: two, or a planar or floating one, let them come together anywhere.
 std::map<LinkPair, std::string> allowedLinks(const RobotModel& model,
                                              const std::set<std::string>& withShapes) {
   std::map<LinkPair, std::string> reasons;
@@ -40,7 +41,7 @@ std::map<LinkPair, std::string> allowedLinks(const RobotModel& model,
   for (std::size_t link = 0; link < model.links.size(); ++link) {
     int moving = 0;
     for (const JointModel* joint = above[link]; joint; joint = above[joint->parent]) {
-      moving += joint->type != JointType::fixed;
+      if (joint->type != JointType::fixed) moving += isWhole(joint->type) ? 2 : 1;
       if (moving > 1) break;
       const std::string& other = model.links[joint->parent].name;
       if (!withShapes.contains(other)) continue;

@@ -90,8 +90,10 @@ class ModelBuilder {
       addJoint(outline_.joints[j]);
       const JointModel& joint = model_.joints.back();
       hasParent[joint.child] = true;
-      model_.allowed.push_back(
-          {model_.links[joint.parent].name, model_.links[joint.child].name, "adjacent"});
+      // A planar or floating joint lets its links go anywhere, through each other as well.
+      if (joint.type != JointType::planar && joint.type != JointType::floating)
+        model_.allowed.push_back(
+            {model_.links[joint.parent].name, model_.links[joint.child].name, "adjacent"});
     }
     model_.root = static_cast<std::size_t>(std::find(hasParent.begin(), hasParent.end(), false) -
                                            hasParent.begin());

@@ -75,6 +75,18 @@ TEST_F(ArmProblem, OverTwoMovingJointsLinksAreNotAdjacent) {
   EXPECT_EQ(chain("fixed", "fixed", "fixed"), "adjacent");
 }
 
+TEST_F(ArmProblem, OverAPlanarJointLinksAreNotAdjacent) {
+  const std::string ball = "<sphere radius='0.1'/>";
+  write("hall.urdf", "<robot name='hall'>\n" + link("hall", ball, 0) + "<link name='a'/>" +
+                         link("cart", ball, 0) +
+                         joint("drive", "planar", "hall", "a", "<axis xyz='0 0 1'/>") +
+                         joint("k", "fixed", "a", "cart", "") + "</robot>\n");
+  const Problem p = read(
+      "format: corridor-problem-1\nrobot: hall.urdf\nstart: {drive: {at: [1, 1]}}\n"
+      "goal: {drive: {at: [1, 0]}}\nbounds: {drive: {at: [[-3, -3], [3, 3]]}}\n");
+  EXPECT_EQ(skipped(p, "hall", "cart"), "");
+}
+
 TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
   const Problem p = read(armHead + "base: {at: [1, 2, 3], rpy_deg: [0, 0, 90]}\nstart: ready\n" +
                          "goal: {pan: 1, lift: 0.3}\n");
@@ -227,6 +239,7 @@ TEST_F(ArmProblem, PlanarAndFloatingJoints) {
            "tube: {position: 0.01, rotation: 0.02}\n");
   EXPECT_THAT(namesOf(p), ElementsAre("drive/x", "drive/y", "drive/yaw", "line/x", "line/y",
                                       "line/z", "line/rotation"));
+  EXPECT_EQ(skipped(p, "cart", "kite"), "") << "the kite goes anywhere, through the cart as well";
   EXPECT_EQ(p.space.coordinates()[2].weight, 0.3);
   EXPECT_EQ(p.space.coordinates()[6].weight, 0.6);
   EXPECT_EQ(p.tube, numbers({0.01, 0.01, 0.02, 0.01, 0.01, 0.01, 0.02, 0, 0, 0}));
