@@ -92,9 +92,11 @@ Ratios ratios(const Trial& trial) {
   const auto ratio = [](long double is, double allowed) {
     return allowed > 1e-9 ? static_cast<double>(is) / allowed : 0;
   };
+  // The chain told in long double is this far from the window's doubles; `pad` has it.
+  const double told = w.fixedError + w.reachError * (x - trial.origin).norm();
   Ratios r;
-  r.cap = ratio((nominal - start).norm(), bound.cap);
-  r.beyond = ratio(std::abs(n.dot(nominal - start - trial.s * first)), bend);
+  r.cap = ratio((nominal - start).norm() - told, bound.cap);
+  r.beyond = ratio(std::abs(n.dot(nominal - start - trial.s * first)) - told, bend);
   r.pad = ratio((place(0, 1) - start).norm(), bound.pad);
   r.all = std::max(
       ratio((real - start).norm(), bound.cap + bound.pad),
