@@ -266,8 +266,8 @@ class SrdfReader {
       values[joint.name + parts[i]] = (*numbers)[i];
   }
 
-  static std::pair<std::string, std::string> pairOf(std::string a, std::string b) {
-    return std::minmax(std::move(a), std::move(b));
+  static std::pair<std::string, std::string> pairOf(const std::string& a, const std::string& b) {
+    return std::minmax(a, b);
   }
 
   void readPairs(Element& root) {
