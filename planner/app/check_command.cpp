@@ -105,13 +105,15 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   const std::vector<Configuration> goals = goalsOf(problem);
   for (std::size_t i = 0; i < goals.size(); ++i)
     all &= tell(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
+  for (const std::string& note : problem.notes) out.line("note", note);
   const std::size_t tested = checker.scene().pairs().size();
   if (tested == 0) warn(a.problem + ": 0 pairs are tested, every state is valid");
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-1"},
                               {"problem", a.problem},
                               {"valid", all},
-                              {"ends", ends}}
+                              {"ends", ends},
+                              {"notes", problem.notes}}
                      .dump(2)
               << '\n';
   return all ? kDone : kNo;

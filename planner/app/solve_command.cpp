@@ -87,6 +87,7 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   out.line("problem", problem);
   out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);
   if (!solved) out.line("why", r.why);
+  for (const std::string& note : p.notes) out.line("note", note);
   out.line("planner", r.planner);
   out.line("seed", std::to_string(r.seed));
   out.line("time", rounded(r.time) + " s, of it " + rounded(r.planningTime) +
@@ -123,6 +124,7 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
                     {"tolerance_m", r.motion.tolerance},
                     {"margin_m", r.motion.margin},
                     {"tube", tubeJson(p.space, p.tube)}};
+  if (!p.notes.empty()) j["notes"] = p.notes;
   if (!r.warnings.empty()) {
     j["warnings"] = ordered_json::array();
     for (const Fault& fault : r.warnings) j["warnings"].push_back(fault.text);

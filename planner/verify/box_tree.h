@@ -14,7 +14,7 @@ namespace corridor::verify {
 
 /// What a body is made of: a triangle of its mesh, or its convex part.
 struct Piece {
-  Corners corners;                   ///< of a triangle
+  Corners corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< of a triangle
   RealVec normal = RealVec::Zero();  ///< of a triangle: unit, rounded; 0 where it has none
   std::uint32_t triangle = 0;
   const ConvexPart* part = nullptr;

@@ -62,6 +62,25 @@ class CommandLine : public testing::Test {
   std::filesystem::path folder_ = corridor::test::newFolder();
 };
 
+/// An angle read as another one is nothing that only `inspect` may say.
+TEST_F(CommandLine, WhatWasReadDifferentlyIsTold) {
+  write("arm.urdf",
+        "<robot name='arm'><link name='a'/><link name='b'><collision><geometry><box size='1 1 1'/>"
+        "</geometry></collision></link><joint name='pan' type='continuous'><parent link='a'/>"
+        "<child link='b'/><axis xyz='0 0 1'/></joint></robot>");
+  write("arm.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {box: [1, 1, 1], at: [5, 0, "
+        "0]}\nstart: {pan: -60}\ngoal: {pan: 0}\n");
+  for (const char* command : {"check", "solve", "inspect"}) {
+    const Result told = run(command + std::string(" arm.yaml"));
+    EXPECT_EQ(told.status, 0) << told.err;
+    EXPECT_THAT(told.out, HasSubstr("note: start.pan: -60 is read as 2.83185307179586")) << command;
+    if (command == std::string("inspect")) continue;
+    const Result json = run(command + std::string(" arm.yaml --json"));
+    EXPECT_THAT(json.out, HasSubstr("start.pan: -60 is read as 2.83185307179586")) << command;
+  }
+}
+
 TEST_F(CommandLine, SolveThenVerify) {
   const Result solved = run("solve problem.yaml -o s.yaml --picture p.svg");
   EXPECT_EQ(solved.status, 0) << solved.err;
