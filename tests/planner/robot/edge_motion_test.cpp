@@ -225,7 +225,8 @@ TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
 
 TEST(EdgeMotion, TubesFollowTheMultiplierAndStayWhereNothingMoves) {
   const OneTurn follower(Coordinate::Kind::line, -2);
-  const MotionWindow moving = follower.motion(0, 1, 0.01)->window(0, 0.5, 0.5);
+  const auto motion = follower.motion(0, 1, 0.01);  // a window's screws are the motion's
+  const MotionWindow moving = motion->window(0, 0.5, 0.5);
   ASSERT_EQ(moving.screws.size(), 1u);
   EXPECT_NEAR(moving.screws[0].amount, 1, 1e-14);
   EXPECT_GE(moving.screws[0].amount, 1);
