@@ -20,6 +20,14 @@ class QueryContext {
     std::uint32_t a, b, bodies;
   };
   std::vector<NodePair> stack;  ///< of the traversal under way
+  /// Two nodes of wide trees, the least key of their boxes' pairs, and which of their boxes are asked
+  /// about (a's four bits above b's).
+  struct WideItem {
+    std::uint32_t a, b;
+    float key;
+    std::uint32_t masks;
+  };
+  std::vector<WideItem> wideStack;
   std::vector<NodePair> pending,
       next;  ///< what motion queries hand down to shorter windows of time
   /// Motions that the window of time under way has asked for, and their maps at its middle.

@@ -6,6 +6,7 @@
 #include "collision/core/query_context.h"
 #include "collision/core/transform.h"
 #include "collision/hierarchy/obb_tree.h"
+#include "collision/hierarchy/wide_obb_tree.h"
 
 namespace corridor {
 
@@ -23,6 +24,11 @@ struct TrianglePair {
 /// on others).
 std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
                                          const Transform& X_WB, QueryContext& context);
+
+/// The same, fast.
+std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
+                                         const WideObbTree& b, const Transform& X_WB,
+                                         QueryContext& context);
 
 /// A contact below one pair of nodes, with a at the identity. Gives up, with none, when the
 /// context's box and triangle tests reach `workEnd`.
