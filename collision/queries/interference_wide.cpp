@@ -1,5 +1,6 @@
+#include "collision/queries/interference_wide.h"
+
 #include "collision/predicates/triangle_contact.h"
-#include "collision/queries/interference.h"
 #include "collision/volumes/wide_pose.h"
 
 #undef HWY_TARGET_INCLUDE
