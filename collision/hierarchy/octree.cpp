@@ -31,6 +31,11 @@ struct Cell {
   }
 };
 
+/// A cell is left whole where its parts would list a triangle more often than this on average: a
+/// surface crosses four of eight, and then its triangles are small; larger ones would be listed
+/// everywhere.
+constexpr std::size_t kSpread = 3;
+
 Cell boundsOf(const Triangle& t) {
   return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
 }
@@ -78,9 +83,9 @@ Octree::Octree(const TriangleMesh& mesh, const OctreeParams& params) {
           if (part.cell.meets(extents[t])) part.inside.push_back(t);
         if (!part.inside.empty()) parts.push_back(std::move(part));
       }
-      // Where every part would list all, dividing brings nothing.
-      divides = std::ranges::any_of(
-          parts, [&](const Task& part) { return part.inside.size() < task.inside.size(); });
+      std::size_t listed = 0;
+      for (const Task& part : parts) listed += part.inside.size();
+      divides = listed <= kSpread * task.inside.size();
     }
     if (!divides) {
       node.first = static_cast<std::uint32_t>(triangles_.size());

@@ -13,7 +13,7 @@ namespace corridor {
 
 struct OctreeParams {
   std::uint32_t leafTriangles = 8;  ///< cells with more are divided, …
-  std::uint32_t depth = 10;         ///< … down to this level
+  std::uint32_t depth = 10;  ///< … down to this level, unless the parts list far more in all
 };
 
 /// A tree over space, for comparison with those over objects: a cube around the mesh, divided into

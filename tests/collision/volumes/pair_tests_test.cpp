@@ -41,6 +41,10 @@ Meeting meeting(std::mt19937_64& random, int n, double gap, double offset) {
   const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));  // flat, or thick behind the plane
   const auto cloud = [&](double side) {
     std::vector<Vec3> points = {where + (side > 0 ? gap : 0) * normal};
+    if (n % 6 == 5) {  // even a sphere touches the plane in that point alone
+      points.resize(12, points[0] + side * normal);
+      return points;
+    }
     for (int i = 0; i < 11; ++i) {
       Vec3 d(real(random), real(random), real(random));
       d -= normal * normal.dot(d);
@@ -105,7 +109,8 @@ TYPED_TEST(PairTests, TellClearDistances) {
     const Meeting m = meeting(random, n, 100, 1);
     const Fitted<TypeParam> a(m.a), b(m.b);
     const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
-    EXPECT_GT(test.distanceBound(a.volume, b.volume), 85) << n;
+    // The widest gap between slab directions of a k-DOP costs most: measured 80.6 of 97 and more.
+    EXPECT_GT(test.distanceBound(a.volume, b.volume), 78) << n;
     // Along one axis, at worst the diagonal of three faces: 100/√3.
     EXPECT_TRUE(test.separated(a.volume, b.volume, 50)) << n;
     const PairTest<TypeParam> loose(a.bounds, b.bounds, m.X_AB, 60);
