@@ -62,8 +62,8 @@ class Nearest {
     if (canImprove(bound)) stack.push_back({i, k, bound});
   }
   void opened(std::vector<Item>& stack, std::size_t first) {  // the nearest first
-    std::ranges::stable_sort(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end(),
-                             std::ranges::greater(), &Item::bound);
+    std::ranges::sort(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end(),
+                      std::ranges::greater(), &Item::bound);
   }
   bool leaves(const Node& na, const Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
@@ -88,7 +88,7 @@ class Nearest {
   Distance result() {
     Distance best;
     best.distance = HUGE_VAL;
-    std::ranges::stable_sort(candidates_, {}, &Item::bound);
+    std::ranges::sort(candidates_, {}, &Item::bound);
     for (const auto& [s, t, bound] : candidates_) {
       if (bound >= best.distance) break;
       const WitnessPoints w = closestPoints(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_);
