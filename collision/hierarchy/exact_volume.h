@@ -50,11 +50,11 @@ class ExactVolume<Obb> {
   /// that is rational.
   bool contains(const Row& p, const Rational& radius, const Row& axis) const {
     const Row d = minus(p, center_);
-    const Rational square = dot(axis, axis), r = radius * radius;
     for (int k = 0; k < 3; ++k) {
       const Rational left = half_[k] * volume_ - abs(dot(d, crosses_[k]));
       if (left < 0) return false;
       if (radius == 0) continue;
+      const Rational square = dot(axis, axis), r = radius * radius;
       const Row across = cross(crosses_[k], axis);
       const bool holds = square > 0 ? left * left * square >= r * dot(across, across)
                                     : left * left >= r * dot(crosses_[k], crosses_[k]);
@@ -113,21 +113,25 @@ class ExactVolume<BoundingSphere> {
 template <int K>
 class ExactVolume<Kdop<K>> {
  public:
-  explicit ExactVolume(const Kdop<K>& dop) : dop_(dop) {}
+  explicit ExactVolume(const Kdop<K>& dop) {
+    for (std::size_t i = 0; i < low_.size(); ++i) low_[i] = dop.low[i], high_[i] = dop.high[i];
+  }
   bool contains(const Row& p, const Rational& radius) const {
     const auto& n = slabDirections<K>();
     for (std::size_t i = 0; i < n.size(); ++i) {
-      const Row d = row(n[i]);
-      const Rational along = dot(d, p);
-      const Rational left =
-          std::min<Rational>(along - Rational(dop_.low[i]), Rational(dop_.high[i]) - along);
-      if (left < 0 || left * left < radius * radius * dot(d, d)) return false;
+      Rational along = 0;
+      for (int c = 0; c < 3; ++c)
+        if (n[i][c] != 0) along += n[i][c] > 0 ? p[c] : -p[c];
+      if (along < low_[i] || along > high_[i]) return false;
+      if (radius == 0) continue;
+      const Rational left = std::min<Rational>(along - low_[i], high_[i] - along);
+      if (left * left < radius * radius * Rational(n[i].squaredNorm())) return false;
     }
     return true;
   }
 
  private:
-  Kdop<K> dop_;
+  std::array<Rational, K / 2> low_, high_;
 };
 
 /// By a witness: any point of the rectangle near enough will do; the closest one, as doubles see

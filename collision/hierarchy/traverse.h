@@ -15,7 +15,8 @@ namespace corridor {
 /// * `bool leaves(const NodeA&, const NodeB&)`: two leaves; true ends the traversal.
 /// * `void push(std::vector<Item>&, std::uint32_t a, std::uint32_t b)` for each pair to go on with,
 ///   and `void opened(std::vector<Item>&, std::size_t first)` after all of one node's children
-///   were pushed: those from `first` on may be reordered; the last is looked at first.
+///   were pushed, the last one first: those from `first` on may be reordered; the top is looked
+///   at first.
 template <class TreeA, class TreeB, class Item, class Query>
 void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item>& stack,
               Query& query) {
@@ -33,9 +34,11 @@ void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item
     }
     const std::size_t first = stack.size();
     if (nb.isLeaf() || (!na.isLeaf() && na.radius >= nb.radius))
-      a.forEachChild(item.a, [&](std::uint32_t child) { query.push(stack, child, item.b); });
+      a.forEachChildBackwards(item.a,
+                              [&](std::uint32_t child) { query.push(stack, child, item.b); });
     else
-      b.forEachChild(item.b, [&](std::uint32_t child) { query.push(stack, item.a, child); });
+      b.forEachChildBackwards(item.b,
+                              [&](std::uint32_t child) { query.push(stack, item.a, child); });
     query.opened(stack, first);
   }
 }

@@ -59,7 +59,14 @@ template <BoundingVolume Volume>
 void VolumeTree<Volume>::refit(const TriangleMesh& moved) {
   for (std::uint32_t i = 0; i < items_.size(); ++i)
     for (int k = 0; k < 3; ++k) items_.triangles[i][k] = moved.corner(items_.numbers[i], k);
-  for (Node& node : nodes_) {
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children first
+    Node& node = nodes_[i];
+    if constexpr (requires { Volume::merged(node.box, node.box); }) {
+      if (!node.isLeaf()) {
+        node.box = Volume::merged(nodes_[i + 1].box, nodes_[node.right].box);
+        continue;
+      }
+    }
     const Content content(std::span(items_.triangles).subspan(node.first, node.count));
     node.box = Volume::around(enclosingObb(content, node.box.frameAxes()), content);
   }

@@ -52,11 +52,12 @@ class VolumeTree {
   /// Depth first; the root is node 0.
   const std::vector<Node>& nodes() const { return nodes_; }
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
-  /// Calls f with the numbers of an inner node's children.
+  /// Calls f with the numbers of an inner node's children, the last one first: as they go on a
+  /// stack.
   template <class F>
-  void forEachChild(std::uint32_t i, F&& f) const {
-    f(i + 1);
+  void forEachChildBackwards(std::uint32_t i, F&& f) const {
     f(nodes_[i].right);
+    f(i + 1);
   }
   /// Corners in leaf order, and each one's (or each part's) number in the mesh (or in the list).
   const std::vector<Triangle>& triangles() const { return items_.triangles; }

@@ -1,6 +1,5 @@
 #include "collision/queries/interference.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "collision/convex/convex_contact.h"
@@ -54,9 +53,7 @@ class FirstContact {
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
     stack.push_back({i, k, 0});
   }
-  void opened(std::vector<Item>& stack, std::size_t first) {  // the first child first
-    std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end());
-  }
+  void opened(std::vector<Item>&, std::size_t) {}
 
   std::optional<TrianglePair> found;
 
@@ -105,6 +102,17 @@ CORRIDOR_INTERFERENCE(Kdop<14>)
 CORRIDOR_INTERFERENCE(Kdop<18>)
 CORRIDOR_INTERFERENCE(Kdop<26>)
 #undef CORRIDOR_INTERFERENCE
+
+std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA, const Octree& b,
+                                         const Transform& X_WB, QueryContext& context) {
+  return firstContact<Aabb>(a, X_WA, b, X_WB, context);
+}
+
+std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA,
+                                         const VolumeTree<Aabb>& b, const Transform& X_WB,
+                                         QueryContext& context) {
+  return firstContact<Aabb>(a, X_WA, b, X_WB, context);
+}
 
 std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b,
                                               const Transform& X_AB,

@@ -6,6 +6,7 @@
 #include "collision/core/query_context.h"
 #include "collision/core/transform.h"
 #include "collision/hierarchy/obb_tree.h"
+#include "collision/hierarchy/octree.h"
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/queries/triangle_pair.h"
 
@@ -21,6 +22,13 @@ namespace corridor {
 template <BoundingVolume Volume>
 std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Transform& X_WA,
                                          const VolumeTree<Volume>& b, const Transform& X_WB,
+                                         QueryContext& context);
+
+/// The same for trees over space, and for one over space and one over objects.
+std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA, const Octree& b,
+                                         const Transform& X_WB, QueryContext& context);
+std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA,
+                                         const VolumeTree<Aabb>& b, const Transform& X_WB,
                                          QueryContext& context);
 
 /// A contact below one pair of nodes, with a at the identity. Gives up, with none, when the

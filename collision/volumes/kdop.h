@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -24,6 +25,15 @@ struct Kdop {
 
   static constexpr bool kOriented = false;
   static Kdop around(const Obb& box, const Content& content);
+  /// Around both; as tight as a fit.
+  static Kdop merged(const Kdop& a, const Kdop& b) {
+    Kdop both;
+    for (std::size_t i = 0; i < kSlabs; ++i) {
+      both.low[i] = std::min(a.low[i], b.low[i]);
+      both.high[i] = std::max(a.high[i], b.high[i]);
+    }
+    return both;
+  }
   Mat3 frameAxes() const { return Mat3::Identity(); }
   double axisDefect() const { return 0; }
   double centerReach() const;

@@ -60,9 +60,8 @@ class PairTest<Rss> {
       const Vec3 y = pair.R.transpose() * (p - pair.T);
       q = pair.T + pair.R * y.cwiseMax(-b).cwiseMin(b);
       const Vec3 n = q - p;
-      const double length = n.norm();
+      const double length = rootFromBelow(n.squaredNorm());
       if (!(length > radii + pad)) break;
-      // Where the square of a length under- or overflows, nothing is told.
       const double gap = (n.dot(pair.T) - n.cwiseAbs().dot(a) -
                           (pair.R.transpose() * n).cwiseAbs().dot(b) - kTiny) /
                              length -

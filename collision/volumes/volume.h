@@ -11,6 +11,8 @@ namespace corridor {
 /// Every volume is fitted in the frame of a box around the same content: the axes of the content's
 /// moments where it is `kOriented`, those of the mesh where it is not. How two of them are tested
 /// against each other is `PairTest<Volume>`, beside each volume (`overlap_<volume>_<volume>.h`).
+/// A volume for which `merged(a, b)` around two is as tight as one around their contents may have
+/// that, too: refitting uses it.
 template <class V>
 concept BoundingVolume = requires(const V v, const Obb& box, const Content& content) {
   { V::kOriented } -> std::convertible_to<bool>;
