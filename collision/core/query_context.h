@@ -20,8 +20,8 @@ class QueryContext {
     std::uint32_t a, b, bodies;
   };
   std::vector<NodePair> stack;  ///< of the traversal under way
-  /// Two nodes of wide trees, the least key of their boxes' pairs, and which of their boxes are asked
-  /// about (a's four bits above b's).
+  /// Two nodes of wide trees, the least key of their boxes' pairs, and which of their boxes are
+  /// asked about (a's four bits above b's).
   struct WideItem {
     std::uint32_t a, b;
     float key;

@@ -36,7 +36,8 @@ class LeafCache {
     LeafCorners& corners = corners_[slot];
     if (held_[slot] == child) return corners;
     held_[slot] = child;
-    const std::uint32_t first = WideObbTree::leafFirst(child), count = WideObbTree::leafCount(child);
+    const std::uint32_t first = WideObbTree::leafFirst(child),
+                        count = WideObbTree::leafCount(child);
     const Vec3& o = tree_.origin();
     alignas(64) double raw[3][12];  // lanes that are left repeat the first triangle
     for (std::uint32_t i = 0; i < 4; ++i)

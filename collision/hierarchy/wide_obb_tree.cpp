@@ -22,8 +22,8 @@ constexpr double kUnitF = 0x1p-24;
 /// cancel (numerics: moments).
 struct Record {
   std::array<float, 3> centroid;
-  float weight;                  // the area
-  std::array<float, 6> spread;   // weight · covariance: xx, xy, xz, yy, yz, zz
+  float weight;                 // the area
+  std::array<float, 6> spread;  // weight · covariance: xx, xy, xz, yy, yz, zz
   std::uint32_t triangle;
 };
 
@@ -91,7 +91,8 @@ class WideObbBuilder {
         upper = upper.cwiseMax(mesh_.vertices[v]);
       }
     tree_.origin_ = 0.5 * lower + 0.5 * upper;
-    const double size = std::max((upper - tree_.origin_).maxCoeff(), (tree_.origin_ - lower).maxCoeff());
+    const double size =
+        std::max((upper - tree_.origin_).maxCoeff(), (tree_.origin_ - lower).maxCoeff());
     // Sizes that overflow give boxes that overlap everything, not wrong ones.
     tree_.unit_ = size > 0 && std::isfinite(size) ? std::ilogb(size) + 1 : 0;
     scale_ = std::ldexp(1.0, -std::clamp(tree_.unit_, -1000, 1000));
@@ -188,9 +189,9 @@ class WideObbBuilder {
     std::uint32_t count = 1;
     while (count < WideObbTree::kWidth) {
       // Boxes cost nothing where lanes are left: then leaves are split, too.
-      const bool leavesOnly = std::all_of(parts.begin(), parts.begin() + count, [](const Cluster& c) {
-        return c.count <= WideObbTree::kLeafSize;
-      });
+      const bool leavesOnly =
+          std::all_of(parts.begin(), parts.begin() + count,
+                      [](const Cluster& c) { return c.count <= WideObbTree::kLeafSize; });
       const std::uint32_t least = leavesOnly ? 1 : WideObbTree::kLeafSize;
       std::uint32_t best = count;
       for (std::uint32_t i = 0; i < count; ++i)
@@ -236,6 +237,10 @@ class WideObbBuilder {
     std::fill_n(node.child, WideObbTree::kWidth, WideObbTree::kNone);
   }
 
+  /// (Not `m.cast<float>().cast<double>()`: g++ 12 at -O2 makes nothing of Eigen's vectorised pair
+  /// of casts.)
+  static double asFloat(double x) { return static_cast<float>(x); }
+
   static float up(double x) {
     const auto f = static_cast<float>(x);
     return f < x ? std::nextafterf(f, std::numeric_limits<float>::infinity()) : f;
@@ -244,7 +249,7 @@ class WideObbBuilder {
   /// The smallest box with these axes, rounded outward: contains the triangles in real arithmetic.
   void setBox(std::uint32_t index, std::uint32_t lane, const Cluster& cluster) {
     // The axes as they are stored.
-    Mat3 u = cluster.axes.cast<float>().cast<double>();
+    const Mat3 u = cluster.axes.unaryExpr(&asFloat);
     double lo[3], hi[3];
     std::fill_n(lo, 3, std::numeric_limits<double>::infinity());
     std::fill_n(hi, 3, -std::numeric_limits<double>::infinity());
@@ -257,13 +262,9 @@ class WideObbBuilder {
           hi[k] = std::max(hi[k], y);
         }
       }
-    // Longest side first: who compares sizes of boxes reads one number.
-    std::array<int, 3> order = {0, 1, 2};
-    std::sort(order.begin(), order.end(), [&](int i, int j) { return hi[i] - lo[i] > hi[j] - lo[j]; });
-    WideObbTree::Node& node = tree_.nodes_[index];
     Vec3 middle = Vec3::Zero();
     for (int k = 0; k < 3; ++k) middle += u.col(k) * (0.5 * (lo[k] + hi[k]));
-    const Vec3 center = middle.cast<float>().cast<double>();
+    const Vec3 center = middle.unaryExpr(&asFloat);
     double reach[3];
     for (int k = 0; k < 3; ++k) {
       const double c = u.col(k).dot(center);
@@ -274,6 +275,10 @@ class WideObbBuilder {
     // numbers ≤ 1 and ≤ √3 and x itself has two roundings, together under 16u of double; a power of
     // two's scaling that underflows loses less than 2^-1000.
     const double pad = 2 * orthonormalityDefect(u) * (reach[0] + reach[1] + reach[2]) + 32 * kUnit;
+    // Longest side first: who compares sizes of boxes reads one number.
+    std::array<int, 3> order = {0, 1, 2};
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return reach[i] > reach[j]; });
+    WideObbTree::Node& node = tree_.nodes_[index];
     for (int j = 0; j < 3; ++j) {
       node.center[j][lane] = static_cast<float>(center[j]);
       node.half[j][lane] = up(reach[order[j]] + pad);

@@ -14,16 +14,16 @@ namespace corridor {
 /// The OBBTree of Gottschalk, Lin, Manocha 1996, laid out for SIMD: nodes of four oriented boxes in
 /// float, tested sixteen pairs at a time; leaves of at most four triangles, whose doubles decide.
 ///
-/// A binary top-down tree (planes through the area-weighted mean, orthogonal to the direction of the
-/// largest area-weighted variance) of which about every second level is kept. All boxes are in
-/// the tree's own frame and unit: x = (p − origin)·2^-unit, so that |x_i| ≤ 1 whatever the mesh's size
-/// and place, and float's error is 2^-24 of the mesh.
+/// A binary top-down tree (planes through the area-weighted mean, orthogonal to the direction of
+/// the largest area-weighted variance) of which about every second level is kept. All boxes are in
+/// the tree's own frame and unit: x = (p − origin)·2^-unit, so that |x_i| ≤ 1 whatever the mesh's
+/// size and place, and float's error is 2^-24 of the mesh.
 ///
 /// Immutable. Keeps a copy of the mesh's vertices, so that the mesh may go.
 class WideObbTree {
  public:
-  static constexpr int kWidth = 4;        ///< boxes of a node
-  static constexpr int kLeafSize = 4;     ///< triangles of a leaf, at most
+  static constexpr int kWidth = 4;                    ///< boxes of a node
+  static constexpr int kLeafSize = 4;                 ///< triangles of a leaf, at most
   static constexpr std::uint32_t kNone = 0xffffffff;  ///< child of a lane that holds no box
 
   /// Four boxes {center + Σ_j axes_j·x_j : |x_j| ≤ half_j}, for the floats stored as exact reals;

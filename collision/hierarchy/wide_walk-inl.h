@@ -40,22 +40,24 @@ struct Lanes {
   }
 };
 
-/// Walks pairs of nodes of two trees. An item is a node of a and one of b, and which of their boxes are
-/// still asked about; their sixteen pairs are tested at once. Then both nodes are descended, or the
-/// one of clearly larger boxes, or the one that still has parts.
+/// Walks pairs of nodes of two trees. An item is a node of a and one of b, and which of their boxes
+/// are still asked about; their sixteen pairs are tested at once. Then both nodes are descended, or
+/// the one of clearly larger boxes, or the one that still has parts.
 ///
 /// A Query says
 ///   bool skip(float key): is an item, whose least key was this, of no interest any more?
-///   unsigned boxes(const Node& a, const Node& b, float* keys): which of the sixteen pairs are to be
+///   unsigned boxes(const Node& a, const Node& b, float* keys): which of the sixteen pairs are to
+///   be
 ///     looked at (bit 4·i + j), and a key for each; the least is looked at first;
-///   bool leaves(const Node& a, const Node& b, unsigned pairs): looks at pairs of leaves; true: enough.
+///   bool leaves(const Node& a, const Node& b, unsigned pairs): looks at pairs of leaves; true:
+///   enough.
 /// The stack is the context's, so that no query allocates.
 template <class Query>
 void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryContext& context,
               Query& query) {
   constexpr unsigned kAll = 15;
-  // Two nodes whose boxes differ by less than this are descended together. Measured: 1.3 to 2.5 cost
-  // the same near contact; the less, the better for a small body far inside a large one.
+  // Two nodes whose boxes differ by less than this are descended together. Measured: 1.3 to 2.5
+  // cost the same near contact; the less, the better for a small body far inside a large one.
   constexpr float kLarger = 1.3F;
   const auto size = [](const WideObbTree::Node& node) {
     return std::max(std::max(node.half[0][0], node.half[0][1]),

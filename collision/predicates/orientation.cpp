@@ -52,7 +52,7 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
   };
   const Corners corners = {corner(p), corner(q), corner(r), corner(s)};
   exact::Grid grid;
-  for (const exact::MappedCorners& c : corners) grid.include(c);
+  for (const exact::MappedCorners& each : corners) grid.include(each);
   // As in `trianglesTouchExact`.
   const int bits = 3 * grid.coordinateBits() + 6;
   if (bits <= 127) return exactSign<exact::Int128>(corners, grid);

@@ -95,7 +95,8 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Int>& n, const Point
 /// extreme point of their intersection lies on the rim of one of them. (A degenerate triangle is
 /// all rim.)
 template <class Int>
-bool touch(const exact::MappedCorners& a0, const exact::MappedCorners& b0, const exact::Grid& grid) {
+bool touch(const exact::MappedCorners& a0, const exact::MappedCorners& b0,
+           const exact::Grid& grid) {
   Points<Int> a, b;
   for (int i = 0; i < 3; ++i) {
     a[i] = exact::mapped<Int>(a0, i, grid);

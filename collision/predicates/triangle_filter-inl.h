@@ -9,6 +9,8 @@
 #endif
 // clang-format on
 
+#include <cmath>
+
 #include "hwy/highway.h"
 
 #include "collision/core/lanes.h"
@@ -24,19 +26,22 @@ struct alignas(64) LeafCorners {
   double center[3];
 };
 
-/// Which of the sixteen pairs of triangles may touch: bit 4·i + j for a's i-th and b's j-th. A cleared
-/// bit is a proof that the two are farther apart than `error`, the distance that the corners given
-/// may be off by, both sides together. By the separating-axis theorem: both planes and the nine cross
-/// products of edges.
+/// Which of the sixteen pairs of triangles may touch: bit 4·i + j for a's i-th and b's j-th. A
+/// cleared bit is a proof that the two are farther apart than `error`, the distance that the
+/// corners given may be off by, both sides together. By the separating-axis theorem: both planes
+/// and the nine cross products of edges.
 ///
-/// Rounding, u = 2^-24. All is relative to one corner of a's triangle: differences are rounded once,
-/// 2u of coordinates ≤ D. Any vector L separates if the projections do: a projection of a point with
-/// coordinates ≤ D is off by less than 5u·|L|₁·D, so the difference of two by less than 10u·|L|₁·D,
-/// and `error` adds |L|₂·error. What is taken for equal (L·e for an edge e of L = e × f, 0 but for the
-/// rounding of L, |δL| ≤ 2u|e||f| a coordinate) is off by 2√3·u|e||f|·√3D. With |L|₁ ≤ √3|L|₂ and
-/// |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 32u·D), and for normals likewise. Lengths
-/// enter as |e|₁ ≥ |e|₂.
-HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b, float error) {
+/// Rounding, u = 2^-24. All is relative to one corner of a's triangle: differences are rounded
+/// once, 2u of coordinates ≤ D. Any vector L separates if the projections do: a projection of a
+/// point with coordinates ≤ D is off by less than 5u·|L|₁·D, so the difference of two by less than
+/// 10u·|L|₁·D, and `error` adds |L|₂·error. What is taken for equal (L·e for an edge e of L = e ×
+/// f, 0 but for the rounding of L, |δL| ≤ 2u|e||f| a coordinate) is off by 2√3·u|e||f|·√3D. With
+/// |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 32u·D), and for normals
+/// likewise. Lengths enter as |e|₁ ≥ |e|₂.
+///
+/// `pad`: the triangles shall be farther apart by that, too; it scales with the axes' true lengths.
+HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b, float error,
+                                      float pad = 0) {
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<decltype(d)>;
   constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
@@ -56,6 +61,12 @@ HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b
   };
   const auto sum = [](const Vec& p) {
     return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
+  };
+  // pad·|L|, rounded up: below 2^-63 squares vanish.
+  const bool padded = pad > 0;
+  const auto padding = [&](const Vec& L) {
+    return hn::Mul(hn::Set(d, pad * (1 + 0x1p-20F)),
+                   hn::Add(hn::Sqrt(dot(L, L)), hn::Set(d, 0x1p-60F)));
   };
   const auto min3 = [](V x, V y, V z) { return hn::Min(hn::Min(x, y), z); };
   const auto max3 = [](V x, V y, V z) { return hn::Max(hn::Max(x, y), z); };
@@ -94,19 +105,21 @@ HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b
                         hn::Add(le[0], le[2]));
     const V per = hn::IfThenElse(hn::Lt(D, hn::Set(d, 0x1p30F)),
                                  hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 40 * 0x1p-24F), D)),
-                                 hn::Set(d, hwy::HighestValue<float>()));
+                                 hn::Set(d, HUGE_VALF));
     const V tiny = hn::Set(d, 0x1p-118F);  // underflow
     // The plane of a.
     const Vec na = cross(e1, e2);
     const V s0 = dot(na, p0), s1 = dot(na, p1), s2 = dot(na, p2);
     V gap = hn::Max(min3(s0, s1, s2), hn::Neg(max3(s0, s1, s2)));
     V margin = hn::Add(hn::Mul(per, hn::Mul(le[0], le[2])), tiny);
+    if (padded) margin = hn::Add(margin, padding(na));
     auto open = hn::Not(hn::Gt(gap, margin));
     // That of b.
     const Vec nb = cross(f1, f2);
     const V h = dot(nb, p0), t1 = dot(nb, e1), t2 = dot(nb, e2);
     gap = hn::Max(hn::Sub(min3(zero, t1, t2), h), hn::Sub(h, max3(zero, t1, t2)));
     margin = hn::Add(hn::Mul(per, hn::Mul(lf[0], lf[2])), tiny);
+    if (padded) margin = hn::Add(margin, padding(nb));
     open = hn::AndNot(hn::Gt(gap, margin), open);
     if (!hn::AllFalse(d, open)) {
       // Of edge i of a and j of b: the ends of an edge project alike, so one of them and the corner
@@ -120,6 +133,7 @@ HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b
           gap = hn::Max(hn::Sub(hn::Min(q0, q1), hn::Max(s, zero)),
                         hn::Sub(hn::Min(s, zero), hn::Max(q0, q1)));
           margin = hn::Add(hn::Mul(reach, lf[j]), tiny);
+          if (padded) margin = hn::Add(margin, padding(L));
           open = hn::AndNot(hn::Gt(gap, margin), open);
         }
       }

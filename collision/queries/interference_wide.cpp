@@ -7,11 +7,11 @@
 #define HWY_TARGET_INCLUDE "collision/queries/interference_wide.cpp"
 #include "hwy/foreach_target.h"
 // After foreach_target.h, as Highway asks.
-#include "collision/hierarchy/leaf_cache-inl.h"
-#include "collision/hierarchy/wide_walk-inl.h"
-#include "collision/predicates/triangle_filter-inl.h"
-#include "collision/volumes/overlap_wide-inl.h"
 #include "hwy/highway.h"
+
+#include "collision/hierarchy/wide_walk-inl.h"
+#include "collision/queries/wide_leaves-inl.h"
+#include "collision/volumes/overlap_wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
@@ -27,13 +27,12 @@ class Interference {
         X_WB_(X_WB),
         pose_(pose),
         counters_(counters),
-        leavesA_(a, Mat3::Identity() * pose.unitA, Vec3::Zero()),
-        leavesB_(b, pose.m * pose.unitA, pose.t) {}
+        leaves_(a, b, pose, counters) {}
 
   static bool skip(float) { return false; }
 
-  unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* keys) const {
-    return overlappingBoxes(a, b, pose_.floats, keys);
+  unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* gaps) const {
+    return overlappingBoxes(a, b, pose_.floats, gaps);
   }
 
   /// The deepest is looked at first; among the others it doesn't matter.
@@ -45,29 +44,15 @@ class Interference {
   }
 
   bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {
-    for (; pairs; pairs &= pairs - 1) {
-      const auto pair = static_cast<unsigned>(std::countr_zero(pairs));
-      const std::uint32_t childA = na.child[pair / 4], childB = nb.child[pair % 4];
-      const std::uint32_t firstA = WideObbTree::leafFirst(childA), firstB = WideObbTree::leafFirst(childB);
-      const unsigned countA = WideObbTree::leafCount(childA), countB = WideObbTree::leafCount(childB);
-      counters_.triangleTests += countA * countB;
-      unsigned wanted = 0;
-      for (unsigned s = 0; s < countA; ++s) wanted |= ((1U << countB) - 1) << 4 * s;
-      unsigned open =
-          touchingTriangles(leavesA_.get(childA), leavesB_.get(childB), pose_.leafError) & wanted;
-      for (; open; open &= open - 1) {
-        const auto bit = static_cast<unsigned>(std::countr_zero(open));
-        const std::uint32_t s = firstA + bit / 4, t = firstB + bit % 4;
-        Counters own;  // the pair is counted already
-        const bool touch = trianglesTouch(a_.triangle(s), X_WA_, b_.triangle(t), X_WB_, own);
-        counters_.exactTests += own.exactTests;
-        if (touch) {
-          hit_ = TrianglePair{a_.meshTriangle(s), b_.meshTriangle(t)};
-          return true;
-        }
-      }
-    }
-    return false;
+    return leaves_.forEachNear(
+        na, nb, pairs, [] { return 0.0F; },
+        [&](std::uint32_t s, std::uint32_t t) {
+          Counters own;  // the pair is counted already
+          const bool touch = trianglesTouch(a_.triangle(s), X_WA_, b_.triangle(t), X_WB_, own);
+          counters_.exactTests += own.exactTests;
+          if (touch) hit_ = TrianglePair{a_.meshTriangle(s), b_.meshTriangle(t)};
+          return touch;
+        });
   }
 
   const std::optional<TrianglePair>& hit() const { return hit_; }
@@ -77,7 +62,7 @@ class Interference {
   const Transform &X_WA_, &X_WB_;
   const WidePose& pose_;
   Counters& counters_;
-  LeafCache leavesA_, leavesB_;
+  WideLeaves leaves_;
   std::optional<TrianglePair> hit_;
 };
 

@@ -10,8 +10,8 @@
 namespace corridor {
 
 /// `interference` (interference.h) for wide trees: the same verdicts, several times faster. First
-/// contact found, or none; exact for the twelve doubles of each map in real arithmetic, for any finite
-/// maps; near-rigid ones are fast. @pre finite maps.
+/// contact found, or none; exact for the twelve doubles of each map in real arithmetic, for any
+/// finite maps; near-rigid ones are fast. @pre finite maps.
 ///
 /// SIMD by run-time dispatch; every target gives the same verdict and the same counts.
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,

@@ -31,12 +31,13 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   const double defectA = defectOf(X_WA.m), defectB = defectOf(X_WB.m);
   // Maps of greater defect prune nothing. NaN: not usable.
   const bool usable = defectA < 0x1p-6 && defectB < 0x1p-6;
-  // D has at most five roundings of terms that sum up to `terms` over its coordinates; |M_ij| ≤ 1.1.
+  // D has at most five roundings of terms that sum up to `terms` over its coordinates; |M_ij|
+  // ≤ 1.1.
   const double terms = 3.4 * (b.origin().cwiseAbs().sum() + a.origin().cwiseAbs().sum()) +
                        X_WB.t.cwiseAbs().sum() + X_WA.t.cwiseAbs().sum();
   // |M x| ≤ √(1 + 3η)|x| ≤ (1 + 1.5η)|x|.
-  const double spheres = roundedUp(a.radius() * (1 + 1.5 * defectA) + b.radius() * (1 + 1.5 * defectB) +
-                                   6 * kUnit * terms + pad);
+  const double spheres = roundedUp(a.radius() * (1 + 1.5 * defectA) +
+                                   b.radius() * (1 + 1.5 * defectB) + 6 * kUnit * terms + pad);
   apart = usable && D.squaredNorm() * (1 - 0x1p-48) > spheres * spheres * (1 + 0x1p-48) + kTiny;
   if (apart) return;
   m.noalias() = X_WA.m.transpose().lazyProduct(X_WB.m);
@@ -44,8 +45,7 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   const double defect = defectOf(m);
   // Entries of m and of the offset, three products and two sums each: 3.1u·3 as a norm.
   const double reach = 1.1 * b.radius() + D.cwiseAbs().sum();
-  const double metres =
-      1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms) + pad;
+  const double metres = 1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms) + pad;
   unitA = std::ldexp(1.0, -a.unit());
   scale = std::ldexp(1.0, b.unit() - a.unit());
   t = offset * unitA;
