@@ -20,8 +20,23 @@ class QueryContext {
     std::uint32_t a, b, bodies;
   };
   std::vector<NodePair> stack;  ///< of the traversal under way
+  /// Two nodes of wide trees, the least key of their boxes' pairs, and which of their boxes are
+  /// asked about (a's four bits above b's).
+  struct WideItem {
+    std::uint32_t a, b;
+    float key;
+    std::uint32_t masks;
+  };
+  std::vector<WideItem> wideStack;
   std::vector<NodePair> pending,
       next;  ///< what motion queries hand down to shorter windows of time
+  /// What distance queries have left to look at, and pairs of triangles (in leaf order) that may be
+  /// the closest, each with a lower bound of its distance, metres.
+  struct BoundedPair {
+    std::uint32_t a, b;
+    double bound;
+  };
+  std::vector<BoundedPair> bounded, candidates;
   /// Motions that the window of time under way has asked for, and their maps at its middle.
   struct Posed {
     std::size_t motion;

@@ -23,4 +23,10 @@ inline double roundedDown(double bound) {
   return bound * (1 - 0x1p-48) - kTiny;
 }
 
+/// The root of a sum of squares as a lower bound: 0 where rounding to subnormals may have made it
+/// larger.
+inline double rootFromBelow(double square) {
+  return square > 0x1p-960 ? std::sqrt(square) : 0;
+}
+
 }  // namespace corridor

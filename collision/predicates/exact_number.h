@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <span>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -24,6 +28,40 @@ using FixedInt = boost::multiprecision::number<
     boost::multiprecision::et_off>;
 using BigInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                              boost::multiprecision::et_off>;
+
+/// Signed integers of 128 bits, for grids of few bits: all that touches by construction (boxes, CAD
+/// parts on a grid, under quarter turns). Some thirty times faster than `FixedInt`.
+class Int128 {
+ public:
+  Int128() = default;
+  explicit Int128(std::int64_t value) : value_(value) {}
+
+  bool is_zero() const { return value_ == 0; }
+  int sign() const { return value_ > 0 ? 1 : value_ < 0 ? -1 : 0; }
+  Int128& operator*=(const Int128& other) {
+    value_ *= other.value_;
+    return *this;
+  }
+  Int128& operator+=(const Int128& other) {
+    value_ += other.value_;
+    return *this;
+  }
+  Int128& operator<<=(unsigned bits) {  // of a negative number, too: a product in C++20
+    value_ <<= bits;
+    return *this;
+  }
+  friend Int128 operator*(Int128 a, const Int128& b) { return a *= b; }
+  friend Int128 operator+(Int128 a, const Int128& b) { return a += b; }
+  friend Int128 operator-(Int128 a, const Int128& b) {
+    a.value_ -= b.value_;
+    return a;
+  }
+  friend auto operator<=>(const Int128&, const Int128&) = default;
+
+ private:
+  __extension__ using Value = __int128;
+  Value value_ = 0;
+};
 
 template <class Int>
 struct Vector {
@@ -46,59 +84,77 @@ int sign(const Int& x) {
   return x.sign();
 }
 
-/// mantissa · 2^exponent, |mantissa| < 2^53, trailing zeros removed (so that grids stay coarse);
-/// zero: mantissa 0.
+/// mantissa · 2^exponent, |mantissa| < 2^53, odd (so that grids stay coarse); zero: mantissa 0.
 struct Dyadic {
   std::int64_t mantissa = 0;
   int exponent = 0;
 };
 inline Dyadic dyadic(double value) {
-  if (value == 0) return {};
-  int exponent;
-  const double fraction = std::frexp(value, &exponent);
-  auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
-  return {mantissa >> zeros, exponent - 53 + zeros};
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto field = static_cast<int>(bits >> 52 & 0x7ff);
+  std::uint64_t mantissa = bits & 0xfffffffffffffULL;
+  if (field) mantissa |= 1ULL << 52;
+  if (!mantissa) return {};
+  const int zeros = std::countr_zero(mantissa);
+  const auto odd = static_cast<std::int64_t>(mantissa >> zeros);
+  return {bits >> 63 ? -odd : odd, std::max(field, 1) - 1075 + zeros};
 }
+
+/// Corners and the map that they are under, as dyadic numbers.
+struct MappedCorners {
+  std::array<std::array<Dyadic, 3>, 3> m, corners;
+  std::array<Dyadic, 3> t;
+  std::size_t count;  ///< of the corners
+
+  MappedCorners(const Transform& X, std::span<const Vec3> points) : count(points.size()) {
+    for (int i = 0; i < 3; ++i) {
+      t[i] = dyadic(X.t[i]);
+      for (int k = 0; k < 3; ++k) m[i][k] = dyadic(X.m(i, k));
+    }
+    for (std::size_t p = 0; p < count; ++p)
+      for (int k = 0; k < 3; ++k) corners[p][k] = dyadic(points[p][k]);
+  }
+};
 
 /// The exponents that occur among the terms (products m·v, and t) of mapped points.
 struct Grid {
   int low = std::numeric_limits<int>::max();
   int high = std::numeric_limits<int>::min();  ///< every term is below 2^high in magnitude
 
-  void include(double a, double b) {
-    if (a == 0 || b == 0) return;
-    const Dyadic x = dyadic(a), y = dyadic(b);
-    low = std::min(low, x.exponent + y.exponent);
-    high = std::max(high, std::ilogb(a) + std::ilogb(b) + 2);
+  void include(const Dyadic& a, const Dyadic& b) {
+    if (!a.mantissa || !b.mantissa) return;
+    const auto bits = [](std::int64_t x) {
+      return 64 - std::countl_zero(static_cast<std::uint64_t>(std::abs(x)));
+    };
+    low = std::min(low, a.exponent + b.exponent);
+    high = std::max(high, a.exponent + bits(a.mantissa) + b.exponent + bits(b.mantissa));
   }
-  void include(const Triangle& triangle, const Transform& X) {
-    for (const Vec3& v : triangle)
+  void include(const MappedCorners& points) {
+    for (std::size_t p = 0; p < points.count; ++p)
       for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < 3; ++i) include(X.m(i, k), v[k]);
-    for (int i = 0; i < 3; ++i) include(X.t[i], 1.0);
+        for (int i = 0; i < 3; ++i) include(points.m[i][k], points.corners[p][k]);
+    for (int i = 0; i < 3; ++i) include(points.t[i], {1, 0});
   }
   /// Bits of a coordinate (4 terms, sum below 2^(high + 2)).
   int coordinateBits() const { return high <= low ? 3 : high + 2 - low; }
 };
 
 template <class Int>
-Int term(double a, double b, const Grid& grid) {
-  if (a == 0 || b == 0) return Int(0);
-  const Dyadic x = dyadic(a), y = dyadic(b);
-  Int value(x.mantissa);
-  value *= y.mantissa;
-  value <<= static_cast<unsigned>(x.exponent + y.exponent - grid.low);
+Int term(const Dyadic& a, const Dyadic& b, const Grid& grid) {
+  if (!a.mantissa || !b.mantissa) return Int(0);
+  Int value(a.mantissa);
+  value *= Int(b.mantissa);
+  value <<= static_cast<unsigned>(a.exponent + b.exponent - grid.low);
   return value;
 }
 
-/// X·p on the grid, exactly.
+/// The p-th corner under its map on the grid, exactly.
 template <class Int>
-Vector<Int> mapped(const Transform& X, const Vec3& p, const Grid& grid) {
+Vector<Int> mapped(const MappedCorners& points, std::size_t p, const Grid& grid) {
   std::array<Int, 3> c;
   for (int i = 0; i < 3; ++i) {
-    c[i] = term<Int>(X.t[i], 1.0, grid);
-    for (int k = 0; k < 3; ++k) c[i] += term<Int>(X.m(i, k), p[k], grid);
+    c[i] = term<Int>(points.t[i], {1, 0}, grid);
+    for (int k = 0; k < 3; ++k) c[i] += term<Int>(points.m[i][k], points.corners[p][k], grid);
   }
   return {c[0], c[1], c[2]};
 }

@@ -1,6 +1,7 @@
 #include "collision/predicates/orientation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -11,9 +12,11 @@
 namespace corridor {
 namespace {
 
+using Corners = std::array<exact::MappedCorners, 4>;
+
 template <class Int>
-int exactSign(const MappedPoint* const (&points)[4], const exact::Grid& grid) {
-  const auto at = [&](int i) { return exact::mapped<Int>(points[i]->X, points[i]->p, grid); };
+int exactSign(const Corners& points, const exact::Grid& grid) {
+  const auto at = [&](int i) { return exact::mapped<Int>(points[i], 0, grid); };
   const exact::Vector<Int> p = at(0);
   return exact::sign(exact::dot(at(3) - p, exact::cross(at(1) - p, at(2) - p)));
 }
@@ -44,13 +47,18 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
     if (det > bound) return 1;
     if (det < -bound) return -1;
   }
+  const auto corner = [](const MappedPoint& point) {
+    return exact::MappedCorners(point.X, std::span(&point.p, 1));
+  };
+  const Corners corners = {corner(p), corner(q), corner(r), corner(s)};
   exact::Grid grid;
-  for (const MappedPoint* point : points) grid.include({point->p, point->p, point->p}, point->X);
+  for (const exact::MappedCorners& each : corners) grid.include(each);
   // As in `trianglesTouchExact`.
   const int bits = 3 * grid.coordinateBits() + 6;
-  if (bits <= 512) return exactSign<exact::FixedInt<512>>(points, grid);
-  if (bits <= 1024) return exactSign<exact::FixedInt<1024>>(points, grid);
-  return exactSign<exact::BigInt>(points, grid);
+  if (bits <= 127) return exactSign<exact::Int128>(corners, grid);
+  if (bits <= 512) return exactSign<exact::FixedInt<512>>(corners, grid);
+  if (bits <= 1024) return exactSign<exact::FixedInt<1024>>(corners, grid);
+  return exactSign<exact::BigInt>(corners, grid);
 }
 
 }  // namespace corridor

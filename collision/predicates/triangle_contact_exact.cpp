@@ -95,12 +95,12 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Int>& n, const Point
 /// extreme point of their intersection lies on the rim of one of them. (A degenerate triangle is
 /// all rim.)
 template <class Int>
-bool touch(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB,
+bool touch(const exact::MappedCorners& a0, const exact::MappedCorners& b0,
            const exact::Grid& grid) {
   Points<Int> a, b;
   for (int i = 0; i < 3; ++i) {
-    a[i] = exact::mapped<Int>(X_WA, a0[i], grid);
-    b[i] = exact::mapped<Int>(X_WB, b0[i], grid);
+    a[i] = exact::mapped<Int>(a0, i, grid);
+    b[i] = exact::mapped<Int>(b0, i, grid);
   }
   const Vector<Int> nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
   if (strictlyOneSide(a, nA, b) || strictlyOneSide(b, nB, a)) return false;
@@ -115,15 +115,18 @@ bool touch(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const 
 
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB) {
+  const exact::MappedCorners cornersA(X_WA, a), cornersB(X_WB, b);
   exact::Grid grid;
-  grid.include(a, X_WA);
-  grid.include(b, X_WB);
+  grid.include(cornersA);
+  grid.include(cornersB);
   // With coordinates below 2^k, differences are below 2^(k+1), cross products below 2^(2k+3),
   // orientations below 2^(3k+6) (3·2^(k+1)·2^(2k+3)): that many bits hold every intermediate value.
   const int bits = 3 * grid.coordinateBits() + 6;
-  if (bits <= 512) return touch<exact::FixedInt<512>>(a, X_WA, b, X_WB, grid);
-  if (bits <= 1024) return touch<exact::FixedInt<1024>>(a, X_WA, b, X_WB, grid);
-  return touch<exact::BigInt>(a, X_WA, b, X_WB, grid);
+  if (bits <= 127) return touch<exact::Int128>(cornersA, cornersB, grid);
+  if (bits <= 256) return touch<exact::FixedInt<256>>(cornersA, cornersB, grid);
+  if (bits <= 512) return touch<exact::FixedInt<512>>(cornersA, cornersB, grid);
+  if (bits <= 1024) return touch<exact::FixedInt<1024>>(cornersA, cornersB, grid);
+  return touch<exact::BigInt>(cornersA, cornersB, grid);
 }
 
 }  // namespace corridor

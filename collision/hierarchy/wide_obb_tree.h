@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision/geometry/triangle_mesh.h"
+#include "collision/predicates/triangle.h"
+
+namespace corridor {
+
+/// The OBBTree of Gottschalk, Lin, Manocha 1996, laid out for SIMD: nodes of four oriented boxes in
+/// float, tested sixteen pairs at a time; leaves of at most four triangles, whose doubles decide.
+///
+/// A binary top-down tree (planes through the area-weighted mean, orthogonal to the direction of
+/// the largest area-weighted variance) of which about every second level is kept. All boxes are in
+/// the tree's own frame and unit: x = (p − origin)·2^-unit, so that |x_i| ≤ 1 whatever the mesh's
+/// size and place, and float's error is 2^-24 of the mesh.
+///
+/// Immutable. Keeps a copy of the mesh's vertices, so that the mesh may go.
+class WideObbTree {
+ public:
+  static constexpr int kWidth = 4;                    ///< boxes of a node
+  static constexpr int kLeafSize = 4;                 ///< triangles of a leaf, at most
+  static constexpr std::uint32_t kNone = 0xffffffff;  ///< child of a lane that holds no box
+
+  /// Four boxes {center + Σ_j axes_j·x_j : |x_j| ≤ half_j}, for the floats stored as exact reals;
+  /// lanes are contiguous. half_0 is the largest.
+  struct alignas(64) Node {
+    float center[3][kWidth];
+    float axes[3][3][kWidth];  ///< [j][k]: component k of axis j
+    float half[3][kWidth];
+    std::uint32_t child[kWidth];
+  };
+  /// What a box holds: the node of its parts, or a leaf's triangles.
+  static bool isLeaf(std::uint32_t child) { return child >> 31 != 0; }
+  static std::uint32_t leafFirst(std::uint32_t child) { return (child & 0x7fffffff) >> 2; }
+  static std::uint32_t leafCount(std::uint32_t child) { return (child & 3) + 1; }
+
+  /// @pre the mesh has a triangle, finite coordinates, and indices in range (`checkMesh`).
+  /// @throws std::length_error for 2^29 − 1 triangles or more.
+  explicit WideObbTree(const TriangleMesh& mesh);
+
+  /// Depth first; node 0 has the parts of the whole.
+  const std::vector<Node>& nodes() const { return nodes_; }
+  std::size_t triangleCount() const { return triangles_.size(); }
+  /// Of the i-th triangle in leaf order: its corners, and its number in the mesh.
+  const Vec3& corner(std::uint32_t i, int k) const { return vertices_[triangles_[i][k]]; }
+  Triangle triangle(std::uint32_t i) const { return {corner(i, 0), corner(i, 1), corner(i, 2)}; }
+  std::uint32_t meshTriangle(std::uint32_t i) const { return meshTriangle_[i]; }
+
+  const Vec3& origin() const { return origin_; }
+  int unit() const { return unit_; }
+  /// Largest |p − origin|₂ of all corners, metres, rounded up.
+  double radius() const { return radius_; }
+
+  std::size_t bytes() const;
+
+  /// Proves in rationals that every box contains every triangle below it, that each triangle is in
+  /// exactly one leaf, and that every node is the child of one box. Returns the first complaint.
+  std::optional<std::string> check() const;
+
+ private:
+  friend class WideObbBuilder;
+  std::vector<Node> nodes_;
+  std::vector<Vec3> vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::uint32_t> meshTriangle_;
+  Vec3 origin_ = Vec3::Zero();
+  int unit_ = 0;
+  double radius_ = 0;
+};
+
+}  // namespace corridor

@@ -1,0 +1,151 @@
+// Four triangles against four, for every SIMD target: included once per target by foreach_target.h.
+
+// clang-format off
+#if defined(CORRIDOR_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
+#ifdef CORRIDOR_TRIANGLE_FILTER_INL_H_
+#undef CORRIDOR_TRIANGLE_FILTER_INL_H_
+#else
+#define CORRIDOR_TRIANGLE_FILTER_INL_H_
+#endif
+// clang-format on
+
+#include <cmath>
+
+#include "hwy/highway.h"
+
+#include "collision/core/lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Corners of four triangles, relative to a point: [corner][coordinate][triangle].
+struct alignas(64) LeafCorners {
+  float x[3][3][4];
+  double center[3];
+};
+
+/// Which of the sixteen pairs of triangles may touch: bit 4·i + j for a's i-th and b's j-th. A
+/// cleared bit is a proof that the two are farther apart than `error`, the distance that the
+/// corners given may be off by, both sides together. By the separating-axis theorem: both planes
+/// and the nine cross products of edges.
+///
+/// Rounding, u = 2^-24. All is relative to one corner of a's triangle: differences are rounded
+/// once, 2u of coordinates ≤ D. Any vector L separates if the projections do: a projection of a
+/// point with coordinates ≤ D is off by less than 5u·|L|₁·D, so the difference of two by less than
+/// 10u·|L|₁·D, and `error` adds |L|₂·error. What is taken for equal (L·e for an edge e of L = e ×
+/// f, 0 but for the rounding of L, |δL| ≤ 2u|e||f| a coordinate) is off by 2√3·u|e||f|·√3D. With
+/// |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 32u·D), and for normals
+/// likewise. Lengths enter as |e|₁ ≥ |e|₂.
+///
+/// `pad`: the triangles shall be farther apart by that, too; it scales with the axes' true lengths.
+HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b, float error,
+                                      float pad = 0) {
+  const hn::CappedTag<float, 16> d;
+  using V = hn::Vec<decltype(d)>;
+  constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
+  struct Vec {
+    V x, y, z;
+  };
+  const auto cross = [](const Vec& p, const Vec& q) {
+    return Vec{hn::Sub(hn::Mul(p.y, q.z), hn::Mul(p.z, q.y)),
+               hn::Sub(hn::Mul(p.z, q.x), hn::Mul(p.x, q.z)),
+               hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x))};
+  };
+  const auto dot = [](const Vec& p, const Vec& q) {
+    return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
+  };
+  const auto sub = [](const Vec& p, const Vec& q) {
+    return Vec{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
+  };
+  const auto sum = [](const Vec& p) {
+    return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
+  };
+  // pad·|L|, rounded up: below 2^-63 squares vanish.
+  const bool padded = pad > 0;
+  const auto padding = [&](const Vec& L) {
+    return hn::Mul(hn::Set(d, pad * (1 + 0x1p-20F)),
+                   hn::Add(hn::Sqrt(dot(L, L)), hn::Set(d, 0x1p-60F)));
+  };
+  const auto min3 = [](V x, V y, V z) { return hn::Min(hn::Min(x, y), z); };
+  const auto max3 = [](V x, V y, V z) { return hn::Max(hn::Max(x, y), z); };
+  unsigned mask = 0;
+  const V zero = hn::Zero(d);
+  for (std::size_t at = 0; at < 16; at += kLanes) {
+    const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
+    const auto corner = [&](int k) {
+      return Vec{hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][0]), rows),
+                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][1]), rows),
+                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][2]), rows)};
+    };
+    const Vec o = corner(0);
+    const Vec away = sub(Vec{hn::Set(d, static_cast<float>(b.center[0] - a.center[0])),
+                             hn::Set(d, static_cast<float>(b.center[1] - a.center[1])),
+                             hn::Set(d, static_cast<float>(b.center[2] - a.center[2]))},
+                         o);
+    const auto load = [&](int k) {
+      return Vec{hn::Add(hn::LoadDup128(d, b.x[k][0]), away.x),
+                 hn::Add(hn::LoadDup128(d, b.x[k][1]), away.y),
+                 hn::Add(hn::LoadDup128(d, b.x[k][2]), away.z)};
+    };
+    const Vec e1 = sub(corner(1), o), e2 = sub(corner(2), o);
+    const Vec p0 = load(0), p1 = load(1), p2 = load(2);
+    const Vec f1 = sub(p1, p0), f2 = sub(p2, p0);
+    const Vec ea[3] = {e1, sub(e2, e1), e2};
+    const Vec fb[3] = {f1, sub(p2, p1), f2};
+    V le[3], lf[3];
+    for (int i = 0; i < 3; ++i) {
+      le[i] = sum(ea[i]);
+      lf[i] = sum(fb[i]);
+    }
+    // A sum, not a maximum, which could lose a NaN. Products of three such numbers are far from
+    // overflow.
+    const V D = hn::Add(hn::Add(hn::Add(sum(o), sum(p0)), hn::Add(sum(p1), sum(p2))),
+                        hn::Add(le[0], le[2]));
+    const V per = hn::IfThenElse(hn::Lt(D, hn::Set(d, 0x1p30F)),
+                                 hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 40 * 0x1p-24F), D)),
+                                 hn::Set(d, HUGE_VALF));
+    const V tiny = hn::Set(d, 0x1p-118F);  // underflow
+    // The plane of a.
+    const Vec na = cross(e1, e2);
+    const V s0 = dot(na, p0), s1 = dot(na, p1), s2 = dot(na, p2);
+    V gap = hn::Max(min3(s0, s1, s2), hn::Neg(max3(s0, s1, s2)));
+    V margin = hn::Add(hn::Mul(per, hn::Mul(le[0], le[2])), tiny);
+    if (padded) margin = hn::Add(margin, padding(na));
+    auto open = hn::Not(hn::Gt(gap, margin));
+    // That of b.
+    const Vec nb = cross(f1, f2);
+    const V h = dot(nb, p0), t1 = dot(nb, e1), t2 = dot(nb, e2);
+    gap = hn::Max(hn::Sub(min3(zero, t1, t2), h), hn::Sub(h, max3(zero, t1, t2)));
+    margin = hn::Add(hn::Mul(per, hn::Mul(lf[0], lf[2])), tiny);
+    if (padded) margin = hn::Add(margin, padding(nb));
+    open = hn::AndNot(hn::Gt(gap, margin), open);
+    if (!hn::AllFalse(d, open)) {
+      // Of edge i of a and j of b: the ends of an edge project alike, so one of them and the corner
+      // opposite are all.
+      for (int i = 0; i < 3; ++i) {
+        const V reach = hn::Mul(per, le[i]);
+        for (int j = 0; j < 3; ++j) {
+          const Vec L = cross(ea[i], fb[j]);
+          const V s = i == 0 ? dot(L, e2) : dot(L, e1);  // the other value of a is 0
+          const V q0 = dot(L, j == 1 ? p1 : p0), q1 = dot(L, j == 0 ? p2 : j == 1 ? p0 : p1);
+          gap = hn::Max(hn::Sub(hn::Min(q0, q1), hn::Max(s, zero)),
+                        hn::Sub(hn::Min(s, zero), hn::Max(q0, q1)));
+          margin = hn::Add(hn::Mul(reach, lf[j]), tiny);
+          if (padded) margin = hn::Add(margin, padding(L));
+          open = hn::AndNot(hn::Gt(gap, margin), open);
+        }
+      }
+    }
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, open, bits);
+    mask |= (static_cast<unsigned>(bits[0]) | static_cast<unsigned>(bits[1]) << 8) << at;
+  }
+  return mask;
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

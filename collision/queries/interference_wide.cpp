@@ -1,0 +1,98 @@
+#include "collision/queries/interference_wide.h"
+
+#include "collision/predicates/triangle_contact.h"
+#include "collision/volumes/wide_pose.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "collision/queries/interference_wide.cpp"
+#include "hwy/foreach_target.h"
+// After foreach_target.h, as Highway asks.
+#include "hwy/highway.h"
+
+#include "collision/hierarchy/wide_walk-inl.h"
+#include "collision/queries/wide_leaves-inl.h"
+#include "collision/volumes/overlap_wide-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+/// First contact: boxes by floats, triangles by floats, those that are left by the exact predicate.
+class Interference {
+ public:
+  Interference(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
+               const Transform& X_WB, const WidePose& pose, Counters& counters)
+      : a_(a),
+        b_(b),
+        X_WA_(X_WA),
+        X_WB_(X_WB),
+        pose_(pose),
+        counters_(counters),
+        leaves_(a, b, pose, counters) {}
+
+  static bool skip(float) { return false; }
+
+  unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* gaps) const {
+    return overlappingBoxes(a, b, pose_.floats, gaps);
+  }
+
+  /// The deepest is looked at first; among the others it doesn't matter.
+  static void order(std::vector<QueryContext::WideItem>& stack, std::size_t begin) {
+    auto least = begin;
+    for (std::size_t i = begin + 1; i < stack.size(); ++i)
+      if (stack[i].key < stack[least].key) least = i;
+    std::swap(stack[least], stack.back());
+  }
+
+  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {
+    return leaves_.forEachNear(
+        na, nb, pairs, [] { return 0.0F; },
+        [&](std::uint32_t s, std::uint32_t t) {
+          Counters own;  // the pair is counted already
+          const bool touch = trianglesTouch(a_.triangle(s), X_WA_, b_.triangle(t), X_WB_, own);
+          counters_.exactTests += own.exactTests;
+          if (touch) hit_ = TrianglePair{a_.meshTriangle(s), b_.meshTriangle(t)};
+          return touch;
+        });
+  }
+
+  const std::optional<TrianglePair>& hit() const { return hit_; }
+
+ private:
+  const WideObbTree &a_, &b_;
+  const Transform &X_WA_, &X_WB_;
+  const WidePose& pose_;
+  Counters& counters_;
+  WideLeaves leaves_;
+  std::optional<TrianglePair> hit_;
+};
+
+std::optional<TrianglePair> wideInterference(const WideObbTree& a, const Transform& X_WA,
+                                             const WideObbTree& b, const Transform& X_WB,
+                                             const WidePose& pose, QueryContext& context) {
+  Interference query(a, X_WA, b, X_WB, pose, context.counters);
+  walkWide(a, b, pose.floats.scale, context, query);
+  return query.hit();
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace corridor {
+
+HWY_EXPORT(wideInterference);
+
+std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
+                                         const WideObbTree& b, const Transform& X_WB,
+                                         QueryContext& context) {
+  ++context.counters.states;
+  const WidePose pose(a, X_WA, b, X_WB, 0);
+  if (pose.apart) {
+    ++context.counters.boxTests;
+    return std::nullopt;
+  }
+  return HWY_DYNAMIC_DISPATCH(wideInterference)(a, X_WA, b, X_WB, pose, context);
+}
+
+}  // namespace corridor
+#endif

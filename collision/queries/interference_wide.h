@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "collision/core/query_context.h"
+#include "collision/core/transform.h"
+#include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/queries/triangle_pair.h"
+
+namespace corridor {
+
+/// `interference` (interference.h) for wide trees: the same verdicts, several times faster. First
+/// contact found, or none; exact for the twelve doubles of each map in real arithmetic, for any
+/// finite maps; near-rigid ones are fast. @pre finite maps.
+///
+/// SIMD by run-time dispatch; every target gives the same verdict and the same counts.
+std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
+                                         const WideObbTree& b, const Transform& X_WB,
+                                         QueryContext& context);
+
+}  // namespace corridor

@@ -1,0 +1,167 @@
+// Four oriented boxes against four, for every SIMD target: included once per target by
+// foreach_target.h.
+
+// clang-format off
+#if defined(CORRIDOR_OVERLAP_WIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
+#ifdef CORRIDOR_OVERLAP_WIDE_INL_H_
+#undef CORRIDOR_OVERLAP_WIDE_INL_H_
+#else
+#define CORRIDOR_OVERLAP_WIDE_INL_H_
+#endif
+// clang-format on
+
+#include "hwy/highway.h"
+
+#include "collision/core/lanes.h"
+#include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/volumes/wide_pose.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Sixteen pairs of boxes in a's boxes' frames: what every test of them starts from.
+struct BoxPairs {
+  const hn::CappedTag<float, 16> d;
+  using V = hn::Vec<hn::CappedTag<float, 16>>;
+  static constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
+
+  V T[3], R[3][3], Q[3][3];  // the centre and the axes of b's box in coordinates of a's, and |R|
+  V a[3], b[3];              // half extents
+  V slack;                   // what all gaps have to exceed: rounding, and the pose's ball
+
+  V set(float x) const { return hn::Set(d, x); }
+  static V sum3(V x, V y, V z) { return hn::Add(hn::Add(x, y), z); }
+  static V dot(V x0, V x1, V x2, V y0, V y1, V y2) {
+    return sum3(hn::Mul(x0, y0), hn::Mul(x1, y1), hn::Mul(x2, y2));
+  }
+
+  /// Pairs `at` and the following ones, as many as there are lanes.
+  HWY_INLINE BoxPairs(const WideObbTree::Node& na, const WideObbTree::Node& nb,
+                      const FloatPose& pose, std::size_t at) {
+    const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
+    const auto first = [&](const float* four) {
+      return hn::TableLookupLanes(hn::LoadDup128(d, four), rows);
+    };
+    const auto second = [&](const float* four) { return hn::LoadDup128(d, four); };
+    const V c0 = second(nb.center[0]), c1 = second(nb.center[1]), c2 = second(nb.center[2]);
+    V p[3];
+    for (int k = 0; k < 3; ++k)
+      p[k] = hn::Sub(hn::Add(dot(set(pose.scaled[k][0]), set(pose.scaled[k][1]),
+                                 set(pose.scaled[k][2]), c0, c1, c2),
+                             set(pose.offset[k])),
+                     first(na.center[k]));
+    V v[3][3];
+    for (int j = 0; j < 3; ++j) {
+      const V u0 = second(nb.axes[j][0]), u1 = second(nb.axes[j][1]), u2 = second(nb.axes[j][2]);
+      for (int k = 0; k < 3; ++k)
+        v[j][k] = dot(set(pose.turn[k][0]), set(pose.turn[k][1]), set(pose.turn[k][2]), u0, u1, u2);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const V u0 = first(na.axes[i][0]), u1 = first(na.axes[i][1]), u2 = first(na.axes[i][2]);
+      T[i] = dot(u0, u1, u2, p[0], p[1], p[2]);
+      for (int j = 0; j < 3; ++j) {
+        R[i][j] = dot(u0, u1, u2, v[j][0], v[j][1], v[j][2]);
+        Q[i][j] = hn::Abs(R[i][j]);
+      }
+      a[i] = first(na.half[i]);
+      b[i] = hn::Mul(set(pose.scale), second(nb.half[i]));
+    }
+    const V sizes = sum3(sum3(hn::Abs(T[0]), hn::Abs(T[1]), hn::Abs(T[2])), sum3(a[0], a[1], a[2]),
+                         sum3(b[0], b[1], b[2]));
+    slack = hn::Add(hn::Mul(set(pose.relative), sizes), set(pose.ball));
+  }
+
+  /// Gaps along a's axes, b's, and the cross product of a's i-th and b's j-th (which is no unit
+  /// vector).
+  V faceOfA(int i) const {
+    return hn::Sub(hn::Abs(T[i]), hn::Add(dot(b[0], b[1], b[2], Q[i][0], Q[i][1], Q[i][2]), a[i]));
+  }
+  V faceOfB(int j) const {
+    return hn::Sub(hn::Abs(dot(T[0], T[1], T[2], R[0][j], R[1][j], R[2][j])),
+                   hn::Add(dot(a[0], a[1], a[2], Q[0][j], Q[1][j], Q[2][j]), b[j]));
+  }
+  V edges(int i, int j) const {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+    return hn::Sub(hn::Abs(hn::Sub(hn::Mul(T[i2], R[i1][j]), hn::Mul(T[i1], R[i2][j]))),
+                   hn::Add(hn::Add(hn::Mul(a[i1], Q[i2][j]), hn::Mul(a[i2], Q[i1][j])),
+                           hn::Add(hn::Mul(b[j1], Q[i][j2]), hn::Mul(b[j2], Q[i][j1]))));
+  }
+  V largestEdgeGap(V gap) const {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) gap = hn::Max(gap, edges(i, j));
+    return gap;
+  }
+};
+
+/// The bits of a mask of pairs `at` and the following ones.
+template <class M>
+HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t at) {
+  std::uint8_t bits[8] = {};  // StoreMaskBits may write up to eight bytes
+  hn::StoreMaskBits(d, mask, bits);
+  return (static_cast<unsigned>(bits[0]) | static_cast<unsigned>(bits[1]) << 8) << at;
+}
+
+/// Which of the sixteen pairs of two nodes' boxes may touch: bit 4·i + j for a's i-th and b's j-th.
+/// A cleared bit is a proof that they are farther apart than `pose.ball` was asked to cover
+/// (wide_pose.h has the derivation). `gaps` gets the largest gap along a face normal of each pair:
+/// the less, the deeper they overlap.
+///
+/// Separate multiplications and additions in one order, so that all targets decide alike. Each axis
+/// alone is a proof: a NaN on one of them may be lost in a maximum, but it never separates.
+HWY_INLINE unsigned overlappingBoxes(const WideObbTree::Node& a, const WideObbTree::Node& b,
+                                     const FloatPose& pose, float* HWY_RESTRICT gaps) {
+  const hn::CappedTag<float, 16> d;
+  unsigned mask = 0;
+  for (std::size_t at = 0; at < 16; at += BoxPairs::kLanes) {
+    const BoxPairs pairs(a, b, pose, at);
+    auto gap = pairs.faceOfA(0);
+    for (int i = 1; i < 3; ++i) gap = hn::Max(gap, pairs.faceOfA(i));
+    for (int j = 0; j < 3; ++j) gap = hn::Max(gap, pairs.faceOfB(j));
+    hn::Store(gap, d, gaps + at);
+    auto open = hn::Not(hn::Gt(gap, pairs.slack));
+    if (!hn::AllFalse(d, open)) open = hn::Not(hn::Gt(pairs.largestEdgeGap(gap), pairs.slack));
+    mask |= bitsOf(d, open, at);
+  }
+  return mask;
+}
+
+/// Which of the sixteen pairs may be at most `limit` apart (a's unit); a cleared bit is a proof
+/// that they are not. `squares` gets a proven lower bound of each pair's squared distance.
+///
+/// Gaps along three axes u_i at right angles bound the distance by √Σ gap_i²: for any vector d,
+/// Σ(u_i·d)² ≤ (1 + 3η)|d|², and η < 2^-17 for a's axes as for b's (R̂) — 1 − 2^-14 covers that and
+/// the rounding of the sum.
+HWY_INLINE unsigned nearBoxes(const WideObbTree::Node& a, const WideObbTree::Node& b,
+                              const FloatPose& pose, float limit, float* HWY_RESTRICT squares) {
+  const hn::CappedTag<float, 16> d;
+  unsigned mask = 0;
+  for (std::size_t at = 0; at < 16; at += BoxPairs::kLanes) {
+    const BoxPairs pairs(a, b, pose, at);
+    const auto zero = hn::Zero(d);
+    auto ofA = zero, ofB = zero;
+    for (int i = 0; i < 3; ++i) {
+      const auto x = hn::Max(hn::Sub(pairs.faceOfA(i), pairs.slack), zero);
+      const auto y = hn::Max(hn::Sub(pairs.faceOfB(i), pairs.slack), zero);
+      ofA = hn::Add(ofA, hn::Mul(x, x));
+      ofB = hn::Add(ofB, hn::Mul(y, y));
+    }
+    // An overflow or a NaN bounds nothing.
+    auto square = hn::Mul(hn::Max(ofA, ofB), pairs.set(1 - 0x1p-14F));
+    square = hn::IfThenElseZero(hn::Lt(square, pairs.set(0x1p120F)), square);
+    hn::Store(square, d, squares + at);
+    auto open = hn::Not(hn::Gt(square, pairs.set(limit * limit * (1 + 0x1p-20F))));
+    if (!hn::AllFalse(d, open))
+      open = hn::AndNot(hn::Gt(pairs.largestEdgeGap(zero),
+                               hn::Add(pairs.slack, pairs.set(limit * (1 + 0x1p-16F)))),
+                        open);
+    mask |= bitsOf(d, open, at);
+  }
+  return mask;
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

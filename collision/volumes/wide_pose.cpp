@@ -1,0 +1,69 @@
+#include "collision/volumes/wide_pose.h"
+
+#include <cmath>
+
+#include "collision/core/rounding.h"
+#include "collision/hierarchy/wide_obb_tree.h"
+
+namespace corridor {
+namespace {
+
+/// ‖MᵀM − I‖_max, rounded up: six sums of three products, and a difference.
+double defectOf(const Mat3& m) {
+  double worst = 0, size = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const double dot = m(0, i) * m(0, j) + m(1, i) * m(1, j) + m(2, i) * m(2, j);
+      worst = std::max(worst, std::abs(dot - (i == j)));
+      if (i == j) size = std::max(size, dot);
+    }
+  // NaN in a maximum may be lost; `size` alone is not: where M isn't finite, neither is the sum.
+  return worst + 8 * kUnit * (1 + size) + 0 * (m(0, 0) + m(1, 1) + m(2, 2));
+}
+
+}  // namespace
+
+WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
+                   const Transform& X_WB, double pad) {
+  // With the trees' origins o: y = M_A⁻¹(M_B x + D), D = M_B o_B + t_B − M_A o_A − t_A. M_A⁻¹ is
+  // replaced by M_Aᵀ: M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹, of norm ≤ 3η_A/√(1 − 3η_A).
+  const Vec3 D = (X_WB * b.origin()) - (X_WA * a.origin());
+  const double defectA = defectOf(X_WA.m), defectB = defectOf(X_WB.m);
+  // Maps of greater defect prune nothing. NaN: not usable.
+  const bool usable = defectA < 0x1p-6 && defectB < 0x1p-6;
+  // D has at most five roundings of terms that sum up to `terms` over its coordinates; |M_ij|
+  // ≤ 1.1.
+  const double terms = 3.4 * (b.origin().cwiseAbs().sum() + a.origin().cwiseAbs().sum()) +
+                       X_WB.t.cwiseAbs().sum() + X_WA.t.cwiseAbs().sum();
+  // |M x| ≤ √(1 + 3η)|x| ≤ (1 + 1.5η)|x|.
+  const double spheres = roundedUp(a.radius() * (1 + 1.5 * defectA) +
+                                   b.radius() * (1 + 1.5 * defectB) + 6 * kUnit * terms + pad);
+  apart = usable && D.squaredNorm() * (1 - 0x1p-48) > spheres * spheres * (1 + 0x1p-48) + kTiny;
+  if (apart) return;
+  m.noalias() = X_WA.m.transpose().lazyProduct(X_WB.m);
+  const Vec3 offset = X_WA.m.transpose() * D;
+  const double defect = defectOf(m);
+  // Entries of m and of the offset, three products and two sums each: 3.1u·3 as a norm.
+  const double reach = 1.1 * b.radius() + D.cwiseAbs().sum();
+  const double metres = 1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms) + pad;
+  unitA = std::ldexp(1.0, -a.unit());
+  scale = std::ldexp(1.0, b.unit() - a.unit());
+  t = offset * unitA;
+  const double error = usable ? metres * unitA : HUGE_VAL;
+  constexpr double u = 0x1p-24;
+  floats.relative = static_cast<float>(180 * u + 10 * defect);
+  // Rounded up, for the conversion and for the length of cross axes.
+  floats.ball = static_cast<float>(
+      (error + u * (33 * scale + 3.1 * t.cwiseAbs().sum() + 6) + 0x1p-118) * (1 + 0x1p-16));
+  leafError = static_cast<float>(error * (1 + 0x1p-20) + 0x1p-118);
+  floats.scale = static_cast<float>(scale);
+  for (int i = 0; i < 3; ++i) {
+    floats.offset[i] = static_cast<float>(t[i]);
+    for (int j = 0; j < 3; ++j) {
+      floats.turn[i][j] = static_cast<float>(m(i, j));
+      floats.scaled[i][j] = static_cast<float>(m(i, j) * scale);
+    }
+  }
+}
+
+}  // namespace corridor

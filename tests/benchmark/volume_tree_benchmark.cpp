@@ -1,0 +1,96 @@
+/// What every volume costs, generic trees: `volume_tree_benchmark WORKLOAD [FOLDER]`.
+///
+/// A workload of the shared collision data (in FOLDER, or $CORRIDOR_DATA/collision). A row a volume
+/// and way of building, as CSV on stdout: milliseconds to build and to refit the first mesh (least
+/// of three), medians in microseconds of interference, distance and «closer than 10^-3 of the
+/// size?» over the poses, and the means of N_v and N_p of interference.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "collision/queries/distance.h"
+#include "collision/queries/interference.h"
+#include "collision/volumes/pair_tests.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+template <class F>
+double microseconds(F&& f) {
+  const auto start = std::chrono::steady_clock::now();
+  f();
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+template <class Volume>
+void measure(const char* name, const test::Workload& w, TreeBuilding building) {
+  TreeParams params;
+  params.building = building;
+  VolumeTree<Volume> a(w.a, params);
+  const VolumeTree<Volume> b(w.b, params);
+  double build = std::numeric_limits<double>::infinity(), refit = build;
+  for (int i = 0; i < 3; ++i) {
+    build = std::min(build, microseconds([&] { a = VolumeTree<Volume>(w.a, params); }));
+    refit = std::min(refit, microseconds([&] { a.refit(w.a); }));
+  }
+  QueryContext context;
+  const auto median = [&](const auto& query) {
+    context.counters = {};
+    std::vector<double> times;
+    for (const Transform& X : w.poses) times.push_back(microseconds([&] { query(X); }));
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    return *middle;
+  };
+  const double apart = median([&](const Transform& X) { distance(a, {}, b, X, {}, context); });
+  const double tolerance = 1e-3 * a.node(0).radius;
+  const double close =
+      median([&](const Transform& X) { closerThan(a, {}, b, X, tolerance, context); });
+  const double touch = median([&](const Transform& X) { interference(a, {}, b, X, context); });
+  const auto n = static_cast<double>(w.poses.size());
+  std::printf("%s,%s,%.3f,%.3f,%.2f,%.2f,%.2f,%.1f,%.1f\n", name,
+              building == TreeBuilding::topDown ? "top-down" : "bottom-up", build / 1e3,
+              refit / 1e3, touch, apart, close, static_cast<double>(context.counters.boxTests) / n,
+              static_cast<double>(context.counters.triangleTests) / n);
+}
+
+void run(const test::Workload& w) {
+  std::puts(
+      "volume,building,build_ms,refit_ms,interference_us,distance_us,closer_us,bv_tests,"
+      "triangle_tests");
+  for (const TreeBuilding building : {TreeBuilding::topDown, TreeBuilding::bottomUp}) {
+    measure<Obb>("obb", w, building);
+    measure<Rss>("rss", w, building);
+    measure<Aabb>("aabb", w, building);
+    measure<BoundingSphere>("sphere", w, building);
+    measure<Kdop<14>>("kdop14", w, building);
+    measure<Kdop<18>>("kdop18", w, building);
+    measure<Kdop<26>>("kdop26", w, building);
+  }
+}
+
+}  // namespace
+}  // namespace corridor
+
+int main(int argc, char** argv) {
+  const auto data = corridor::test::dataFolder();
+  if (argc < 2 || (argc < 3 && !data)) {
+    std::fputs("usage: volume_tree_benchmark WORKLOAD [FOLDER] (or set CORRIDOR_DATA)\n", stderr);
+    return 2;
+  }
+  try {
+    corridor::run(corridor::test::loadWorkload(
+        argc > 2 ? std::filesystem::path(argv[2]) : *data / "collision", argv[1]));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

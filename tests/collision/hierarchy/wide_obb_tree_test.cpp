@@ -1,0 +1,99 @@
+#include "collision/hierarchy/wide_obb_tree.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/collision/hierarchy/soups.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+using test::add;
+
+TEST(WideObbTree, ContainsItsTrianglesInRationals) {
+  std::mt19937_64 random(test::testSeed(21));
+  for (const double offset : {0.0, 1e6, 1e12})
+    for (const int exponent : {0, -20, -1040, -500, 300, 900}) {
+      TriangleMesh mesh = test::soup(random, 100, 0.3);
+      for (Vec3& v : mesh.vertices)
+        v = (v + Vec3(offset, 0, -offset)).unaryExpr([&](double x) {
+          return std::ldexp(x, exponent);
+        });
+      EXPECT_EQ(WideObbTree(mesh).check(), std::nullopt) << offset << " 2^" << exponent;
+    }
+}
+
+TEST(WideObbTree, SharedMeshes) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  for (const char* name : {"pqp_torus", "slivers_A", "soup_far_A", "soup_tiny_B",
+                           "touching_boxes_B", "panda_hand", "box"}) {
+    const WideObbTree tree(
+        test::plainObj(*data / "collision" / "meshes" / (std::string(name) + ".obj")));
+    EXPECT_EQ(tree.check(), std::nullopt) << name;
+  }
+}
+
+TEST(WideObbTree, FewAndDegenerateTriangles) {
+  for (int n = 1; n < 20; ++n) {
+    TriangleMesh point, segment, same;
+    for (int i = 0; i < n; ++i) {
+      add(point, Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3));
+      add(segment, Vec3(0, 0, 0), Vec3(3, 4, 0), Vec3(3, 4, 0));
+      add(same, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+    }
+    for (const TriangleMesh* mesh : {&point, &segment, &same}) {
+      const WideObbTree tree(*mesh);
+      EXPECT_EQ(tree.check(), std::nullopt) << n;
+      EXPECT_EQ(tree.triangleCount(), static_cast<std::size_t>(n));
+    }
+  }
+}
+
+/// Triangles of size 2^-i around a point, and ten thousand that are one.
+TEST(WideObbTree, DeepAndIndivisible) {
+  TriangleMesh deep, same;
+  for (int i = 0; i < 1'000; ++i) {
+    const double s = std::ldexp(1.0, -i);
+    add(deep, Vec3(s, 0, 0), Vec3(s, s / 4, 0), Vec3(s, 0, s / 4));
+  }
+  EXPECT_EQ(WideObbTree(deep).check(), std::nullopt);
+  same.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  same.triangles.assign(10'000, {0, 1, 2});
+  const WideObbTree tree(same);
+  EXPECT_LT(tree.bytes(), 10'000U * 80);
+}
+
+/// The promise of the header: a mesh of shared vertices takes at most 80 bytes a triangle.
+TEST(WideObbTree, SmoothMeshesTakeEightyBytesATriangle) {
+  TriangleMesh mesh;  // a wavy sheet
+  const std::uint32_t n = 120;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (std::uint32_t k = 0; k <= n; ++k)
+      mesh.vertices.emplace_back(i, k, 5 * std::sin(0.1 * i) * std::cos(0.07 * k));
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint32_t v = i * (n + 1) + k;
+      mesh.triangles.push_back({v, v + 1, v + n + 1});
+      mesh.triangles.push_back({v + 1, v + n + 2, v + n + 1});
+    }
+  const WideObbTree tree(mesh);
+  EXPECT_LE(tree.bytes(), 80 * mesh.triangles.size());
+}
+
+TEST(WideObbTree, CheckFindsWhatIsWrong) {
+  // A box that is smaller than what it holds can't be made from outside: the copy is.
+  TriangleMesh mesh;
+  add(mesh, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  WideObbTree tree(mesh);
+  EXPECT_EQ(tree.check(), std::nullopt);
+  const_cast<WideObbTree::Node&>(tree.nodes()[0]).half[1][0] *= 0.99F;  // NOLINT
+  EXPECT_EQ(tree.check(), "a box above does not contain triangle 0");
+}
+
+}  // namespace
+}  // namespace corridor

@@ -1,0 +1,161 @@
+#include "collision/queries/distance.h"
+
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "collision/core/rounding.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/closest_points.h"
+#include "collision/queries/interference.h"
+#include "tests/collision/hierarchy/soups.h"
+#include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/reference_distance.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+using test::anyPose;
+using test::kParams;
+using test::soup;
+
+Triangle corners(const TriangleMesh& m, std::size_t t) {
+  return {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
+}
+
+double largest(const Triangle& t, const Transform& X) {
+  double size = 0;
+  for (const Vec3& p : t)
+    size = std::max(size, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
+  return size;
+}
+
+/// Distances of random triangles, slivers and nearly parallel edges, at all scales.
+TEST(ClosestPoints, WithinTheirErrorOfADistanceWithHundredDigits) {
+  std::mt19937_64 random(test::testSeed(21));
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  const auto any = [&] { return Vec3(real(), real(), real()); };
+  double worst = 0, tightest = 0;
+  for (int n = 0; n < 3'000; ++n) {
+    const double scale = std::ldexp(1.0, n % 9 == 0 ? -330 : n % 9 == 1 ? 330 : 0);
+    const double flat = std::pow(10.0, -n % 17), offset = n % 4 == 0 ? 1e5 : 1;
+    const Vec3 c = offset * any();
+    Triangle a = {any(), any(), any()}, b = {any(), any(), any()};
+    if (n % 2) b = {a[0] + flat * any(), a[1] + flat * any(), any()};  // nearly parallel edges
+    if (n % 5 == 0) a[2] = a[1] + flat * any();
+    for (Vec3& p : a) p = scale * (p + c);
+    for (Vec3& p : b) p = scale * (p + c + Vec3(0, 0, std::pow(10.0, -n % 7)));
+    Transform X_WA = anyPose(random, scale), X_WB = X_WA;
+    if (n % 3 == 0) X_WB = anyPose(random, scale);
+    Counters counters;
+    if (trianglesTouch(a, X_WA, b, X_WB, counters)) continue;
+    const double truth = static_cast<double>(test::referenceDistance(a, X_WA, b, X_WB));
+    const double size = std::max(largest(a, X_WA), largest(b, X_WB));
+    const WitnessPoints w = closestPoints(a, X_WA, b, X_WB);
+    worst = std::max(worst, std::abs(w.distance - truth) / (1e-12 * truth + 4 * kUnit * size));
+    for (const auto& [p, t, X] : {std::tuple(w.p_WA, a, X_WA), std::tuple(w.p_WB, b, X_WB)})
+      EXPECT_LE(static_cast<double>(test::referenceDistance(p, t, X)), 4 * kUnit * size) << n;
+    double reachA = 0, reachB = 0;
+    for (int i = 0; i < 3; ++i) {
+      reachA = std::max(reachA, a[i].norm() * (1 + 1e-15));
+      reachB = std::max(reachB, b[i].norm() * (1 + 1e-15));
+    }
+    const DistanceRange range = TriangleDistances(X_WA, reachA, X_WB, reachB)(a, b);
+    EXPECT_LE(range.lower, truth) << n;
+    EXPECT_GE(range.upper, truth) << n;
+    tightest += range.upper - range.lower < 1e-3 * truth;
+  }
+  EXPECT_LE(worst, 1);
+  EXPECT_GT(tightest, 1'000);
+  std::cout << "worst error, of the error allowed: " << worst << "\n";
+}
+
+template <class Volume>
+class VolumeDistance : public testing::Test {};
+TYPED_TEST_SUITE(VolumeDistance, test::Volumes, test::VolumeNames);
+
+TYPED_TEST(VolumeDistance, SharedWorkloads) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  QueryContext context;
+  int checked = 0;
+  for (const std::string& name : test::workloadNames(*data / "collision")) {
+    const test::Workload w = test::loadWorkload(*data / "collision", name);
+    if (name.find("20480") != std::string::npos && !test::stressAsked()) continue;
+    std::vector<double> truth;
+    std::ifstream in(*data / "collision" / name / "truth.txt");
+    for (std::string line; std::getline(in, line);) {
+      if (line.empty() || line[0] == '#') continue;
+      truth.push_back(std::strtod(line.substr(line.find(' ')).c_str(), nullptr));
+    }
+    ASSERT_EQ(truth.size(), w.poses.size());
+    const VolumeTree<TypeParam> a(w.a, kParams[1]), b(w.b, kParams[1]);
+    const std::size_t step = test::stressAsked() ? 1 : name[0] == 'a' ? 10 : 40;
+    for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
+      if (std::isnan(truth[i])) continue;
+      const Transform& X = w.poses[i];
+      const Distance d = distance(a, {}, b, X, {}, context);
+      ASSERT_EQ(d.distance == 0, w.hit[i] == 1) << name << " " << i;
+      const double size =
+          std::max({largest(corners(w.a, d.a), {}), largest(corners(w.b, d.b), X), a.reach()});
+      const double allowed = 1e-12 * truth[i] + 4 * kUnit * size;
+      EXPECT_NEAR(d.distance, truth[i], allowed) << name << " " << i;
+      // The witnesses are on their triangles, and as far apart as told.
+      EXPECT_LE(test::referenceDistance(d.p_WA, corners(w.a, d.a), {}), 4 * kUnit * size);
+      EXPECT_LE(test::referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
+      EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);
+      // The tolerance query, just below and just above; at 0 it is interference.
+      EXPECT_TRUE(closerThan(a, {}, b, X, d.distance + allowed, context)) << name << " " << i;
+      if (d.distance > 4 * allowed) {
+        EXPECT_FALSE(closerThan(a, {}, b, X, d.distance - 4 * allowed, context)) << name;
+      }
+      EXPECT_EQ(closerThan(a, {}, b, X, 0, context), w.hit[i] == 1);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100 / test::kSlowdown);
+  std::cout << checked << " poses, N_v " << context.counters.boxTests << ", N_p "
+            << context.counters.triangleTests << "\n";
+}
+
+TYPED_TEST(VolumeDistance, AgreesWithBruteForceAndIsSymmetric) {
+  std::mt19937_64 random(test::testSeed(22));
+  for (int n = 0; n < 40; ++n) {
+    const TreeParams& params = kParams[n % std::size(kParams)];
+    const TriangleMesh meshA = soup(random, 15, 0.1), meshB = soup(random, 15, 0.1);
+    const VolumeTree<TypeParam> a(meshA, params), b(meshB, params);
+    Transform X_WA = anyPose(random, n % 3 ? 1 : 1e4), X_WB = X_WA;
+    X_WB.t += anyPose(random, 1.5).t;
+    if (n % 2) X_WB.m = anyPose(random, 1).m;
+    QueryContext context;
+    const bool touch = interference(a, X_WA, b, X_WB, context).has_value();
+    const Distance d = distance(a, X_WA, b, X_WB, {}, context),
+                   back = distance(b, X_WB, a, X_WA, {}, context);
+    ASSERT_EQ(d.distance == 0, touch) << n;
+    EXPECT_EQ(back.distance == 0, touch);
+    if (touch) {
+      EXPECT_LT((d.p_WA - d.p_WB).norm(), 1e-11);
+      EXPECT_TRUE(trianglesTouchExact(corners(meshA, d.a), X_WA, corners(meshB, d.b), X_WB));
+      continue;
+    }
+    double truth = HUGE_VAL, size = 0;
+    for (const Triangle& s : a.triangles())
+      for (const Triangle& t : b.triangles()) {
+        truth = std::min(truth, closestPoints(s, X_WA, t, X_WB).distance);
+        size = std::max({size, largest(s, X_WA), largest(t, X_WB)});
+      }
+    EXPECT_NEAR(d.distance, truth, 1e-12 * truth) << n;
+    EXPECT_NEAR(back.distance, truth, 1e-12 * truth + 4 * kUnit * size) << n;
+    const Distance loose = distance(a, X_WA, b, X_WB, {0.1, 0.01}, context);
+    EXPECT_GE(loose.distance, truth * (1 - 1e-12));
+    EXPECT_LE(loose.distance, 1.1 * truth + 0.01 + 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace corridor

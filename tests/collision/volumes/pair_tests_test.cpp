@@ -1,0 +1,142 @@
+#include "collision/volumes/pair_tests.h"
+
+#include <random>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "tests/collision/hierarchy/soups.h"
+#include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/reference_distance.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+/// Two clouds that meet in a point (or stand g apart there) on either side of a plane.
+struct Meeting {
+  std::vector<Triangle> a, b;
+  Transform X_AB;
+  double distance = 0;  ///< of the two points that meet, rounded up: at least that of the clouds
+};
+
+/// Axes that are special to some volume as well as any: a margin that is short shows where a face
+/// of the volume lies in the plane.
+Vec3 normalOf(std::mt19937_64& random, int n) {
+  if (n % 3 == 0) return test::anyPose(random, 1).m.col(0);
+  Vec3 v(n % 5 - 2, n % 7 - 3, n / 7 % 3 - 1);
+  v = v.cwiseMax(-1).cwiseMin(1);
+  return v.norm() > 0 ? Vec3(v.normalized()) : Vec3::UnitX();
+}
+
+Meeting meeting(std::mt19937_64& random, int n, double gap, double offset) {
+  std::uniform_real_distribution<double> real(-1, 1);
+  const Vec3 normal = normalOf(random, n);
+  const Vec3 where = offset * Vec3(real(random), real(random), real(random));
+  Meeting m;
+  m.X_AB = test::anyPose(random, offset);
+  if (n % 4 == 0) m.X_AB.m = Mat3::Identity();
+  if (n % 4 == 1) m.X_AB.m += 1e-9 * test::anyPose(random, 1).m;
+  const Mat3 inverse = m.X_AB.m.inverse();
+  const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));  // flat, or thick behind the plane
+  const auto cloud = [&](double side) {
+    std::vector<Vec3> points = {where + (side > 0 ? gap : 0) * normal};
+    if (n % 6 == 5) {  // even a sphere touches the plane in that point alone
+      points.resize(12, points[0] + side * normal);
+      return points;
+    }
+    for (int i = 0; i < 11; ++i) {
+      Vec3 d(real(random), real(random), real(random));
+      d -= normal * normal.dot(d);
+      points.push_back(points[0] + d + side * depth * std::abs(real(random)) * normal);
+    }
+    return points;
+  };
+  const auto triangles = [](const std::vector<Vec3>& p) {
+    std::vector<Triangle> all;
+    for (std::size_t i = 0; i + 2 < p.size(); i += 3) all.push_back({p[i], p[i + 1], p[i + 2]});
+    return all;
+  };
+  std::vector<Vec3> inB = cloud(1);
+  for (Vec3& p : inB) p = inverse * (p - m.X_AB.t);
+  m.a = triangles(cloud(-1));
+  m.b = triangles(inB);
+  const Triangle point = {m.b[0][0], m.b[0][0], m.b[0][0]};
+  m.distance = roundedUp(static_cast<double>(test::referenceDistance(m.a[0][0], point, m.X_AB)));
+  return m;
+}
+
+template <class Volume>
+struct Fitted {
+  Volume volume;
+  VolumeBounds bounds;
+  explicit Fitted(const std::vector<Triangle>& content)
+      : volume(Volume::around(
+            enclosingObb(content, Volume::kOriented ? fitFrame(content, ObbFit::triangles).axes
+                                                    : Mat3(Mat3::Identity())),
+            content)),
+        bounds{volume.axisDefect(), volume.centerReach(), 0} {
+    for (const Triangle& t : content)
+      for (const Vec3& p : t) bounds.reach = std::max(bounds.reach, roundedUp(p.norm()));
+  }
+};
+
+template <class Volume>
+class PairTests : public testing::Test {};
+TYPED_TEST_SUITE(PairTests, test::Volumes, test::VolumeNames);
+
+/// No bound may exceed the distance of two points of the contents, to the last bit.
+TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
+  std::mt19937_64 random(test::testSeed(41));
+  int told = 0;
+  for (int n = 0; n < 20'000; ++n) {
+    const double gap = n % 3 ? std::pow(10.0, -(n % 16)) : 0, offset = n % 5 == 0 ? 1e6 : 1;
+    const Meeting m = meeting(random, n, gap, offset);
+    const Fitted<TypeParam> a(m.a), b(m.b);
+    const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
+    const double bound = test.distanceBound(a.volume, b.volume);
+    ASSERT_LE(bound, m.distance) << n;
+    ASSERT_FALSE(test.separated(a.volume, b.volume, m.distance)) << n;
+    told += bound > 0;
+  }
+  EXPECT_GT(told, 100) << "nothing is ever told: nothing was tested";
+}
+
+/// What is far apart is told to be, and about how far.
+TYPED_TEST(PairTests, TellClearDistances) {
+  std::mt19937_64 random(test::testSeed(42));
+  for (int n = 0; n < 1'000; ++n) {
+    const Meeting m = meeting(random, n, 100, 1);
+    const Fitted<TypeParam> a(m.a), b(m.b);
+    const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
+    // The widest gap between slab directions of a k-DOP costs most: measured 80.6 of 97 and more.
+    EXPECT_GT(test.distanceBound(a.volume, b.volume), 78) << n;
+    // Along one axis, at worst the diagonal of three faces: 100/√3.
+    EXPECT_TRUE(test.separated(a.volume, b.volume, 50)) << n;
+    const PairTest<TypeParam> loose(a.bounds, b.bounds, m.X_AB, 60);
+    EXPECT_FALSE(loose.separated(a.volume, b.volume, 50)) << "the pose's error is in it";
+  }
+}
+
+TYPED_TEST(PairTests, NothingIsToldOfWhatIsNotFinite) {
+  std::mt19937_64 random(test::testSeed(43));
+  const Meeting m = meeting(random, 1, 10, 1);
+  const Fitted<TypeParam> a(m.a), b(m.b);
+  for (const double bad : {HUGE_VAL, std::nan("")}) {
+    Transform X = m.X_AB;
+    X.t[1] = bad;
+    const PairTest<TypeParam> test(a.bounds, b.bounds, X, 0);
+    EXPECT_FALSE(test.separated(a.volume, b.volume, 0));
+    EXPECT_EQ(test.distanceBound(a.volume, b.volume), 0);
+    const PairTest<TypeParam> blind(a.bounds, b.bounds, m.X_AB, bad);
+    EXPECT_FALSE(blind.separated(a.volume, b.volume, 0));
+  }
+  Transform huge = m.X_AB;
+  huge.t *= 1e200;
+  Fitted<TypeParam> big(m.a);
+  const PairTest<TypeParam> test(big.bounds, b.bounds, huge, 1e201);
+  EXPECT_FALSE(test.separated(big.volume, b.volume, 0)) << "squares overflow";
+}
+
+}  // namespace
+}  // namespace corridor
