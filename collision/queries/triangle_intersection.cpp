@@ -64,8 +64,8 @@ class Crossing {
     int axis = 0;
     double spread = -1;
     for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({ends[0][k].hi, ends[1][k].hi, ends[2][k].hi,
-                                            ends[3][k].hi});
+      const auto [low, high] =
+          std::minmax({ends[0][k].hi, ends[1][k].hi, ends[2][k].hi, ends[3][k].hi});
       if (high - low > spread) {
         spread = high - low;
         axis = k;

@@ -363,7 +363,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   EXPECT_EQ(said(""), "A subcommand is required; corridor --help tells more\n");
   EXPECT_EQ(said("slove problem.yaml"),
             "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, check, "
-            "inspect\n");
+            "inspect, query\n");
   EXPECT_EQ(said("verify problem.yaml"),
             "SOLUTION is required; corridor verify --help tells more\n");
   for (const char* time : {"0", "-1", "nan", "inf", "20s"})
@@ -378,7 +378,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
 }
 
 TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
-  for (const char* command : {"solve", "verify", "check", "inspect"}) {
+  for (const char* command : {"solve", "verify", "check", "inspect", "query"}) {
     const Result help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Example: corridor ") + command));
