@@ -11,6 +11,7 @@
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
 #include "planner/app/commands.h"
+#include "planner/app/query_batch.h"
 
 namespace {
 
@@ -166,12 +167,25 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
       ->group(poses);
   command->add_option("--save-poses", a.savePoses, "a file for the grid's poses, as --poses reads")
       ->group(poses);
-  const char* asked = "What is asked (a wrong name lists them)";
-  command->add_option("--query", a.query, "interference (default) or contacts")->group(asked);
-  command->add_option("--volume", a.volume, "the bounding volume: obb")->group(asked);
-  command->add_option("--fit", a.fit, "of obb: triangles (default), vertices or hull")
+  const char* asked = "What is asked";
+  const auto named = [](const auto& kinds) {
+    std::vector<std::string> names;
+    for (const auto& kind : kinds) names.push_back(kind.name);
+    return corridor::joined(names);
+  };
+  const auto variants = [](std::vector<std::string> VolumeKind::*of) {
+    std::string text = "the first is the default";
+    for (const VolumeKind& kind : volumeKinds())
+      text += "; of " + kind.name + ": " + corridor::joined(kind.*of);
+    return text;
+  };
+  command->add_option("--query", a.query, "one of " + named(queryKinds()), true)->group(asked);
+  command->add_option("--volume", a.volume, "the bounding volume: " + named(volumeKinds()), true)
       ->group(asked);
-  command->add_option("--overlap", a.overlap, "how two volumes are tested; of obb: sat")
+  command->add_option("--fit", a.fit, variants(&VolumeKind::fits))->group(asked);
+  command
+      ->add_option("--overlap", a.overlap,
+                   "how two volumes are tested; " + variants(&VolumeKind::overlaps))
       ->group(asked);
   command
       ->add_option("--repeat", a.repeat,

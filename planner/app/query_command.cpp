@@ -6,12 +6,16 @@
 #include "collision/core/nearest.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
+#include "planner/app/output.h"
 #include "planner/app/query_batch.h"
 #include "planner/app/query_poses.h"
 #include "planner/app/query_timing.h"
 
 namespace corridor::app {
 namespace {
+
+/// A time is kept of each: 8 bytes.
+constexpr std::uint64_t kMostQueries = 1'000'000'000;
 
 /// The row of a table whose name was given. @throws InputError with those that there are.
 template <class Kind>
@@ -129,6 +133,10 @@ int queryCommand(const QueryArguments& a) {
   const std::string overlap = variantNamed("--overlap", a.overlap, volume.name, volume.overlaps);
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
+  if (a.repeat > kMostQueries / poses.size())
+    throw InputError(Fault{"--repeat", 0,
+                           grouped(a.repeat) + " passes over " + counted(poses.size(), "pose") +
+                               " are more than " + grouped(kMostQueries) + " queries"});
   if (a.savePoses) writePoses(*a.savePoses, poses);
   const BatchResult result = volume.run(
       {meshA.mesh, meshB.mesh, poses, query.asked, fit, overlap, static_cast<int>(a.repeat)});
