@@ -179,8 +179,11 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
       text += "; of " + kind.name + ": " + corridor::joined(kind.*of);
     return text;
   };
-  command->add_option("--query", a.query, "one of " + named(queryKinds()), true)->group(asked);
-  command->add_option("--volume", a.volume, "the bounding volume: " + named(volumeKinds()), true)
+  command->add_option("--query", a.query, "the first is the default: " + named(queryKinds()))
+      ->group(asked);
+  command
+      ->add_option("--volume", a.volume,
+                   "the bounding volume, the first is the default: " + named(volumeKinds()))
       ->group(asked);
   command->add_option("--fit", a.fit, variants(&VolumeKind::fits))->group(asked);
   command

@@ -6,51 +6,36 @@
 /// TEXT. All competitors are built once. Then N rounds: in each one, every competitor in turn
 /// answers all poses, one pass each, so that no pose is asked twice in a row (but those that are
 /// too quick for the clock: planner/app/query_timing.h) and a noisy neighbour meets all alike. A
-/// pose's time is the median of its rounds; a workload's is the median of its poses'. FCL is asked
-/// as its users do who want to be quick: BVHModels built once, transforms prepared, the first
-/// contact only, no contact points, no nearest points.
+/// pose's time is the least of its rounds (others on the machine only ever add); a workload's is
+/// the median of its poses'. Who competes, and how each is asked: competitors.h.
 ///
 /// Tables: queries, without the poses that the root boxes of the reference tree separate; those
 /// poses apart, where the overhead of a call counts; building. Ratios are to the quickest FCL tree
 /// of the row; above 1: ours is quicker. *Wrong* counts verdicts that are not the exact ones (of
 /// distance: off by more than 1e-12·d + 4·2^-53·S of the truth, S the largest coordinate).
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
-#include <functional>
 #include <iomanip>
 #include <iostream>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <sched.h>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#ifdef CORRIDOR_WITH_FCL
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/math/bv/OBB.h>
-#include <fcl/math/bv/OBBRSS.h>
-#include <fcl/math/bv/RSS.h>
-#include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
-#endif
-
 #include "collision/queries/interference.h"
 #include "planner/app/query_timing.h"
+#include "tests/benchmark/competitors.h"
 #include "tests/support/support.h"
-#include "tests/support/workload.h"
 
 namespace corridor {
 namespace {
 
 using app::median;
-
-enum class Query { interference, distance, tolerance };
+using namespace bench;
 
 struct Options {
   std::filesystem::path data;
@@ -61,163 +46,6 @@ struct Options {
   int cpu = -1;
   bool csv = false;
 };
-
-struct Answer {
-  bool hit = false;
-  double distance = 0;
-  std::uint64_t boxTests = 0, triangleTests = 0;
-};
-
-/// What one competitor did on one workload.
-struct Record {
-  std::string name;
-  double buildMs = 0, bytesPerTriangle = 0;
-  std::vector<std::vector<double>> ns;  ///< by pose, by round
-  std::vector<Answer> answers;          ///< by pose
-};
-
-/// A library with a pair of meshes built.
-class Competitor {
- public:
-  virtual ~Competitor() = default;
-  /// Asks all poses once.
-  virtual void pass() = 0;
-  Record record;
-};
-
-/// `Library` has: prepare(poses), answer(pose number) → Answer, forget().
-template <class Library>
-class Timed : public Competitor {
- public:
-  template <class Build>
-  Timed(const std::string& name, const test::Workload& w, int rounds, const Build& build)
-      : poses_(w.poses.size()) {
-    record.name = name;
-    std::vector<double> ms;
-    for (int i = 0; i < rounds; ++i) {
-      library_.reset();
-      const auto start = std::chrono::steady_clock::now();
-      library_ = build();
-      ms.push_back(
-          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-              .count());
-    }
-    record.buildMs = median(ms);
-    record.bytesPerTriangle = static_cast<double>(library_->bytes()) /
-                              static_cast<double>(w.a.triangles.size() + w.b.triangles.size());
-    library_->prepare(w.poses);
-    record.ns.resize(poses_);
-    record.answers.resize(poses_);
-  }
-  void pass() override {
-    for (std::size_t i = 0; i < poses_; ++i) {
-      Answer answer;
-      record.ns[i].push_back(app::nanosecondsOf([&] { answer = library_->answer(i); },
-                                                [&] {
-                                                  library_->forget();
-                                                  library_->answer(i);
-                                                }));
-      record.answers[i] = answer;
-    }
-  }
-
- private:
-  std::size_t poses_;
-  std::unique_ptr<Library> library_;
-};
-
-/// One of our trees: anything that has `interference` (and, as they come, `distance` and
-/// `closerThan`) by overload.
-template <class Tree>
-class Ours {
- public:
-  template <class... Params>
-  Ours(Query query, double tolerance, const test::Workload& w, const Params&... params)
-      : query_(query), tolerance_(tolerance), a_(w.a, params...), b_(w.b, params...) {}
-  std::size_t bytes() const { return a_.bytes() + b_.bytes(); }
-  void prepare(const std::vector<Transform>& poses) { poses_ = poses; }
-  /// What is kept from the last answer must not make the same question's next answer cheap.
-  void forget() {}
-  Answer answer(std::size_t i) {
-    Answer answer;
-    context_.counters = {};
-    if (query_ == Query::interference)
-      answer.hit = interference(a_, {}, b_, poses_[i], context_).has_value();
-    else
-      throw std::runtime_error("we have only interference as yet");
-    answer.boxTests = context_.counters.boxTests;
-    answer.triangleTests = context_.counters.triangleTests;
-    return answer;
-  }
-
- private:
-  Query query_;
-  double tolerance_;
-  Tree a_, b_;
-  std::vector<Transform> poses_;
-  QueryContext context_;
-};
-
-#ifdef CORRIDOR_WITH_FCL
-template <class Volume>
-class Fcl {
- public:
-  Fcl(Query query, double tolerance, const test::Workload& w)
-      : query_(query), tolerance_(tolerance), a_(built(w.a)), b_(built(w.b)) {}
-  std::size_t bytes() const { return bytesOf(*a_) + bytesOf(*b_); }
-  void prepare(const std::vector<Transform>& poses) {
-    for (const Transform& X : poses) {
-      poses_.emplace_back(fcl::Transform3d::Identity());
-      poses_.back().linear() = X.m;
-      poses_.back().translation() = X.t;
-    }
-  }
-  void forget() {}
-  Answer answer(std::size_t i) {
-    Answer answer;
-    if (query_ == Query::interference) {
-      const fcl::CollisionRequestd request(1, false);
-      fcl::CollisionResultd result;
-      answer.hit = fcl::collide(a_.get(), still_, b_.get(), poses_[i], request, result) > 0;
-    } else {  // FCL's meshes have no tolerance query: distance, told to stop there, is what it has
-      const fcl::DistanceRequestd request(false);
-      fcl::DistanceResultd result;
-      if (query_ == Query::tolerance) result.min_distance = std::nextafter(tolerance_, HUGE_VAL);
-      fcl::distance(a_.get(), still_, b_.get(), poses_[i], request, result);
-      answer.distance = std::max(result.min_distance, 0.0);
-      answer.hit =
-          query_ == Query::tolerance ? result.min_distance <= tolerance_ : result.min_distance <= 0;
-    }
-    return answer;
-  }
-
- private:
-  using Model = fcl::BVHModel<Volume>;
-  /// What is in use: its memUsage prints, and returns no size.
-  static std::size_t bytesOf(const Model& model) {
-    return sizeof(fcl::BVNode<Volume>) * static_cast<std::size_t>(model.getNumBVs()) +
-           sizeof(fcl::Vector3d) * static_cast<std::size_t>(model.num_vertices) +
-           (sizeof(fcl::Triangle) + sizeof(unsigned)) * static_cast<std::size_t>(model.num_tris);
-  }
-  static std::unique_ptr<Model> built(const TriangleMesh& mesh) {
-    std::vector<fcl::Triangle> triangles;
-    triangles.reserve(mesh.triangles.size());
-    for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-    auto model = std::make_unique<Model>();
-    model->beginModel(static_cast<int>(mesh.triangles.size()),
-                      static_cast<int>(mesh.vertices.size()));
-    model->addSubModel(mesh.vertices, triangles);
-    model->endModel();
-    return model;
-  }
-
-  Query query_;
-  double tolerance_;
-  std::unique_ptr<Model> a_, b_;
-  const fcl::Transform3d still_ = fcl::Transform3d::Identity();
-  std::vector<fcl::Transform3d> poses_;
-};
-#endif
 
 using Field = std::vector<std::unique_ptr<Competitor>>;
 
@@ -290,12 +118,12 @@ struct Ratios {
   }
 };
 
-/// Median over some poses of each pose's median over the rounds; 0 where there is no such pose.
+/// Median over some poses of each pose's least time; 0 where there is no such pose.
 template <class Take>
 double medianOver(const Record& r, const Take& take) {
   std::vector<double> ns;
   for (std::size_t i = 0; i < r.ns.size(); ++i)
-    if (take(i)) ns.push_back(median(r.ns[i]));
+    if (take(i)) ns.push_back(r.ns[i]);
   return ns.empty() ? 0 : median(ns);
 }
 

@@ -207,7 +207,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --poses poses.txt --repeat 0",
         "--repeat: a whole number from 1 to 1000000 is needed, not \"0\"" + more);
   fault("a.obj b.obj --grid 10x10x11 --repeat 1000000",
-        "--repeat: 1,000,000 passes over 1100 poses are more than 1,000,000,000 queries");
+        "--repeat: 1,000,000 passes over 1,100 poses are more than 1,000,000,000 queries");
   fault("a.obj b.obj --grid 3x3",
         "--grid: three counts above 0 along x, y and z are needed, as in 10x10x5, not \"3x3\"");
   fault("a.obj b.obj --grid 3x0x3",
