@@ -253,18 +253,13 @@ class Certifier {
     const MotionPair& bodies = pairs_[pair.bodies];
     const ObbTree &a = *bodies.a, &b = *bodies.b;
     const ObbTree::Node &na = a.node(pair.a), &nb = b.node(pair.b);
-    const auto number = [](const ObbTree& tree, std::uint32_t i) {
-      return tree.part() ? 0 : tree.meshTriangle(i);
-    };
-    const std::uint32_t endA = a.part() ? na.first + 1 : na.first + na.count;
-    const std::uint32_t endB = b.part() ? nb.first + 1 : nb.first + nb.count;
     bool open = false;
-    for (std::uint32_t s = na.first; s < endA; ++s)
-      for (std::uint32_t t = nb.first; t < endB; ++t) {
+    for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
+      for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
         if (work() >= workEnd_) return outOfWork();
         const MovingTrianglesAnswer found = decide(a, s, b, t, window);
         if (found.separated) continue;
-        const Contact here{bodies.bodyA, bodies.bodyB, number(a, s), number(b, t)};
+        const Contact here{bodies.bodyA, bodies.bodyB, a.meshTriangle(s), b.meshTriangle(t)};
         if (found.contact) {
           contactTime_ = middle_;
           contactPair_ = here;
@@ -284,16 +279,17 @@ class Certifier {
     return Descent::done;
   }
 
-  /// What a's s-th triangle, or a itself, and b's t-th one do in the window.
+  /// What a's s-th triangle, or part, and b's t-th one do in the window.
   MovingTrianglesAnswer decide(const ObbTree& a, std::uint32_t s, const ObbTree& b, std::uint32_t t,
                                const MotionWindow& window) {
     const double margin = options_.margin;
-    if (a.part())
-      return b.part() ? decideMovingParts(*a.part(), *b.part(), window, margin, counters_)
-                      : decideMovingParts(*a.part(), b.triangles()[t], window, margin, counters_);
-    return b.part() ? decideMovingParts(a.triangles()[s], *b.part(), window, margin, counters_)
-                    : decideMovingTriangles(a.triangles()[s], b.triangles()[t], window, margin,
-                                            counters_);
+    const ConvexPart *pa = a.part(s), *pb = b.part(t);
+    if (pa)
+      return pb ? decideMovingParts(*pa, *pb, window, margin, counters_)
+                : decideMovingParts(*pa, b.triangles()[t], window, margin, counters_);
+    return pb ? decideMovingParts(a.triangles()[s], *pb, window, margin, counters_)
+              : decideMovingTriangles(a.triangles()[s], b.triangles()[t], window, margin,
+                                      counters_);
   }
 
   /// Is one of the pairs from[begin, …), left by the window that was looked at last, in contact at

@@ -6,23 +6,26 @@
 #include "collision/core/query_context.h"
 #include "collision/core/transform.h"
 #include "collision/hierarchy/obb_tree.h"
+#include "collision/hierarchy/volume_tree.h"
 
 namespace corridor {
 
-/// Two triangles that touch, by their numbers in the meshes; 0 for a convex part.
+/// Two triangles that touch, by their numbers in the meshes, or convex parts, by theirs.
 struct TrianglePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Do closed triangles of a (or its convex part, a solid) under X_WA and of b under X_WB share a
-/// point? The first pair found, or none.
+/// Do closed triangles of a (or its convex parts, solids) under X_WA and of b under X_WB share a
+/// point? The first pair found, or none. Any volume and any way of building give the same verdict.
 ///
 /// Exact for the twelve doubles of each map in real arithmetic (design: contract 1), for any finite
 /// maps; near-rigid ones are fast, since only then the boxes prune. With a convex part: never
 /// falsely none, and right outside the band of `convexSetsTouch`. @pre finite maps (`Scene` throws
 /// on others).
-std::optional<TrianglePair> interference(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
-                                         const Transform& X_WB, QueryContext& context);
+template <BoundingVolume Volume>
+std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Transform& X_WA,
+                                         const VolumeTree<Volume>& b, const Transform& X_WB,
+                                         QueryContext& context);
 
 /// A contact below one pair of nodes, with a at the identity. Gives up, with none, when the
 /// context's box and triangle tests reach `workEnd`.

@@ -1,7 +1,7 @@
 #include "collision/volumes/obb.h"
 
 #include <cmath>
-#include <limits>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -43,32 +43,59 @@ double orthonormalityDefect(const Mat3& m) {
                    8 * kUnit * (1 + 3 * size * size));
 }
 
-ObbFrame fitFrame(std::span<const Triangle> triangles, ObbFit fit) {
-  const Moments m = moments(triangles, fit);
+double Obb::axisDefect() const {
+  return orthonormalityDefect(axes);
+}
+
+double Obb::centerReach() const {
+  return roundedUp(center.stableNorm());
+}
+
+double Obb::radius() const {
+  return roundedUp(half.stableNorm() * (1 + 3 * axisDefect()));
+}
+
+ObbFrame fitFrame(const Content& content, ObbFit fit) {
+  std::vector<Triangle> points;  // balls, as triangles without an extent
+  for (const Ball& b : content.balls) points.push_back({b.center, b.center, b.center});
+  const Moments m = moments(points.empty() ? content.triangles : points, fit);
   return {m.mean, principalAxes(m.covariance)};
 }
 
-Obb enclosingObb(std::span<const Triangle> triangles, const Mat3& axes) {
+ObbFrame alignedFrame(const Content& content) {
+  const Vec3 origin = content.anyPoint();
+  Vec3 sum = Vec3::Zero();
+  double count = 0;
+  content.forEach([&](const Vec3& p, double) {
+    sum += p - origin;
+    ++count;
+  });
+  return {origin + sum / count, Mat3::Identity()};
+}
+
+Obb enclosingObb(const Content& content, const Mat3& axes) {
   Obb box;
   box.axes = axes;
   // About one of the points, so that a small mesh far from the origin keeps its digits.
-  const Vec3 origin = triangles[0][0];
+  const Vec3 origin = content.anyPoint();
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-  for (const Triangle& t : triangles)
-    for (const Vec3& p : t) {
-      const Vec3 y = axes.transpose() * (p - origin);
-      low = low.cwiseMin(y);
-      high = high.cwiseMax(y);
-    }
+  content.forEach([&](const Vec3& p, double r) {
+    const Vec3 y = axes.transpose() * (p - origin);
+    low = low.cwiseMin((y.array() - r).matrix());
+    high = high.cwiseMax((y.array() + r).matrix());
+  });
   box.center = origin + axes * (low + 0.5 * (high - low));
   Vec3 reach = Vec3::Zero();
-  for (const Triangle& t : triangles)
-    for (const Vec3& p : t)
-      reach = reach.cwiseMax((axes.transpose() * (p - box.center)).cwiseAbs());
+  content.forEach([&](const Vec3& p, double r) {
+    const Vec3 y = (axes.transpose() * (p - box.center)).cwiseAbs();
+    reach = reach.cwiseMax((y.array() + r).matrix());
+  });
   // What is wanted is x = U⁻¹d, d = p − center in real arithmetic; computed is y ≈ Uᵀd. With E =
   // UᵀU − I, |E| ≤ η: Uᵀd = (I + E)x, so |x − Uᵀd| ≤ η·Σ|x_k| per component, and Σ|x_k| ≤ Σ|y_k|/(1
   // − 3η). Computing y: u·|d| for the difference and γ3·Σ|u_k||d_k| ≤ 3.1u·‖d‖ for the product:
   // together at most 5u·‖d‖ ≤ 5.1u·Σ|y_k|. Twice the sum of both covers the second-order terms.
+  // A ball reaches r|g_i|, g_i a row of U⁻¹, |g_i| ≤ 1 + 6η + 16u (part_obb.cpp): 2·(η + 6u)·Σ|y_k|
+  // covers that, too, since every |y_k| has r in it.
   const double pad = 2 * (orthonormalityDefect(axes) + 6 * kUnit) * reach.sum();
   for (int i = 0; i < 3; ++i) box.half[i] = roundedUp(reach[i] + pad);
   return box;

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "collision/core/transform.h"
-#include "collision/predicates/triangle.h"
+#include "collision/volumes/content.h"
 
 namespace corridor {
 
@@ -15,6 +14,14 @@ struct Obb {
   Vec3 center = Vec3::Zero();
   Mat3 axes = Mat3::Identity();
   Vec3 half = Vec3::Zero();
+
+  // As a `BoundingVolume` (volumes/volume.h).
+  static constexpr bool kOriented = true;
+  static Obb around(const Obb& box, const Content&) { return box; }
+  const Mat3& frameAxes() const { return axes; }
+  double axisDefect() const;
+  double centerReach() const;
+  double radius() const;
 };
 
 /// Which points' covariance gives a box its axes (Gottschalk, Lin, Manocha 1996, section 4).
@@ -25,17 +32,19 @@ enum class ObbFit {
          ///< it
 };
 
-/// Axes and mean of a set of triangles.
+/// Axes and mean of a content.
 struct ObbFrame {
   Vec3 mean = Vec3::Zero();
   Mat3 axes =
       Mat3::Identity();  ///< columns, longest spread first; right-handed, orthonormal to a few ulp
 };
-ObbFrame fitFrame(std::span<const Triangle> triangles, ObbFit fit);
+ObbFrame fitFrame(const Content& content, ObbFit fit);
+/// The same with the frame's own axes: the identity, and the mean of all corners or balls.
+ObbFrame alignedFrame(const Content& content);
 
-/// The smallest box with these axes around the triangles, rounded outward: contains them in real
+/// The smallest box with these axes around the content, rounded outward: contains it in real
 /// arithmetic.
-Obb enclosingObb(std::span<const Triangle> triangles, const Mat3& axes);
+Obb enclosingObb(const Content& content, const Mat3& axes);
 
 /// ‖MᵀM − I‖_max, rounded up: how far M is from orthonormal.
 double orthonormalityDefect(const Mat3& m);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "collision/core/rounding.h"
 #include "collision/volumes/obb.h"
+#include "collision/volumes/volume.h"
 
 /// Box against box by the separating-axis theorem, 15 axes (Gottschalk, Lin, Manocha 1996, section
 /// 5), with every rounding error inside the margins: `true` is a proof that the boxes, as the point
@@ -140,8 +142,9 @@ struct DirectionalTravel {
   }
 };
 
-template <class Travel>
-bool separated(const BoxPair& pair, const Vec3& a, const Vec3& b, const BoxPairMargins& margins,
+/// `Pair` has R, absR and T of a BoxPair.
+template <class Pair, class Travel>
+bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMargins& margins,
                double pad, const Travel& travel) {
   const Mat3 &R = pair.R, &Q = pair.absR;
   const Vec3& T = pair.T;
@@ -173,6 +176,44 @@ bool separated(const BoxPair& pair, const Vec3& a, const Vec3& b, const BoxPairM
   return false;
 }
 
+/// A lower bound of the distance of two boxes: the gaps along the three axes of either box are
+/// those of a frame but for the defects, so the root of their squares is one; along an edge axis
+/// the gap alone. In the coordinates of box a distances are those of frame A times (1 ± 1.5η_A),
+/// along the R̂_j times (1 ± 1.5η_R): less than `relative`. Every gap is computed as in `separated`.
+template <class Pair>
+double boxDistanceBound(const Pair& pair, const Vec3& a, const Vec3& b,
+                        const BoxPairMargins& margins) {
+  const Mat3 &R = pair.R, &Q = pair.absR;
+  const Vec3& T = pair.T;
+  const double slack =
+      margins.relative * (T.cwiseAbs().sum() + a.sum() + b.sum()) + kTiny + margins.absolute;
+  double squareA = 0, squareB = 0, edge = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double gap =
+        std::abs(T[i]) - (a[i] + Q(i, 0) * b[0] + Q(i, 1) * b[1] + Q(i, 2) * b[2]) - slack;
+    if (gap > 0) squareA += gap * gap;
+  }
+  for (int j = 0; j < 3; ++j) {
+    const double gap = std::abs(T[0] * R(0, j) + T[1] * R(1, j) + T[2] * R(2, j)) -
+                       (b[j] + Q(0, j) * a[0] + Q(1, j) * a[1] + Q(2, j) * a[2]) - slack;
+    if (gap > 0) squareB += gap * gap;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    for (int j = 0; j < 3; ++j) {
+      const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      const double l = length(R(i1, j), R(i2, j));
+      if (l < 0x1p-20) continue;  // near the face axes, whose gaps are better known
+      const double gap =
+          std::abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
+          (a[i1] * Q(i2, j) + a[i2] * Q(i1, j) + b[j1] * Q(i, j2) + b[j2] * Q(i, j1)) - slack;
+      edge = std::max(edge, gap / l);
+    }
+  }
+  const double bound = std::max(edge, std::sqrt(std::max(squareA, squareB)));
+  return bound < HUGE_VAL ? std::max(0.0, roundedDown(bound * (1 - margins.relative))) : 0;
+}
+
 }  // namespace internal
 
 /// Apart by more than `pad` metres?
@@ -189,5 +230,26 @@ inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB,
   return internal::separated(pair, a.half, b.half, margins, pad,
                              internal::DirectionalTravel(pair, a, b, travel));
 }
+
+template <>
+class PairTest<Obb> {
+ public:
+  PairTest(const VolumeBounds& a, const VolumeBounds& b, const Transform& X_AB, double error)
+      : X_AB_(X_AB),
+        margins_(boxPairMargins(a.axisDefect, a.centerReach, b.axisDefect, b.centerReach, X_AB)) {
+    margins_.absolute += error;
+  }
+
+  bool separated(const Obb& a, const Obb& b, double pad) const {
+    return obbsSeparated(a, b, X_AB_, margins_, pad);
+  }
+  double distanceBound(const Obb& a, const Obb& b) const {
+    return internal::boxDistanceBound(internal::BoxPair(a, b, X_AB_), a.half, b.half, margins_);
+  }
+
+ private:
+  Transform X_AB_;
+  BoxPairMargins margins_;
+};
 
 }  // namespace corridor

@@ -33,8 +33,8 @@ const Obb& smaller(const Obb& a, const Obb& b) {
 
 Obb enclosingObb(const ConvexPart& part) {
   const auto& points = part.points;
-  std::vector<Triangle> corners;  // as degenerate triangles
-  for (const Vec3& p : points) corners.push_back({p, p, p});
+  std::vector<Ball> corners;
+  for (const Vec3& p : points) corners.push_back({p});
   const auto edge = [&](std::size_t i) {
     return i < points.size() ? Vec3(points[i] - points[0]) : Vec3::Zero();
   };
@@ -54,6 +54,22 @@ Obb enclosingObb(const ConvexPart& part) {
     box.half[i] = roundedUp(box.half[i] + part.radius * (share + loose));
   }
   return box;
+}
+
+std::vector<Ball> ballsOf(const ConvexPart& part) {
+  std::vector<Ball> balls;
+  if (!part.flatEnds) {
+    for (const Vec3& p : part.points) balls.push_back({p, part.radius});
+    return balls;
+  }
+  const Obb box = enclosingObb(part);
+  // A corner c ± Σ half_k u_k takes 6 roundings of numbers below |c|₁ + 2·Σhalf a coordinate.
+  const double error = roundedUp(16 * kUnit * (box.center.cwiseAbs().sum() + 2 * box.half.sum()));
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 x(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    balls.push_back({box.center + box.axes * x.cwiseProduct(box.half), error});
+  }
+  return balls;
 }
 
 }  // namespace corridor

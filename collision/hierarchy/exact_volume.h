@@ -1,0 +1,160 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "collision/volumes/aabb.h"
+#include "collision/volumes/bounding_sphere.h"
+#include "collision/volumes/kdop.h"
+#include "collision/volumes/obb.h"
+#include "collision/volumes/rss.h"
+
+/// Volumes as rational sets: what `VolumeTree::check` proves containment with.
+namespace corridor::exact {
+
+using Rational = boost::multiprecision::cpp_rational;
+using Row = std::array<Rational, 3>;
+
+inline Row row(const Vec3& p) {
+  return {Rational(p[0]), Rational(p[1]), Rational(p[2])};
+}
+inline Rational dot(const Row& a, const Row& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Row cross(const Row& a, const Row& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Row minus(const Row& a, const Row& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// Each has `contains(p, r)`: is the closed ball of radius r about p inside?
+template <class Volume>
+class ExactVolume;
+
+/// {c + U x : |x_i| ≤ e_i}: p is inside if and only if |det(U with column i replaced by p − c)| ≤
+/// e_i·|det U| (Cramer).
+template <>
+class ExactVolume<Obb> {
+ public:
+  explicit ExactVolume(const Obb& box) : center_(row(box.center)), half_(row(box.half)) {
+    for (int k = 0; k < 3; ++k) u_[k] = row(box.axes.col(k));
+    for (int k = 0; k < 3; ++k) crosses_[k] = cross(u_[(k + 1) % 3], u_[(k + 2) % 3]);
+    volume_ = abs(dot(u_[0], crosses_[0]));
+  }
+  bool contains(const Row& p, const Rational& radius) const { return contains(p, radius, {}); }
+  /// With a disc at a right angle to `axis`, where that is not zero, instead of the ball. They
+  /// reach r|g_i|, or r|g_i × d|/|d|, farther, g_i = crosses_i/volume the i-th row of U⁻¹: squared,
+  /// that is rational.
+  bool contains(const Row& p, const Rational& radius, const Row& axis) const {
+    const Row d = minus(p, center_);
+    const Rational square = dot(axis, axis), r = radius * radius;
+    for (int k = 0; k < 3; ++k) {
+      const Rational left = half_[k] * volume_ - abs(dot(d, crosses_[k]));
+      if (left < 0) return false;
+      if (radius == 0) continue;
+      const Row across = cross(crosses_[k], axis);
+      const bool holds = square > 0 ? left * left * square >= r * dot(across, across)
+                                    : left * left >= r * dot(crosses_[k], crosses_[k]);
+      if (!holds) return false;
+    }
+    return volume_ > 0;
+  }
+  /// The eight corners: who holds them holds the box.
+  std::array<Row, 8> corners() const {
+    std::array<Row, 8> all;
+    for (int i = 0; i < 8; ++i) {
+      all[i] = center_;
+      for (int k = 0; k < 3; ++k)
+        for (int c = 0; c < 3; ++c) all[i][c] += (i >> k & 1 ? 1 : -1) * half_[k] * u_[k][c];
+    }
+    return all;
+  }
+
+ private:
+  Row center_, half_;
+  std::array<Row, 3> u_, crosses_;
+  Rational volume_;
+};
+
+template <>
+class ExactVolume<Aabb> {
+ public:
+  explicit ExactVolume(const Aabb& box) : center_(row(box.center)), half_(row(box.half)) {}
+  bool contains(const Row& p, const Rational& radius) const {
+    for (int i = 0; i < 3; ++i)
+      if (abs(p[i] - center_[i]) + radius > half_[i]) return false;
+    return true;
+  }
+
+ private:
+  Row center_, half_;
+};
+
+template <>
+class ExactVolume<BoundingSphere> {
+ public:
+  explicit ExactVolume(const BoundingSphere& sphere)
+      : center_(row(sphere.center)), radius_(sphere.size) {}
+  bool contains(const Row& p, const Rational& radius) const {
+    const Row d = minus(p, center_);
+    const Rational left = radius_ - radius;
+    return left >= 0 && dot(d, d) <= left * left;
+  }
+
+ private:
+  Row center_;
+  Rational radius_;
+};
+
+/// Slab by slab; a ball reaches r|n| along n: squared.
+template <int K>
+class ExactVolume<Kdop<K>> {
+ public:
+  explicit ExactVolume(const Kdop<K>& dop) : dop_(dop) {}
+  bool contains(const Row& p, const Rational& radius) const {
+    const auto& n = slabDirections<K>();
+    for (std::size_t i = 0; i < n.size(); ++i) {
+      const Row d = row(n[i]);
+      const Rational along = dot(d, p);
+      const Rational left =
+          std::min<Rational>(along - Rational(dop_.low[i]), Rational(dop_.high[i]) - along);
+      if (left < 0 || left * left < radius * radius * dot(d, d)) return false;
+    }
+    return true;
+  }
+
+ private:
+  Kdop<K> dop_;
+};
+
+/// By a witness: any point of the rectangle near enough will do; the closest one, as doubles see
+/// it, is tried.
+template <>
+class ExactVolume<Rss> {
+ public:
+  explicit ExactVolume(const Rss& rss) : rss_(rss), center_(row(rss.core.center)) {
+    for (int k = 0; k < 2; ++k) u_[k] = row(rss.core.axes.col(k));
+  }
+  bool contains(const Row& p, const Rational& radius) const {
+    Row d = minus(p, center_);
+    const Vec3 offset(d[0].convert_to<double>(), d[1].convert_to<double>(),
+                      d[2].convert_to<double>());
+    for (int k = 0; k < 2; ++k) {
+      const double half = rss_.core.half[k];
+      const Rational x(std::clamp(rss_.core.axes.col(k).dot(offset), -half, half));
+      for (int c = 0; c < 3; ++c) d[c] -= x * u_[k][c];
+    }
+    const Rational left = Rational(rss_.size) - radius;
+    return left >= 0 && dot(d, d) <= left * left;
+  }
+
+ private:
+  Rss rss_;
+  Row center_;
+  std::array<Row, 2> u_;
+};
+
+}  // namespace corridor::exact

@@ -1,0 +1,62 @@
+#include "collision/hierarchy/tree_items.h"
+
+#include <numeric>
+#include <utility>
+
+#include "collision/volumes/part_obb.h"
+
+namespace corridor {
+
+TreeItems::TreeItems(const TriangleMesh& mesh) : numbers(mesh.triangles.size()) {
+  triangles.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    triangles.push_back({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)});
+  std::iota(numbers.begin(), numbers.end(), 0U);
+}
+
+TreeItems::TreeItems(std::vector<ConvexPart> convexParts)
+    : parts(std::move(convexParts)), numbers(parts.size()) {
+  std::iota(numbers.begin(), numbers.end(), 0U);
+}
+
+void TreeItems::swap(std::uint32_t i, std::uint32_t k) {
+  if (parts.empty())
+    std::swap(triangles[i], triangles[k]);
+  else
+    std::swap(parts[i], parts[k]);
+  std::swap(numbers[i], numbers[k]);
+}
+
+void TreeItems::reorder(std::span<const std::uint32_t> order) {
+  const auto apply = [&](auto& items) {
+    auto moved = items;
+    for (std::size_t i = 0; i < items.size(); ++i) moved[i] = std::move(items[order[i]]);
+    items = std::move(moved);
+  };
+  apply(triangles);
+  apply(parts);
+  apply(numbers);
+}
+
+double TreeItems::side(std::uint32_t i, const Vec3& mean, const Vec3& normal) const {
+  // Relative to the mean before summing: far from the origin the sum of three corners would lose
+  // the digits that tell.
+  if (parts.empty()) {
+    const Triangle& t = triangles[i];
+    return normal.dot((t[0] - mean) + (t[1] - mean) + (t[2] - mean));
+  }
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : parts[i].points) sum += p - mean;
+  return 3 * normal.dot(sum) / static_cast<double>(parts[i].points.size());
+}
+
+std::vector<Ball> TreeItems::ballsOfParts(std::uint32_t first, std::uint32_t count) const {
+  std::vector<Ball> balls;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const std::vector<Ball> own = ballsOf(parts[i]);
+    balls.insert(balls.end(), own.begin(), own.end());
+  }
+  return balls;
+}
+
+}  // namespace corridor

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "collision/geometry/convex_part.h"
+#include "collision/geometry/triangle_mesh.h"
+#include "collision/volumes/content.h"
+#include "collision/volumes/obb.h"
+
+namespace corridor {
+
+/// What the leaves of a tree hold, in leaf order: triangles or convex parts.
+struct TreeItems {
+  std::vector<Triangle> triangles;
+  std::vector<ConvexPart> parts;
+  std::vector<std::uint32_t> numbers;  ///< each one's number as it came
+
+  explicit TreeItems(const TriangleMesh& mesh);
+  explicit TreeItems(std::vector<ConvexPart> convexParts);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(numbers.size()); }
+  void swap(std::uint32_t i, std::uint32_t k);
+  /// Puts item order[i] at place i.
+  void reorder(std::span<const std::uint32_t> order);
+
+  /// Three times the centroid's distance from the plane through `mean` (of a part: of its points).
+  double side(std::uint32_t i, const Vec3& mean, const Vec3& normal) const;
+  /// f(Content of [first, first + count)).
+  template <class F>
+  decltype(auto) withContent(std::uint32_t first, std::uint32_t count, F&& f) const {
+    if (parts.empty()) return f(Content(std::span(triangles).subspan(first, count)));
+    const std::vector<Ball> balls = ballsOfParts(first, count);
+    return f(Content(balls));
+  }
+
+ private:
+  std::vector<Ball> ballsOfParts(std::uint32_t first, std::uint32_t count) const;
+};
+
+}  // namespace corridor

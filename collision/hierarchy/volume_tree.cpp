@@ -1,0 +1,102 @@
+#include "collision/hierarchy/volume_tree.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision/core/rounding.h"
+#include "collision/hierarchy/tree_builder.h"
+#include "collision/volumes/aabb.h"
+#include "collision/volumes/bounding_sphere.h"
+#include "collision/volumes/kdop.h"
+#include "collision/volumes/rss.h"
+
+namespace corridor {
+
+template <BoundingVolume Volume>
+VolumeTree<Volume>::VolumeTree(const TriangleMesh& mesh, const TreeParams& params) : items_(mesh) {
+  build(params);
+}
+
+template <BoundingVolume Volume>
+VolumeTree<Volume>::VolumeTree(const ConvexPart& part)
+    : VolumeTree(std::vector<ConvexPart>{part}) {}
+
+template <BoundingVolume Volume>
+VolumeTree<Volume>::VolumeTree(std::vector<ConvexPart> parts, const TreeParams& params)
+    : items_(std::move(parts)) {
+  build(params);
+}
+
+template <BoundingVolume Volume>
+void VolumeTree<Volume>::build(const TreeParams& params) {
+  const Skeleton skeleton = buildSkeleton(items_, Volume::kOriented, params);
+  nodes_.reserve(skeleton.size());
+  for (const SkeletonNode& bone : skeleton)
+    items_.withContent(bone.first, bone.count, [&](const Content& content) {
+      nodes_.push_back({Volume::around(bone.box, content), 0, bone.first, bone.count, bone.right});
+    });
+  measure();
+}
+
+template <BoundingVolume Volume>
+void VolumeTree<Volume>::measure() {
+  bounds_ = {};
+  for (Node& node : nodes_) {
+    node.radius = node.box.radius();
+    bounds_.axisDefect = std::max(bounds_.axisDefect, node.box.axisDefect());
+    bounds_.centerReach = std::max(bounds_.centerReach, node.box.centerReach());
+  }
+  const auto reach = [&](const Vec3& p, double r) {
+    bounds_.reach = std::max(bounds_.reach, roundedUp(p.stableNorm() + r));
+  };
+  for (const Triangle& t : items_.triangles)
+    for (const Vec3& p : t) reach(p, 0);
+  for (const ConvexPart& part : items_.parts)
+    for (const Vec3& p : part.points) reach(p, part.radius);
+}
+
+template <BoundingVolume Volume>
+void VolumeTree<Volume>::refit(const TriangleMesh& moved) {
+  for (std::uint32_t i = 0; i < items_.size(); ++i)
+    for (int k = 0; k < 3; ++k) items_.triangles[i][k] = moved.corner(items_.numbers[i], k);
+  for (Node& node : nodes_) {
+    const Content content(std::span(items_.triangles).subspan(node.first, node.count));
+    node.box = Volume::around(enclosingObb(content, node.box.frameAxes()), content);
+  }
+  measure();
+}
+
+template <BoundingVolume Volume>
+std::size_t VolumeTree<Volume>::depth() const {
+  std::size_t deepest = 0;
+  std::vector<std::pair<std::uint32_t, std::size_t>> stack = {{0, 1}};
+  while (!stack.empty()) {
+    const auto [i, level] = stack.back();
+    stack.pop_back();
+    deepest = std::max(deepest, level);
+    if (nodes_[i].isLeaf()) continue;
+    stack.push_back({i + 1, level + 1});
+    stack.push_back({nodes_[i].right, level + 1});
+  }
+  return deepest;
+}
+
+template <BoundingVolume Volume>
+std::size_t VolumeTree<Volume>::bytes() const {
+  std::size_t points = 0;
+  for (const ConvexPart& part : items_.parts) points += part.points.capacity();
+  return sizeof(*this) + nodes_.capacity() * sizeof(Node) +
+         items_.triangles.capacity() * sizeof(Triangle) +
+         items_.parts.capacity() * sizeof(ConvexPart) + points * sizeof(Vec3) +
+         items_.numbers.capacity() * sizeof(std::uint32_t);
+}
+
+template class VolumeTree<Obb>;
+template class VolumeTree<Aabb>;
+template class VolumeTree<BoundingSphere>;
+template class VolumeTree<Rss>;
+template class VolumeTree<Kdop<14>>;
+template class VolumeTree<Kdop<18>>;
+template class VolumeTree<Kdop<26>>;
+
+}  // namespace corridor

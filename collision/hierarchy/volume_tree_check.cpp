@@ -1,0 +1,88 @@
+#include <vector>
+
+#include "collision/hierarchy/exact_volume.h"
+#include "collision/hierarchy/volume_tree.h"
+#include "collision/volumes/part_obb.h"
+
+namespace corridor {
+namespace {
+
+using exact::ExactVolume;
+using exact::row;
+
+std::string named(const char* what, std::size_t i) {
+  return std::string(what) + " " + std::to_string(i);
+}
+
+template <class Volume>
+bool containsPart(const ExactVolume<Volume>& volume, const ConvexPart& part) {
+  if (!part.flatEnds) {
+    for (const Vec3& p : part.points)
+      if (!volume.contains(row(p), part.radius)) return false;
+    return true;
+  }
+  // Discs: inside the part's own box, and that inside the volume; an Obb may hold them itself.
+  const auto holdsDiscs = [&](const ExactVolume<Obb>& box) {
+    const exact::Row axis = exact::minus(row(part.points[1]), row(part.points[0]));
+    return box.contains(row(part.points[0]), part.radius, axis) &&
+           box.contains(row(part.points[1]), part.radius, axis);
+  };
+  if constexpr (std::is_same_v<Volume, Obb>)
+    if (holdsDiscs(volume)) return true;
+  const ExactVolume<Obb> own(enclosingObb(part));
+  if (!holdsDiscs(own)) return false;
+  for (const exact::Row& corner : own.corners())
+    if (!volume.contains(corner, 0)) return false;
+  return true;
+}
+
+}  // namespace
+
+template <BoundingVolume Volume>
+std::optional<std::string> VolumeTree<Volume>::check() const {
+  const std::uint32_t n = items_.size();
+  const char* item = items_.parts.empty() ? "triangle" : "part";
+  std::vector<int> seen(n, 0), ids(n, 0);
+  if (nodes_[0].first != 0 || nodes_[0].count != n) return "the root does not hold all items";
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    const ExactVolume<Volume> volume(node.box);
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+      bool inside = true;
+      if (const ConvexPart* own = part(t)) {
+        inside = containsPart(volume, *own);
+      } else {
+        for (const Vec3& p : items_.triangles[t]) inside = inside && volume.contains(row(p), 0);
+      }
+      if (!inside)
+        return named("the volume of node", i) + " does not contain " + named(item, meshTriangle(t));
+    }
+    if (node.box.axisDefect() > bounds_.axisDefect)
+      return named("the axes of node", i) + " exceed axisDefect";
+    if (node.isLeaf()) {
+      for (std::uint32_t t = node.first; t < node.first + node.count; ++t) ++seen[t];
+      continue;
+    }
+    if (i + 1 >= nodes_.size() || node.right >= nodes_.size())
+      return named("node", i) + " has a child that does not exist";
+    const Node &left = nodes_[i + 1], &right = nodes_[node.right];
+    if (left.count == 0 || right.count == 0 || left.first != node.first ||
+        right.first != node.first + left.count || left.count + right.count != node.count)
+      return named("node", i) + " is not partitioned by its children";
+  }
+  for (std::uint32_t t = 0; t < n; ++t) {
+    if (seen[t] != 1) return named(item, meshTriangle(t)) + " is not in exactly one leaf";
+    if (meshTriangle(t) >= n || ids[meshTriangle(t)]++) return "numbers are not a permutation";
+  }
+  return std::nullopt;
+}
+
+template std::optional<std::string> VolumeTree<Obb>::check() const;
+template std::optional<std::string> VolumeTree<Aabb>::check() const;
+template std::optional<std::string> VolumeTree<BoundingSphere>::check() const;
+template std::optional<std::string> VolumeTree<Rss>::check() const;
+template std::optional<std::string> VolumeTree<Kdop<14>>::check() const;
+template std::optional<std::string> VolumeTree<Kdop<18>>::check() const;
+template std::optional<std::string> VolumeTree<Kdop<26>>::check() const;
+
+}  // namespace corridor

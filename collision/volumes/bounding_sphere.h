@@ -1,0 +1,23 @@
+#pragma once
+
+#include "collision/core/rounding.h"
+#include "collision/volumes/obb.h"
+
+namespace corridor {
+
+/// A sphere: {x : |x − center|₂ ≤ size}. Metres.
+struct BoundingSphere {
+  Vec3 center = Vec3::Zero();
+  double size = 0;  ///< its radius
+
+  static constexpr bool kOriented = false;
+  /// Near the smallest one: some steps of Bădoiu and Clarkson's iteration ("Smaller core-sets for
+  /// balls", SODA 2003) from the centre of the box, the best of them kept.
+  static BoundingSphere around(const Obb& box, const Content& content);
+  Mat3 frameAxes() const { return Mat3::Identity(); }
+  double axisDefect() const { return 0; }
+  double centerReach() const { return roundedUp(center.stableNorm()); }
+  double radius() const { return size; }
+};
+
+}  // namespace corridor

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "collision/core/rounding.h"
+#include "collision/volumes/kdop.h"
+#include "collision/volumes/volume.h"
+
+/// k-DOP against k-DOP under any affine map: the slab directions of either one are the axes asked.
+///
+/// Derivation. Points x of b are at M x + t in frame A. Along L in A they are at m·x + L·t, m =
+/// MᵀL. Were m = Σ w_k d_k with slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where w_k > 0,
+/// else low_k), and ≥ with the other ends; what is left over, m − Σ w_k d_k, adds at most its
+/// length times the largest |x| (`VolumeBounds::reach`). So any three weights give a proof; those
+/// of the cone of slab directions that holds m bound best, and are the same for all nodes: found
+/// once a query, three products an axis and node.
+namespace corridor {
+
+namespace internal {
+
+/// n ≈ Σ weight_k · direction of slab_k.
+struct SlabSum {
+  std::array<std::size_t, 3> slab;
+  std::array<double, 3> weight;
+  double error;  ///< |n − Σ| at most, rounded up
+
+  template <class Dop>
+  double highest(const Dop& dop) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += weight[k] * (weight[k] > 0 ? dop.high[slab[k]] : dop.low[slab[k]]);
+    return sum;
+  }
+  template <class Dop>
+  double lowest(const Dop& dop) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += weight[k] * (weight[k] > 0 ? dop.low[slab[k]] : dop.high[slab[k]]);
+    return sum;
+  }
+  double size() const { return std::abs(weight[0]) + std::abs(weight[1]) + std::abs(weight[2]); }
+};
+
+/// By the cone of slab directions that holds n.
+template <int K>
+SlabSum slabSum(const Vec3& n);
+
+}  // namespace internal
+
+template <int K>
+class PairTest<Kdop<K>> {
+ public:
+  PairTest(const VolumeBounds& a, const VolumeBounds& b, const Transform& X_AB, double error) {
+    const auto& n = slabDirections<K>();
+    for (std::size_t i = 0; i < kSlabs; ++i) {
+      ofA_[i] = axis(n[i], X_AB, a, b, error);
+      ofA_[i].other = internal::slabSum<K>(X_AB.m.transpose() * n[i]);
+      ofA_[i].slack += spill(ofA_[i].other, b.reach);
+      // Here m is a direction of b itself, but for what M lacks to a rotation.
+      const Vec3 L = X_AB.m * n[i];
+      ofB_[i] = axis(L, X_AB, a, b, error);
+      ofB_[i].other = internal::slabSum<K>(L);
+      ofB_[i].slack += spill(ofB_[i].other, a.reach) +
+                       roundedUp((X_AB.m.transpose() * L - n[i]).norm() * b.reach);
+    }
+  }
+
+  bool separated(const Kdop<K>& a, const Kdop<K>& b, double pad) const {
+    for (std::size_t i = 0; i < kSlabs; ++i)
+      if (apart(gapOnA(i, a, b), roundedUp(pad * ofA_[i].length))) return true;
+    for (std::size_t i = 0; i < kSlabs; ++i)
+      if (apart(gapOnB(i, a, b), roundedUp(pad * ofB_[i].length))) return true;
+    return false;
+  }
+  double distanceBound(const Kdop<K>& a, const Kdop<K>& b) const {
+    double bound = 0;
+    for (std::size_t i = 0; i < kSlabs; ++i) {
+      bound = std::max(bound, gapOnA(i, a, b) / ofA_[i].length);
+      bound = std::max(bound, gapOnB(i, a, b) / ofB_[i].length);
+    }
+    return bound < HUGE_VAL ? std::max(0.0, roundedDown(bound)) : 0;
+  }
+
+ private:
+  static constexpr std::size_t kSlabs = Kdop<K>::kSlabs;
+  struct Axis {
+    internal::SlabSum other;  ///< of the body whose slab it is not
+    double offset = 0, length = 0, slack = 0;
+  };
+
+  static bool apart(double gap, double pad) { return gap > pad && gap < HUGE_VAL; }
+
+  /// The slack that every axis L needs: the caller's error, and rounding. |L|₁ ≤ 3F, F = ‖M‖_F ≥
+  /// |L|/√3 or L a slab direction: weights sum up to at most 9(1 + F)² for either body, and slab
+  /// ends are below 4·reach (|n_i| ≤ √3, of cylinders the box's corners). A gap takes ten sums and
+  /// products; L·t, and mᵀL against what `SlabSum::error` was measured with, take 4u each.
+  static Axis axis(const Vec3& L, const Transform& X_AB, const VolumeBounds& a,
+                   const VolumeBounds& b, double error) {
+    Axis made;
+    const double f = 1 + X_AB.m.norm();
+    made.offset = L.dot(X_AB.t);
+    made.length = roundedUp(L.norm());
+    made.slack = roundedUp(
+        error * made.length +
+        16 * kUnit * (36 * f * f * (a.reach + b.reach) + L.cwiseAbs().dot(X_AB.t.cwiseAbs())));
+    return made;
+  }
+  static double spill(const internal::SlabSum& sum, double reach) {
+    return roundedUp(sum.error * reach);
+  }
+  double gapOnA(std::size_t i, const Kdop<K>& a, const Kdop<K>& b) const {
+    const Axis& L = ofA_[i];
+    return std::max(L.other.lowest(b) + L.offset - a.high[i],
+                    a.low[i] - (L.other.highest(b) + L.offset)) -
+           L.slack;
+  }
+  double gapOnB(std::size_t i, const Kdop<K>& a, const Kdop<K>& b) const {
+    const Axis& L = ofB_[i];
+    return std::max(b.low[i] + L.offset - L.other.highest(a),
+                    L.other.lowest(a) - (b.high[i] + L.offset)) -
+           L.slack;
+  }
+
+  std::array<Axis, kSlabs> ofA_, ofB_;
+};
+
+}  // namespace corridor

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/volumes/bounding_sphere.h"
+#include "collision/volumes/overlap_obb_obb.h"
+#include "collision/volumes/volume.h"
+
+namespace corridor {
+
+/// Derivation. In frame A the image of sphere b lies within r_b(1 + 2η) of M c_B + t, η =
+/// ‖MᵀM − I‖_max: ‖M‖₂² ≤ 1 + 3η. The computed d = M c_B + t − c_A is off by less than the 24u·S of
+/// `boxPairMargins`, |d| by 4u more of itself; `relative` there is over 12η + 200u.
+template <>
+class PairTest<BoundingSphere> {
+ public:
+  PairTest(const VolumeBounds& a, const VolumeBounds& b, const Transform& X_AB, double error)
+      : X_AB_(X_AB), margins_(boxPairMargins(0, a.centerReach, 0, b.centerReach, X_AB)) {
+    margins_.absolute += error;
+  }
+
+  bool separated(const BoundingSphere& a, const BoundingSphere& b, double pad) const {
+    return distanceBound(a, b) > pad;
+  }
+  double distanceBound(const BoundingSphere& a, const BoundingSphere& b) const {
+    const double d = ((X_AB_.m * b.center + X_AB_.t) - a.center).norm(), radii = a.size + b.size;
+    const double gap = d - radii - margins_.relative * (d + radii) - margins_.absolute - kTiny;
+    return gap > 0 && gap < HUGE_VAL ? roundedDown(gap) : 0;
+  }
+
+ private:
+  Transform X_AB_;
+  BoxPairMargins margins_;
+};
+
+}  // namespace corridor

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/geometry/convex_part.h"
+#include "collision/geometry/triangle_mesh.h"
+
+namespace corridor::test {
+
+inline void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
+  mesh.triangles.push_back({n, n + 1, n + 2});
+}
+
+/// Triangles of very different sizes in a cube of 2 m, slivers, degenerate ones and duplicates.
+inline TriangleMesh soup(std::mt19937_64& random, int count, double size) {
+  std::uniform_real_distribution<double> real(-1, 1);
+  const auto any = [&] {
+    const double x = real(random), y = real(random), z = real(random);
+    return Vec3(x, y, z);
+  };
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 c = any();
+    const double s = size * std::exp(2 * real(random));
+    const Vec3 p = c + s * any(), q = c + s * any(),
+               r = i % 5 == 0 ? Vec3(p + 1e-7 * s * any()) : Vec3(c + s * any());
+    add(mesh, p, q, i % 7 == 0 ? q : r);
+    if (i % 11 == 0) mesh.triangles.push_back(mesh.triangles.back());
+  }
+  return mesh;
+}
+
+inline Transform anyPose(std::mt19937_64& random, double distance) {
+  std::normal_distribution<double> normal;
+  Transform X;
+  const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+  X.m = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  for (int i = 0; i < 3; ++i) X.t[i] = distance * normal(random);
+  return X;
+}
+
+/// Balls, capsules, cylinders, boxes and hulls of about `size` in a cube of 2 m.
+inline std::vector<ConvexPart> parts(std::mt19937_64& random, int count, double size) {
+  std::uniform_real_distribution<double> real(0.2, 1);
+  std::vector<ConvexPart> all;
+  for (int i = 0; i < count; ++i) {
+    const double r = size * real(random), l = size * real(random);
+    Primitive p = Sphere{r};
+    if (i % 5 == 1) p = Capsule{r, l};
+    if (i % 5 == 2) p = Cylinder{r, l};
+    if (i % 5 == 3) p = Box{Vec3(r, l, size)};
+    if (i % 5 == 4) p = Convex{{Vec3(0, 0, 0), Vec3(r, 0, l), Vec3(0, l, 0), Vec3(0, r, r)}};
+    all.push_back(placed(p, anyPose(random, 0.5)));
+  }
+  return all;
+}
+
+}  // namespace corridor::test

@@ -1,0 +1,126 @@
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/convex/convex_contact.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/interference.h"
+#include "tests/collision/hierarchy/soups.h"
+#include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+using test::anyPose;
+using test::kParams;
+using test::soup;
+
+template <class Volume>
+class VolumeInterference : public testing::Test {};
+TYPED_TEST_SUITE(VolumeInterference, test::Volumes, test::VolumeNames);
+
+TYPED_TEST(VolumeInterference, SharedWorkloads) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  QueryContext context;
+  std::size_t variant = 0;
+  for (const std::string& name : test::workloadNames(*data / "collision")) {
+    const test::Workload w = test::loadWorkload(*data / "collision", name);
+    const TreeParams& params = kParams[variant++ % std::size(kParams)];
+    const VolumeTree<TypeParam> a(w.a, params), b(w.b, params);
+    // Looser volumes pay thousands of times more on nearly parallel surfaces: fewer poses there.
+    const std::size_t step = test::stressAsked() ? 1 : name[0] == 'a' ? 10 : 5;
+    int wrong = 0;
+    for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
+      wrong += interference(a, {}, b, w.poses[i], context).has_value() != (w.hit[i] == 1);
+      wrong += interference(b, w.poses[i], a, {}, context).has_value() != (w.hit[i] == 1);
+    }
+    EXPECT_EQ(wrong, 0) << name << ", " << test::str(params);
+  }
+  std::cout << "N_v " << context.counters.boxTests << ", N_p " << context.counters.triangleTests
+            << "\n";
+}
+
+/// Every map that is not quite rigid, far away and near, against the double loop.
+TYPED_TEST(VolumeInterference, AgreesWithBruteForceUnderTwoMaps) {
+  std::mt19937_64 random(test::testSeed(5));
+  int touching = 0, cases = 0;
+  for (int n = 0; n < 160; ++n) {
+    const TreeParams& params = kParams[n / 4 % std::size(kParams)];
+    const TriangleMesh meshA = soup(random, 25, 0.2), meshB = soup(random, 25, 0.2);
+    const VolumeTree<TypeParam> a(meshA, params), b(meshB, params);
+    const double defect = n % 4 == 0 ? 0 : std::pow(10.0, -3 * (n % 4));
+    const Vec3 common = (n % 3 == 0 ? 1e6 : 1) * Vec3(1, -2, 0.5);
+    Transform X_WA = anyPose(random, 1), X_WB = anyPose(random, 1);
+    for (Transform* X : {&X_WA, &X_WB}) {
+      X->m += defect * anyPose(random, 1).m;
+      X->t += common;
+    }
+    QueryContext context;
+    bool expected = false;
+    for (const Triangle& s : a.triangles())
+      for (const Triangle& t : b.triangles())
+        expected = expected || trianglesTouch(s, X_WA, t, X_WB, context.counters);
+    ASSERT_EQ(interference(a, X_WA, b, X_WB, context).has_value(), expected) << "case " << n;
+    ASSERT_EQ(interference(b, X_WB, a, X_WA, context).has_value(), expected) << "case " << n;
+    touching += expected;
+    ++cases;
+  }
+  EXPECT_GT(touching, 10);
+  EXPECT_LT(touching, cases - 10);
+}
+
+TYPED_TEST(VolumeInterference, ExtremeSizes) {
+  std::mt19937_64 random(test::testSeed(3));
+  for (const int exponent : {-1060, -500, -340, 330, 500, 1000}) {
+    TriangleMesh meshA = soup(random, 12, 0.3), meshB = soup(random, 12, 0.3);
+    for (TriangleMesh* m : {&meshA, &meshB})
+      for (Vec3& v : m->vertices)
+        v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    const VolumeTree<TypeParam> a(meshA), b(meshB);
+    QueryContext context;
+    bool expected = false;
+    for (const Triangle& s : a.triangles())
+      for (const Triangle& t : b.triangles())
+        expected = expected || trianglesTouchExact(s, {}, t, {});
+    EXPECT_EQ(interference(a, {}, b, {}, context).has_value(), expected) << exponent;
+  }
+}
+
+TYPED_TEST(VolumeInterference, ManyConvexParts) {
+  std::mt19937_64 random(test::testSeed(9));
+  int touching = 0;
+  for (int n = 0; n < 40; ++n) {
+    const TreeParams& params = kParams[n % std::size(kParams)];
+    const auto partsA = test::parts(random, 12, 0.2);
+    const VolumeTree<TypeParam> a(partsA, params), b(test::parts(random, 12, 0.2), params),
+        mesh(soup(random, 12, 0.2), params);
+    const Transform X_WA = anyPose(random, 0.3), X_WB = anyPose(random, 0.3);
+    QueryContext context;
+    bool parts = false, soupHit = false;
+    for (const ConvexPart& s : a.parts()) {
+      for (const ConvexPart& t : b.parts())
+        parts = parts || convexSetsTouch({s, X_WA}, {t, X_WB}, context.counters);
+      for (const Triangle& t : mesh.triangles())
+        soupHit = soupHit || convexSetsTouch({s, X_WA}, {t, X_WB}, context.counters);
+    }
+    const auto found = interference(a, X_WA, b, X_WB, context);
+    EXPECT_EQ(found.has_value(), parts) << n;
+    EXPECT_EQ(interference(mesh, X_WB, a, X_WA, context).has_value(), soupHit) << n;
+    if (found) {  // numbers are those of the list
+      bool same = false;
+      for (std::size_t i = 0; i < a.parts().size(); ++i)
+        same = same || (a.meshTriangle(static_cast<std::uint32_t>(i)) == found->a &&
+                        a.parts()[i].points[0] == partsA[found->a].points[0]);
+      EXPECT_TRUE(same);
+    }
+    touching += parts + soupHit;
+  }
+  EXPECT_GT(touching, 10);
+  EXPECT_LT(touching, 70);
+}
+
+}  // namespace
+}  // namespace corridor
