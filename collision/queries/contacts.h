@@ -5,7 +5,7 @@
 
 #include "collision/core/query_context.h"
 #include "collision/core/transform.h"
-#include "collision/hierarchy/obb_tree.h"
+#include "collision/hierarchy/volume_tree.h"
 
 namespace corridor {
 
@@ -26,7 +26,9 @@ struct TriangleContact {
 /// 2^-50·S in each coordinate, S the largest Σ|m||v| + |t| of the corners mapped, however flat the
 /// angle (`triangle_intersection.h`).
 /// @pre both are trees of triangles, not of a convex part; finite maps.
-std::vector<TriangleContact> contacts(const ObbTree& a, const Transform& X_WA, const ObbTree& b,
-                                      const Transform& X_WB, QueryContext& context);
+template <BoundingVolume Volume>
+std::vector<TriangleContact> contacts(const VolumeTree<Volume>& a, const Transform& X_WA,
+                                      const VolumeTree<Volume>& b, const Transform& X_WB,
+                                      QueryContext& context);
 
 }  // namespace corridor

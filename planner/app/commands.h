@@ -50,6 +50,7 @@ struct QueryArguments {
   std::optional<std::string> savePoses;           ///< of a grid: a file for its poses
   std::string query = "interference", volume = "obb";
   std::optional<std::string> fit, overlap;  ///< unset: the volume's first
+  std::optional<double> tolerance;          ///< metres, of the tolerance query
   std::uint64_t repeat = 1;
 };
 int queryCommand(const QueryArguments& arguments);

@@ -191,6 +191,11 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
                    "how two volumes are tested; " + variants(&VolumeKind::overlaps))
       ->group(asked);
   command
+      ->add_option("--tolerance", a.tolerance,
+                   "metres, of --query tolerance: are A and B at most that far apart?")
+      ->check(from(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
+      ->group(asked);
+  command
       ->add_option("--repeat", a.repeat,
                    "passes over all poses; a pose's time is the median of its passes (default 1)")
       ->check(from<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
@@ -200,7 +205,8 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
           "Example: corridor query a.obj b.obj --poses poses.txt --repeat 5 > hits.csv\n"
           "         corridor query a.obj b.obj --grid 20x20x20 --rotations 10 --query contacts\n"
           "CSV: pose,hit,bv_tests,triangle_tests; of contacts, one line each with its segment: "
-          "pose,a,b,px,py,pz,qx,qy,qz. Poses and triangles count from 0.\n"
+          "pose,a,b,px,py,pz,qx,qy,qz; of distance pose,distance,ax,ay,az,bx,by,bz with a point of "
+          "either; of tolerance pose,closer. Poses and triangles count from 0.\n"
           "Touching is contact; meshes are surfaces. Times are of one query on one core, reading "
           "and printing aside; what is quicker than 5 µs is repeated until the clock can tell "
           "it.\n") +

@@ -4,7 +4,9 @@
 #include <optional>
 
 #include "collision/queries/contacts.h"
+#include "collision/queries/distance.h"
 #include "collision/queries/interference.h"
+#include "collision/volumes/pair_tests.h"
 #include "planner/app/query_timing.h"
 
 namespace corridor::app {
@@ -66,6 +68,18 @@ BatchResult runOn(const Batch& batch, const Make& make) {
         return interference(a, X_WA, b, batch.poses[i], context).has_value();
       });
       break;
+    case Asked::distance:
+      result.distances.resize(batch.poses.size());
+      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+        result.distances[i] = distance(a, X_WA, b, batch.poses[i], {}, context);
+        return result.distances[i].distance == 0;
+      });
+      break;
+    case Asked::tolerance:
+      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+        return closerThan(a, X_WA, b, batch.poses[i], batch.tolerance, context);
+      });
+      break;
     case Asked::contacts: {
       std::vector<std::vector<TriangleContact>> found(batch.poses.size());
       result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
@@ -81,8 +95,12 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   return result;
 }
 
-BatchResult runObb(const Batch& batch) {
-  return runOn(batch, [&](const TriangleMesh& mesh) { return ObbTree(mesh, {obbFit(batch.fit)}); });
+/// Volumes without axes of their own have one fit, `plain`.
+template <class Volume>
+BatchResult runVolume(const Batch& batch) {
+  return runOn(batch, [&](const TriangleMesh& mesh) {
+    return VolumeTree<Volume>(mesh, {obbFit(batch.fit)});
+  });
 }
 
 }  // namespace
@@ -90,13 +108,21 @@ BatchResult runObb(const Batch& batch) {
 const std::vector<QueryKind>& queryKinds() {
   static const std::vector<QueryKind> kinds = {
       {"interference", Asked::interference, "pose,hit,bv_tests,triangle_tests"},
-      {"contacts", Asked::contacts, "pose,a,b,px,py,pz,qx,qy,qz"}};
+      {"contacts", Asked::contacts, "pose,a,b,px,py,pz,qx,qy,qz"},
+      {"distance", Asked::distance, "pose,distance,ax,ay,az,bx,by,bz"},
+      {"tolerance", Asked::tolerance, "pose,closer"}};
   return kinds;
 }
 
 const std::vector<VolumeKind>& volumeKinds() {
   static const std::vector<VolumeKind> kinds = {
-      {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runObb}};
+      {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runVolume<Obb>},
+      {"aabb", {"plain"}, {"intervals"}, runVolume<Aabb>},
+      {"sphere", {"plain"}, {"centers"}, runVolume<BoundingSphere>},
+      {"rss", {"triangles", "vertices", "hull"}, {"rectangles"}, runVolume<Rss>},
+      {"kdop14", {"plain"}, {"intervals"}, runVolume<Kdop<14>>},
+      {"kdop18", {"plain"}, {"intervals"}, runVolume<Kdop<18>>},
+      {"kdop26", {"plain"}, {"intervals"}, runVolume<Kdop<26>>}};
   return kinds;
 }
 

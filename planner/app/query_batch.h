@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "collision/geometry/triangle_mesh.h"
+#include "collision/queries/distance.h"
 
 /// What `corridor query` can ask, and of which trees: two tables, and the batch that is timed.
 namespace corridor::app {
 
 /// What is asked of every pose.
-enum class Asked { interference, contacts };
+enum class Asked { interference, contacts, distance, tolerance };
 struct QueryKind {
   std::string name;
   Asked asked;
@@ -26,6 +27,7 @@ struct Batch {
   const std::vector<Transform>& poses;
   Asked asked = Asked::interference;
   std::string fit, overlap;
+  double tolerance = 0;  ///< metres, of `Asked::tolerance`
   int repeat = 1;
 };
 
@@ -42,7 +44,8 @@ struct ContactRow {
   Vec3 p, q;
 };
 struct BatchResult {
-  std::vector<Answer> answers;       ///< by pose
+  std::vector<Answer> answers;       ///< by pose; a hit is a contact, or closer than the tolerance
+  std::vector<Distance> distances;   ///< by pose, of `Asked::distance`
   std::vector<ContactRow> contacts;  ///< of `Asked::contacts`
   double buildMsA = 0, buildMsB = 0;
   std::size_t bytesA = 0, bytesB = 0;

@@ -79,6 +79,17 @@ void printCsv(const QueryKind& kind, const BatchResult& result) {
                     c.a, c.b, c.p.x(), c.p.y(), c.p.z(), c.q.x(), c.q.y(), c.q.z());
       text += line;
     }
+  } else if (kind.asked == Asked::distance) {
+    for (std::size_t i = 0; i < result.distances.size(); ++i) {
+      const Distance& d = result.distances[i];
+      std::snprintf(line, sizeof line, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", i,
+                    d.distance, d.p_WA.x(), d.p_WA.y(), d.p_WA.z(), d.p_WB.x(), d.p_WB.y(),
+                    d.p_WB.z());
+      text += line;
+    }
+  } else if (kind.asked == Asked::tolerance) {
+    for (std::size_t i = 0; i < result.answers.size(); ++i)
+      text += std::to_string(i) + ',' + (result.answers[i].hit ? "1\n" : "0\n");
   } else {
     for (std::size_t i = 0; i < result.answers.size(); ++i) {
       const Answer& answer = result.answers[i];
@@ -131,6 +142,10 @@ int queryCommand(const QueryArguments& a) {
   const VolumeKind& volume = kindNamed("--volume", a.volume, volumeKinds());
   const std::string fit = variantNamed("--fit", a.fit, volume.name, volume.fits);
   const std::string overlap = variantNamed("--overlap", a.overlap, volume.name, volume.overlaps);
+  if (query.asked == Asked::tolerance && !a.tolerance)
+    throw InputError(Fault{"--tolerance", 0, "the tolerance query needs a distance in metres"});
+  if (query.asked != Asked::tolerance && a.tolerance)
+    throw InputError(Fault{"--tolerance", 0, "is of --query tolerance, which is not asked"});
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
   if (a.repeat > kMostQueries / poses.size())
@@ -138,8 +153,8 @@ int queryCommand(const QueryArguments& a) {
                            grouped(a.repeat) + " passes over " + counted(poses.size(), "pose") +
                                " are more than " + grouped(kMostQueries) + " queries"});
   if (a.savePoses) writePoses(*a.savePoses, poses);
-  const BatchResult result = volume.run(
-      {meshA.mesh, meshB.mesh, poses, query.asked, fit, overlap, static_cast<int>(a.repeat)});
+  const BatchResult result = volume.run({meshA.mesh, meshB.mesh, poses, query.asked, fit, overlap,
+                                         a.tolerance.value_or(0), static_cast<int>(a.repeat)});
   printCsv(query, result);
   printSummary(
       result, {"query=" + query.name, "volume=" + volume.name, "fit=" + fit, "overlap=" + overlap});

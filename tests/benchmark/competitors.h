@@ -18,6 +18,7 @@
 #include <fcl/narrowphase/distance.h>
 #endif
 
+#include "collision/queries/distance.h"
 #include "collision/queries/interference.h"
 #include "planner/app/query_timing.h"
 #include "tests/support/workload.h"

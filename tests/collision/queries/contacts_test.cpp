@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "collision/hierarchy/obb_tree.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/triangle_intersection.h"

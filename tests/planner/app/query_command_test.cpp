@@ -87,6 +87,27 @@ TEST_F(QueryCommand, ContactsTellTrianglesAndSegments) {
   EXPECT_EQ(summary(result).at("hits"), "3");
 }
 
+TEST_F(QueryCommand, DistanceAndTolerance) {
+  write("poses.txt", kStill + "0 0 0\n" + kStill + "0 0 2\n");
+  EXPECT_EQ(lines(query("--poses poses.txt --query distance").out).at(2), "1,1,1,1,0,1,1,1");
+  EXPECT_THAT(lines(query("--poses poses.txt --query distance").out).at(1),
+              testing::StartsWith("0,0,"));
+  const std::string tolerance = "--poses poses.txt --query tolerance --tolerance ";
+  EXPECT_EQ(query(tolerance + "0.99").out, "pose,closer\n0,1\n1,0\n");
+  EXPECT_EQ(query(tolerance + "1").out, "pose,closer\n0,1\n1,1\n");
+}
+
+TEST_F(QueryCommand, AllVolumesAnswerAlike) {
+  for (const char* asked : {"", " --query distance", " --query tolerance --tolerance 0.1"}) {
+    const auto hits = summary(query(std::string("--poses poses.txt") + asked)).at("hits");
+    for (const char* volume : {"aabb", "sphere", "rss", "kdop14", "kdop18", "kdop26"})
+      EXPECT_EQ(
+          summary(query(std::string("--poses poses.txt --volume ") + volume + asked)).at("hits"),
+          hits)
+          << volume << asked;
+  }
+}
+
 TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
   const std::string grid = "--grid 3x2x1 --lower -1,-1,0 --upper 1,1,1 --rotations 2 --seed 5 ";
   const Result result = query(grid + "--save-poses saved.txt");
@@ -197,9 +218,17 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "not read");
   fault("a.obj b.obj --poses poses.txt --query intereference",
         "--query: unknown query \"intereference\"; did you mean \"interference\"?; there are: "
-        "interference, contacts");
+        "interference, contacts, distance, tolerance");
   fault("a.obj b.obj --poses poses.txt --volume obbb",
-        "--volume: unknown volume \"obbb\"; did you mean \"obb\"?; there are: obb");
+        "--volume: unknown volume \"obbb\"; did you mean \"obb\"?; there are: obb, aabb, sphere, "
+        "rss, kdop14, kdop18, "
+        "kdop26");
+  fault("a.obj b.obj --poses poses.txt --query tolerance",
+        "--tolerance: the tolerance query needs a distance in metres");
+  fault("a.obj b.obj --poses poses.txt --tolerance 1",
+        "--tolerance: is of --query tolerance, which is not asked");
+  fault("a.obj b.obj --poses poses.txt --query tolerance --tolerance nan",
+        "--tolerance: a number of metres, 0 or more, is needed, not \"nan\"" + more);
   fault("a.obj b.obj --poses poses.txt --fit moments",
         "--fit: unknown fit \"moments\" of obb; there are: triangles, vertices, hull");
   fault("a.obj b.obj --poses poses.txt --overlap gjk",
