@@ -60,10 +60,8 @@ std::string parsePose(std::string_view line, std::optional<Transform>& pose) {
     return "a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not " +
            std::to_string(values.size());
   Transform X;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) X.m(i, k) = values[static_cast<std::size_t>(3 * i + k)];
-    X.t[i] = values[static_cast<std::size_t>(9 + i)];
-  }
+  X.m = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
+  X.t = Eigen::Map<const Vec3>(values.data() + 9);
   std::string complaint = whyNoRotation(X.m);
   if (complaint.empty()) pose = X;
   return complaint;
