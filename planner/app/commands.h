@@ -42,4 +42,17 @@ struct InspectArguments {
 };
 int inspectCommand(const InspectArguments& arguments);
 
+struct QueryArguments {
+  std::string meshA, meshB;
+  std::optional<std::string> poses;               ///< a file of poses, one a line
+  std::optional<std::string> grid, lower, upper;  ///< "10x10x5", "x,y,z"
+  std::optional<std::uint64_t> rotations, seed;   ///< of a grid
+  std::optional<std::string> savePoses;           ///< of a grid: a file for its poses
+  std::string query = "interference", volume = "obb";
+  std::optional<std::string> fit, overlap;  ///< unset: the volume's first
+  std::optional<double> tolerance;          ///< metres, of the tolerance query
+  std::uint64_t repeat = 1;
+};
+int queryCommand(const QueryArguments& arguments);
+
 }  // namespace corridor::app

@@ -11,6 +11,7 @@
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
 #include "planner/app/commands.h"
+#include "planner/app/query_batch.h"
 
 namespace {
 
@@ -134,6 +135,85 @@ void addInspect(CLI::App& program, InspectArguments& a, int& status) {
   command->callback([&] { status = inspectCommand(a); });
 }
 
+void addQuery(CLI::App& program, QueryArguments& a, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "query", "Ask two meshes at many poses: CSV on stdout, times on stderr");
+  command->add_option("A", a.meshA, "a mesh file, in metres; it stays where it is")->required();
+  command->add_option("B", a.meshB, "a mesh file, in metres; it is posed")->required();
+  const char* poses = "Poses of B";
+  command
+      ->add_option("--poses", a.poses,
+                   "a file (- is the standard input), one a line: r00 r01 r02 r10 r11 r12 r20 r21 "
+                   "r22 tx ty tz, a point b of B is at R b + t; # comments")
+      ->group(poses);
+  command
+      ->add_option("--grid", a.grid,
+                   "NXxNYxNZ: the centre of B's bounds on every point of a lattice, x first")
+      ->group(poses);
+  command
+      ->add_option("--lower", a.lower,
+                   "x,y,z in metres: the lattice's first point (default: A's bounds grown by half "
+                   "the diagonal of B's)")
+      ->group(poses);
+  command->add_option("--upper", a.upper, "x,y,z in metres: its last point")->group(poses);
+  command
+      ->add_option("--rotations", a.rotations,
+                   "all of the lattice so many times, B turned: not, then at random (default 1)")
+      ->check(from<std::uint64_t>(1, 10'000'000, "a whole number from 1 to 10000000"))
+      ->group(poses);
+  command->add_option("--seed", a.seed, "of those rotations (default 1)")
+      ->check(from<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
+                                  "a whole number from 0 to 2^64 - 1"))
+      ->group(poses);
+  command->add_option("--save-poses", a.savePoses, "a file for the grid's poses, as --poses reads")
+      ->group(poses);
+  const char* asked = "What is asked";
+  const auto named = [](const auto& kinds) {
+    std::vector<std::string> names;
+    for (const auto& kind : kinds) names.push_back(kind.name);
+    return corridor::joined(names);
+  };
+  const auto variants = [](std::vector<std::string> VolumeKind::*of) {
+    std::string text = "the first is the default";
+    for (const VolumeKind& kind : volumeKinds())
+      text += "; of " + kind.name + ": " + corridor::joined(kind.*of);
+    return text;
+  };
+  command->add_option("--query", a.query, "the first is the default: " + named(queryKinds()))
+      ->group(asked);
+  command
+      ->add_option("--volume", a.volume,
+                   "the bounding volume, the first is the default: " + named(volumeKinds()))
+      ->group(asked);
+  command->add_option("--fit", a.fit, variants(&VolumeKind::fits))->group(asked);
+  command
+      ->add_option("--overlap", a.overlap,
+                   "how two volumes are tested; " + variants(&VolumeKind::overlaps))
+      ->group(asked);
+  command
+      ->add_option("--tolerance", a.tolerance,
+                   "metres, of --query tolerance: are A and B at most that far apart?")
+      ->check(from(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
+      ->group(asked);
+  command
+      ->add_option("--repeat", a.repeat,
+                   "passes over all poses; a pose's time is the median of its passes (default 1)")
+      ->check(from<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
+      ->group(asked);
+  command->footer(
+      std::string(
+          "Example: corridor query a.obj b.obj --poses poses.txt --repeat 5 > hits.csv\n"
+          "         corridor query a.obj b.obj --grid 20x20x20 --rotations 10 --query contacts\n"
+          "CSV: pose,hit,bv_tests,triangle_tests; of contacts, one line each with its segment: "
+          "pose,a,b,px,py,pz,qx,qy,qz; of distance pose,distance,ax,ay,az,bx,by,bz with a point of "
+          "either; of tolerance pose,closer. Poses and triangles count from 0.\n"
+          "Touching is contact; meshes are surfaces. Times are of one query on one core, reading "
+          "and printing aside; what is quicker than 5 µs is repeated until the clock can tell "
+          "it.\n") +
+      kExitStatus);
+  command->callback([&] { status = queryCommand(a); });
+}
+
 /// What was wrong with the words of the command line, in one line.
 std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
                        const std::string& firstWord) {
@@ -142,7 +222,7 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
     return error.what() + ("; corridor " + given[0]->get_name()) + " --help tells more";
   if (firstWord.empty() || firstWord[0] == '-')
     return error.what() + std::string("; corridor --help tells more");
-  const std::vector<std::string> commands{"solve", "verify", "check", "inspect"};
+  const std::vector<std::string> commands{"solve", "verify", "check", "inspect", "query"};
   return "unknown command " + corridor::quotedWord(firstWord) +
          corridor::didYouMean(firstWord, commands) + "; there are: " + corridor::joined(commands);
 }
@@ -159,10 +239,12 @@ int main(int argc, char** argv) {
   VerifyArguments verify;
   CheckArguments check;
   InspectArguments inspect;
+  QueryArguments query;
   addSolve(program, solve, status);
   addVerify(program, verify, status);
   addCheck(program, check, status);
   addInspect(program, inspect, status);
+  addQuery(program, query, status);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -65,8 +65,10 @@ Workload loadWorkload(const std::filesystem::path& folder, const std::string& na
   });
   lines("truth.txt", [&](std::istream& in) {
     int hit;
-    in >> hit;
+    std::string distance;  // a stream doesn't read nan
+    in >> hit >> distance;
     w.hit.push_back(hit);
+    w.distance.push_back(std::stod(distance));
   });
   if (w.poses.size() != w.hit.size())
     throw std::runtime_error(name + ": poses and truths differ in number");

@@ -17,6 +17,7 @@ struct Workload {
   TriangleMesh a, b;
   std::vector<Transform> poses;
   std::vector<int> hit;
+  std::vector<double> distance;  ///< 0 where hit, NaN where not computed
 };
 std::vector<std::string> workloadNames(const std::filesystem::path& collisionFolder);
 Workload loadWorkload(const std::filesystem::path& collisionFolder, const std::string& name);

@@ -1,30 +1,23 @@
 // The program as its users meet it: exit status, one line a fault, results on stdout, nothing
 // half-written.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <sys/wait.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/support.h"
+#include "tests/planner/app/program_test.h"
 
 namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Result {
-  int status = -1;
-  std::string out, err;
-};
+using corridor::test::ProgramTest;
 
-class CommandLine : public testing::Test {
+class CommandLine : public ProgramTest {
  protected:
   CommandLine() {
     write("cube.obj",
@@ -38,28 +31,12 @@ class CommandLine : public testing::Test {
         "format: corridor-robot-1\nname: cube\nrigid: SE3\nshapes: [{mesh: cube.obj, unit: m}]\n");
     write("problem.yaml", problem());
   }
-  ~CommandLine() override { std::filesystem::remove_all(folder_); }
 
   static std::string problem(const std::string& start = "-2, 0, 0", const std::string& more = "") {
     return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {mesh: wall.obj, unit: "
            "m}\nstart: {at: [" +
            start + "]}\ngoal: {at: [2, 0, 0]}\nbounds: {at: [[-4, -4, -4], [4, 4, 4]]}\n" + more;
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
-  std::string read(const std::string& name) const {
-    std::ifstream in(folder_ / name);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  /// @param input a command whose output it reads, "echo 0 | ".
-  Result run(const std::string& arguments, const std::string& input = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + input +
-                                "'" CORRIDOR_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
-  }
-  std::filesystem::path folder_ = corridor::test::newFolder();
 };
 
 /// An angle read as another one is nothing that only `inspect` may say.
@@ -363,7 +340,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   EXPECT_EQ(said(""), "A subcommand is required; corridor --help tells more\n");
   EXPECT_EQ(said("slove problem.yaml"),
             "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, check, "
-            "inspect\n");
+            "inspect, query\n");
   EXPECT_EQ(said("verify problem.yaml"),
             "SOLUTION is required; corridor verify --help tells more\n");
   for (const char* time : {"0", "-1", "nan", "inf", "20s"})
@@ -378,7 +355,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
 }
 
 TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
-  for (const char* command : {"solve", "verify", "check", "inspect"}) {
+  for (const char* command : {"solve", "verify", "check", "inspect", "query"}) {
     const Result help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Example: corridor ") + command));

@@ -1,0 +1,129 @@
+#include "planner/app/query_batch.h"
+
+#include <chrono>
+#include <optional>
+
+#include "collision/queries/contacts.h"
+#include "collision/queries/distance.h"
+#include "collision/queries/interference.h"
+#include "collision/volumes/pair_tests.h"
+#include "planner/app/query_timing.h"
+
+namespace corridor::app {
+namespace {
+
+ObbFit obbFit(const std::string& name) {
+  return name == "vertices" ? ObbFit::vertices : name == "hull" ? ObbFit::hull : ObbFit::triangles;
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+/// All poses of a batch in memory, asked one after the other, `repeat` times over: passes over all
+/// poses rather than repeats of each, so that a query finds the caches that other poses left.
+/// `ask(pose number, context)` is all that is timed.
+template <class Ask>
+std::vector<Answer> timed(const Batch& batch, const Ask& ask) {
+  std::vector<Answer> answers(batch.poses.size());
+  const auto repeat = static_cast<std::size_t>(batch.repeat);
+  std::vector<double> ns(answers.size() * repeat);
+  QueryContext context;
+  for (std::size_t pass = 0; pass < repeat; ++pass)
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      Answer& answer = answers[i];
+      const auto once = [&] { answer.hit = ask(i, context); };
+      const auto first = [&] {
+        context.counters = {};
+        once();
+        answer.boxTests = context.counters.boxTests;
+        answer.triangleTests = context.counters.triangleTests;
+      };
+      ns[i * repeat + pass] = nanosecondsOf(first, once);
+    }
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const auto begin = ns.begin() + static_cast<std::ptrdiff_t>(i * repeat);
+    answers[i].ns = median(std::vector<double>(begin, begin + batch.repeat));
+  }
+  return answers;
+}
+
+/// Builds both trees (`make(mesh)`) and asks them.
+template <class Make>
+BatchResult runOn(const Batch& batch, const Make& make) {
+  BatchResult result;
+  auto start = std::chrono::steady_clock::now();
+  const auto a = make(batch.a);
+  result.buildMsA = millisecondsSince(start);
+  start = std::chrono::steady_clock::now();
+  const auto b = make(batch.b);
+  result.buildMsB = millisecondsSince(start);
+  result.bytesA = a.bytes();
+  result.bytesB = b.bytes();
+  const Transform X_WA;
+  switch (batch.asked) {
+    case Asked::interference:
+      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+        return interference(a, X_WA, b, batch.poses[i], context).has_value();
+      });
+      break;
+    case Asked::distance:
+      result.distances.resize(batch.poses.size());
+      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+        result.distances[i] = distance(a, X_WA, b, batch.poses[i], {}, context);
+        return result.distances[i].distance == 0;
+      });
+      break;
+    case Asked::tolerance:
+      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+        return closerThan(a, X_WA, b, batch.poses[i], batch.tolerance, context);
+      });
+      break;
+    case Asked::contacts: {
+      std::vector<std::vector<TriangleContact>> found(batch.poses.size());
+      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+        found[i] = contacts(a, X_WA, b, batch.poses[i], context);
+        return !found[i].empty();
+      });
+      for (std::size_t i = 0; i < found.size(); ++i)
+        for (const TriangleContact& c : found[i])
+          result.contacts.push_back({i, c.a, c.b, c.p_W, c.q_W});
+      break;
+    }
+  }
+  return result;
+}
+
+/// Volumes without axes of their own have one fit, `plain`.
+template <class Volume>
+BatchResult runVolume(const Batch& batch) {
+  return runOn(batch, [&](const TriangleMesh& mesh) {
+    return VolumeTree<Volume>(mesh, {obbFit(batch.fit)});
+  });
+}
+
+}  // namespace
+
+const std::vector<QueryKind>& queryKinds() {
+  static const std::vector<QueryKind> kinds = {
+      {"interference", Asked::interference, "pose,hit,bv_tests,triangle_tests"},
+      {"contacts", Asked::contacts, "pose,a,b,px,py,pz,qx,qy,qz"},
+      {"distance", Asked::distance, "pose,distance,ax,ay,az,bx,by,bz"},
+      {"tolerance", Asked::tolerance, "pose,closer"}};
+  return kinds;
+}
+
+const std::vector<VolumeKind>& volumeKinds() {
+  static const std::vector<VolumeKind> kinds = {
+      {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runVolume<Obb>},
+      {"aabb", {"plain"}, {"intervals"}, runVolume<Aabb>},
+      {"sphere", {"plain"}, {"centers"}, runVolume<BoundingSphere>},
+      {"rss", {"triangles", "vertices", "hull"}, {"rectangles"}, runVolume<Rss>},
+      {"kdop14", {"plain"}, {"intervals"}, runVolume<Kdop<14>>},
+      {"kdop18", {"plain"}, {"intervals"}, runVolume<Kdop<18>>},
+      {"kdop26", {"plain"}, {"intervals"}, runVolume<Kdop<26>>}};
+  return kinds;
+}
+
+}  // namespace corridor::app

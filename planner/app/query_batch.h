@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "collision/geometry/triangle_mesh.h"
+#include "collision/queries/distance.h"
+
+/// What `corridor query` can ask, and of which trees: two tables, and the batch that is timed.
+namespace corridor::app {
+
+/// What is asked of every pose.
+enum class Asked { interference, contacts, distance, tolerance };
+struct QueryKind {
+  std::string name;
+  Asked asked;
+  std::string header;  ///< of its CSV
+};
+const std::vector<QueryKind>& queryKinds();
+
+/// What a batch is: two meshes, poses of b with a at the identity, and the words that chose a
+/// variant.
+struct Batch {
+  const TriangleMesh &a, &b;
+  const std::vector<Transform>& poses;
+  Asked asked = Asked::interference;
+  std::string fit, overlap;
+  double tolerance = 0;  ///< metres, of `Asked::tolerance`
+  int repeat = 1;
+};
+
+/// A pose's answer and cost.
+struct Answer {
+  bool hit = false;
+  std::uint64_t boxTests = 0, triangleTests = 0;
+  double ns = 0;  ///< the median of the repeats
+};
+/// One contact of a pose.
+struct ContactRow {
+  std::size_t pose;
+  std::uint32_t a, b;
+  Vec3 p, q;
+};
+struct BatchResult {
+  std::vector<Answer> answers;       ///< by pose; a hit is a contact, or closer than the tolerance
+  std::vector<Distance> distances;   ///< by pose, of `Asked::distance`
+  std::vector<ContactRow> contacts;  ///< of `Asked::contacts`
+  double buildMsA = 0, buildMsB = 0;
+  std::size_t bytesA = 0, bytesB = 0;
+};
+
+/// A bounding volume: its fits and overlap tests by name, the default first, and what runs a batch
+/// on its trees. Adding a volume is adding a line of the table.
+struct VolumeKind {
+  std::string name;
+  std::vector<std::string> fits, overlaps;
+  BatchResult (*run)(const Batch& batch);
+};
+const std::vector<VolumeKind>& volumeKinds();
+
+}  // namespace corridor::app

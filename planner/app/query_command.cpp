@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "collision/core/error.h"
+#include "collision/core/nearest.h"
+#include "collision/geometry/mesh_file.h"
+#include "planner/app/commands.h"
+#include "planner/app/output.h"
+#include "planner/app/query_batch.h"
+#include "planner/app/query_poses.h"
+#include "planner/app/query_timing.h"
+
+namespace corridor::app {
+namespace {
+
+/// A time is kept of each: 8 bytes.
+constexpr std::uint64_t kMostQueries = 1'000'000'000;
+
+/// The row of a table whose name was given. @throws InputError with those that there are.
+template <class Kind>
+const Kind& kindNamed(const std::string& option, const std::string& name,
+                      const std::vector<Kind>& kinds) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  throw InputError(Fault{option, 0,
+                         "unknown " + option.substr(2) + " " + quotedWord(name) +
+                             didYouMean(name, names) + "; there are: " + joined(names)});
+}
+
+/// One of a volume's variants, the first where none is named. @throws InputError
+std::string variantNamed(const std::string& option, const std::optional<std::string>& name,
+                         const std::string& volume, const std::vector<std::string>& names) {
+  if (!name) return names.front();
+  if (std::find(names.begin(), names.end(), *name) != names.end()) return *name;
+  throw InputError(Fault{option, 0,
+                         "unknown " + option.substr(2) + " " + quotedWord(*name) + " of " + volume +
+                             didYouMean(*name, names) + "; there are: " + joined(names)});
+}
+
+std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& meshA,
+                               const TriangleMesh& meshB) {
+  if (a.poses) return readPoses(*a.poses);
+  PoseGrid grid;
+  grid.counts = parseCounts(*a.grid);
+  grid.rotations = static_cast<std::size_t>(a.rotations.value_or(1));
+  grid.seed = a.seed.value_or(1);
+  if (a.lower) grid.lower = parsePoint("--lower", *a.lower);
+  if (a.upper) grid.upper = parsePoint("--upper", *a.upper);
+  return gridPoses(grid, meshA, meshB);
+}
+
+/// What CLI11 can't check of options in pairs. @throws InputError
+void checkOptions(const QueryArguments& a) {
+  if (a.poses && a.grid)
+    throw InputError(Fault{"--grid", 0, "the poses are told by --poses; one of the two is needed"});
+  if (!a.poses && !a.grid)
+    throw InputError(Fault{"--poses", 0, "a file of poses is needed, or --grid"});
+  const auto ofGrid = [&](const char* option, bool given) {
+    if (given && !a.grid) throw InputError(Fault{option, 0, "is of --grid, which is not given"});
+  };
+  ofGrid("--lower", a.lower.has_value());
+  ofGrid("--upper", a.upper.has_value());
+  ofGrid("--rotations", a.rotations.has_value());
+  ofGrid("--seed", a.seed.has_value());
+  ofGrid("--save-poses", a.savePoses.has_value());
+}
+
+/// One write for all: millions of lines are quick, and stdout and stderr don't mix.
+void printCsv(const QueryKind& kind, const BatchResult& result) {
+  std::string text = kind.header + "\n";
+  char line[256];
+  if (kind.asked == Asked::contacts) {
+    for (const ContactRow& c : result.contacts) {
+      std::snprintf(line, sizeof line, "%zu,%u,%u,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", c.pose,
+                    c.a, c.b, c.p.x(), c.p.y(), c.p.z(), c.q.x(), c.q.y(), c.q.z());
+      text += line;
+    }
+  } else if (kind.asked == Asked::distance) {
+    for (std::size_t i = 0; i < result.distances.size(); ++i) {
+      const Distance& d = result.distances[i];
+      std::snprintf(line, sizeof line, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", i,
+                    d.distance, d.p_WA.x(), d.p_WA.y(), d.p_WA.z(), d.p_WB.x(), d.p_WB.y(),
+                    d.p_WB.z());
+      text += line;
+    }
+  } else if (kind.asked == Asked::tolerance) {
+    for (std::size_t i = 0; i < result.answers.size(); ++i)
+      text += std::to_string(i) + ',' + (result.answers[i].hit ? "1\n" : "0\n");
+  } else {
+    for (std::size_t i = 0; i < result.answers.size(); ++i) {
+      const Answer& answer = result.answers[i];
+      text += std::to_string(i) + ',' + (answer.hit ? '1' : '0') + ',' +
+              std::to_string(answer.boxTests) + ',' + std::to_string(answer.triangleTests) + '\n';
+    }
+  }
+  std::cout << text << std::flush;
+}
+
+void printSummary(const BatchResult& result, const std::vector<std::string>& variant) {
+  std::vector<double> ns;
+  double hits = 0, boxTests = 0, triangleTests = 0, sum = 0;
+  for (const Answer& answer : result.answers) {
+    ns.push_back(answer.ns);
+    sum += answer.ns;
+    hits += answer.hit;
+    boxTests += static_cast<double>(answer.boxTests);
+    triangleTests += static_cast<double>(answer.triangleTests);
+  }
+  const auto count = static_cast<double>(ns.size());
+  // The least number that 95 % of them do not exceed.
+  const std::size_t rank = (95 * ns.size() + 99) / 100 - 1;
+  const double middle = median(ns);
+  std::nth_element(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(rank), ns.end());
+  for (const std::string& word : variant) std::cerr << word << '\n';
+  const auto tell = [](const char* key, const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    std::cerr << key << '=' << text << '\n';
+  };
+  tell("poses", "%.0f", count);
+  tell("hits", "%.0f", hits);
+  tell("median_ns", "%.1f", middle);
+  tell("mean_ns", "%.1f", sum / count);
+  tell("p95_ns", "%.1f", ns[rank]);
+  tell("bv_tests", "%.6g", boxTests / count);
+  tell("triangle_tests", "%.6g", triangleTests / count);
+  tell("build_ms_a", "%.4f", result.buildMsA);
+  tell("build_ms_b", "%.4f", result.buildMsB);
+  tell("bytes_a", "%.0f", static_cast<double>(result.bytesA));
+  tell("bytes_b", "%.0f", static_cast<double>(result.bytesB));
+}
+
+}  // namespace
+
+int queryCommand(const QueryArguments& a) {
+  checkOptions(a);
+  const QueryKind& query = kindNamed("--query", a.query, queryKinds());
+  const VolumeKind& volume = kindNamed("--volume", a.volume, volumeKinds());
+  const std::string fit = variantNamed("--fit", a.fit, volume.name, volume.fits);
+  const std::string overlap = variantNamed("--overlap", a.overlap, volume.name, volume.overlaps);
+  if (query.asked == Asked::tolerance && !a.tolerance)
+    throw InputError(Fault{"--tolerance", 0, "the tolerance query needs a distance in metres"});
+  if (query.asked != Asked::tolerance && a.tolerance)
+    throw InputError(Fault{"--tolerance", 0, "is of --query tolerance, which is not asked"});
+  const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
+  const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
+  if (a.repeat > kMostQueries / poses.size())
+    throw InputError(Fault{"--repeat", 0,
+                           grouped(a.repeat) + " passes over " + counted(poses.size(), "pose") +
+                               " are more than " + grouped(kMostQueries) + " queries"});
+  if (a.savePoses) writePoses(*a.savePoses, poses);
+  const BatchResult result = volume.run({meshA.mesh, meshB.mesh, poses, query.asked, fit, overlap,
+                                         a.tolerance.value_or(0), static_cast<int>(a.repeat)});
+  printCsv(query, result);
+  printSummary(
+      result, {"query=" + query.name, "volume=" + volume.name, "fit=" + fit, "overlap=" + overlap});
+  return kDone;
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,218 @@
+#include "planner/app/query_poses.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <string_view>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "collision/core/fault_list.h"
+#include "collision/core/nearest.h"
+#include "collision/core/rounding.h"
+#include "collision/volumes/obb.h"
+#include "planner/app/output.h"
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor::app {
+namespace {
+
+/// A file in another format has a fault in every line: so many are told, and the last.
+constexpr int kFaultsTold = 10;
+
+/// What keeps R from being a rotation, or "".
+std::string whyNoRotation(const Mat3& R) {
+  const double defect = orthonormalityDefect(R);
+  const double determinant = R.determinant();
+  // Six products of three, each with five roundings at most, two and a division in Eigen's order.
+  const double error = 64 * kUnit * std::pow(R.cwiseAbs().maxCoeff(), 3);
+  if (std::abs(determinant) <= error)
+    return "the matrix is singular (determinant " + rounded(determinant) +
+           "); a rotation is needed";
+  if (determinant < 0)
+    return "the matrix mirrors (determinant " + rounded(determinant) + "); a rotation is needed";
+  if (!(defect <= kRotationDefect))
+    return "the matrix is no rotation: RᵀR is off the identity by " + rounded(defect) +
+           ", at most " + rounded(kRotationDefect) + " is taken for rounding";
+  return "";
+}
+
+/// One line's pose, or what is wrong with it; neither on a line without words.
+std::string parsePose(std::string_view line, std::optional<Transform>& pose) {
+  std::vector<double> values;
+  while (true) {
+    constexpr std::string_view kBlanks = " \t\r,";
+    line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlanks)));
+    if (line.empty()) break;
+    const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+    line.remove_prefix(word.size());
+    double value = 0;
+    if (std::string complaint = parseNumber(word, Range::Any, value); !complaint.empty())
+      return complaint;
+    values.push_back(value);
+  }
+  if (values.empty()) return "";
+  if (values.size() != 12)
+    return "a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not " +
+           std::to_string(values.size());
+  Transform X;
+  X.m = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
+  X.t = Eigen::Map<const Vec3>(values.data() + 9);
+  std::string complaint = whyNoRotation(X.m);
+  if (complaint.empty()) pose = X;
+  return complaint;
+}
+
+struct Bounds {
+  Vec3 low, high;
+  Vec3 center() const { return low + (high - low) / 2; }
+};
+Bounds boundsOf(const TriangleMesh& mesh) {
+  Bounds bounds{mesh.corner(0, 0), mesh.corner(0, 0)};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      bounds.low = bounds.low.cwiseMin(mesh.corner(t, i));
+      bounds.high = bounds.high.cwiseMax(mesh.corner(t, i));
+    }
+  return bounds;
+}
+
+/// Uniform over all rotations: four normal numbers are a quaternion of uniform direction.
+Mat3 randomRotation(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Eigen::Quaterniond q;
+  do
+    for (int i = 0; i < 4; ++i) q.coeffs()[i] = normal(random);
+  while (q.norm() < 0x1p-20);
+  return q.normalized().toRotationMatrix();
+}
+
+/// Every one of some words must be a whole number above 0.
+bool parseCount(std::string_view word, std::size_t& count) {
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+  return error == std::errc{} && stop == word.data() + word.size() && count > 0;
+}
+
+std::vector<std::string> splitAt(const std::string& text, char separator) {
+  std::vector<std::string> words(1);
+  for (const char c : text)
+    if (c == separator)
+      words.emplace_back();
+    else
+      words.back() += c;
+  return words;
+}
+
+}  // namespace
+
+std::vector<Transform> readPoses(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  FaultList faults(name);
+  std::vector<Transform> poses;
+  const std::string text = readTextStream(file, "a file of poses, one a line,");
+  int number = 0, faulty = 0, lastFaulty = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line(text.data() + begin, end - begin);
+    begin = end + 1;
+    ++number;
+    line = line.substr(0, line.find('#'));
+    std::optional<Transform> pose;
+    if (const std::string complaint = parsePose(line, pose); !complaint.empty()) {
+      if (++faulty <= kFaultsTold) faults.add(name, number, complaint);
+      lastFaulty = number;
+    }
+    if (pose) poses.push_back(*pose);
+  }
+  if (faulty > kFaultsTold)
+    faults.add(name, lastFaulty,
+               "and so on: " + counted(static_cast<std::uint64_t>(faulty), "line") +
+                   " are at fault, this is the last");
+  if (poses.empty() && faulty == 0) faults.add(name, 0, "no poses");
+  faults.throwIfAny();
+  return poses;
+}
+
+std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,
+                                 const TriangleMesh& b) {
+  const Bounds boundsA = boundsOf(a), boundsB = boundsOf(b);
+  const Vec3 grown = Vec3::Constant((boundsB.high - boundsB.low).norm() / 2);
+  const Vec3 lower = grid.lower.value_or(boundsA.low - grown);
+  const Vec3 upper = grid.upper.value_or(boundsA.high + grown);
+  if (!(lower.array() <= upper.array()).all())
+    throw InputError(Fault{"--lower", 0, rounded(lower) + " is not below " + rounded(upper)});
+  std::size_t total = 1;
+  for (const std::size_t count : {grid.counts[0], grid.counts[1], grid.counts[2], grid.rotations}) {
+    if (count > kMostPoses / total)
+      throw InputError(
+          Fault{"--grid", 0, "more than " + grouped(kMostPoses) + " poses are asked for"});
+    total *= count;
+  }
+  const auto along = [&](int axis, std::size_t i) {
+    const std::size_t count = grid.counts[static_cast<std::size_t>(axis)];
+    const double share = count == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(count - 1);
+    return lower[axis] + (upper[axis] - lower[axis]) * share;
+  };
+  std::mt19937_64 random(grid.seed);
+  std::vector<Transform> poses;
+  poses.reserve(total);
+  for (std::size_t r = 0; r < grid.rotations; ++r) {
+    const Mat3 R = r == 0 ? Mat3::Identity() : randomRotation(random);
+    const Vec3 turned = R * boundsB.center();
+    for (std::size_t k = 0; k < grid.counts[2]; ++k)
+      for (std::size_t j = 0; j < grid.counts[1]; ++j)
+        for (std::size_t i = 0; i < grid.counts[0]; ++i)
+          poses.push_back({R, Vec3(along(0, i), along(1, j), along(2, k)) - turned});
+  }
+  return poses;
+}
+
+std::array<std::size_t, 3> parseCounts(const std::string& text) {
+  const std::vector<std::string> words = splitAt(text, 'x');
+  std::array<std::size_t, 3> counts{};
+  bool sound = words.size() == 3;
+  for (std::size_t i = 0; sound && i < 3; ++i) sound = parseCount(words[i], counts[i]);
+  if (!sound)
+    throw InputError(Fault{"--grid", 0,
+                           "three counts above 0 along x, y and z are needed, as in 10x10x5, not " +
+                               quotedWord(text)});
+  return counts;
+}
+
+Vec3 parsePoint(const std::string& option, const std::string& text) {
+  const std::vector<std::string> words = splitAt(text, ',');
+  Vec3 point;
+  bool sound = words.size() == 3;
+  for (std::size_t i = 0; sound && i < 3; ++i) {
+    double value = 0;
+    sound = parseNumber(words[i], Range::Any, value).empty() && std::isfinite(value);
+    point[static_cast<int>(i)] = value;
+  }
+  if (!sound)
+    throw InputError(Fault{
+        option, 0, "three numbers of metres are needed, as in -1,-1,0.5, not " + quotedWord(text)});
+  return point;
+}
+
+void writePoses(const std::filesystem::path& file, const std::vector<Transform>& poses) {
+  std::ofstream out(file);
+  out << "# r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz: a point of B is at R b + t\n";
+  char text[32];
+  for (const Transform& X : poses) {
+    for (int i = 0; i < 9; ++i) {
+      std::snprintf(text, sizeof text, "%.17g ", X.m(i / 3, i % 3));
+      out << text;
+    }
+    for (int i = 0; i < 3; ++i) {
+      std::snprintf(text, sizeof text, "%.17g%c", X.t[i], i == 2 ? '\n' : ' ');
+      out << text;
+    }
+  }
+  if (!out.flush()) throw InputError(Fault{"--save-poses", 0, file.string() + " can't be written"});
+}
+
+}  // namespace corridor::app

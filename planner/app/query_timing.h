@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <ctime>
+#include <vector>
+
+namespace corridor::app {
+
+/// Nanoseconds that one call takes.
+///
+/// Reading the clock costs some 30 ns, so a call that is quicker than `kLongEnough` is repeated
+/// between two readings until that much has passed, and the mean of those repeats is taken: below
+/// 1 % of it is the clock's. A query of several µs is asked just once. Of one that took so long
+/// that the system may have run another program meanwhile (`kMaybeParted`), only the thread's own
+/// time counts; its clock is too slow to read for the quick ones.
+///
+/// @param ask the first call. @param again what is asked again; it must do the same work, so it
+/// drops what an earlier answer left in a cache.
+inline constexpr double kLongEnough = 5'000, kMaybeParted = 100'000;
+template <class Ask, class Again>
+double nanosecondsOf(Ask&& ask, Again&& again) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+  };
+  const auto ownTime = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+  };
+  const double own = ownTime();
+  const Clock::time_point start = Clock::now();
+  ask();
+  const double once = since(start);
+  if (once >= kMaybeParted) return std::min(once, ownTime() - own);
+  if (once >= kLongEnough) return once;
+  const int times = static_cast<int>(kLongEnough / std::max(once, kLongEnough / 200)) + 1;
+  const Clock::time_point batch = Clock::now();
+  for (int i = 0; i < times; ++i) again();
+  return since(batch) / times;
+}
+
+/// The middle one of some numbers, or the mean of the two in the middle. @pre not empty.
+template <class Numbers>
+double median(Numbers numbers) {
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  const double upper = *middle;
+  if (numbers.size() % 2) return upper;
+  return (*std::max_element(numbers.begin(), middle) + upper) / 2;
+}
+
+}  // namespace corridor::app

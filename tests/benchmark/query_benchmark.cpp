@@ -1,0 +1,375 @@
+/// Our queries against FCL's (Debian's), in one run on one core:
+/// `query_benchmark [--data DIR] [--workload TEXT]… [--query interference|distance|tolerance]
+///                  [--rounds N] [--fit NAME] [--cpu N] [--csv]`.
+///
+/// Every workload of DIR/collision (DIR: $CORRIDOR_DATA where not named) whose name contains a
+/// TEXT. All competitors are built once. Then N rounds: in each one, every competitor in turn
+/// answers all poses, one pass each, so that no pose is asked twice in a row (but those that are
+/// too quick for the clock: planner/app/query_timing.h) and a noisy neighbour meets all alike. A
+/// pose's time is the least of its rounds (others on the machine only ever add); a workload's is
+/// the median of its poses'. Who competes, and how each is asked: competitors.h.
+///
+/// Tables: queries, without the poses that the root boxes of the reference tree separate; those
+/// poses apart, where the overhead of a call counts; building. Ratios are to the quickest FCL tree
+/// of the row; above 1: ours is quicker. *Wrong* counts verdicts that are not the exact ones (of
+/// distance: off by more than 1e-12·d + 4·2^-53·S of the truth, S the largest coordinate).
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sched.h>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "collision/queries/interference.h"
+#include "planner/app/query_timing.h"
+#include "tests/benchmark/competitors.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using app::median;
+using namespace bench;
+
+struct Options {
+  std::filesystem::path data;
+  std::vector<std::string> workloads;
+  Query query = Query::interference;
+  ObbFit fit = ObbFit::triangles;
+  int rounds = 5;
+  int cpu = -1;
+  bool csv = false;
+};
+
+using Field = std::vector<std::unique_ptr<Competitor>>;
+
+template <class Library, class... Params>
+void enter(Field& field, const std::string& name, const test::Workload& w, const Options& o,
+           double tolerance, const Params&... params) {
+  field.push_back(std::make_unique<Timed<Library>>(name, w, o.rounds, [&] {
+    return std::make_unique<Library>(o.query, tolerance, w, params...);
+  }));
+}
+
+/// Who competes: ours first, the one that ratios are of; the reference tree next, if that is
+/// another; then FCL's.
+Field competitors(const test::Workload& w, const Options& o, double tolerance) {
+  Field field;
+  enter<Ours<ObbTree>>(field, "ours", w, o, tolerance, ObbTreeParams{o.fit});
+#ifdef CORRIDOR_WITH_FCL
+  if (o.query == Query::interference)
+    enter<Fcl<fcl::OBB<double>>>(field, "FCL OBB", w, o, tolerance);
+  else
+    enter<Fcl<fcl::RSS<double>>>(field, "FCL RSS", w, o, tolerance);
+  enter<Fcl<fcl::OBBRSS<double>>>(field, "FCL OBBRSS", w, o, tolerance);
+#endif
+  return field;
+}
+
+/// A table, in Markdown or CSV.
+class Table {
+ public:
+  Table(const std::string& title, bool csv) : csv_(csv) {
+    std::cout << (csv ? "\n# " : "\n### ") << title << "\n" << (csv ? "" : "\n");
+  }
+  void row(const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      std::cout << (csv_ ? (i ? "," : "") : "| ") << cells[i] << (csv_ ? "" : " ");
+    std::cout << (csv_ ? "\n" : "|\n");
+    if (first_ && !csv_) {
+      for (std::size_t i = 0; i < cells.size(); ++i) std::cout << (i ? "|--:" : "|---");
+      std::cout << "|\n";
+    }
+    first_ = false;
+    std::cout << std::flush;
+  }
+
+ private:
+  bool csv_, first_ = true;
+};
+
+std::string number(double x, int digits = 4) {
+  std::ostringstream out;
+  if (!(std::abs(x) < 1e4))
+    out << std::fixed << std::setprecision(0) << x;
+  else
+    out << std::setprecision(digits) << x;
+  return out.str();
+}
+
+struct Ratios {
+  std::vector<double> all;
+  void add(double ratio) {
+    if (ratio > 0) all.push_back(ratio);
+  }
+  std::string text() const {
+    if (all.empty()) return "none";
+    double logs = 0;
+    for (const double r : all) logs += std::log(r);
+    return "geometric mean " + number(std::exp(logs / static_cast<double>(all.size())), 3) +
+           ", least " + number(*std::min_element(all.begin(), all.end()), 3) + ", of " +
+           std::to_string(all.size()) + " workloads";
+  }
+};
+
+/// Median over some poses of each pose's least time; 0 where there is no such pose.
+template <class Take>
+double medianOver(const Record& r, const Take& take) {
+  std::vector<double> ns;
+  for (std::size_t i = 0; i < r.ns.size(); ++i)
+    if (take(i)) ns.push_back(r.ns[i]);
+  return ns.empty() ? 0 : median(ns);
+}
+
+/// Ours against the quickest other; 0 where there is none.
+double ratio(const std::vector<double>& values) {
+  if (values.size() < 2 || values[0] <= 0) return 0;
+  return *std::min_element(values.begin() + 1, values.end()) / values[0];
+}
+
+double largestCoordinate(const test::Workload& w) {
+  double reach = 0, shift = 0;
+  for (const TriangleMesh* m : {&w.a, &w.b})
+    for (const Vec3& v : m->vertices) reach = std::max(reach, v.norm());
+  for (const Transform& X : w.poses) shift = std::max(shift, X.t.cwiseAbs().maxCoeff());
+  return reach + shift;
+}
+
+int wrongAnswers(const Record& r, const test::Workload& w, Query query, double tolerance) {
+  const double reach = largestCoordinate(w);
+  int wrong = 0;
+  for (std::size_t i = 0; i < w.poses.size(); ++i) {
+    const double d = w.distance[i];
+    switch (query) {
+      case Query::interference:
+        wrong += r.answers[i].hit != (w.hit[i] == 1);
+        break;
+      case Query::distance:
+        wrong += std::abs(r.answers[i].distance - d) > 1e-12 * d + 4 * 0x1p-53 * reach;
+        break;
+      case Query::tolerance:
+        wrong += !std::isnan(d) && r.answers[i].hit != (d <= tolerance);
+        break;
+    }
+  }
+  return wrong;
+}
+
+/// Poses that the root boxes of the reference tree separate.
+std::vector<bool> rejectedByRoot(const test::Workload& w) {
+  const ObbTree a(w.a), b(w.b);
+  std::vector<bool> rejected;
+  for (const Transform& X : w.poses) {
+    QueryContext context;
+    const bool hit = interference(a, {}, b, X, context).has_value();
+    rejected.push_back(!hit && context.counters.boxTests == 1);
+  }
+  return rejected;
+}
+
+double sizeOf(const TriangleMesh& mesh) {
+  Vec3 low = mesh.vertices[0], high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).norm();
+}
+
+/// A workload's rows of the three tables, kept until all are known.
+struct Rows {
+  std::vector<std::vector<std::string>> queries, roots, builds;
+  Ratios queryRatios, rootRatios, buildRatios;
+  std::vector<std::string> names;
+};
+
+void run(const std::string& name, const Options& o, Rows& rows) {
+  const test::Workload w = test::loadWorkload(o.data, name);
+  // The tolerance query is asked at a hundredth of the smaller mesh.
+  const double tolerance = 0.01 * std::min(sizeOf(w.a), sizeOf(w.b));
+  const Field field = competitors(w, o, tolerance);
+  for (int i = 0; i < o.rounds; ++i)
+    for (const auto& competitor : field) competitor->pass();
+
+  const std::vector<bool> rejected = rejectedByRoot(w);
+  const auto root = [&](std::size_t i) { return static_cast<bool>(rejected[i]); };
+  const auto inner = [&](std::size_t i) { return !rejected[i]; };
+  const auto count = std::count(rejected.begin(), rejected.end(), true);
+  std::vector<double> all, kept, roots, builds;
+  std::vector<std::string> wrong;
+  rows.names.clear();
+  for (const auto& competitor : field) {
+    const Record& r = competitor->record;
+    rows.names.push_back(r.name);
+    all.push_back(medianOver(r, [](std::size_t) { return true; }));
+    kept.push_back(medianOver(r, inner));
+    roots.push_back(medianOver(r, root));
+    builds.push_back(r.buildMs);
+    wrong.push_back(std::to_string(wrongAnswers(r, w, o.query, tolerance)));
+  }
+  const auto texts = [](const std::vector<double>& values) {
+    std::vector<std::string> cells;
+    for (const double v : values) cells.push_back(number(v));
+    return cells;
+  };
+  const auto append = [](std::vector<std::string> to, const std::vector<std::string>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+    return to;
+  };
+  double boxes = 0, triangles = 0;
+  int hits = 0;
+  for (std::size_t i = 0; i < w.poses.size(); ++i) {
+    const Answer& answer = field[0]->record.answers[i];
+    hits += answer.hit;
+    boxes += static_cast<double>(answer.boxTests) / static_cast<double>(w.poses.size());
+    triangles += static_cast<double>(answer.triangleTests) / static_cast<double>(w.poses.size());
+  }
+  if (kept[0] > 0) {
+    std::vector<std::string> row = {name, std::to_string(w.poses.size() - std::size_t(count)),
+                                    std::to_string(hits), number(all[0])};
+    row = append(row, texts(kept));
+    row = append(row, {number(ratio(kept), 3), number(boxes), number(triangles)});
+    rows.queries.push_back(append(row, wrong));
+    rows.queryRatios.add(ratio(kept));
+  }
+  if (roots[0] > 0) {
+    rows.roots.push_back(
+        append(append({name, std::to_string(count)}, texts(roots)), {number(ratio(roots), 3)}));
+    rows.rootRatios.add(ratio(roots));
+  }
+  const auto size = static_cast<double>(w.a.triangles.size() + w.b.triangles.size());
+  std::vector<std::string> row = append({name, number(size, 7)}, texts(builds));
+  row = append(row, {number(ratio(builds), 3), number(size / builds[0] / 1e3, 3)});
+  for (const auto& competitor : field) row.push_back(number(competitor->record.bytesPerTriangle));
+  rows.builds.push_back(row);
+  rows.buildRatios.add(ratio(builds));
+}
+
+/// Pins the program to one core. @returns its number.
+int pin(int cpu) {
+  cpu_set_t set;
+  if (cpu < 0) {  // the last of those that it may use
+    sched_getaffinity(0, sizeof set, &set);
+    for (int i = 0; i < CPU_SETSIZE; ++i)
+      if (CPU_ISSET(i, &set)) cpu = i;
+  }
+  CPU_ZERO(&set);
+  CPU_SET(cpu, &set);
+  if (sched_setaffinity(0, sizeof set, &set) != 0)
+    throw std::runtime_error("--cpu: there is no CPU " + std::to_string(cpu) + " to use");
+  return cpu;
+}
+
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+void report(const Options& o) {
+  const int cpu = pin(o.cpu);
+  std::cout << "processor: " << processor() << ", core " << cpu
+            << "\ninstruction set: ours: baseline of the build (x86-64: SSE2); FCL: that of the "
+               "installed library\nrounds: "
+            << o.rounds << "\n";
+  Rows rows;
+  for (const std::string& name : test::workloadNames(o.data)) {
+    const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
+    if (!o.workloads.empty() && std::none_of(o.workloads.begin(), o.workloads.end(), named))
+      continue;
+    std::cerr << name << "\n";
+    run(name, o, rows);
+  }
+  if (rows.builds.empty()) throw std::runtime_error("no workload there has such a name");
+  const auto header = [&](std::vector<std::string> first, const std::string& unit,
+                          const std::vector<std::string>& last) {
+    for (const std::string& name : rows.names) first.push_back(name + " " + unit);
+    first.insert(first.end(), last.begin(), last.end());
+    return first;
+  };
+  const auto print = [&](const std::string& title, const std::vector<std::string>& head,
+                         const std::vector<std::vector<std::string>>& lines) {
+    Table table(title, o.csv);
+    table.row(head);
+    for (const auto& line : lines) table.row(line);
+  };
+  std::vector<std::string> last = {"ratio", "N_v", "N_p"};
+  for (const std::string& name : rows.names) last.push_back("wrong: " + name);
+  print("Queries (poses that the root boxes don't separate)",
+        header({"workload", "poses", "hits", "ours ns, all poses"}, "ns", last), rows.queries);
+  std::cout << "\nratio: " << rows.queryRatios.text() << "\n";
+  print("Poses that the root boxes separate", header({"workload", "poses"}, "ns", {"ratio"}),
+        rows.roots);
+  std::cout << "\nratio: " << rows.rootRatios.text() << "\n";
+  last = {"ratio", "ours, 10^6 triangles/s"};
+  for (const std::string& name : rows.names) last.push_back("bytes a triangle: " + name);
+  print("Building both trees", header({"workload", "triangles"}, "ms", last), rows.builds);
+  std::cout << "\nratio: " << rows.buildRatios.text() << "\n";
+}
+
+template <class Value>
+Value chosen(const std::string& option, const std::string& word,
+             const std::vector<std::pair<std::string, Value>>& values) {
+  std::string known;
+  for (const auto& [name, value] : values) {
+    if (name == word) return value;
+    known += " " + name;
+  }
+  throw std::runtime_error(option + ": one of" + known + " is needed, not " + word);
+}
+
+Options options(int argc, char** argv) {
+  Options o;
+  if (const auto data = test::dataFolder()) o.data = *data / "collision";
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--csv") {
+      o.csv = true;
+      continue;
+    }
+    if (i + 1 == words.size()) throw std::runtime_error(word + ": unknown, or without a value");
+    const std::string& value = words[++i];
+    if (word == "--data")
+      o.data = std::filesystem::path(value) / "collision";
+    else if (word == "--workload")
+      o.workloads.push_back(value);
+    else if (word == "--query")
+      o.query = chosen<Query>(word, value,
+                              {{"interference", Query::interference},
+                               {"distance", Query::distance},
+                               {"tolerance", Query::tolerance}});
+    else if (word == "--fit")
+      o.fit = chosen<ObbFit>(word, value,
+                             {{"vertices", ObbFit::vertices},
+                              {"triangles", ObbFit::triangles},
+                              {"hull", ObbFit::hull}});
+    else if (word == "--rounds")
+      o.rounds = std::max(std::stoi(value), 1);
+    else if (word == "--cpu")
+      o.cpu = std::stoi(value);
+    else
+      throw std::runtime_error(word + ": unknown option");
+  }
+  if (o.data.empty()) throw std::runtime_error("--data DIR, or $CORRIDOR_DATA, is needed");
+  return o;
+}
+
+}  // namespace
+}  // namespace corridor
+
+int main(int argc, char** argv) {
+  try {
+    corridor::report(corridor::options(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,279 @@
+#include "collision/queries/contacts.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "collision/hierarchy/obb_tree.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/interference.h"
+#include "collision/queries/triangle_intersection.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+using Long3 = Eigen::Matrix<long double, 3, 1>;
+
+Triangle corners(const TriangleMesh& mesh, std::size_t t) {
+  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+}
+
+/// The largest Σ|m||v| + |t|: what errors are told by.
+double scaleOf(const Triangle& triangle, const Transform& X) {
+  double scale = 0;
+  for (const Vec3& p : triangle)
+    scale = std::max(scale, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
+  return scale;
+}
+double scaleOf(const Triangle& a, const Transform& X_WA, const Triangle& b, const Transform& X_WB) {
+  return std::max(scaleOf(a, X_WA), scaleOf(b, X_WB));
+}
+
+long double distanceToSegment(const Long3& x, const Long3& p, const Long3& q) {
+  const long double length = (q - p).squaredNorm();
+  const long double t = length > 0 ? std::clamp((x - p).dot(q - p) / length, 0.0L, 1.0L) : 0.0L;
+  return (p + t * (q - p) - x).norm();
+}
+
+/// From a point to a closed triangle under its map, in long double, less what its rounding may make
+/// of 0: the normal of a sliver is told to 2^-60 of its longest edge squared over its length.
+long double distanceToTriangle(const Vec3& point, const Triangle& triangle, const Transform& X) {
+  Long3 t[3];
+  for (std::size_t i = 0; i < 3; ++i)
+    t[i] = X.m.cast<long double>() * triangle[i].cast<long double>() + X.t.cast<long double>();
+  const Long3 x = point.cast<long double>();
+  const Long3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+  long double best = HUGE_VALL;
+  for (int i = 0; i < 3; ++i) best = std::min(best, distanceToSegment(x, t[i], t[(i + 1) % 3]));
+  bool inside = n.norm() > 0;
+  for (int i = 0; i < 3; ++i)
+    inside = inside && (t[(i + 1) % 3] - t[i]).cross(x - t[i]).dot(n) >= 0;
+  if (!inside) return best;
+  const long double size =
+      std::max({(t[1] - t[0]).norm(), (t[2] - t[0]).norm(), (x - t[0]).norm()});
+  const long double rounding = 0x1p-60L * size * size * size / n.norm();
+  return std::min(best, std::max(0.0L, std::abs(n.dot(x - t[0])) / n.norm() - rounding));
+}
+
+/// Both ends on both triangles, and the quick path off the exact one by what the header says.
+void expectSound(const Segment& s, const Triangle& a, const Transform& X_WA, const Triangle& b,
+                 const Transform& X_WB) {
+  const double scale = scaleOf(a, X_WA, b, X_WB);
+  for (const Vec3& end : {s.p, s.q}) {
+    // √3·2^-50, and as much for long double's own rounding on badly shaped triangles.
+    EXPECT_LE(distanceToTriangle(end, a, X_WA), 4 * 0x1p-50 * scale);
+    EXPECT_LE(distanceToTriangle(end, b, X_WB), 4 * 0x1p-50 * scale);
+  }
+  const Segment exact = triangleIntersectionExact(a, X_WA, b, X_WB);
+  const auto off = [](const Segment& u, const Segment& v) {
+    return std::max((u.p - v.p).cwiseAbs().maxCoeff(), (u.q - v.q).cwiseAbs().maxCoeff());
+  };
+  EXPECT_LE(std::min(off(s, exact), off({s.q, s.p}, exact)), 0x1p-50 * scale);
+}
+
+/// Every pair that touches, by a double loop behind boxes in world coordinates.
+Pairs bruteForce(const TriangleMesh& a, const TriangleMesh& b, const Transform& X) {
+  struct Range {
+    Vec3 low, high;
+  };
+  const auto ranges = [](const TriangleMesh& mesh, const Transform& X_W) {
+    std::vector<Range> all;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Triangle t = corners(mesh, i);
+      const Vec3 p = X_W * t[0], q = X_W * t[1], r = X_W * t[2];
+      const Vec3 slack = Vec3::Constant(16 * 0x1p-53 * scaleOf(t, X_W));
+      all.push_back({p.cwiseMin(q).cwiseMin(r) - slack, p.cwiseMax(q).cwiseMax(r) + slack});
+    }
+    return all;
+  };
+  const auto rangesA = ranges(a, {}), rangesB = ranges(b, X);
+  Pairs pairs;
+  Counters counters;
+  for (std::uint32_t i = 0; i < rangesA.size(); ++i)
+    for (std::uint32_t j = 0; j < rangesB.size(); ++j)
+      if ((rangesA[i].low.array() <= rangesB[j].high.array()).all() &&
+          (rangesB[j].low.array() <= rangesA[i].high.array()).all() &&
+          trianglesTouch(corners(a, i), {}, corners(b, j), X, counters))
+        pairs.insert({i, j});
+  return pairs;
+}
+
+TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  std::size_t found = 0, points = 0;
+  for (const std::string& name : test::workloadNames(*data / "collision")) {
+    const test::Workload w = test::loadWorkload(*data / "collision", name);
+    const ObbTree a(w.a), b(w.b);
+    QueryContext context;
+    const std::size_t step = std::max<std::size_t>(1, w.poses.size() / 20) * test::kSlowdown;
+    const bool few = w.a.triangles.size() * w.b.triangles.size() < 40'000'000;
+    for (std::size_t i = 0; i < w.poses.size(); i += step) {
+      const Transform& X = w.poses[i];
+      const auto all = contacts(a, {}, b, X, context);
+      Pairs pairs, mirrored;
+      for (const TriangleContact& c : all) {
+        pairs.insert({c.a, c.b});
+        const Triangle ta = corners(w.a, c.a), tb = corners(w.b, c.b);
+        expectSound({c.p_W, c.q_W}, ta, {}, tb, X);
+        points += c.p_W == c.q_W;
+      }
+      EXPECT_EQ(pairs.size(), all.size()) << name << ": a pair came twice";
+      EXPECT_EQ(pairs.empty(), w.hit[i] == 0) << name << " pose " << i;
+      if (few) {
+        EXPECT_EQ(pairs, bruteForce(w.a, w.b, X)) << name << " pose " << i;
+      }
+      for (const TriangleContact& c : contacts(b, X, a, {}, context)) mirrored.insert({c.b, c.a});
+      EXPECT_EQ(mirrored, pairs) << name << " pose " << i;
+      found += all.size();
+    }
+  }
+  std::cout << found << " contacts, " << points << " of them points\n";
+  EXPECT_GT(found, 3'000u / test::kSlowdown);
+}
+
+/// Ends in any order.
+void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3& q) {
+  for (const bool swapped : {false, true}) {
+    const Segment s =
+        swapped ? triangleIntersection(b, {}, a, {}) : triangleIntersection(a, {}, b, {});
+    EXPECT_TRUE((s.p == p && s.q == q) || (s.p == q && s.q == p))
+        << s.p.transpose() << " to " << s.q.transpose();
+  }
+}
+
+TEST(TriangleIntersection, ClosedForms) {
+  const Triangle flat{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  // Crossing: the whole of one's cut, part of each, a corner in the inside.
+  expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, 1, 1)}, {1, 1, 0}, {2, 1, 0});
+  expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 1, 1)}, {1, 1, 0}, {3, 1, 0});
+  expectEnds(flat, {Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(2, 1, 1)}, {1, 1, 0}, {1, 1, 0});
+  // An edge in the plane; an edge that crosses a corner; corner on corner.
+  expectEnds(flat, {Vec3(1, 1, 0), Vec3(9, 1, 0), Vec3(2, 1, 1)}, {1, 1, 0}, {3, 1, 0});
+  expectEnds(flat, {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(-1, -1, 0)}, {0, 0, 0}, {0, 0, 0});
+  expectEnds(flat, {Vec3(4, 0, 0), Vec3(5, 0, 1), Vec3(5, 1, 2)}, {4, 0, 0}, {4, 0, 0});
+  // One plane: the same triangle, an overlap, a common edge, a common point.
+  expectEnds(flat, flat, {4, 0, 0}, {0, 4, 0});
+  expectEnds(flat, {Vec3(1, 1, 0), Vec3(-7, 1, 0), Vec3(1, -7, 0)}, {1, 0, 0}, {0, 1, 0});
+  expectEnds(flat, {Vec3(1, 0, 0), Vec3(9, 0, 0), Vec3(1, -4, 0)}, {1, 0, 0}, {4, 0, 0});
+  expectEnds(flat, {Vec3(0, 0, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)}, {0, 0, 0}, {0, 0, 0});
+  // Segments and points.
+  expectEnds(flat, {Vec3(1, 1, 0), Vec3(9, 1, 0), Vec3(2, 1, 0)}, {1, 1, 0}, {3, 1, 0});
+  expectEnds(flat, {Vec3(1, 1, 1), Vec3(1, 1, -1), Vec3(1, 1, -1)}, {1, 1, 0}, {1, 1, 0});
+  expectEnds(flat, {Vec3(1, 2, 0), Vec3(1, 2, 0), Vec3(1, 2, 0)}, {1, 2, 0}, {1, 2, 0});
+  expectEnds({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(1, 0, 0)},
+             {Vec3(3, 0, 0), Vec3(6, 0, 0), Vec3(9, 0, 0)}, {3, 0, 0}, {4, 0, 0});
+}
+
+/// Two triangles that cross, at a flat angle, far from the origin, of sizes down to 2^-1000.
+TEST(TriangleIntersection, IsRightToTheLastBitsAtAnyAngle) {
+  std::mt19937_64 random(test::testSeed(7));
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  int touching = 0, general = 0;
+  for (int n = 0; n < 20'000 / test::kSlowdown; ++n) {
+    const double flat = std::pow(10.0, -n % 18), offset = n % 5 == 0 ? 1e6 : 0;
+    const double size = n % 7 == 0 ? 0x1p-300 : n % 11 == 0 ? 0x1p-1000 : 1;
+    Triangle a, b;
+    for (Triangle* t : {&a, &b})
+      for (Vec3& p : *t) p = size * Vec3(real() + offset, real(), flat * real());
+    Transform X_WA, X_WB;
+    if (n % 2)
+      for (Transform* X : {&X_WA, &X_WB}) {
+        X->m = Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix();
+        X->t = size * 0.3 * Vec3(real(), real(), real());
+      }
+    if (!trianglesTouchExact(a, X_WA, b, X_WB)) continue;
+    const Segment s = triangleIntersection(a, X_WA, b, X_WB);
+    if (size > 0x1p-900)
+      expectSound(s, a, X_WA, b, X_WB);
+    else  // squares of such numbers are zero: told by their multiples
+      EXPECT_TRUE(s.p.allFinite() && s.q.allFinite());
+    ++touching;
+    general += s.p != s.q;
+    ASSERT_FALSE(HasFailure()) << "case " << n;
+  }
+  EXPECT_GT(touching, 1'000 / test::kSlowdown);
+  EXPECT_GT(general, touching / 2);
+}
+
+TEST(TriangleIntersection, SharedPairsOfTriangles) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  int touching = 0;
+  for (const auto& file : std::filesystem::directory_iterator(*data / "collision" / "tripairs")) {
+    std::ifstream in(file.path());
+    int line = 0;
+    for (std::string text; std::getline(in, text); ++line) {
+      if (text.empty() || text[0] == '#' || line % test::kSlowdown) continue;
+      std::istringstream words(text);
+      std::vector<double> v;
+      for (std::string word; words >> word;) v.push_back(std::strtod(word.c_str(), nullptr));
+      ASSERT_EQ(v.size(), 19u) << file.path();
+      if (v[0] == 0) continue;
+      Triangle a, b;
+      for (std::size_t i = 0; i < 3; ++i) {
+        a[i] = Vec3(v[1 + 3 * i], v[2 + 3 * i], v[3 + 3 * i]);
+        b[i] = Vec3(v[10 + 3 * i], v[11 + 3 * i], v[12 + 3 * i]);
+      }
+      const Segment s = triangleIntersection(a, {}, b, {}), t = triangleIntersection(b, {}, a, {});
+      // All of them at a size at which squares of their numbers don't vanish.
+      const double scale = scaleOf(a, {}, b, {});
+      if (scale > 0x1p-300 && scale < 0x1p300) expectSound(s, a, {}, b, {});
+      const auto off = std::min((s.p - t.p).norm() + (s.q - t.q).norm(),
+                                (s.p - t.q).norm() + (s.q - t.p).norm());
+      EXPECT_LE(off, 8 * 0x1p-50 * scale) << file.path() << " line " << line;
+      ++touching;
+      ASSERT_FALSE(HasFailure()) << file.path() << " line " << line;
+    }
+  }
+  EXPECT_GT(touching, 5'000 / test::kSlowdown);
+}
+
+TEST(Contacts, UnderTwoMapsThatAreOnlyNearlyRigid) {
+  std::mt19937_64 random(test::testSeed(13));
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  std::size_t found = 0;
+  for (int n = 0; n < 60; ++n) {
+    TriangleMesh meshes[2];
+    for (TriangleMesh& mesh : meshes)
+      for (std::uint32_t i = 0; i < 60; i += 3) {
+        const Vec3 c(real(), real(), real());
+        for (int k = 0; k < 3; ++k) mesh.vertices.push_back(c + 0.6 * Vec3(real(), real(), real()));
+        mesh.triangles.push_back({i, i + 1, i % 4 ? i + 2 : i + 1});
+      }
+    Transform maps[2];
+    for (Transform& X : maps) {
+      X.m = Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix() +
+            std::pow(10.0, -3 * (1 + n % 4)) * Mat3::Random();
+      X.t = Vec3(real(), real(), real()) + Vec3::Constant(n % 3 ? 0 : 1e5);
+    }
+    const ObbTree a(meshes[0]), b(meshes[1]);
+    QueryContext context;
+    Pairs pairs, expected;
+    for (const TriangleContact& c : contacts(a, maps[0], b, maps[1], context)) {
+      pairs.insert({c.a, c.b});
+      expectSound({c.p_W, c.q_W}, corners(meshes[0], c.a), maps[0], corners(meshes[1], c.b),
+                  maps[1]);
+    }
+    for (std::uint32_t i = 0; i < 20; ++i)
+      for (std::uint32_t j = 0; j < 20; ++j)
+        if (trianglesTouchExact(corners(meshes[0], i), maps[0], corners(meshes[1], j), maps[1]))
+          expected.insert({i, j});
+    EXPECT_EQ(pairs, expected) << "case " << n;
+    EXPECT_EQ(pairs.empty(), !interference(a, maps[0], b, maps[1], context)) << "case " << n;
+    found += pairs.size();
+  }
+  EXPECT_GT(found, 100u);
+}
+
+}  // namespace
+}  // namespace corridor

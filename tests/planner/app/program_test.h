@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <sys/wait.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/support.h"
+
+namespace corridor::test {
+
+/// The program, run in a folder of the test's own.
+class ProgramTest : public testing::Test {
+ protected:
+  struct Result {
+    int status = -1;
+    std::string out, err;
+  };
+
+  ~ProgramTest() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  static std::string contents(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::string read(const std::string& name) const { return contents(folder_ / name); }
+  /// @param input a command whose output it reads, "echo 0 | ".
+  Result run(const std::string& arguments, const std::string& input = "") const {
+    const std::string command = "cd '" + folder_.string() + "' && " + input +
+                                "'" CORRIDOR_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
+  }
+
+  std::filesystem::path folder_ = newFolder();
+};
+
+}  // namespace corridor::test

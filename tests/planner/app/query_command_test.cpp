@@ -1,0 +1,255 @@
+// `corridor query`: CSV on stdout, key=value on stderr, one line a fault.
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/app/program_test.h"
+#include "tests/support/workload.h"
+
+namespace {
+
+using corridor::test::ProgramTest;
+using testing::Eq;
+using testing::HasSubstr;
+
+const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the rotation that is none
+
+class QueryCommand : public ProgramTest {
+ protected:
+  QueryCommand() {
+    write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+    write("b.obj", "v 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\n");
+    // Through the face; a corner on it; above; the same plane as an edge of it, just off.
+    write("poses.txt", "# R t\n" + kStill +
+                           "0 0 0\n1,0,0,0,1,0,0,0,1,0,0,1  # comma separated\n\n" + kStill +
+                           "0 0 1.0000001\n" + kStill + "-1.5 0 0\n");
+  }
+  Result query(const std::string& more) const { return run("query a.obj b.obj " + more); }
+
+  static std::map<std::string, std::string> summary(const Result& result) {
+    std::map<std::string, std::string> values;
+    std::istringstream lines(result.err);
+    for (std::string line; std::getline(lines, line);) {
+      const auto at = line.find('=');
+      EXPECT_NE(at, line.npos) << line;
+      values[line.substr(0, at)] = line.substr(at + 1);
+    }
+    return values;
+  }
+  static std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> all;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+};
+
+TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
+  const Result result = query("--poses poses.txt");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, "pose,hit,bv_tests,triangle_tests\n0,1,1,1\n1,1,1,1\n2,0,1,0\n3,1,1,1\n");
+  const auto told = summary(result);
+  for (const char* key : {"hits", "median_ns", "mean_ns", "p95_ns", "bv_tests", "triangle_tests",
+                          "build_ms_a", "build_ms_b", "bytes_a", "bytes_b", "poses"})
+    EXPECT_TRUE(told.contains(key) && std::stod(told.at(key)) > 0) << key;
+  EXPECT_EQ(told.at("hits"), "3");
+  EXPECT_EQ(told.at("poses"), "4");
+  EXPECT_EQ(told.at("bv_tests"), "1");
+  EXPECT_EQ(told.at("triangle_tests"), "0.75");
+  EXPECT_EQ(told.at("query"), "interference");
+  EXPECT_EQ(told.at("volume"), "obb");
+  EXPECT_EQ(told.at("fit"), "triangles");
+  EXPECT_EQ(told.at("overlap"), "sat");
+}
+
+TEST_F(QueryCommand, VariantsAndRepeatsAnswerAlike) {
+  const std::string expected = query("--poses poses.txt").out;
+  for (const char* more : {"--repeat 7", "--fit vertices", "--fit hull --volume obb",
+                           "--overlap sat --query interference"})
+    EXPECT_EQ(query(std::string("--poses poses.txt ") + more).out, expected) << more;
+  EXPECT_EQ(run("query a.obj b.obj --poses -", "cat poses.txt | ").out, expected);
+}
+
+TEST_F(QueryCommand, ContactsTellTrianglesAndSegments) {
+  write("a.obj", "v 9 9 9\nv 9 9 8\nv 9 8 9\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nf 4 5 6\n");
+  const Result result = query("--poses poses.txt --query contacts");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const auto found = lines(result.out);
+  ASSERT_EQ(found.size(), 4u) << result.out;
+  EXPECT_EQ(found[0], "pose,a,b,px,py,pz,qx,qy,qz");
+  EXPECT_THAT(found[1], testing::AnyOf(Eq("0,1,0,1,1,0,2,1,0"), Eq("0,1,0,2,1,0,1,1,0")));
+  EXPECT_EQ(found[2], "1,1,0,1,1,0,1,1,0");
+  EXPECT_THAT(found[3], testing::AnyOf(Eq("3,1,0,0,1,0,0.5,1,0"), Eq("3,1,0,0.5,1,0,0,1,0")));
+  EXPECT_EQ(summary(result).at("hits"), "3");
+}
+
+TEST_F(QueryCommand, DistanceAndTolerance) {
+  write("poses.txt", kStill + "0 0 0\n" + kStill + "0 0 2\n");
+  EXPECT_EQ(lines(query("--poses poses.txt --query distance").out).at(2), "1,1,1,1,0,1,1,1");
+  EXPECT_THAT(lines(query("--poses poses.txt --query distance").out).at(1),
+              testing::StartsWith("0,0,"));
+  const std::string tolerance = "--poses poses.txt --query tolerance --tolerance ";
+  EXPECT_EQ(query(tolerance + "0.99").out, "pose,closer\n0,1\n1,0\n");
+  EXPECT_EQ(query(tolerance + "1").out, "pose,closer\n0,1\n1,1\n");
+}
+
+TEST_F(QueryCommand, AllVolumesAnswerAlike) {
+  for (const char* asked : {"", " --query distance", " --query tolerance --tolerance 0.1"}) {
+    const auto hits = summary(query(std::string("--poses poses.txt") + asked)).at("hits");
+    for (const char* volume : {"aabb", "sphere", "rss", "kdop14", "kdop18", "kdop26"})
+      EXPECT_EQ(
+          summary(query(std::string("--poses poses.txt --volume ") + volume + asked)).at("hits"),
+          hits)
+          << volume << asked;
+  }
+}
+
+TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
+  const std::string grid = "--grid 3x2x1 --lower -1,-1,0 --upper 1,1,1 --rotations 2 --seed 5 ";
+  const Result result = query(grid + "--save-poses saved.txt");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(summary(result).at("poses"), "12");
+  const auto poses = lines(read("saved.txt"));
+  ASSERT_EQ(poses.size(), 13u);
+  // The centre of b's bounds, (2, 1, 0), is put on the points; the first rotation is none.
+  EXPECT_EQ(poses[1], kStill + "-3 -2 0.5");
+  EXPECT_EQ(poses[2], kStill + "-2 -2 0.5");
+  EXPECT_EQ(poses[4], kStill + "-3 0 0.5");
+  EXPECT_THAT(poses[7], testing::Not(HasSubstr(kStill)));
+  EXPECT_EQ(query("--poses saved.txt").out, result.out);
+  EXPECT_EQ(query(grid).out, result.out);
+  // Of itself: the bounds of a grown by half of b's diagonal, √8/2; so the corners are free.
+  EXPECT_EQ(query("--grid 2x2x2 --save-poses saved.txt").status, 0);
+  EXPECT_THAT(lines(read("saved.txt"))[1], HasSubstr(kStill + "-3.41421356"));
+  EXPECT_EQ(summary(query("--grid 2x2x2")).at("hits"), "0");
+}
+
+TEST_F(QueryCommand, SharedWorkload) {
+  const auto data = corridor::test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  const std::string folder = (*data / "collision").string();
+  const auto w = corridor::test::loadWorkload(*data / "collision", "e_touching_boxes");
+  std::istringstream pair(
+      corridor::test::ProgramTest::contents(folder + "/e_touching_boxes/pair.txt"));
+  std::string which, a, b;
+  pair >> which >> a >> which >> b;
+  const Result result = run("query '" + folder + "/" + a + "' '" + folder + "/" + b +
+                            "' --poses '" + folder + "/e_touching_boxes/poses.txt'");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const auto found = lines(result.out);
+  ASSERT_EQ(found.size(), w.hit.size() + 1);
+  for (std::size_t i = 0; i < w.hit.size(); ++i)
+    EXPECT_THAT(found[i + 1],
+                testing::StartsWith(std::to_string(i) + "," + std::to_string(w.hit[i]) + ","));
+}
+
+TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
+  const auto fault = [&](const std::string& pose, const std::string& told) {
+    write("bad.txt", kStill + "0 0 0\n" + pose + "\n");
+    const Result result = query("--poses bad.txt");
+    EXPECT_EQ(result.status, 2) << pose;
+    EXPECT_EQ(result.err, "bad.txt:2: " + told + "\n");
+    EXPECT_EQ(result.out, "");
+  };
+  fault(kStill + "0 0 nan", "a finite number is needed, not \"nan\"");
+  fault(kStill + "0 -inf 0", "a finite number is needed, not \"-inf\"");
+  fault(kStill + "0 1e999 0", "a finite number is needed, not \"1e999\"");
+  fault(kStill + "0 0 zero", "a number is needed, not \"zero\"");
+  fault("0 0 0 0 0 0 1",
+        "a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not 7");
+  fault(kStill + "0 0 0 1",
+        "a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not 13");
+  fault("1 0 0 0 1 0 0 0 0 0 0 0", "the matrix is singular (determinant 0); a rotation is needed");
+  fault("0 0 0 0 0 0 0 0 0 0 0 0", "the matrix is singular (determinant 0); a rotation is needed");
+  fault("1 2 3 4 5 6 7 8 9 0 0 0", "the matrix is singular (determinant 0); a rotation is needed");
+  fault("1 0 0 0 1 0 0 0 -1 0 0 0", "the matrix mirrors (determinant -1); a rotation is needed");
+  fault("2 0 0 0 2 0 0 0 2 0 0 0",
+        "the matrix is no rotation: RᵀR is off the identity by 3, at most 0.0002 is taken for "
+        "rounding");
+  fault("1 0.001 0 0 1 0 0 0 1 0 0 0",
+        "the matrix is no rotation: RᵀR is off the identity by 0.001, at most 0.0002 is taken for "
+        "rounding");
+  // Four decimals are let pass.
+  write("fine.txt", "0.8660 -0.5 0 0.5 0.8660 0 0 0 1 0 0 0\n");
+  EXPECT_EQ(query("--poses fine.txt").status, 0);
+}
+
+TEST_F(QueryCommand, AllFaultsOfAFileAreToldButNotThousands) {
+  write("bad.txt", "1\n" + kStill + "0 0 0\n1 x\n");
+  EXPECT_EQ(query("--poses bad.txt").err,
+            "bad.txt:1: a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not "
+            "1\nbad.txt:3: a number is needed, not \"x\"\n");
+  std::string many;
+  for (int i = 0; i < 50; ++i) many += "1 2 3\n";
+  write("bad.txt", many);
+  const auto told = lines(query("--poses bad.txt").err);
+  ASSERT_EQ(told.size(), 11u);
+  EXPECT_EQ(told[10], "bad.txt:50: and so on: 50 lines are at fault, this is the last");
+}
+
+TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
+  write("empty.txt", "");
+  write("comments.txt", "# nothing\n\n");
+  write("empty.obj", "v 0 0 0\nv 1 0 0\n");
+  const auto fault = [&](const std::string& arguments, const std::string& told) {
+    const Result result = run("query " + arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(result.err, told + "\n") << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+  };
+  const std::string more = "; corridor query --help tells more";
+  fault("a.obj b.obj", "--poses: a file of poses is needed, or --grid");
+  fault("a.obj b.obj --poses poses.txt --grid 2x2x2",
+        "--grid: the poses are told by --poses; one of the two is needed");
+  fault("a.obj b.obj --poses poses.txt --seed 1", "--seed: is of --grid, which is not given");
+  fault("a.obj b.obj --poses none.txt", "none.txt: no such file");
+  fault("a.obj b.obj --poses .", ".: is a folder; a file is needed");
+  fault("a.obj b.obj --poses empty.txt",
+        "empty.txt: is empty; a file of poses, one a line, is needed");
+  fault("a.obj b.obj --poses comments.txt", "comments.txt: no poses");
+  fault("a.obj", "B is required" + more);
+  fault("none.obj b.obj --poses poses.txt", "none.obj: no such file");
+  fault("empty.obj b.obj --poses poses.txt",
+        "empty.obj: the mesh has no faces; triangles or polygons are needed, lines and points are "
+        "not read");
+  fault("a.obj b.obj --poses poses.txt --query intereference",
+        "--query: unknown query \"intereference\"; did you mean \"interference\"?; there are: "
+        "interference, contacts, distance, tolerance");
+  fault("a.obj b.obj --poses poses.txt --volume obbb",
+        "--volume: unknown volume \"obbb\"; did you mean \"obb\"?; there are: obb, aabb, sphere, "
+        "rss, kdop14, kdop18, "
+        "kdop26");
+  fault("a.obj b.obj --poses poses.txt --query tolerance",
+        "--tolerance: the tolerance query needs a distance in metres");
+  fault("a.obj b.obj --poses poses.txt --tolerance 1",
+        "--tolerance: is of --query tolerance, which is not asked");
+  fault("a.obj b.obj --poses poses.txt --query tolerance --tolerance nan",
+        "--tolerance: a number of metres, 0 or more, is needed, not \"nan\"" + more);
+  fault("a.obj b.obj --poses poses.txt --fit moments",
+        "--fit: unknown fit \"moments\" of obb; there are: triangles, vertices, hull");
+  fault("a.obj b.obj --poses poses.txt --overlap gjk",
+        "--overlap: unknown overlap \"gjk\" of obb; there are: sat");
+  fault("a.obj b.obj --poses poses.txt --repeat 0",
+        "--repeat: a whole number from 1 to 1000000 is needed, not \"0\"" + more);
+  fault("a.obj b.obj --grid 10x10x11 --repeat 1000000",
+        "--repeat: 1,000,000 passes over 1,100 poses are more than 1,000,000,000 queries");
+  fault("a.obj b.obj --grid 3x3",
+        "--grid: three counts above 0 along x, y and z are needed, as in 10x10x5, not \"3x3\"");
+  fault("a.obj b.obj --grid 3x0x3",
+        "--grid: three counts above 0 along x, y and z are needed, as in 10x10x5, not \"3x0x3\"");
+  fault("a.obj b.obj --grid 1000x1000x11", "--grid: more than 10,000,000 poses are asked for");
+  fault("a.obj b.obj --grid 2x2x2 --lower 1,2",
+        "--lower: three numbers of metres are needed, as in -1,-1,0.5, not \"1,2\"");
+  fault("a.obj b.obj --grid 2x2x2 --upper -9,nan,1",
+        "--upper: three numbers of metres are needed, as in -1,-1,0.5, not \"-9,nan,1\"");
+  fault("a.obj b.obj --grid 2x2x2 --lower 1,1,1 --upper 0,2,2",
+        "--lower: [1, 1, 1] is not below [0, 2, 2]");
+  fault("a.obj b.obj --grid 2x2x2 --save-poses none/p.txt",
+        "--save-poses: none/p.txt can't be written");
+}
+
+}  // namespace

@@ -1,0 +1,35 @@
+#include "planner/app/query_timing.h"
+
+#include <gtest/gtest.h>
+
+namespace corridor::app {
+namespace {
+
+TEST(QueryTiming, MedianOfOddAndEvenCounts) {
+  EXPECT_EQ(median(std::vector<double>{3}), 3);
+  EXPECT_EQ(median(std::vector<double>{9, 1, 5}), 5);
+  EXPECT_EQ(median(std::vector<double>{9, 1, 5, 3}), 4);
+}
+
+/// So many additions that depend on each other.
+double work(int count) {
+  volatile double x = 0;
+  for (int i = 0; i < count; ++i) x = x + 1;
+  return x;
+}
+
+TEST(QueryTiming, QuickCallsAreRepeatedAndSlowOnesAreNot) {
+  int first = 0, again = 0;
+  const double quick = nanosecondsOf([&] { ++first; }, [&] { again += work(10) > 0; });
+  EXPECT_EQ(first, 1);
+  EXPECT_GT(again, 10);
+  EXPECT_LT(quick, kLongEnough);
+  first = again = 0;
+  const double slow = nanosecondsOf([&] { first += work(10'000'000) > 0; }, [&] { ++again; });
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(again, 0);
+  EXPECT_GT(slow, 1e6);  // 10 additions a nanosecond are none's
+}
+
+}  // namespace
+}  // namespace corridor::app
