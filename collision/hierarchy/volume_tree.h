@@ -61,6 +61,7 @@ class VolumeTree {
   }
   /// Corners in leaf order, and each one's (or each part's) number in the mesh (or in the list).
   const std::vector<Triangle>& triangles() const { return items_.triangles; }
+  const Triangle& triangle(std::uint32_t i) const { return items_.triangles[i]; }
   const std::vector<ConvexPart>& parts() const { return items_.parts; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return items_.numbers[i]; }
 

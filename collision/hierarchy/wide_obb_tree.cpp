@@ -40,7 +40,8 @@ struct Cluster {
 /// Builds one tree; its scratch memory goes with it.
 class WideObbBuilder {
  public:
-  WideObbBuilder(WideObbTree& tree, const TriangleMesh& mesh) : tree_(tree), mesh_(mesh) {}
+  WideObbBuilder(WideObbTree& tree, const TriangleMesh& mesh, ObbFit fit)
+      : tree_(tree), mesh_(mesh), fit_(fit) {}
 
   void build() {
     if (mesh_.triangles.size() >= (1U << 29) - 1)
@@ -102,6 +103,7 @@ class WideObbBuilder {
       for (const std::uint32_t v : t)
         radius = std::max(radius, (mesh_.vertices[v] - tree_.origin_).squaredNorm());
     tree_.radius_ = roundedUp(std::sqrt(radius));
+    tree_.reach_ = roundedUp(tree_.origin_.stableNorm() + tree_.radius_);
   }
 
   Vec3 own(std::uint32_t vertex) const {
@@ -117,9 +119,11 @@ class WideObbBuilder {
       const double area = 0.5 * (q - p).cross(r - p).norm();
       Record& record = records_[i];
       record.triangle = i;
-      record.weight = static_cast<float>(area);
+      const double weight = fit_ == ObbFit::vertices ? 1 : area;
+      record.weight = static_cast<float>(weight);
       const Vec3 a = p - c, b = q - c, d = r - c;
-      const double w = area / 12;
+      // Of a triangle's points, or of its corners alone.
+      const double w = weight / (fit_ == ObbFit::vertices ? 3 : 12);
       int at = 0;
       for (int k = 0; k < 3; ++k) {
         record.centroid[k] = static_cast<float>(c[k]);
@@ -130,7 +134,7 @@ class WideObbBuilder {
   }
 
   /// Mean, axes and size of a cluster.
-  void fitAxes(Cluster& cluster) const {
+  void fitAxes(Cluster& cluster) {
     const Record* const begin = records_.data() + cluster.first;
     const Record* const end = begin + cluster.count;
     double weight = 0, mx = 0, my = 0, mz = 0;
@@ -171,6 +175,7 @@ class WideObbBuilder {
     Mat3 c;
     c << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     cluster.axes = Mat3::Identity();
+    if (fit_ == ObbFit::hull) return fitHull(cluster);
     if (!(cluster.size > 0) || !std::isfinite(scale)) return;
     Eigen::SelfAdjointEigenSolver<Mat3> solver;
     solver.computeDirect(c * scale);
@@ -180,6 +185,17 @@ class WideObbBuilder {
     Mat3 axes;
     axes << u, v, u.cross(v);
     if (axes.allFinite() && orthonormalityDefect(axes) < 0x1p-40) cluster.axes = axes;
+  }
+
+  void fitHull(Cluster& cluster) {
+    triangles_.clear();
+    for (std::uint32_t i = cluster.first; i < cluster.first + cluster.count; ++i) {
+      const auto& t = mesh_.triangles[records_[i].triangle];
+      triangles_.push_back({own(t[0]), own(t[1]), own(t[2])});
+    }
+    const ObbFrame frame = fitFrame(triangles_, fit_);
+    cluster.mean = frame.mean;
+    cluster.axes = frame.axes;
   }
 
   /// Parts of a cluster, at most eight, each with its axes: always the largest that is no leaf yet
@@ -300,12 +316,14 @@ class WideObbBuilder {
 
   WideObbTree& tree_;
   const TriangleMesh& mesh_;
+  ObbFit fit_;
   std::vector<Record> records_;
+  std::vector<Triangle> triangles_;  // of one cluster
   double scale_ = 1;
 };
 
-WideObbTree::WideObbTree(const TriangleMesh& mesh) {
-  WideObbBuilder(*this, mesh).build();
+WideObbTree::WideObbTree(const TriangleMesh& mesh, ObbFit fit) {
+  WideObbBuilder(*this, mesh, fit).build();
 }
 
 std::size_t WideObbTree::bytes() const {

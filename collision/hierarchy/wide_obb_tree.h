@@ -8,6 +8,7 @@
 
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/predicates/triangle.h"
+#include "collision/volumes/obb.h"
 
 namespace corridor {
 
@@ -41,7 +42,7 @@ class WideObbTree {
 
   /// @pre the mesh has a triangle, finite coordinates, and indices in range (`checkMesh`).
   /// @throws std::length_error for 2^29 − 1 triangles or more.
-  explicit WideObbTree(const TriangleMesh& mesh);
+  explicit WideObbTree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles);
 
   /// Depth first; node 0 has the parts of the whole.
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -55,6 +56,8 @@ class WideObbTree {
   int unit() const { return unit_; }
   /// Largest |p − origin|₂ of all corners, metres, rounded up.
   double radius() const { return radius_; }
+  /// Of a sphere about the frame's origin, metres: holds all corners.
+  double reach() const { return reach_; }
 
   std::size_t bytes() const;
 
@@ -70,7 +73,7 @@ class WideObbTree {
   std::vector<std::uint32_t> meshTriangle_;
   Vec3 origin_ = Vec3::Zero();
   int unit_ = 0;
-  double radius_ = 0;
+  double radius_ = 0, reach_ = 0;
 };
 
 }  // namespace corridor

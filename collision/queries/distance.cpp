@@ -8,29 +8,27 @@
 
 #include "collision/core/rounding.h"
 #include "collision/hierarchy/traverse.h"
-#include "collision/predicates/triangle_contact.h"
-#include "collision/queries/closest_points.h"
+#include "collision/queries/closer_triangles.h"
 #include "collision/queries/interference.h"
+#include "collision/queries/nearest_triangles.h"
 #include "collision/queries/relative_pose.h"
 #include "collision/volumes/pair_tests.h"
 
 namespace corridor {
 namespace {
 
-/// What the volumes and the triangles of one query share. Volumes are told apart in frame A, where
+/// Volumes are told apart in frame A, where
 /// distances are at most 1/shrink of those in the world: |Mx| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|.
 template <class Volume>
 struct Measures {
   Transform X_AB;
   PairTest<Volume> volumes;
-  TriangleDistances triangles;
   double shrink;
 
   Measures(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
            const Transform& X_WB)
       : X_AB(rigidInverse(X_WA) * X_WB),
         volumes(a.bounds(), b.bounds(), X_AB, relativePoseError(X_WA, X_AB, X_WB, b.reach())),
-        triangles(X_WA, a.reach(), X_WB, b.reach()),
         shrink(std::max(0.0, roundedDown(1 - 3 * orthonormalityDefect(X_WA.m)))) {}
 };
 
@@ -45,21 +43,16 @@ class Nearest {
           const DistanceOptions& options, QueryContext& context)
       : a_(a),
         b_(b),
-        X_WA_(X_WA),
-        X_WB_(X_WB),
-        options_(options),
         measures_(a, X_WA, b, X_WB),
-        counters_(context.counters),
-        candidates_(context.candidates) {
-    candidates_.clear();
-  }
+        nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context),
+        counters_(context.counters) {}
 
-  bool enter(const Item& item, const Node&, const Node&) { return canImprove(item.bound); }
+  bool enter(const Item& item, const Node&, const Node&) { return nearest_.canImprove(item.bound); }
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
     ++counters_.boxTests;
     const double bound =
         measures_.volumes.distanceBound(a_.node(i).box, b_.node(k).box) * measures_.shrink;
-    if (canImprove(bound)) stack.push_back({i, k, bound});
+    if (nearest_.canImprove(bound)) stack.push_back({i, k, bound});
   }
   void opened(std::vector<Item>& stack, std::size_t first) {  // the nearest first
     std::ranges::sort(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end(),
@@ -68,53 +61,18 @@ class Nearest {
   bool leaves(const Node& na, const Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
-        const DistanceRange range = measures_.triangles(a_.triangles()[s], b_.triangles()[t]);
-        if (range.lower > 0) {
-          ++counters_.triangleTests;
-        } else if (trianglesTouch(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_, counters_)) {
-          candidates_.assign(1, {s, t, 0});
-          contact_ = true;
-          return true;
-        }
-        if (!canImprove(range.lower)) continue;
-        candidates_.push_back({s, t, range.lower});
-        if (!(range.upper < upper_)) continue;
-        upper_ = range.upper;
-        std::erase_if(candidates_, [&](const Item& c) { return c.bound >= upper_; });
+        ++counters_.triangleTests;
+        if (nearest_.look(s, a_.triangle(s), t, b_.triangle(t), counters_)) return true;
       }
     return false;
   }
-
-  Distance result() {
-    Distance best;
-    best.distance = HUGE_VAL;
-    std::ranges::sort(candidates_, {}, &Item::bound);
-    for (const auto& [s, t, bound] : candidates_) {
-      if (bound >= best.distance) break;
-      const WitnessPoints w = closestPoints(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_);
-      if (!(w.distance < best.distance)) continue;
-      best = {w.distance, w.p_WA, w.p_WB, a_.meshTriangle(s), b_.meshTriangle(t)};
-    }
-    // Only contact is 0, and what is not contact is not.
-    best.distance = contact_ ? 0 : std::max(best.distance, std::numeric_limits<double>::min());
-    return best;
-  }
+  Distance result() { return nearest_.result(a_, b_); }
 
  private:
-  /// Might something at least `bound` away be closer than the best by more than the options allow?
-  /// What may touch always might, so that only contact is 0; and so might a NaN.
-  bool canImprove(double bound) const {
-    return bound == 0 || !(bound * (1 + options_.relative) + options_.absolute >= upper_);
-  }
-
   const Tree &a_, &b_;
-  const Transform &X_WA_, &X_WB_;
-  const DistanceOptions& options_;
   Measures<Volume> measures_;
+  NearestTriangles nearest_;
   Counters& counters_;
-  std::vector<Item>& candidates_;
-  double upper_ = HUGE_VAL;
-  bool contact_ = false;
 };
 
 template <class Volume>
@@ -128,10 +86,8 @@ class Closer {
          QueryContext& context)
       : a_(a),
         b_(b),
-        X_WA_(X_WA),
-        X_WB_(X_WB),
         measures_(a, X_WA, b, X_WB),
-        d_(d),
+        closer_(X_WA, a.reach(), X_WB, b.reach(), d),
         pad_(measures_.shrink > 0 ? roundedUp(d / measures_.shrink) : HUGE_VAL),
         counters_(context.counters) {}
 
@@ -145,41 +101,20 @@ class Closer {
   void opened(std::vector<Item>&, std::size_t) {}
   bool leaves(const Node& na, const Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count && !found; ++s)
-      for (std::uint32_t t = nb.first; t < nb.first + nb.count && !found; ++t)
-        found = close(a_.triangles()[s], b_.triangles()[t]);
+      for (std::uint32_t t = nb.first; t < nb.first + nb.count && !found; ++t) {
+        ++counters_.triangleTests;
+        found = closer_(a_.triangle(s), b_.triangle(t), counters_);
+      }
     return found;
   }
 
   bool found = false;
 
  private:
-  bool close(const Triangle& s, const Triangle& t) {
-    const DistanceRange range = measures_.triangles(s, t);
-    if (range.lower > d_) {
-      ++counters_.triangleTests;
-      return false;
-    }
-    if (range.upper <= d_) {
-      ++counters_.triangleTests;
-      return true;
-    }
-    if (trianglesTouch(s, X_WA_, t, X_WB_, counters_)) return true;
-    const WitnessPoints w = closestPoints(s, X_WA_, t, X_WB_);
-    return w.distance <= d_ + band(s, t, w);
-  }
-  double band(const Triangle& s, const Triangle& t, const WitnessPoints& w) const {
-    double size = 0;
-    for (const Vec3& p : s)
-      size = std::max(size, (X_WA_.m.cwiseAbs() * p.cwiseAbs() + X_WA_.t.cwiseAbs()).maxCoeff());
-    for (const Vec3& p : t)
-      size = std::max(size, (X_WB_.m.cwiseAbs() * p.cwiseAbs() + X_WB_.t.cwiseAbs()).maxCoeff());
-    return 2 * kUnit * (size + w.distance);
-  }
-
   const Tree &a_, &b_;
-  const Transform &X_WA_, &X_WB_;
   Measures<Volume> measures_;
-  double d_, pad_;
+  CloserTriangles closer_;
+  double pad_;
   Counters& counters_;
 };
 

@@ -1,6 +1,9 @@
 #include "collision/queries/interference_wide.h"
 
+#include <vector>
+
 #include "collision/predicates/triangle_contact.h"
+#include "collision/queries/triangle_intersection.h"
 #include "collision/volumes/wide_pose.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,18 +19,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// First contact: boxes by floats, triangles by floats, those that are left by the exact predicate.
-class Interference {
+/// Pairs of triangles that touch: boxes by floats, triangles by floats, those that are left by the
+/// exact predicate. `Found(s, t)`, in leaf order, is told each, until it returns true.
+template <class Found>
+class Touching {
  public:
-  Interference(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
-               const Transform& X_WB, const WidePose& pose, Counters& counters)
+  Touching(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b, const Transform& X_WB,
+           const WidePose& pose, Counters& counters, const Found& found)
       : a_(a),
         b_(b),
         X_WA_(X_WA),
         X_WB_(X_WB),
         pose_(pose),
         counters_(counters),
-        leaves_(a, b, pose, counters) {}
+        leaves_(a, b, pose, counters),
+        found_(found) {}
 
   static bool skip(float) { return false; }
 
@@ -50,12 +56,9 @@ class Interference {
           Counters own;  // the pair is counted already
           const bool touch = trianglesTouch(a_.triangle(s), X_WA_, b_.triangle(t), X_WB_, own);
           counters_.exactTests += own.exactTests;
-          if (touch) hit_ = TrianglePair{a_.meshTriangle(s), b_.meshTriangle(t)};
-          return touch;
+          return touch && found_(s, t);
         });
   }
-
-  const std::optional<TrianglePair>& hit() const { return hit_; }
 
  private:
   const WideObbTree &a_, &b_;
@@ -63,15 +66,33 @@ class Interference {
   const WidePose& pose_;
   Counters& counters_;
   WideLeaves leaves_;
-  std::optional<TrianglePair> hit_;
+  const Found& found_;
 };
 
-std::optional<TrianglePair> wideInterference(const WideObbTree& a, const Transform& X_WA,
-                                             const WideObbTree& b, const Transform& X_WB,
-                                             const WidePose& pose, QueryContext& context) {
-  Interference query(a, X_WA, b, X_WB, pose, context.counters);
+std::optional<TrianglePair> firstTouching(const WideObbTree& a, const Transform& X_WA,
+                                          const WideObbTree& b, const Transform& X_WB,
+                                          const WidePose& pose, QueryContext& context) {
+  std::optional<TrianglePair> hit;
+  const auto found = [&](std::uint32_t s, std::uint32_t t) {
+    hit = TrianglePair{s, t};
+    return true;
+  };
+  Touching query(a, X_WA, b, X_WB, pose, context.counters, found);
   walkWide(a, b, pose.floats.scale, context, query);
-  return query.hit();
+  return hit;
+}
+
+std::vector<TrianglePair> allTouching(const WideObbTree& a, const Transform& X_WA,
+                                      const WideObbTree& b, const Transform& X_WB,
+                                      const WidePose& pose, QueryContext& context) {
+  std::vector<TrianglePair> all;
+  const auto found = [&](std::uint32_t s, std::uint32_t t) {
+    all.push_back({s, t});
+    return false;
+  };
+  Touching query(a, X_WA, b, X_WB, pose, context.counters, found);
+  walkWide(a, b, pose.floats.scale, context, query);
+  return all;
 }
 
 }  // namespace corridor::HWY_NAMESPACE
@@ -80,7 +101,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace corridor {
 
-HWY_EXPORT(wideInterference);
+HWY_EXPORT(firstTouching);
+HWY_EXPORT(allTouching);
 
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
@@ -91,7 +113,26 @@ std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& 
     ++context.counters.boxTests;
     return std::nullopt;
   }
-  return HWY_DYNAMIC_DISPATCH(wideInterference)(a, X_WA, b, X_WB, pose, context);
+  const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context);
+  if (!hit) return hit;
+  return TrianglePair{a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
+}
+
+std::vector<TriangleContact> contacts(const WideObbTree& a, const Transform& X_WA,
+                                      const WideObbTree& b, const Transform& X_WB,
+                                      QueryContext& context) {
+  ++context.counters.states;
+  std::vector<TriangleContact> found;
+  const WidePose pose(a, X_WA, b, X_WB, 0);
+  if (pose.apart) {
+    ++context.counters.boxTests;
+    return found;
+  }
+  for (const auto& [s, t] : HWY_DYNAMIC_DISPATCH(allTouching)(a, X_WA, b, X_WB, pose, context)) {
+    const Segment segment = triangleIntersection(a.triangle(s), X_WA, b.triangle(t), X_WB);
+    found.push_back({a.meshTriangle(s), b.meshTriangle(t), segment.p, segment.q});
+  }
+  return found;
 }
 
 }  // namespace corridor

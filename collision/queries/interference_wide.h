@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "collision/core/query_context.h"
 #include "collision/core/transform.h"
 #include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/queries/contacts.h"
 #include "collision/queries/triangle_pair.h"
 
 namespace corridor {
@@ -17,5 +19,10 @@ namespace corridor {
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
                                          QueryContext& context);
+
+/// `contacts` (contacts.h, with its promises) for wide trees. Allocates what it returns.
+std::vector<TriangleContact> contacts(const WideObbTree& a, const Transform& X_WA,
+                                      const WideObbTree& b, const Transform& X_WB,
+                                      QueryContext& context);
 
 }  // namespace corridor

@@ -45,7 +45,7 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   const double defect = defectOf(m);
   // Entries of m and of the offset, three products and two sums each: 3.1u·3 as a norm.
   const double reach = 1.1 * b.radius() + D.cwiseAbs().sum();
-  const double metres = 1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms) + pad;
+  const double metres = 1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms);
   unitA = std::ldexp(1.0, -a.unit());
   scale = std::ldexp(1.0, b.unit() - a.unit());
   t = offset * unitA;
@@ -55,6 +55,8 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   // Rounded up, for the conversion and for the length of cross axes.
   floats.ball = static_cast<float>(
       (error + u * (33 * scale + 3.1 * t.cwiseAbs().sum() + 6) + 0x1p-118) * (1 + 0x1p-16));
+  // |M_A x| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|.
+  shrink = usable ? roundedDown(1 - 3.1 * defectA) : 0;
   leafError = static_cast<float>(error * (1 + 0x1p-20) + 0x1p-118);
   floats.scale = static_cast<float>(scale);
   for (int i = 0; i < 3; ++i) {

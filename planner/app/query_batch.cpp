@@ -4,8 +4,9 @@
 #include <optional>
 
 #include "collision/queries/contacts.h"
-#include "collision/queries/distance.h"
+#include "collision/queries/distance_wide.h"
 #include "collision/queries/interference.h"
+#include "collision/queries/interference_wide.h"
 #include "collision/volumes/pair_tests.h"
 #include "planner/app/query_timing.h"
 
@@ -103,6 +104,11 @@ BatchResult runVolume(const Batch& batch) {
   });
 }
 
+BatchResult runWide(const Batch& batch) {
+  return runOn(batch,
+               [&](const TriangleMesh& mesh) { return WideObbTree(mesh, obbFit(batch.fit)); });
+}
+
 }  // namespace
 
 const std::vector<QueryKind>& queryKinds() {
@@ -116,7 +122,8 @@ const std::vector<QueryKind>& queryKinds() {
 
 const std::vector<VolumeKind>& volumeKinds() {
   static const std::vector<VolumeKind> kinds = {
-      {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runVolume<Obb>},
+      {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runWide},
+      {"obb-binary", {"triangles", "vertices", "hull"}, {"sat"}, runVolume<Obb>},
       {"aabb", {"plain"}, {"intervals"}, runVolume<Aabb>},
       {"sphere", {"plain"}, {"centers"}, runVolume<BoundingSphere>},
       {"rss", {"triangles", "vertices", "hull"}, {"rectangles"}, runVolume<Rss>},

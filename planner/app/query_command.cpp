@@ -4,6 +4,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
+#include "collision/core/simd_target.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/output.h"
@@ -116,6 +117,7 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& var
   const double middle = median(ns);
   std::nth_element(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(rank), ns.end());
   for (const std::string& word : variant) std::cerr << word << '\n';
+  std::cerr << "simd=" << simdTarget() << '\n';
   const auto tell = [](const char* key, const char* format, double value) {
     char text[64];
     std::snprintf(text, sizeof text, format, value);

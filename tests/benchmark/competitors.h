@@ -18,8 +18,8 @@
 #include <fcl/narrowphase/distance.h>
 #endif
 
-#include "collision/queries/distance.h"
-#include "collision/queries/interference.h"
+#include "collision/queries/distance_wide.h"
+#include "collision/queries/interference_wide.h"
 #include "planner/app/query_timing.h"
 #include "tests/support/workload.h"
 

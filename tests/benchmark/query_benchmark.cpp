@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/core/simd_target.h"
 #include "collision/queries/interference.h"
 #include "planner/app/query_timing.h"
 #include "tests/benchmark/competitors.h"
@@ -61,7 +62,7 @@ void enter(Field& field, const std::string& name, const test::Workload& w, const
 /// another; then FCL's.
 Field competitors(const test::Workload& w, const Options& o, double tolerance) {
   Field field;
-  enter<Ours<ObbTree>>(field, "ours", w, o, tolerance, ObbTreeParams{o.fit});
+  enter<Ours<WideObbTree>>(field, "ours", w, o, tolerance, o.fit);
 #ifdef CORRIDOR_WITH_FCL
   if (o.query == Query::interference)
     enter<Fcl<fcl::OBB<double>>>(field, "FCL OBB", w, o, tolerance);
@@ -276,9 +277,9 @@ std::string processor() {
 void report(const Options& o) {
   const int cpu = pin(o.cpu);
   std::cout << "processor: " << processor() << ", core " << cpu
-            << "\ninstruction set: ours: baseline of the build (x86-64: SSE2); FCL: that of the "
-               "installed library\nrounds: "
-            << o.rounds << "\n";
+            << "\ninstruction set: ours: " << simdTarget()
+            << " (Highway's name); FCL: that of the installed library\nrounds: " << o.rounds
+            << "\n";
   Rows rows;
   for (const std::string& name : test::workloadNames(o.data)) {
     const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };

@@ -64,6 +64,7 @@ TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
   EXPECT_EQ(told.at("volume"), "obb");
   EXPECT_EQ(told.at("fit"), "triangles");
   EXPECT_EQ(told.at("overlap"), "sat");
+  EXPECT_FALSE(told.at("simd").empty());
 }
 
 TEST_F(QueryCommand, VariantsAndRepeatsAnswerAlike) {

@@ -1,0 +1,116 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/core/rounding.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/closest_points.h"
+#include "collision/queries/distance_wide.h"
+#include "collision/queries/interference_wide.h"
+#include "tests/collision/hierarchy/soups.h"
+#include "tests/support/reference_distance.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+using test::anyPose;
+using test::soup;
+
+Triangle corners(const TriangleMesh& m, std::size_t t) {
+  return {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
+}
+
+double largest(const Triangle& t, const Transform& X) {
+  double size = 0;
+  for (const Vec3& p : t)
+    size = std::max(size, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
+  return size;
+}
+
+TEST(WideDistance, SharedWorkloads) {
+  const auto data = test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  QueryContext context;
+  int checked = 0;
+  for (const std::string& name : test::workloadNames(*data / "collision")) {
+    const test::Workload w = test::loadWorkload(*data / "collision", name);
+    const WideObbTree a(w.a), b(w.b);
+    const std::size_t step = test::stressAsked() || name[0] == 'a' ? 1 : 5;
+    for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
+      const double truth = w.distance[i];
+      if (std::isnan(truth)) continue;
+      const Transform& X = w.poses[i];
+      const Distance d = distance(a, {}, b, X, {}, context);
+      ASSERT_EQ(d.distance == 0, w.hit[i] == 1) << name << " " << i;
+      const double size =
+          std::max({largest(corners(w.a, d.a), {}), largest(corners(w.b, d.b), X), a.reach()});
+      const double allowed = 1e-12 * truth + 4 * kUnit * size;
+      EXPECT_NEAR(d.distance, truth, allowed) << name << " " << i;
+      // The witnesses are on their triangles, and as far apart as told.
+      EXPECT_LE(test::referenceDistance(d.p_WA, corners(w.a, d.a), {}), 4 * kUnit * size);
+      EXPECT_LE(test::referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
+      EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);
+      EXPECT_TRUE(closerThan(a, {}, b, X, d.distance + allowed, context)) << name << " " << i;
+      if (d.distance > 4 * allowed) {
+        EXPECT_FALSE(closerThan(a, {}, b, X, d.distance - 4 * allowed, context)) << name;
+      }
+      EXPECT_EQ(closerThan(a, {}, b, X, 0, context), w.hit[i] == 1);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 1'000 / test::kSlowdown);
+}
+
+TEST(WideDistance, AgreesWithBruteForceAndIsSymmetric) {
+  std::mt19937_64 random(test::testSeed(22));
+  int touching = 0;
+  for (int n = 0; n < 300; ++n) {
+    TriangleMesh meshA = soup(random, 15, 0.1),
+                 meshB = soup(random, 1 + static_cast<int>(random() % 30), n % 4 ? 0.1 : 0.001);
+    const int exponent = n % 11 == 0 ? -300 : n % 11 == 1 ? 300 : 0;
+    for (TriangleMesh* m : {&meshA, &meshB})
+      for (Vec3& v : m->vertices)
+        v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    const double unit = std::ldexp(1.0, exponent);
+    const WideObbTree a(meshA), b(meshB);
+    Transform X_WA = anyPose(random, n % 3 ? 1 : 1e4), X_WB = X_WA;
+    X_WB.t += anyPose(random, n % 5 ? 1.5 : 0.2).t;
+    X_WA.t *= unit;
+    X_WB.t *= unit;
+    if (n % 2) X_WB.m = anyPose(random, 1).m;
+    if (n % 7 == 0) X_WA.m += 1e-5 * anyPose(random, 1).m;
+    QueryContext context;
+    const bool touch = interference(a, X_WA, b, X_WB, context).has_value();
+    const Distance d = distance(a, X_WA, b, X_WB, {}, context),
+                   back = distance(b, X_WB, a, X_WA, {}, context);
+    ASSERT_EQ(d.distance == 0, touch) << n;
+    EXPECT_EQ(back.distance == 0, touch);
+    touching += touch;
+    if (touch) {
+      EXPECT_TRUE(trianglesTouchExact(corners(meshA, d.a), X_WA, corners(meshB, d.b), X_WB));
+      continue;
+    }
+    double truth = HUGE_VAL, size = 0;
+    for (std::size_t s = 0; s < meshA.triangles.size(); ++s)
+      for (std::size_t t = 0; t < meshB.triangles.size(); ++t) {
+        truth = std::min(truth,
+                         closestPoints(corners(meshA, s), X_WA, corners(meshB, t), X_WB).distance);
+        size = std::max({size, largest(corners(meshA, s), X_WA), largest(corners(meshB, t), X_WB)});
+      }
+    EXPECT_NEAR(d.distance, truth, 1e-12 * truth) << n;
+    EXPECT_NEAR(back.distance, truth, 1e-12 * truth + 4 * kUnit * size) << n;
+    const Distance loose = distance(a, X_WA, b, X_WB, {0.1, 0.01 * unit}, context);
+    EXPECT_GE(loose.distance, truth * (1 - 1e-12));
+    EXPECT_LE(loose.distance, 1.1 * truth + 0.01 * unit + 1e-10 * truth);
+    for (const double factor : {0.5, 0.999, 1.001, 2.0})
+      EXPECT_EQ(closerThan(a, X_WA, b, X_WB, factor * truth, context), factor > 1) << n;
+  }
+  EXPECT_GT(touching, 20);
+  EXPECT_LT(touching, 250);
+}
+
+}  // namespace
+}  // namespace corridor
