@@ -48,14 +48,21 @@ struct Lanes {
 ///   bool skip(float key): is an item, whose least key was this, of no interest any more?
 ///   unsigned boxes(const Node& a, const Node& b, float* keys): which of the sixteen pairs are to
 ///   be
-///     looked at (bit 4·i + j), and a key for each; the least is looked at first;
+///     looked at (bit 4·i + j), and a key for each;
+///   kSorted: are all that were pushed together looked at in the order of their keys, or only the
+///   one
+///     of the least key first?
 ///   bool leaves(const Node& a, const Node& b, unsigned pairs): looks at pairs of leaves; true:
 ///   enough.
-/// The stack is the context's, so that no query allocates.
+///
+/// The stack is the context's, so that no query allocates once it has grown. What is pushed is
+/// written first and kept if it counts, without branches: which boxes overlap can't be predicted.
 template <class Query>
 void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryContext& context,
               Query& query) {
+  using Item = QueryContext::WideItem;
   constexpr unsigned kAll = 15;
+  constexpr std::size_t kMostPushed = 16 + 1;  // and one that is written and not kept
   // Two nodes whose boxes differ by less than this are descended together. Measured: 1.3 to 2.5
   // cost the same near contact; the less, the better for a small body far inside a large one.
   constexpr float kLarger = 1.3F;
@@ -63,66 +70,76 @@ void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryCon
     return std::max(std::max(node.half[0][0], node.half[0][1]),
                     std::max(node.half[0][2], node.half[0][3]));
   };
+  // Bit r of four, fourfold: all pairs of a's r-th box.
+  const auto rowsOf = [](unsigned lanes) {
+    return (lanes & 1) * 0xfU | (lanes & 2) * 0x78U | (lanes & 4) * 0x3c0U | (lanes & 8) * 0x1e00U;
+  };
   auto& stack = context.wideStack;
-  stack.clear();
-  stack.push_back({0, 0, -HUGE_VALF, kAll << 4 | kAll});
-  while (!stack.empty()) {
-    const auto item = stack.back();
-    stack.pop_back();
+  std::size_t top = 0;
+  const auto makeRoom = [&] {
+    if (stack.size() < top + kMostPushed) stack.resize(2 * (top + kMostPushed));
+  };
+  makeRoom();
+  stack[top++] = {0, 0, -HUGE_VALF, kAll << 4 | kAll};
+  while (top > 0) {
+    const Item item = stack[--top];
     if (query.skip(item.key)) continue;
     const WideObbTree::Node &na = a.nodes()[item.a], &nb = b.nodes()[item.b];
     const Lanes lanesA(na), lanesB(nb);
     const unsigned heldA = item.masks >> 4 & lanesA.held, heldB = item.masks & lanesB.held;
-    unsigned wanted = 0, rowsOfLeaves = 0;
-    for (unsigned r = 0; r < 4; ++r) {
-      wanted |= (heldA >> r & 1 ? heldB : 0) << 4 * r;
-      rowsOfLeaves |= (lanesA.leaves >> r & 1 ? kAll : 0) << 4 * r;
-    }
+    const unsigned wanted = rowsOf(heldA) & heldB * 0x1111U;
     context.counters.boxTests += static_cast<unsigned>(std::popcount(wanted));
     alignas(64) float keys[16];
-    unsigned open = query.boxes(na, nb, keys) & wanted;
+    const unsigned open = query.boxes(na, nb, keys) & wanted;
     if (!open) continue;
-    if (const unsigned pairs = open & rowsOfLeaves & lanesB.leaves * 0x1111U) {
+    const unsigned leafRows = rowsOf(lanesA.leaves), leafColumns = lanesB.leaves * 0x1111U;
+    if (const unsigned pairs = open & leafRows & leafColumns)
       if (query.leaves(na, nb, pairs)) return;
-      open &= ~pairs;
-      if (!open) continue;
-    }
     const float sizeA = size(na), sizeB = size(nb) * scaleB;
-    const bool splitA = !(sizeB > kLarger * sizeA), splitB = !(sizeA > kLarger * sizeB);
-    const std::size_t begin = stack.size();
-    const auto push = [&](std::uint32_t i, std::uint32_t j, unsigned pairs, unsigned masks) {
-      float key = HUGE_VALF;
-      for (; pairs; pairs &= pairs - 1) key = std::min(key, keys[std::countr_zero(pairs)]);
-      stack.push_back({i, j, key, masks});
-    };
-    unsigned waiting = 0;  // pairs of which only b's box is descended
-    for (unsigned r = 0; r < 4; ++r) {
-      const unsigned row = open & kAll << 4 * r;
-      if (!row) continue;
-      if (lanesA.leaves >> r & 1) {
-        waiting |= row;
-        continue;
+    const unsigned splitA = sizeB > kLarger * sizeA ? 0 : ~0U,
+                   splitB = sizeA > kLarger * sizeB ? 0 : ~0U;
+    // Of which both boxes are descended, only a's, only b's; those of one row or column go on
+    // together.
+    const unsigned inner = open & ~leafRows & ~leafColumns;
+    const unsigned both = inner & splitA & splitB;
+    const unsigned onlyA = (open & ~leafRows & leafColumns) | (inner & ~splitB);
+    const unsigned onlyB = (open & leafRows & ~leafColumns) | (inner & ~splitA);
+    if (!(both | onlyA | onlyB)) continue;
+    makeRoom();
+    Item* const begin = stack.data() + top;
+    Item* end = begin;
+    for (unsigned rest = both; rest; rest &= rest - 1) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+      *end++ = {na.child[bit / 4], nb.child[bit % 4], keys[bit], kAll << 4 | kAll};
+    }
+    if (onlyA | onlyB) {
+      const auto keyOf = [&](unsigned pairs, unsigned pair) {
+        return pairs >> pair & 1 ? keys[pair] : HUGE_VALF;
+      };
+      for (unsigned r = 0; r < 4; ++r) {
+        const unsigned row = onlyA >> 4 * r & kAll;
+        const float key = std::min(std::min(keyOf(onlyA, 4 * r), keyOf(onlyA, 4 * r + 1)),
+                                   std::min(keyOf(onlyA, 4 * r + 2), keyOf(onlyA, 4 * r + 3)));
+        *end = {na.child[r], item.b, key, kAll << 4 | row};
+        end += row != 0;
       }
-      // Pairs of which only a's box is descended; b's go on together.
-      const unsigned alone = splitB ? row & lanesB.leaves * 0x1111U : splitA ? row : 0;
-      if (alone) push(na.child[r], item.b, alone, kAll << 4 | alone >> 4 * r);
-      if (!splitA) {
-        waiting |= row & ~alone;
-        continue;
-      }
-      for (unsigned rest = row & ~alone; rest; rest &= rest - 1) {
-        const auto bit = static_cast<unsigned>(std::countr_zero(rest));
-        push(na.child[r], nb.child[bit % 4], 1U << bit, kAll << 4 | kAll);
+      for (unsigned c = 0; c < 4; ++c) {
+        const unsigned column = onlyB >> c & 0x1111U;
+        const unsigned rows = (column | column >> 3 | column >> 6 | column >> 9) & kAll;
+        const float key = std::min(std::min(keyOf(onlyB, c), keyOf(onlyB, c + 4)),
+                                   std::min(keyOf(onlyB, c + 8), keyOf(onlyB, c + 12)));
+        *end = {item.a, nb.child[c], key, rows << 4 | kAll};
+        end += rows != 0;
       }
     }
-    for (unsigned c = 0; c < 4; ++c) {
-      const unsigned column = waiting & 0x1111U << c;
-      if (!column) continue;
-      unsigned rows = 0;
-      for (unsigned r = 0; r < 4; ++r) rows |= (column >> 4 * r & kAll ? 1U : 0U) << r;
-      push(item.a, nb.child[c], column, rows << 4 | kAll);
+    if constexpr (Query::kSorted) {
+      std::sort(begin, end, [](const Item& x, const Item& y) { return x.key > y.key; });
+    } else {
+      Item* least = begin;
+      for (Item* i = begin + 1; i < end; ++i) least = i->key < least->key ? i : least;
+      std::swap(*least, end[-1]);
     }
-    query.order(stack, begin);
+    top += static_cast<std::size_t>(end - begin);
   }
 }
 

@@ -40,16 +40,11 @@ class Nearest {
         leaves_(a, b, pose, counters_),
         nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context) {}
 
+  static constexpr bool kSorted = true;
   bool skip(float square) const { return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F); }
 
   unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* squares) const {
     return nearBoxes(a, b, pose_.floats, limit_, squares);
-  }
-
-  /// The nearest first.
-  static void order(std::vector<QueryContext::WideItem>& stack, std::size_t begin) {
-    std::sort(stack.begin() + static_cast<std::ptrdiff_t>(begin), stack.end(),
-              [](const auto& x, const auto& y) { return x.key > y.key; });
   }
 
   bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {
@@ -95,15 +90,11 @@ class Closer {
         closer_(X_WA, a.reach(), X_WB, b.reach(), d),
         limit_(limitOf(pose, d)) {}
 
+  static constexpr bool kSorted = true;
   static bool skip(float) { return false; }
 
   unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* squares) const {
     return nearBoxes(a, b, pose_.floats, limit_, squares);
-  }
-
-  static void order(std::vector<QueryContext::WideItem>& stack, std::size_t begin) {
-    std::sort(stack.begin() + static_cast<std::ptrdiff_t>(begin), stack.end(),
-              [](const auto& x, const auto& y) { return x.key > y.key; });
   }
 
   bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {

@@ -35,18 +35,11 @@ class Touching {
         leaves_(a, b, pose, counters),
         found_(found) {}
 
+  static constexpr bool kSorted = false;
   static bool skip(float) { return false; }
 
   unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* gaps) const {
     return overlappingBoxes(a, b, pose_.floats, gaps);
-  }
-
-  /// The deepest is looked at first; among the others it doesn't matter.
-  static void order(std::vector<QueryContext::WideItem>& stack, std::size_t begin) {
-    auto least = begin;
-    for (std::size_t i = begin + 1; i < stack.size(); ++i)
-      if (stack[i].key < stack[least].key) least = i;
-    std::swap(stack[least], stack.back());
   }
 
   bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {
