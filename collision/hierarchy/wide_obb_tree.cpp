@@ -101,8 +101,8 @@ class WideObbBuilder {
     double radius = 0;
     for (const auto& t : mesh_.triangles)
       for (const std::uint32_t v : t)
-        radius = std::max(radius, (mesh_.vertices[v] - tree_.origin_).squaredNorm());
-    tree_.radius_ = roundedUp(std::sqrt(radius));
+        radius = std::max(radius, (mesh_.vertices[v] - tree_.origin_).stableNorm());
+    tree_.radius_ = roundedUp(radius);
     tree_.reach_ = roundedUp(tree_.origin_.stableNorm() + tree_.radius_);
   }
 
@@ -290,7 +290,8 @@ class WideObbBuilder {
     // |U⁻¹d − Uᵀd| ≤ η·Σ|y|/(1 − 3η) per component. Rounding: y and c are sums of three products of
     // numbers ≤ 1 and ≤ √3 and x itself has two roundings, together under 16u of double; a power of
     // two's scaling that underflows loses less than 2^-1000.
-    const double pad = 2 * orthonormalityDefect(u) * (reach[0] + reach[1] + reach[2]) + 32 * kUnit;
+    const double pad = 2 * orthonormalityDefect(u) * (reach[0] + reach[1] + reach[2]) + 32 * kUnit +
+                       0x1p-1020 * scale_;
     // Longest side first: who compares sizes of boxes reads one number.
     std::array<int, 3> order = {0, 1, 2};
     std::sort(order.begin(), order.end(), [&](int i, int j) { return reach[i] > reach[j]; });

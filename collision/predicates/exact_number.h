@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "collision/core/transform.h"
+#include "collision/predicates/small_int.h"
 #include "collision/predicates/triangle.h"
 
 /// Doubles and what affine maps make of them, as integers on a common power-of-two grid. Signs of
@@ -28,40 +28,6 @@ using FixedInt = boost::multiprecision::number<
     boost::multiprecision::et_off>;
 using BigInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                              boost::multiprecision::et_off>;
-
-/// Signed integers of 128 bits, for grids of few bits: all that touches by construction (boxes, CAD
-/// parts on a grid, under quarter turns). Some thirty times faster than `FixedInt`.
-class Int128 {
- public:
-  Int128() = default;
-  explicit Int128(std::int64_t value) : value_(value) {}
-
-  bool is_zero() const { return value_ == 0; }
-  int sign() const { return value_ > 0 ? 1 : value_ < 0 ? -1 : 0; }
-  Int128& operator*=(const Int128& other) {
-    value_ *= other.value_;
-    return *this;
-  }
-  Int128& operator+=(const Int128& other) {
-    value_ += other.value_;
-    return *this;
-  }
-  Int128& operator<<=(unsigned bits) {  // of a negative number, too: a product in C++20
-    value_ <<= bits;
-    return *this;
-  }
-  friend Int128 operator*(Int128 a, const Int128& b) { return a *= b; }
-  friend Int128 operator+(Int128 a, const Int128& b) { return a += b; }
-  friend Int128 operator-(Int128 a, const Int128& b) {
-    a.value_ -= b.value_;
-    return a;
-  }
-  friend auto operator<=>(const Int128&, const Int128&) = default;
-
- private:
-  __extension__ using Value = __int128;
-  Value value_ = 0;
-};
 
 template <class Int>
 struct Vector {

@@ -56,6 +56,7 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
   // As in `trianglesTouchExact`.
   const int bits = 3 * grid.coordinateBits() + 6;
   if (bits <= 127) return exactSign<exact::Int128>(corners, grid);
+  if (bits <= 255) return exactSign<exact::Int256>(corners, grid);
   if (bits <= 512) return exactSign<exact::FixedInt<512>>(corners, grid);
   if (bits <= 1024) return exactSign<exact::FixedInt<1024>>(corners, grid);
   return exactSign<exact::BigInt>(corners, grid);

@@ -123,7 +123,7 @@ bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangl
   // orientations below 2^(3k+6) (3·2^(k+1)·2^(2k+3)): that many bits hold every intermediate value.
   const int bits = 3 * grid.coordinateBits() + 6;
   if (bits <= 127) return touch<exact::Int128>(cornersA, cornersB, grid);
-  if (bits <= 256) return touch<exact::FixedInt<256>>(cornersA, cornersB, grid);
+  if (bits <= 255) return touch<exact::Int256>(cornersA, cornersB, grid);
   if (bits <= 512) return touch<exact::FixedInt<512>>(cornersA, cornersB, grid);
   if (bits <= 1024) return touch<exact::FixedInt<1024>>(cornersA, cornersB, grid);
   return touch<exact::BigInt>(cornersA, cornersB, grid);

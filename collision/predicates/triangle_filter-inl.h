@@ -31,13 +31,15 @@ struct alignas(64) LeafCorners {
 /// corners given may be off by, both sides together. By the separating-axis theorem: both planes
 /// and the nine cross products of edges.
 ///
-/// Rounding, u = 2^-24. All is relative to one corner of a's triangle: differences are rounded
-/// once, 2u of coordinates ≤ D. Any vector L separates if the projections do: a projection of a
-/// point with coordinates ≤ D is off by less than 5u·|L|₁·D, so the difference of two by less than
-/// 10u·|L|₁·D, and `error` adds |L|₂·error. What is taken for equal (L·e for an edge e of L = e ×
-/// f, 0 but for the rounding of L, |δL| ≤ 2u|e||f| a coordinate) is off by 2√3·u|e||f|·√3D. With
-/// |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 32u·D), and for normals
-/// likewise. Lengths enter as |e|₁ ≥ |e|₂.
+/// Rounding, u = 2^-24. All is relative to a corner o of a's triangle: b's corners are p = b.x +
+/// (ΔC − o), ΔC the difference of the leaves' points, in floats rounded at each step, so off by
+/// u(3|b.x| + 3|p| + 2|o|) < 3u·D a coordinate, D the sum of all those sizes (b.x alone may be far
+/// larger than p: a leaf of small triangles far apart). Any vector L separates if the projections
+/// do: two projections are off by less than 2(3u + 3u)·|L|₁·D, and `error` adds |L|₂·error. What is
+/// taken for equal (L·e for an edge e of L = e × f, 0 but for the rounding of L, |δL| ≤ 2u|e||f| a
+/// coordinate) is off by 2√3·u|e||f|·√3D. With |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u) the sum is
+/// below |e||f|·(error + 28u·D), and for normals likewise. Lengths enter as |e|₁ ≥ |e|₂. Products
+/// that underflow lose less than 2^-124, flushed or not, times an edge below 2^30.
 ///
 /// `pad`: the triangles shall be farther apart by that, too; it scales with the axes' true lengths.
 HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b, float error,
@@ -102,11 +104,13 @@ HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b
     // A sum, not a maximum, which could lose a NaN. Products of three such numbers are far from
     // overflow.
     const V D = hn::Add(hn::Add(hn::Add(sum(o), sum(p0)), hn::Add(sum(p1), sum(p2))),
-                        hn::Add(le[0], le[2]));
+                        hn::Add(hn::Add(le[0], le[2]),
+                                sum(Vec{hn::LoadDup128(d, b.x[0][0]), hn::LoadDup128(d, b.x[0][1]),
+                                        hn::LoadDup128(d, b.x[0][2])})));
     const V per = hn::IfThenElse(hn::Lt(D, hn::Set(d, 0x1p30F)),
                                  hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 40 * 0x1p-24F), D)),
                                  hn::Set(d, HUGE_VALF));
-    const V tiny = hn::Set(d, 0x1p-118F);  // underflow
+    const V tiny = hn::Set(d, 0x1p-90F);  // underflow
     // The plane of a.
     const Vec na = cross(e1, e2);
     const V s0 = dot(na, p0), s1 = dot(na, p1), s2 = dot(na, p2);

@@ -17,8 +17,7 @@ double defectOf(const Mat3& m) {
       worst = std::max(worst, std::abs(dot - (i == j)));
       if (i == j) size = std::max(size, dot);
     }
-  // NaN in a maximum may be lost; `size` alone is not: where M isn't finite, neither is the sum.
-  return worst + 8 * kUnit * (1 + size) + 0 * (m(0, 0) + m(1, 1) + m(2, 2));
+  return worst + 8 * kUnit * (1 + size);
 }
 
 }  // namespace
@@ -45,7 +44,9 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   const double defect = defectOf(m);
   // Entries of m and of the offset, three products and two sums each: 3.1u·3 as a norm.
   const double reach = 1.1 * b.radius() + D.cwiseAbs().sum();
-  const double metres = 1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms);
+  // Differences and products that underflow, flushed to zero, lose less than 2^-1018.
+  const double metres =
+      1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms) + 0x1p-1015;
   unitA = std::ldexp(1.0, -a.unit());
   scale = std::ldexp(1.0, b.unit() - a.unit());
   t = offset * unitA;

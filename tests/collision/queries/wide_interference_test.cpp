@@ -2,6 +2,10 @@
 #include <hwy/highway.h>
 #include <random>
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 #include <gtest/gtest.h>
 
 #include "collision/predicates/triangle_contact.h"
@@ -25,7 +29,8 @@ class EveryTarget : public testing::TestWithParam<std::int64_t> {
 
 std::vector<std::int64_t> targets() {
   std::vector<std::int64_t> all;
-  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS & ~(HWY_SCALAR | HWY_EMU128); rest; rest &= rest - 1)
+  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS & ~(HWY_SCALAR | HWY_EMU128); rest;
+       rest &= rest - 1)
     all.push_back(rest & -rest);
   return all;
 }
@@ -111,6 +116,66 @@ TEST_P(EveryTarget, ExtremeSizesAndRatios) {
           << i << " " << k;
     }
 }
+
+/// Leaves of triangles far smaller than their distances, one pair of which touches in a corner of
+/// the grid: the leaf's floats are those of the leaf, not of the triangle.
+TEST_P(EveryTarget, SmallTrianglesFarApart) {
+  std::mt19937_64 random(test::testSeed(17));
+  const auto grid = [&](double size) {  // multiples of 2^-34
+    return std::round(std::uniform_real_distribution(-size, size)(random) * 0x1p34) * 0x1p-34;
+  };
+  const auto any = [&](double size) {
+    const double x = grid(size), y = grid(size), z = grid(size);
+    return Vec3(x, y, z);
+  };
+  int touching = 0;
+  for (int n = 0; n < 4'000 / test::kSlowdown; ++n) {
+    const double size = std::ldexp(1.0, -static_cast<int>(random() % 19));
+    TriangleMesh a, b;
+    const Vec3 p = any(1);
+    for (TriangleMesh* mesh : {&a, &b})
+      for (int i = 0; i < 1 + static_cast<int>(random() % 6); ++i) {
+        const Vec3 q = i == 0 ? p : any(1);
+        test::add(*mesh, q, q + any(size), q + any(size));
+      }
+    // A quarter turn and a shift that doubles hold.
+    Transform X;
+    X.m << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    X.t = any(4);
+    for (Vec3& v : b.vertices) v = X.m.transpose() * (v - X.t);
+    const WideObbTree treeA(a), treeB(b);
+    QueryContext context;
+    const bool expected = bruteForce(a, {}, b, X);
+    ASSERT_EQ(interference(treeA, {}, treeB, X, context).has_value(), expected) << n;
+    ASSERT_EQ(interference(treeB, X, treeA, {}, context).has_value(), expected) << n;
+    touching += expected;
+  }
+  EXPECT_GT(touching, 3'000 / test::kSlowdown);
+}
+
+#ifdef __SSE2__
+/// A library that is linked may set the processor to flush what underflows to zero.
+TEST_P(EveryTarget, FlushToZero) {
+  const unsigned before = _mm_getcsr();
+  std::mt19937_64 random(test::testSeed(18));
+  for (int n = 0; n < 1'000 / test::kSlowdown; ++n) {
+    TriangleMesh a = soup(random, 6, 0.3), b = soup(random, 6, 0.3);
+    const int exponent = n % 3 == 0 ? -996 : n % 3 == 1 ? -512 : -30;
+    for (TriangleMesh* mesh : {&a, &b})
+      for (Vec3& v : mesh->vertices)
+        v = v.unaryExpr(
+            [&](double x) { return std::ldexp(std::round(x * 0x1p20), exponent - 20); });
+    const Vec3 shift = a.vertices[n % a.vertices.size()] - b.vertices[0];  // they share a corner
+    for (Vec3& v : b.vertices) v += shift;
+    _mm_setcsr(before | 0x8040);  // flush to zero, denormals are zero
+    const WideObbTree treeA(a), treeB(b);
+    QueryContext context;
+    const bool found = interference(treeA, {}, treeB, {}, context).has_value();
+    _mm_setcsr(before);
+    ASSERT_TRUE(found) << n;
+  }
+}
+#endif
 
 /// Boxes on a grid that touch exactly, under quarter turns, or miss by one part in 2^40.
 TEST_P(EveryTarget, ExactTouch) {
