@@ -14,9 +14,6 @@
 namespace corridor {
 namespace {
 
-/// Unit roundoff of float.
-constexpr double kUnitF = 0x1p-24;
-
 /// What a split needs to know of a triangle, in the tree's frame and unit. Second moments are about
 /// the triangle's own centroid, so that sums over few and small triangles far from the origin don't
 /// cancel (numerics: moments).
