@@ -17,7 +17,7 @@ class Int128 {
   Int128() = default;
   explicit Int128(std::int64_t value) : value_(value) {}
 
-  bool is_zero() const { return value_ == 0; }
+  bool is_zero() const { return value_ == 0; }  // NOLINT: Boost's name
   int sign() const { return value_ > 0 ? 1 : value_ < 0 ? -1 : 0; }
   Int128& operator*=(const Int128& other) {
     value_ *= other.value_;
@@ -52,7 +52,9 @@ class Int256 {
     limbs_[0] = static_cast<std::uint64_t>(value);
   }
 
-  bool is_zero() const { return (limbs_[0] | limbs_[1] | limbs_[2] | limbs_[3]) == 0; }
+  bool is_zero() const {  // NOLINT: Boost's name
+    return (limbs_[0] | limbs_[1] | limbs_[2] | limbs_[3]) == 0;
+  }
   int sign() const { return top() < 0 ? -1 : is_zero() ? 0 : 1; }
 
   Int256& operator*=(const Int256& other) { return *this = *this * other; }
