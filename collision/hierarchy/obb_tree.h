@@ -7,6 +7,5 @@ namespace corridor {
 
 /// The OBBTree of Gottschalk, Lin, Manocha 1996: what motions are proved with.
 using ObbTree = VolumeTree<Obb>;
-using ObbTreeParams = TreeParams;
 
 }  // namespace corridor

@@ -9,6 +9,7 @@
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/predicates/triangle.h"
 #include "collision/volumes/obb.h"
+#include "collision/volumes/obb4.h"
 
 namespace corridor {
 
@@ -27,12 +28,8 @@ class WideObbTree {
   static constexpr int kLeafSize = 4;                 ///< triangles of a leaf, at most
   static constexpr std::uint32_t kNone = 0xffffffff;  ///< child of a lane that holds no box
 
-  /// Four boxes {center + Σ_j axes_j·x_j : |x_j| ≤ half_j}, for the floats stored as exact reals;
-  /// lanes are contiguous. half_0 is the largest.
-  struct alignas(64) Node {
-    float center[3][kWidth];
-    float axes[3][3][kWidth];  ///< [j][k]: component k of axis j
-    float half[3][kWidth];
+  /// Four boxes in the tree's frame, half_0 the largest, and what each holds.
+  struct alignas(64) Node : Obb4 {
     std::uint32_t child[kWidth];
   };
   /// What a box holds: the node of its parts, or a leaf's triangles.

@@ -51,7 +51,7 @@ std::optional<std::string> WideObbTree::check() const {
       const Obb box = boxOf(node, lane);
       if (box.half[0] < box.half[1] || box.half[0] < box.half[2])
         return named("the first side is not the longest in node", item.node);
-      // `wide_pose.h` counts on both.
+      // obb4.h counts on both.
       if (!(orthonormalityDefect(box.axes) <= 2.2 * 0x1p-24))
         return named("the axes are not orthonormal in node", item.node);
       if (!(box.center.norm() <= 3)) return named("a box is too far off in node", item.node);

@@ -49,6 +49,18 @@ template <class Int>
 int sign(const Int& x) {
   return x.sign();
 }
+template <class Int>
+const Int& coordinate(const Vector<Int>& v, int i) {
+  return i == 0 ? v.x : i == 1 ? v.y : v.z;
+}
+/// An axis along which a plane with normal n ≠ 0 can be projected without folding.
+template <class Int>
+int dropAxis(const Vector<Int>& n) {
+  return !n.x.is_zero() ? 0 : !n.y.is_zero() ? 1 : 2;
+}
+/// The corners of a triangle.
+template <class Int>
+using Points = std::array<Vector<Int>, 3>;
 
 /// mantissa · 2^exponent, |mantissa| < 2^53, odd (so that grids stay coarse); zero: mantissa 0.
 struct Dyadic {
@@ -123,6 +135,13 @@ Vector<Int> mapped(const MappedCorners& points, std::size_t p, const Grid& grid)
     for (int k = 0; k < 3; ++k) c[i] += term<Int>(points.m[i][k], points.corners[p][k], grid);
   }
   return {c[0], c[1], c[2]};
+}
+
+/// All three corners of a triangle.
+template <class Int>
+Points<Int> mapped(const MappedCorners& triangle, const Grid& grid) {
+  return {mapped<Int>(triangle, 0, grid), mapped<Int>(triangle, 1, grid),
+          mapped<Int>(triangle, 2, grid)};
 }
 
 }  // namespace corridor::exact

@@ -6,25 +6,18 @@
 namespace corridor {
 namespace {
 
+using exact::coordinate;
 using exact::cross;
 using exact::dot;
+using exact::dropAxis;
+using exact::Points;
 using exact::sign;
 using exact::Vector;
-
-template <class Int>
-using Points = std::array<Vector<Int>, 3>;
 
 /// Twice the signed area of (p, q, r) seen along axis `drop`.
 template <class Int>
 int orientation2(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r, int drop) {
-  const Vector<Int> n = cross(q - p, r - p);
-  return sign(drop == 0 ? n.x : drop == 1 ? n.y : n.z);
-}
-
-/// An axis along which a plane with normal n ≠ 0 can be projected without folding.
-template <class Int>
-int dropAxis(const Vector<Int>& n) {
-  return !n.x.is_zero() ? 0 : !n.y.is_zero() ? 1 : 2;
+  return sign(coordinate(cross(q - p, r - p), drop));
 }
 
 template <class Int>
@@ -97,11 +90,7 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Int>& n, const Point
 template <class Int>
 bool touch(const exact::MappedCorners& a0, const exact::MappedCorners& b0,
            const exact::Grid& grid) {
-  Points<Int> a, b;
-  for (int i = 0; i < 3; ++i) {
-    a[i] = exact::mapped<Int>(a0, i, grid);
-    b[i] = exact::mapped<Int>(b0, i, grid);
-  }
+  const Points<Int> a = exact::mapped<Int>(a0, grid), b = exact::mapped<Int>(b0, grid);
   const Vector<Int> nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
   if (strictlyOneSide(a, nA, b) || strictlyOneSide(b, nB, a)) return false;
   for (int i = 0; i < 3; ++i)

@@ -1,7 +1,6 @@
 #include "collision/queries/distance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -11,26 +10,16 @@
 #include "collision/queries/closer_triangles.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/nearest_triangles.h"
-#include "collision/queries/relative_pose.h"
-#include "collision/volumes/pair_tests.h"
+#include "collision/queries/touching_pairs.h"
 
 namespace corridor {
 namespace {
 
 /// Volumes are told apart in frame A, where
 /// distances are at most 1/shrink of those in the world: |Mx| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|.
-template <class Volume>
-struct Measures {
-  Transform X_AB;
-  PairTest<Volume> volumes;
-  double shrink;
-
-  Measures(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
-           const Transform& X_WB)
-      : X_AB(rigidInverse(X_WA) * X_WB),
-        volumes(a.bounds(), b.bounds(), X_AB, relativePoseError(X_WA, X_AB, X_WB, b.reach())),
-        shrink(std::max(0.0, roundedDown(1 - 3 * orthonormalityDefect(X_WA.m)))) {}
-};
+double shrinkOf(const Transform& X_WA) {
+  return std::max(0.0, roundedDown(1 - 3 * orthonormalityDefect(X_WA.m)));
+}
 
 template <class Volume>
 class Nearest {
@@ -43,15 +32,15 @@ class Nearest {
           const DistanceOptions& options, QueryContext& context)
       : a_(a),
         b_(b),
-        measures_(a, X_WA, b, X_WB),
+        volumes_(pairTestOf<Volume>(a, X_WA, b, X_WB)),
+        shrink_(shrinkOf(X_WA)),
         nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context),
         counters_(context.counters) {}
 
   bool enter(const Item& item, const Node&, const Node&) { return nearest_.canImprove(item.bound); }
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
     ++counters_.boxTests;
-    const double bound =
-        measures_.volumes.distanceBound(a_.node(i).box, b_.node(k).box) * measures_.shrink;
+    const double bound = volumes_.distanceBound(a_.node(i).box, b_.node(k).box) * shrink_;
     if (nearest_.canImprove(bound)) stack.push_back({i, k, bound});
   }
   void opened(std::vector<Item>& stack, std::size_t first) {  // the nearest first
@@ -70,7 +59,8 @@ class Nearest {
 
  private:
   const Tree &a_, &b_;
-  Measures<Volume> measures_;
+  PairTest<Volume> volumes_;
+  double shrink_;
   NearestTriangles nearest_;
   Counters& counters_;
 };
@@ -86,14 +76,14 @@ class Closer {
          QueryContext& context)
       : a_(a),
         b_(b),
-        measures_(a, X_WA, b, X_WB),
+        volumes_(pairTestOf<Volume>(a, X_WA, b, X_WB)),
         closer_(X_WA, a.reach(), X_WB, b.reach(), d),
-        pad_(measures_.shrink > 0 ? roundedUp(d / measures_.shrink) : HUGE_VAL),
+        pad_(roundedUp(d / shrinkOf(X_WA))),
         counters_(context.counters) {}
 
   bool enter(const Item&, const Node& na, const Node& nb) {
     ++counters_.boxTests;
-    return !measures_.volumes.separated(na.box, nb.box, pad_);
+    return !volumes_.separated(na.box, nb.box, pad_);
   }
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
     stack.push_back({i, k, 0});
@@ -112,7 +102,7 @@ class Closer {
 
  private:
   const Tree &a_, &b_;
-  Measures<Volume> measures_;
+  PairTest<Volume> volumes_;
   CloserTriangles closer_;
   double pad_;
   Counters& counters_;

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "collision/core/rounding.h"
+#include "collision/hierarchy/wide_pose.h"
 #include "collision/queries/closer_triangles.h"
 #include "collision/queries/interference_wide.h"
 #include "collision/queries/nearest_triangles.h"
-#include "collision/volumes/wide_pose.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collision/queries/distance_wide.cpp"
@@ -17,7 +17,7 @@
 
 #include "collision/hierarchy/wide_walk-inl.h"
 #include "collision/queries/wide_leaves-inl.h"
-#include "collision/volumes/overlap_wide-inl.h"
+#include "collision/volumes/overlap_obb4_obb4-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {

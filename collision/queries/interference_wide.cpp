@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "collision/hierarchy/wide_pose.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/triangle_intersection.h"
-#include "collision/volumes/wide_pose.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collision/queries/interference_wide.cpp"
@@ -14,7 +14,7 @@
 
 #include "collision/hierarchy/wide_walk-inl.h"
 #include "collision/queries/wide_leaves-inl.h"
-#include "collision/volumes/overlap_wide-inl.h"
+#include "collision/volumes/overlap_obb4_obb4-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {

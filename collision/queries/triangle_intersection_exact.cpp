@@ -10,22 +10,17 @@
 namespace corridor {
 namespace {
 
+using exact::coordinate;
 using exact::cross;
 using exact::dot;
+using exact::dropAxis;
+using exact::Points;
 using exact::sign;
 using exact::Vector;
 
-template <class Int>
-using Points = std::array<Vector<Int>, 3>;
-
-template <class Int>
-const Int& coordinate(const Vector<Int>& v, int i) {
-  return i == 0 ? v.x : i == 1 ? v.y : v.z;
-}
-
 /// numerator/denominator·2^exponent to the nearest double, so that equal values give equal doubles.
 template <class Int>
-double toDouble(Int numerator, Int denominator, int exponent) {
+double roundedQuotient(Int numerator, Int denominator, int exponent) {
   if (numerator.is_zero()) return 0;
   const bool negative = (numerator.sign() < 0) != (denominator.sign() < 0);
   numerator = abs(numerator);
@@ -77,8 +72,8 @@ class Corners {
     const Vector<Int> d = q - p;
     Vec3 x;
     for (int i = 0; i < 3; ++i)
-      x[i] = toDouble<Int>(coordinate(p, i) * denominator + coordinate(d, i) * numerator,
-                           denominator, exponent_);
+      x[i] = roundedQuotient<Int>(coordinate(p, i) * denominator + coordinate(d, i) * numerator,
+                                  denominator, exponent_);
     found_.push_back(x);
   }
   void add(const Vector<Int>& p) { add(p, p, Int(0), Int(1)); }
@@ -99,7 +94,7 @@ class Corners {
     if (!n.isZero()) {
       if (sign(dot(n, f)) != 0) return;
       // p + d·t = r + e·u: t·n = f × e, u·n = f × d. All three are parallel to n.
-      const int k = !n.x.is_zero() ? 0 : !n.y.is_zero() ? 1 : 2;
+      const int k = dropAxis(n);
       const Int& whole = coordinate(n, k);
       const Int t = coordinate(cross(f, e), k), u = coordinate(cross(f, d), k);
       const auto inside = [&](const Int& x) {
@@ -141,7 +136,7 @@ class Corners {
 
   /// Of a point in the plane of a triangle that is none.
   static bool inside(const Vector<Int>& x, const Vector<Int>& n, const Points<Int>& t) {
-    const int k = !n.x.is_zero() ? 0 : !n.y.is_zero() ? 1 : 2;
+    const int k = dropAxis(n);
     for (int i = 0; i < 3; ++i) {
       const Int turn = coordinate(cross(t[(i + 1) % 3] - t[i], x - t[i]), k);
       if (turn.sign() * coordinate(n, k).sign() < 0) return false;
@@ -156,12 +151,9 @@ class Corners {
 template <class Int>
 Segment longestSegment(const exact::MappedCorners& a0, const exact::MappedCorners& b0,
                        const exact::Grid& grid) {
-  Points<Int> a, b;
-  for (int i = 0; i < 3; ++i) {
-    a[i] = exact::mapped<Int>(a0, i, grid);
-    b[i] = exact::mapped<Int>(b0, i, grid);
-  }
-  return Corners<Int>(a, b, grid.high <= grid.low ? 0 : grid.low).longest();
+  return Corners<Int>(exact::mapped<Int>(a0, grid), exact::mapped<Int>(b0, grid),
+                      grid.high <= grid.low ? 0 : grid.low)
+      .longest();
 }
 
 }  // namespace

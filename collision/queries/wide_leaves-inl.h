@@ -16,8 +16,8 @@
 
 #include "collision/core/counters.h"
 #include "collision/hierarchy/leaf_cache-inl.h"
+#include "collision/hierarchy/wide_pose.h"
 #include "collision/predicates/triangle_filter-inl.h"
-#include "collision/volumes/wide_pose.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {

@@ -1,5 +1,6 @@
 #include "collision/volumes/obb.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -36,11 +37,17 @@ Moments moments(std::span<const Triangle> triangles, ObbFit fit) {
 }  // namespace
 
 double orthonormalityDefect(const Mat3& m) {
-  // Entries of MᵀM − I: three products, two sums and a difference, |terms| ≤ 1 for a matrix near a
-  // rotation; 8u for the rounding.
-  const double size = m.cwiseAbs().maxCoeff();
-  return roundedUp((m.transpose() * m - Mat3::Identity()).cwiseAbs().maxCoeff() +
-                   8 * kUnit * (1 + 3 * size * size));
+  double worst = 0, longest = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const double dot = m(0, i) * m(0, j) + m(1, i) * m(1, j) + m(2, i) * m(2, j);
+      worst = std::max(worst, std::abs(dot - (i == j)));
+      if (i == j) longest = std::max(longest, dot);
+    }
+  // An entry has three products, two sums and a difference: 4u·(Σ|m_ki||m_kj| + 1), and the sum is
+  // at most the longest column's square (Cauchy). A maximum may lose a NaN, this does not: 0·∞ is
+  // one.
+  return roundedUp(worst + 8 * kUnit * (1 + longest)) + 0 * m.sum();
 }
 
 double Obb::axisDefect() const {
@@ -53,6 +60,13 @@ double Obb::centerReach() const {
 
 double Obb::radius() const {
   return roundedUp(half.stableNorm() * (1 + 3 * axisDefect()));
+}
+
+std::optional<ObbFit> obbFitNamed(std::string_view name) {
+  if (name == "vertices") return ObbFit::vertices;
+  if (name == "triangles") return ObbFit::triangles;
+  if (name == "hull") return ObbFit::hull;
+  return std::nullopt;
 }
 
 ObbFrame fitFrame(const Content& content, ObbFit fit) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string_view>
 
 #include "collision/core/transform.h"
 #include "collision/volumes/content.h"
@@ -31,6 +33,8 @@ enum class ObbFit {
   hull,  ///< area-weighted moments of the surface of their convex hull: no inner geometry misleads
          ///< it
 };
+/// By its name here; nothing where there is no such fit.
+std::optional<ObbFit> obbFitNamed(std::string_view name);
 
 /// Axes and mean of a content.
 struct ObbFrame {

@@ -20,7 +20,7 @@ struct Body::Impl {
   TriangleMesh mesh;
   std::optional<ConvexPart> part;
   bool solid = false;
-  ObbTreeParams params;
+  TreeParams params;
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
        center = Vec3::Zero();
   double radius = 0, sphereRadius = 0;
@@ -45,7 +45,7 @@ struct Body::Impl {
   }
 };
 
-Body::Body(std::string name, TriangleMesh mesh, bool solid, const ObbTreeParams& params)
+Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& params)
     : impl_(std::make_unique<Impl>()) {
   if (mesh.triangles.empty()) throw std::invalid_argument("body " + name + " has no triangle");
   if (const auto complaint = checkMesh(mesh))

@@ -23,7 +23,7 @@ class Body {
   /// A mesh: its surface, or with `solid` all that it encloses, too.
   /// @throws std::invalid_argument if the mesh has no triangle, or `checkMesh` complains, or it is
   /// to be solid and has a component that isn't watertight.
-  Body(std::string name, TriangleMesh mesh, bool solid = false, const ObbTreeParams& params = {});
+  Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
   /// A solid primitive.
   Body(std::string name, ConvexPart part);
   ~Body();

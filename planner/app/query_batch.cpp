@@ -13,8 +13,9 @@
 namespace corridor::app {
 namespace {
 
-ObbFit obbFit(const std::string& name) {
-  return name == "vertices" ? ObbFit::vertices : name == "hull" ? ObbFit::hull : ObbFit::triangles;
+/// `batch.fit` is one of its volume's names (`volumeKinds`).
+ObbFit fitOf(const Batch& batch) {
+  return obbFitNamed(batch.fit).value_or(ObbFit::triangles);
 }
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
@@ -99,14 +100,12 @@ BatchResult runOn(const Batch& batch, const Make& make) {
 /// Volumes without axes of their own have one fit, `plain`.
 template <class Volume>
 BatchResult runVolume(const Batch& batch) {
-  return runOn(batch, [&](const TriangleMesh& mesh) {
-    return VolumeTree<Volume>(mesh, {obbFit(batch.fit)});
-  });
+  return runOn(batch,
+               [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, {fitOf(batch)}); });
 }
 
 BatchResult runWide(const Batch& batch) {
-  return runOn(batch,
-               [&](const TriangleMesh& mesh) { return WideObbTree(mesh, obbFit(batch.fit)); });
+  return runOn(batch, [&](const TriangleMesh& mesh) { return WideObbTree(mesh, fitOf(batch)); });
 }
 
 }  // namespace

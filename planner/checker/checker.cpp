@@ -21,10 +21,8 @@ std::vector<std::size_t> bodiesOfShapes(const Problem& problem) {
 }  // namespace
 
 Scene makeScene(const Problem& problem) {
-  ObbTreeParams params;
-  params.fit = problem.checker.fit == "vertices" ? ObbFit::vertices
-               : problem.checker.fit == "hull"   ? ObbFit::hull
-                                                 : ObbFit::triangles;
+  TreeParams params;
+  params.fit = obbFitNamed(problem.checker.fit).value_or(params.fit);
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
   for (const ProblemBody& body : problem.bodies) {

@@ -154,11 +154,12 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
 }
 
-/// The robot of one mesh, recentred.
+/// The robot of one mesh, recentred; one without shapes stands in for a mesh that could not be
+/// read.
 RobotSetup robotOf(CfgMesh mesh, JointType type) {
   Vec3 centre = mesh.read.vertexAverage;
   if (type == JointType::planar) centre.z() = 0;
-  shift(mesh.shape, -centre);
+  if (mesh.shape.mesh) shift(mesh.shape, -centre);
   RobotSetup setup;
   const std::string name = mesh.shape.name;
   setup.robot.model = rigidModel(name, type, {std::move(mesh.shape)});

@@ -222,7 +222,6 @@ bool shift(PlacedShape& shape, const Vec3& by) {
     return std::all_of(shape.mesh->mesh.vertices.begin(), shape.mesh->mesh.vertices.end(),
                        [](const Vec3& vertex) { return vertex.allFinite(); });
   }
-  if (!shape.part) return true;  // its file could not be read, which is a fault of its own
   for (Vec3& point : shape.part->points) point += by;
   return isFinite(*shape.part);
 }

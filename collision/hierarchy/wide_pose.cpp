@@ -1,33 +1,18 @@
-#include "collision/volumes/wide_pose.h"
+#include "collision/hierarchy/wide_pose.h"
 
 #include <cmath>
 
 #include "collision/core/rounding.h"
 #include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/volumes/obb.h"
 
 namespace corridor {
-namespace {
-
-/// ‖MᵀM − I‖_max, rounded up: six sums of three products, and a difference.
-double defectOf(const Mat3& m) {
-  double worst = 0, size = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) {
-      const double dot = m(0, i) * m(0, j) + m(1, i) * m(1, j) + m(2, i) * m(2, j);
-      worst = std::max(worst, std::abs(dot - (i == j)));
-      if (i == j) size = std::max(size, dot);
-    }
-  return worst + 8 * kUnit * (1 + size);
-}
-
-}  // namespace
-
 WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
                    const Transform& X_WB, double pad) {
   // With the trees' origins o: y = M_A⁻¹(M_B x + D), D = M_B o_B + t_B − M_A o_A − t_A. M_A⁻¹ is
   // replaced by M_Aᵀ: M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹, of norm ≤ 3η_A/√(1 − 3η_A).
   const Vec3 D = (X_WB * b.origin()) - (X_WA * a.origin());
-  const double defectA = defectOf(X_WA.m), defectB = defectOf(X_WB.m);
+  const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
   // Maps of greater defect prune nothing. NaN: not usable.
   const bool usable = defectA < 0x1p-6 && defectB < 0x1p-6;
   // D has at most five roundings of terms that sum up to `terms` over its coordinates; |M_ij|
@@ -41,7 +26,7 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   if (apart) return;
   m.noalias() = X_WA.m.transpose().lazyProduct(X_WB.m);
   const Vec3 offset = X_WA.m.transpose() * D;
-  const double defect = defectOf(m);
+  const double defect = orthonormalityDefect(m);
   // Entries of m and of the offset, three products and two sums each: 3.1u·3 as a norm.
   const double reach = 1.1 * b.radius() + D.cwiseAbs().sum();
   // Differences and products that underflow, flushed to zero, lose less than 2^-1018.

@@ -2,19 +2,18 @@
 // foreach_target.h.
 
 // clang-format off
-#if defined(CORRIDOR_OVERLAP_WIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
-#ifdef CORRIDOR_OVERLAP_WIDE_INL_H_
-#undef CORRIDOR_OVERLAP_WIDE_INL_H_
+#if defined(CORRIDOR_OVERLAP_OBB4_OBB4_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
+#ifdef CORRIDOR_OVERLAP_OBB4_OBB4_INL_H_
+#undef CORRIDOR_OVERLAP_OBB4_OBB4_INL_H_
 #else
-#define CORRIDOR_OVERLAP_WIDE_INL_H_
+#define CORRIDOR_OVERLAP_OBB4_OBB4_INL_H_
 #endif
 // clang-format on
 
 #include "hwy/highway.h"
 
 #include "collision/core/lanes.h"
-#include "collision/hierarchy/wide_obb_tree.h"
-#include "collision/volumes/wide_pose.h"
+#include "collision/volumes/obb4.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
@@ -38,8 +37,7 @@ struct BoxPairs {
   }
 
   /// Pairs `at` and the following ones, as many as there are lanes.
-  HWY_INLINE BoxPairs(const WideObbTree::Node& na, const WideObbTree::Node& nb,
-                      const FloatPose& pose, std::size_t at) {
+  HWY_INLINE BoxPairs(const Obb4& na, const Obb4& nb, const Obb4Pose& pose, std::size_t at) {
     const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
     const auto first = [&](const float* four) {
       return hn::TableLookupLanes(hn::LoadDup128(d, four), rows);
@@ -105,13 +103,13 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
 
 /// Which of the sixteen pairs of two nodes' boxes may touch: bit 4·i + j for a's i-th and b's j-th.
 /// A cleared bit is a proof that they are farther apart than `pose.ball` was asked to cover
-/// (wide_pose.h has the derivation). `gaps` gets the largest gap along a face normal of each pair:
+/// (obb4.h has the derivation). `gaps` gets the largest gap along a face normal of each pair:
 /// the less, the deeper they overlap.
 ///
 /// Separate multiplications and additions in one order, so that all targets decide alike. Each axis
 /// alone is a proof: a NaN on one of them may be lost in a maximum, but it never separates.
-HWY_INLINE unsigned overlappingBoxes(const WideObbTree::Node& a, const WideObbTree::Node& b,
-                                     const FloatPose& pose, float* HWY_RESTRICT gaps) {
+HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
+                                     float* HWY_RESTRICT gaps) {
   const hn::CappedTag<float, 16> d;
   unsigned mask = 0;
   for (std::size_t at = 0; at < 16; at += BoxPairs::kLanes) {
@@ -133,8 +131,8 @@ HWY_INLINE unsigned overlappingBoxes(const WideObbTree::Node& a, const WideObbTr
 /// Gaps along three axes u_i at right angles bound the distance by √Σ gap_i²: for any vector d,
 /// Σ(u_i·d)² ≤ (1 + 3η)|d|², and η < 2^-17 for a's axes as for b's (R̂) — 1 − 2^-14 covers that and
 /// the rounding of the sum.
-HWY_INLINE unsigned nearBoxes(const WideObbTree::Node& a, const WideObbTree::Node& b,
-                              const FloatPose& pose, float limit, float* HWY_RESTRICT squares) {
+HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
+                              float* HWY_RESTRICT squares) {
   const hn::CappedTag<float, 16> d;
   unsigned mask = 0;
   for (std::size_t at = 0; at < 16; at += BoxPairs::kLanes) {

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "collision/convex/convex_contact.h"
+#include "collision/core/query_context.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/relative_pose.h"
+#include "collision/volumes/pair_tests.h"
+
+namespace corridor {
+
+/// How the volumes of two trees are tested under two maps.
+template <class Volume, class TreeA, class TreeB>
+PairTest<Volume> pairTestOf(const TreeA& a, const Transform& X_WA, const TreeB& b,
+                            const Transform& X_WB) {
+  const Transform X_AB = rigidInverse(X_WA) * X_WB;
+  return PairTest<Volume>(a.bounds(), b.bounds(), X_AB,
+                          relativePoseError(X_WA, X_AB, X_WB, b.reach()));
+}
+
+/// What `traverse` (hierarchy/traverse.h) asks, for items of two trees that touch: a pair whose
+/// volumes are apart is dropped, and `Found(s, t)`, in leaf order, is told each pair of items in
+/// contact, until it returns true or the counted tests reach `workEnd`.
+template <class TreeA, class TreeB, class Test, class Found>
+class TouchingPairs {
+ public:
+  using Item = QueryContext::NodePair;
+
+  TouchingPairs(const TreeA& a, const Transform& X_WA, const TreeB& b, const Transform& X_WB,
+                const Test& test, Counters& counters, const Found& found,
+                std::uint64_t workEnd = std::numeric_limits<std::uint64_t>::max())
+      : a_(a),
+        b_(b),
+        X_WA_(X_WA),
+        X_WB_(X_WB),
+        test_(test),
+        counters_(counters),
+        found_(found),
+        workEnd_(workEnd) {}
+
+  bool enter(const Item&, const typename TreeA::Node& na, const typename TreeB::Node& nb) {
+    if (!spare()) return false;
+    ++counters_.boxTests;
+    return !test_.separated(na.box, nb.box, 0);
+  }
+  /// All of one leaf's items against all of the other's.
+  bool leaves(const typename TreeA::Node& na, const typename TreeB::Node& nb) {
+    for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
+      for (std::uint32_t t = nb.first; t < nb.first + nb.count && spare(); ++t)
+        if (touch(s, t) && found_(s, t)) return true;
+    return !spare();
+  }
+  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
+    stack.push_back({i, k, 0});
+  }
+  void opened(std::vector<Item>& stack, std::size_t first) {  // the first child first
+    std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end());
+  }
+
+ private:
+  bool spare() const { return counters_.boxTests + counters_.triangleTests < workEnd_; }
+
+  bool touch(std::uint32_t s, std::uint32_t t) const {
+    if (a_.part() || b_.part())
+      return convexSetsTouch({setOf(a_, s), X_WA_}, {setOf(b_, t), X_WB_}, counters_);
+    return trianglesTouch(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_, counters_);
+  }
+  template <class Tree>
+  static ConvexSet setOf(const Tree& tree, std::uint32_t item) {
+    return tree.part(item) ? ConvexSet(*tree.part(item)) : ConvexSet(tree.triangles()[item]);
+  }
+
+  const TreeA& a_;
+  const TreeB& b_;
+  const Transform &X_WA_, &X_WB_;
+  const Test& test_;
+  Counters& counters_;
+  const Found& found_;
+  std::uint64_t workEnd_;
+};
+
+}  // namespace corridor
