@@ -52,8 +52,8 @@ struct Lanes {
 ///   kSorted: are all that were pushed together looked at in the order of their keys, or only the
 ///   one
 ///     of the least key first?
-///   bool leaves(const Node& a, const Node& b, unsigned pairs): looks at pairs of leaves; true:
-///   enough.
+///   bool leaves(const Node& a, const Node& b, unsigned pairs, const float* keys): looks at pairs
+///   of leaves; true: enough.
 ///
 /// The stack is the context's, so that no query allocates once it has grown. What is pushed is
 /// written first and kept if it counts, without branches: which boxes overlap can't be predicted.
@@ -94,7 +94,7 @@ void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryCon
     if (!open) continue;
     const unsigned leafRows = rowsOf(lanesA.leaves), leafColumns = lanesB.leaves * 0x1111U;
     if (const unsigned pairs = open & leafRows & leafColumns)
-      if (query.leaves(na, nb, pairs)) return;
+      if (query.leaves(na, nb, pairs, keys)) return;
     const float sizeA = size(na), sizeB = size(nb) * scaleB;
     const unsigned splitA = sizeB > kLarger * sizeA ? 0 : ~0U,
                    splitB = sizeA > kLarger * sizeB ? 0 : ~0U;

@@ -37,48 +37,56 @@ Real nearest(const Point& p, const Point& d, const Point& q) {
   return square > Real(0) ? clamped(dot(d, q - p) / square) : Real(0);
 }
 
+/// Of two edges: either end and its foot on the other, and the points that the common perpendicular
+/// meets. Cross products, since a·c − b² of nearly parallel edges has lost all digits: here the
+/// point on the first is off by 2^-98/sin of their angle, and the distance, its foot taken next, by
+/// 2^-98 of the coordinates.
 void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, const Point& q1) {
-  const Point d = p1 - p, e = q1 - q, r = p - q;
-  const Real a = dot(d, d), b = dot(d, e), c = dot(d, r), f = dot(e, r), g = dot(e, e);
-  const Real det = a * g - b * b;
-  Real s = det > Real(0) ? clamped((b * f - c * g) / det) : Real(0);
-  // Each in turn the best for the other: settles the ends, and what nearly parallel edges lose.
-  for (int i = 0; i < 2; ++i) {
-    const Real t = nearest(q, e, p + d * s);
-    best.offer(p + d * s, q + e * t);
-    s = nearest(p, d, q + e * t);
+  const Point d = p1 - p, e = q1 - q;
+  const Point n = cross(d, e);
+  const Real square = dot(n, n);
+  if (square > Real(0)) {
+    const Point at = p + d * clamped(dot(cross(e, p - q), n) / square);
+    best.offer(at, q + e * nearest(q, e, at));
   }
+  for (const Point& end : {p, p1}) best.offer(end, q + e * nearest(q, e, end));
+  for (const Point& end : {q, q1}) best.offer(p + d * nearest(p, d, end), end);
 }
 
-/// The foot of p in the plane of t, where it is inside.
+/// The foot of p in the plane of t, where it is inside; likewise by cross products, and once more
+/// from where that leads, so that a sliver's is off by a share of the height and not of the
+/// coordinates.
 bool foot(const Point& p, const Corners& t, Point& found) {
-  const Point u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
-  const Real uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
-  const Real det = uu * vv - uv * uv;
-  if (!(det > Real(0))) return false;
-  const Real x = (vv * wu - uv * wv) / det, y = (uu * wv - uv * wu) / det;
-  if (x < Real(0) || y < Real(0) || x + y > Real(1)) return false;
-  found = t[0] + u * x + v * y;
-  return true;
+  const Point u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
+  const Real square = dot(n, n);
+  if (!(square > Real(0))) return false;
+  Real x(0), y(0);
+  found = t[0];
+  for (int i = 0; i < 2; ++i) {
+    const Point w = p - found;
+    x = x + dot(cross(w, v), n) / square;
+    y = y + dot(cross(u, w), n) / square;
+    found = t[0] + u * x + v * y;
+  }
+  return !(x < Real(0)) && !(y < Real(0)) && !(x + y > Real(1));
 }
 
-/// Corners over the face of t, and edges through it. `swapped`: p is of the second triangle.
-void offerFace(Best& best, const Corners& p, const Corners& t, bool swapped) {
+/// q, where it is over the face of t. `swapped`: q is of the second triangle.
+void offerFoot(Best& best, const Point& q, const Corners& t, bool swapped) {
+  Point found;
+  if (!foot(q, t, found)) return;
+  swapped ? best.offer(found, q) : best.offer(q, found);
+}
+
+/// Where edges of p go through the face of t: triangles that cross.
+void offerCrossings(Best& best, const Corners& p, const Corners& t, bool swapped) {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
   Real height[3];
-  const auto offer = [&](const Point& q) {
-    Point found;
-    if (!foot(q, t, found)) return;
-    swapped ? best.offer(found, q) : best.offer(q, found);
-  };
-  for (int i = 0; i < 3; ++i) {
-    offer(p[i]);
-    height[i] = dot(n, p[i] - t[0]);
-  }
+  for (int i = 0; i < 3; ++i) height[i] = dot(n, p[i] - t[0]);
   for (int i = 0; i < 3; ++i) {
     const Real &h = height[i], &k = height[(i + 1) % 3];
     if (!(h < Real(0) && k > Real(0)) && !(h > Real(0) && k < Real(0))) continue;
-    offer(p[i] + (p[(i + 1) % 3] - p[i]) * (h / (h - k)));
+    offerFoot(best, p[i] + (p[(i + 1) % 3] - p[i]) * (h / (h - k)), t, swapped);
   }
 }
 
@@ -95,8 +103,50 @@ Corners mapped(const Triangle& t, const Transform& X, double unit) {
   return corners;
 }
 
+/// What is taken for nothing, of the unit, which is at most the largest coordinate.
+constexpr double kLost = 0x1p-56;
+
+bool isNothing(const Best& best) {
+  return best.square < Real(kLost * kLost);
+}
+
+/// The features that plain doubles, relative to one of the corners, find closest; where their
+/// points are the triangles' by proof: both triangles' projections onto the line through them are
+/// as far apart.
+bool offerByProof(Best& best, const Corners& s, const Corners& t) {
+  Triangle a, b;
+  for (int i = 0; i < 3; ++i) {
+    const Point p = s[i] - s[0], q = t[i] - s[0];
+    a[i] = {p.x.hi, p.y.hi, p.z.hi};
+    b[i] = {q.x.hi, q.y.hi, q.z.hi};
+  }
+  const int feature = closestFeaturePoints(a, b).feature;
+  if (feature < 9) {
+    const int i = feature / 3, k = feature % 3;
+    offerEdges(best, s[i], s[(i + 1) % 3], t[k], t[(k + 1) % 3]);
+  } else if (feature < 12) {
+    offerFoot(best, t[feature - 9], s, true);
+  } else {
+    offerFoot(best, s[feature - 12], t, false);
+  }
+  if (isNothing(best)) return true;
+  const Point n = best.b - best.a;
+  const Real most = sqrt(best.square) * Real(kLost / 2);  // of either side, times |n|
+  for (int i = 0; i < 3; ++i)
+    if (dot(n, s[i] - best.a) > most || -most > dot(n, t[i] - best.b)) return false;
+  return true;
+}
+
 double powerOfTwo(double size) {
   return std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
+}
+
+/// The largest Σ|m||v| + |t| of the corners mapped.
+double largestTerms(const Triangle& t, const Transform& X) {
+  double size = 0;
+  for (const Vec3& p : t)
+    size = std::max(size, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
+  return size;
 }
 
 Vec3 rounded(const Point& p, double unit) {
@@ -107,17 +157,25 @@ Vec3 rounded(const Point& p, double unit) {
 
 WitnessPoints closestPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
                             const Transform& X_WB) {
-  double size = std::max(X_WA.t.cwiseAbs().maxCoeff(), X_WB.t.cwiseAbs().maxCoeff());
-  for (const Triangle* t : {&a, &b})
-    for (const Vec3& p : *t) size = std::max(size, p.cwiseAbs().maxCoeff());
-  const double unit = powerOfTwo(size);
+  const double unit = powerOfTwo(std::max(largestTerms(a, X_WA), largestTerms(b, X_WB)));
   const Corners s = mapped(a, X_WA, unit), t = mapped(b, X_WB, unit);
   Best best;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) offerEdges(best, s[i], s[(i + 1) % 3], t[k], t[(k + 1) % 3]);
-  offerFace(best, s, t, false);
-  offerFace(best, t, s, true);
-  return {rounded(best.a, unit), rounded(best.b, unit), unit * sqrt(best.square).hi};
+  const bool proved = offerByProof(best, s, t);
+  if (!proved) {
+    offerCrossings(best, s, t, false);
+    offerCrossings(best, t, s, true);
+  }
+  if (!proved && !isNothing(best)) {
+    for (int i = 0; i < 3; ++i) {
+      offerFoot(best, t[i], s, true);
+      offerFoot(best, s[i], t, false);
+      for (int k = 0; k < 3; ++k) offerEdges(best, s[i], s[(i + 1) % 3], t[k], t[(k + 1) % 3]);
+    }
+  }
+  // What the proof lets pass, or double-double loses (2^-90 of the unit), and rounding.
+  const double distance = unit * sqrt(best.square).hi;
+  return {rounded(best.a, unit), rounded(best.b, unit), distance,
+          roundedUp(2 * kLost * unit + 2 * kUnit * distance)};
 }
 
 // A mapped corner: 7 roundings with that of `unit` at most, of terms below S = ‖M‖_F·reach + |t|,

@@ -8,12 +8,13 @@ namespace corridor {
 struct WitnessPoints {
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
   double distance = 0;
+  double error = 0;  ///< the most that it may be off by
 };
 
 /// Of two triangles under their maps, in double-double on a power-of-two unit of their size: for
-/// results. Off by some 2^-50·S at most, S the largest Σ|m||v| + |t| of the corners mapped, where
-/// edges are parallel to the last bits, else far less; rounding to doubles, u a coordinate, comes
-/// on top. Crossing triangles have distances of rounding size.
+/// results. The distance is off by less than u·(S/4 + 2·distance), S the largest Σ|m||v| + |t| of
+/// the corners mapped; the points, rounded to doubles, by u·S a coordinate. Crossing triangles have
+/// distances of rounding size.
 WitnessPoints closestPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
                             const Transform& X_WB);
 

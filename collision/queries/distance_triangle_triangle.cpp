@@ -6,18 +6,18 @@
 namespace corridor {
 namespace {
 
-void offer(ClosestPoints& best, const Vec3& a, const Vec3& b) {
+void offer(ClosestPoints& best, const Vec3& a, const Vec3& b, int feature) {
   const double d = (b - a).squaredNorm();
   if (d < best.squaredDistance)
-    best = {a, b, d};  // false for NaN: a degenerate feature offers nothing
+    best = {a, b, d, feature};  // false for NaN: a degenerate feature offers nothing
 }
 
 double clamped(double x) {
   return x > 0 ? std::min(x, 1.0) : 0;
 }
 
-void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3& p2,
-                const Vec3& q2) {
+void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3& p2, const Vec3& q2,
+                int feature) {
   const Vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
   const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), c = d1.dot(r),
                b = d1.dot(d2);
@@ -28,7 +28,7 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
     t = clamped(t);
     s = a > 0 ? clamped((b * t - c) / a) : 0;
   }
-  offer(best, p1 + s * d1, p2 + t * d2);
+  offer(best, p1 + s * d1, p2 + t * d2, feature);
 }
 
 /// The foot of p in the plane of t, if it is inside; edges and corners are offered by `offerEdges`.
@@ -47,13 +47,14 @@ bool footInside(const Vec3& p, const Triangle& t, Vec3& foot) {
 }  // namespace
 
 ClosestPoints closestFeaturePoints(const Triangle& a, const Triangle& b) {
-  ClosestPoints best{a[0], b[0], std::numeric_limits<double>::infinity()};
+  ClosestPoints best{a[0], b[0], std::numeric_limits<double>::infinity(), 0};
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) offerEdges(best, a[i], a[(i + 1) % 3], b[k], b[(k + 1) % 3]);
+    for (int k = 0; k < 3; ++k)
+      offerEdges(best, a[i], a[(i + 1) % 3], b[k], b[(k + 1) % 3], 3 * i + k);
   Vec3 foot;
   for (int i = 0; i < 3; ++i) {
-    if (footInside(b[i], a, foot)) offer(best, foot, b[i]);
-    if (footInside(a[i], b, foot)) offer(best, a[i], foot);
+    if (footInside(b[i], a, foot)) offer(best, foot, b[i], 9 + i);
+    if (footInside(a[i], b, foot)) offer(best, a[i], foot, 12 + i);
   }
   return best;
 }

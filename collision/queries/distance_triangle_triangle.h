@@ -12,6 +12,9 @@ namespace corridor {
 struct ClosestPoints {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   double squaredDistance = 0;
+  /// Whose they are: 3·i + k for edges i of a and k of b (from that corner to the next), 9 + k for
+  /// b's corner k over a's face, 12 + i for a's corner i over b's.
+  int feature = 0;
 };
 ClosestPoints closestFeaturePoints(const Triangle& a, const Triangle& b);
 

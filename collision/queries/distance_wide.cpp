@@ -1,10 +1,11 @@
 #include "collision/queries/distance_wide.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <tuple>
 
 #include "collision/core/rounding.h"
-#include "collision/hierarchy/wide_pose.h"
 #include "collision/queries/closer_triangles.h"
 #include "collision/queries/interference_wide.h"
 #include "collision/queries/nearest_triangles.h"
@@ -16,6 +17,7 @@
 #include "hwy/highway.h"
 
 #include "collision/hierarchy/wide_walk-inl.h"
+#include "collision/queries/triangle_distances-inl.h"
 #include "collision/queries/wide_leaves-inl.h"
 #include "collision/volumes/overlap_obb4_obb4-inl.h"
 
@@ -28,6 +30,8 @@ inline float limitOf(const WidePose& pose, double metres) {
   return static_cast<float>(metres / pose.shrink * pose.unitA * (1 + 0x1p-20));
 }
 
+/// Pairs of triangles are bounded in float, sixteen at a time; those that may be the closest are
+/// looked at again in double, and measured if that leaves them.
 class Nearest {
  public:
   Nearest(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b, const Transform& X_WB,
@@ -38,7 +42,10 @@ class Nearest {
         options_(options),
         counters_(context.counters),
         leaves_(a, b, pose, counters_),
-        nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context) {}
+        candidates_(context.bounded),
+        nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context) {
+    candidates_.clear();
+  }
 
   static constexpr bool kSorted = true;
   bool skip(float square) const { return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F); }
@@ -47,26 +54,80 @@ class Nearest {
     return nearBoxes(a, b, pose_.floats, limit_, squares);
   }
 
-  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {
-    return leaves_.forEachNear(
-        na, nb, pairs, [&] { return limit_; },
-        [&](std::uint32_t s, std::uint32_t t) {
-          if (nearest_.look(s, a_.triangle(s), t, b_.triangle(t), counters_)) return true;
-          const double most = (nearest_.upper() - options_.absolute) / (1 + options_.relative);
-          limit_ = limitOf(pose_, std::max(0.0, most));
+  /// The nearest first, since it may rule out the others.
+  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
+              const float* keys) {
+    while (pairs) {
+      auto least = static_cast<unsigned>(std::countr_zero(pairs));
+      for (unsigned rest = pairs & (pairs - 1); rest; rest &= rest - 1) {
+        const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+        if (keys[bit] < keys[least]) least = bit;
+      }
+      if (skip(keys[least])) return false;
+      leaf(na, nb, 1U << least);
+      pairs &= ~(1U << least);
+    }
+    return false;
+  }
+
+  Distance result() {
+    // What set the limit may be beyond it, since options lower it.
+    if (least_ < HUGE_VALF) look(closest_.a, closest_.b);
+    std::erase_if(candidates_, [&](const auto& c) { return c.bound > limit_; });
+    std::ranges::sort(candidates_, {}, [](const auto& c) { return std::tuple(c.bound, c.a, c.b); });
+    for (const auto& [s, t, bound] : candidates_)
+      if (!(bound > limit_) && !(s == closest_.a && t == closest_.b)) look(s, t);
+    return nearest_.result(a_, b_);
+  }
+
+ private:
+  void leaf(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pair) {
+    leaves_.forEachNearLeaf(
+        na, nb, pair, [&] { return limit_; },
+        [&](std::uint32_t firstA, std::uint32_t firstB, const LeafCorners& a, const LeafCorners& b,
+            unsigned open) {
+          alignas(64) float lower[16], upper[16];
+          triangleDistances(a, b, pose_.leafError, lower, upper);
+          for (unsigned rest = open; rest; rest &= rest - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+            if (!(upper[bit] < least_)) continue;
+            least_ = upper[bit];
+            closest_ = {firstA + bit / 4, firstB + bit % 4};
+          }
+          if (least_ < HUGE_VALF) lowerLimit(least_ / pose_.unitA * (2 - pose_.shrink));
+          for (unsigned rest = open; rest; rest &= rest - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+            const std::uint32_t s = firstA + bit / 4, t = firstB + bit % 4;
+            if (upper[bit] == HUGE_VALF) {  // too far for floats: else the limit would stay there
+              look(s, t);
+            } else if (!(lower[bit] > limit_)) {
+              candidates_.push_back({s, t, lower[bit]});
+            }
+          }
           return false;
         });
   }
 
-  Distance result() { return nearest_.result(a_, b_); }
+  void look(std::uint32_t s, std::uint32_t t) {
+    nearest_.look(s, a_.triangle(s), t, b_.triangle(t), counters_);
+    lowerLimit(nearest_.upper());
+  }
+  /// To what may still be of interest, where the distance is at most `metres`.
+  void lowerLimit(double metres) {
+    const double most = (metres - options_.absolute) / (1 + options_.relative);
+    limit_ = std::min(limit_, limitOf(pose_, std::max(0.0, most)));
+  }
 
- private:
   const WideObbTree &a_, &b_;
   const WidePose& pose_;
   const DistanceOptions& options_;
   Counters& counters_;
   WideLeaves leaves_;
+  /// Pairs of triangles, in leaf order, and lower bounds of their distances, of a's unit.
+  std::vector<QueryContext::BoundedPair>& candidates_;
   NearestTriangles nearest_;
+  float least_ = HUGE_VALF;  // upper bound, of a's unit,
+  TrianglePair closest_;     // and whose it is, in leaf order
   float limit_ = HUGE_VALF;  // farther than this nothing is of interest
 };
 
@@ -97,7 +158,8 @@ class Closer {
     return nearBoxes(a, b, pose_.floats, limit_, squares);
   }
 
-  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {
+  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
+              const float*) {
     found_ = leaves_.forEachNear(
         na, nb, pairs, [&] { return limit_; },
         [&](std::uint32_t s, std::uint32_t t) {
@@ -138,6 +200,11 @@ Distance distance(const WideObbTree& a, const Transform& X_WA, const WideObbTree
                   const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
   ++context.counters.states;
   const WidePose pose(a, X_WA, b, X_WB, HUGE_VAL);
+  // A contact is found far sooner by itself: the search below would look at all that may touch.
+  if (const auto hit = touchingLeafTriangles(a, X_WA, b, X_WB, pose, context)) {
+    const WitnessPoints w = closestPoints(a.triangle(hit->a), X_WA, b.triangle(hit->b), X_WB);
+    return {0, w.p_WA, w.p_WB, a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
+  }
   return HWY_DYNAMIC_DISPATCH(wideDistance)(a, X_WA, b, X_WB, pose, options, context);
 }
 

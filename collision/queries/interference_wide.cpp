@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "collision/hierarchy/wide_pose.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/triangle_intersection.h"
 
@@ -42,7 +41,8 @@ class Touching {
     return overlappingBoxes(a, b, pose_.floats, gaps);
   }
 
-  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs) {
+  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
+              const float*) {
     return leaves_.forEachNear(
         na, nb, pairs, [] { return 0.0F; },
         [&](std::uint32_t s, std::uint32_t t) {
@@ -106,9 +106,15 @@ std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& 
     ++context.counters.boxTests;
     return std::nullopt;
   }
-  const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context);
+  const auto hit = touchingLeafTriangles(a, X_WA, b, X_WB, pose, context);
   if (!hit) return hit;
   return TrianglePair{a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
+}
+
+std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Transform& X_WA,
+                                                  const WideObbTree& b, const Transform& X_WB,
+                                                  const WidePose& pose, QueryContext& context) {
+  return HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context);
 }
 
 std::vector<TriangleContact> contacts(const WideObbTree& a, const Transform& X_WA,

@@ -6,6 +6,7 @@
 #include "collision/core/query_context.h"
 #include "collision/core/transform.h"
 #include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/hierarchy/wide_pose.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/triangle_pair.h"
 
@@ -19,6 +20,11 @@ namespace corridor {
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
                                          QueryContext& context);
+
+/// The same by triangles in leaf order, for queries that have the pose. @pre not `pose.apart`.
+std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Transform& X_WA,
+                                                  const WideObbTree& b, const Transform& X_WB,
+                                                  const WidePose& pose, QueryContext& context);
 
 /// `contacts` (contacts.h, with its promises) for wide trees. Allocates what it returns.
 std::vector<TriangleContact> contacts(const WideObbTree& a, const Transform& X_WA,

@@ -31,12 +31,12 @@ class WideLeaves {
         leavesA_(a, Mat3::Identity() * pose.unitA, Vec3::Zero()),
         leavesB_(b, pose.m * pose.unitA, pose.t) {}
 
-  /// Calls `found(s, t)`, triangles in leaf order, for each pair of triangles of these pairs of
-  /// leaves that isn't proved to be farther apart than `pad()` (a's unit), until it returns true;
-  /// returns whether it did.
-  template <class Pad, class Found>
-  bool forEachNear(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
-                   Pad&& pad, Found&& found) {
+  /// Calls `near(first_a, first_b, corners_a, corners_b, open)` for each of these pairs of leaves
+  /// that has pairs of triangles (`open`'s bits 4·i + j) that aren't proved to be farther apart
+  /// than `pad()` (a's unit), until it returns true; returns whether it did.
+  template <class Pad, class Near>
+  bool forEachNearLeaf(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
+                       Pad&& pad, Near&& near) {
     for (; pairs; pairs &= pairs - 1) {
       const auto pair = static_cast<unsigned>(std::countr_zero(pairs));
       const std::uint32_t childA = na.child[pair / 4], childB = nb.child[pair % 4];
@@ -47,14 +47,25 @@ class WideLeaves {
       counters_.triangleTests += countA * countB;
       unsigned wanted = 0;
       for (unsigned s = 0; s < countA; ++s) wanted |= ((1U << countB) - 1) << 4 * s;
-      unsigned open =
-          touchingTriangles(leavesA_.get(childA), leavesB_.get(childB), error_, pad()) & wanted;
-      for (; open; open &= open - 1) {
-        const auto bit = static_cast<unsigned>(std::countr_zero(open));
-        if (found(firstA + bit / 4, firstB + bit % 4)) return true;
-      }
+      const LeafCorners &a = leavesA_.get(childA), &b = leavesB_.get(childB);
+      const unsigned open = touchingTriangles(a, b, error_, pad()) & wanted;
+      if (open && near(firstA, firstB, a, b, open)) return true;
     }
     return false;
+  }
+  /// The same with `found(s, t)` for each pair of triangles, in leaf order.
+  template <class Pad, class Found>
+  bool forEachNear(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
+                   Pad&& pad, Found&& found) {
+    return forEachNearLeaf(na, nb, pairs, pad,
+                           [&](std::uint32_t firstA, std::uint32_t firstB, const LeafCorners&,
+                               const LeafCorners&, unsigned open) {
+                             for (; open; open &= open - 1) {
+                               const auto bit = static_cast<unsigned>(std::countr_zero(open));
+                               if (found(firstA + bit / 4, firstB + bit % 4)) return true;
+                             }
+                             return false;
+                           });
   }
 
  private:

@@ -64,6 +64,24 @@ TEST(WideDistance, SharedWorkloads) {
   EXPECT_GT(checked, 1'000 / test::kSlowdown);
 }
 
+/// Farther than floats can square: bodies of 1 mm a light second apart, and a light year.
+TEST(WideDistance, FarApart) {
+  std::mt19937_64 random(test::testSeed(23));
+  for (const double away : {1e3, 3e8, 1e16, 1e25}) {
+    const TriangleMesh mesh = soup(random, 200, 0.001);
+    const WideObbTree a(mesh), b(mesh);
+    const VolumeTree<Obb> same(mesh);
+    Transform X_WB = anyPose(random, 1);
+    X_WB.t *= away;
+    QueryContext context;
+    const Distance d = distance(a, {}, b, X_WB, {}, context),
+                   reference = distance(same, {}, same, X_WB, {}, context);
+    const double size = largest(corners(mesh, d.b), X_WB);
+    EXPECT_NEAR(d.distance, reference.distance, 1e-12 * d.distance + 8 * kUnit * size) << away;
+    EXPECT_FALSE(closerThan(a, {}, b, X_WB, 0.5 * d.distance, context));
+  }
+}
+
 TEST(WideDistance, AgreesWithBruteForceAndIsSymmetric) {
   std::mt19937_64 random(test::testSeed(22));
   int touching = 0;

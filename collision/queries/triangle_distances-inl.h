@@ -1,0 +1,162 @@
+// Distances of four triangles from four, for every SIMD target: included once per target by
+// foreach_target.h.
+
+// clang-format off
+#if defined(CORRIDOR_TRIANGLE_DISTANCES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
+#ifdef CORRIDOR_TRIANGLE_DISTANCES_INL_H_
+#undef CORRIDOR_TRIANGLE_DISTANCES_INL_H_
+#else
+#define CORRIDOR_TRIANGLE_DISTANCES_INL_H_
+#endif
+// clang-format on
+
+#include <cmath>
+
+#include "hwy/highway.h"
+
+#include "collision/core/lanes.h"
+#include "collision/predicates/triangle_filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Of the sixteen pairs of triangles (lane 4·i + j: a's i-th, b's j-th) the distance of two points,
+/// at least the distance, and the gap along the line through them, at most the distance: each with
+/// all rounding in it, `error` included, the distance that the corners given may be off by, both
+/// sides together. Crossing triangles' are not told (upper is right, and lower 0). Where nothing
+/// can be told, [0, inf].
+///
+/// The points are the closest of two edges, or of a corner and a face (Ericson 2005, 5.1.5, 5.1.9):
+/// whichever they are, they are points of the triangles but for rounding, and any direction bounds
+/// from below, so that nothing depends on how well they were found.
+///
+/// Rounding, u = 2^-24; all is relative to a corner of a's triangle, and each corner is off by 3u·D
+/// a coordinate, D the sum of all sizes, as in `touchingTriangles`. A point of an edge or a face is
+/// evaluated with less than 6u·D more, and parameters that add up to 1 + u put it out by u·D: two
+/// points, their difference and its length are off by √3(2·10 + 2)u·D < 40u·D. A direction's
+/// projections: 3u + √3·3u of |n|·D on each side, and a quotient: 20u·D. Squares that underflow:
+/// below 2^-60 a length is not told.
+HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, float error,
+                                  float* HWY_RESTRICT lower, float* HWY_RESTRICT upper) {
+  const hn::CappedTag<float, 16> d;
+  using V = hn::Vec<decltype(d)>;
+  constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
+  struct Vec {
+    V x, y, z;
+  };
+  const auto add = [](const Vec& p, const Vec& q) {
+    return Vec{hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
+  };
+  const auto sub = [](const Vec& p, const Vec& q) {
+    return Vec{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
+  };
+  const auto scaled = [](const Vec& p, V s) {
+    return Vec{hn::Mul(p.x, s), hn::Mul(p.y, s), hn::Mul(p.z, s)};
+  };
+  const auto dot = [](const Vec& p, const Vec& q) {
+    return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
+  };
+  const auto sum = [](const Vec& p) {
+    return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
+  };
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), infinite = hn::Set(d, HUGE_VALF);
+  const auto min3 = [](V x, V y, V z) { return hn::Min(hn::Min(x, y), z); };
+  const auto max3 = [](V x, V y, V z) { return hn::Max(hn::Max(x, y), z); };
+  // In [0, 1] whatever x is, NaN too.
+  const auto clamped = [&](V x) {
+    return hn::IfThenElse(hn::Gt(x, zero), hn::IfThenElse(hn::Lt(x, one), x, one), zero);
+  };
+  const auto inverse = [&](V x) { return hn::Div(one, x); };
+  for (std::size_t at = 0; at < 16; at += kLanes) {
+    const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
+    const auto corner = [&](int k) {
+      return Vec{hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][0]), rows),
+                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][1]), rows),
+                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][2]), rows)};
+    };
+    const Vec o = corner(0);
+    const Vec away = sub(Vec{hn::Set(d, static_cast<float>(b.center[0] - a.center[0])),
+                             hn::Set(d, static_cast<float>(b.center[1] - a.center[1])),
+                             hn::Set(d, static_cast<float>(b.center[2] - a.center[2]))},
+                         o);
+    const auto load = [&](int k) {
+      return Vec{hn::Add(hn::LoadDup128(d, b.x[k][0]), away.x),
+                 hn::Add(hn::LoadDup128(d, b.x[k][1]), away.y),
+                 hn::Add(hn::LoadDup128(d, b.x[k][2]), away.z)};
+    };
+    // Corners and edges; edge k goes from corner k to the next.
+    const Vec s[3] = {{zero, zero, zero}, sub(corner(1), o), sub(corner(2), o)};
+    const Vec t[3] = {load(0), load(1), load(2)};
+    const Vec e[3] = {s[1], sub(s[2], s[1]), sub(s[0], s[2])};
+    const Vec f[3] = {sub(t[1], t[0]), sub(t[2], t[1]), sub(t[0], t[2])};
+    Vec n = t[0];  // between the closest points found
+    V least = dot(n, n);
+    const auto offer = [&](const Vec& p, auto allowed) {
+      const V square = dot(p, p);
+      const auto closer = hn::And(allowed, hn::Lt(square, least));  // false for NaN
+      n = {hn::IfThenElse(closer, p.x, n.x), hn::IfThenElse(closer, p.y, n.y),
+           hn::IfThenElse(closer, p.z, n.z)};
+      least = hn::IfThenElse(closer, square, least);
+    };
+    V ee[3], ff[3], perE[3], perF[3];
+    for (int i = 0; i < 3; ++i) {
+      ee[i] = dot(e[i], e[i]);
+      ff[i] = dot(f[i], f[i]);
+      perE[i] = inverse(ee[i]);
+      perF[i] = inverse(ff[i]);
+    }
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Vec r = sub(t[k], s[i]);
+        const V ef = dot(e[i], f[k]), er = dot(e[i], r), fr = dot(f[k], r);
+        const V det = hn::Sub(hn::Mul(ee[i], ff[k]), hn::Mul(ef, ef));
+        const V x = clamped(hn::Div(hn::Sub(hn::Mul(er, ff[k]), hn::Mul(ef, fr)), det));
+        const V y = clamped(hn::Mul(hn::Sub(hn::Mul(ef, x), fr), perF[k]));
+        const V z = clamped(hn::Mul(hn::Add(hn::Mul(ef, y), er), perE[i]));
+        offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kLanes));
+      }
+    // Corners over the face at `at0`, whose edges there are u and v, less their feet in it.
+    const auto faces = [&](const Vec* ps, const Vec& at0, const Vec& u, const Vec& v, V uu, V vv,
+                           bool flip) {
+      const V uv = dot(u, v);
+      const V per = inverse(hn::Sub(hn::Mul(uu, vv), hn::Mul(uv, uv)));
+      for (int i = 0; i < 3; ++i) {
+        const Vec w = sub(ps[i], at0);
+        const V wu = dot(w, u), wv = dot(w, v);
+        const V x = hn::Mul(hn::Sub(hn::Mul(vv, wu), hn::Mul(uv, wv)), per),
+                y = hn::Mul(hn::Sub(hn::Mul(uu, wv), hn::Mul(uv, wu)), per);
+        const auto inside =
+            hn::And(hn::And(hn::Ge(x, zero), hn::Ge(y, zero)), hn::Le(hn::Add(x, y), one));
+        if (hn::AllFalse(d, inside)) continue;
+        const Vec p = sub(w, add(scaled(u, x), scaled(v, y)));
+        offer(flip ? Vec{hn::Neg(p.x), hn::Neg(p.y), hn::Neg(p.z)} : p, inside);
+      }
+    };
+    faces(t, s[0], s[1], s[2], ee[0], ee[2], false);
+    faces(s, t[0], f[0], sub(t[2], t[0]), ff[0], ff[2], true);
+    // Sizes as in `touchingTriangles`: a sum, which keeps a NaN.
+    const V D = hn::Add(hn::Add(hn::Add(sum(o), sum(t[0])), hn::Add(sum(t[1]), sum(t[2]))),
+                        hn::Add(hn::Add(sum(s[1]), sum(s[2])),
+                                sum(Vec{hn::LoadDup128(d, b.x[0][0]), hn::LoadDup128(d, b.x[0][1]),
+                                        hn::LoadDup128(d, b.x[0][2])})));
+    const auto known = hn::Lt(D, hn::Set(d, 0x1p50F));  // squares and their squares don't overflow
+    const V off = hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 48 * 0x1p-24F), D));
+    const V length = hn::Sqrt(least);
+    const V up = hn::Add(hn::Mul(hn::Add(length, hn::Set(d, 0x1p-60F)), hn::Set(d, 1 + 0x1p-20F)),
+                         hn::Mul(off, hn::Set(d, 1 + 0x1p-20F)));
+    const V gap = hn::Sub(min3(dot(n, t[0]), dot(n, t[1]), dot(n, t[2])),
+                          max3(zero, dot(n, s[1]), dot(n, s[2])));
+    const V low = hn::Sub(hn::Mul(hn::Div(gap, length), hn::Set(d, 1 - 0x1p-20F)), off);
+    const auto told =
+        hn::And(known, hn::And(hn::Gt(low, zero), hn::Gt(length, hn::Set(d, 0x1p-60F))));
+    hn::Store(hn::IfThenElse(told, low, zero), d, lower + at);
+    hn::Store(hn::IfThenElse(hn::And(known, hn::Lt(up, infinite)), up, infinite), d, upper + at);
+  }
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
