@@ -7,19 +7,26 @@ namespace corridor {
 bool convexSetsTouch(const PosedSet& a, const PosedSet& b, Counters& counters) {
   ++counters.triangleTests;
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
-  const double radii = a.set().ball + b.set().ball;
+  double radii = a.set().ball + b.set().ball;
   // The sum and the two errors: each projection is below `size`.
   const double slack = roundedUp(a.error() + b.error() + 2 * kUnit * size);
   const auto apart = [&](const Vec3& n, double gap) {
     return gap > radii && -b.highest(-n) - a.highest(n) > slack;
   };
   // `size` is below (1 + √3)·2√3 < 9.5 of the largest coordinates: this is well within the band.
-  const double near = radii + 0x1p-49 * size;
-  const gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
+  double near = radii + 0x1p-49 * size;
+  gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
   if (quick.accepted) return false;
+  const bool whole = !(a.keepsBall() && b.keepsBall());
+  if (whole) {  // what touches as balls need not as ellipsoids
+    radii = 0;
+    near = 0x1p-49 * size;
+    quick = gjk::search<double>(a, b, size, near, apart, whole);
+    if (quick.accepted) return false;
+  }
   if (quick.overlap || quick.upper <= near) return true;
   ++counters.exactTests;
-  return !gjk::search<DoubleDouble>(a, b, size, near, apart).accepted;
+  return !gjk::search<DoubleDouble>(a, b, size, near, apart, whole).accepted;
 }
 
 }  // namespace corridor

@@ -31,6 +31,11 @@ PosedSet::PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) 
   error_ = roundedUp(kUnit * (20 * reach_ + 6 * X.t.norm()));
 }
 
+bool PosedSet::keepsBall() const {
+  return set_.ball == 0 ||
+         (X_.m.transpose() * X_.m - Mat3::Identity()).cwiseAbs().maxCoeff() <= 0x1p-48;
+}
+
 double PosedSet::coreHighest(const Vec3& m) const {
   double highest = -std::numeric_limits<double>::infinity();
   for (const Vec3& p : set_.points) {

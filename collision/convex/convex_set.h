@@ -42,6 +42,9 @@ class PosedSet {
   /// max m·p over the core in the set's own frame.
   double coreHighest(const Vec3& m) const;
 
+  /// Does the map leave the ball one, but for 3·2^-48 of its radius?
+  bool keepsBall() const;
+
   const ConvexSet& set() const { return set_; }
   const Transform& pose() const { return X_; }
   /// |p| + ball + disc for all points, in the set's own frame, times ‖M‖_F (at least 1); rounded

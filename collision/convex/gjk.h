@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "collision/convex/convex_set.h"
 #include "collision/convex/double_double.h"
@@ -22,6 +24,23 @@ struct Answer {
   double lower = -HUGE_VAL;       ///< the widest gap found along a direction, likewise from below
   Vec3 direction = Vec3::Zero();  ///< that direction, from a to b: unit, rounded
   int rounds = 0;
+};
+
+/// A point of core a, w from it to one of core b, and how to find both again with more digits: the
+/// numbers of the sets' points, and the direction, from a to b, that rims were asked with.
+template <class Real>
+struct Corner {
+  Vector<Real> a, w;
+  std::uint32_t pointA = 0, pointB = 0;
+  Vec3 n = Vec3::Zero();
+};
+
+/// The corners whose hull has `upper`: up to three, four where the cores overlap; none where the
+/// search met before it began.
+template <class Real>
+struct Simplex {
+  Corner<Real> corner[4];
+  int count = 0;
 };
 
 /// How far candidates may be off and how long one may try: unit roundoff of the scalar as used,
@@ -45,7 +64,14 @@ struct Effort<DoubleDouble> {
 template <class Real>
 class Support {
  public:
-  explicit Support(const PosedSet& set) : set_(set), t_(set.pose().t) {
+  struct Point {
+    Vector<Real> x;
+    std::uint32_t number;
+  };
+
+  /// @param whole  the ball counts as part of the core: for maps that don't leave it one.
+  explicit Support(const PosedSet& set, bool whole = false)
+      : set_(set), t_(set.pose().t), ball_(whole ? set.set().ball : 0) {
     for (int i = 0; i < 3; ++i) row_[i] = Vector<Real>(Vec3(set.pose().m.row(i)));
     if (set.set().disc > 0) {
       const Vector<Real> d = Vector<Real>(set.set().points[1]) - Vector<Real>(set.set().points[0]);
@@ -54,18 +80,14 @@ class Support {
   }
 
   /// The point farthest along n.
-  Vector<Real> operator()(const Vector<Real>& n) const {
+  Point operator()(const Vector<Real>& n) const {
     const Vector<Real> m = row_[0] * n.x + row_[1] * n.y + row_[2] * n.z;
-    const auto points = set_.set().points;
-    Vector<Real> best(points[0]);
-    Real highest = dot(m, best);
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const Vector<Real> p(points[i]);
-      const Real along = dot(m, p);
-      if (along > highest) highest = along, best = p;
-    }
-    if (set_.set().disc > 0) best = best + radial(m) * Real(set_.set().disc);
-    return {dot(row_[0], best) + t_.x, dot(row_[1], best) + t_.y, dot(row_[2], best) + t_.z};
+    const std::uint32_t best = farthest(m);
+    return {image(best, m), best};
+  }
+  /// The one on the given point's disc or ball.
+  Vector<Real> at(std::uint32_t number, const Vector<Real>& n) const {
+    return image(number, row_[0] * n.x + row_[1] * n.y + row_[2] * n.z);
   }
 
   Vector<Real> somewhere() const {
@@ -75,6 +97,39 @@ class Support {
   }
 
  private:
+  /// Those that doubles can't tell from the farthest are compared in `Real`: three products and two
+  /// sums are off by less than 4u of |m|₁·max|p|.
+  std::uint32_t farthest(const Vector<Real>& m) const {
+    const auto points = set_.set().points;
+    const Vec3 rough(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z));
+    std::uint32_t best = 0;
+    double highest = rough.dot(points[0]);
+    for (std::uint32_t i = 1; i < points.size(); ++i) {
+      const double along = rough.dot(points[i]);
+      if (along > highest) highest = along, best = i;
+    }
+    if constexpr (!std::is_same_v<Real, double>) {
+      const double sure = highest - 16 * kUnit * rough.lpNorm<1>() * set_.reach();
+      Real most = dot(m, Vector<Real>(points[best]));
+      for (std::uint32_t i = 0, first = best; i < points.size(); ++i) {
+        if (i == first || rough.dot(points[i]) < sure) continue;
+        const Real along = dot(m, Vector<Real>(points[i]));
+        if (along > most) most = along, best = i;
+      }
+    }
+    return best;
+  }
+
+  Vector<Real> image(std::uint32_t number, const Vector<Real>& m) const {
+    Vector<Real> p(set_.set().points[number]);
+    if (set_.set().disc > 0) p = p + radial(m) * Real(set_.set().disc);
+    if (ball_ > 0) {
+      const Real size = length(m);
+      if (size > Real(0)) p = p + m * (Real(ball_) / size);
+    }
+    return {dot(row_[0], p) + t_.x, dot(row_[1], p) + t_.y, dot(row_[2], p) + t_.z};
+  }
+
   /// m's share at a right angle to the axis, as a unit vector; zero where it has none. Taken twice:
   /// a small share is mostly rounding at first, of any direction; where the second time takes away
   /// half of it, it was nothing else.
@@ -91,60 +146,131 @@ class Support {
 
   const PosedSet& set_;
   Vector<Real> row_[3], t_, axis_;
+  double ball_;
 };
 
-/// @param size  metres: above every coordinate involved. The search ends when upper and lower agree
-/// to 2^-50 of it or a share (`Effort`) of the distance.
-/// @param accept  asked with the direction and its gap, whenever the gap is wider than any before;
-/// true ends the search.
-/// @param near  a distance at which the search ends, too: closer does not matter.
-template <class Real, class Accept>
-Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept) {
-  const Support<Real> supportA(a), supportB(b);
-  const Real noise(256 * Effort<Real>::unit * size);
-  Answer answer;
-  Nearest<Real> face = nearest<Real>(supportB.somewhere() - supportA.somewhere());
-  face.count = 0;  // a direction to begin with, no corner
-  answer.upper = std::numeric_limits<double>::infinity();
-  for (; answer.rounds < Effort<Real>::rounds; ++answer.rounds) {
-    const Real norm = length(face.v);
-    if (!(norm > Real(0))) return answer;  // touching, as far as can be told; or NaN
-    const Vector<Real> n = face.v * (Real(1) / norm);
-    const double distance = static_cast<double>(norm);
-    const Vector<Real> w = supportB(-n) - supportA(n);
-    const double lower = static_cast<double>(dot(n, w));
-    if (lower > answer.lower) {
-      answer.lower = lower;
-      answer.direction = {static_cast<double>(n.x), static_cast<double>(n.y),
-                          static_cast<double>(n.z)};
-      if ((answer.accepted = accept(answer.direction, lower))) return answer;
+/// Two posed sets, and the search for the least distance of their cores.
+template <class Real>
+class Search {
+ public:
+  /// @param size  metres: above every coordinate involved.
+  /// @param whole  balls are in the cores, as the maps' images of them.
+  Search(const PosedSet& a, const PosedSet& b, double size, bool whole = false)
+      : a_(a, whole), b_(b, whole), noise_(256 * Effort<Real>::unit * size) {}
+
+  /// @param from  corners that another search ended with: to begin with.
+  /// @param enough  asked with upper and lower whether they agree; true ends the search.
+  /// @param accept  asked with the direction and its gap, whenever the gap is wider than any
+  /// before; true ends the search.
+  template <class Other, class Enough, class Accept>
+  Answer run(const Simplex<Other>& from, Enough enough, Accept accept) {
+    Answer answer;
+    answer.upper = std::numeric_limits<double>::infinity();
+    Nearest<Real> face = begin(from);
+    if (face.count == 0) {
+      face = nearest<Real>(b_.somewhere() - a_.somewhere());
+      face.count = 0;  // a direction to begin with, no corner
+    } else {
+      answer.upper = std::sqrt(static_cast<double>(face.squared));
     }
-    const double enough = std::max(0x1p-50 * size, Effort<Real>::agreed * distance);
-    if (answer.upper <= near || answer.upper - answer.lower <= enough) return answer;
-    for (int i = 0; i < face.count; ++i)
-      if (w == face.corner[i]) return answer;  // nothing new that way
-    const Vector<Real>* const c = face.corner;
-    switch (face.count) {
-      case 0:
-        face = nearest(w);
-        break;
-      case 1:
-        face = nearest(c[0], w);
-        break;
-      case 2:
-        face = nearest(c[0], c[1], w);
-        break;
-      default:
-        face = nearest(c[0], c[1], c[2], w, noise);
+    for (; answer.rounds < Effort<Real>::rounds; ++answer.rounds) {
+      const Real norm = length(face.v);
+      if (!(norm > Real(0))) return answer;  // touching, as far as can be told; or NaN
+      const Vector<Real> n = face.v * (Real(1) / norm);
+      const auto [pa, numberA] = a_(n);
+      const auto [pb, numberB] = b_(-n);
+      const Vector<Real> w = pb - pa;
+      const double lower = static_cast<double>(dot(n, w));
+      const Vec3 direction(static_cast<double>(n.x), static_cast<double>(n.y),
+                           static_cast<double>(n.z));
+      if (lower > answer.lower) {
+        answer.lower = lower;
+        answer.direction = direction;
+        normal = n;
+        gap = dot(n, w);
+        if ((answer.accepted = accept(direction, lower))) return answer;
+      }
+      if (enough(answer.upper, answer.lower)) return answer;
+      for (int i = 0; i < face.count; ++i)
+        if (w == face.corner[i]) return answer;  // nothing new that way
+      const Vector<Real>* const c = face.corner;
+      switch (face.count) {
+        case 0:
+          face = nearest(w);
+          break;
+        case 1:
+          face = nearest(c[0], w);
+          break;
+        case 2:
+          face = nearest(c[0], c[1], w);
+          break;
+        default:
+          face = nearest(c[0], c[1], c[2], w, noise_);
+      }
+      known_.corner[known_.count++] = {pa, w, numberA, numberB, direction};
+      keep(face);
+      if (face.count == 4) {
+        simplex = known_;
+        answer.overlap = true;
+        answer.upper = 0;
+        return answer;
+      }
+      const double distance = std::sqrt(static_cast<double>(face.squared));
+      if (distance < answer.upper) {
+        answer.upper = distance;
+        simplex = known_;
+      }
     }
-    if (face.count == 4) {
-      answer.overlap = true;
-      answer.upper = 0;
-      return answer;
-    }
-    answer.upper = std::min(answer.upper, std::sqrt(static_cast<double>(face.squared)));
+    return answer;
   }
-  return answer;
+
+  Simplex<Real> simplex;
+  Vector<Real> normal;  ///< `Answer::direction` and `lower` with all their digits
+  Real gap{};
+
+ private:
+  template <class Other>
+  Nearest<Real> begin(const Simplex<Other>& from) {
+    for (int i = 0; i < from.count && i < 3; ++i) {
+      const Corner<Other>& c = from.corner[i];
+      const Vector<Real> n(c.n), pa = a_.at(c.pointA, n), pb = b_.at(c.pointB, -n);
+      known_.corner[known_.count++] = {pa, pb - pa, c.pointA, c.pointB, c.n};
+    }
+    const Corner<Real>* const c = known_.corner;
+    Nearest<Real> face = known_.count == 0   ? Nearest<Real>()
+                         : known_.count == 1 ? nearest(c[0].w)
+                         : known_.count == 2 ? nearest(c[0].w, c[1].w)
+                                             : nearest(c[0].w, c[1].w, c[2].w);
+    keep(face);
+    simplex = known_;
+    return face;
+  }
+
+  /// Of the corners known, the face's, in its order.
+  void keep(const Nearest<Real>& face) {
+    Simplex<Real> kept;
+    for (; kept.count < face.count; ++kept.count)
+      for (int i = 0; i < known_.count; ++i)
+        if (known_.corner[i].w == face.corner[kept.count])
+          kept.corner[kept.count] = known_.corner[i];
+    known_ = kept;
+  }
+
+  Support<Real> a_, b_;
+  Real noise_;
+  Simplex<Real> known_;
+};
+
+/// A search for verdicts: it ends, too, when upper and lower agree to 2^-50 of the size or a share
+/// (`Effort`) of the distance.
+/// @param near  a distance at which the search ends: closer does not matter.
+template <class Real, class Accept>
+Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept,
+              bool whole = false) {
+  const auto enough = [&](double upper, double lower) {
+    return upper <= near || upper - lower <= std::max(0x1p-50 * size, Effort<Real>::agreed * lower);
+  };
+  return Search<Real>(a, b, size, whole).run(Simplex<Real>(), enough, accept);
 }
 
 }  // namespace corridor::gjk

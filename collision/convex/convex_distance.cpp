@@ -1,0 +1,235 @@
+#include "collision/convex/convex_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/convex/convex_contact.h"
+#include "collision/convex/gjk.h"
+#include "collision/core/rounding.h"
+
+/// The bounds. With g the points of cores that are closest and d = g_B − g_A, n = d/|d|:
+/// * from above: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, m = Mᵀn, are points of the
+///   sets, whatever n and M are;
+/// * from below: the gap along the direction of GJK's widest, less r_A|m_A| + r_B|m_B|.
+/// Under a rotation they meet where the search does. Under a map of defect η they stay apart by
+/// some 3η·r at most, since the closest points of ellipsoids are not on one line with the cores';
+/// where that is more than asked, the balls join the cores.
+///
+/// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` has its
+/// own bound of what is projected; a corner of a simplex is a mapped point with its disc, off by no
+/// more than the same derivation gives (three products and sums a coordinate, the disc's 6u); a
+/// convex combination of three takes 8 roundings; both points: below twice the sets' errors.
+namespace corridor {
+namespace {
+
+using gjk::Vector;
+
+template <class Real>
+Vec3 rounded(const Vector<Real>& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+template <class Real>
+struct Points {
+  Vector<Real> a, w;  ///< a point of core a, and what leads from it to one of core b
+};
+
+/// The points of a simplex that are closest.
+template <class Real>
+Points<Real> closest(const gjk::Simplex<Real>& simplex) {
+  const gjk::Corner<Real>* const c = simplex.corner;
+  const Real zero(0), one(1);
+  Real weight[4] = {one, zero, zero, zero};
+  if (simplex.count == 2) {
+    const Vector<Real> d = c[1].w - c[0].w;
+    weight[1] = -dot(c[0].w, d) / dot(d, d);
+    weight[0] = one - weight[1];
+  } else if (simplex.count == 3) {
+    const Vector<Real> ab = c[1].w - c[0].w, bc = c[2].w - c[1].w, ca = c[0].w - c[2].w;
+    const Vector<Real> n = cross(ab, bc);
+    weight[0] = dot(n, cross(c[1].w, bc));
+    weight[1] = dot(n, cross(c[2].w, ca));
+    weight[2] = dot(n, cross(c[0].w, ab));
+    const Real sum = weight[0] + weight[1] + weight[2];
+    for (int i = 0; i < 3; ++i) weight[i] = weight[i] / sum;
+  } else if (simplex.count == 4) {  // the origin is inside
+    Real sum(0);
+    for (int i = 0; i < 4; ++i) {
+      const Vector<Real>&p = c[(i + 1) % 4].w, &q = c[(i + 2) % 4].w, &r = c[(i + 3) % 4].w;
+      const Vector<Real> n = cross(q - p, r - p);
+      weight[i] = dot(n, p) / dot(n, p - c[i].w);
+      sum = sum + weight[i];
+    }
+    for (int i = 0; i < 4; ++i) weight[i] = weight[i] / sum;
+  }
+  Points<Real> points;
+  for (int i = 0; i < std::max(1, simplex.count); ++i) {
+    points.a = points.a + c[i].a * weight[i];
+    points.w = points.w + c[i].w * weight[i];
+  }
+  return points;
+}
+
+/// M m/|m| and |m| of a ball's share along n.
+template <class Real>
+struct BallShare {
+  Vector<Real> point;
+  Real length;
+
+  BallShare(const Mat3& m, const Vector<Real>& n) {
+    const Vector<Real> local = Vector<Real>(Vec3(m.row(0))) * n.x +
+                               Vector<Real>(Vec3(m.row(1))) * n.y +
+                               Vector<Real>(Vec3(m.row(2))) * n.z;
+    length = gjk::length(local);
+    const Vector<Real> unit = local * (Real(1) / length);
+    point = {dot(Vector<Real>(Vec3(m.row(0))), unit), dot(Vector<Real>(Vec3(m.row(1))), unit),
+             dot(Vector<Real>(Vec3(m.row(2))), unit)};
+  }
+};
+
+class Pair {
+ public:
+  Pair(const PosedSet& a, const PosedSet& b)
+      : a_(a),
+        b_(b),
+        size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
+        radii_(a.set().ball + b.set().ball),
+        error_(roundedUp(a.error() + b.error() + 2 * kUnit * size_)) {}
+
+  double size() const { return size_; }
+  double radii() const { return radii_; }
+  /// Cores at most this far apart touch, if the maps leave balls balls (`convexSetsTouch`).
+  double near() const { return radii_ + 0x1p-49 * size_; }
+  /// What is farther apart than this is so for `convexSetsTouch`, too.
+  double band() const { return 0x1p-44 * size_; }
+
+  /// Proved, all rounding covered; metres.
+  double gap(const Vec3& n) const { return -b_.highest(-n) - a_.highest(n) - error_; }
+  /// Of a distance found in double.
+  double error() const { return 2 * error_; }
+
+  /// A point that both sets have, as far as can be told.
+  template <class Real>
+  ConvexDistance contact(const gjk::Search<Real>& search, bool whole) const {
+    ConvexDistance result;
+    if (search.simplex.count == 0) {
+      result.p_WA = result.p_WB = rounded(gjk::Support<double>(a_).somewhere());
+      return result;
+    }
+    const Points<Real> points = closest(search.simplex);
+    const double share = whole || radii_ == 0 ? 0.5 : a_.set().ball / radii_;
+    result.p_WA = result.p_WB = rounded(points.a + points.w * Real(share));
+    return result;
+  }
+
+  /// Of sets that are apart. @param whole  the search had the balls in the cores.
+  template <class Real>
+  ConvexDistance apart(const gjk::Search<Real>& search, bool whole) const {
+    Points<Real> p = closest(search.simplex);
+    Real lower = search.gap;
+    if (!whole && radii_ > 0) {
+      const Real ra(a_.set().ball), rb(b_.set().ball);
+      const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
+      const BallShare<Real> ballA(a_.pose().m, n), ballB(b_.pose().m, n);
+      p.a = p.a + ballA.point * ra;
+      p.w = p.w - ballA.point * ra - ballB.point * rb;
+      lower = lower - BallShare<Real>(a_.pose().m, search.normal).length * ra -
+              BallShare<Real>(b_.pose().m, search.normal).length * rb;
+    }
+    ConvexDistance result;
+    result.distance =
+        std::max(static_cast<double>(gjk::length(p.w)), std::numeric_limits<double>::min());
+    // Some dozen roundings of 2^-98 of the size each; then to double.
+    result.lower = roundedDown(static_cast<double>(lower - Real(0x1p-90 * size_)));
+    result.p_WA = rounded(p.a);
+    result.p_WB = rounded(p.a + p.w);
+    return result;
+  }
+
+ private:
+  const PosedSet &a_, &b_;
+  double size_, radii_, error_;
+};
+
+}  // namespace
+
+ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
+                              double absolute, Counters& counters) {
+  ++counters.triangleTests;
+  const Pair pair(a, b);
+  // Last digits: 2^-51·S is allowed, and `size` is below 9.5 S.
+  const double share = relative + 0x1p-41, least = absolute + 0x1p-55 * pair.size();
+  const auto never = [](const Vec3&, double) { return false; };
+  const auto agreed = [&](double radii, double near, double finest) {
+    return [=](double upper, double lower) {
+      return upper <= near || upper - lower <= std::max(finest, share * (lower - radii) + least);
+    };
+  };
+  const auto fine = [&](const ConvexDistance& d, double error) {
+    return d.distance + error - d.lower <= 2 * (share * d.lower + least);
+  };
+
+  gjk::Search<double> quick(a, b, pair.size());
+  // In double, bounds come no closer than this.
+  const gjk::Answer found = quick.run(
+      gjk::Simplex<double>(), agreed(pair.radii(), pair.near(), 0x1p-50 * pair.size()), never);
+  const bool met = found.overlap || found.upper <= pair.near();
+  const double gap = pair.gap(found.direction);
+  if (!(gap > pair.band())) {
+    const bool balls = a.keepsBall() && b.keepsBall();
+    const bool deep = found.overlap || found.upper + pair.band() <= pair.radii();
+    if ((deep && balls) || convexSetsTouch(a, b, counters)) {
+      if (balls) return pair.contact(quick, false);
+      gjk::Search<double> whole(a, b, pair.size(), true);
+      whole.run(quick.simplex, agreed(0, 0, 0x1p-50 * pair.size()), never);
+      return pair.contact(whole, true);
+    }
+  }
+
+  ConvexDistance result;
+  if (!met) {
+    result = pair.apart(quick, false);
+    result.lower = gap;
+    if (fine(result, pair.error())) return result;
+  }
+  ++counters.exactTests;
+  gjk::Search<DoubleDouble> finer(a, b, pair.size());
+  finer.run(quick.simplex, agreed(pair.radii(), -1, 0), never);
+  result = pair.apart(finer, false);
+  if (fine(result, 0) || pair.radii() == 0) return result;
+  gjk::Search<DoubleDouble> whole(a, b, pair.size(), true);
+  whole.run(finer.simplex, agreed(0, -1, 0), never);
+  const ConvexDistance other = pair.apart(whole, true);
+  return other.distance - other.lower < result.distance - result.lower ? other : result;
+}
+
+ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near,
+                                Counters& counters) {
+  ++counters.triangleTests;
+  const Pair pair(a, b);
+  gjk::Search<double> search(a, b, pair.size());
+  double lower = 0;
+  const gjk::Answer found = search.run(
+      gjk::Simplex<double>(),
+      [&](double upper, double gap) {
+        return upper <= pair.near() || upper - pair.radii() + pair.error() <= near ||
+               upper - gap <= std::max(0x1p-50 * pair.size(), 0x1p-20 * (gap - pair.radii()));
+      },
+      [&](const Vec3& n, double gap) {
+        if (!(gap - pair.radii() > beyond)) return false;
+        lower = pair.gap(n);
+        return lower > beyond;
+      });
+  if (found.overlap) return {0, 0};
+  if (!found.accepted) lower = pair.gap(found.direction);
+  // Points of the cores are points of the sets.
+  ConvexRange range{0, found.upper + pair.error()};
+  if (lower > pair.band()) range.lower = lower;
+  if (search.simplex.count > 0 && found.upper > pair.near())
+    range.upper = std::min(range.upper, pair.apart(search, false).distance + pair.error());
+  if (!(range.upper >= 0)) range.upper = HUGE_VAL;  // NaN: nothing is known
+  return range;
+}
+
+}  // namespace corridor
