@@ -9,6 +9,7 @@
 #include "collision/hierarchy/traverse.h"
 #include "collision/queries/closer_triangles.h"
 #include "collision/queries/interference.h"
+#include "collision/queries/nearest_parts.h"
 #include "collision/queries/nearest_triangles.h"
 #include "collision/queries/touching_pairs.h"
 
@@ -21,7 +22,25 @@ double shrinkOf(const Transform& X_WA) {
   return std::max(0.0, roundedDown(1 - 3 * orthonormalityDefect(X_WA.m)));
 }
 
-template <class Volume>
+/// What leaves hold: triangles in both trees, or parts in one at least.
+struct Triangles {
+  using Nearest = NearestTriangles;
+  using Closer = CloserTriangles;
+  template <class Tree>
+  static const Triangle& item(const Tree& tree, std::uint32_t i) {
+    return tree.triangle(i);
+  }
+};
+struct Parts {
+  using Nearest = NearestParts;
+  using Closer = CloserParts;
+  template <class Tree>
+  static ConvexSet item(const Tree& tree, std::uint32_t i) {
+    return convexSetOf(tree, i);
+  }
+};
+
+template <class Volume, class Items>
 class Nearest {
  public:
   using Tree = VolumeTree<Volume>;
@@ -51,7 +70,7 @@ class Nearest {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
         ++counters_.triangleTests;
-        if (nearest_.look(s, a_.triangle(s), t, b_.triangle(t), counters_)) return true;
+        if (nearest_.look(s, Items::item(a_, s), t, Items::item(b_, t), counters_)) return true;
       }
     return false;
   }
@@ -61,11 +80,11 @@ class Nearest {
   const Tree &a_, &b_;
   PairTest<Volume> volumes_;
   double shrink_;
-  NearestTriangles nearest_;
+  typename Items::Nearest nearest_;
   Counters& counters_;
 };
 
-template <class Volume>
+template <class Volume, class Items>
 class Closer {
  public:
   using Tree = VolumeTree<Volume>;
@@ -93,7 +112,7 @@ class Closer {
     for (std::uint32_t s = na.first; s < na.first + na.count && !found; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count && !found; ++t) {
         ++counters_.triangleTests;
-        found = closer_(a_.triangle(s), b_.triangle(t), counters_);
+        found = closer_(Items::item(a_, s), Items::item(b_, t), counters_);
       }
     return found;
   }
@@ -103,30 +122,44 @@ class Closer {
  private:
   const Tree &a_, &b_;
   PairTest<Volume> volumes_;
-  CloserTriangles closer_;
+  typename Items::Closer closer_;
   double pad_;
   Counters& counters_;
 };
+
+template <class Items, class Volume>
+Distance nearest(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
+                 const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
+  ++context.counters.states;
+  Nearest<Volume, Items> query(a, X_WA, b, X_WB, options, context);
+  traverse(a, b, QueryContext::BoundedPair{0, 0, 0}, context.bounded, query);
+  return query.result();
+}
+
+template <class Items, class Volume>
+bool closer(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
+            const Transform& X_WB, double d, QueryContext& context) {
+  ++context.counters.states;
+  Closer<Volume, Items> query(a, X_WA, b, X_WB, d, context);
+  traverse(a, b, QueryContext::NodePair{0, 0, 0}, context.stack, query);
+  return query.found;
+}
 
 }  // namespace
 
 template <BoundingVolume Volume>
 Distance distance(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
                   const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
-  ++context.counters.states;
-  Nearest<Volume> query(a, X_WA, b, X_WB, options, context);
-  traverse(a, b, QueryContext::BoundedPair{0, 0, 0}, context.bounded, query);
-  return query.result();
+  return a.part() || b.part() ? nearest<Parts>(a, X_WA, b, X_WB, options, context)
+                              : nearest<Triangles>(a, X_WA, b, X_WB, options, context);
 }
 
 template <BoundingVolume Volume>
 bool closerThan(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
                 const Transform& X_WB, double d, QueryContext& context) {
   if (d == 0) return interference(a, X_WA, b, X_WB, context).has_value();
-  ++context.counters.states;
-  Closer<Volume> query(a, X_WA, b, X_WB, d, context);
-  traverse(a, b, QueryContext::NodePair{0, 0, 0}, context.stack, query);
-  return query.found;
+  return a.part() || b.part() ? closer<Parts>(a, X_WA, b, X_WB, d, context)
+                              : closer<Triangles>(a, X_WA, b, X_WB, d, context);
 }
 
 #define CORRIDOR_DISTANCE(Volume)                                                                  \

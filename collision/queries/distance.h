@@ -16,24 +16,25 @@ struct DistanceOptions {
   double absolute = 0;  ///< metres
 };
 
-/// The distance of two bodies, points of either that have it, and their triangles, by their numbers
-/// in the meshes.
+/// The distance of two bodies, points of either that have it, and their triangles or convex parts,
+/// by their numbers in the meshes or lists.
 struct Distance {
   double distance = 0;  ///< metres
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
   std::uint32_t a = 0, b = 0;
 };
 
-/// How far are the triangles of a under X_WA and of b under X_WB apart?
+/// How far are the triangles of a (or its convex parts, solids) under X_WA and those of b under
+/// X_WB apart?
 ///
-/// 0 if and only if `interference` says contact; then both points are one that the triangles share.
+/// 0 if and only if `interference` says contact; then both points are one that the items share.
 /// Else off, beyond what the options allow, by at most 1e-12·d + 4·2^-53·S, S the largest Σ|m||v| +
-/// |t| of the corners mapped.
+/// |t| of the corners mapped (of parts: with their radii). Curved surfaces are not tessellated.
 ///
 /// Branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999); pairs
-/// of triangles are bounded in double, and those that may be the closest are measured again in
-/// double-double.
-/// @pre trees of triangles, finite maps, options not negative.
+/// of items are bounded in double, and those that may be the closest are measured again in
+/// double-double (`closestPoints`, `convexDistance`).
+/// @pre finite maps, options not negative.
 template <BoundingVolume Volume>
 Distance distance(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
                   const Transform& X_WB, const DistanceOptions& options, QueryContext& context);

@@ -22,6 +22,12 @@ PairTest<Volume> pairTestOf(const TreeA& a, const Transform& X_WA, const TreeB& 
                           relativePoseError(X_WA, X_AB, X_WB, b.reach()));
 }
 
+/// An item of a tree, in leaf order: a convex part, or a triangle, which is convex, too.
+template <class Tree>
+ConvexSet convexSetOf(const Tree& tree, std::uint32_t item) {
+  return tree.part(item) ? ConvexSet(*tree.part(item)) : ConvexSet(tree.triangles()[item]);
+}
+
 /// What `traverse` (hierarchy/traverse.h) asks, for items of two trees that touch: a pair whose
 /// volumes are apart is dropped, and `Found(s, t)`, in leaf order, is told each pair of items in
 /// contact, until it returns true or the counted tests reach `workEnd`.
@@ -66,12 +72,8 @@ class TouchingPairs {
 
   bool touch(std::uint32_t s, std::uint32_t t) const {
     if (a_.part() || b_.part())
-      return convexSetsTouch({setOf(a_, s), X_WA_}, {setOf(b_, t), X_WB_}, counters_);
+      return convexSetsTouch({convexSetOf(a_, s), X_WA_}, {convexSetOf(b_, t), X_WB_}, counters_);
     return trianglesTouch(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_, counters_);
-  }
-  template <class Tree>
-  static ConvexSet setOf(const Tree& tree, std::uint32_t item) {
-    return tree.part(item) ? ConvexSet(*tree.part(item)) : ConvexSet(tree.triangles()[item]);
   }
 
   const TreeA& a_;

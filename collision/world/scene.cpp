@@ -11,8 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
-#include "collision/queries/containment.h"
-#include "collision/queries/interference.h"
+#include "collision/world/body_queries.h"
 
 namespace corridor {
 namespace {
@@ -51,24 +50,6 @@ bool mayMeet(const Body& a, const Transform& X_WA, const Body& b, const Transfor
     still.fixedError = 0;
   }
   return mayMeet(a, b, still, 0);
-}
-
-/// Is a component of `inner` inside `solid`, surfaces that don't touch? A convex part has looked at
-/// what is inside it when it looked for contacts.
-std::optional<TrianglePair> inside(const Body& solid, const Transform& X_WS, const Body& inner,
-                                   const Transform& X_WI, QueryContext& context) {
-  if (!solid.solid() || solid.part()) return std::nullopt;
-  const MeshBody around{solid.tree(), solid.components()};
-  if (inner.part()) return enclosed(around, X_WS, *inner.part(), X_WI, context);
-  return enclosed(around, X_WS, {inner.tree(), inner.components()}, X_WI, context);
-}
-
-/// Of two bodies whose surfaces don't touch: is one in the other?
-std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
-                                            const Transform& X_WB, QueryContext& context) {
-  if (const auto hit = inside(a, X_WA, b, X_WB, context)) return hit;
-  if (const auto hit = inside(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
-  return std::nullopt;
 }
 
 /// The one door for numbers of motion queries: a negative margin, say, would prove too much.
@@ -134,9 +115,7 @@ std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
     const Placed &a = bodies_[pair.a], &b = bodies_[pair.b];
     const Transform &X_WA = X_WF[a.frame], &X_WB = X_WF[b.frame];
     if (!mayMeet(a.body, X_WA, b.body, X_WB)) continue;
-    if (const auto hit = corridor::interference(a.body.tree(), X_WA, b.body.tree(), X_WB, context))
-      return Contact{pair.a, pair.b, hit->a, hit->b};
-    if (const auto hit = insideEachOther(a.body, X_WA, b.body, X_WB, context))
+    if (const auto hit = corridor::interference(a.body, X_WA, b.body, X_WB, context))
       return Contact{pair.a, pair.b, hit->a, hit->b};
   }
   return std::nullopt;

@@ -1,0 +1,79 @@
+#include "collision/world/body_queries.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "collision/queries/containment.h"
+#include "collision/queries/interference.h"
+
+namespace corridor {
+namespace {
+
+void require(const Transform& X_WA, const Transform& X_WB) {
+  if (!X_WA.isFinite() || !X_WB.isFinite())
+    throw std::invalid_argument("the pose of a body is to be finite");
+}
+
+void require(double x, const char* what) {
+  if (!(std::isfinite(x) && x >= 0))
+    throw std::invalid_argument(std::string(what) + " is to be finite and not negative");
+}
+
+/// Is a component of `inner` inside `solid`, surfaces that don't touch? The triangle around, and
+/// the number of what is inside. A convex part has looked at what is inside it when it looked for
+/// contacts.
+std::optional<TrianglePair> inside(const Body& solid, const Transform& X_WS, const Body& inner,
+                                   const Transform& X_WI, QueryContext& context) {
+  if (!solid.solid() || solid.part()) return std::nullopt;
+  const MeshBody around{solid.tree(), solid.components()};
+  if (inner.part()) return enclosed(around, X_WS, *inner.part(), X_WI, context);
+  return enclosed(around, X_WS, {inner.tree(), inner.components()}, X_WI, context);
+}
+
+/// A point of what `inside` found.
+Vec3 pointOf(const Body& inner, std::uint32_t number, const Transform& X_WI) {
+  return X_WI * (inner.part() ? inner.part()->points[0] : inner.mesh().corner(number, 0));
+}
+
+}  // namespace
+
+std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
+                                            const Transform& X_WB, QueryContext& context) {
+  if (const auto hit = inside(a, X_WA, b, X_WB, context)) return hit;
+  if (const auto hit = inside(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
+  return std::nullopt;
+}
+
+std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
+                                         const Transform& X_WB, QueryContext& context) {
+  require(X_WA, X_WB);
+  if (const auto hit = interference(a.tree(), X_WA, b.tree(), X_WB, context)) return hit;
+  return insideEachOther(a, X_WA, b, X_WB, context);
+}
+
+Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
+                  const DistanceOptions& options, QueryContext& context) {
+  require(X_WA, X_WB);
+  require(options.relative, "a distance's relative error");
+  require(options.absolute, "a distance's absolute error");
+  Distance d = distance(a.tree(), X_WA, b.tree(), X_WB, options, context);
+  if (d.distance == 0) return d;
+  if (const auto hit = inside(a, X_WA, b, X_WB, context)) {
+    d = {0, pointOf(b, hit->b, X_WB), {}, hit->a, hit->b};
+    d.p_WB = d.p_WA;
+  } else if (const auto other = inside(b, X_WB, a, X_WA, context)) {
+    d = {0, pointOf(a, other->b, X_WA), {}, other->b, other->a};
+    d.p_WB = d.p_WA;
+  }
+  return d;
+}
+
+bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
+                double d, QueryContext& context) {
+  require(X_WA, X_WB);
+  require(d, "a tolerance");
+  return closerThan(a.tree(), X_WA, b.tree(), X_WB, d, context) ||
+         insideEachOther(a, X_WA, b, X_WB, context).has_value();
+}
+
+}  // namespace corridor

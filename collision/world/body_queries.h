@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "collision/queries/distance.h"
+#include "collision/queries/triangle_pair.h"
+#include "collision/world/scene.h"
+
+namespace corridor {
+
+/// Queries of two bodies, whatever they are: surfaces of meshes, `solid` meshes with all that they
+/// enclose, and primitives, solid and never tessellated; in all pairs, each under its own map.
+///
+/// They build the trees that they need, throw std::invalid_argument for maps that are not finite
+/// and numbers that are not finite or negative, and may be called in parallel, with one context a
+/// thread.
+
+/// Do they share a point? The first pair found of triangles or parts that touch, or the triangle of
+/// a solid around and one of what is inside; none where they are apart: exact for meshes, in the
+/// band of `convexSetsTouch` where there is a primitive.
+std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
+                                         const Transform& X_WB, QueryContext& context);
+
+/// How far are they apart, with points that have it (`queries/distance.h` has the errors)? 0 if and
+/// only if `interference` says contact; of a body in a solid mesh both points are one of the
+/// former.
+Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
+                  const DistanceOptions& options, QueryContext& context);
+
+/// The tolerance query: are they at most d metres apart? `false` is a proof that they are farther.
+bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
+                double d, QueryContext& context);
+
+/// Of two bodies whose surfaces don't touch: is one, or a component of it, in the other, a solid
+/// mesh? (What is inside a primitive touches it.)
+std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
+                                            const Transform& X_WB, QueryContext& context);
+
+}  // namespace corridor
