@@ -26,8 +26,8 @@ namespace {
 using gjk::Vector;
 
 template <class Real>
-Vec3 rounded(const Vector<Real>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+Vec3 rounded(const Vector<Real>& v, double unit) {
+  return unit * Vec3(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
 }
 
 template <class Real>
@@ -114,12 +114,13 @@ class Pair {
   ConvexDistance contact(const gjk::Search<Real>& search, bool whole) const {
     ConvexDistance result;
     if (search.simplex.count == 0) {
-      result.p_WA = result.p_WB = rounded(gjk::Support<double>(a_).somewhere());
+      result.p_WA = result.p_WB =
+          rounded(gjk::Support<double>(a_, 1 / search.unit).somewhere(), search.unit);
       return result;
     }
     const Points<Real> points = closest(search.simplex);
     const double share = whole || radii_ == 0 ? 0.5 : a_.set().ball / radii_;
-    result.p_WA = result.p_WB = rounded(points.a + points.w * Real(share));
+    result.p_WA = result.p_WB = rounded(points.a + points.w * Real(share), search.unit);
     return result;
   }
 
@@ -129,7 +130,7 @@ class Pair {
     Points<Real> p = closest(search.simplex);
     Real lower = search.gap;
     if (!whole && radii_ > 0) {
-      const Real ra(a_.set().ball), rb(b_.set().ball);
+      const Real ra(a_.set().ball / search.unit), rb(b_.set().ball / search.unit);
       const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
       const BallShare<Real> ballA(a_.pose().m, n), ballB(b_.pose().m, n);
       p.a = p.a + ballA.point * ra;
@@ -138,12 +139,13 @@ class Pair {
               BallShare<Real>(b_.pose().m, search.normal).length * rb;
     }
     ConvexDistance result;
-    result.distance =
-        std::max(static_cast<double>(gjk::length(p.w)), std::numeric_limits<double>::min());
+    result.distance = std::max(search.unit * static_cast<double>(gjk::length(p.w)),
+                               std::numeric_limits<double>::min());
     // Some dozen roundings of 2^-98 of the size each; then to double.
-    result.lower = roundedDown(static_cast<double>(lower - Real(0x1p-90 * size_)));
-    result.p_WA = rounded(p.a);
-    result.p_WB = rounded(p.a + p.w);
+    result.lower = roundedDown(search.unit * static_cast<double>(lower - Real(0x1p-89)));
+    result.normal_W = rounded(search.normal, 1);
+    result.p_WA = rounded(p.a, search.unit);
+    result.p_WB = rounded(p.a + p.w, search.unit);
     return result;
   }
 
@@ -180,10 +182,11 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
     const bool balls = a.keepsBall() && b.keepsBall();
     const bool deep = found.overlap || found.upper + pair.band() <= pair.radii();
     if ((deep && balls) || convexSetsTouch(a, b, counters)) {
-      if (balls) return pair.contact(quick, false);
-      gjk::Search<double> whole(a, b, pair.size(), true);
-      whole.run(quick.simplex, agreed(0, 0, 0x1p-50 * pair.size()), never);
-      return pair.contact(whole, true);
+      if (met && balls) return pair.contact(quick, false);
+      gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
+      const double near = pair.near() - (balls ? 0 : pair.radii());
+      finer.run(quick.simplex, agreed(0, near, 0x1p-50 * pair.size()), never);
+      return pair.contact(finer, !balls);
     }
   }
 

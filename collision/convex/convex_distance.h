@@ -7,8 +7,9 @@ namespace corridor {
 
 /// How far two convex sets are apart, metres.
 struct ConvexDistance {
-  double distance = 0;  ///< of the two points; 0: they touch
-  double lower = 0;     ///< proved: they are at least this far apart
+  double distance = 0;           ///< of the two points; 0: they touch
+  double lower = 0;              ///< proved: they are at least this far apart
+  Vec3 normal_W = Vec3::Zero();  ///< the direction that proved it, from a to b: unit, rounded
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
 };
 

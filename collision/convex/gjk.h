@@ -69,9 +69,14 @@ class Support {
     std::uint32_t number;
   };
 
+  /// @param scale  a power of two: the image's points come multiplied by it.
   /// @param whole  the ball counts as part of the core: for maps that don't leave it one.
-  explicit Support(const PosedSet& set, bool whole = false)
-      : set_(set), t_(set.pose().t), ball_(whole ? set.set().ball : 0) {
+  Support(const PosedSet& set, double scale, bool whole = false)
+      : set_(set),
+        scale_(scale),
+        t_(Vec3(set.pose().t * scale)),
+        disc_(set.set().disc * scale),
+        ball_(whole ? set.set().ball * scale : 0) {
     for (int i = 0; i < 3; ++i) row_[i] = Vector<Real>(Vec3(set.pose().m.row(i)));
     if (set.set().disc > 0) {
       const Vector<Real> d = Vector<Real>(set.set().points[1]) - Vector<Real>(set.set().points[0]);
@@ -93,7 +98,8 @@ class Support {
   Vector<Real> somewhere() const {
     Vec3 mean = Vec3::Zero();
     for (const Vec3& p : set_.set().points) mean += p;
-    return Vector<Real>(set_.pose() * Vec3(mean / static_cast<double>(set_.set().points.size())));
+    mean *= scale_ / static_cast<double>(set_.set().points.size());
+    return Vector<Real>(Vec3(set_.pose().m * mean)) + t_;
   }
 
  private:
@@ -121,8 +127,8 @@ class Support {
   }
 
   Vector<Real> image(std::uint32_t number, const Vector<Real>& m) const {
-    Vector<Real> p(set_.set().points[number]);
-    if (set_.set().disc > 0) p = p + radial(m) * Real(set_.set().disc);
+    Vector<Real> p(Vec3(set_.set().points[number] * scale_));
+    if (disc_ > 0) p = p + radial(m) * Real(disc_);
     if (ball_ > 0) {
       const Real size = length(m);
       if (size > Real(0)) p = p + m * (Real(ball_) / size);
@@ -145,18 +151,23 @@ class Support {
   }
 
   const PosedSet& set_;
+  double scale_;
   Vector<Real> row_[3], t_, axis_;
-  double ball_;
+  double disc_, ball_;
 };
 
-/// Two posed sets, and the search for the least distance of their cores.
+/// Two posed sets, and the search for the least distance of their cores. It works in a power of two
+/// of metres, about `size`, so that squares and cubes neither overflow nor vanish.
 template <class Real>
 class Search {
  public:
   /// @param size  metres: above every coordinate involved.
   /// @param whole  balls are in the cores, as the maps' images of them.
   Search(const PosedSet& a, const PosedSet& b, double size, bool whole = false)
-      : a_(a, whole), b_(b, whole), noise_(256 * Effort<Real>::unit * size) {}
+      : unit(std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000))),
+        a_(a, 1 / unit, whole),
+        b_(b, 1 / unit, whole),
+        noise_(256 * Effort<Real>::unit * size / unit) {}
 
   /// @param from  corners that another search ended with: to begin with.
   /// @param enough  asked with upper and lower whether they agree; true ends the search.
@@ -171,7 +182,7 @@ class Search {
       face = nearest<Real>(b_.somewhere() - a_.somewhere());
       face.count = 0;  // a direction to begin with, no corner
     } else {
-      answer.upper = std::sqrt(static_cast<double>(face.squared));
+      answer.upper = unit * std::sqrt(static_cast<double>(face.squared));
     }
     for (; answer.rounds < Effort<Real>::rounds; ++answer.rounds) {
       const Real norm = length(face.v);
@@ -180,14 +191,15 @@ class Search {
       const auto [pa, numberA] = a_(n);
       const auto [pb, numberB] = b_(-n);
       const Vector<Real> w = pb - pa;
-      const double lower = static_cast<double>(dot(n, w));
+      const Real gapAlong = dot(n, w);
+      const double lower = unit * static_cast<double>(gapAlong);
       const Vec3 direction(static_cast<double>(n.x), static_cast<double>(n.y),
                            static_cast<double>(n.z));
       if (lower > answer.lower) {
         answer.lower = lower;
         answer.direction = direction;
         normal = n;
-        gap = dot(n, w);
+        gap = gapAlong;
         if ((answer.accepted = accept(direction, lower))) return answer;
       }
       if (enough(answer.upper, answer.lower)) return answer;
@@ -215,7 +227,7 @@ class Search {
         answer.upper = 0;
         return answer;
       }
-      const double distance = std::sqrt(static_cast<double>(face.squared));
+      const double distance = unit * std::sqrt(static_cast<double>(face.squared));
       if (distance < answer.upper) {
         answer.upper = distance;
         simplex = known_;
@@ -224,6 +236,7 @@ class Search {
     return answer;
   }
 
+  const double unit;  ///< metres: of all vectors here
   Simplex<Real> simplex;
   Vector<Real> normal;  ///< `Answer::direction` and `lower` with all their digits
   Real gap{};

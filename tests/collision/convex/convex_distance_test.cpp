@@ -1,0 +1,343 @@
+#include "collision/convex/convex_distance.h"
+
+#include <iomanip>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "collision/convex/convex_contact.h"
+#include "collision/core/rounding.h"
+#include "tests/collision/convex/long_double_sets.h"
+#include "tests/collision/convex/touching_pairs.h"
+#include "tests/support/reference_distance.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::Feature;
+using test::Shape;
+using test::Touching;
+using test::Vec3L;
+
+const char* const kNames[] = {"box", "sphere", "capsule", "cylinder", "convex", "triangle"};
+
+struct Posed {
+  ConvexPart part;
+  Transform X;
+  PosedSet set() const { return {part, X}; }
+};
+
+double sizeOf(const Posed& a, const Posed& b) {
+  return std::max(test::largestCoordinate(a.part, a.X), test::largestCoordinate(b.part, b.X));
+}
+
+/// The error promised.
+double allowedAt(double distance, double size) {
+  return 1e-12 * distance + 4 * kUnit * size;
+}
+
+/// All that holds whatever the truth is: the points are on both sets, as far apart as told; the
+/// bracket is as narrow as promised; the range holds it; 0 if and only if there is contact; A-B is
+/// B-A. The distance, or a negative number where the sets touch.
+double checked(const Posed& a, const Posed& b, const std::string& what) {
+  Counters counters;
+  const ConvexDistance d = convexDistance(a.set(), b.set(), 0, 0, counters),
+                       back = convexDistance(b.set(), a.set(), 0, 0, counters);
+  const ConvexRange range = convexDistanceRange(a.set(), b.set(), HUGE_VAL, 0, counters);
+  const double size = sizeOf(a, b), allowed = allowedAt(d.distance, size);
+  const bool touch = convexSetsTouch(a.set(), b.set(), counters);
+  EXPECT_EQ(d.distance == 0, touch) << what;
+  EXPECT_LE(d.lower, d.distance) << what;
+  EXPECT_LE(range.lower, d.distance) << what;
+  EXPECT_GE(range.upper, d.lower) << what;
+  // In the band of contact, points may be as far from a set as the sets are apart.
+  const double surface = (touch ? 0x1p-44 : 16 * kUnit) * size;
+  EXPECT_LE(test::outside(a.part, a.X, d.p_WA),
+            touch && a.part.points.size() > 3 ? HUGE_VAL : surface)
+      << what;
+  EXPECT_LE(test::outside(b.part, b.X, d.p_WB),
+            touch && b.part.points.size() > 3 ? HUGE_VAL : surface)
+      << what;
+  EXPECT_LE(std::abs((d.p_WB - d.p_WA).norm() - d.distance), 4 * kUnit * (size + d.distance))
+      << what;
+  if (touch) {
+    const ConvexPart point{{d.p_WA}, 0, false};
+    EXPECT_EQ(d.p_WA, d.p_WB) << what;
+    EXPECT_TRUE(convexSetsTouch(a.set(), {point, {}}, counters)) << what;
+    EXPECT_TRUE(convexSetsTouch(b.set(), {point, {}}, counters)) << what;
+    return -1;
+  }
+  EXPECT_LE(d.distance - d.lower, allowed) << what;
+  EXPECT_LE(std::abs(back.distance - d.distance), 2 * allowed) << what;
+  return d.distance;
+}
+
+/// All pairs of kinds, every feature against every feature, at gaps that are known by construction:
+/// from ten times the shapes' size to below the rounding of their places; some far from the
+/// origin, some small, some large.
+TEST(ConvexDistance, KnownGaps) {
+  Touching make(test::testSeed(31));
+  std::cout << std::setprecision(2);
+  for (const Shape sa : test::kShapes)
+    for (const Shape sb : test::kShapes) {
+      if (sb < sa) continue;
+      double worst = 0;
+      int apart = 0;
+      for (int n = 0; n < 400 / test::kSlowdown; ++n) {
+        const Feature fa = make.feature(sa), fb = make.feature(sb);
+        const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
+        const Vec3 x = make.vector() * (n % 4 == 0 ? 1e3 : 1);
+        const double scale = n % 7 == 0 ? 1e-6 : n % 7 == 1 ? 1e6 : 1;
+        Feature ga = fa, gb = fb;
+        for (Feature* f : {&ga, &gb}) {
+          for (Vec3& p : f->part.points) p *= scale;
+          f->part.radius *= scale;
+          f->x *= scale;
+        }
+        Posed a{ga.part, make.pose(ga, scale * x, normal)},
+            b{gb.part, make.pose(gb, scale * x, -normal)};
+        const double gap = scale * std::pow(10.0, 1 - n % 16);
+        b.X.t = (b.X.t.cast<long double>() + normal.cast<long double>() * gap).cast<double>();
+        const std::string what =
+            std::string(kNames[int(sa)]) + " " + kNames[int(sb)] + " case " + std::to_string(n);
+        const double d = checked(a, b, what);
+        if (d < 0) {
+          EXPECT_LE(gap, 0x1p-44 * sizeOf(a, b)) << what;
+          continue;
+        }
+        // The places of what is made are rounded, too: as much again.
+        const double allowed = allowedAt(gap, sizeOf(a, b)) + 4 * kUnit * sizeOf(a, b);
+        EXPECT_LE(std::abs(d - gap), allowed) << what << " gap " << gap;
+        worst = std::max(worst, std::abs(d - gap) / allowed);
+        ++apart;
+      }
+      std::cout << kNames[int(sa)] << " " << kNames[int(sb)] << ": worst error " << worst
+                << " of what is allowed, " << apart << " apart\n";
+      EXPECT_GT(apart, 300 / test::kSlowdown);
+    }
+}
+
+/// Shapes anywhere: a plane between the two, seen with long double, is as wide as the distance; and
+/// the points, which are in both, are no closer.
+TEST(ConvexDistance, AnywhereByAPlaneBetween) {
+  Touching make(test::testSeed(32));
+  int apart = 0, touching = 0;
+  for (int n = 0; n < 12'000 / test::kSlowdown; ++n) {
+    const Shape sa = test::kShapes[n % 6], sb = test::kShapes[n / 6 % 6];
+    const auto pose = [&] {
+      Transform X;
+      X.m = Eigen::Quaterniond(make.real(), make.real(), make.real(), make.real())
+                .normalized()
+                .toRotationMatrix();
+      X.t = make.vector() * 1.5;
+      return X;
+    };
+    const Posed a{make.feature(sa).part, pose()}, b{make.feature(sb).part, pose()};
+    const std::string what =
+        std::string(kNames[int(sa)]) + " " + kNames[int(sb)] + " case " + std::to_string(n);
+    const double d = checked(a, b, what);
+    if (d < 0) {
+      ++touching;
+      continue;
+    }
+    Counters counters;
+    const ConvexDistance found = convexDistance(a.set(), b.set(), 0, 0, counters);
+    const Vec3L normal = found.normal_W.cast<long double>();
+    const long double gap =
+        -test::highest(b.part, b.X, -normal) - test::highest(a.part, a.X, normal);
+    const double size = sizeOf(a, b);
+    EXPECT_GE(static_cast<double>(gap), found.lower - 4 * kUnit * size) << what;
+    EXPECT_GE(static_cast<double>(gap), d - allowedAt(d, size) - 4 * kUnit * size) << what;
+    ++apart;
+    // Moved together, they stay as far apart.
+    Transform X = pose();
+    X.t *= 10;
+    const Posed a2{a.part, X * a.X}, b2{b.part, X * b.X};
+    const double moved = convexDistance(a2.set(), b2.set(), 0, 0, counters).distance;
+    EXPECT_LE(std::abs(moved - d), 8 * allowedAt(d, sizeOf(a2, b2))) << what;
+  }
+  EXPECT_GT(apart, 3'000 / test::kSlowdown);
+  EXPECT_GT(touching, 500 / test::kSlowdown);
+}
+
+/// Polytopes against brute force over all triangles of their corners, with a hundred digits.
+TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
+  Touching make(test::testSeed(33));
+  int apart = 0;
+  for (int n = 0; n < 60 / test::kSlowdown + 1; ++n) {
+    Posed a, b;
+    for (int i = 0; i < 3 + n % 3; ++i) a.part.points.push_back(make.vector());
+    for (int i = 0; i < 3 + n / 3 % 3; ++i) b.part.points.push_back(make.vector());
+    if (n % 2) {  // a face parallel to a's, but for some digits
+      for (int i = 0; i < 3; ++i)
+        b.part.points[i] = a.part.points[i] + std::pow(10.0, -n % 13) * make.vector();
+    }
+    b.X.t = make.vector() * 1.5;
+    Counters counters;
+    if (convexSetsTouch(a.set(), b.set(), counters)) continue;
+    ++apart;
+    test::Digits truth = 1e300;
+    const auto triples = [](const ConvexPart& part) {
+      std::vector<Triangle> all;
+      const auto& p = part.points;
+      for (std::size_t i = 0; i < p.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+          for (std::size_t l = 0; l < k; ++l) all.push_back({p[i], p[k], p[l]});
+      return all;
+    };
+    for (const Triangle& s : triples(a.part))
+      for (const Triangle& t : triples(b.part))
+        truth = std::min(truth, test::referenceDistance(s, a.X, t, b.X));
+    const double d = static_cast<double>(truth);
+    EXPECT_NEAR(checked(a, b, std::to_string(n)), d, allowedAt(d, sizeOf(a, b))) << n;
+  }
+  EXPECT_GT(apart, 20 / test::kSlowdown);
+}
+
+ConvexPart placedAt(const Primitive& primitive, const Vec3& t, const Vec3& axis = Vec3::UnitX(),
+                    double angle = 0) {
+  Transform X;
+  X.m = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  X.t = t;
+  return placed(primitive, X);
+}
+
+TEST(ConvexDistance, ClosedForms) {
+  const double right = std::acos(0.0);
+  const auto expect = [](const ConvexPart& a, const ConvexPart& b, double truth, const char* what) {
+    const Posed pa{a, {}}, pb{b, {}};
+    EXPECT_NEAR(checked(pa, pb, what), truth, allowedAt(truth, sizeOf(pa, pb))) << what;
+  };
+  const ConvexPart sphere = placedAt(Sphere{0.5}, {0, 0, 0});
+  expect(sphere, placedAt(Sphere{0.25}, {3, 4, 0}), 4.25, "spheres");
+  expect(sphere, placedAt(Capsule{0.25, 2}, {0.3, 2, 0.4}), std::hypot(0.3, 2) - 0.75,
+         "sphere, capsule's side");
+  expect(sphere, placedAt(Capsule{0.25, 2}, {0, 0, 3}), 1.25, "sphere, capsule's end");
+  expect(sphere, placedAt(Box{{2, 2, 2}}, {3, 0, 0}), 1.5, "sphere, box's face");
+  expect(sphere, placedAt(Box{{2, 2, 2}}, {3, 3, 3}), 2 * std::sqrt(3) - 0.5, "sphere, corner");
+  expect(sphere, placedAt(Cylinder{1, 2}, {4, 0, 4}), std::sqrt(18) - 0.5, "sphere, rim");
+  expect(placedAt(Capsule{0.1, 2}, {0, 0, 0}), placedAt(Capsule{0.2, 2}, {1, 0, 0.5}), 0.7,
+         "parallel capsules");
+  expect(placedAt(Capsule{0.1, 2}, {0, 0, 0}),
+         placedAt(Capsule{0.2, 2}, {1, 0.3, 0.2}, Vec3::UnitX(), 1), 0.7, "crossed capsules");
+  expect(placedAt(Box{{1, 1, 1}}, {0, 0, 0}), placedAt(Box{{1, 1, 1}}, {0.5, 0.5, 1.75}), 0.75,
+         "boxes, faces");
+  expect(placedAt(Box{{1, 1, 1}}, {0, 0, 0}), placedAt(Box{{1, 1, 1}}, {4, 5, 0.5}), 5,
+         "boxes, edges");
+  const ConvexPart cylinder = placedAt(Cylinder{0.5, 2}, {0, 0, 0});
+  expect(cylinder, placedAt(Cylinder{0.25, 1}, {0.1, 0.1, 2}), 0.5, "cylinders, caps");
+  expect(cylinder, placedAt(Cylinder{0.25, 1}, {2, 0, 0.5}), 1.25, "cylinders, parallel");
+  expect(cylinder, placedAt(Cylinder{0.25, 1}, {2, 0, 3}), std::hypot(1.25, 1.5),
+         "cylinders, rims");
+  expect(cylinder, placedAt(Cylinder{0.25, 3}, {2, 0, 0.1}, Vec3::UnitX(), right), 1.25,
+         "cylinders, crossed");
+  expect(cylinder, placedAt(Cylinder{0.25, 3}, {2, 0, 0.1}, Vec3::UnitX(), 0.7), 1.25,
+         "cylinders, askew");
+  // A corner over a rim, in the plane of the axis.
+  expect(cylinder, placedAt(Convex{{{1.5, 0, 2}, {2, 1, 3}, {2, -1, 3}}}, {0, 0, 0}), std::sqrt(2),
+         "rim, corner");
+}
+
+TEST(ConvexDistance, FlatThinAndPointShapes) {
+  const Vec3 o = Vec3::Zero();
+  const ConvexPart point{{o}, 0, false}, zeroCapsule{{o, o}, 0.5, false},
+      plate{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}}, 0, false},
+      needle{{{0, 0, -1}, {0, 0, 0.25}, {0, 0, 1}}, 0, false}, disc{{o, o}, 0.5, true},
+      coin{{{0, 0, -1e-9}, {0, 0, 1e-9}}, 0.5, true};
+  const auto expect = [](const ConvexPart& a, const ConvexPart& b, const Vec3& t, double truth) {
+    const Posed pa{a, {}}, pb{b, {Mat3::Identity(), t}};
+    EXPECT_NEAR(checked(pa, pb, ""), truth, allowedAt(truth, sizeOf(pa, pb)));
+  };
+  expect(point, point, {0, 3, 4}, 5);
+  expect(point, zeroCapsule, {0, 3, 4}, 4.5);
+  expect(plate, plate, {0.5, 0.5, 1e-3}, 1e-3);
+  expect(plate, plate, {5, 5, 0}, std::sqrt(18));
+  expect(plate, needle, {0, 0, 1.5}, 0.5);
+  expect(needle, needle, {1e-6, 0, 0.5}, 1e-6);
+  expect(plate, coin, {0.3, 0.4, 0.25}, 0.25 - 1e-9);
+  // A cylinder without an axis is a ball (`ConvexSet`).
+  expect(plate, disc, {0, 0, 2}, 1.5);
+  for (const ConvexPart* part : {&point, &zeroCapsule, &plate, &needle, &coin}) {
+    const Posed p{*part, {}};
+    EXPECT_LT(checked(p, p, "itself"), 0);
+  }
+}
+
+/// A ball under a map that isn't rigid is an ellipsoid, for distances and for verdicts: one of half
+/// axes (2, 1, 0.1) above, and askew to, a plate.
+TEST(ConvexDistance, AnyAffineMap) {
+  const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
+  const ConvexPart ball = placed(Sphere{1}, {});
+  for (const double angle : {0.0, 0.3, 1.2}) {
+    const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
+    Transform X;
+    X.m = turn * Vec3(2, 1, 0.1).asDiagonal();
+    const double half = (X.m.transpose() * Vec3::UnitZ()).norm();
+    Counters counters;
+    for (const double gap : {2.0, 1e-3, 1e-9}) {
+      X.t = Vec3(0.1, 0.2, 0.5 + half + gap);
+      const PosedSet a(plate, {}), b(ball, X);
+      const ConvexDistance d = convexDistance(a, b, 0, 0, counters);
+      EXPECT_NEAR(d.distance, gap, allowedAt(gap, 4)) << angle;
+      EXPECT_LE(d.distance - d.lower, allowedAt(gap, 4)) << angle;
+      EXPECT_NEAR((d.p_WB - d.p_WA).norm(), gap, allowedAt(gap, 4));
+      EXPECT_NEAR(d.p_WA[2], 0.5, 8 * kUnit);
+      EXPECT_NEAR((X.m.inverse() * (d.p_WB - X.t)).norm(), 1, 1e-12) << angle;
+      EXPECT_FALSE(convexSetsTouch(a, b, counters));
+      EXPECT_FALSE(convexSetsTouch(b, a, counters));
+      X.t[2] -= 2 * gap;
+      if (gap > half) continue;
+      EXPECT_TRUE(convexSetsTouch(a, {ball, X}, counters));
+      const ConvexDistance in = convexDistance(a, {ball, X}, 0, 0, counters);
+      EXPECT_EQ(in.distance, 0);
+      EXPECT_EQ(in.p_WA, in.p_WB);
+      EXPECT_LE((X.m.inverse() * (in.p_WB - X.t)).norm(), 1 + 1e-10);
+      EXPECT_LE(in.p_WA[2], 0.5 + 1e-10);
+    }
+  }
+}
+
+TEST(ConvexDistance, AsCloseAsAskedFor) {
+  Touching make(test::testSeed(34));
+  Counters plain, lax;
+  for (int n = 0; n < 2'000 / test::kSlowdown; ++n) {
+    const Feature fa = make.feature(Shape::cylinder), fb = make.feature(test::kShapes[n % 6]);
+    const Vec3 normal = make.vector().normalized();
+    const Posed a{fa.part, make.pose(fa, Vec3::Zero(), normal)};
+    Posed b{fb.part, make.pose(fb, Vec3::Zero(), -normal)};
+    const double gap = std::pow(10.0, -n % 5);
+    b.X.t += normal * gap;
+    const ConvexDistance exact = convexDistance(a.set(), b.set(), 0, 0, plain),
+                         d = convexDistance(a.set(), b.set(), 0.01, 1e-4, lax);
+    const double allowed = 0.01 * gap + 1e-4;
+    EXPECT_GE(d.distance, exact.lower - 8 * kUnit * sizeOf(a, b)) << n;
+    EXPECT_LE(d.distance, exact.distance + allowed) << n;
+    EXPECT_LE(d.lower, exact.distance);
+    EXPECT_GE(d.lower, 0.98 * gap - 2.1e-4);
+    // The range ends once it knows enough.
+    EXPECT_GT(convexDistanceRange(a.set(), b.set(), gap / 2, 0, plain).lower, gap / 2);
+    EXPECT_LE(convexDistanceRange(a.set(), b.set(), HUGE_VAL, 2 * gap, plain).upper, 2 * gap);
+  }
+  EXPECT_EQ(lax.exactTests, 0u);
+}
+
+TEST(ConvexDistance, OverflowAndTinySets) {
+  Counters counters;
+  for (const double size : {1e-320, 1e-200, 1e-100, 1e100, 1e160, 1e300}) {
+    const ConvexPart a{{Vec3(0, 0, 0), Vec3(size, 0, 0), Vec3(0, size, 0)}, 0, false};
+    const ConvexPart b{
+        {Vec3(size / 4, size / 4, size), Vec3(size / 4, size / 4, 2 * size)}, 0, false};
+    const ConvexDistance d = convexDistance({a, {}}, {b, {}}, 0, 0, counters);
+    EXPECT_EQ(d.distance == 0, convexSetsTouch({a, {}}, {b, {}}, counters)) << size;
+    if (size == 1e-100 || size == 1e100) {
+      EXPECT_NEAR(d.distance / size, 1, 1e-12) << size;
+    }
+    const ConvexRange range = convexDistanceRange({a, {}}, {b, {}}, HUGE_VAL, 0, counters);
+    EXPECT_LE(range.lower, size * (1 + 1e-12));
+    EXPECT_GE(range.upper, size * (1 - 1e-12));
+  }
+}
+
+}  // namespace
+}  // namespace corridor
