@@ -64,8 +64,8 @@ double checked(const Posed& a, const Posed& b, const std::string& what) {
   if (touch) {
     const ConvexPart point{{d.p_WA}, 0, false};
     EXPECT_EQ(d.p_WA, d.p_WB) << what;
-    EXPECT_TRUE(convexSetsTouch(a.set(), {point, {}}, counters)) << what;
-    EXPECT_TRUE(convexSetsTouch(b.set(), {point, {}}, counters)) << what;
+    for (const Posed* side : {&a, &b})
+      EXPECT_LE(convexDistance(side->set(), {point, {}}, 0, 0, counters).distance, surface) << what;
     return -1;
   }
   EXPECT_LE(d.distance - d.lower, allowed) << what;
