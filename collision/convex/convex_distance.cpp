@@ -71,22 +71,27 @@ Points<Real> closest(const gjk::Simplex<Real>& simplex) {
   return points;
 }
 
-/// M m/|m| and |m| of a ball's share along n.
 template <class Real>
-struct BallShare {
-  Vector<Real> point;
-  Real length;
+Vector<Real> local(const PosedSet& set, const Vector<Real>& n) {
+  const Mat3& m = set.pose().m;
+  return Vector<Real>(Vec3(m.row(0))) * n.x + Vector<Real>(Vec3(m.row(1))) * n.y +
+         Vector<Real>(Vec3(m.row(2))) * n.z;
+}
 
-  BallShare(const Mat3& m, const Vector<Real>& n) {
-    const Vector<Real> local = Vector<Real>(Vec3(m.row(0))) * n.x +
-                               Vector<Real>(Vec3(m.row(1))) * n.y +
-                               Vector<Real>(Vec3(m.row(2))) * n.z;
-    length = gjk::length(local);
-    const Vector<Real> unit = local * (Real(1) / length);
-    point = {dot(Vector<Real>(Vec3(m.row(0))), unit), dot(Vector<Real>(Vec3(m.row(1))), unit),
-             dot(Vector<Real>(Vec3(m.row(2))), unit)};
-  }
-};
+/// What a ball of radius 1 adds to a point of the core, farthest along n: M m/|m|.
+template <class Real>
+Vector<Real> ballPoint(const PosedSet& set, const Vector<Real>& n) {
+  const Vector<Real> m = local(set, n), unit = m * (Real(1) / gjk::length(m));
+  const Mat3& rows = set.pose().m;
+  return {dot(Vector<Real>(Vec3(rows.row(0))), unit), dot(Vector<Real>(Vec3(rows.row(1))), unit),
+          dot(Vector<Real>(Vec3(rows.row(2))), unit)};
+}
+
+/// How far the set's ball reaches along n: r|m|.
+template <class Real>
+Real ballReach(const PosedSet& set, const Vector<Real>& n) {
+  return gjk::length(local(set, n)) * Real(set.set().ball);
+}
 
 class Pair {
  public:
@@ -130,13 +135,18 @@ class Pair {
     Points<Real> p = closest(search.simplex);
     Real lower = search.gap;
     if (!whole && radii_ > 0) {
-      const Real ra(a_.set().ball / search.unit), rb(b_.set().ball / search.unit);
       const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
-      const BallShare<Real> ballA(a_.pose().m, n), ballB(b_.pose().m, n);
-      p.a = p.a + ballA.point * ra;
-      p.w = p.w - ballA.point * ra - ballB.point * rb;
-      lower = lower - BallShare<Real>(a_.pose().m, search.normal).length * ra -
-              BallShare<Real>(b_.pose().m, search.normal).length * rb;
+      const Real unit(1 / search.unit);
+      if (a_.set().ball > 0) {
+        const Vector<Real> reach = ballPoint(a_, n) * (Real(a_.set().ball) * unit);
+        p.a = p.a + reach;
+        p.w = p.w - reach;
+        lower = lower - ballReach(a_, search.normal) * unit;
+      }
+      if (b_.set().ball > 0) {
+        p.w = p.w - ballPoint(b_, n) * (Real(b_.set().ball) * unit);
+        lower = lower - ballReach(b_, search.normal) * unit;
+      }
     }
     ConvexDistance result;
     result.distance = std::max(search.unit * static_cast<double>(gjk::length(p.w)),

@@ -92,6 +92,7 @@ class Support {
   }
   /// The one on the given point's disc or ball.
   Vector<Real> at(std::uint32_t number, const Vector<Real>& n) const {
+    if (!(disc_ > 0 || ball_ > 0)) return image(number, n);
     return image(number, row_[0] * n.x + row_[1] * n.y + row_[2] * n.z);
   }
 

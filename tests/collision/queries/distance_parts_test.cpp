@@ -1,0 +1,171 @@
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/convex/convex_distance.h"
+#include "collision/core/rounding.h"
+#include "collision/queries/distance.h"
+#include "collision/queries/interference.h"
+#include "tests/collision/hierarchy/soups.h"
+#include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::anyPose;
+using test::kParams;
+
+/// The items of a tree as convex sets, by their numbers in the mesh or the list.
+struct Items {
+  std::vector<Triangle> triangles;
+  std::vector<ConvexPart> parts;
+
+  explicit Items(const TriangleMesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  }
+  explicit Items(const std::vector<ConvexPart>& all) : parts(all) {}
+
+  std::size_t size() const { return std::max(triangles.size(), parts.size()); }
+  ConvexSet set(std::size_t i) const {
+    return parts.empty() ? ConvexSet(triangles[i]) : ConvexSet(parts[i]);
+  }
+};
+
+double reachOf(const Items& items, const Transform& X) {
+  double reach = 0;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    reach = std::max(reach, PosedSet(items.set(i), X).reach());
+  return reach + X.t.norm();
+}
+
+template <class Volume>
+class PartsDistance : public testing::Test {};
+TYPED_TEST_SUITE(PartsDistance, test::Volumes, test::VolumeNames);
+
+/// Trees of parts, and of parts and triangles, against all pairs of items, one by one: the distance
+/// and its points, the items told, both ways, contact, tolerance, and what the options allow.
+TYPED_TEST(PartsDistance, AgreesWithBruteForceAndIsSymmetric) {
+  std::mt19937_64 random(test::testSeed(41));
+  using Tree = VolumeTree<TypeParam>;
+  int touching = 0, apart = 0;
+  for (int n = 0; n < 60; ++n) {
+    const TreeParams& params = kParams[n % std::size(kParams)];
+    const TriangleMesh mesh = test::soup(random, 12, 0.1);
+    const std::vector<ConvexPart> few = test::parts(random, 1 + n % 7, 0.15),
+                                  single = {test::parts(random, 5, 0.3)[n % 5]};
+    const bool meshFirst = n % 3 == 0;
+    const Items itemsA = meshFirst ? Items(mesh) : Items(few), itemsB(n % 2 ? few : single);
+    const Tree a = meshFirst ? Tree(mesh, params) : Tree(few, params),
+               b = n % 2 ? Tree(few, params) : Tree(single[0]);
+    const Transform X_WA = anyPose(random, n % 4 ? 1 : 1e3);
+    Transform X_WB{anyPose(random, 1).m, X_WA.t + anyPose(random, n % 5 ? 0.8 : 0.1).t};
+    QueryContext context;
+    const bool touch = interference(a, X_WA, b, X_WB, context).has_value();
+    const Distance d = distance(a, X_WA, b, X_WB, {}, context),
+                   back = distance(b, X_WB, a, X_WA, {}, context);
+    ASSERT_EQ(d.distance == 0, touch) << n;
+    EXPECT_EQ(back.distance == 0, touch) << n;
+    Counters counters;
+    double truth = HUGE_VAL;
+    for (std::size_t i = 0; i < itemsA.size(); ++i)
+      for (std::size_t k = 0; k < itemsB.size(); ++k)
+        truth = std::min(
+            truth,
+            convexDistance({itemsA.set(i), X_WA}, {itemsB.set(k), X_WB}, 0, 0, counters).distance);
+    const double size = reachOf(itemsA, X_WA) + reachOf(itemsB, X_WB),
+                 allowed = 1e-12 * truth + 4 * kUnit * size;
+    // The points are on the items told.
+    const ConvexPart p{{d.p_WA}, 0, false}, q{{d.p_WB}, 0, false};
+    const double surface = (touch ? 0x1p-44 : 16 * kUnit) * size;
+    EXPECT_LE(convexDistance({itemsA.set(d.a), X_WA}, {p, {}}, 0, 0, counters).distance, surface);
+    EXPECT_LE(convexDistance({itemsB.set(d.b), X_WB}, {q, {}}, 0, 0, counters).distance, surface);
+    EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, 4 * kUnit * size);
+    EXPECT_EQ(closerThan(a, X_WA, b, X_WB, 0, context), touch);
+    (touch ? touching : apart)++;
+    if (touch) {
+      EXPECT_EQ(truth, 0) << n;
+      EXPECT_TRUE(closerThan(a, X_WA, b, X_WB, 1e-9, context));
+      continue;
+    }
+    EXPECT_NEAR(d.distance, truth, allowed) << n;
+    EXPECT_NEAR(back.distance, truth, allowed) << n;
+    EXPECT_TRUE(closerThan(a, X_WA, b, X_WB, d.distance + allowed, context)) << n;
+    EXPECT_FALSE(closerThan(a, X_WA, b, X_WB, d.distance - 2 * allowed, context)) << n;
+    EXPECT_FALSE(closerThan(b, X_WB, a, X_WA, d.distance / 2, context)) << n;
+    const Distance lax = distance(a, X_WA, b, X_WB, {0.1, 0.01}, context);
+    EXPECT_GE(lax.distance, truth - allowed);
+    EXPECT_LE(lax.distance, 1.1 * truth + 0.01 + allowed);
+  }
+  EXPECT_GT(touching, 5);
+  EXPECT_GT(apart, 20);
+}
+
+TriangleMesh boxMesh(const Vec3& size) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(
+        0.5 * size.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+/// Boxes as primitives and as meshes of twelve triangles, whose distance is found by other code, at
+/// gaps from large to the last digits.
+TEST(DistanceOfParts, BoxesAsMeshes) {
+  std::mt19937_64 random(test::testSeed(42));
+  std::uniform_real_distribution<double> real(0.05, 1);
+  int apart = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Vec3 sizeA(real(random), real(random), real(random)),
+        sizeB(real(random), real(random), real(random));
+    const ObbTree meshA(boxMesh(sizeA)), meshB(boxMesh(sizeB));
+    const ObbTree a(placed(Box{sizeA}, {})), b(placed(Box{sizeB}, {}));
+    const Transform X_WA = anyPose(random, 0.5);
+    Transform X_WB = anyPose(random, 1);
+    if (n % 2) X_WB.m = X_WA.m;
+    QueryContext context;
+    Distance truth = distance(meshA, X_WA, meshB, X_WB, {}, context);
+    if (truth.distance == 0) continue;  // as surfaces; one in the other is no contact of these
+    for (int round = 0; round < 2; ++round) {
+      for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&a, &meshB), std::pair(&meshA, &b)}) {
+        const double found = distance(*s, X_WA, *t, X_WB, {}, context).distance;
+        if (found == 0 && truth.distance > 1e-3) break;  // a box in a box
+        const double size = X_WA.t.norm() + X_WB.t.norm() + sizeA.norm() + sizeB.norm();
+        EXPECT_NEAR(found, truth.distance, 2e-12 * truth.distance + 8 * kUnit * size) << n;
+        ++apart;
+      }
+      // Again, close by.
+      const Vec3 way = truth.p_WA - truth.p_WB;
+      X_WB.t += way * (1 - std::pow(10.0, -1 - n % 11));
+      truth = distance(meshA, X_WA, meshB, X_WB, {}, context);
+      if (truth.distance == 0) break;
+    }
+  }
+  EXPECT_GT(apart, 1'000);
+}
+
+/// A mesh of many triangles against one primitive: the tree prunes.
+TEST(DistanceOfParts, LooksAtFewTriangles) {
+  std::mt19937_64 random(test::testSeed(43));
+  const TriangleMesh mesh = test::soup(random, 3'000, 0.02);
+  const ObbTree a(mesh);
+  QueryContext context;
+  int queries = 0;
+  for (const ConvexPart& part : test::parts(random, 10, 0.2)) {
+    const ObbTree b(part);
+    const Transform X_WB{anyPose(random, 1).m, Vec3(1.5, 0.5, 0) + anyPose(random, 0.5).t};
+    distance(a, {}, b, X_WB, {}, context);
+    closerThan(a, {}, b, X_WB, 0.01, context);
+    queries += 2;
+  }
+  std::cout << context.counters.triangleTests / queries << " of " << mesh.triangles.size()
+            << " triangles looked at a query\n";
+  EXPECT_LT(context.counters.triangleTests / queries, mesh.triangles.size() / 10);
+}
+
+}  // namespace
+}  // namespace corridor

@@ -1,0 +1,142 @@
+#include "collision/world/body_queries.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace corridor {
+namespace {
+
+/// A cube of edge 2 about the origin, and, with `hollow`, one of edge 1 inside.
+TriangleMesh cube(bool hollow = false) {
+  TriangleMesh mesh;
+  for (const double half : {1.0, 0.5}) {
+    if (half < 1 && !hollow) break;
+    const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 8; ++i)
+      mesh.vertices.push_back(half * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+    const std::uint32_t faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                        {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                        {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    for (const auto& f : faces) mesh.triangles.push_back({n + f[0], n + f[1], n + f[2]});
+  }
+  return mesh;
+}
+
+const Primitive kPrimitives[] = {Box{Vec3(0.2, 0.3, 0.4)}, Sphere{0.2}, Capsule{0.1, 0.2},
+                                 Cylinder{0.2, 0.3},
+                                 Convex{{{0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}}}};
+
+TEST(BodyQueries, InsideASolidMesh) {
+  const Body solid("solid", cube(), true), surface("surface", cube());
+  QueryContext context;
+  const Transform in{Mat3::Identity(), Vec3(0.1, 0.2, -0.1)}, out{Mat3::Identity(), Vec3(4, 0, 0)};
+  std::vector<Body> small;
+  for (const Primitive& p : kPrimitives) small.emplace_back(nameOf(p), placed(p, {}));
+  TriangleMesh little = cube();
+  for (Vec3& v : little.vertices) v *= 0.1;
+  small.emplace_back("mesh", little);
+  for (const Body& body : small) {
+    SCOPED_TRACE(body.name());
+    EXPECT_TRUE(interference(solid, {}, body, in, context));
+    EXPECT_TRUE(interference(body, in, solid, {}, context));
+    for (const Distance& d :
+         {distance(solid, {}, body, in, {}, context), distance(body, in, solid, {}, {}, context)}) {
+      EXPECT_EQ(d.distance, 0);
+      EXPECT_EQ(d.p_WA, d.p_WB);
+      EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // a point of the small one
+    }
+    EXPECT_TRUE(closerThan(solid, {}, body, in, 0, context));
+    EXPECT_TRUE(closerThan(body, in, solid, {}, 1e-3, context));
+
+    // The surface alone has it at a distance.
+    EXPECT_FALSE(interference(surface, {}, body, in, context));
+    const Distance d = distance(surface, {}, body, in, {}, context);
+    EXPECT_GT(d.distance, 0.4);
+    EXPECT_LT(d.distance, 0.9);
+    EXPECT_FALSE(closerThan(surface, {}, body, in, 0.3, context));
+    EXPECT_TRUE(closerThan(surface, {}, body, in, 0.9, context));
+
+    // Beside it, solid or not is the same.
+    const Distance beside = distance(solid, {}, body, out, {}, context);
+    EXPECT_GT(beside.distance, 2.5);
+    EXPECT_EQ(beside.distance, distance(surface, {}, body, out, {}, context).distance);
+    EXPECT_NEAR(beside.distance, distance(body, out, solid, {}, {}, context).distance, 1e-14);
+    EXPECT_FALSE(closerThan(solid, {}, body, out, 2.4, context));
+  }
+}
+
+TEST(BodyQueries, PrimitivesContainWhatIsInThem) {
+  const Body box("box", placed(Box{Vec3(2, 2, 2)}, {})), mesh("mesh", cube(true));
+  const Transform larger{2 * Mat3::Identity(), Vec3::Zero()};
+  QueryContext context;
+  EXPECT_TRUE(interference(box, larger, mesh, {}, context));
+  EXPECT_EQ(distance(mesh, {}, box, larger, {}, context).distance, 0);
+}
+
+/// In the hollow of a shell is inside (queries/containment.h).
+TEST(BodyQueries, Hollow) {
+  const Body shell("shell", cube(true), true), ball("ball", placed(Sphere{0.1}, {}));
+  QueryContext context;
+  EXPECT_EQ(distance(shell, {}, ball, {}, {}, context).distance, 0);
+}
+
+/// All pairs of kinds at a known gap: bodies whose highest and lowest places along z are known.
+TEST(BodyQueries, AllPairs) {
+  std::vector<Body> bodies;
+  std::vector<double> low, high;
+  for (const Primitive& p : kPrimitives) {
+    bodies.emplace_back(nameOf(p), placed(p, {}));
+    low.push_back(bodies.back().lower()[2]);
+    high.push_back(bodies.back().upper()[2]);
+  }
+  bodies.emplace_back("mesh", cube());
+  bodies.emplace_back("solid", cube(true), true);
+  low.insert(low.end(), {-1, -1});
+  high.insert(high.end(), {1, 1});
+  QueryContext context;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      for (const double gap : {0.5, 1e-4, 1e-10, -1e-3}) {
+        SCOPED_TRACE(bodies[i].name() + " " + bodies[k].name());
+        const Transform X{Mat3::Identity(), Vec3(0, 0, high[i] - low[k] + gap)};
+        const Distance d = distance(bodies[i], {}, bodies[k], X, {}, context);
+        const double expected = std::max(gap, 0.0);
+        EXPECT_NEAR(d.distance, expected, 2e-15);
+        EXPECT_EQ(interference(bodies[i], {}, bodies[k], X, context).has_value(), gap < 0);
+        EXPECT_TRUE(closerThan(bodies[i], {}, bodies[k], X, expected + 3e-15, context));
+        EXPECT_EQ(closerThan(bodies[i], {}, bodies[k], X, expected / 2, context), gap < 0);
+      }
+}
+
+TEST(BodyQueries, RejectsWhatIsNotFinite) {
+  const Body a("a", cube()), b("b", placed(Sphere{0.1}, {}));
+  QueryContext context;
+  Transform bad;
+  bad.t[1] = NAN;
+  const auto message = [](const auto& query) -> std::string {
+    try {
+      query();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message([&] { interference(a, bad, b, {}, context); }),
+            "the pose of a body is to be finite");
+  EXPECT_EQ(message([&] { distance(a, {}, b, bad, {}, context); }),
+            "the pose of a body is to be finite");
+  EXPECT_EQ(message([&] {
+              distance(a, {}, b, {}, {-1, 0}, context);
+            }),
+            "a distance's relative error is to be finite and not negative");
+  EXPECT_EQ(message([&] {
+              distance(a, {}, b, {}, {0, NAN}, context);
+            }),
+            "a distance's absolute error is to be finite and not negative");
+  EXPECT_EQ(message([&] { closerThan(a, {}, b, {}, -0.1, context); }),
+            "a tolerance is to be finite and not negative");
+}
+
+}  // namespace
+}  // namespace corridor
