@@ -133,7 +133,7 @@ class Pair {
   template <class Real>
   ConvexDistance apart(const gjk::Search<Real>& search, bool whole) const {
     Points<Real> p = closest(search.simplex);
-    Real lower = search.gap;
+    Real lower = search.gap * Real(1 / search.unit);
     if (!whole && radii_ > 0) {
       const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
       const Real unit(1 / search.unit);
@@ -174,8 +174,10 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   const double share = relative + 0x1p-41, least = absolute + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
-    return [=](double upper, double lower) {
-      return upper <= near || upper - lower <= std::max(finest, share * (lower - radii) + least);
+    return [=](const auto& upper, const auto& lower) {  // in the search's own digits
+      return static_cast<double>(upper) <= near ||
+             static_cast<double>(upper - lower) <=
+                 std::max(finest, share * (static_cast<double>(lower) - radii) + least);
     };
   };
   const auto fine = [&](const ConvexDistance& d, double error) {

@@ -6,6 +6,9 @@
 #include <limits>
 #include <type_traits>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include "collision/convex/convex_set.h"
 #include "collision/convex/double_double.h"
 #include "collision/convex/simplex.h"
@@ -96,6 +99,30 @@ class Support {
     return image(number, row_[0] * n.x + row_[1] * n.y + row_[2] * n.z);
   }
 
+  /// Is there a curved surface in the core: does the point farthest along n move with n?
+  bool curved() const { return disc_ > 0 || ball_ > 0; }
+  /// Adds, for two columns of tangents at n, how it moves: TᵀHT, H the Hessian of max n·x. False
+  /// where it jumps.
+  bool addCurvature(const Vec3& n, const Eigen::Matrix<double, 3, 2>& tangents,
+                    Eigen::Matrix2d& sum) const {
+    const Mat3& map = set_.pose().m;
+    const Vec3 m = map.transpose() * n;
+    if (disc_ > 0) {
+      const Vec3 axis = set_.set().axis, across = axis.cross(m);
+      const double size = across.norm();
+      if (!(size > 0x1p-20)) return false;
+      const Eigen::Vector2d u = tangents.transpose() * (map * across) / size;
+      sum += disc_ / size * u * u.transpose();
+    }
+    if (ball_ > 0) {
+      const double size = m.norm();
+      const Eigen::Matrix<double, 3, 2> t = map.transpose() * tangents;
+      const Eigen::Vector2d u = t.transpose() * m / size;
+      sum += ball_ / size * (t.transpose() * t - u * u.transpose());
+    }
+    return true;
+  }
+
   Vector<Real> somewhere() const {
     Vec3 mean = Vec3::Zero();
     for (const Vec3& p : set_.set().points) mean += p;
@@ -168,7 +195,8 @@ class Search {
       : unit(std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000))),
         a_(a, 1 / unit, whole),
         b_(b, 1 / unit, whole),
-        noise_(256 * Effort<Real>::unit * size / unit) {}
+        noise_(256 * Effort<Real>::unit * size / unit),
+        curved_(a_.curved() || b_.curved()) {}
 
   /// @param from  corners that another search ended with: to begin with.
   /// @param enough  asked with upper and lower whether they agree; true ends the search.
@@ -183,12 +211,14 @@ class Search {
       face = nearest<Real>(b_.somewhere() - a_.somewhere());
       face.count = 0;  // a direction to begin with, no corner
     } else {
-      answer.upper = unit * std::sqrt(static_cast<double>(face.squared));
+      lowerUpper(answer, face);
     }
     for (; answer.rounds < Effort<Real>::rounds; ++answer.rounds) {
       const Real norm = length(face.v);
       if (!(norm > Real(0))) return answer;  // touching, as far as can be told; or NaN
-      const Vector<Real> n = face.v * (Real(1) / norm);
+      Vector<Real> n = face.v * (Real(1) / norm);
+      const bool stepped = curved_ && answer.rounds % 2 == 1 && newton(n);
+      if (stepped && resample(n, face)) lowerUpper(answer, face);
       const auto [pa, numberA] = a_(n);
       const auto [pb, numberB] = b_(-n);
       const Vector<Real> w = pb - pa;
@@ -200,12 +230,14 @@ class Search {
         answer.lower = lower;
         answer.direction = direction;
         normal = n;
-        gap = gapAlong;
+        gap = gapAlong * Real(unit);
         if ((answer.accepted = accept(direction, lower))) return answer;
       }
-      if (enough(answer.upper, answer.lower)) return answer;
-      for (int i = 0; i < face.count; ++i)
-        if (w == face.corner[i]) return answer;  // nothing new that way
+      if (enough(upper_, gap)) return answer;
+      bool known = false;
+      for (int i = 0; i < face.count; ++i) known = known || w == face.corner[i];
+      if (known && stepped) continue;
+      if (known) return answer;  // nothing new that way
       const Vector<Real>* const c = face.corner;
       switch (face.count) {
         case 0:
@@ -228,19 +260,15 @@ class Search {
         answer.upper = 0;
         return answer;
       }
-      const double distance = unit * std::sqrt(static_cast<double>(face.squared));
-      if (distance < answer.upper) {
-        answer.upper = distance;
-        simplex = known_;
-      }
+      lowerUpper(answer, face);
     }
     return answer;
   }
 
-  const double unit;  ///< metres: of all vectors here
+  const double unit;  ///< metres: of the vectors here
   Simplex<Real> simplex;
   Vector<Real> normal;  ///< `Answer::direction` and `lower` with all their digits
-  Real gap{};
+  Real gap{-HUGE_VAL};
 
  private:
   template <class Other>
@@ -250,14 +278,27 @@ class Search {
       const Vector<Real> n(c.n), pa = a_.at(c.pointA, n), pb = b_.at(c.pointB, -n);
       known_.corner[known_.count++] = {pa, pb - pa, c.pointA, c.pointB, c.n};
     }
-    const Corner<Real>* const c = known_.corner;
-    Nearest<Real> face = known_.count == 0   ? Nearest<Real>()
-                         : known_.count == 1 ? nearest(c[0].w)
-                         : known_.count == 2 ? nearest(c[0].w, c[1].w)
-                                             : nearest(c[0].w, c[1].w, c[2].w);
+    const Nearest<Real> face = nearestOf(known_);
     keep(face);
-    simplex = known_;
     return face;
+  }
+
+  static Nearest<Real> nearestOf(const Simplex<Real>& s) {
+    const Corner<Real>* const c = s.corner;
+    return s.count == 0   ? Nearest<Real>()
+           : s.count == 1 ? nearest(c[0].w)
+           : s.count == 2 ? nearest(c[0].w, c[1].w)
+                          : nearest(c[0].w, c[1].w, c[2].w);
+  }
+
+  void lowerUpper(Answer& answer, const Nearest<Real>& face) {
+    using std::sqrt;
+    if (!(static_cast<double>(face.squared) < HUGE_VAL)) return;
+    const Real distance = sqrt(face.squared) * Real(unit);
+    if (!(distance < upper_)) return;
+    upper_ = distance;
+    answer.upper = static_cast<double>(distance);
+    simplex = known_;
   }
 
   /// Of the corners known, the face's, in its order.
@@ -271,7 +312,90 @@ class Search {
   }
 
   Support<Real> a_, b_;
+  /// A step of Newton's from n to where the gap is widest, where surfaces are curved and corners of
+  /// the simplex are samples of them; false where there is none. (It only proposes a direction.)
+  ///
+  /// Corners of the same two points move together with n: w_i(n), and f_i = n·w_i has the gradient
+  /// w_i and the Hessian −H, H that of both sets. To second order in a tangent δ, f_i at n + δ,
+  /// normalised, is f_i + w_i·δ − δᵀ(H + f I)δ/2. The widest gap has the same f_i for all, which
+  /// leaves δ two, one, or no freedom; along what is left, (H + f I)δ = w.
+  bool newton(Vector<Real>& n) const {
+    Vector<Real> w[3];
+    int count = 0;
+    for (int i = 0; i < known_.count; ++i) {
+      const Corner<Real>& c = known_.corner[i];
+      bool seen = false;
+      for (int k = 0; k < i; ++k)
+        seen = seen || (known_.corner[k].pointA == c.pointA && known_.corner[k].pointB == c.pointB);
+      if (!seen) w[count++] = b_.at(c.pointB, -n) - a_.at(c.pointA, n);
+    }
+    if (count == 0) return false;
+    const auto rough = [](const Vector<Real>& v) {
+      return Vec3(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+    };
+    const Vec3 n0 = rough(n);
+    Eigen::Matrix<double, 3, 2> tangents;
+    tangents.col(0) = n0.unitOrthogonal();
+    tangents.col(1) = n0.cross(tangents.col(0));
+    const Real gapAlong = dot(n, w[0]);
+    const double f = static_cast<double>(gapAlong);
+    Eigen::Matrix2d bend = f * Eigen::Matrix2d::Identity();
+    if (!(f > 0) || !a_.addCurvature(n0, tangents, bend) || !b_.addCurvature(-n0, tangents, bend))
+      return false;
+    const Eigen::Vector2d pull = tangents.transpose() * rough(w[0] - n * gapAlong);
+    Eigen::Vector2d step;
+    if (count == 1) {
+      step = bend.inverse() * pull;
+    } else {
+      Eigen::Matrix2d rows;
+      Eigen::Vector2d wanted;
+      for (int i = 0; i + 1 < count; ++i) {
+        const Vector<Real> d = w[i + 1] - w[0];
+        rows.row(i) = (tangents.transpose() * rough(d)).transpose();
+        wanted[i] = -static_cast<double>(dot(n, d));
+      }
+      if (count == 2) {
+        const Eigen::Vector2d free(-rows(0, 1), rows(0, 0));
+        rows.row(1) = free.transpose() * bend;
+        wanted[1] = free.dot(pull);
+      }
+      step = rows.inverse() * wanted;
+    }
+    if (!(step.squaredNorm() < 1)) return false;
+    n = n + Vector<Real>(Vec3(tangents * step));
+    n = n * (Real(1) / length(n));
+    return true;
+  }
+
+  /// What corners there are, asked again with n: a new face where that is closer.
+  bool resample(const Vector<Real>& n, Nearest<Real>& face) {
+    const Simplex<Real> before = known_;
+    Simplex<Real> asked;
+    for (int i = 0; i < known_.count; ++i) {
+      Corner<Real> c = known_.corner[i];
+      bool seen = false;
+      for (int k = 0; k < asked.count; ++k)
+        seen = seen || (asked.corner[k].pointA == c.pointA && asked.corner[k].pointB == c.pointB);
+      if (seen) continue;
+      c.n = Vec3(static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z));
+      c.a = a_.at(c.pointA, n);
+      c.w = b_.at(c.pointB, -n) - c.a;
+      asked.corner[asked.count++] = c;
+    }
+    known_ = asked;
+    const Nearest<Real> found = nearestOf(known_);
+    if (!(found.squared < face.squared)) {
+      known_ = before;
+      return false;
+    }
+    face = found;
+    keep(face);
+    return true;
+  }
+
   Real noise_;
+  Real upper_{HUGE_VAL};
+  bool curved_;
   Simplex<Real> known_;
 };
 
@@ -281,8 +405,10 @@ class Search {
 template <class Real, class Accept>
 Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept,
               bool whole = false) {
-  const auto enough = [&](double upper, double lower) {
-    return upper <= near || upper - lower <= std::max(0x1p-50 * size, Effort<Real>::agreed * lower);
+  const auto enough = [&](const Real& upper, const Real& lower) {
+    return static_cast<double>(upper) <= near ||
+           static_cast<double>(upper - lower) <=
+               std::max(0x1p-50 * size, Effort<Real>::agreed * static_cast<double>(lower));
   };
   return Search<Real>(a, b, size, whole).run(Simplex<Real>(), enough, accept);
 }
