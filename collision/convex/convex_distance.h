@@ -23,8 +23,10 @@ struct ConvexDistance {
 /// that isn't rigid is an ellipsoid, which takes longer.
 ///
 /// GJK in double; where its bounds, all rounding covered, don't agree to what is asked, again in
-/// double-double, beginning with the corners that it found. Polytopes, spheres and capsules end in
-/// some four steps; a cylinder's rim takes a step for each bit or two, some 25 by default.
+/// double-double, beginning with the corners that it found: by default nearly always where they are
+/// closer than a hundredth of the size. On curved surfaces every other direction is a step of
+/// Newton's. In the mean 2 to 5 rounds, with a cylinder 2 to 20, and less than 2 in double-double;
+/// 100 at most in tests down to gaps of 10^-13 (`tests/collision/convex/gjk_test.cpp` prints them).
 /// @param relative, absolute  not negative; metres. 0: the last digits.
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
                               double absolute, Counters& counters);
