@@ -195,8 +195,8 @@ class Search {
     if (samples.count == 1) {
       step = bend.inverse() * pull;
     } else {
-      Eigen::Matrix2d rows;
-      Eigen::Vector2d wanted;
+      Eigen::Matrix2d rows = Eigen::Matrix2d::Zero();
+      Eigen::Vector2d wanted = Eigen::Vector2d::Zero();
       for (int i = 0; i + 1 < samples.count; ++i) {
         const Vector<Real> d = samples.corner[i + 1].w - w;
         rows.row(i) = rough(d).transpose() * tangents;

@@ -24,9 +24,10 @@ struct Body::Impl {
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
        center = Vec3::Zero();
   double radius = 0, sphereRadius = 0;
-  mutable std::once_flag once, componentsOnce;
+  mutable std::once_flag once, wideOnce, componentsOnce;
   mutable std::atomic<bool> built = false;
   mutable std::optional<ObbTree> tree;
+  mutable std::optional<WideObbTree> wideTree;
   mutable MeshComponents components;
 
   /// Bounds of balls of radius `grow` about the points that `each` goes through, whose boxes are
@@ -140,6 +141,14 @@ const ObbTree& Body::tree() const {
     impl_->built = true;
   });
   return *impl_->tree;
+}
+
+const WideObbTree& Body::wideTree() const {
+  std::call_once(impl_->wideOnce, [this] {
+    impl_->wideTree.emplace(impl_->mesh, impl_->params.fit);
+    impl_->built = true;
+  });
+  return *impl_->wideTree;
 }
 
 }  // namespace corridor

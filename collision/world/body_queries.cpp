@@ -4,7 +4,9 @@
 #include <stdexcept>
 
 #include "collision/queries/containment.h"
+#include "collision/queries/distance_wide.h"
 #include "collision/queries/interference.h"
+#include "collision/queries/interference_wide.h"
 
 namespace corridor {
 namespace {
@@ -17,6 +19,12 @@ void require(const Transform& X_WA, const Transform& X_WB) {
 void require(double x, const char* what) {
   if (!(std::isfinite(x) && x >= 0))
     throw std::invalid_argument(std::string(what) + " is to be finite and not negative");
+}
+
+/// Calls `query` with both bodies' trees: the wide ones of two meshes.
+template <class Query>
+auto onTrees(const Body& a, const Body& b, Query&& query) {
+  return a.part() || b.part() ? query(a.tree(), b.tree()) : query(a.wideTree(), b.wideTree());
 }
 
 /// Is a component of `inner` inside `solid`, surfaces that don't touch? The triangle around, and
@@ -47,7 +55,10 @@ std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA
 std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
                                          const Transform& X_WB, QueryContext& context) {
   require(X_WA, X_WB);
-  if (const auto hit = interference(a.tree(), X_WA, b.tree(), X_WB, context)) return hit;
+  const auto hit = onTrees(a, b, [&](const auto& ta, const auto& tb) {
+    return interference(ta, X_WA, tb, X_WB, context);
+  });
+  if (hit) return hit;
   return insideEachOther(a, X_WA, b, X_WB, context);
 }
 
@@ -56,14 +67,16 @@ Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Tra
   require(X_WA, X_WB);
   require(options.relative, "a distance's relative error");
   require(options.absolute, "a distance's absolute error");
-  Distance d = distance(a.tree(), X_WA, b.tree(), X_WB, options, context);
+  Distance d = onTrees(a, b, [&](const auto& ta, const auto& tb) {
+    return distance(ta, X_WA, tb, X_WB, options, context);
+  });
   if (d.distance == 0) return d;
   if (const auto hit = inside(a, X_WA, b, X_WB, context)) {
-    d = {0, pointOf(b, hit->b, X_WB), {}, hit->a, hit->b};
-    d.p_WB = d.p_WA;
+    const Vec3 p_W = pointOf(b, hit->b, X_WB);
+    d = {0, p_W, p_W, hit->a, hit->b};
   } else if (const auto other = inside(b, X_WB, a, X_WA, context)) {
-    d = {0, pointOf(a, other->b, X_WA), {}, other->b, other->a};
-    d.p_WB = d.p_WA;
+    const Vec3 p_W = pointOf(a, other->b, X_WA);
+    d = {0, p_W, p_W, other->b, other->a};
   }
   return d;
 }
@@ -72,7 +85,10 @@ bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Trans
                 double d, QueryContext& context) {
   require(X_WA, X_WB);
   require(d, "a tolerance");
-  return closerThan(a.tree(), X_WA, b.tree(), X_WB, d, context) ||
+  return onTrees(a, b,
+                 [&](const auto& ta, const auto& tb) {
+                   return closerThan(ta, X_WA, tb, X_WB, d, context);
+                 }) ||
          insideEachOther(a, X_WA, b, X_WB, context).has_value();
 }
 
