@@ -170,8 +170,9 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
                               double absolute, Counters& counters) {
   ++counters.triangleTests;
   const Pair pair(a, b);
-  // Last digits: 2^-51·S is allowed, and `size` is below 9.5 S.
-  const double share = relative + 0x1p-41, least = absolute + 0x1p-55 * pair.size();
+  // Searches end at half of what is allowed, which rounding adds to: 1e-12 > 2^-40, and 2^-51·S,
+  // where ‖M‖|p| + |t| is below 3 S, and `size`, that of both, below 6 S.
+  const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
     return [=](const auto& upper, const auto& lower) {  // in the search's own digits
@@ -197,7 +198,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
       if (met && balls) return pair.contact(quick, false);
       gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
       const double near = pair.near() - (balls ? 0 : pair.radii());
-      finer.run(quick.simplex, agreed(0, near, 0x1p-50 * pair.size()), never);
+      finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never);
       return pair.contact(finer, !balls);
     }
   }
