@@ -93,7 +93,7 @@ class Plot {
     }
   };
 
-  static constexpr double kLeft = 70, kTop = 34, kWidth = 440, kHeight = 320, kLegend = 150;
+  static constexpr double kLeft = 70, kTop = 34, kWidth = 440, kHeight = 320;
   double px(double x) const { return std::round(10 * (kLeft + kWidth * x_.place(x))) / 10; }
   double py(double y) const { return std::round(10 * (kTop + kHeight * (1 - y_.place(y)))) / 10; }
 
@@ -101,8 +101,11 @@ class Plot {
     static const std::vector<std::string> colours = {"#1b6ca8", "#d1495b", "#2e933c", "#edae49",
                                                      "#6f4e7c", "#00798c", "#8c564b", "#444444",
                                                      "#e377c2", "#7f9f1f"};
+    std::size_t letters = 0;
+    for (const Series& series : series_) letters = std::max(letters, series.name.size());
+    const double legend = 30 + 7 * static_cast<double>(letters);
     std::ostringstream s;
-    s << "<svg xmlns='http://www.w3.org/2000/svg' width='" << kLeft + kWidth + kLegend
+    s << "<svg xmlns='http://www.w3.org/2000/svg' width='" << kLeft + kWidth + legend
       << "' height='" << kTop + kHeight + 50
       << "' font-family='sans-serif' font-size='12'>\n<rect width='100%' height='100%' "
          "fill='white'/>\n";
