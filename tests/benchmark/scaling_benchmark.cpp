@@ -119,7 +119,7 @@ void report(const Options& o) {
   std::cout << "\nwho,from_triangles,to_triangles,logarithm_grew,time_grew,N_v_grew\n";
   for (const auto& [name, curve] : curves) {
     const std::size_t last = curve.us.size() - 1;
-    const auto row = [&](std::size_t first) {
+    const auto row = [&, &name = name, &curve = curve](std::size_t first) {
       const Point from = curve.us[first], to = curve.us[last];
       std::cout << '"' << name << "\"," << from.x << "," << to.x << ","
                 << text(std::log(to.x) / std::log(from.x)) << "," << text(to.y / from.y) << ",";
