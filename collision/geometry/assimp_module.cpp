@@ -8,17 +8,20 @@
 namespace corridor {
 namespace {
 
-/// The module's function. @throws std::runtime_error with the reason.
+/// The module's function: of the module beside the program, else of the one on its run path (an
+/// installed library's), else of the one that was built. @throws std::runtime_error with the
+/// reason.
 ReadWithAssimp openModule() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto beside = program.parent_path() / CORRIDOR_ASSIMP_MODULE;
-  const auto built = std::filesystem::path(CORRIDOR_ASSIMP_DIR) / CORRIDOR_ASSIMP_MODULE;
-  const auto& path = std::filesystem::exists(beside, error) ? beside : built;
-  void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* const function = module ? dlsym(module, "corridorReadWithAssimp") : nullptr;
-  if (!function) throw std::runtime_error(dlerror());
-  return reinterpret_cast<ReadWithAssimp>(function);
+  const std::string name = CORRIDOR_ASSIMP_MODULE;
+  for (const auto& file : {(program.parent_path() / name).string(), name,
+                           (std::filesystem::path(CORRIDOR_ASSIMP_DIR) / name).string()})
+    if (void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL))
+      if (void* const function = dlsym(module, "corridorReadWithAssimp"))
+        return reinterpret_cast<ReadWithAssimp>(function);
+  const char* const reason = dlerror();
+  throw std::runtime_error(reason ? reason : "unknown");
 }
 
 }  // namespace

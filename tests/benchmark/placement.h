@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "collision/queries/distance_wide.h"
+#include "tests/benchmark/shapes.h"
+
+namespace corridor::bench {
+
+/// Poses of b, a at the identity, rotated at random and `gap` (to 1 %) from touching: b comes from
+/// outside along a random line through a's frame's origin, each step by what is free.
+inline std::vector<Transform> posesAtGap(const WideObbTree& a, const WideObbTree& b, double gap,
+                                         int count, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  std::vector<Transform> poses;
+  QueryContext context;
+  for (int tries = 0; static_cast<int>(poses.size()) < count; ++tries) {
+    if (tries == 100 * count) throw std::runtime_error("no poses at this gap were found");
+    const Vec3 from = Vec3(normal(random), normal(random), normal(random)).normalized();
+    double along = a.reach() + b.reach() + 2 * gap;
+    Transform X{randomRotation(random), Vec3::Zero()};
+    for (int i = 0; i < 1000 && along > 0; ++i) {
+      X.t = along * from;
+      const double free = distance(a, {}, b, X, {}, context).distance - gap;
+      if (free <= 0.01 * gap) {
+        poses.push_back(X);
+        break;
+      }
+      along -= free;
+    }
+  }
+  return poses;
+}
+
+}  // namespace corridor::bench

@@ -1,0 +1,192 @@
+/// Parallel close proximity (Gottschalk, Lin, Manocha 1996, section 6), for every volume:
+/// `proximity_benchmark [--out FOLDER] [--frequency N]… [--rotations N]`.
+///
+/// A sphere of 20·N² triangles (corners at radius 1) in another, concentric and rotated at random,
+/// whose facets' planes stay 1 + gap away from the centre: interference is asked, nothing touches,
+/// and every point of one is near the other. Gaps from 0.3 down to 30 sagittas, where the spheres
+/// are still parallel for boxes of a leaf's size. CSV on stdout: N_v, N_p (means over the
+/// rotations) and the median time. Then the slope of log N_v over log 1/gap: over all gaps, and
+/// over those at which fewer than one test in 100 is of triangles, that is, before the tree's
+/// depth is used up. Then such a pair at several placements: the best of the trees that
+/// share one traversal. FOLDER gets the plots.
+#include <functional>
+#include <iomanip>
+#include <iostream>
+
+#include "collision/queries/interference.h"
+#include "collision/queries/interference_wide.h"
+#include "collision/volumes/pair_tests.h"
+#include "planner/app/query_timing.h"
+#include "tests/benchmark/arguments.h"
+#include "tests/benchmark/plot.h"
+#include "tests/benchmark/shapes.h"
+
+namespace corridor {
+namespace {
+
+using namespace bench;
+
+struct Cost {
+  double boxTests = 0, triangleTests = 0, us = 0;
+};
+
+/// Asks for every pose of b, a at the identity. b is a sphere like a, scaled: a cost each scale.
+using Ask = std::function<std::vector<Cost>(
+    const TriangleMesh& a, const std::vector<double>& scales, const std::vector<Transform>&)>;
+
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  for (Vec3& v : mesh.vertices) v *= factor;
+  return mesh;
+}
+
+template <class Tree>
+std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& scales,
+                      const std::vector<Transform>& poses) {
+  const Tree a(sphere);
+  QueryContext context;
+  std::vector<Cost> costs;
+  for (const double scale : scales) {
+    const Tree b(scaled(sphere, scale));
+    Cost cost;
+    std::vector<double> ns;
+    for (const Transform& X : poses) {
+      const auto query = [&] { interference(a, {}, b, X, context); };
+      const auto counted = [&] {
+        context.counters = {};
+        query();
+      };
+      double least = app::nanosecondsOf(counted, counted);
+      cost.boxTests += static_cast<double>(context.counters.boxTests);
+      cost.triangleTests += static_cast<double>(context.counters.triangleTests);
+      for (int i = 0; i < 2 && least < 1e8; ++i)  // longer ones don't wobble
+        least = std::min(least, app::nanosecondsOf(query, query));
+      ns.push_back(least);
+    }
+    cost.boxTests /= static_cast<double>(poses.size());
+    cost.triangleTests /= static_cast<double>(poses.size());
+    cost.us = app::median(ns) / 1e3;
+    costs.push_back(cost);
+  }
+  return costs;
+}
+
+const std::vector<std::pair<std::string, Ask>>& volumes() {
+  static const std::vector<std::pair<std::string, Ask>> all = {
+      {"obb (wide)", ask<WideObbTree>},      {"obb", ask<VolumeTree<Obb>>},
+      {"rss", ask<VolumeTree<Rss>>},         {"kdop26", ask<VolumeTree<Kdop<26>>>},
+      {"kdop18", ask<VolumeTree<Kdop<18>>>}, {"kdop14", ask<VolumeTree<Kdop<14>>>},
+      {"aabb", ask<VolumeTree<Aabb>>},       {"sphere", ask<VolumeTree<BoundingSphere>>}};
+  return all;
+}
+
+struct Options {
+  std::filesystem::path out;
+  std::vector<double> frequencies;
+  int rotations = 0;
+};
+
+void sweep(const Options& o, std::mt19937_64& random) {
+  std::vector<Transform> poses(static_cast<std::size_t>(o.rotations));
+  for (Transform& X : poses) X.m = randomRotation(random);
+  std::cout << "triangles,gap,volume,bv_tests,triangle_tests,us\n";
+  std::string slopes;
+  for (const double frequency : o.frequencies) {
+    const TriangleMesh sphere = icosphere(static_cast<int>(frequency));
+    const double in = inradius(sphere);
+    std::vector<double> gaps, scales;
+    for (double gap = 0.3; gap > 30 * (1 - in); gap /= std::cbrt(10)) {
+      gaps.push_back(gap);
+      scales.push_back((1 + gap) / in);
+    }
+    const std::string n = std::to_string(sphere.triangles.size());
+    Plot nv("Two concentric spheres of " + n + " triangles", "1 / gap (radius 1)", "N_v"),
+        us("Two concentric spheres of " + n + " triangles", "1 / gap (radius 1)",
+           "µs a query (one core)");
+    for (const auto& [name, measure] : volumes()) {
+      const std::vector<Cost> costs = measure(sphere, scales, poses);
+      Series counts{name, {}}, times = counts, unsaturated = counts;
+      for (std::size_t i = 0; i < gaps.size(); ++i) {
+        const Cost& c = costs[i];
+        std::cout << n << "," << gaps[i] << "," << name << "," << c.boxTests << ","
+                  << c.triangleTests << "," << c.us << std::endl;
+        counts.points.push_back({1 / gaps[i], c.boxTests});
+        times.points.push_back({1 / gaps[i], c.us});
+        if (c.triangleTests < 0.01 * c.boxTests) unsaturated.points.push_back(counts.points.back());
+      }
+      slopes += n + "," + name + "," + text(logSlope(counts.points)) + "," +
+                text(logSlope(unsaturated.points)) + "," +
+                std::to_string(unsaturated.points.size()) + "\n";
+      nv.add(counts);
+      us.add(times);
+    }
+    if (!o.out.empty()) {
+      nv.write(o.out / ("proximity_tests_" + n + ".svg"));
+      us.write(o.out / ("proximity_time_" + n + ".svg"));
+    }
+  }
+  std::cout << "\ntriangles,volume,slope_all_gaps,slope_unsaturated,gaps_unsaturated\n" << slopes;
+}
+
+/// The same pair of spheres, placed otherwise.
+void placements(std::mt19937_64& random) {
+  const TriangleMesh sphere = icosphere(32);
+  constexpr double gap = 0.02;
+  const double reach = (1 + gap) / inradius(sphere);  // of the outer one's corners
+  const Vec3 diagonal = Vec3::Ones().normalized(), axis = Vec3::UnitX();
+  const Vec3 slanted = Vec3(3, 2, 1).normalized();
+  struct Placement {
+    std::string name;
+    Vec3 at;
+    bool rotated;
+  };
+  const std::vector<Placement> all = {
+      {"concentric, rotated", {0, 0, 0}, true},
+      {"inside, off centre by 0.95 gap, rotated", 0.95 * gap * slanted, true},
+      {"beside along an axis, gap 0.01", (1 + reach + 0.01) * axis, false},
+      {"beside along an axis, gap 0.0001, rotated", (1 + reach + 1e-4) * axis, true},
+      {"beside along the diagonal, gap 0.01", (1 + reach + 0.01) * diagonal, false},
+      {"beside along the diagonal, gap 0.01, rotated", (1 + reach + 0.01) * diagonal, true},
+      {"beside, slanted, gap 0.2, rotated", (1 + reach + 0.2) * slanted, true},
+      {"beside, slanted, gap 0.01, rotated", (1 + reach + 0.01) * slanted, true},
+      {"beside, slanted, gap 0.0001, rotated", (1 + reach + 1e-4) * slanted, true},
+      {"through each other by 0.05, rotated", (1 + reach - 0.05) * slanted, true},
+      {"through each other by half, rotated", slanted, true}};
+  std::cout << "\nplacement";
+  for (const auto& [name, measure] : volumes()) std::cout << "," << name << " us (N_v)";
+  std::cout << ",quickest VolumeTree,least N_v\n";
+  for (const Placement& p : all) {
+    std::vector<Transform> poses(p.rotated ? 11 : 1);
+    for (Transform& X : poses) {
+      X.t = p.at;
+      if (p.rotated) X.m = randomRotation(random);
+    }
+    std::cout << '"' << p.name << '"';
+    std::pair<double, std::string> quickest = {HUGE_VAL, ""}, fewest = quickest;
+    for (const auto& [name, measure] : volumes()) {
+      const Cost c = measure(sphere, {reach}, poses)[0];
+      std::cout << "," << text(c.us) << " (" << std::round(c.boxTests) << ")";
+      if (name == "obb (wide)") continue;  // another layout: it says nothing of the volume
+      quickest = std::min(quickest, {c.us, name});
+      fewest = std::min(fewest, {c.boxTests, name});
+    }
+    std::cout << "," << quickest.second << "," << fewest.second << std::endl;
+  }
+}
+
+void run(const Arguments& arguments) {
+  Options o;
+  o.out = arguments.text("--out");
+  o.frequencies = arguments.numbers("--frequency", {7, 22, 71, 223});
+  o.rotations = static_cast<int>(arguments.number("--rotations", 3));
+  std::mt19937_64 random(1996);
+  sweep(o, random);
+  placements(random);
+}
+
+}  // namespace
+}  // namespace corridor
+
+int main(int argc, char** argv) {
+  return corridor::bench::runWith(argc, argv, {"--out", "--frequency", "--rotations"},
+                                  corridor::run);
+}

@@ -1,0 +1,162 @@
+/// The tolerance query against interference at equal remaining gap:
+/// `tolerance_benchmark [--data DIR] [--workload TEXT]… [--poses N] [--rounds N]`.
+///
+/// Every workload of DIR/collision (DIR: $CORRIDOR_DATA where not named) whose name contains a
+/// TEXT. At each of its first N poses that is free with a gap g and not told from the root boxes
+/// alone: interference there, against «closer than t?» where the gap is g + t, for t = 10^-4, 10^-3
+/// and 10^-2 of the smaller mesh's size. Both have g left to prove: the former that there is more
+/// than nothing between the meshes, the latter that there is more than t. The gap is widened by
+/// moving B along the line between the closest points, as far as it takes; where no way does, since
+/// the one is inside the other (concentric spheres), by scaling A about the origin. A pose at which
+/// the gap then is off by more than 1 % of g is left out. Least time of the rounds, both queries in
+/// turn; the median over the poses of the ratio of the two. Wide trees.
+#include <limits>
+#include <optional>
+
+#include "collision/core/simd_target.h"
+#include "collision/queries/distance_wide.h"
+#include "collision/queries/interference_wide.h"
+#include "planner/app/query_timing.h"
+#include "tests/benchmark/arguments.h"
+#include "tests/benchmark/plot.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+using namespace bench;
+
+double sizeOf(const TriangleMesh& mesh) {
+  Vec3 low = mesh.vertices[0], high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).norm();
+}
+
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  for (Vec3& v : mesh.vertices) v *= factor;
+  return mesh;
+}
+
+/// The pose moved along the line between the closest points until the gap is `wanted`. None where
+/// that never comes.
+std::optional<Transform> widened(const WideObbTree& a, const WideObbTree& b, Transform X,
+                                 double wanted, double accuracy, QueryContext& context) {
+  const Distance start = distance(a, {}, b, X, {}, context);
+  const Vec3 away = (start.p_WB - start.p_WA) / start.distance;
+  const Vec3 from = X.t;
+  double moved = 0, gap = start.distance;
+  for (int i = 0; i < 100; ++i) {
+    // The gap grows at most as fast as b moves: no step overshoots.
+    moved += wanted - gap;
+    if (moved > 4 * (wanted - start.distance)) return {};
+    X.t = from + moved * away;
+    gap = distance(a, {}, b, X, {}, context).distance;
+    if (std::abs(wanted - gap) <= accuracy) return X;
+  }
+  return {};
+}
+
+struct Row {
+  int poses = 0;
+  std::vector<double> interferenceNs, toleranceNs, ratios, testRatios;
+};
+
+struct Options {
+  int poses = 0, rounds = 0;
+};
+
+Row measure(const test::Workload& w, double relative, const Options& o) {
+  const double tolerance = relative * std::min(sizeOf(w.a), sizeOf(w.b));
+  const WideObbTree a(w.a), b(w.b);
+  // Concentric: A shrinks by t/1, its radius.
+  const bool concentric = w.name.find("spheres") != w.name.npos;
+  const WideObbTree smaller(concentric ? scaled(w.a, 1 - tolerance) : w.a);
+  QueryContext context;
+  const auto inner = [&](const Transform& X) {  // not told from the roots alone
+    context.counters = {};
+    const bool hit = interference(a, {}, b, X, context).has_value();
+    return !hit && context.counters.boxTests > WideObbTree::kWidth * WideObbTree::kWidth;
+  };
+  Row row;
+  for (const Transform& X : w.poses) {
+    if (row.poses == o.poses) break;
+    if (!inner(X)) continue;
+    const double gap = distance(a, {}, b, X, {}, context).distance;
+    std::optional<Transform> wide;
+    const WideObbTree* other = &a;
+    if (concentric) {
+      other = &smaller;
+      if (std::abs(distance(smaller, {}, b, X, {}, context).distance - gap - tolerance) <=
+          0.01 * gap)
+        wide = X;
+    } else {
+      wide = widened(a, b, X, gap + tolerance, 0.01 * gap, context);
+    }
+    if (!wide) continue;
+    const auto touch = [&] { interference(a, {}, b, X, context); };
+    const auto close = [&] { closerThan(*other, {}, b, *wide, tolerance, context); };
+    double touchNs = std::numeric_limits<double>::infinity(), closeNs = touchNs;
+    for (int i = 0; i < o.rounds; ++i) {
+      touchNs = std::min(touchNs, app::nanosecondsOf(touch, touch));
+      closeNs = std::min(closeNs, app::nanosecondsOf(close, close));
+    }
+    context.counters = {};
+    touch();
+    const auto touchTests = static_cast<double>(context.counters.boxTests);
+    context.counters = {};
+    if (closerThan(*other, {}, b, *wide, tolerance, context))
+      throw std::logic_error(w.name + ": closer than it is");
+    ++row.poses;
+    row.interferenceNs.push_back(touchNs);
+    row.toleranceNs.push_back(closeNs);
+    row.ratios.push_back(closeNs / touchNs);
+    row.testRatios.push_back(static_cast<double>(context.counters.boxTests) / touchTests);
+  }
+  return row;
+}
+
+void run(const Arguments& arguments) {
+  const auto data = test::dataFolder();
+  const std::filesystem::path folder =
+      std::filesystem::path(arguments.text("--data", data ? data->string() : "")) / "collision";
+  if (!std::filesystem::is_directory(folder))
+    throw std::runtime_error("--data DIR, or $CORRIDOR_DATA, is needed");
+  const Options o{static_cast<int>(arguments.number("--poses", 50)),
+                  static_cast<int>(arguments.number("--rounds", 5))};
+  const auto wanted = arguments.texts("--workload");
+  std::cout << "# instruction set: " << simdTarget()
+            << "\nworkload,tolerance/size,poses,interference_ns,tolerance_ns,ratio,ratio of N_v\n";
+  double worst = 0, logs = 0, count = 0;
+  for (const std::string& name : test::workloadNames(folder)) {
+    const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
+    if (!wanted.empty() && std::none_of(wanted.begin(), wanted.end(), named)) continue;
+    const test::Workload w = test::loadWorkload(folder, name);
+    for (const double relative : {1e-4, 1e-3, 1e-2}) {
+      const Row row = measure(w, relative, o);
+      std::cout << name << "," << relative << "," << row.poses;
+      if (row.poses > 0) {
+        const double ratio = app::median(row.ratios);
+        std::cout << "," << text(app::median(row.interferenceNs), 4) << ","
+                  << text(app::median(row.toleranceNs), 4) << "," << text(ratio) << ","
+                  << text(app::median(row.testRatios));
+        worst = std::max(worst, ratio);
+        logs += std::log(ratio), ++count;
+      }
+      std::cout << std::endl;
+    }
+  }
+  std::cout << "\nratio: geometric mean " << text(std::exp(logs / count)) << ", greatest "
+            << text(worst) << ", of " << count << " rows\n";
+}
+
+}  // namespace
+}  // namespace corridor
+
+int main(int argc, char** argv) {
+  return corridor::bench::runWith(argc, argv, {"--data", "--workload", "--poses", "--rounds"},
+                                  corridor::run);
+}

@@ -1,0 +1,91 @@
+# The test of `cmake --install` and find_package(corridor): installs into a prefix with a space in it, configures the
+# project beside this file in an empty folder, builds and runs it, and holds the guide's text against its files.
+# cmake -D BUILD=… -D WORK=… -D CONFIG=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -P test.cmake
+cmake_minimum_required(VERSION 3.25)
+set(prefix "${WORK}/a prefix")
+set(build "${WORK}/build")
+file(REMOVE_RECURSE "${WORK}")
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${status}\n${out}${err}")
+  endif()
+  set(out "${out}" PARENT_SCOPE)
+  set(err "${err}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} --install "${BUILD}" --config "${CONFIG}" --prefix "${prefix}")
+
+# No installed header includes one that stayed behind.
+file(GLOB_RECURSE headers "${prefix}/include/corridor/*.h")
+list(LENGTH headers count)
+if(count LESS 50)
+  message(FATAL_ERROR "only ${count} headers were installed")
+endif()
+foreach(header ${headers})
+  file(STRINGS "${header}" includes REGEX "^#include")
+  foreach(include ${includes})
+    if(include MATCHES "\"(.*)\"" AND NOT EXISTS "${prefix}/include/corridor/${CMAKE_MATCH_1}")
+      message(FATAL_ERROR "${header} includes ${CMAKE_MATCH_1}, which is not installed")
+    endif()
+    if(include MATCHES "<(boost|assimp|hwy|libqhull)")
+      message(FATAL_ERROR "${header}: ${include}: users of the library need not have it")
+    endif()
+  endforeach()
+endforeach()
+
+run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERATOR}" "-DCMAKE_BUILD_TYPE=${CONFIG}"
+    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(${CMAKE_COMMAND} --build "${build}" --config "${CONFIG}")
+
+# A unit cube, once in a format of ours, once in one that assimp's module reads.
+set(corners "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1")
+set(quads "0 3 2 1" "4 5 6 7" "0 1 5 4" "1 2 6 5" "2 3 7 6" "3 0 4 7")
+set(obj "")
+set(off "OFF\n8 6 0\n")
+foreach(corner ${corners})
+  string(APPEND obj "v ${corner}\n")
+  string(APPEND off "${corner}\n")
+endforeach()
+foreach(quad ${quads})
+  string(REPLACE " " ";" numbers "${quad}")
+  string(APPEND obj "f")
+  foreach(number ${numbers})
+    math(EXPR number "${number} + 1")
+    string(APPEND obj " ${number}")
+  endforeach()
+  string(APPEND obj "\n")
+  string(APPEND off "4 ${quad}\n")
+endforeach()
+file(WRITE "${WORK}/cube.obj" "${obj}")
+file(WRITE "${WORK}/cube.off" "${off}")
+
+set(ENV{LD_DEBUG} files)
+run("${build}/two_meshes" "${WORK}/cube.obj" "${WORK}/cube.off")
+unset(ENV{LD_DEBUG})
+set(number " *[-0-9.e]+")  # Eigen aligns them
+if(NOT out MATCHES "^triangles [0-9]+ and [0-9]+ touch
+[1-9][0-9]* pairs of triangles touch
+distance 0 from${number}${number}${number} to${number}${number}${number}
+closer than 0.75
+0 pairs of triangles touch
+distance 1 from *1${number}${number} to *2${number}${number}
+farther than 0.75
+$")
+  message(FATAL_ERROR "it says:\n${out}")
+endif()
+string(FIND "${err}" "calling init: ${prefix}/lib" loaded)
+if(loaded EQUAL -1 AND NOT FLAGS MATCHES "sanitize")  # a sanitizer's dlopen does not know the program's run path
+  message(FATAL_ERROR "the module loaded is not the installed one")
+endif()
+
+# The guide shows these very files.
+file(READ "${CMAKE_CURRENT_LIST_DIR}/../../collision/README.md" guide)
+foreach(file main.cpp CMakeLists.txt)
+  file(READ "${CMAKE_CURRENT_LIST_DIR}/${file}" text)
+  string(FIND "${guide}" "\n${text}```\n" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "collision/README.md does not show tests/install/${file} as it is")
+  endif()
+endforeach()
