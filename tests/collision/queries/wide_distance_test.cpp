@@ -68,7 +68,7 @@ TEST(WideDistance, FarApart) {
     QueryContext context;
     const Distance d = distance(a, {}, b, X_WB, {}, context),
                    reference = distance(same, {}, same, X_WB, {}, context);
-    const double size = largest(corners(mesh, d.b), X_WB);
+    const double size = errorScale(corners(mesh, d.b), X_WB);
     EXPECT_NEAR(d.distance, reference.distance, 1e-12 * d.distance + 8 * kUnit * size) << away;
     EXPECT_FALSE(closerThan(a, {}, b, X_WB, 0.5 * d.distance, context));
   }
