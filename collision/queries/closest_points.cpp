@@ -129,6 +129,7 @@ bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   } else {
     offerFoot(best, s[feature - 12], t, false);
   }
+  if (!(best.square.hi < HUGE_VAL)) return false;  // no foot in the face after all
   if (isNothing(best)) return true;
   const Point n = best.b - best.a;
   const Real most = sqrt(best.square) * Real(kLost / 2);  // of either side, times |n|

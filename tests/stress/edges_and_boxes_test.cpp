@@ -10,12 +10,14 @@
 #include "collision/world/scene.h"
 #include "planner/robot/edge_motion.h"
 #include "planner/verify/verify_path.h"
+#include "tests/support/meshes.h"
 #include "tests/support/support.h"
 
 namespace corridor {
 namespace {
 
 using Random = std::mt19937_64;
+using test::addBox;
 
 double uniform(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
@@ -33,25 +35,13 @@ Eigen::Quaterniond rotation(Random& random) {
 
 // ---- edges ----
 
-void addBox(TriangleMesh& mesh, const Vec3& low, const Vec3& high,
-            const Mat3& R = Mat3::Identity()) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.push_back(
-        R * Vec3((i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]));
-  const std::array<std::uint32_t, 3> faces[] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                                {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                                {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  for (const auto& f : faces) mesh.triangles.push_back({n + f[0], n + f[1], n + f[2]});
-}
-
 TriangleMesh soup(Random& random, int triangles, double size, double edge) {
   TriangleMesh mesh;
   for (int i = 0; i < triangles; ++i) {
     const Vec3 centre = vector(random, size);
-    const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int k = 0; k < 3; ++k) mesh.vertices.push_back(centre + vector(random, edge));
-    mesh.triangles.push_back({n, n + 1, n + 2});
+    const Vec3 p = centre + vector(random, edge), q = centre + vector(random, edge),
+               r = centre + vector(random, edge);
+    test::add(mesh, p, q, r);
   }
   return mesh;
 }

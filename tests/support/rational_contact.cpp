@@ -1,70 +1,84 @@
 #include "tests/support/rational_contact.h"
 
+#include <algorithm>
 #include <array>
-#include <vector>
+#include <cmath>
+#include <limits>
+#include <memory>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
 namespace corridor::test {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
-using Point = std::array<Rational, 3>;
+/// Any length; up to 512 bits without allocation.
+using Integer = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked,
+                                           std::allocator<boost::multiprecision::limb_type>>,
+    boost::multiprecision::et_off>;
 
-Point mapped(const Transform& X, const Vec3& p) {
-  Point q;
-  for (int i = 0; i < 3; ++i) {
-    q[i] = Rational(X.t[i]);
-    for (int k = 0; k < 3; ++k) q[i] += Rational(X.m(i, k)) * Rational(p[k]);
-  }
-  return q;
+/// A double or a product of two: digits · 2^exponent.
+struct Term {
+  Integer digits;
+  int exponent = std::numeric_limits<int>::max();  // of 0
+};
+Term term(double x, double y = 1) {
+  if (x == 0 || y == 0) return {};
+  int ex = 0, ey = 0;
+  const double mx = std::frexp(x, &ex), my = std::frexp(y, &ey);
+  return {Integer(static_cast<std::int64_t>(std::ldexp(mx, 53))) *
+              static_cast<std::int64_t>(std::ldexp(my, 53)),
+          ex + ey - 106};
 }
 
-/// Is there x ≥ 0 with M x = r? Phase one of the simplex method with Bland's rule, in rationals:
-/// always ends, never errs.
-bool feasible(std::vector<std::vector<Rational>> M, std::vector<Rational> r) {
-  const std::size_t rows = M.size(), columns = M[0].size();
-  for (std::size_t i = 0; i < rows; ++i)
-    if (r[i] < 0) {
-      r[i] = -r[i];
-      for (Rational& x : M[i]) x = -x;
-    }
-  std::vector<std::size_t> basis(rows);
-  for (std::size_t i = 0; i < rows; ++i) basis[i] = columns + i;  // artificial variables, cost 1
+constexpr std::size_t kRows = 5, kColumns = 6;
+using Row = std::array<Integer, kColumns + 1>;  // the right side last
+
+/// Is there x ≥ 0 with M x = r, r ≥ 0? Phase one of the simplex method with Bland's rule, by
+/// integer pivoting (Edmonds): the tableau is T/D, T's entries are minors of [M | r], so that all
+/// divisions are exact. Always ends, never errs.
+bool feasible(std::array<Row, kRows>& T) {
+  Integer D = 1;
+  std::array<std::size_t, kRows> basis;
+  for (std::size_t i = 0; i < kRows; ++i) basis[i] = kColumns + i;  // artificial ones, of cost 1
   for (;;) {
     // Reduced cost of column j: −Σ over rows whose basic variable is artificial.
-    std::size_t enter = columns;
-    for (std::size_t j = 0; j < columns && enter == columns; ++j) {
-      Rational cost = 0;
-      for (std::size_t i = 0; i < rows; ++i)
-        if (basis[i] >= columns) cost -= M[i][j];
-      if (cost < 0) enter = j;
+    std::size_t enter = kColumns;
+    for (std::size_t j = 0; j < kColumns && enter == kColumns; ++j) {
+      Integer gain = 0;
+      for (std::size_t i = 0; i < kRows; ++i)
+        if (basis[i] >= kColumns) gain += T[i][j];
+      if (gain > 0) enter = j;
     }
-    if (enter == columns) break;
-    std::size_t leave = rows;
-    for (std::size_t i = 0; i < rows; ++i) {
-      if (M[i][enter] <= 0) continue;
-      if (leave == rows) {
+    if (enter == kColumns) break;
+    std::size_t leave = kRows;
+    for (std::size_t i = 0; i < kRows; ++i) {
+      if (T[i][enter] <= 0) continue;
+      if (leave == kRows) {
         leave = i;
         continue;
       }
-      const Rational here = r[i] / M[i][enter], best = r[leave] / M[leave][enter];
+      const Integer here = T[i][kColumns] * T[leave][enter],
+                    best = T[leave][kColumns] * T[i][enter];
       if (here < best || (here == best && basis[i] < basis[leave])) leave = i;
     }
-    if (leave == rows) break;  // cannot be: the sum of artificials is bounded below
-    const Rational pivot = M[leave][enter];
-    for (Rational& x : M[leave]) x /= pivot;
-    r[leave] /= pivot;
-    for (std::size_t i = 0; i < rows; ++i) {
-      if (i == leave || M[i][enter] == 0) continue;
-      const Rational factor = M[i][enter];
-      for (std::size_t j = 0; j < columns; ++j) M[i][j] -= factor * M[leave][j];
-      r[i] -= factor * r[leave];
+    if (leave == kRows) break;  // cannot be: the sum of artificials is bounded below
+    const Integer pivot = T[leave][enter];
+    for (std::size_t i = 0; i < kRows; ++i) {
+      if (i == leave) continue;
+      const Integer factor = T[i][enter];
+      for (std::size_t j = 0; j <= kColumns; ++j) {
+        T[i][j] *= pivot;
+        if (factor != 0) T[i][j] -= factor * T[leave][j];
+        if (D != 1) T[i][j] /= D;
+      }
     }
+    D = pivot;
     basis[leave] = enter;
   }
-  for (std::size_t i = 0; i < rows; ++i)
-    if (basis[i] >= columns && r[i] != 0) return false;
+  for (std::size_t i = 0; i < kRows; ++i)
+    if (basis[i] >= kColumns && T[i][kColumns] != 0) return false;
   return true;
 }
 
@@ -72,18 +86,32 @@ bool feasible(std::vector<std::vector<Rational>> M, std::vector<Rational> r) {
 
 bool rationalContact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                      const Transform& X_WB) {
-  // Σ λ_i a_i − Σ μ_j b_j = 0, Σ λ = Σ μ = 1, λ, μ ≥ 0.
-  std::vector<std::vector<Rational>> M(5, std::vector<Rational>(6));
-  for (int i = 0; i < 3; ++i) {
-    const Point p = mapped(X_WA, a[i]), q = mapped(X_WB, b[i]);
-    for (int k = 0; k < 3; ++k) {
-      M[k][i] = p[k];
-      M[k][3 + i] = -q[k];
+  // Σ λ_i a_i − Σ μ_j b_j = 0, Σ λ = Σ μ = 1, λ, μ ≥ 0; a coordinate on its own power of two.
+  std::array<Row, kRows> T;
+  for (int k = 0; k < 3; ++k) {
+    std::array<std::array<Term, 4>, kColumns> terms;
+    int least = std::numeric_limits<int>::max();
+    for (int i = 0; i < 6; ++i) {
+      const Vec3& p = i < 3 ? a[i] : b[i - 3];
+      const Transform& X = i < 3 ? X_WA : X_WB;
+      terms[i] = {term(X.t[k]), term(X.m(k, 0), p[0]), term(X.m(k, 1), p[1]),
+                  term(X.m(k, 2), p[2])};
+      for (const Term& t : terms[i]) least = std::min(least, t.exponent);
     }
-    M[3][i] = 1;
-    M[4][3 + i] = 1;
+    for (int i = 0; i < 6; ++i) {
+      Integer& x = T[k][i] = 0;
+      for (const Term& t : terms[i])
+        if (t.digits != 0) x += t.digits << (t.exponent - least);
+      if (i >= 3) x = -x;
+    }
+    T[k][kColumns] = 0;
   }
-  return feasible(M, {0, 0, 0, 1, 1});
+  for (int i = 0; i < 6; ++i) {
+    T[3][i] = i < 3;
+    T[4][i] = i >= 3;
+  }
+  T[3][kColumns] = T[4][kColumns] = 1;
+  return feasible(T);
 }
 
 }  // namespace corridor::test

@@ -8,19 +8,16 @@
 
 #include "collision/core/query_context.h"
 #include "collision/queries/interference.h"
+#include "tests/support/meshes.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
 namespace corridor {
 namespace {
 
-class Fits : public testing::TestWithParam<ObbFit> {};
+using test::add;
 
-void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
-  mesh.triangles.push_back({n, n + 1, n + 2});
-}
+class Fits : public testing::TestWithParam<ObbFit> {};
 
 TEST_P(Fits, ContainsItsTrianglesInRationals) {
   std::mt19937_64 random(test::testSeed(1));

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "collision/hierarchy/volume_tree.h"
-#include "collision/predicates/triangle_contact.h"
 #include "collision/queries/interference.h"
-#include "tests/collision/hierarchy/soups.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -41,14 +41,7 @@ TEST(Octree, AgreesWithBruteForceUnderTwoMaps) {
     Transform X_WA = test::anyPose(random, 1), X_WB = test::anyPose(random, 1);
     for (Transform* X : {&X_WA, &X_WB}) X->t += (n % 3 ? 0 : 1e6) * Vec3(1, 2, 3);
     QueryContext context;
-    bool expected = false;
-    for (std::size_t s = 0; s < meshA.triangles.size(); ++s)
-      for (std::size_t t = 0; t < meshB.triangles.size(); ++t)
-        expected =
-            expected ||
-            trianglesTouch({meshA.corner(s, 0), meshA.corner(s, 1), meshA.corner(s, 2)}, X_WA,
-                           {meshB.corner(t, 0), meshB.corner(t, 1), meshB.corner(t, 2)}, X_WB,
-                           context.counters);
+    const bool expected = test::bruteForceTouch(meshA, X_WA, meshB, X_WB);
     ASSERT_EQ(interference(a, X_WA, b, X_WB, context).has_value(), expected) << n;
     ASSERT_EQ(interference(b, X_WB, a, X_WA, context).has_value(), expected) << n;
     ASSERT_EQ(interference(a, X_WA, objects, X_WB, context).has_value(), expected) << n;

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "collision/queries/interference.h"
-#include "tests/collision/hierarchy/soups.h"
 #include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 

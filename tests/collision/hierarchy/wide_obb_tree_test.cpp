@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/collision/hierarchy/soups.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -13,6 +11,7 @@
 #include "collision/core/rounding.h"
 #include "tests/support/rational_contact.h"
 #include "tests/support/support.h"
+#include "tests/support/triangle_pairs.h"
 
 namespace corridor {
 namespace {
@@ -29,33 +28,16 @@ bool touch(const Triangle& a, const Triangle& b, const Transform& X_WA = {},
 TEST(TriangleContact, SharedData) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
-  int files = 0, pairs = 0, wrong = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(*data / "collision" / "tripairs")) {
-    std::ifstream in(entry.path());
-    ++files;
-    for (std::string line; std::getline(in, line);) {
-      if (line.empty() || line[0] == '#') continue;
-      std::istringstream numbers(line);
-      int hit;
-      Triangle a, b;
-      numbers >> hit;
-      for (Triangle* t : {&a, &b})
-        for (Vec3& v : *t) {
-          std::string word;  // iostreams refuse denormals
-          for (int i = 0; i < 3; ++i) numbers >> word, v[i] = std::strtod(word.c_str(), nullptr);
-        }
-      ASSERT_TRUE(numbers) << entry.path() << ": " << line;
-      ++pairs;
-      if (touch(a, b) != (hit == 1)) {
-        ++wrong;
-        ADD_FAILURE() << entry.path() << ": " << line;
-      }
-    }
+  const auto files = test::sharedPairs(*data / "collision");
+  std::size_t count = 0;
+  for (const auto& [name, pairs] : files) {
+    for (std::size_t n = 0; n < pairs.size(); ++n)
+      EXPECT_EQ(touch(pairs[n].a, pairs[n].b), pairs[n].touch) << name << " " << n;
+    count += pairs.size();
   }
-  EXPECT_GT(files, 5);
-  EXPECT_GT(pairs, 10'000);
-  EXPECT_EQ(wrong, 0);
-  std::cout << files << " files, " << pairs << " pairs\n";
+  EXPECT_GT(files.size(), 5U);
+  EXPECT_GT(count, 10'000U);
+  std::cout << files.size() << " files, " << count << " pairs\n";
 }
 
 /// Triangles and maps that meet degenerate positions often, against rationals that share no code

@@ -1,11 +1,7 @@
 #include "collision/queries/contacts.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <random>
-#include <set>
-#include <sstream>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -14,29 +10,19 @@
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/triangle_intersection.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/meshes.h"
 #include "tests/support/support.h"
+#include "tests/support/triangle_pairs.h"
 #include "tests/support/workload.h"
 
 namespace corridor {
 namespace {
 
-using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+using test::corners;
+using test::errorScale;
+using Pairs = test::TrianglePairs;
 using Long3 = Eigen::Matrix<long double, 3, 1>;
-
-Triangle corners(const TriangleMesh& mesh, std::size_t t) {
-  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
-}
-
-/// The largest Σ|m||v| + |t|: what errors are told by.
-double scaleOf(const Triangle& triangle, const Transform& X) {
-  double scale = 0;
-  for (const Vec3& p : triangle)
-    scale = std::max(scale, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
-  return scale;
-}
-double scaleOf(const Triangle& a, const Transform& X_WA, const Triangle& b, const Transform& X_WB) {
-  return std::max(scaleOf(a, X_WA), scaleOf(b, X_WB));
-}
 
 long double distanceToSegment(const Long3& x, const Long3& p, const Long3& q) {
   const long double length = (q - p).squaredNorm();
@@ -67,7 +53,7 @@ long double distanceToTriangle(const Vec3& point, const Triangle& triangle, cons
 /// Both ends on both triangles, and the quick path off the exact one by what the header says.
 void expectSound(const Segment& s, const Triangle& a, const Transform& X_WA, const Triangle& b,
                  const Transform& X_WB) {
-  const double scale = scaleOf(a, X_WA, b, X_WB);
+  const double scale = errorScale(a, X_WA, b, X_WB);
   for (const Vec3& end : {s.p, s.q}) {
     // √3·2^-50, and as much for long double's own rounding on badly shaped triangles.
     EXPECT_LE(distanceToTriangle(end, a, X_WA), 4 * 0x1p-50 * scale);
@@ -78,33 +64,6 @@ void expectSound(const Segment& s, const Triangle& a, const Transform& X_WA, con
     return std::max((u.p - v.p).cwiseAbs().maxCoeff(), (u.q - v.q).cwiseAbs().maxCoeff());
   };
   EXPECT_LE(std::min(off(s, exact), off({s.q, s.p}, exact)), 0x1p-50 * scale);
-}
-
-/// Every pair that touches, by a double loop behind boxes in world coordinates.
-Pairs bruteForce(const TriangleMesh& a, const TriangleMesh& b, const Transform& X) {
-  struct Range {
-    Vec3 low, high;
-  };
-  const auto ranges = [](const TriangleMesh& mesh, const Transform& X_W) {
-    std::vector<Range> all;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const Triangle t = corners(mesh, i);
-      const Vec3 p = X_W * t[0], q = X_W * t[1], r = X_W * t[2];
-      const Vec3 slack = Vec3::Constant(16 * 0x1p-53 * scaleOf(t, X_W));
-      all.push_back({p.cwiseMin(q).cwiseMin(r) - slack, p.cwiseMax(q).cwiseMax(r) + slack});
-    }
-    return all;
-  };
-  const auto rangesA = ranges(a, {}), rangesB = ranges(b, X);
-  Pairs pairs;
-  Counters counters;
-  for (std::uint32_t i = 0; i < rangesA.size(); ++i)
-    for (std::uint32_t j = 0; j < rangesB.size(); ++j)
-      if ((rangesA[i].low.array() <= rangesB[j].high.array()).all() &&
-          (rangesB[j].low.array() <= rangesA[i].high.array()).all() &&
-          trianglesTouch(corners(a, i), {}, corners(b, j), X, counters))
-        pairs.insert({i, j});
-  return pairs;
 }
 
 TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
@@ -130,7 +89,7 @@ TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
       EXPECT_EQ(pairs.size(), all.size()) << name << ": a pair came twice";
       EXPECT_EQ(pairs.empty(), w.hit[i] == 0) << name << " pose " << i;
       if (few) {
-        EXPECT_EQ(pairs, bruteForce(w.a, w.b, X)) << name << " pose " << i;
+        EXPECT_EQ(pairs, test::bruteForcePairs(w.a, {}, w.b, X)) << name << " pose " << i;
       }
       for (const TriangleContact& c : contacts(b, X, a, {}, context)) mirrored.insert({c.b, c.a});
       EXPECT_EQ(mirrored, pairs) << name << " pose " << i;
@@ -209,32 +168,20 @@ TEST(TriangleIntersection, SharedPairsOfTriangles) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   int touching = 0;
-  for (const auto& file : std::filesystem::directory_iterator(*data / "collision" / "tripairs")) {
-    std::ifstream in(file.path());
-    int line = 0;
-    for (std::string text; std::getline(in, text); ++line) {
-      if (text.empty() || text[0] == '#' || line % test::kSlowdown) continue;
-      std::istringstream words(text);
-      std::vector<double> v;
-      for (std::string word; words >> word;) v.push_back(std::strtod(word.c_str(), nullptr));
-      ASSERT_EQ(v.size(), 19u) << file.path();
-      if (v[0] == 0) continue;
-      Triangle a, b;
-      for (std::size_t i = 0; i < 3; ++i) {
-        a[i] = Vec3(v[1 + 3 * i], v[2 + 3 * i], v[3 + 3 * i]);
-        b[i] = Vec3(v[10 + 3 * i], v[11 + 3 * i], v[12 + 3 * i]);
-      }
+  for (const auto& [name, pairs] : test::sharedPairs(*data / "collision"))
+    for (std::size_t n = 0; n < pairs.size(); n += test::kSlowdown) {
+      const auto& [a, b, touch] = pairs[n];
+      if (!touch) continue;
       const Segment s = triangleIntersection(a, {}, b, {}), t = triangleIntersection(b, {}, a, {});
       // All of them at a size at which squares of their numbers don't vanish.
-      const double scale = scaleOf(a, {}, b, {});
+      const double scale = errorScale(a, {}, b, {});
       if (scale > 0x1p-300 && scale < 0x1p300) expectSound(s, a, {}, b, {});
       const auto off = std::min((s.p - t.p).norm() + (s.q - t.q).norm(),
                                 (s.p - t.q).norm() + (s.q - t.p).norm());
-      EXPECT_LE(off, 8 * 0x1p-50 * scale) << file.path() << " line " << line;
+      EXPECT_LE(off, 8 * 0x1p-50 * scale) << name << " pair " << n;
       ++touching;
-      ASSERT_FALSE(HasFailure()) << file.path() << " line " << line;
+      ASSERT_FALSE(HasFailure()) << name << " pair " << n;
     }
-  }
   EXPECT_GT(touching, 5'000 / test::kSlowdown);
 }
 
@@ -258,17 +205,13 @@ TEST(Contacts, UnderTwoMapsThatAreOnlyNearlyRigid) {
     }
     const ObbTree a(meshes[0]), b(meshes[1]);
     QueryContext context;
-    Pairs pairs, expected;
+    Pairs pairs;
     for (const TriangleContact& c : contacts(a, maps[0], b, maps[1], context)) {
       pairs.insert({c.a, c.b});
       expectSound({c.p_W, c.q_W}, corners(meshes[0], c.a), maps[0], corners(meshes[1], c.b),
                   maps[1]);
     }
-    for (std::uint32_t i = 0; i < 20; ++i)
-      for (std::uint32_t j = 0; j < 20; ++j)
-        if (trianglesTouchExact(corners(meshes[0], i), maps[0], corners(meshes[1], j), maps[1]))
-          expected.insert({i, j});
-    EXPECT_EQ(pairs, expected) << "case " << n;
+    EXPECT_EQ(pairs, test::bruteForcePairs(meshes[0], maps[0], meshes[1], maps[1])) << "case " << n;
     EXPECT_EQ(pairs.empty(), !interference(a, maps[0], b, maps[1], context)) << "case " << n;
     found += pairs.size();
   }

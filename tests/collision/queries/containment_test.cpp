@@ -5,29 +5,14 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "tests/support/meshes.h"
 #include "tests/support/support.h"
 
 namespace corridor {
 namespace {
 
-/// A box's surface, outward; added to a mesh.
-void addBox(TriangleMesh& mesh, const Vec3& center, const Vec3& half) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.push_back(
-        center + half.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  const std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  for (const auto& q : quads) {
-    mesh.triangles.push_back({n + q[0], n + q[1], n + q[2]});
-    mesh.triangles.push_back({n + q[0], n + q[2], n + q[3]});
-  }
-}
-
-TriangleMesh boxMesh(const Vec3& center, double half) {
-  TriangleMesh mesh;
-  addBox(mesh, center, Vec3::Constant(half));
-  return mesh;
+TriangleMesh cube(const Vec3& center, double half) {
+  return test::box(center - Vec3::Constant(half), center + Vec3::Constant(half));
 }
 
 struct Solid {
@@ -43,9 +28,9 @@ bool holds(const Solid& solid, const Vec3& p) {
 }
 
 TEST(MeshComponents, SharedEdgesConnectSharedCornersDoNot) {
-  TriangleMesh mesh = boxMesh(Vec3(0, 0, 0), 1);
-  addBox(mesh, Vec3(2, 2, 2), Vec3(1, 1, 1));  // meets the first in a corner
-  addBox(mesh, Vec3(9, 0, 0), Vec3(1, 1, 1));
+  TriangleMesh mesh = cube(Vec3(0, 0, 0), 1);
+  test::addBox(mesh, Vec3(1, 1, 1), Vec3(3, 3, 3));  // meets the first in a corner
+  test::addBox(mesh, Vec3(8, -1, -1), Vec3(10, 1, 1));
   mesh.triangles.pop_back();  // leaves the third open
   const MeshComponents found = findComponents(mesh);
   ASSERT_EQ(found.components.size(), 3U);
@@ -56,8 +41,8 @@ TEST(MeshComponents, SharedEdgesConnectSharedCornersDoNot) {
 }
 
 TEST(Containment, PointsOfAGridInTwoOverlappingShells) {
-  TriangleMesh mesh = boxMesh(Vec3(0, 0, 0), 1);
-  addBox(mesh, Vec3(1, 0, 0), Vec3(1, 0.5, 0.5));
+  TriangleMesh mesh = cube(Vec3(0, 0, 0), 1);
+  test::addBox(mesh, Vec3(0, -0.5, -0.5), Vec3(2, 0.5, 0.5));
   const Solid solid(mesh);
   int inside = 0;
   // Steps of 1/4, off the faces by 1/8: rays run through no point by luck alone, but the grid has
@@ -74,7 +59,7 @@ TEST(Containment, PointsOfAGridInTwoOverlappingShells) {
 }
 
 TEST(Containment, MirroredMeshesAreAsSolid) {
-  TriangleMesh mesh = boxMesh(Vec3(0, 2, 0), 1);
+  TriangleMesh mesh = cube(Vec3(0, 2, 0), 1);
   for (Vec3& v : mesh.vertices) v[1] = -v[1];
   const Solid solid(mesh);
   EXPECT_TRUE(holds(solid, Vec3(0, -2, 0.1)));
@@ -82,8 +67,8 @@ TEST(Containment, MirroredMeshesAreAsSolid) {
 }
 
 TEST(Containment, AHollowShellIsFilled) {
-  TriangleMesh mesh = boxMesh(Vec3(0, 0, 0), 2);
-  TriangleMesh hollow = boxMesh(Vec3(0, 0, 0), 1);
+  TriangleMesh mesh = cube(Vec3(0, 0, 0), 2);
+  TriangleMesh hollow = cube(Vec3(0, 0, 0), 1);
   for (auto& t : hollow.triangles) {
     std::swap(t[1], t[2]);
     for (std::uint32_t& corner : t) corner += 8;
@@ -94,16 +79,16 @@ TEST(Containment, AHollowShellIsFilled) {
   EXPECT_EQ(robot.components.components.size(), 2U);
   EXPECT_TRUE(holds(robot, Vec3(0, 0, 0)));
   QueryContext context;
-  const Solid obstacle(boxMesh(Vec3(0.1, 0.2, 0.3), 0.1));
+  const Solid obstacle(cube(Vec3(0.1, 0.2, 0.3), 0.1));
   EXPECT_FALSE(interference(robot.tree, {}, obstacle.tree, {}, context));
   EXPECT_TRUE(enclosed(robot, {}, obstacle, {}, context));
   EXPECT_FALSE(enclosed(obstacle, {}, robot, {}, context));
 }
 
 TEST(Containment, OneComponentInsideAnotherOutside) {
-  const Solid solid(boxMesh(Vec3(0, 0, 0), 1));
-  TriangleMesh mesh = boxMesh(Vec3(5, 0, 0), 0.1);
-  addBox(mesh, Vec3(0.3, 0.1, 0.2), Vec3(0.1, 0.1, 0.1));
+  const Solid solid(cube(Vec3(0, 0, 0), 1));
+  TriangleMesh mesh = cube(Vec3(5, 0, 0), 0.1);
+  test::addBox(mesh, Vec3(0.2, 0, 0.1), Vec3(0.4, 0.2, 0.3));
   const Solid inner(mesh);
   QueryContext context;
   const auto hit = enclosed(solid, {}, inner, {}, context);
@@ -115,7 +100,7 @@ TEST(Containment, OneComponentInsideAnotherOutside) {
 }
 
 TEST(Containment, PrimitivesInSolidMeshes) {
-  const Solid solid(boxMesh(Vec3(0, 0, 0), 1));
+  const Solid solid(cube(Vec3(0, 0, 0), 1));
   QueryContext context;
   const ConvexPart ball{{Vec3(0.2, 0.1, 0)}, 0.1, false};
   EXPECT_TRUE(enclosed(solid, {}, ball, {}, context));

@@ -11,9 +11,11 @@
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/closest_points.h"
 #include "collision/queries/interference.h"
-#include "tests/collision/hierarchy/soups.h"
 #include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/meshes.h"
 #include "tests/support/reference_distance.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -21,19 +23,10 @@ namespace corridor {
 namespace {
 
 using test::anyPose;
+using test::corners;
+using test::errorScale;
 using test::kParams;
 using test::soup;
-
-Triangle corners(const TriangleMesh& m, std::size_t t) {
-  return {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
-}
-
-double largest(const Triangle& t, const Transform& X) {
-  double size = 0;
-  for (const Vec3& p : t)
-    size = std::max(size, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
-  return size;
-}
 
 /// Distances of random triangles, slivers and nearly parallel edges, at all scales.
 TEST(ClosestPoints, WithinTheirErrorOfADistanceWithHundredDigits) {
@@ -55,7 +48,7 @@ TEST(ClosestPoints, WithinTheirErrorOfADistanceWithHundredDigits) {
     Counters counters;
     if (trianglesTouch(a, X_WA, b, X_WB, counters)) continue;
     const double truth = static_cast<double>(test::referenceDistance(a, X_WA, b, X_WB));
-    const double size = std::max(largest(a, X_WA), largest(b, X_WB));
+    const double size = std::max(errorScale(a, X_WA), errorScale(b, X_WB));
     const WitnessPoints w = closestPoints(a, X_WA, b, X_WB);
     worst = std::max(worst, std::abs(w.distance - truth) / w.error);
     EXPECT_LE(w.error, kUnit * (size / 4 + 2 * truth) * (1 + 1e-10)) << n;
@@ -102,8 +95,8 @@ TYPED_TEST(VolumeDistance, SharedWorkloads) {
       const Transform& X = w.poses[i];
       const Distance d = distance(a, {}, b, X, {}, context);
       ASSERT_EQ(d.distance == 0, w.hit[i] == 1) << name << " " << i;
-      const double size =
-          std::max({largest(corners(w.a, d.a), {}), largest(corners(w.b, d.b), X), a.reach()});
+      const double size = std::max(
+          {errorScale(corners(w.a, d.a), {}), errorScale(corners(w.b, d.b), X), a.reach()});
       const double allowed = 1e-12 * truth[i] + 4 * kUnit * size;
       EXPECT_NEAR(d.distance, truth[i], allowed) << name << " " << i;
       // The witnesses are on their triangles, and as far apart as told.
@@ -144,12 +137,8 @@ TYPED_TEST(VolumeDistance, AgreesWithBruteForceAndIsSymmetric) {
       EXPECT_TRUE(trianglesTouchExact(corners(meshA, d.a), X_WA, corners(meshB, d.b), X_WB));
       continue;
     }
-    double truth = HUGE_VAL, size = 0;
-    for (const Triangle& s : a.triangles())
-      for (const Triangle& t : b.triangles()) {
-        truth = std::min(truth, closestPoints(s, X_WA, t, X_WB).distance);
-        size = std::max({size, largest(s, X_WA), largest(t, X_WB)});
-      }
+    const double truth = test::bruteForceDistance(meshA, X_WA, meshB, X_WB),
+                 size = std::max(errorScale(meshA, X_WA), errorScale(meshB, X_WB));
     EXPECT_NEAR(d.distance, truth, 1e-12 * truth) << n;
     EXPECT_NEAR(back.distance, truth, 1e-12 * truth + 4 * kUnit * size) << n;
     const Distance loose = distance(a, X_WA, b, X_WB, {0.1, 0.01}, context);

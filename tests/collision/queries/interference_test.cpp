@@ -6,11 +6,17 @@
 #include <gtest/gtest.h>
 
 #include "collision/predicates/triangle_contact.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/meshes.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
 namespace corridor {
 namespace {
+
+using test::corners;
+using test::soup;
 
 class Fits : public testing::TestWithParam<ObbFit> {};
 
@@ -36,21 +42,6 @@ TEST_P(Fits, SharedWorkloads) {
             << context.counters.exactTests << "\n";
 }
 
-/// Triangles of very different sizes, clusters, duplicates and degenerate ones.
-TriangleMesh soup(std::mt19937_64& random, int count, double size) {
-  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
-  TriangleMesh mesh;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 c(real(), real(), real());
-    const double s = size * std::exp(2 * real());
-    const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int k = 0; k < 3; ++k) mesh.vertices.push_back(c + s * Vec3(real(), real(), real()));
-    mesh.triangles.push_back({n, n + 1, i % 7 == 0 ? n + 1 : n + 2});
-    if (i % 11 == 0) mesh.triangles.push_back({n, n + 1, n + 2});
-  }
-  return mesh;
-}
-
 /// Every map that is not quite rigid, and every rounding of the relative pose, against the double
 /// loop over exact triangle tests.
 TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
@@ -71,16 +62,10 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
       X->t = common + 2 * Vec3(real(), real(), real());
     }
     QueryContext context;
-    bool expected = false;
-    for (const Triangle& s : a.triangles())
-      for (const Triangle& t : b.triangles())
-        expected = expected || trianglesTouch(s, X_WA, t, X_WB, context.counters);
+    const bool expected = test::bruteForceTouch(meshA, X_WA, meshB, X_WB);
     const auto found = interference(a, X_WA, b, X_WB, context);
     ASSERT_EQ(found.has_value(), expected) << "case " << n;
     if (found) {
-      const auto corners = [](const TriangleMesh& m, std::uint32_t t) {
-        return Triangle{m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
-      };
       EXPECT_TRUE(
           trianglesTouchExact(corners(meshA, found->a), X_WA, corners(meshB, found->b), X_WB));
     }
@@ -118,10 +103,8 @@ TEST_P(Fits, ExactMapDecidesDeepInATree) {
         << k;  // equal maps: the shared corner is shared exactly
     Transform X_WB = X_WA;
     X_WB.t[0] += k % 2 ? 1e-3 : 0;
-    bool expected = false;
-    for (const Triangle& t : a.triangles())
-      expected = expected || trianglesTouchExact(t, X_WA, b.triangles()[0], X_WB);
-    EXPECT_EQ(interference(a, X_WA, b, X_WB, context).has_value(), expected);
+    EXPECT_EQ(interference(a, X_WA, b, X_WB, context).has_value(),
+              test::bruteForceTouch(mesh, X_WA, tip, X_WB));
   }
 }
 
@@ -135,11 +118,9 @@ TEST_P(Fits, ExtremeSizes) {
     const ObbTree a(meshA, {GetParam()}), b(meshB, {GetParam()});
     EXPECT_EQ(a.check(), std::nullopt) << exponent;
     QueryContext context;
-    bool expected = false;
-    for (const Triangle& s : a.triangles())
-      for (const Triangle& t : b.triangles())
-        expected = expected || trianglesTouchExact(s, {}, t, {});
-    EXPECT_EQ(interference(a, {}, b, {}, context).has_value(), expected) << exponent;
+    EXPECT_EQ(interference(a, {}, b, {}, context).has_value(),
+              test::bruteForceTouch(meshA, {}, meshB, {}))
+        << exponent;
   }
 }
 

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "collision/convex/convex_contact.h"
-#include "collision/predicates/triangle_contact.h"
 #include "collision/queries/interference.h"
-#include "tests/collision/hierarchy/soups.h"
 #include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -59,10 +59,7 @@ TYPED_TEST(VolumeInterference, AgreesWithBruteForceUnderTwoMaps) {
       X->t += common;
     }
     QueryContext context;
-    bool expected = false;
-    for (const Triangle& s : a.triangles())
-      for (const Triangle& t : b.triangles())
-        expected = expected || trianglesTouch(s, X_WA, t, X_WB, context.counters);
+    const bool expected = test::bruteForceTouch(meshA, X_WA, meshB, X_WB);
     ASSERT_EQ(interference(a, X_WA, b, X_WB, context).has_value(), expected) << "case " << n;
     ASSERT_EQ(interference(b, X_WB, a, X_WA, context).has_value(), expected) << "case " << n;
     touching += expected;
@@ -81,11 +78,9 @@ TYPED_TEST(VolumeInterference, ExtremeSizes) {
         v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
     const VolumeTree<TypeParam> a(meshA), b(meshB);
     QueryContext context;
-    bool expected = false;
-    for (const Triangle& s : a.triangles())
-      for (const Triangle& t : b.triangles())
-        expected = expected || trianglesTouchExact(s, {}, t, {});
-    EXPECT_EQ(interference(a, {}, b, {}, context).has_value(), expected) << exponent;
+    EXPECT_EQ(interference(a, {}, b, {}, context).has_value(),
+              test::bruteForceTouch(meshA, {}, meshB, {}))
+        << exponent;
   }
 }
 

@@ -5,11 +5,12 @@
 
 #include "collision/core/rounding.h"
 #include "collision/predicates/triangle_contact.h"
-#include "collision/queries/closest_points.h"
 #include "collision/queries/distance_wide.h"
 #include "collision/queries/interference_wide.h"
-#include "tests/collision/hierarchy/soups.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/meshes.h"
 #include "tests/support/reference_distance.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -17,18 +18,9 @@ namespace corridor {
 namespace {
 
 using test::anyPose;
+using test::corners;
+using test::errorScale;
 using test::soup;
-
-Triangle corners(const TriangleMesh& m, std::size_t t) {
-  return {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
-}
-
-double largest(const Triangle& t, const Transform& X) {
-  double size = 0;
-  for (const Vec3& p : t)
-    size = std::max(size, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
-  return size;
-}
 
 TEST(WideDistance, SharedWorkloads) {
   const auto data = test::dataFolder();
@@ -45,8 +37,8 @@ TEST(WideDistance, SharedWorkloads) {
       const Transform& X = w.poses[i];
       const Distance d = distance(a, {}, b, X, {}, context);
       ASSERT_EQ(d.distance == 0, w.hit[i] == 1) << name << " " << i;
-      const double size =
-          std::max({largest(corners(w.a, d.a), {}), largest(corners(w.b, d.b), X), a.reach()});
+      const double size = std::max(
+          {errorScale(corners(w.a, d.a), {}), errorScale(corners(w.b, d.b), X), a.reach()});
       const double allowed = 1e-12 * truth + 4 * kUnit * size;
       EXPECT_NEAR(d.distance, truth, allowed) << name << " " << i;
       // The witnesses are on their triangles, and as far apart as told.
@@ -76,7 +68,7 @@ TEST(WideDistance, FarApart) {
     QueryContext context;
     const Distance d = distance(a, {}, b, X_WB, {}, context),
                    reference = distance(same, {}, same, X_WB, {}, context);
-    const double size = largest(corners(mesh, d.b), X_WB);
+    const double size = errorScale(corners(mesh, d.b), X_WB);
     EXPECT_NEAR(d.distance, reference.distance, 1e-12 * d.distance + 8 * kUnit * size) << away;
     EXPECT_FALSE(closerThan(a, {}, b, X_WB, 0.5 * d.distance, context));
   }
@@ -114,13 +106,8 @@ TEST(WideDistance, AgreesWithBruteForceAndIsSymmetric) {
       EXPECT_TRUE(trianglesTouchExact(corners(meshA, d.a), X_WA, corners(meshB, d.b), X_WB));
       continue;
     }
-    double truth = HUGE_VAL, size = 0;
-    for (std::size_t s = 0; s < meshA.triangles.size(); ++s)
-      for (std::size_t t = 0; t < meshB.triangles.size(); ++t) {
-        truth = std::min(truth,
-                         closestPoints(corners(meshA, s), X_WA, corners(meshB, t), X_WB).distance);
-        size = std::max({size, largest(corners(meshA, s), X_WA), largest(corners(meshB, t), X_WB)});
-      }
+    const double truth = test::bruteForceDistance(meshA, X_WA, meshB, X_WB),
+                 size = std::max(errorScale(meshA, X_WA), errorScale(meshB, X_WB));
     EXPECT_NEAR(d.distance, truth, 1e-12 * truth) << n;
     EXPECT_NEAR(back.distance, truth, 1e-12 * truth + 4 * kUnit * size) << n;
     const Distance loose = distance(a, X_WA, b, X_WB, {0.1, 0.01 * unit}, context);

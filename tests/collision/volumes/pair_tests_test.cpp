@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "tests/collision/hierarchy/soups.h"
 #include "tests/collision/hierarchy/volumes.h"
 #include "tests/support/reference_distance.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 
 namespace corridor {

@@ -7,15 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "collision/geometry/convex_part.h"
-#include "collision/geometry/triangle_mesh.h"
+#include "tests/support/meshes.h"
 
 namespace corridor::test {
-
-inline void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
-  mesh.triangles.push_back({n, n + 1, n + 2});
-}
 
 /// Triangles of very different sizes in a cube of 2 m, slivers, degenerate ones and duplicates.
 inline TriangleMesh soup(std::mt19937_64& random, int count, double size) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <hwy/highway.h>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace corridor::test {
+
+/// The SIMD targets that this build has and this machine runs.
+inline std::vector<std::int64_t> simdTargets() {
+  std::vector<std::int64_t> all;
+  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS & ~(HWY_SCALAR | HWY_EMU128); rest;
+       rest &= rest - 1)
+    all.push_back(rest & -rest);
+  return all;
+}
+
+/// Every target in turn; the best again at the end.
+class EveryTarget : public testing::TestWithParam<std::int64_t> {
+ protected:
+  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
+  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+};
+
+inline std::string targetName(const testing::TestParamInfo<std::int64_t>& target) {
+  return hwy::TargetName(target.param);
+}
+
+}  // namespace corridor::test

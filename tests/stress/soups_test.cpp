@@ -1,0 +1,183 @@
+// Meshes of triangles that are hard to judge: the wide tree against the binary one and brute force.
+// 1,000 pairs of meshes, 20,000 with CORRIDOR_STRESS.
+#include "tests/support/soups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "collision/core/rounding.h"
+#include "collision/hierarchy/obb_tree.h"
+#include "collision/queries/distance_wide.h"
+#include "collision/queries/interference.h"
+#include "collision/queries/interference_wide.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/meshes.h"
+#include "tests/support/support.h"
+#include "tests/support/triangle_families.h"
+
+namespace corridor {
+namespace {
+
+using Random = std::mt19937_64;
+using test::TrianglePairs;
+
+struct Soups {
+  TriangleMesh a, b;
+  Transform X_WA, X_WB;
+};
+
+/// Pairs of the families strewn about, all with one map; what touches by construction does so.
+/// Some meshes are dense, most are far sparser than their triangles are large, or the other way
+/// round; every third pair of maps is rigid up to rounding only, and far away.
+Soups anySoups(Random& random, int count) {
+  Soups s;
+  const auto families = test::pairFamilies();
+  const auto integer = [&](int most) { return static_cast<int>(random() % (2 * most + 1)) - most; };
+  const int spread = 1 << random() % 26, only = static_cast<int>(random() % 20);
+  for (int n = 0; n < count; ++n) {
+    Triangle a, b;
+    const std::size_t family = only < 9 ? only : random() % families.size();
+    families[family].make(random, a, b);
+    const int x = integer(spread), y = integer(spread), z = integer(spread);
+    const Vec3 place(x, y, z);
+    for (Triangle* t : {&a, &b})
+      for (Vec3& p : *t) p += place;
+    test::add(s.a, a);
+    // Few of the partners: most meshes shall not touch everywhere.
+    if (random() % 8 == 0 || s.b.triangles.empty()) test::add(s.b, b);
+  }
+  if (random() % 2) {
+    const double least = s.a.vertices[0][0];
+    for (Vec3& v : s.b.vertices) v[0] += 0.5 + std::abs(least) / 4096;
+  }
+  switch (random() % 4) {
+    case 0:
+      break;
+    case 1:
+      s.X_WA = s.X_WB = {test::exactRotation(random), 1e6 * Vec3(1, -3, 2)};
+      break;
+    case 2:
+      s.X_WA = s.X_WB = test::anyPose(random, 1e6);
+      break;
+    default: {
+      s.X_WB = test::anyPose(random, spread);
+      for (Vec3& v : s.b.vertices) v = s.X_WB.m.transpose() * (v - s.X_WB.t);
+    }
+  }
+  const int exponent = random() % 3 ? 0 : static_cast<int>(random() % 665) - 332;  // 10^±100
+  for (TriangleMesh* mesh : {&s.a, &s.b})
+    for (Vec3& v : mesh->vertices) v *= std::ldexp(1.0, exponent);
+  for (Transform* X : {&s.X_WA, &s.X_WB}) X->t *= std::ldexp(1.0, exponent);
+  return s;
+}
+
+TrianglePairs pairsOf(const std::vector<TriangleContact>& contacts) {
+  TrianglePairs pairs;
+  for (const TriangleContact& c : contacts) pairs.insert({c.a, c.b});
+  return pairs;
+}
+
+class SoupQueries : public testing::Test {
+ protected:
+  /// Verdicts of both trees, either way round, distances and tolerances against brute force.
+  void expectAgreement(const Soups& s, const TrianglePairs& expected) {
+    const WideObbTree a(s.a), b(s.b);
+    const ObbTree binaryA(s.a), binaryB(s.b);
+    const bool touch = !expected.empty();
+    ASSERT_EQ(interference(a, s.X_WA, b, s.X_WB, context_).has_value(), touch);
+    ASSERT_EQ(interference(b, s.X_WB, a, s.X_WA, context_).has_value(), touch);
+    ASSERT_EQ(interference(binaryA, s.X_WA, binaryB, s.X_WB, context_).has_value(), touch);
+    const auto found = contacts(a, s.X_WA, b, s.X_WB, context_);
+    ASSERT_EQ(pairsOf(found), expected);
+    ASSERT_EQ(found.size(), expected.size()) << "a pair came twice";
+    ASSERT_EQ(pairsOf(contacts(binaryA, s.X_WA, binaryB, s.X_WB, context_)), expected);
+    const double d = distance(a, s.X_WA, b, s.X_WB, {}, context_).distance,
+                 back = distance(b, s.X_WB, a, s.X_WA, {}, context_).distance,
+                 binary = distance(binaryA, s.X_WA, binaryB, s.X_WB, {}, context_).distance;
+    ASSERT_EQ(d == 0, touch);
+    ASSERT_EQ(back == 0, touch);
+    ASSERT_EQ(binary == 0, touch);
+    const double scale = std::max(test::errorScale(s.a, s.X_WA), test::errorScale(s.b, s.X_WB));
+    const double off = 1e-12 * d + 4 * kUnit * scale;
+    ASSERT_LE(std::abs(d - binary), 2 * off);
+    ASSERT_LE(std::abs(d - back), 2 * off);
+    ASSERT_EQ(closerThan(a, s.X_WA, b, s.X_WB, 0, context_), touch);
+    ASSERT_TRUE(closerThan(a, s.X_WA, b, s.X_WB, d + off, context_));
+    if (d > 2 * off) {
+      ASSERT_FALSE(closerThan(b, s.X_WB, a, s.X_WA, d - 2 * off, context_));
+    }
+  }
+
+  /// The same contacts, whatever frame and unit they are told in.
+  void expectInvariance(Random& random, const Soups& s, const TrianglePairs& expected) {
+    const Mat3 R = test::exactRotation(random);
+    const double unit = std::ldexp(1.0, static_cast<int>(random() % 401) - 200);
+    Soups q = s;
+    for (Transform* X : {&q.X_WA, &q.X_WB}) *X = {R * X->m, unit * (R * X->t)};
+    for (TriangleMesh* mesh : {&q.a, &q.b}) {
+      for (Vec3& v : mesh->vertices) v *= unit;
+      for (auto& t : mesh->triangles) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+    }
+    const WideObbTree a(q.a), b(q.b);
+    ASSERT_EQ(pairsOf(contacts(a, q.X_WA, b, q.X_WB, context_)), expected);
+  }
+
+  QueryContext context_;
+};
+
+TEST_F(SoupQueries, AgainstBruteForce) {
+  Random random(test::testSeed(91));
+  const int cases = (test::stressAsked() ? 20'000 : 1'000) / test::kSlowdown;
+  int touching = 0;
+  std::size_t pairs = 0;
+  for (int n = 0; n < cases; ++n) {
+    const int count = 1 + static_cast<int>(random() % (n % 50 == 0 ? 2'000 : 100));
+    Soups s = anySoups(random, count);
+    const TrianglePairs expected = test::bruteForcePairs(s.a, s.X_WA, s.b, s.X_WB);
+    expectAgreement(s, expected);
+    expectInvariance(random, s, expected);
+    touching += !expected.empty();
+    pairs += expected.size();
+    // Growing: more triangles, the same contacts at least.
+    const TriangleMesh old = s.a;
+    const double size = test::errorScale(old, {});
+    for (const auto& t : old.triangles)
+      if (random() % 4 == 0) {
+        const TriangleMesh more = test::soup(random, 1, 0.1);
+        const Vec3& at = old.vertices[t[0]];
+        test::add(s.a, at, at + size * more.vertices[1], at + size * more.vertices[2]);
+      }
+    const WideObbTree a(s.a), b(s.b);
+    const TrianglePairs grown = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
+    ASSERT_TRUE(std::includes(grown.begin(), grown.end(), expected.begin(), expected.end()));
+    ASSERT_FALSE(HasFatalFailure()) << "case " << n;
+  }
+  std::cout << cases << " pairs of meshes, " << touching << " touching, " << pairs
+            << " contacts; N_v " << context_.counters.boxTests << ", N_p "
+            << context_.counters.triangleTests << "\n";
+  EXPECT_GT(touching, cases / 4);
+  EXPECT_LT(touching, cases - cases / 8);
+}
+
+/// Large meshes: the two trees, which have nothing but the predicate in common.
+TEST_F(SoupQueries, HugeSoups) {
+  Random random(test::testSeed(92));
+  const int count = (test::stressAsked() ? 50'000 : 4'000) / test::kSlowdown;
+  int touching = 0;
+  for (int n = 0; n < (test::stressAsked() ? 10 : 4); ++n) {
+    const Soups s = anySoups(random, count);
+    const WideObbTree a(s.a), b(s.b);
+    const ObbTree binaryA(s.a), binaryB(s.b);
+    const TrianglePairs pairs = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
+    ASSERT_EQ(pairs, pairsOf(contacts(binaryA, s.X_WA, binaryB, s.X_WB, context_))) << n;
+    ASSERT_EQ(interference(a, s.X_WA, b, s.X_WB, context_).has_value(), !pairs.empty()) << n;
+    touching += !pairs.empty();
+    std::cout << pairs.size() << " contacts\n";
+  }
+}
+
+}  // namespace
+}  // namespace corridor

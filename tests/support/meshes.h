@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "collision/geometry/triangle_mesh.h"
+#include "collision/predicates/triangle.h"
+
+/// Small meshes, made and taken apart.
+namespace corridor::test {
+
+/// The t-th triangle.
+inline Triangle corners(const TriangleMesh& mesh, std::size_t t) {
+  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+}
+
+/// One more triangle, with corners of its own.
+inline void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
+  mesh.triangles.push_back({n, n + 1, n + 2});
+}
+inline void add(TriangleMesh& mesh, const Triangle& t) {
+  add(mesh, t[0], t[1], t[2]);
+}
+
+/// One more box under x ↦ Mx, facing outward, with corners of its own.
+inline void addBox(TriangleMesh& mesh, const Vec3& low, const Vec3& high,
+                   const Mat3& M = Mat3::Identity()) {
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(
+        M * Vec3((i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]));
+  const std::array<std::uint32_t, 3> faces[] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                                {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                                {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const auto& f : faces) mesh.triangles.push_back({n + f[0], n + f[1], n + f[2]});
+}
+
+inline TriangleMesh box(const Vec3& low, const Vec3& high) {
+  TriangleMesh mesh;
+  addBox(mesh, low, high);
+  return mesh;
+}
+
+/// S, the largest Σ|m||v| + |t| of corners mapped: what promises on rounding are told by.
+inline double errorScale(const Triangle& t, const Transform& X) {
+  double scale = 0;
+  for (const Vec3& p : t)
+    scale = std::max(scale, (X.m.cwiseAbs() * p.cwiseAbs() + X.t.cwiseAbs()).maxCoeff());
+  return scale;
+}
+inline double errorScale(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                         const Transform& X_WB) {
+  return std::max(errorScale(a, X_WA), errorScale(b, X_WB));
+}
+
+inline double errorScale(const TriangleMesh& mesh, const Transform& X) {
+  double scale = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    scale = std::max(scale, errorScale(corners(mesh, t), X));
+  return scale;
+}
+
+}  // namespace corridor::test

@@ -1,0 +1,279 @@
+#include "tests/support/triangle_families.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace corridor::test {
+namespace {
+
+using Random = std::mt19937_64;
+
+int integer(Random& random, int low, int high) {
+  return std::uniform_int_distribution(low, high)(random);
+}
+double real(Random& random, double low = -1, double high = 1) {
+  return std::uniform_real_distribution(low, high)(random);
+}
+/// Integer coordinates of at most `most`.
+Vec3 grid(Random& random, int most) {
+  const int x = integer(random, -most, most), y = integer(random, -most, most),
+            z = integer(random, -most, most);
+  return Vec3(x, y, z);
+}
+/// Coarse grids meet degenerate positions often, fine ones need many bits.
+int anySize(Random& random) {
+  constexpr int kSizes[] = {2, 5, 100, 1 << 20};
+  return kSizes[integer(random, 0, 3)];
+}
+/// Corners in any order; every third time one of the triangles a step beside.
+void finish(Random& random, Triangle& a, Triangle& b) {
+  std::shuffle(a.begin(), a.end(), random);
+  std::shuffle(b.begin(), b.end(), random);
+  if (integer(random, 0, 2) == 0) {
+    const Vec3 step = grid(random, 1);
+    for (Vec3& p : a) p += step;
+  }
+  if (random() % 2) std::swap(a, b);
+}
+/// A direction that doesn't go below the plane with this normal.
+Vec3 above(Random& random, const Vec3& normal, int size) {
+  const Vec3 d = grid(random, size);
+  return d.dot(normal) < 0 ? Vec3(-d) : d;
+}
+
+void anyOnAGrid(Random& random, Triangle& a, Triangle& b) {
+  const int size = anySize(random);
+  for (Triangle* t : {&a, &b})
+    for (Vec3& p : *t) p = grid(random, size);
+}
+
+/// A step off the segment that they nearly are, through one point both.
+void slivers(Random& random, Triangle& a, Triangle& b) {
+  const Vec3 common = grid(random, 100);
+  for (Triangle* t : {&a, &b}) {
+    const Vec3 v = grid(random, 1 << 8);
+    const int length = 1 << integer(random, 0, 10);
+    const Vec3 start = common - integer(random, 0, length) * v;
+    *t = {start, start + length * v, start + integer(random, 0, length) * v + grid(random, 1)};
+  }
+  finish(random, a, b);
+}
+
+/// Points and segments, against each other and against triangles.
+void zeroArea(Random& random, Triangle& a, Triangle& b) {
+  const int size = anySize(random) / 2;
+  const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
+  switch (integer(random, 0, 2)) {
+    case 0:
+      a = {p, p + 4 * u, p + 4 * v};
+      break;
+    case 1:
+      a = {p, p + 4 * u, p + integer(random, -4, 8) * u};
+      break;
+    default:
+      a = {p, p, p};
+  }
+  const int i = integer(random, 0, 4), j = integer(random, 0, 4 - i);
+  const Vec3 q = p + i * u + j * v, w = grid(random, size);
+  if (integer(random, 0, 2) == 0)
+    b = {q, q, q};
+  else
+    b = {q - integer(random, 0, 3) * w, q + integer(random, 0, 3) * w, q};
+  finish(random, a, b);
+}
+
+void coplanar(Random& random, Triangle& a, Triangle& b) {
+  const int size = anySize(random);
+  const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
+  for (Triangle* t : {&a, &b})
+    for (Vec3& q : *t) q = p + integer(random, -3, 3) * u + integer(random, -3, 3) * v;
+  if (integer(random, 0, 3) == 0) a[0] += grid(random, 1);
+}
+
+void sharedCorner(Random& random, Triangle& a, Triangle& b) {
+  anyOnAGrid(random, a, b);
+  b[0] = a[0];
+  finish(random, a, b);
+}
+
+void sharedEdge(Random& random, Triangle& a, Triangle& b) {
+  anyOnAGrid(random, a, b);
+  b[0] = a[0];
+  b[1] = random() % 2 ? a[1] : Vec3(2 * a[1] - a[0]);
+  finish(random, a, b);
+}
+
+/// a's corner in b's face, or on its rim; all else of a on one side.
+void cornerOnFace(Random& random, Triangle& a, Triangle& b) {
+  const int size = anySize(random);
+  const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
+  b = {p, p + 4 * u, p + 4 * v};
+  const int i = integer(random, 0, 4), j = integer(random, 0, 4 - i);
+  const Vec3 q = p + i * u + j * v;
+  a = {q, q + above(random, u.cross(v), size), q + above(random, u.cross(v), size)};
+  finish(random, a, b);
+}
+
+/// a's edge in b's face, or across it in its plane.
+void edgeOnFace(Random& random, Triangle& a, Triangle& b) {
+  const int size = anySize(random) / 2;
+  const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
+  b = {p, p + 4 * u, p + 4 * v};
+  const Vec3 q = p + integer(random, -2, 5) * u + integer(random, -2, 5) * v,
+             r = p + integer(random, -2, 5) * u + integer(random, -2, 5) * v;
+  a = {q, r, q + above(random, u.cross(v), size)};
+  finish(random, a, b);
+}
+
+/// Edges that cross in a point, or end there, all else on either side of their plane.
+void edgeOnEdge(Random& random, Triangle& a, Triangle& b) {
+  const int size = anySize(random) / 2;
+  const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
+  const Vec3 n = u.cross(v);
+  a = {p - integer(random, 0, 3) * u, p + integer(random, 0, 3) * u, p + above(random, n, size)};
+  b = {p - integer(random, 0, 3) * v, p + integer(random, 0, 3) * v, p - above(random, n, size)};
+  finish(random, a, b);
+}
+
+// ---- placings ----
+
+template <class Map>
+PlacedPair baked(const Triangle& a, const Triangle& b, Map&& map) {
+  PlacedPair pair{a, b, {}, {}};
+  for (Triangle* t : {&pair.a, &pair.b})
+    for (Vec3& p : *t) p = map(p);
+  return pair;
+}
+Mat3 rotation(Random& random) {
+  std::normal_distribution<double> normal;
+  const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+}
+Vec3 anyOffset(Random& random) {
+  const double size = std::pow(10.0, integer(random, 6, 12));
+  const double x = real(random), y = real(random), z = real(random);
+  return (size * Vec3(x, y, z)).array().round();
+}
+
+PlacedPair asIs(Random&, const Triangle& a, const Triangle& b) {
+  return {a, b, {}, {}};
+}
+PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b) {
+  PlacedPair pair{a, b, {}, {}};
+  pair.X_WA = pair.X_WB = {exactRotation(random), anyOffset(random)};
+  if (random() % 2) {  // b's corners told in a frame that is turned and shifted itself
+    const Transform X_BN{exactRotation(random), anyOffset(random)};
+    for (Vec3& p : pair.b) p = X_BN.m.transpose() * (p - X_BN.t);
+    pair.X_WB = pair.X_WB * X_BN;
+  }
+  return pair;
+}
+/// Turned by a rational (Pythagorean) rotation times its denominator: integers again. Of rotations
+/// themselves only the 24 are doubles: of three squares that sum up to a multiple of 4 all are
+/// even.
+PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
+  const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
+               z = integer(random, 1, 5);
+  Mat3 m;
+  m << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z),
+      w * w - x * x + y * y - z * z, 2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x),
+      w * w - x * x - y * y + z * z;
+  const Vec3 shift = random() % 2 ? anyOffset(random) : Vec3(0, 0, 0);
+  if (random() % 2) return baked(a, b, [&](const Vec3& p) { return Vec3(m * p + shift); });
+  return {a, b, {m, shift}, {m, shift}};
+}
+PlacedPair farAway(Random& random, const Triangle& a, const Triangle& b) {
+  const Vec3 shift = anyOffset(random);
+  return baked(a, b, [&](const Vec3& p) { return Vec3(p + shift); });
+}
+/// The same map for both, rigid up to rounding, or less: an affine image.
+PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
+  PlacedPair pair{a, b, {}, {}};
+  pair.X_WA.m = rotation(random);
+  if (random() % 2) pair.X_WA.m += std::pow(10.0, -integer(random, 3, 12)) * rotation(random);
+  pair.X_WA.t = real(random) * anyOffset(random);
+  pair.X_WB = pair.X_WA;
+  return pair;
+}
+/// b's corners told in a turned frame, rounded: what touched may not any more.
+PlacedPair inOwnFrames(Random& random, const Triangle& a, const Triangle& b) {
+  PlacedPair pair{a, b, {}, {}};
+  pair.X_WB = {rotation(random), random() % 2 ? anyOffset(random) : grid(random, 10)};
+  for (Vec3& p : pair.b) p = pair.X_WB.m.transpose() * (p - pair.X_WB.t);
+  if (random() % 2) {
+    pair.X_WA.m = rotation(random);
+    for (Vec3& p : pair.a) p = pair.X_WA.m.transpose() * p;
+  }
+  return pair;
+}
+PlacedPair scaledByTwos(Random& random, const Triangle& a, const Triangle& b) {
+  const int exponent = integer(random, -332, 332);  // 10^±100
+  return baked(a, b, [&](const Vec3& p) { return Vec3(p * std::ldexp(1.0, exponent)); });
+}
+/// Each coordinate rounded.
+PlacedPair scaledByTens(Random& random, const Triangle& a, const Triangle& b) {
+  const double scale = std::pow(10.0, integer(random, -100, 100)) / 3;
+  return baked(a, b, [&](const Vec3& p) { return Vec3(p * scale); });
+}
+/// Coordinates of very different sizes: one grid for all of them needs hundreds or
+/// thousands of bits.
+PlacedPair stretched(Random& random, const Triangle& a, const Triangle& b) {
+  const Vec3 scale(std::ldexp(1.0, integer(random, -400, 400)), 1,
+                   std::ldexp(1.0, integer(random, -40, 40)));
+  return baked(a, b, [&](const Vec3& p) { return Vec3(p.cwiseProduct(scale)); });
+}
+PlacedPair denormal(Random& random, const Triangle& a, const Triangle& b) {
+  const int exponent = -1074 + (random() % 2 ? 0 : integer(random, 0, 60));
+  return baked(a, b, [&](const Vec3& p) {
+    return Vec3(p.unaryExpr([&](double x) { return std::ldexp(x, exponent); }));
+  });
+}
+/// A last bit up or down in some coordinates.
+PlacedPair jittered(Random& random, const Triangle& a, const Triangle& b) {
+  return baked(a, b, [&](Vec3 p) {
+    for (double& x : p)
+      if (random() % 4 == 0) x = std::nextafter(x, random() % 2 ? HUGE_VAL : -HUGE_VAL);
+    return p;
+  });
+}
+
+}  // namespace
+
+std::span<const PairFamily> pairFamilies() {
+  static constexpr PairFamily kAll[] = {
+      {"any on a grid", &anyOnAGrid},    {"slivers", &slivers},
+      {"zero area", &zeroArea},          {"coplanar", &coplanar},
+      {"shared corner", &sharedCorner},  {"shared edge", &sharedEdge},
+      {"corner on face", &cornerOnFace}, {"edge on face", &edgeOnFace},
+      {"edge on edge", &edgeOnEdge}};
+  return kAll;
+}
+
+std::span<const PairPlacing> pairPlacings() {
+  static constexpr PairPlacing kAll[] = {{"as it is", true, &asIs},
+                                         {"exact rotation", true, &byExactRotation},
+                                         {"rational rotation", true, &byRationalRotation},
+                                         {"far away", true, &farAway},
+                                         {"moved together", true, &movedTogether},
+                                         {"in own frames", false, &inOwnFrames},
+                                         {"times 2^k", true, &scaledByTwos},
+                                         {"times 10^k / 3", false, &scaledByTens},
+                                         {"stretched", true, &stretched},
+                                         {"denormal", true, &denormal},
+                                         {"last bits", false, &jittered}};
+  return kAll;
+}
+
+Mat3 exactRotation(Random& random) {
+  std::array<int, 3> order = {0, 1, 2};
+  std::shuffle(order.begin(), order.end(), random);
+  Mat3 m = Mat3::Zero();
+  for (int i = 0; i < 3; ++i) m(i, order[i]) = random() % 2 ? 1 : -1;
+  if (m.determinant() < 0) m.row(0) *= -1;
+  return m;
+}
+
+}  // namespace corridor::test

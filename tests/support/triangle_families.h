@@ -1,0 +1,37 @@
+#pragma once
+
+#include <random>
+#include <span>
+
+#include "collision/predicates/triangle.h"
+
+/// Pairs of triangles that are hard to judge: made on a grid of integers, where what touches does
+/// so exactly, then placed so that it stays so, or is missed by rounding.
+namespace corridor::test {
+
+struct PlacedPair {
+  Triangle a, b;
+  Transform X_WA, X_WB;
+};
+
+/// A way of making two triangles with integer coordinates of at most 2^24. About half of what it
+/// makes touches.
+struct PairFamily {
+  const char* name;
+  void (*make)(std::mt19937_64& random, Triangle& a, Triangle& b);
+};
+std::span<const PairFamily> pairFamilies();
+
+/// A way of placing a pair of a family.
+struct PairPlacing {
+  const char* name;
+  /// Do the triangles touch, placed, if and only if they do on the grid?
+  bool keeps;
+  PlacedPair (*place)(std::mt19937_64& random, const Triangle& a, const Triangle& b);
+};
+std::span<const PairPlacing> pairPlacings();
+
+/// One of the 24 rotations that are exact in doubles: signed permutations.
+Mat3 exactRotation(std::mt19937_64& random);
+
+}  // namespace corridor::test

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "collision/predicates/triangle.h"
+
+namespace corridor::test {
+
+/// Two triangles, and whether they touch in real arithmetic.
+struct KnownPair {
+  Triangle a, b;
+  bool touch = false;
+};
+
+/// One file of the shared data's pairs of triangles.
+struct KnownPairs {
+  std::string name;
+  std::vector<KnownPair> pairs;
+};
+/// All files, by name.
+std::vector<KnownPairs> sharedPairs(const std::filesystem::path& collisionFolder);
+
+}  // namespace corridor::test
