@@ -145,7 +145,7 @@ bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform&
     bounds.face[i] = static_cast<int>(i);
     // Seidel takes them at random, for the sake of many. Of these few, those that face box a
     // come first: they are the ones that may leave no point.
-    const double half = pair.b[static_cast<Eigen::Index>(i)], toA = along > 0 ? -1 : 1;
+    const double half = pair.b[static_cast<Eigen::Index>(i)] + pair.slack, toA = along > 0 ? -1 : 1;
     for (const std::size_t far : {std::size_t{0}, std::size_t{3}}) {
       const double s = far ? -toA : toA;
       faces[i + far] = {
