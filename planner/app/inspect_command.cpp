@@ -109,7 +109,9 @@ int inspectCommand(const InspectArguments& a) {
     if (robot || problem)
       throw InputError(Fault{
           "--against", 0,
-          "two mesh files are compared, and " + a.file + " is a " + (robot ? "robot" : "problem")});
+          "two meshes are compared, and " + a.file + " is a " + (robot ? "robot" : "problem")});
+    if (a.pairs)
+      throw InputError(Fault{"--pairs", 0, "is of a problem, and " + a.file + " is a mesh"});
     return inspectCost(a);
   }
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);

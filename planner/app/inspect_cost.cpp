@@ -1,4 +1,6 @@
+#include <cmath>
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -18,8 +20,6 @@ using nlohmann::ordered_json;
 
 /// Of a pose the median of so many passes counts.
 constexpr int kPasses = 5;
-/// Where none are given: 6³ positions, B turned in four ways.
-constexpr PoseGrid kGrid = {{6, 6, 6}, 4, 1, {}, {}};
 
 /// A bounding volume's line: means over the poses that count; the prediction over every second of
 /// them, with costs that the others told.
@@ -65,18 +65,26 @@ CostRow costRow(const VolumeKind& volume, const BatchResult& result,
   return row;
 }
 
+std::string twoDecimals(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", x);
+  return text;
+}
+
 void printTable(const std::vector<CostRow>& rows) {
-  std::printf("%-10s %8s %8s %7s %7s %10s %10s %6s  %-16s %9s %8s\n", "volume", "N_v", "N_p",
-              "C_v/ns", "C_p/ns", "N_vC_v+.../ns", "T/ns", "ratio", "5 % .. 95 %", "bytes",
-              "build/ms");
-  for (const CostRow& r : rows) {
-    char spread[40];
-    std::snprintf(spread, sizeof spread, "%.2f .. %.2f", r.low, r.high);
-    std::printf("%-10s %8.5g %8.4g %7.3g %7.3g %13.0f %10.0f %6.2f  %-16s %9zu %8.2f\n",
-                r.volume.c_str(), r.boxTests, r.triangleTests, r.cost.box, r.cost.triangle,
-                r.predictedNs, r.measuredNs, r.predictedNs / r.measuredNs, spread, r.bytes,
-                r.buildMs);
-  }
+  const auto line = [](const std::string& first, const std::vector<std::string>& cells) {
+    std::cout << std::left << std::setw(10) << first << std::right;
+    for (const std::string& cell : cells) std::cout << std::setw(14) << cell;
+    std::cout << '\n';
+  };
+  line("volume", {"N_v", "N_p", "C_v ns", "C_p ns", "predicted ns", "measured ns", "ratio",
+                  "5 .. 95 %", "bytes", "build ms"});
+  for (const CostRow& r : rows)
+    line(r.volume,
+         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.cost.box),
+          rounded(r.cost.triangle), grouped(std::llround(r.predictedNs)),
+          grouped(std::llround(r.measuredNs)), twoDecimals(r.predictedNs / r.measuredNs),
+          twoDecimals(r.low) + " .. " + twoDecimals(r.high), grouped(r.bytes), rounded(r.buildMs)});
 }
 
 ordered_json rowJson(const CostRow& r) {
@@ -100,7 +108,7 @@ ordered_json rowJson(const CostRow& r) {
 int inspectCost(const InspectArguments& a) {
   const MeshFile meshA = meshFileAsked(a.file, a), meshB = meshFileAsked(*a.against, a);
   const std::vector<Transform> poses =
-      a.poses ? readPoses(*a.poses) : gridPoses(kGrid, meshA.mesh, meshB.mesh);
+      a.poses ? readPoses(*a.poses) : gridPoses({{6, 6, 6}, 4, 1, {}, {}}, meshA.mesh, meshB.mesh);
   std::vector<BatchResult> results;
   for (const VolumeKind& volume : volumeKinds())
     results.push_back(volume.run({meshA.mesh, meshB.mesh, poses, Asked::interference,
@@ -117,11 +125,11 @@ int inspectCost(const InspectArguments& a) {
     if (answer.boxTests > 1 || answer.triangleTests > 0) kept.push_back(i);
   }
   if (kept.size() < 2)
-    throw InputError(Fault{a.poses.value_or("--against"), 0,
-                           "two poses or more at which the meshes' bounding boxes meet are needed; "
-                           "of " +
-                               counted(poses.size(), "pose") + " they do at " +
-                               std::to_string(kept.size())});
+    throw InputError(
+        Fault{a.poses.value_or("--against"), 0,
+              "poses at which the meshes' bounding boxes meet are needed, two or more; "
+              "they meet at " +
+                  std::to_string(kept.size()) + " of " + counted(poses.size(), "pose")});
   std::vector<CostRow> rows;
   for (std::size_t i = 0; i < results.size(); ++i)
     rows.push_back(costRow(volumeKinds()[i], results[i], kept));
@@ -141,15 +149,14 @@ int inspectCost(const InspectArguments& a) {
     return kDone;
   }
   const Lines out(false);
-  out.line("meshes", a.file + ", " + grouped(meshA.mesh.triangles.size()) + " triangles; " +
-                         *a.against + ", " + grouped(meshB.mesh.triangles.size()));
+  out.line("meshes", a.file + ", " + counted(meshA.mesh.triangles.size(), "triangle") + "; " +
+                         *a.against + ", " + counted(meshB.mesh.triangles.size(), "triangle"));
   out.line("poses", grouped(poses.size()) + ", of these " + counted(hits, "contact") + " and " +
                         grouped(poses.size() - kept.size()) +
                         " that the root boxes tell apart, which don't count below");
   out.line("simd", std::string(simdTarget()) + ", of obb");
   out.line("costs", "one half of the poses tells them, the other half is predicted");
   out.blank();
-  std::cout << std::flush;
   printTable(rows);
   return kDone;
 }

@@ -10,13 +10,16 @@
 /// meshes' frames and the relative pose. In every round each test takes all pairs in turn; the
 /// least time of the rounds counts. *Mixed* weighs both by how often the queries meet them.
 ///
-/// Peers: FCL's overlap of OBBs, which promises nothing about rounding; and our wide tree's kernel,
-/// by whole queries: their time over their number of box tests.
+/// *Posing* is what all of ours begin with, to tell where one box is seen from the other. Peers:
+/// FCL's overlap of OBBs, which promises nothing about rounding; and our wide tree's kernel, by
+/// least squares over whole queries (planner/app/cost_model.h): C_v, a pair's share of walking
+/// included.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <random>
 #include <sched.h>
 #include <stdexcept>
@@ -28,10 +31,13 @@
 #endif
 
 #include "collision/core/simd_target.h"
+#include "collision/hierarchy/obb_tree.h"
 #include "collision/hierarchy/traverse.h"
 #include "collision/queries/interference_wide.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
+#include "planner/app/cost_model.h"
+#include "planner/app/query_timing.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -177,21 +183,43 @@ class Fcl {
 };
 #endif
 
+/// C_v of the wide tree's queries, from each one's least time.
 class Wide {
  public:
-  explicit Wide(const Recorded& r) : r_(r), a_(r.w.a), b_(r.w.b) {}
-  double pass() {
-    context_.counters = {};
-    const auto start = std::chrono::steady_clock::now();
-    for (const Transform& X : r_.w.poses) interference(a_, {}, b_, X, context_);
-    return nanosecondsSince(start) /
-           static_cast<double>(std::max<std::uint64_t>(context_.counters.boxTests, 1));
+  explicit Wide(const Recorded& r) : r_(r), a_(r.w.a), b_(r.w.b), costs_(r.w.poses.size()) {
+    for (app::QueryCost& c : costs_) c.ns = HUGE_VAL;
+  }
+  void pass() {
+    for (std::size_t i = 0; i < costs_.size(); ++i) {
+      const auto ask = [&] { interference(a_, {}, b_, r_.w.poses[i], context_); };
+      context_.counters = {};
+      ask();
+      costs_[i].boxTests = static_cast<double>(context_.counters.boxTests);
+      costs_[i].triangleTests = static_cast<double>(context_.counters.triangleTests);
+      costs_[i].ns = std::min(costs_[i].ns, app::nanosecondsOf(ask, ask));
+    }
+  }
+  double boxTestNs() const {
+    std::vector<app::QueryCost> walked;  // what the first node decides is a call's cost
+    std::ranges::copy_if(costs_, std::back_inserter(walked),
+                         [](const app::QueryCost& c) { return c.boxTests > 32; });
+    return walked.empty() ? 0 : app::fittedCosts(walked).box;
   }
 
  private:
   const Recorded& r_;
   WideObbTree a_, b_;
   QueryContext context_;
+  std::vector<app::QueryCost> costs_;
+};
+
+/// What every test of ours begins with, and nothing else.
+struct Posing {
+  static bool separated(const Obb& a, const Obb& b, const Transform& X_AB, const BoxPairMargins&,
+                        double) {
+    const internal::BoxPair pair(a, b, X_AB);
+    return pair.absR.sum() + pair.T.sum() > 0;
+  }
 };
 
 /// A sphere in a torus' tube and beside it, at random poses: where there are no shared data.
@@ -238,16 +266,27 @@ struct Options {
   int rounds = 15, cpu = -1;
 };
 
-void run(test::Workload workload, const Options& o, std::vector<double>& logs) {
+/// The columns, after SAT's.
+constexpr const char* kNames[] = {"SAT", "GJK", "LP", "edges, faces", "FCL", "posing"};
+constexpr std::size_t kTests = std::size(kNames);
+
+/// Sums over workloads.
+struct Means {
+  double logs[kTests] = {};  ///< of the mixed cost over SAT's
+  double wideLogs = 0;
+  int count = 0, wideCount = 0;
+};
+
+void run(test::Workload workload, const Options& o, Means& means) {
   const Recorded r(std::move(workload));
   const Ours<StandardOverlap> sat(r);
   const Ours<Gjk> gjk(r);
   const Ours<LinearProgram> lp(r);
   const Ours<EdgeFace> edges(r);
+  const Ours<Posing> posing(r);
   Wide wide(r);
-  Cost costs[5];
-  std::uint64_t found[5] = {};
-  double wideNs = HUGE_VAL;
+  Cost costs[kTests];
+  std::uint64_t found[kTests] = {};
 #ifdef CORRIDOR_WITH_FCL
   const Fcl fcl(r);
 #endif
@@ -259,27 +298,34 @@ void run(test::Workload workload, const Options& o, std::vector<double>& logs) {
 #ifdef CORRIDOR_WITH_FCL
     fcl.pass(costs[4], found[4]);
 #endif
-    if (i < 3) wideNs = std::min(wideNs, wide.pass());
+    posing.pass(costs[5], found[5]);
+    if (i < 3) wide.pass();
   }
-  const double share = r.shareApart(), first = costs[0].mixed(share);
+  const double share = r.shareApart(), first = costs[0].mixed(share), wideNs = wide.boxTestNs();
   std::printf("| %s | %.0f %% |", r.w.name.c_str(), 100 * share);
-  for (std::size_t i = 0; i < 5; ++i) {
-    if (found[i] == 0)
+  for (std::size_t i = 0; i < kTests; ++i) {
+    const double ratio = costs[i].mixed(share) / first;
+    if (!(ratio < HUGE_VAL))
       std::printf(" |");
     else if (i == 0)
       std::printf(" %.0f, %.0f |", costs[i].apart, costs[i].meet);
     else
-      std::printf(" %.0f, %.0f: %.1f |", costs[i].apart, costs[i].meet,
-                  costs[i].mixed(share) / first);
-    if (found[i] > 0) logs[i] += std::log(costs[i].mixed(share) / first);
+      std::printf(" %.0f, %.0f: %.2g |", costs[i].apart, costs[i].meet, ratio);
+    means.logs[i] += std::log(ratio);
   }
-  std::printf(" %.1f: %.2f | %+.2g %+.2g %+.2g |\n", wideNs, wideNs / first,
-              (static_cast<double>(found[1]) / static_cast<double>(found[0]) - 1),
-              (static_cast<double>(found[2]) / static_cast<double>(found[0]) - 1),
-              (static_cast<double>(found[3]) / static_cast<double>(found[0]) - 1));
+  ++means.count;
+  if (wideNs > 0) {
+    std::printf(" %.1f: %.2g |", wideNs, wideNs / first);
+    means.wideLogs += std::log(wideNs / first);
+    ++means.wideCount;
+  } else {
+    std::printf(" |");
+  }
+  for (std::size_t i = 1; i < 4; ++i)  // both samples: whatever SAT told apart, and what it did not
+    std::printf(" %+.2g",
+                100 * (static_cast<double>(found[i]) / static_cast<double>(found[0]) - 1));
+  std::printf(" |\n");
   std::fflush(stdout);
-  logs[5] += std::log(wideNs / first);
-  logs[6] += 1;
 }
 
 void report(const Options& o) {
@@ -291,27 +337,28 @@ void report(const Options& o) {
       throw std::runtime_error("--cpu: there is no CPU " + std::to_string(o.cpu) + " to use");
   }
   std::printf(
-      "Nanoseconds a test, of boxes that are apart and that are not; after the colon the mixed "
-      "cost, that of SAT being 1. Wide kernel: %s.\n\n"
-      "| workload | apart | SAT | GJK | LP | edges, faces | FCL | wide query a box test | told "
-      "apart over SAT: GJK, LP, edges |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+      "Nanoseconds a test, of boxes that are apart, and of boxes that are not; after the colon the "
+      "mixed cost, SAT's being 1. Wide kernel: %s.\n\n| workload | apart |",
       simdTarget());
-  std::vector<double> logs(7);
+  for (const char* name : kNames) std::printf(" %s |", name);
+  std::printf(" wide, C_v | told apart, %% over SAT: GJK, LP, edges |\n|---|--:|");
+  for (std::size_t i = 0; i < kTests + 2; ++i) std::printf("--:|");
+  std::printf("\n");
+  Means means;
   if (o.data.empty()) {
-    run(made(), o, logs);
+    run(made(), o, means);
   } else {
     for (const std::string& name : test::workloadNames(o.data / "collision")) {
       const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
       if (o.workloads.empty() || std::ranges::any_of(o.workloads, named))
-        run(test::loadWorkload(o.data / "collision", name), o, logs);
+        run(test::loadWorkload(o.data / "collision", name), o, means);
     }
   }
-  if (logs[6] == 0) throw std::runtime_error("no workload there has such a name");
-  const auto mean = [&](std::size_t i) { return std::exp(logs[i] / logs[6]); };
-  std::printf(
-      "\ngeometric means of the mixed cost over SAT's: GJK %.1f, LP %.1f, edges and faces %.1f, "
-      "FCL %.2f, wide %.2f\n",
-      mean(1), mean(2), mean(3), mean(4), mean(5));
+  if (means.count == 0) throw std::runtime_error("no workload there has such a name");
+  std::printf("\ngeometric means of the mixed cost over SAT's:");
+  for (std::size_t i = 1; i < kTests; ++i)
+    std::printf(" %s %.2f;", kNames[i], std::exp(means.logs[i] / means.count));
+  std::printf(" wide %.2f\n", std::exp(means.wideLogs / std::max(means.wideCount, 1)));
 }
 
 Options options(int argc, char** argv) {
