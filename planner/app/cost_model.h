@@ -1,8 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include <Eigen/LU>
+
+#include "collision/core/transform.h"
 
 /// T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1): what queries cost, told from
 /// counts.
@@ -16,31 +21,49 @@ struct QueryCost {
 
 /// Nanoseconds that a test takes within a query: with its share of walking the trees.
 struct CostModel {
+  double call = 0;               ///< what a query takes before its first test: not in the model
   double box = 0, triangle = 0;  ///< C_v, C_p
   double predicted(const QueryCost& c) const {
     return c.boxTests * box + c.triangleTests * triangle;
   }
 };
 
-/// The costs ≥ 0 that these queries bear out best: least squares of the *relative* errors, so that
-/// a query of a microsecond counts as much as one of a millisecond. Neither cost is told where no
-/// query has such a test. @pre not empty.
+/// The costs ≥ 0 that these queries bear out best: least squares of the errors, each over √T, since
+/// what is a sum of many tests varies so. (Weighed alike, the few longest queries would tell all;
+/// relative to T, the shortest.) A cost that the counts don't tell from the others is 0: where all
+/// queries have the same counts, box tests take it all. @pre not empty.
 inline CostModel fittedCosts(const std::vector<QueryCost>& queries) {
-  // Normal equations of Σ (v·C_v + p·C_p − 1)², v = N_v/T, p = N_p/T.
-  double vv = 0, vp = 0, pp = 0, v1 = 0, p1 = 0;
+  // Normal equations of Σ (N_v·C_v + N_p·C_p + call − T)²/T.
+  Mat3 squares = Mat3::Zero();
+  Vec3 products = Vec3::Zero();
+  double total = 0;
   for (const QueryCost& c : queries) {
-    const double v = c.boxTests / c.ns, p = c.triangleTests / c.ns;
-    vv += v * v, vp += v * p, pp += p * p, v1 += v, p1 += p;
+    const Vec3 counts(c.boxTests, c.triangleTests, 1);
+    squares += counts * counts.transpose() / c.ns;
+    products += counts;
+    total += c.ns;
   }
-  const double det = vv * pp - vp * vp;
-  if (det > 1e-12 * vv * pp) {  // else the counts are proportional: boxes take it all
-    const CostModel both{(v1 * pp - p1 * vp) / det, (p1 * vv - v1 * vp) / det};
-    if (both.box >= 0 && both.triangle >= 0) return both;
+  // Some of the costs are 0. Three unknowns: all choices are tried, C_v alone first; another one
+  // has to leave clearly less of the errors.
+  Vec3 best = Vec3::Zero();
+  double left = total;
+  for (const unsigned some : {1U, 2U, 3U, 4U, 5U, 6U, 7U}) {
+    Mat3 equations = squares;
+    Vec3 right = products;
+    for (int i = 0; i < 3; ++i)
+      if (!(some >> i & 1)) {
+        equations.row(i).setZero();
+        equations.col(i).setZero();
+        equations(i, i) = 1;
+        right[i] = 0;
+      }
+    const Vec3 scale = equations.diagonal();
+    if (!(std::abs(equations.determinant()) > 1e-10 * scale.prod())) continue;  // proportional
+    const Vec3 costs = equations.inverse() * right;
+    const double error = total - costs.dot(right);
+    if ((costs.array() >= 0).all() && error < left - 1e-9 * total) best = costs, left = error;
   }
-  // The better one alone: the sum falls by its v1²/vv, or p1²/pp.
-  const double byBox = vv > 0 ? v1 * v1 / vv : 0, byTriangle = pp > 0 ? p1 * p1 / pp : 0;
-  if (byBox >= byTriangle) return {vv > 0 ? v1 / vv : 0, 0};
-  return {0, p1 / pp};
+  return {best[2], best[0], best[1]};
 }
 
 /// The number that a share of the numbers do not exceed. @pre not empty, 0 ≤ share ≤ 1.

@@ -77,11 +77,11 @@ void printTable(const std::vector<CostRow>& rows) {
     for (const std::string& cell : cells) std::cout << std::setw(14) << cell;
     std::cout << '\n';
   };
-  line("volume", {"N_v", "N_p", "C_v ns", "C_p ns", "predicted ns", "measured ns", "ratio",
-                  "5 .. 95 %", "bytes", "build ms"});
+  line("volume", {"N_v", "N_p", "call ns", "C_v ns", "C_p ns", "predicted ns", "measured ns",
+                  "ratio", "5 .. 95 %", "bytes", "build ms"});
   for (const CostRow& r : rows)
     line(r.volume,
-         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.cost.box),
+         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.cost.call), rounded(r.cost.box),
           rounded(r.cost.triangle), grouped(std::llround(r.predictedNs)),
           grouped(std::llround(r.measuredNs)), twoDecimals(r.predictedNs / r.measuredNs),
           twoDecimals(r.low) + " .. " + twoDecimals(r.high), grouped(r.bytes), rounded(r.buildMs)});
@@ -91,6 +91,7 @@ ordered_json rowJson(const CostRow& r) {
   return {{"volume", r.volume},
           {"bv_tests", r.boxTests},
           {"triangle_tests", r.triangleTests},
+          {"call_ns", r.cost.call},
           {"bv_test_ns", r.cost.box},
           {"triangle_test_ns", r.cost.triangle},
           {"predicted_ns", r.predictedNs},
