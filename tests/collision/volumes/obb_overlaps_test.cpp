@@ -224,7 +224,7 @@ TYPED_TEST(ObbOverlaps, NothingIsToldOfWhatIsNotFinite) {
 /// All of them, since rationals are slow.
 TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlapping) {
   std::mt19937_64 random(test::testSeed(61));
-  const int rounds = (test::stressAsked() ? 200'000 : 4'000) / test::kSlowdown;
+  const int rounds = (test::stressAsked() ? 100'000 : 2'000) / test::kSlowdown;
   const char* const names[] = {"separating axes", "GJK", "linear program", "edges and faces"};
   int touching = 0, apart = 0, clear[4] = {}, told[4] = {};
   for (int n = 0; n < rounds; ++n) {
