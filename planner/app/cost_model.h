@@ -1,13 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
-
-#include <Eigen/LU>
-
-#include "collision/core/transform.h"
 
 /// T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1): what queries cost, told from
 /// counts.
@@ -21,7 +16,6 @@ struct QueryCost {
 
 /// Nanoseconds that a test takes within a query: with its share of walking the trees.
 struct CostModel {
-  double call = 0;               ///< what a query takes before its first test: not in the model
   double box = 0, triangle = 0;  ///< C_v, C_p
   double predicted(const QueryCost& c) const {
     return c.boxTests * box + c.triangleTests * triangle;
@@ -30,40 +24,27 @@ struct CostModel {
 
 /// The costs ≥ 0 that these queries bear out best: least squares of the errors, each over √T, since
 /// what is a sum of many tests varies so. (Weighed alike, the few longest queries would tell all;
-/// relative to T, the shortest.) A cost that the counts don't tell from the others is 0: where all
-/// queries have the same counts, box tests take it all. @pre not empty.
-inline CostModel fittedCosts(const std::vector<QueryCost>& queries) {
+/// relative to T, the shortest.) Where the counts are proportional box tests take it all.
+/// @param call  nanoseconds of each T that no test takes. @pre queries not empty.
+inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call = 0) {
   // Normal equations of Σ (N_v·C_v + N_p·C_p + call − T)²/T.
-  Mat3 squares = Mat3::Zero();
-  Vec3 products = Vec3::Zero();
-  double total = 0;
+  double vv = 0, vp = 0, pp = 0, v = 0, p = 0;
   for (const QueryCost& c : queries) {
-    const Vec3 counts(c.boxTests, c.triangleTests, 1);
-    squares += counts * counts.transpose() / c.ns;
-    products += counts;
-    total += c.ns;
+    const double share = (c.ns - call) / c.ns;
+    vv += c.boxTests * c.boxTests / c.ns;
+    vp += c.boxTests * c.triangleTests / c.ns;
+    pp += c.triangleTests * c.triangleTests / c.ns;
+    v += c.boxTests * share, p += c.triangleTests * share;
   }
-  // Some of the costs are 0. Three unknowns: all choices are tried, C_v alone first; another one
-  // has to leave clearly less of the errors.
-  Vec3 best = Vec3::Zero();
-  double left = total;
-  for (const unsigned some : {1U, 2U, 3U, 4U, 5U, 6U, 7U}) {
-    Mat3 equations = squares;
-    Vec3 right = products;
-    for (int i = 0; i < 3; ++i)
-      if (!(some >> i & 1)) {
-        equations.row(i).setZero();
-        equations.col(i).setZero();
-        equations(i, i) = 1;
-        right[i] = 0;
-      }
-    const Vec3 scale = equations.diagonal();
-    if (!(std::abs(equations.determinant()) > 1e-10 * scale.prod())) continue;  // proportional
-    const Vec3 costs = equations.inverse() * right;
-    const double error = total - costs.dot(right);
-    if ((costs.array() >= 0).all() && error < left - 1e-9 * total) best = costs, left = error;
+  const double det = vv * pp - vp * vp;
+  if (det > 1e-12 * vv * pp) {  // well above the rounding of the sums
+    const CostModel both{(v * pp - p * vp) / det, (p * vv - v * vp) / det};
+    if (both.box >= 0 && both.triangle >= 0) return both;
   }
-  return {best[2], best[0], best[1]};
+  // The better one alone: the sum falls by v²/vv, or p²/pp.
+  const CostModel boxes{vv > 0 ? std::max(v / vv, 0.0) : 0, 0};
+  const CostModel triangles{0, pp > 0 ? std::max(p / pp, 0.0) : 0};
+  return boxes.box * v >= triangles.triangle * p ? boxes : triangles;
 }
 
 /// The number that a share of the numbers do not exceed. @pre not empty, 0 ≤ share ≤ 1.
