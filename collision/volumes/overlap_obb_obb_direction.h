@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "collision/volumes/overlap_obb_obb.h"
 
 namespace corridor::internal {
@@ -34,6 +36,15 @@ struct DirectedBoxes : BoxPair {
   bool apartAlong(const Vec3& direction) const {
     const Vec3 L = direction / direction.cwiseAbs().maxCoeff();
     return apartAlong(L, R.transpose() * L);
+  }
+  /// Along any of the 15: for the few that rounding has led astray.
+  bool apartAlongAny() const {
+    for (int i = 0; i < 3; ++i)
+      if (apartAlong(Vec3::Unit(i)) || apartAlong(R.col(i))) return true;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (apartAlong(Vec3::Unit(i).cross(R.col(j)))) return true;
+    return false;
   }
 };
 

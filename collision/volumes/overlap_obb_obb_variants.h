@@ -4,9 +4,10 @@
 
 /// Box against box by what the separating-axis theorem replaced (Gottschalk, Lin, Manocha 1996,
 /// section 5): for comparison. Each is as conservative as `obbsSeparated`: `true` is a proof that
-/// the boxes, as sets in real arithmetic, are apart by more than the margin asked for. `false` says
-/// nothing, and where boxes are apart by more than 4·(margins.absolute + pad) + 8·margins.relative
-/// × (their sizes and offset) it is rounding that no one has seen (the tests look for it).
+/// the boxes, as sets in real arithmetic, are apart by more than the margin asked for; `false` says
+/// nothing. Told are, as far as tests of millions of pairs show, all that are farther apart than
+/// 4·(margins.absolute + pad) + 32·margins.relative·(their sizes and distance); √3 of it is that a
+/// is grown along its axes.
 namespace corridor {
 
 /// Closest features: the algorithm of Gilbert, Johnson, Keerthi (1988) looks for a direction along
