@@ -22,9 +22,10 @@ bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
   using gjk::nearest;
   using Point = gjk::Vector<double>;
   const internal::DirectedBoxes pair(boxA, boxB, X_AB, margins, pad);
+  const double size = pair.size();
+  if (!(size > kTiny && size < HUGE_VAL)) return false;  // nothing is proved of these
   // The search multiplies up to five lengths, some 2^-50 of others: kept from under- and overflow.
   double scale = 1;
-  const double size = pair.size();
   if (!(size > 0x1p-60 && size < 0x1p60)) scale = std::ldexp(1.0, -std::ilogb(size));
   const double noise = 256 * kUnit * size * scale, near = pair.margin * scale;
   gjk::Nearest<double> face;
