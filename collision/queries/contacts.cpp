@@ -5,12 +5,12 @@
 #include "collision/queries/triangle_intersection.h"
 
 namespace corridor {
-template <BoundingVolume Volume>
+template <class Overlap, BoundingVolume Volume>
 std::vector<TriangleContact> contacts(const VolumeTree<Volume>& a, const Transform& X_WA,
                                       const VolumeTree<Volume>& b, const Transform& X_WB,
                                       QueryContext& context) {
   ++context.counters.states;
-  const auto test = pairTestOf<Volume>(a, X_WA, b, X_WB);
+  const auto test = pairTestOf<Volume, Overlap>(a, X_WA, b, X_WB);
   std::vector<TriangleContact> all;
   const auto add = [&](std::uint32_t s, std::uint32_t t) {
     const Segment segment = triangleIntersection(a.triangles()[s], X_WA, b.triangles()[t], X_WB);
@@ -22,17 +22,20 @@ std::vector<TriangleContact> contacts(const VolumeTree<Volume>& a, const Transfo
   return all;
 }
 
-#define CORRIDOR_CONTACTS(Volume)                                                             \
-  template std::vector<TriangleContact> contacts(const VolumeTree<Volume>&, const Transform&, \
-                                                 const VolumeTree<Volume>&, const Transform&, \
-                                                 QueryContext&);
-CORRIDOR_CONTACTS(Obb)
-CORRIDOR_CONTACTS(Aabb)
-CORRIDOR_CONTACTS(BoundingSphere)
-CORRIDOR_CONTACTS(Rss)
-CORRIDOR_CONTACTS(Kdop<14>)
-CORRIDOR_CONTACTS(Kdop<18>)
-CORRIDOR_CONTACTS(Kdop<26>)
+#define CORRIDOR_CONTACTS(Volume, Overlap)                                                      \
+  template std::vector<TriangleContact> contacts<Overlap>(                                      \
+      const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
+      QueryContext&);
+CORRIDOR_CONTACTS(Obb, StandardOverlap)
+CORRIDOR_CONTACTS(Obb, Gjk)
+CORRIDOR_CONTACTS(Obb, LinearProgram)
+CORRIDOR_CONTACTS(Obb, EdgeFace)
+CORRIDOR_CONTACTS(Aabb, StandardOverlap)
+CORRIDOR_CONTACTS(BoundingSphere, StandardOverlap)
+CORRIDOR_CONTACTS(Rss, StandardOverlap)
+CORRIDOR_CONTACTS(Kdop<14>, StandardOverlap)
+CORRIDOR_CONTACTS(Kdop<18>, StandardOverlap)
+CORRIDOR_CONTACTS(Kdop<26>, StandardOverlap)
 #undef CORRIDOR_CONTACTS
 
 }  // namespace corridor

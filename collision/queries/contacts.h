@@ -26,7 +26,9 @@ struct TriangleContact {
 /// 2^-50·S in each coordinate, S the largest Σ|m||v| + |t| of the corners mapped, however flat the
 /// angle (`triangle_intersection.h`).
 /// @pre both are trees of triangles, not of a convex part; finite maps.
-template <BoundingVolume Volume>
+///
+/// `Overlap`: as of `interference`.
+template <class Overlap = StandardOverlap, BoundingVolume Volume>
 std::vector<TriangleContact> contacts(const VolumeTree<Volume>& a, const Transform& X_WA,
                                       const VolumeTree<Volume>& b, const Transform& X_WB,
                                       QueryContext& context);

@@ -8,9 +8,9 @@
 namespace corridor {
 namespace {
 
-template <class Volume, class TreeA, class TreeB>
+template <class TreeA, class TreeB, class Test>
 std::optional<TrianglePair> firstBelow(const TreeA& a, const Transform& X_WA, const TreeB& b,
-                                       const Transform& X_WB, const PairTest<Volume>& test,
+                                       const Transform& X_WB, const Test& test,
                                        const QueryContext::NodePair& nodes, QueryContext& context,
                                        std::uint64_t workEnd) {
   std::optional<TrianglePair> found;
@@ -23,35 +23,38 @@ std::optional<TrianglePair> firstBelow(const TreeA& a, const Transform& X_WA, co
   return found;
 }
 
-template <class Volume, class TreeA, class TreeB>
+template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
 std::optional<TrianglePair> firstContact(const TreeA& a, const Transform& X_WA, const TreeB& b,
                                          const Transform& X_WB, QueryContext& context) {
   ++context.counters.states;
-  const auto test = pairTestOf<Volume>(a, X_WA, b, X_WB);
+  const auto test = pairTestOf<Volume, Overlap>(a, X_WA, b, X_WB);
   return firstBelow(a, X_WA, b, X_WB, test, {0, 0, 0}, context,
                     std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace
 
-template <BoundingVolume Volume>
+template <class Overlap, BoundingVolume Volume>
 std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Transform& X_WA,
                                          const VolumeTree<Volume>& b, const Transform& X_WB,
                                          QueryContext& context) {
-  return firstContact<Volume>(a, X_WA, b, X_WB, context);
+  return firstContact<Volume, Overlap>(a, X_WA, b, X_WB, context);
 }
 
-#define CORRIDOR_INTERFERENCE(Volume)                                                            \
-  template std::optional<TrianglePair> interference(const VolumeTree<Volume>&, const Transform&, \
-                                                    const VolumeTree<Volume>&, const Transform&, \
-                                                    QueryContext&);
-CORRIDOR_INTERFERENCE(Obb)
-CORRIDOR_INTERFERENCE(Aabb)
-CORRIDOR_INTERFERENCE(BoundingSphere)
-CORRIDOR_INTERFERENCE(Rss)
-CORRIDOR_INTERFERENCE(Kdop<14>)
-CORRIDOR_INTERFERENCE(Kdop<18>)
-CORRIDOR_INTERFERENCE(Kdop<26>)
+#define CORRIDOR_INTERFERENCE(Volume, Overlap)                                                  \
+  template std::optional<TrianglePair> interference<Overlap>(                                   \
+      const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
+      QueryContext&);
+CORRIDOR_INTERFERENCE(Obb, StandardOverlap)
+CORRIDOR_INTERFERENCE(Obb, Gjk)
+CORRIDOR_INTERFERENCE(Obb, LinearProgram)
+CORRIDOR_INTERFERENCE(Obb, EdgeFace)
+CORRIDOR_INTERFERENCE(Aabb, StandardOverlap)
+CORRIDOR_INTERFERENCE(BoundingSphere, StandardOverlap)
+CORRIDOR_INTERFERENCE(Rss, StandardOverlap)
+CORRIDOR_INTERFERENCE(Kdop<14>, StandardOverlap)
+CORRIDOR_INTERFERENCE(Kdop<18>, StandardOverlap)
+CORRIDOR_INTERFERENCE(Kdop<26>, StandardOverlap)
 #undef CORRIDOR_INTERFERENCE
 
 std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA, const Octree& b,

@@ -19,7 +19,10 @@ namespace corridor {
 /// maps; near-rigid ones are fast, since only then the boxes prune. With a convex part: never
 /// falsely none, and right outside the band of `convexSetsTouch`. @pre finite maps (`Scene` throws
 /// on others).
-template <BoundingVolume Volume>
+///
+/// `Overlap`: how boxes are tested (overlap_obb_obb_variants.h): `interference<Gjk>(a, …)` of
+/// ObbTrees; only the time differs.
+template <class Overlap = StandardOverlap, BoundingVolume Volume>
 std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Transform& X_WA,
                                          const VolumeTree<Volume>& b, const Transform& X_WB,
                                          QueryContext& context);

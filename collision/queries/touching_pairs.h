@@ -14,12 +14,11 @@
 namespace corridor {
 
 /// How the volumes of two trees are tested under two maps.
-template <class Volume, class TreeA, class TreeB>
-PairTest<Volume> pairTestOf(const TreeA& a, const Transform& X_WA, const TreeB& b,
-                            const Transform& X_WB) {
+template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
+PairTest<Volume, Overlap> pairTestOf(const TreeA& a, const Transform& X_WA, const TreeB& b,
+                                     const Transform& X_WB) {
   const Transform X_AB = rigidInverse(X_WA) * X_WB;
-  return PairTest<Volume>(a.bounds(), b.bounds(), X_AB,
-                          relativePoseError(X_WA, X_AB, X_WB, b.reach()));
+  return {a.bounds(), b.bounds(), X_AB, relativePoseError(X_WA, X_AB, X_WB, b.reach())};
 }
 
 /// An item of a tree, in leaf order: a convex part, or a triangle, which is convex, too.

@@ -247,7 +247,7 @@ class PairTest<Obb> {
     return internal::boxDistanceBound(internal::BoxPair(a, b, X_AB_), a.half, b.half, margins_);
   }
 
- private:
+ protected:
   Transform X_AB_;
   BoxPairMargins margins_;
 };

@@ -45,7 +45,10 @@ struct VolumeBounds {
 /// distance less `error`; 0 where nothing is known.
 ///
 /// A NaN or an overflow separates nothing.
-template <class Volume>
+///
+/// `Overlap` says how, where there is a choice (overlap_obb_obb_variants.h).
+struct StandardOverlap {};
+template <class Volume, class Overlap = StandardOverlap>
 class PairTest;
 
 }  // namespace corridor

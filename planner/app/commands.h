@@ -38,6 +38,8 @@ struct InspectArguments {
   std::string file;
   std::optional<std::string> unit, up;  ///< of a mesh file
   bool pairs = false;                   ///< of a problem: every pair
+  std::optional<std::string> against;   ///< another mesh file: what queries of the two cost
+  std::optional<std::string> poses;     ///< of `against`: a file of poses, one a line
   bool json = false;
 };
 int inspectCommand(const InspectArguments& arguments);

@@ -23,6 +23,17 @@ ordered_json numbers(const Vec3& v) {
 
 }  // namespace
 
+MeshFile meshFileAsked(const std::string& file, const InspectArguments& a) {
+  MeshFileOptions options;
+  if (a.unit)
+    options.metresPerUnit = *a.unit == "m"    ? 1
+                            : *a.unit == "cm" ? 0.01
+                            : *a.unit == "mm" ? 0.001
+                                              : 0.0254;
+  if (a.up) options.up = a.up->front();
+  return readMeshFile(file, options);
+}
+
 ordered_json meshJson(const MeshFile& file) {
   const MeshHealth health = inspectMesh(file.mesh);
   ordered_json j = {{"format", file.format},
@@ -47,14 +58,7 @@ ordered_json meshJson(const MeshFile& file) {
 namespace {
 
 int inspectMeshFile(const InspectArguments& a) {
-  MeshFileOptions options;
-  if (a.unit)
-    options.metresPerUnit = *a.unit == "m"    ? 1
-                            : *a.unit == "cm" ? 0.01
-                            : *a.unit == "mm" ? 0.001
-                                              : 0.0254;
-  if (a.up) options.up = a.up->front();
-  const MeshFile file = readMeshFile(a.file, options);
+  const MeshFile file = meshFileAsked(a.file, a);
   if (a.json) {
     ordered_json j = {{"format", "corridor-inspect-mesh-1"}, {"file", a.file}};
     j["mesh"] = meshJson(file);
@@ -96,10 +100,21 @@ bool isRobotFile(const std::string& file) {
 int inspectCommand(const InspectArguments& a) {
   const std::string extension = std::filesystem::path(a.file).extension().string();
   const bool yaml = extension == ".yaml" || extension == ".yml";
-  if (extension == ".urdf" || (yaml && isRobotFile(a.file))) return inspectRobot(a);
+  const bool robot = extension == ".urdf" || (yaml && isRobotFile(a.file));
   const bool problem = yaml || std::filesystem::is_directory(a.file) || extension == ".cfg" ||
                        a.file.find(".json") != a.file.npos;
-  return problem ? inspectProblem(a) : inspectMeshFile(a);
+  if (a.poses && !a.against)
+    throw InputError(Fault{"--poses", 0, "is of --against, which is not given"});
+  if (a.against) {
+    if (robot || problem)
+      throw InputError(Fault{
+          "--against", 0,
+          "two meshes are compared, and " + a.file + " is a " + (robot ? "robot" : "problem")});
+    if (a.pairs)
+      throw InputError(Fault{"--pairs", 0, "is of a problem, and " + a.file + " is a mesh"});
+    return inspectCost(a);
+  }
+  return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);
 }
 
 }  // namespace corridor::app

@@ -130,8 +130,24 @@ void addInspect(CLI::App& program, InspectArguments& a, int& status) {
       ->check(CLI::IsMember({"x", "y", "z"}));
   command->add_flag("--pairs", a.pairs,
                     "of a problem: every pair of bodies, and why it isn't tested");
+  const char* cost = "What queries of two meshes cost";
+  command
+      ->add_option(
+          "--against", a.against,
+          "a second mesh file: for every bounding volume the tests that interference "
+          "takes (N_v, N_p), what one costs (C_v, C_p), and how well T = N_v C_v + N_p C_p "
+          "predicts the time")
+      ->group(cost);
+  command
+      ->add_option("--poses", a.poses,
+                   "of --against: the second mesh's poses, as of corridor query (default: a grid "
+                   "over the bounds of both)")
+      ->group(cost);
   command->add_flag("--json", a.json, "results as JSON");
-  command->footer(std::string("Example: corridor inspect robots/piano/piano.obj\n") + kExitStatus);
+  command->footer(
+      std::string("Example: corridor inspect robots/piano/piano.obj\n"
+                  "         corridor inspect a.obj --against b.obj --poses poses.txt\n") +
+      kExitStatus);
   command->callback([&] { status = inspectCommand(a); });
 }
 

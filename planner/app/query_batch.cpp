@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <optional>
+#include <type_traits>
 
 #include "collision/queries/contacts.h"
 #include "collision/queries/distance_wide.h"
@@ -51,8 +52,25 @@ std::vector<Answer> timed(const Batch& batch, const Ask& ask) {
   return answers;
 }
 
+/// The first contact and all of them, by an overlap test where the tree has a choice.
+template <class Overlap, class Tree>
+bool touching(const Tree& a, const Tree& b, const Transform& X, QueryContext& context) {
+  if constexpr (std::is_same_v<Tree, ObbTree>)
+    return interference<Overlap>(a, {}, b, X, context).has_value();
+  else
+    return interference(a, {}, b, X, context).has_value();
+}
+template <class Overlap, class Tree>
+std::vector<TriangleContact> allContacts(const Tree& a, const Tree& b, const Transform& X,
+                                         QueryContext& context) {
+  if constexpr (std::is_same_v<Tree, ObbTree>)
+    return contacts<Overlap>(a, {}, b, X, context);
+  else
+    return contacts(a, {}, b, X, context);
+}
+
 /// Builds both trees (`make(mesh)`) and asks them.
-template <class Make>
+template <class Overlap = StandardOverlap, class Make>
 BatchResult runOn(const Batch& batch, const Make& make) {
   BatchResult result;
   auto start = std::chrono::steady_clock::now();
@@ -67,7 +85,7 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   switch (batch.asked) {
     case Asked::interference:
       result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
-        return interference(a, X_WA, b, batch.poses[i], context).has_value();
+        return touching<Overlap>(a, b, batch.poses[i], context);
       });
       break;
     case Asked::distance:
@@ -85,7 +103,7 @@ BatchResult runOn(const Batch& batch, const Make& make) {
     case Asked::contacts: {
       std::vector<std::vector<TriangleContact>> found(batch.poses.size());
       result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
-        found[i] = contacts(a, X_WA, b, batch.poses[i], context);
+        found[i] = allContacts<Overlap>(a, b, batch.poses[i], context);
         return !found[i].empty();
       });
       for (std::size_t i = 0; i < found.size(); ++i)
@@ -98,10 +116,17 @@ BatchResult runOn(const Batch& batch, const Make& make) {
 }
 
 /// Volumes without axes of their own have one fit, `plain`.
-template <class Volume>
+template <class Volume, class Overlap = StandardOverlap>
 BatchResult runVolume(const Batch& batch) {
-  return runOn(batch,
-               [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, {fitOf(batch)}); });
+  return runOn<Overlap>(
+      batch, [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, {fitOf(batch)}); });
+}
+
+BatchResult runObb(const Batch& batch) {
+  return batch.overlap == "gjk"         ? runVolume<Obb, Gjk>(batch)
+         : batch.overlap == "lp"        ? runVolume<Obb, LinearProgram>(batch)
+         : batch.overlap == "edge-face" ? runVolume<Obb, EdgeFace>(batch)
+                                        : runVolume<Obb>(batch);
 }
 
 BatchResult runWide(const Batch& batch) {
@@ -109,6 +134,10 @@ BatchResult runWide(const Batch& batch) {
 }
 
 }  // namespace
+
+bool testsOverlap(Asked asked) {
+  return asked == Asked::interference || asked == Asked::contacts;
+}
 
 const std::vector<QueryKind>& queryKinds() {
   static const std::vector<QueryKind> kinds = {
@@ -122,7 +151,7 @@ const std::vector<QueryKind>& queryKinds() {
 const std::vector<VolumeKind>& volumeKinds() {
   static const std::vector<VolumeKind> kinds = {
       {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runWide},
-      {"obb-binary", {"triangles", "vertices", "hull"}, {"sat"}, runVolume<Obb>},
+      {"obb-binary", {"triangles", "vertices", "hull"}, {"sat", "gjk", "lp", "edge-face"}, runObb},
       {"aabb", {"plain"}, {"intervals"}, runVolume<Aabb>},
       {"sphere", {"plain"}, {"centers"}, runVolume<BoundingSphere>},
       {"rss", {"triangles", "vertices", "hull"}, {"rectangles"}, runVolume<Rss>},

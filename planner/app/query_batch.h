@@ -13,6 +13,9 @@ namespace corridor::app {
 
 /// What is asked of every pose.
 enum class Asked { interference, contacts, distance, tolerance };
+/// Does it ask whether volumes overlap, so that `Batch::overlap` is a choice? The others ask how
+/// far apart they are.
+bool testsOverlap(Asked asked);
 struct QueryKind {
   std::string name;
   Asked asked;
@@ -55,7 +58,8 @@ struct BatchResult {
 /// on its trees. Adding a volume is adding a line of the table.
 struct VolumeKind {
   std::string name;
-  std::vector<std::string> fits, overlaps;
+  std::vector<std::string> fits;
+  std::vector<std::string> overlaps;  ///< but for the first, only where `testsOverlap`
   BatchResult (*run)(const Batch& batch);
 };
 const std::vector<VolumeKind>& volumeKinds();

@@ -148,6 +148,10 @@ int queryCommand(const QueryArguments& a) {
     throw InputError(Fault{"--tolerance", 0, "the tolerance query needs a distance in metres"});
   if (query.asked != Asked::tolerance && a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "is of --query tolerance, which is not asked"});
+  if (overlap != volume.overlaps.front() && !testsOverlap(query.asked))
+    throw InputError(Fault{"--overlap", 0,
+                           quotedWord(overlap) + " is of --query interference and contacts; " +
+                               query.name + " asks how far volumes are apart"});
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
   if (a.repeat > kMostQueries / poses.size())

@@ -109,6 +109,20 @@ TEST_F(QueryCommand, AllVolumesAnswerAlike) {
   }
 }
 
+TEST_F(QueryCommand, AllOverlapTestsAnswerAlike) {
+  for (const char* asked : {"", " --query contacts"}) {
+    const std::string binary = std::string("--poses poses.txt --volume obb-binary") + asked;
+    const Result expected = query(binary);
+    EXPECT_EQ(summary(expected).at("overlap"), "sat");
+    for (const std::string overlap : {"sat", "gjk", "lp", "edge-face"}) {
+      const Result result = query(binary + " --overlap " + overlap);
+      EXPECT_EQ(result.status, 0) << result.err;
+      EXPECT_EQ(result.out, expected.out) << overlap;
+      EXPECT_EQ(summary(result).at("overlap"), overlap);
+    }
+  }
+}
+
 TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
   const std::string grid = "--grid 3x2x1 --lower -1,-1,0 --upper 1,1,1 --rotations 2 --seed 5 ";
   const Result result = query(grid + "--save-poses saved.txt");
@@ -221,7 +235,8 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--query: unknown query \"intereference\"; did you mean \"interference\"?; there are: "
         "interference, contacts, distance, tolerance");
   fault("a.obj b.obj --poses poses.txt --volume obbb",
-        "--volume: unknown volume \"obbb\"; did you mean \"obb\"?; there are: obb, obb-binary, aabb, sphere, "
+        "--volume: unknown volume \"obbb\"; did you mean \"obb\"?; there are: obb, obb-binary, "
+        "aabb, sphere, "
         "rss, kdop14, kdop18, "
         "kdop26");
   fault("a.obj b.obj --poses poses.txt --query tolerance",
@@ -234,6 +249,12 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--fit: unknown fit \"moments\" of obb; there are: triangles, vertices, hull");
   fault("a.obj b.obj --poses poses.txt --overlap gjk",
         "--overlap: unknown overlap \"gjk\" of obb; there are: sat");
+  fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
+        "--overlap: unknown overlap \"gkj\" of obb-binary; did you mean \"gjk\"?; there are: sat, "
+        "gjk, lp, edge-face");
+  fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap lp --query distance",
+        "--overlap: \"lp\" is of --query interference and contacts; distance asks how far volumes "
+        "are apart");
   fault("a.obj b.obj --poses poses.txt --repeat 0",
         "--repeat: a whole number from 1 to 1000000 is needed, not \"0\"" + more);
   fault("a.obj b.obj --grid 10x10x11 --repeat 1000000",

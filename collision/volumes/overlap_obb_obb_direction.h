@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "collision/volumes/overlap_obb_obb.h"
+
+namespace corridor::internal {
+
+/// A pair of boxes and one proof for whoever comes up with a direction, however he found it.
+///
+/// In the coordinates of box a (overlap_obb_obb.h) the question is whether an axis-aligned box and
+/// the exact parallelepiped {T + R y, |y_j| ≤ b_j} are more than `margin` apart: `ball`, and
+/// `slack` for all growth and rounding. For any L the gap |L·T| − Σ a_i|L_i| − Σ b_j|L·R_j| uses no
+/// orthogonality; growth by a ball of radius ρ costs ρ|L|, and evaluating it 11 roundings of terms
+/// whose sum is below |L|(|T|₁ + Σa + Σb): `slack` has 16u of that. L is scaled to a largest entry
+/// of 1, so that kTiny covers underflow; the scaled one, as rounded, is the direction.
+struct DirectedBoxes : BoxPair {
+  const Vec3 &a, &b;
+  double slack, margin;
+
+  DirectedBoxes(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
+                const BoxPairMargins& margins, double pad)
+      : BoxPair(boxA, boxB, X_AB),
+        a(boxA.half),
+        b(boxB.half),
+        slack(margins.relative * (size() + pad) + kTiny),
+        margin(margins.absolute + pad + slack) {}
+
+  double size() const { return T.cwiseAbs().sum() + a.sum() + b.sum(); }
+
+  /// @param L  largest entry ±1. @param along  Rᵀ L
+  bool apartAlong(const Vec3& L, const Vec3& along) const {
+    const double gap = std::abs(L.dot(T)) - L.cwiseAbs().dot(a) - along.cwiseAbs().dot(b);
+    return gap > margin && gap > margin * (L.norm() * (1 + 4 * kUnit));  // |L| ≥ 1
+  }
+  bool apartAlong(const Vec3& direction) const {
+    const Vec3 L = direction / direction.cwiseAbs().maxCoeff();
+    return apartAlong(L, R.transpose() * L);
+  }
+  /// Along any of the 15: for the few that rounding has led astray.
+  bool apartAlongAny() const {
+    for (int i = 0; i < 3; ++i)
+      if (apartAlong(Vec3::Unit(i)) || apartAlong(R.col(i))) return true;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (apartAlong(Vec3::Unit(i).cross(R.col(j)))) return true;
+    return false;
+  }
+};
+
+}  // namespace corridor::internal

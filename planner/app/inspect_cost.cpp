@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "collision/core/error.h"
+#include "collision/core/simd_target.h"
+#include "planner/app/cost_model.h"
+#include "planner/app/inspect.h"
+#include "planner/app/output.h"
+#include "planner/app/query_batch.h"
+#include "planner/app/query_poses.h"
+#include "planner/app/query_timing.h"
+
+namespace corridor::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Of a pose the median of so many passes counts.
+constexpr int kPasses = 5;
+
+/// A bounding volume's line: means over the poses that count; the prediction over every second of
+/// them, with costs that the others told.
+struct CostRow {
+  std::string volume;
+  double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
+  double callNs = 0;                       ///< of a query that the first test decides
+  CostModel cost;                          ///< C_v, C_p
+  double measuredNs = 0, predictedNs = 0;  ///< T
+  double low = 0, middle = 0, high = 0;    ///< predicted/measured: quantiles 0.05, 0.5, 0.95
+  double buildMs = 0;                      ///< both trees
+  std::size_t bytes = 0;                   ///< both trees
+};
+
+/// Costs are told within queries: a test's share of walking the tree is in them, and trees that
+/// test sixteen pairs at once are measured as the others are. A prediction that had seen what it
+/// predicts would prove nothing, so one half of the poses tells the costs and the other half is
+/// predicted.
+///
+/// What a query takes apart from its tests is not in the model; it is measured where B is far away
+/// (the answers after the first `count`), kept out of the costs, and told beside them.
+CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t count,
+                const std::vector<std::size_t>& kept) {
+  CostRow row;
+  row.volume = volume.name;
+  row.buildMs = result.buildMsA + result.buildMsB;
+  row.bytes = result.bytesA + result.bytesB;
+  std::vector<QueryCost> seen, unseen;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const Answer& answer = result.answers[kept[i]];
+    const QueryCost cost{static_cast<double>(answer.boxTests),
+                         static_cast<double>(answer.triangleTests), answer.ns};
+    row.boxTests += cost.boxTests / static_cast<double>(kept.size());
+    row.triangleTests += cost.triangleTests / static_cast<double>(kept.size());
+    (i % 2 ? unseen : seen).push_back(cost);
+  }
+  std::vector<double> calls;
+  for (std::size_t i = count; i < result.answers.size(); ++i) calls.push_back(result.answers[i].ns);
+  row.callNs = median(calls);
+  row.cost = fittedCosts(seen, row.callNs);
+  std::vector<double> ratios;
+  for (const QueryCost& c : unseen) {
+    row.measuredNs += c.ns / static_cast<double>(unseen.size());
+    row.predictedNs += row.cost.predicted(c) / static_cast<double>(unseen.size());
+    ratios.push_back(row.cost.predicted(c) / c.ns);
+  }
+  row.low = quantile(ratios, 0.05);
+  row.middle = quantile(ratios, 0.5);
+  row.high = quantile(ratios, 0.95);
+  return row;
+}
+
+std::string twoDecimals(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", x);
+  return text;
+}
+
+/// And those of the first few poses with B moved off, where the first test tells the two apart.
+std::vector<Transform> withFarPoses(std::vector<Transform> poses, const TriangleMesh& a,
+                                    const TriangleMesh& b) {
+  double far = 1;
+  for (const TriangleMesh* mesh : {&a, &b})
+    for (const Vec3& v : mesh->vertices) far = std::max(far, 8 * v.cwiseAbs().maxCoeff());
+  const std::size_t count = std::min<std::size_t>(poses.size(), 9);
+  for (std::size_t i = 0; i < count; ++i) poses.push_back({poses[i].m, Vec3::Constant(far)});
+  return poses;
+}
+
+void printTable(const std::vector<CostRow>& rows) {
+  const auto line = [](const std::string& first, const std::vector<std::string>& cells) {
+    std::cout << std::left << std::setw(10) << first << std::right;
+    for (const std::string& cell : cells) std::cout << std::setw(14) << cell;
+    std::cout << '\n';
+  };
+  line("volume", {"N_v", "N_p", "call ns", "C_v ns", "C_p ns", "predicted ns", "measured ns",
+                  "ratio", "5 .. 95 %", "bytes", "build ms"});
+  for (const CostRow& r : rows)
+    line(r.volume,
+         {rounded(r.boxTests), rounded(r.triangleTests), rounded(r.callNs), rounded(r.cost.box),
+          rounded(r.cost.triangle), grouped(std::llround(r.predictedNs)),
+          grouped(std::llround(r.measuredNs)), twoDecimals(r.predictedNs / r.measuredNs),
+          twoDecimals(r.low) + " .. " + twoDecimals(r.high), grouped(r.bytes), rounded(r.buildMs)});
+}
+
+ordered_json rowJson(const CostRow& r) {
+  return {{"volume", r.volume},
+          {"bv_tests", r.boxTests},
+          {"triangle_tests", r.triangleTests},
+          {"call_ns", r.callNs},
+          {"bv_test_ns", r.cost.box},
+          {"triangle_test_ns", r.cost.triangle},
+          {"predicted_ns", r.predictedNs},
+          {"measured_ns", r.measuredNs},
+          {"ratio", r.predictedNs / r.measuredNs},
+          {"ratio_p5", r.low},
+          {"ratio_median", r.middle},
+          {"ratio_p95", r.high},
+          {"bytes", r.bytes},
+          {"build_ms", r.buildMs}};
+}
+
+}  // namespace
+
+int inspectCost(const InspectArguments& a) {
+  const MeshFile meshA = meshFileAsked(a.file, a), meshB = meshFileAsked(*a.against, a);
+  const std::vector<Transform> poses =
+      a.poses ? readPoses(*a.poses) : gridPoses({{6, 6, 6}, 4, 1, {}, {}}, meshA.mesh, meshB.mesh);
+  const std::vector<Transform> asked = withFarPoses(poses, meshA.mesh, meshB.mesh);
+  std::vector<BatchResult> results;
+  for (const VolumeKind& volume : volumeKinds())
+    results.push_back(volume.run({meshA.mesh, meshB.mesh, asked, Asked::interference,
+                                  volume.fits.front(), volume.overlaps.front(), 0, kPasses}));
+  // What the first test decides tells what a call costs, not what a test does. All volumes are
+  // compared on the same poses: those that the roots of oriented boxes let pass.
+  std::size_t reference = 0;
+  while (volumeKinds()[reference].name != "obb-binary") ++reference;
+  std::vector<std::size_t> kept;
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Answer& answer = results[reference].answers[i];
+    hits += answer.hit;
+    if (answer.boxTests > 1 || answer.triangleTests > 0) kept.push_back(i);
+  }
+  if (kept.size() < 2)
+    throw InputError(
+        Fault{a.poses.value_or("--against"), 0,
+              "poses at which the meshes' bounding boxes meet are needed, two or more; "
+              "they meet at " +
+                  std::to_string(kept.size()) + " of " + counted(poses.size(), "pose")});
+  std::vector<CostRow> rows;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    rows.push_back(costRow(volumeKinds()[i], results[i], poses.size(), kept));
+  if (a.json) {
+    ordered_json j = {{"format", "corridor-inspect-cost-1"},
+                      {"a", a.file},
+                      {"b", *a.against},
+                      {"triangles_a", meshA.mesh.triangles.size()},
+                      {"triangles_b", meshB.mesh.triangles.size()},
+                      {"poses", poses.size()},
+                      {"rejected_by_root", poses.size() - kept.size()},
+                      {"hits", hits},
+                      {"simd", simdTarget()},
+                      {"volumes", ordered_json::array()}};
+    for (const CostRow& row : rows) j["volumes"].push_back(rowJson(row));
+    std::cout << j.dump(2) << '\n';
+    return kDone;
+  }
+  const Lines out(false);
+  out.line("meshes", a.file + ", " + counted(meshA.mesh.triangles.size(), "triangle") + "; " +
+                         *a.against + ", " + counted(meshB.mesh.triangles.size(), "triangle"));
+  out.line("poses", grouped(poses.size()) + ", of these " + counted(hits, "contact") + " and " +
+                        grouped(poses.size() - kept.size()) +
+                        " that the root boxes tell apart, which don't count below");
+  out.line("simd", std::string(simdTarget()) + ", of obb");
+  out.line("costs", "one half of the poses tells them, the other half is predicted");
+  out.blank();
+  printTable(rows);
+  return kDone;
+}
+
+}  // namespace corridor::app

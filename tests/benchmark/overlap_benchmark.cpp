@@ -1,0 +1,395 @@
+/// What a test of two oriented boxes costs: by the separating-axis theorem, by closest features
+/// (GJK), by linear programming, and by edges against faces, which it replaced (Gottschalk, Lin,
+/// Manocha 1996, section 5, found some 10 times less than closest features, some 30 than linear
+/// programming): `overlap_benchmark [--data DIR] [--workload TEXT]… [--rounds N] [--cpu N]`.
+///
+/// Pairs of boxes are those that real queries meet: trees over the workloads of DIR/collision
+/// (DIR: $CORRIDOR_DATA where not named; without it, over a sphere and a torus made here) are
+/// walked at all their poses, and up to 2,000 pairs that are apart and 2,000 that are not are kept,
+/// evenly, in the order in which they are met. Each test gets them as a query does: boxes in their
+/// meshes' frames and the relative pose. In every round each test takes all pairs in turn; the
+/// least time of the rounds counts. *Mixed* weighs both by how often the queries meet them.
+///
+/// *Posing* is what all of ours begin with, to tell where one box is seen from the other. Peers:
+/// FCL's overlap of OBBs, which promises nothing about rounding; and our wide tree's kernel, by
+/// least squares over whole queries (planner/app/cost_model.h): C_v, a pair's share of walking
+/// included.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
+#include <random>
+#include <sched.h>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#ifdef CORRIDOR_WITH_FCL
+#include <fcl/math/bv/OBB.h>
+#endif
+
+#include "collision/core/simd_target.h"
+#include "collision/hierarchy/obb_tree.h"
+#include "collision/hierarchy/traverse.h"
+#include "collision/queries/interference_wide.h"
+#include "collision/queries/touching_pairs.h"
+#include "collision/volumes/overlap_obb_obb_variants.h"
+#include "planner/app/cost_model.h"
+#include "planner/app/query_timing.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor {
+namespace {
+
+constexpr std::size_t kKept = 2'000;
+
+double nanosecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct BoxPair {
+  Obb a, b;
+  std::size_t pose;
+  std::uint64_t met;  ///< its place among all that were met
+};
+
+/// Keeps some of what it is shown, each with equal probability (reservoir sampling).
+struct Sample {
+  std::vector<BoxPair> kept;
+  std::uint64_t seen = 0;
+  std::mt19937_64 random{1};
+  void show(const BoxPair& pair) {
+    const std::uint64_t place = seen++ < kKept ? seen - 1 : random() % seen;
+    if (place >= kKept) return;
+    if (place == kept.size())
+      kept.push_back(pair);
+    else
+      kept[place] = pair;
+  }
+};
+
+/// The overlap test of a query, which shows what it is asked.
+struct Recorder {
+  const PairTest<Obb>& test;
+  std::size_t pose;
+  Sample &apart, &meet;
+  bool separated(const Obb& a, const Obb& b, double pad) const {
+    const bool told = test.separated(a, b, pad);
+    Sample& sample = told ? apart : meet;
+    sample.show({a, b, pose, apart.seen + meet.seen});
+    return told;
+  }
+};
+
+/// Nanoseconds that each test takes, apart and not.
+struct Cost {
+  double apart = HUGE_VAL, meet = HUGE_VAL;
+  double mixed(double share) const { return share * apart + (1 - share) * meet; }
+};
+
+struct Recorded {
+  test::Workload w;
+  Sample apart, meet;
+  double wideNs = 0;  ///< of the wide tree's queries, a box test
+
+  explicit Recorded(test::Workload workload) : w(std::move(workload)) {
+    const ObbTree a(w.a), b(w.b);
+    QueryContext context;
+    for (std::size_t i = 0; i < w.poses.size(); ++i) {
+      const auto test = pairTestOf<Obb>(a, {}, b, w.poses[i]);
+      const Recorder recorder{test, i, apart, meet};
+      const Transform identity;
+      const auto first = [](std::uint32_t, std::uint32_t) { return true; };
+      TouchingPairs query(a, identity, b, w.poses[i], recorder, context.counters, first);
+      traverse(a, b, QueryContext::NodePair{0, 0, 0}, context.stack, query);
+    }
+    for (Sample* sample : {&apart, &meet}) std::ranges::sort(sample->kept, {}, &BoxPair::met);
+    bounds_[0] = a.bounds();
+    bounds_[1] = b.bounds();
+  }
+  double shareApart() const {
+    return static_cast<double>(apart.seen) / static_cast<double>(apart.seen + meet.seen);
+  }
+  const VolumeBounds& boundsA() const { return bounds_[0]; }
+  const VolumeBounds& boundsB() const { return bounds_[1]; }
+
+ private:
+  VolumeBounds bounds_[2];
+};
+
+/// Time of `separated(pair number)` over all pairs, and how many it found so: both verdicts would
+/// have to be right for the tests to be compared, so a test that errs is told.
+template <class Separated>
+double pass(std::size_t count, std::uint64_t& found, const Separated& separated) {
+  if (count == 0) return 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < count; ++i) found += separated(i);
+  return nanosecondsSince(start) / static_cast<double>(count);
+}
+
+/// One test of boxes, prepared for all pairs of a workload.
+template <class Overlap>
+class Ours {
+ public:
+  explicit Ours(const Recorded& r) : r_(r) {
+    for (const Transform& X : r.w.poses) tests_.emplace_back(r.boundsA(), r.boundsB(), X, 0.0);
+  }
+  void pass(Cost& cost, std::uint64_t& found) const {
+    const auto over = [&](const Sample& sample, double& least) {
+      least = std::min(least, corridor::pass(sample.kept.size(), found, [&](std::size_t i) {
+                         const BoxPair& p = sample.kept[i];
+                         return tests_[p.pose].separated(p.a, p.b, 0);
+                       }));
+    };
+    over(r_.apart, cost.apart);
+    over(r_.meet, cost.meet);
+  }
+
+ private:
+  const Recorded& r_;
+  std::vector<PairTest<Obb, Overlap>> tests_;
+};
+
+#ifdef CORRIDOR_WITH_FCL
+class Fcl {
+ public:
+  explicit Fcl(const Recorded& r) : r_(r), apart_(boxes(r.apart)), meet_(boxes(r.meet)) {}
+  void pass(Cost& cost, std::uint64_t& found) const {
+    const auto over = [&](const Sample& sample, const std::vector<Boxes>& boxes, double& least) {
+      least = std::min(least, corridor::pass(boxes.size(), found, [&](std::size_t i) {
+                         const Transform& X = r_.w.poses[sample.kept[i].pose];
+                         return !fcl::overlap(X.m, X.t, boxes[i].a, boxes[i].b);
+                       }));
+    };
+    over(r_.apart, apart_, cost.apart);
+    over(r_.meet, meet_, cost.meet);
+  }
+
+ private:
+  struct Boxes {
+    fcl::OBB<double> a, b;
+  };
+  static std::vector<Boxes> boxes(const Sample& sample) {
+    std::vector<Boxes> all;
+    for (const BoxPair& p : sample.kept)
+      all.push_back({{p.a.axes, p.a.center, p.a.half}, {p.b.axes, p.b.center, p.b.half}});
+    return all;
+  }
+  const Recorded& r_;
+  std::vector<Boxes> apart_, meet_;
+};
+#endif
+
+/// C_v of the wide tree's queries, from each one's least time.
+class Wide {
+ public:
+  explicit Wide(const Recorded& r) : r_(r), a_(r.w.a), b_(r.w.b), costs_(r.w.poses.size()) {
+    for (app::QueryCost& c : costs_) c.ns = HUGE_VAL;
+  }
+  void pass() {
+    for (std::size_t i = 0; i < costs_.size(); ++i) {
+      const auto ask = [&] { interference(a_, {}, b_, r_.w.poses[i], context_); };
+      context_.counters = {};
+      ask();
+      costs_[i].boxTests = static_cast<double>(context_.counters.boxTests);
+      costs_[i].triangleTests = static_cast<double>(context_.counters.triangleTests);
+      costs_[i].ns = std::min(costs_[i].ns, app::nanosecondsOf(ask, ask));
+    }
+  }
+  double boxTestNs() const {
+    std::vector<app::QueryCost> walked;  // what the first node decides is a call's cost
+    std::ranges::copy_if(costs_, std::back_inserter(walked),
+                         [](const app::QueryCost& c) { return c.boxTests > 32; });
+    return walked.empty() ? 0 : app::fittedCosts(walked).box;
+  }
+
+ private:
+  const Recorded& r_;
+  WideObbTree a_, b_;
+  QueryContext context_;
+  std::vector<app::QueryCost> costs_;
+};
+
+/// What every test of ours begins with, and nothing else.
+struct Posing {
+  static bool separated(const Obb& a, const Obb& b, const Transform& X_AB, const BoxPairMargins&,
+                        double) {
+    const internal::BoxPair pair(a, b, X_AB);
+    return pair.absR.sum() + pair.T.sum() > 0;
+  }
+};
+
+/// A sphere in a torus' tube and beside it, at random poses: where there are no shared data.
+test::Workload made() {
+  test::Workload w;
+  w.name = "made: torus, sphere";
+  const auto surface = [](int nu, int nv, const auto& point) {
+    TriangleMesh mesh;
+    for (int u = 0; u < nu; ++u)
+      for (int v = 0; v < nv; ++v)
+        mesh.vertices.push_back(point(2 * M_PI * u / nu, 2 * M_PI * v / nv));
+    const auto at = [&](int u, int v) { return static_cast<std::uint32_t>(u % nu * nv + v % nv); };
+    for (int u = 0; u < nu; ++u)
+      for (int v = 0; v < nv; ++v) {
+        mesh.triangles.push_back({at(u, v), at(u + 1, v), at(u + 1, v + 1)});
+        mesh.triangles.push_back({at(u, v), at(u + 1, v + 1), at(u, v + 1)});
+      }
+    return mesh;
+  };
+  w.a = surface(64, 32, [](double u, double v) {
+    return Vec3((1 + 0.3 * std::cos(v)) * std::cos(u), (1 + 0.3 * std::cos(v)) * std::sin(u),
+                0.3 * std::sin(v));
+  });
+  w.b = surface(48, 24, [](double u, double v) {
+    return Vec3(0.25 * std::cos(u) * std::sin(v / 2), 0.25 * std::sin(u) * std::sin(v / 2),
+                0.25 * std::cos(v / 2));
+  });
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> real(-1, 1);
+  for (int i = 0; i < 400; ++i) {
+    Transform X;
+    const double angle = M_PI * real(random);
+    X.m << std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1;
+    X.t = Vec3(std::cos(angle), std::sin(angle), 0) +
+          0.5 * Vec3(real(random), real(random), real(random));
+    w.poses.push_back(X);
+  }
+  return w;
+}
+
+struct Options {
+  std::filesystem::path data;
+  std::vector<std::string> workloads;
+  int rounds = 15, cpu = -1;
+};
+
+/// The columns, after SAT's.
+constexpr const char* kNames[] = {"SAT", "GJK", "LP", "edges, faces", "FCL", "posing"};
+constexpr std::size_t kTests = std::size(kNames);
+
+/// Sums over workloads.
+struct Means {
+  double logs[kTests] = {};  ///< of the mixed cost over SAT's
+  double wideLogs = 0;
+  int count = 0, wideCount = 0;
+};
+
+void run(test::Workload workload, const Options& o, Means& means) {
+  const Recorded r(std::move(workload));
+  const Ours<StandardOverlap> sat(r);
+  const Ours<Gjk> gjk(r);
+  const Ours<LinearProgram> lp(r);
+  const Ours<EdgeFace> edges(r);
+  const Ours<Posing> posing(r);
+  Wide wide(r);
+  Cost costs[kTests];
+  std::uint64_t found[kTests] = {};
+#ifdef CORRIDOR_WITH_FCL
+  const Fcl fcl(r);
+#endif
+  for (int i = 0; i < o.rounds; ++i) {
+    sat.pass(costs[0], found[0]);
+    gjk.pass(costs[1], found[1]);
+    lp.pass(costs[2], found[2]);
+    edges.pass(costs[3], found[3]);
+#ifdef CORRIDOR_WITH_FCL
+    fcl.pass(costs[4], found[4]);
+#endif
+    posing.pass(costs[5], found[5]);
+    if (i < 3) wide.pass();
+  }
+  const double share = r.shareApart(), first = costs[0].mixed(share), wideNs = wide.boxTestNs();
+  std::printf("| %s | %.0f %% |", r.w.name.c_str(), 100 * share);
+  for (std::size_t i = 0; i < kTests; ++i) {
+    const double ratio = costs[i].mixed(share) / first;
+    if (!(ratio < HUGE_VAL))
+      std::printf(" |");
+    else if (i == 0)
+      std::printf(" %.0f, %.0f |", costs[i].apart, costs[i].meet);
+    else
+      std::printf(" %.0f, %.0f: %.2g |", costs[i].apart, costs[i].meet, ratio);
+    means.logs[i] += std::log(ratio);
+  }
+  ++means.count;
+  if (wideNs > 0) {
+    std::printf(" %.1f: %.2g |", wideNs, wideNs / first);
+    means.wideLogs += std::log(wideNs / first);
+    ++means.wideCount;
+  } else {
+    std::printf(" |");
+  }
+  for (std::size_t i = 1; i < 4; ++i)  // both samples: whatever SAT told apart, and what it did not
+    std::printf(" %+.2g",
+                100 * (static_cast<double>(found[i]) / static_cast<double>(found[0]) - 1));
+  std::printf(" |\n");
+  std::fflush(stdout);
+}
+
+void report(const Options& o) {
+  if (o.cpu >= 0) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(o.cpu, &set);
+    if (sched_setaffinity(0, sizeof set, &set) != 0)
+      throw std::runtime_error("--cpu: there is no CPU " + std::to_string(o.cpu) + " to use");
+  }
+  std::printf(
+      "Nanoseconds a test, of boxes that are apart, and of boxes that are not; after the colon the "
+      "mixed cost, SAT's being 1. Wide kernel: %s.\n\n| workload | apart |",
+      simdTarget());
+  for (const char* name : kNames) std::printf(" %s |", name);
+  std::printf(" wide, C_v | told apart, %% over SAT: GJK, LP, edges |\n|---|--:|");
+  for (std::size_t i = 0; i < kTests + 2; ++i) std::printf("--:|");
+  std::printf("\n");
+  Means means;
+  if (o.data.empty()) {
+    run(made(), o, means);
+  } else {
+    for (const std::string& name : test::workloadNames(o.data / "collision")) {
+      const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
+      if (o.workloads.empty() || std::ranges::any_of(o.workloads, named))
+        run(test::loadWorkload(o.data / "collision", name), o, means);
+    }
+  }
+  if (means.count == 0) throw std::runtime_error("no workload there has such a name");
+  std::printf("\ngeometric means of the mixed cost over SAT's:");
+  for (std::size_t i = 1; i < kTests; ++i)
+    std::printf(" %s %.2f;", kNames[i], std::exp(means.logs[i] / means.count));
+  std::printf(" wide %.2f\n", std::exp(means.wideLogs / std::max(means.wideCount, 1)));
+}
+
+Options options(int argc, char** argv) {
+  Options o;
+  if (const auto data = test::dataFolder()) o.data = *data;
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::size_t i = 0; i < words.size(); i += 2) {
+    if (i + 1 == words.size()) throw std::runtime_error(words[i] + ": unknown, or without a value");
+    const std::string& value = words[i + 1];
+    if (words[i] == "--data")
+      o.data = value;
+    else if (words[i] == "--workload")
+      o.workloads.push_back(value);
+    else if (words[i] == "--rounds")
+      o.rounds = std::max(std::stoi(value), 1);
+    else if (words[i] == "--cpu")
+      o.cpu = std::stoi(value);
+    else
+      throw std::runtime_error(words[i] + ": unknown option");
+  }
+  return o;
+}
+
+}  // namespace
+}  // namespace corridor
+
+int main(int argc, char** argv) {
+  try {
+    corridor::report(corridor::options(argc, argv));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
