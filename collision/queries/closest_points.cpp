@@ -129,11 +129,12 @@ bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   } else {
     offerFoot(best, s[feature - 12], t, false);
   }
+  if (!(best.square < Real(HUGE_VAL))) return false;  // a foot that is outside after all
   if (isNothing(best)) return true;
   const Point n = best.b - best.a;
   const Real most = sqrt(best.square) * Real(kLost / 2);  // of either side, times |n|
   for (int i = 0; i < 3; ++i)
-    if (dot(n, s[i] - best.a) > most || -most > dot(n, t[i] - best.b)) return false;
+    if (!(dot(n, s[i] - best.a) < most) || !(-most < dot(n, t[i] - best.b))) return false;
   return true;
 }
 
