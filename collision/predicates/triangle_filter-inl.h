@@ -47,6 +47,7 @@ HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<decltype(d)>;
   constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
+  static_assert(kLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
   struct Vec {
     V x, y, z;
   };

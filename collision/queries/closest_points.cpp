@@ -134,7 +134,7 @@ bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   const Point n = best.b - best.a;
   const Real most = sqrt(best.square) * Real(kLost / 2);  // of either side, times |n|
   for (int i = 0; i < 3; ++i)
-    if (dot(n, s[i] - best.a) > most || -most > dot(n, t[i] - best.b)) return false;
+    if (!(dot(n, s[i] - best.a) < most) || !(-most < dot(n, t[i] - best.b))) return false;
   return true;
 }
 

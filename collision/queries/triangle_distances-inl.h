@@ -36,13 +36,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// a coordinate, D the sum of all sizes, as in `touchingTriangles`. A point of an edge or a face is
 /// evaluated with less than 6u·D more, and parameters that add up to 1 + u put it out by u·D: two
 /// points, their difference and its length are off by √3(2·10 + 2)u·D < 40u·D. A direction's
-/// projections: 3u + √3·3u of |n|·D on each side, and a quotient: 20u·D. Squares that underflow:
-/// below 2^-60 a length is not told.
+/// projections: 3u + √3·3u of |n|·D on each side, and a quotient: 20u·D. Products that underflow,
+/// flushed or not, lose less than 2^-124 a sum: 2^-62 of a length where nothing else is left, 2^-25
+/// of it above 2^-50, and of a projection onto such an n less than u·|n|·D; below, `lower` is 0.
 HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, float error,
                                   float* HWY_RESTRICT lower, float* HWY_RESTRICT upper) {
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<decltype(d)>;
   constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
+  static_assert(kLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
   struct Vec {
     V x, y, z;
   };
@@ -141,7 +143,8 @@ HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, fl
                         hn::Add(hn::Add(sum(s[1]), sum(s[2])),
                                 sum(Vec{hn::LoadDup128(d, b.x[0][0]), hn::LoadDup128(d, b.x[0][1]),
                                         hn::LoadDup128(d, b.x[0][2])})));
-    const auto known = hn::Lt(D, hn::Set(d, 0x1p50F));  // squares and their squares don't overflow
+    // Squares don't overflow; their products, in parameters, may: NaN, clamped or not inside.
+    const auto known = hn::Lt(D, hn::Set(d, 0x1p50F));
     const V off = hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 48 * 0x1p-24F), D));
     const V length = hn::Sqrt(least);
     const V up = hn::Add(hn::Mul(hn::Add(length, hn::Set(d, 0x1p-60F)), hn::Set(d, 1 + 0x1p-20F)),
@@ -150,7 +153,7 @@ HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, fl
                           max3(zero, dot(n, s[1]), dot(n, s[2])));
     const V low = hn::Sub(hn::Mul(hn::Div(gap, length), hn::Set(d, 1 - 0x1p-20F)), off);
     const auto told =
-        hn::And(known, hn::And(hn::Gt(low, zero), hn::Gt(length, hn::Set(d, 0x1p-60F))));
+        hn::And(known, hn::And(hn::Gt(low, zero), hn::Gt(length, hn::Set(d, 0x1p-50F))));
     hn::Store(hn::IfThenElse(told, low, zero), d, lower + at);
     hn::Store(hn::IfThenElse(hn::And(known, hn::Lt(up, infinite)), up, infinite), d, upper + at);
   }

@@ -25,6 +25,7 @@ struct BoxPairs {
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<hn::CappedTag<float, 16>>;
   static constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
+  static_assert(kLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
 
   V T[3], R[3][3], Q[3][3];  // the centre and the axes of b's box in coordinates of a's, and |R|
   V a[3], b[3];              // half extents

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "collision/core/rounding.h"
@@ -118,6 +119,47 @@ TEST(WideDistance, AgreesWithBruteForceAndIsSymmetric) {
   }
   EXPECT_GT(touching, 20);
   EXPECT_LT(touching, 250);
+}
+
+Mat3 turned(int n) {
+  return Eigen::AngleAxisd(n, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+}
+
+/// A triangle over its copy: feet on edges, which plain doubles put inside and finer numbers
+/// outside.
+TEST(WideDistance, FeetOnEdges) {
+  TriangleMesh low, high;
+  const Vec3 up(0, 0, 0.1);
+  test::add(low, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  test::add(high, up, up + Vec3(1, 0, 0), up + Vec3(0, 1, 0));
+  const WideObbTree a(low), b(high);
+  QueryContext context;
+  for (int n = 0; n < 100; ++n) {
+    const Transform X{turned(n), Vec3::Zero()};
+    EXPECT_NEAR(distance(a, X, b, X, {}, context).distance, 0.1, 4 * kUnit) << n;
+    EXPECT_TRUE(closerThan(a, X, b, X, 0.1 + 4 * kUnit, context)) << n;
+  }
+}
+
+/// Tips over tips, all but equally far: floats can't tell which are closest, and their margins must
+/// not say that they can.
+TEST(WideDistance, NearTies) {
+  for (int n = 0; n < 20; ++n) {
+    TriangleMesh low, high;
+    for (int i = 0; i < 16; ++i) {
+      const Vec3 p(0, 0.01 * i, 0), q = p + Vec3(0, 0, 0.001 + 1e-8 * (7 * i % 16));
+      test::add(low, p + Vec3(0.3, 0, -1), p, p + Vec3(-0.2, 0.1, -1));
+      test::add(high, q + Vec3(0.3, 0.2, 1), q + Vec3(-0.3, 0.1, 1), q);
+    }
+    for (TriangleMesh* m : {&low, &high})
+      for (Vec3& v : m->vertices) v = turned(n) * v;
+    const WideObbTree a(low), b(high);
+    QueryContext context;
+    const Distance d = distance(a, {}, b, {}, {}, context);
+    EXPECT_EQ(d.a, 0U) << n;
+    EXPECT_EQ(d.b, 0U) << n;
+    EXPECT_NEAR(d.distance, 0.001, 8 * kUnit) << n;  // 2 more for the corners' own roundings
+  }
 }
 
 }  // namespace
