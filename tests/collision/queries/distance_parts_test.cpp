@@ -7,8 +7,8 @@
 #include "collision/core/rounding.h"
 #include "collision/queries/distance.h"
 #include "collision/queries/interference.h"
-#include "tests/collision/hierarchy/soups.h"
 #include "tests/collision/hierarchy/volumes.h"
+#include "tests/support/soups.h"
 #include "tests/support/support.h"
 
 namespace corridor {
