@@ -29,7 +29,8 @@ struct Distance {
 ///
 /// 0 if and only if `interference` says contact; then both points are one that the items share.
 /// Else off, beyond what the options allow, by at most 1e-12·d + 4·2^-53·S, S the largest Σ|m||v| +
-/// |t| of the corners mapped (of parts: with their radii). Curved surfaces are not tessellated.
+/// |t| of the corners mapped (of parts: with their radii), and never told below 2^-1022. Curved
+/// surfaces are not tessellated.
 ///
 /// Branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999); pairs
 /// of items are bounded in double, and those that may be the closest are measured again in
@@ -42,7 +43,7 @@ Distance distance(const VolumeTree<Volume>& a, const Transform& X_WA, const Volu
 /// The tolerance query: are they at most `d` metres apart?
 ///
 /// `false` is a proof that they are farther apart than d. `true` is right but where the distance
-/// exceeds d by less than 1e-12·d + 4·2^-53·S. For d = 0 it is `interference`.
+/// exceeds d by less than 1e-12·d + 4·2^-53·S + 2^-998 m. For d = 0 it is `interference`.
 /// @pre as above, d ≥ 0.
 template <BoundingVolume Volume>
 bool closerThan(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,

@@ -130,8 +130,9 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
 /// that they are not. `squares` gets a proven lower bound of each pair's squared distance.
 ///
 /// Gaps along three axes u_i at right angles bound the distance by √Σ gap_i²: for any vector d,
-/// Σ(u_i·d)² ≤ (1 + 3η)|d|², and η < 2^-17 for a's axes as for b's (R̂) — 1 − 2^-14 covers that and
-/// the rounding of the sum.
+/// Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and b's (R̂) where the map is rigid, η < 2^-17: 1 − 2^-14
+/// covers that and the rounding of the sum. Of a map that is less so, `relative` took 10η·(|T|₁ +
+/// Σa + Σb) ≥ 9η·|u_i·d| off each gap, and (1 − 9η)²(1 + 3η) < 1.
 HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
                               float* HWY_RESTRICT squares) {
   const hn::CappedTag<float, 16> d;
