@@ -32,14 +32,28 @@ const Kind& kindNamed(const std::string& option, const std::string& name,
                              didYouMean(name, names) + "; there are: " + joined(names)});
 }
 
-/// One of a volume's variants, the first where none is named. @throws InputError
+/// One of a volume's variants, the first where none is named. @throws InputError, which tells the
+/// volumes that have it where this one doesn't.
 std::string variantNamed(const std::string& option, const std::optional<std::string>& name,
-                         const std::string& volume, const std::vector<std::string>& names) {
+                         const VolumeKind& volume, std::vector<std::string> VolumeKind::*variants) {
+  const std::vector<std::string>& names = volume.*variants;
   if (!name) return names.front();
-  if (std::find(names.begin(), names.end(), *name) != names.end()) return *name;
+  const auto has = [&](const VolumeKind& kind) {
+    return std::find((kind.*variants).begin(), (kind.*variants).end(), *name) !=
+           (kind.*variants).end();
+  };
+  if (has(volume)) return *name;
+  std::vector<std::string> others;
+  for (const VolumeKind& kind : volumeKinds())
+    if (has(kind)) others.push_back(kind.name);
+  if (!others.empty())
+    throw InputError(Fault{option, 0,
+                           quotedWord(*name) + " is of --volume " + joined(others) + "; of " +
+                               volume.name + " there are: " + joined(names)});
   throw InputError(Fault{option, 0,
-                         "unknown " + option.substr(2) + " " + quotedWord(*name) + " of " + volume +
-                             didYouMean(*name, names) + "; there are: " + joined(names)});
+                         "unknown " + option.substr(2) + " " + quotedWord(*name) + " of " +
+                             volume.name + didYouMean(*name, names) +
+                             "; there are: " + joined(names)});
 }
 
 std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& meshA,
@@ -142,8 +156,8 @@ int queryCommand(const QueryArguments& a) {
   checkOptions(a);
   const QueryKind& query = kindNamed("--query", a.query, queryKinds());
   const VolumeKind& volume = kindNamed("--volume", a.volume, volumeKinds());
-  const std::string fit = variantNamed("--fit", a.fit, volume.name, volume.fits);
-  const std::string overlap = variantNamed("--overlap", a.overlap, volume.name, volume.overlaps);
+  const std::string fit = variantNamed("--fit", a.fit, volume, &VolumeKind::fits);
+  const std::string overlap = variantNamed("--overlap", a.overlap, volume, &VolumeKind::overlaps);
   if (query.asked == Asked::tolerance && !a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "the tolerance query needs a distance in metres"});
   if (query.asked != Asked::tolerance && a.tolerance)

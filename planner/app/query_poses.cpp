@@ -143,8 +143,15 @@ std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,
   const Vec3 grown = Vec3::Constant((boundsB.high - boundsB.low).norm() / 2);
   const Vec3 lower = grid.lower.value_or(boundsA.low - grown);
   const Vec3 upper = grid.upper.value_or(boundsA.high + grown);
-  if (!(lower.array() <= upper.array()).all())
-    throw InputError(Fault{"--lower", 0, rounded(lower) + " is not below " + rounded(upper)});
+  if (!(lower.array() <= upper.array()).all()) {
+    // What the user gave is at fault, and what was not given is a default.
+    if (!grid.lower)
+      throw InputError(Fault{
+          "--upper", 0, rounded(upper) + " is not above --lower, by default " + rounded(lower)});
+    throw InputError(Fault{"--lower", 0,
+                           rounded(lower) + " is not below --upper, " +
+                               (grid.upper ? "" : "by default ") + rounded(upper)});
+  }
   std::size_t total = 1;
   for (const std::size_t count : {grid.counts[0], grid.counts[1], grid.counts[2], grid.rotations}) {
     if (count > kMostPoses / total)

@@ -5,7 +5,9 @@
 #include "collision/queries/distance_wide.h"
 #include "collision/queries/interference_wide.h"
 
-int main(int, char** files) try {
+int main(int count, char** files) try {
+  if (count != 3)
+    throw corridor::InputError(corridor::Fault{files[0], 0, "two mesh files are needed"});
   const corridor::WideObbTree a(corridor::readMeshFile(files[1]).mesh);  // metres; built once
   const corridor::WideObbTree b(corridor::readMeshFile(files[2]).mesh);
   corridor::QueryContext context;  // scratch memory and counters: one a thread

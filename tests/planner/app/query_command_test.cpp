@@ -248,7 +248,9 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --poses poses.txt --fit moments",
         "--fit: unknown fit \"moments\" of obb; there are: triangles, vertices, hull");
   fault("a.obj b.obj --poses poses.txt --overlap gjk",
-        "--overlap: unknown overlap \"gjk\" of obb; there are: sat");
+        "--overlap: \"gjk\" is of --volume obb-binary; of obb there are: sat");
+  fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
+        "--fit: \"hull\" is of --volume obb, obb-binary, rss; of aabb there are: plain");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
         "--overlap: unknown overlap \"gkj\" of obb-binary; did you mean \"gjk\"?; there are: sat, "
         "gjk, lp, edge-face");
@@ -269,7 +271,14 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --grid 2x2x2 --upper -9,nan,1",
         "--upper: three numbers of metres are needed, as in -1,-1,0.5, not \"-9,nan,1\"");
   fault("a.obj b.obj --grid 2x2x2 --lower 1,1,1 --upper 0,2,2",
-        "--lower: [1, 1, 1] is not below [0, 2, 2]");
+        "--lower: [1, 1, 1] is not below --upper, [0, 2, 2]");
+  const auto boundsFault = [&](const std::string& arguments, const std::string& told) {
+    const Result result = run("query a.obj b.obj --grid 2x2x2 " + arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(result.err.substr(0, told.size()), told) << arguments;
+  };
+  boundsFault("--lower 99,0,0", "--lower: [99, 0, 0] is not below --upper, by default [");
+  boundsFault("--upper -99,0,0", "--upper: [-99, 0, 0] is not above --lower, by default [");
   fault("a.obj b.obj --grid 2x2x2 --save-poses none/p.txt",
         "--save-poses: none/p.txt can't be written");
 }
