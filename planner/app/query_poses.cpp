@@ -115,7 +115,8 @@ std::vector<Transform> readPoses(const std::filesystem::path& file) {
   std::vector<Transform> poses;
   const std::string text = readTextStream(file, "a file of poses, one a line,");
   int number = 0, faulty = 0, lastFaulty = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
+  // Some editors put a mark in front that nobody sees.
+  for (std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line(text.data() + begin, end - begin);
     begin = end + 1;

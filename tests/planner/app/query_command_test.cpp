@@ -89,7 +89,7 @@ TEST_F(QueryCommand, ContactsTellTrianglesAndSegments) {
 }
 
 TEST_F(QueryCommand, DistanceAndTolerance) {
-  write("poses.txt", kStill + "0 0 0\n" + kStill + "0 0 2\n");
+  write("poses.txt", "\xEF\xBB\xBF" + kStill + "0 0 0\n" + kStill + "0 0 2\n");
   EXPECT_EQ(lines(query("--poses poses.txt --query distance").out).at(2), "1,1,1,1,0,1,1,1");
   EXPECT_THAT(lines(query("--poses poses.txt --query distance").out).at(1),
               testing::StartsWith("0,0,"));
