@@ -37,7 +37,7 @@ struct Corner {
 /// The corners whose hull has `upper`: up to three, four where the cores overlap; none where the
 /// search met before it began.
 template <class Real>
-struct Simplex {
+struct Simplex {  // NOLINT(bugprone-reserved-identifier): the compiler's own, of copying the array
   Corner<Real> corner[4];
   int count = 0;
 };

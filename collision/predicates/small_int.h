@@ -37,7 +37,7 @@ class Int128 {
     a.value_ -= b.value_;
     return a;
   }
-  friend auto operator<=>(const Int128&, const Int128&) = default;
+  friend auto operator<=>(const Int128&, const Int128&) = default;  // NOLINT: no null pointer here
 
  private:
   SignedPair value_ = 0;

@@ -42,7 +42,7 @@ class NearestParts : public NearestPairs {
   Distance result(const Tree& a, const Tree& b) {
     const auto measure = [&](std::uint32_t s, std::uint32_t t) {
       Counters own;
-      const ConvexDistance d =
+      ConvexDistance d =
           convexDistance({convexSetOf(a, s), X_WA_}, {convexSetOf(b, t), X_WB_}, 0, 0, own);
       context_.counters.exactTests += own.exactTests;
       return d;

@@ -77,7 +77,7 @@ ObbFrame fitFrame(const Content& content, ObbFit fit) {
 }
 
 ObbFrame alignedFrame(const Content& content) {
-  const Vec3 origin = content.anyPoint();
+  const Vec3& origin = content.anyPoint();
   Vec3 sum = Vec3::Zero();
   double count = 0;
   content.forEach([&](const Vec3& p, double) {
@@ -91,7 +91,7 @@ Obb enclosingObb(const Content& content, const Mat3& axes) {
   Obb box;
   box.axes = axes;
   // About one of the points, so that a small mesh far from the origin keeps its digits.
-  const Vec3 origin = content.anyPoint();
+  const Vec3& origin = content.anyPoint();
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   content.forEach([&](const Vec3& p, double r) {
     const Vec3 y = axes.transpose() * (p - origin);

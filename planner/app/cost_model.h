@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -49,8 +50,7 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
 
 /// The number that a share of the numbers do not exceed. @pre not empty, 0 ≤ share ≤ 1.
 inline double quantile(std::vector<double> numbers, double share) {
-  const auto rank =
-      static_cast<std::ptrdiff_t>(share * static_cast<double>(numbers.size() - 1) + 0.5);
+  const std::ptrdiff_t rank = std::lround(share * static_cast<double>(numbers.size() - 1));
   std::nth_element(numbers.begin(), numbers.begin() + rank, numbers.end());
   return numbers[static_cast<std::size_t>(rank)];
 }
