@@ -9,6 +9,7 @@
 
 #include "collision/convex/simplex.h"
 #include "collision/convex/support.h"
+#include "collision/core/rounding.h"
 
 /// The algorithm of Gilbert, Johnson, Keerthi (1988) on the cores of two posed convex sets. It
 /// finds *candidates*: who needs a proof projects both sets along the direction
@@ -50,7 +51,7 @@ class Search {
   /// @param size  metres: above every coordinate involved.
   /// @param whole  balls are in the cores, as the maps' images of them.
   Search(const PosedSet& a, const PosedSet& b, double size, bool whole = false)
-      : unit(std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000))),
+      : unit(powerOfTwo(size)),
         a_(a, 1 / unit, whole),
         b_(b, 1 / unit, whole),
         noise_(256 * Effort<Real>::unit * size / unit),

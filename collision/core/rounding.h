@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace corridor {
@@ -27,6 +28,12 @@ inline double roundedDown(double bound) {
 /// larger.
 inline double rootFromBelow(double square) {
   return square > 0x1p-960 ? std::sqrt(square) : 0;
+}
+
+/// The largest power of two below `size` > 0, within 2^±1000: a unit in which squares of what is of
+/// that size neither over- nor underflow, exact to scale by.
+inline double powerOfTwo(double size) {
+  return std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
 }
 
 }  // namespace corridor

@@ -15,7 +15,7 @@
 #include "hwy/highway.h"
 
 #include "collision/hierarchy/wide_obb_tree.h"
-#include "collision/predicates/triangle_filter-inl.h"
+#include "collision/predicates/triangle_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {

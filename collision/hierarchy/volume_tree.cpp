@@ -5,10 +5,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/hierarchy/tree_builder.h"
-#include "collision/volumes/aabb.h"
-#include "collision/volumes/bounding_sphere.h"
-#include "collision/volumes/kdop.h"
-#include "collision/volumes/rss.h"
+#include "collision/volumes/pair_tests.h"
 
 namespace corridor {
 
@@ -98,12 +95,8 @@ std::size_t VolumeTree<Volume>::bytes() const {
          items_.numbers.capacity() * sizeof(std::uint32_t);
 }
 
-template class VolumeTree<Obb>;
-template class VolumeTree<Aabb>;
-template class VolumeTree<BoundingSphere>;
-template class VolumeTree<Rss>;
-template class VolumeTree<Kdop<14>>;
-template class VolumeTree<Kdop<18>>;
-template class VolumeTree<Kdop<26>>;
+#define CORRIDOR_TREE(Volume) template class VolumeTree<Volume>;
+CORRIDOR_EACH_VOLUME(CORRIDOR_TREE)
+#undef CORRIDOR_TREE
 
 }  // namespace corridor

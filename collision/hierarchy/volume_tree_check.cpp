@@ -2,6 +2,7 @@
 
 #include "collision/hierarchy/exact_volume.h"
 #include "collision/hierarchy/volume_tree.h"
+#include "collision/volumes/pair_tests.h"
 #include "collision/volumes/part_obb.h"
 
 namespace corridor {
@@ -77,12 +78,9 @@ std::optional<std::string> VolumeTree<Volume>::check() const {
   return std::nullopt;
 }
 
-template std::optional<std::string> VolumeTree<Obb>::check() const;
-template std::optional<std::string> VolumeTree<Aabb>::check() const;
-template std::optional<std::string> VolumeTree<BoundingSphere>::check() const;
-template std::optional<std::string> VolumeTree<Rss>::check() const;
-template std::optional<std::string> VolumeTree<Kdop<14>>::check() const;
-template std::optional<std::string> VolumeTree<Kdop<18>>::check() const;
-template std::optional<std::string> VolumeTree<Kdop<26>>::check() const;
+#define CORRIDOR_CHECK(Volume) \
+  template std::optional<std::string> VolumeTree<Volume>::check() const;
+CORRIDOR_EACH_VOLUME(CORRIDOR_CHECK)
+#undef CORRIDOR_CHECK
 
 }  // namespace corridor

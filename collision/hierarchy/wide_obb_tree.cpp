@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
+#include "collision/volumes/moments.h"
 #include "collision/volumes/obb.h"
 
 namespace corridor {
@@ -23,52 +23,6 @@ struct Record {
   std::array<float, 6> spread;  // weight · covariance: xx, xy, xz, yy, yz, zz
   std::uint32_t triangle;
 };
-
-/// Eigenvectors of a symmetric matrix of trace 1, as columns, of the largest eigenvalue first:
-/// right-handed, orthonormal to a few ulp, and as good as axes of a box need be; a third of Eigen's
-/// time. Source: Eberly, A Robust Eigensolver for 3x3 Symmetric Matrices, 2014: the eigenvalue that
-/// is farther from the middle one by a cosine, its vector by the largest cross product of two rows,
-/// the others in the plane orthogonal to it.
-Mat3 principalAxes(const Mat3& c) {
-  const Mat3 b = c - Mat3::Identity() / 3;
-  const double p = std::sqrt(b.squaredNorm() / 6);
-  const double half = b.determinant() / (2 * p * p * p);
-  const bool largest = half >= 0;
-  const double angle = std::acos(std::clamp(half, -1.0, 1.0)) / 3;
-  const Mat3 rest =
-      b - 2 * p * std::cos(largest ? angle : angle + 2 * std::numbers::pi / 3) * Mat3::Identity();
-  const Vec3 rows[3] = {rest.row(0), rest.row(1), rest.row(2)};
-  Vec3 w = rows[0].cross(rows[1]);
-  for (const Vec3& other : {rows[1].cross(rows[2]), rows[2].cross(rows[0])})
-    if (other.squaredNorm() > w.squaredNorm()) w = other;
-  if (!(w.squaredNorm() > 0x1p-160)) return Mat3::Identity();  // a ball's: any will do
-  w *= 1 / std::sqrt(w.squaredNorm());
-  // A basis of the plane, of the coordinate axis that is farthest from w.
-  int k = 0;
-  w.cwiseAbs().minCoeff(&k);
-  Vec3 s = w.cross(Vec3::Unit(k));
-  s *= 1 / std::sqrt(s.squaredNorm());
-  const Vec3 t = w.cross(s);
-  const Vec3 bs = b * s;
-  const double x = 0.5 * (bs.dot(s) - t.dot(b * t)), h = bs.dot(t), r = std::sqrt(x * x + h * h);
-  double cosine = x >= 0 ? x + r : h, sine = x >= 0 ? h : r - x;
-  const double length = std::sqrt(cosine * cosine + sine * sine);
-  if (length > 0x1p-80) {
-    cosine /= length;
-    sine /= length;
-  } else {
-    cosine = 1;
-    sine = 0;
-  }
-  const Vec3 u = cosine * s + sine * t, v = w.cross(u);  // the larger and the smaller of the plane
-  Mat3 axes;
-  if (largest) {
-    axes << w, u, v;
-  } else {
-    axes << u, v, w;  // w × u = v, so that u × v = w
-  }
-  return axes;
-}
 
 /// Triangles [first, first + count) with their mean and axes.
 struct Cluster {
@@ -214,14 +168,10 @@ class WideObbBuilder {
       zz += wz * z + r->spread[5];
     }
     cluster.size = static_cast<double>(xx) + yy + zz;
-    const double scale = 1 / cluster.size;
     Mat3 c;
     c << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-    cluster.axes = Mat3::Identity();
     if (fit_ == ObbFit::hull) return fitHull(cluster);
-    if (!(cluster.size > 0) || !std::isfinite(scale)) return;
-    const Mat3 axes = principalAxes(c * scale);
-    if (orthonormalityDefect(axes) < 0x1p-40) cluster.axes = axes;  // not where a number is NaN
+    cluster.axes = principalAxes(c);
   }
 
   void fitHull(Cluster& cluster) {

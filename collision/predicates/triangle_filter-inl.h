@@ -13,87 +13,43 @@
 
 #include "hwy/highway.h"
 
-#include "collision/core/lanes.h"
+#include "collision/predicates/triangle_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Corners of four triangles, relative to a point: [corner][coordinate][triangle].
-struct alignas(64) LeafCorners {
-  float x[3][3][4];
-  double center[3];
-};
-
 /// Which of the sixteen pairs of triangles may touch: bit 4·i + j for a's i-th and b's j-th. A
 /// cleared bit is a proof that the two are farther apart than `error`, the distance that the
 /// corners given may be off by, both sides together. By the separating-axis theorem: both planes
 /// and the nine cross products of edges.
 ///
-/// Rounding, u = 2^-24. All is relative to a corner o of a's triangle: b's corners are p = b.x +
-/// (ΔC − o), ΔC the difference of the leaves' points, in floats rounded at each step, so off by
-/// u(3|b.x| + 3|p| + 2|o|) < 3u·D a coordinate, D the sum of all those sizes (b.x alone may be far
-/// larger than p: a leaf of small triangles far apart). Any vector L separates if the projections
-/// do: two projections are off by less than 2(3u + 3u)·|L|₁·D, and `error` adds |L|₂·error. What is
-/// taken for equal (L·e for an edge e of L = e × f, 0 but for the rounding of L, |δL| ≤ 2u|e||f| a
-/// coordinate) is off by 2√3·u|e||f|·√3D. With |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u) the sum is
-/// below |e||f|·(error + 28u·D), and for normals likewise. Lengths enter as |e|₁ ≥ |e|₂. Products
-/// that underflow lose less than 2^-124, flushed or not, times an edge below 2^30.
+/// Rounding, u = 2^-24: corners are off by 3u·D a coordinate (`TrianglePairs`, D its size). Any
+/// vector L separates if the projections do: two projections are off by less than 2(3u +
+/// 3u)·|L|₁·D, and `error` adds |L|₂·error. What is taken for equal (L·e for an edge e of L = e ×
+/// f, 0 but for the rounding of L, |δL| ≤ 2u|e||f| a coordinate) is off by 2√3·u|e||f|·√3D. With
+/// |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 28u·D), and for normals
+/// likewise. Lengths enter as |e|₁ ≥ |e|₂. Products that underflow lose less than 2^-124, flushed
+/// or not, times an edge below 2^30.
 ///
 /// `pad`: the triangles shall be farther apart by that, too; it scales with the axes' true lengths.
 HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b, float error,
                                       float pad = 0) {
-  const hn::CappedTag<float, 16> d;
-  using V = hn::Vec<decltype(d)>;
-  constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
-  static_assert(kLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
-  struct Vec {
-    V x, y, z;
-  };
-  const auto cross = [](const Vec& p, const Vec& q) {
-    return Vec{hn::Sub(hn::Mul(p.y, q.z), hn::Mul(p.z, q.y)),
-               hn::Sub(hn::Mul(p.z, q.x), hn::Mul(p.x, q.z)),
-               hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x))};
-  };
-  const auto dot = [](const Vec& p, const Vec& q) {
-    return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
-  };
-  const auto sub = [](const Vec& p, const Vec& q) {
-    return Vec{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
-  };
-  const auto sum = [](const Vec& p) {
-    return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
-  };
+  const LaneTag d;
+  using V = LaneFloat;
+  using Vec = LaneVec;
   // pad·|L|, rounded up: below 2^-63 squares vanish.
   const bool padded = pad > 0;
   const auto padding = [&](const Vec& L) {
     return hn::Mul(hn::Set(d, pad * (1 + 0x1p-20F)),
                    hn::Add(hn::Sqrt(dot(L, L)), hn::Set(d, 0x1p-60F)));
   };
-  const auto min3 = [](V x, V y, V z) { return hn::Min(hn::Min(x, y), z); };
-  const auto max3 = [](V x, V y, V z) { return hn::Max(hn::Max(x, y), z); };
   unsigned mask = 0;
   const V zero = hn::Zero(d);
-  for (std::size_t at = 0; at < 16; at += kLanes) {
-    const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
-    const auto corner = [&](int k) {
-      return Vec{hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][0]), rows),
-                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][1]), rows),
-                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][2]), rows)};
-    };
-    const Vec o = corner(0);
-    const Vec away = sub(Vec{hn::Set(d, static_cast<float>(b.center[0] - a.center[0])),
-                             hn::Set(d, static_cast<float>(b.center[1] - a.center[1])),
-                             hn::Set(d, static_cast<float>(b.center[2] - a.center[2]))},
-                         o);
-    const auto load = [&](int k) {
-      return Vec{hn::Add(hn::LoadDup128(d, b.x[k][0]), away.x),
-                 hn::Add(hn::LoadDup128(d, b.x[k][1]), away.y),
-                 hn::Add(hn::LoadDup128(d, b.x[k][2]), away.z)};
-    };
-    const Vec e1 = sub(corner(1), o), e2 = sub(corner(2), o);
-    const Vec p0 = load(0), p1 = load(1), p2 = load(2);
+  for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
+    const TrianglePairs pairs(a, b, at);
+    const Vec &e1 = pairs.s1, &e2 = pairs.s2, &p0 = pairs.t[0], &p1 = pairs.t[1], &p2 = pairs.t[2];
     const Vec f1 = sub(p1, p0), f2 = sub(p2, p0);
     const Vec ea[3] = {e1, sub(e2, e1), e2};
     const Vec fb[3] = {f1, sub(p2, p1), f2};
@@ -102,12 +58,8 @@ HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b
       le[i] = sum(ea[i]);
       lf[i] = sum(fb[i]);
     }
-    // A sum, not a maximum, which could lose a NaN. Products of three such numbers are far from
-    // overflow.
-    const V D = hn::Add(hn::Add(hn::Add(sum(o), sum(p0)), hn::Add(sum(p1), sum(p2))),
-                        hn::Add(hn::Add(le[0], le[2]),
-                                sum(Vec{hn::LoadDup128(d, b.x[0][0]), hn::LoadDup128(d, b.x[0][1]),
-                                        hn::LoadDup128(d, b.x[0][2])})));
+    // Products of three such numbers are far from overflow.
+    const V D = pairs.size;
     const V per = hn::IfThenElse(hn::Lt(D, hn::Set(d, 0x1p30F)),
                                  hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 40 * 0x1p-24F), D)),
                                  hn::Set(d, HUGE_VALF));

@@ -138,10 +138,6 @@ bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   return true;
 }
 
-double powerOfTwo(double size) {
-  return std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
-}
-
 /// The largest Σ|m||v| + |t| of the corners mapped.
 double largestTerms(const Triangle& t, const Transform& X) {
   double size = 0;

@@ -26,16 +26,7 @@ std::vector<TriangleContact> contacts(const VolumeTree<Volume>& a, const Transfo
   template std::vector<TriangleContact> contacts<Overlap>(                                      \
       const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
       QueryContext&);
-CORRIDOR_CONTACTS(Obb, StandardOverlap)
-CORRIDOR_CONTACTS(Obb, Gjk)
-CORRIDOR_CONTACTS(Obb, LinearProgram)
-CORRIDOR_CONTACTS(Obb, EdgeFace)
-CORRIDOR_CONTACTS(Aabb, StandardOverlap)
-CORRIDOR_CONTACTS(BoundingSphere, StandardOverlap)
-CORRIDOR_CONTACTS(Rss, StandardOverlap)
-CORRIDOR_CONTACTS(Kdop<14>, StandardOverlap)
-CORRIDOR_CONTACTS(Kdop<18>, StandardOverlap)
-CORRIDOR_CONTACTS(Kdop<26>, StandardOverlap)
+CORRIDOR_EACH_OVERLAP(CORRIDOR_CONTACTS)
 #undef CORRIDOR_CONTACTS
 
 }  // namespace corridor

@@ -168,13 +168,7 @@ bool closerThan(const VolumeTree<Volume>& a, const Transform& X_WA, const Volume
                              QueryContext&);                                                       \
   template bool closerThan(const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, \
                            const Transform&, double, QueryContext&);
-CORRIDOR_DISTANCE(Obb)
-CORRIDOR_DISTANCE(Aabb)
-CORRIDOR_DISTANCE(BoundingSphere)
-CORRIDOR_DISTANCE(Rss)
-CORRIDOR_DISTANCE(Kdop<14>)
-CORRIDOR_DISTANCE(Kdop<18>)
-CORRIDOR_DISTANCE(Kdop<26>)
+CORRIDOR_EACH_VOLUME(CORRIDOR_DISTANCE)
 #undef CORRIDOR_DISTANCE
 
 }  // namespace corridor

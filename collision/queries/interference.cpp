@@ -45,16 +45,7 @@ std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Tran
   template std::optional<TrianglePair> interference<Overlap>(                                   \
       const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
       QueryContext&);
-CORRIDOR_INTERFERENCE(Obb, StandardOverlap)
-CORRIDOR_INTERFERENCE(Obb, Gjk)
-CORRIDOR_INTERFERENCE(Obb, LinearProgram)
-CORRIDOR_INTERFERENCE(Obb, EdgeFace)
-CORRIDOR_INTERFERENCE(Aabb, StandardOverlap)
-CORRIDOR_INTERFERENCE(BoundingSphere, StandardOverlap)
-CORRIDOR_INTERFERENCE(Rss, StandardOverlap)
-CORRIDOR_INTERFERENCE(Kdop<14>, StandardOverlap)
-CORRIDOR_INTERFERENCE(Kdop<18>, StandardOverlap)
-CORRIDOR_INTERFERENCE(Kdop<26>, StandardOverlap)
+CORRIDOR_EACH_OVERLAP(CORRIDOR_INTERFERENCE)
 #undef CORRIDOR_INTERFERENCE
 
 std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA, const Octree& b,

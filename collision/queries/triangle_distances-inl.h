@@ -14,8 +14,7 @@
 
 #include "hwy/highway.h"
 
-#include "collision/core/lanes.h"
-#include "collision/predicates/triangle_filter-inl.h"
+#include "collision/predicates/triangle_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
@@ -33,7 +32,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// from below, so that nothing depends on how well they were found.
 ///
 /// Rounding, u = 2^-24; all is relative to a corner of a's triangle, and each corner is off by 3u·D
-/// a coordinate, D the sum of all sizes, as in `touchingTriangles`. A point of an edge or a face is
+/// a coordinate (`TrianglePairs`, D its size). A point of an edge or a face is
 /// evaluated with less than 6u·D more, and parameters that add up to 1 + u put it out by u·D: two
 /// points, their difference and its length are off by √3(2·10 + 2)u·D < 40u·D. A direction's
 /// projections: 3u + √3·3u of |n|·D on each side, and a quotient: 20u·D. Products that underflow,
@@ -41,56 +40,26 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// of it above 2^-50, and of a projection onto such an n less than u·|n|·D; below, `lower` is 0.
 HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, float error,
                                   float* HWY_RESTRICT lower, float* HWY_RESTRICT upper) {
-  const hn::CappedTag<float, 16> d;
-  using V = hn::Vec<decltype(d)>;
-  constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
-  static_assert(kLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
-  struct Vec {
-    V x, y, z;
-  };
+  const LaneTag d;
+  using V = LaneFloat;
+  using Vec = LaneVec;
   const auto add = [](const Vec& p, const Vec& q) {
     return Vec{hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
-  };
-  const auto sub = [](const Vec& p, const Vec& q) {
-    return Vec{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
   };
   const auto scaled = [](const Vec& p, V s) {
     return Vec{hn::Mul(p.x, s), hn::Mul(p.y, s), hn::Mul(p.z, s)};
   };
-  const auto dot = [](const Vec& p, const Vec& q) {
-    return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
-  };
-  const auto sum = [](const Vec& p) {
-    return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
-  };
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), infinite = hn::Set(d, HUGE_VALF);
-  const auto min3 = [](V x, V y, V z) { return hn::Min(hn::Min(x, y), z); };
-  const auto max3 = [](V x, V y, V z) { return hn::Max(hn::Max(x, y), z); };
   // In [0, 1] whatever x is, NaN too.
   const auto clamped = [&](V x) {
     return hn::IfThenElse(hn::Gt(x, zero), hn::IfThenElse(hn::Lt(x, one), x, one), zero);
   };
   const auto inverse = [&](V x) { return hn::Div(one, x); };
-  for (std::size_t at = 0; at < 16; at += kLanes) {
-    const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
-    const auto corner = [&](int k) {
-      return Vec{hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][0]), rows),
-                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][1]), rows),
-                 hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][2]), rows)};
-    };
-    const Vec o = corner(0);
-    const Vec away = sub(Vec{hn::Set(d, static_cast<float>(b.center[0] - a.center[0])),
-                             hn::Set(d, static_cast<float>(b.center[1] - a.center[1])),
-                             hn::Set(d, static_cast<float>(b.center[2] - a.center[2]))},
-                         o);
-    const auto load = [&](int k) {
-      return Vec{hn::Add(hn::LoadDup128(d, b.x[k][0]), away.x),
-                 hn::Add(hn::LoadDup128(d, b.x[k][1]), away.y),
-                 hn::Add(hn::LoadDup128(d, b.x[k][2]), away.z)};
-    };
+  for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
+    const TrianglePairs pairs(a, b, at);
     // Corners and edges; edge k goes from corner k to the next.
-    const Vec s[3] = {{zero, zero, zero}, sub(corner(1), o), sub(corner(2), o)};
-    const Vec t[3] = {load(0), load(1), load(2)};
+    const Vec s[3] = {{zero, zero, zero}, pairs.s1, pairs.s2};
+    const Vec* const t = pairs.t;
     const Vec e[3] = {s[1], sub(s[2], s[1]), sub(s[0], s[2])};
     const Vec f[3] = {sub(t[1], t[0]), sub(t[2], t[1]), sub(t[0], t[2])};
     Vec n = t[0];  // between the closest points found
@@ -117,7 +86,7 @@ HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, fl
         const V x = clamped(hn::Div(hn::Sub(hn::Mul(er, ff[k]), hn::Mul(ef, fr)), det));
         const V y = clamped(hn::Mul(hn::Sub(hn::Mul(ef, x), fr), perF[k]));
         const V z = clamped(hn::Mul(hn::Add(hn::Mul(ef, y), er), perE[i]));
-        offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kLanes));
+        offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kTriangleLanes));
       }
     // Corners over the face at `at0`, whose edges there are u and v, less their feet in it.
     const auto faces = [&](const Vec* ps, const Vec& at0, const Vec& u, const Vec& v, V uu, V vv,
@@ -138,11 +107,7 @@ HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, fl
     };
     faces(t, s[0], s[1], s[2], ee[0], ee[2], false);
     faces(s, t[0], f[0], sub(t[2], t[0]), ff[0], ff[2], true);
-    // Sizes as in `touchingTriangles`: a sum, which keeps a NaN.
-    const V D = hn::Add(hn::Add(hn::Add(sum(o), sum(t[0])), hn::Add(sum(t[1]), sum(t[2]))),
-                        hn::Add(hn::Add(sum(s[1]), sum(s[2])),
-                                sum(Vec{hn::LoadDup128(d, b.x[0][0]), hn::LoadDup128(d, b.x[0][1]),
-                                        hn::LoadDup128(d, b.x[0][2])})));
+    const V D = pairs.size;
     // Squares don't overflow; their products, in parameters, may: NaN, clamped or not inside.
     const auto known = hn::Lt(D, hn::Set(d, 0x1p50F));
     const V off = hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 48 * 0x1p-24F), D));

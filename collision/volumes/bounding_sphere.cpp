@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/core/rounding.h"
+
 namespace corridor {
 namespace {
 
@@ -14,7 +16,7 @@ BoundingSphere BoundingSphere::around(const Obb& box, const Content& content) {
   // In a power-of-two unit near the size, so that squares neither over- nor underflow: exact to
   // undo.
   const double largest = box.half.maxCoeff();
-  const double unit = std::ldexp(1.0, std::clamp(std::ilogb(largest), -1000, 1000));
+  const double unit = powerOfTwo(largest);
   BoundingSphere best{box.center, HUGE_VAL};
   Vec3 center = box.center;
   for (int step = 1; step <= kSteps; ++step) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
@@ -12,19 +11,6 @@
 
 namespace corridor {
 namespace {
-
-/// Eigenvectors of a covariance, largest eigenvalue first, made orthonormal again and right-handed.
-Mat3 principalAxes(const Mat3& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance);
-  if (solver.info() != Eigen::Success || !solver.eigenvectors().allFinite())
-    return Mat3::Identity();
-  Mat3 axes;
-  const Vec3 x = solver.eigenvectors().col(2).normalized();
-  Vec3 y = solver.eigenvectors().col(1);
-  y = (y - x * x.dot(y)).normalized();
-  axes << x, y, x.cross(y);
-  return axes.allFinite() && orthonormalityDefect(axes) < 0x1p-40 ? axes : Mat3::Identity();
-}
 
 Moments moments(std::span<const Triangle> triangles, ObbFit fit) {
   Moments m;

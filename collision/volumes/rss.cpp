@@ -33,7 +33,7 @@ Rss Rss::around(const Obb& box, const Content& content) {
   for (int i = 0; i < 3; ++i) rss.core.axes.col(i) = box.axes.col((normal + 1 + i) % 3);
   // About the box's centre, in a power-of-two unit near its size: exact to undo, no square
   // overflows.
-  const double unit = std::ldexp(1.0, std::clamp(std::ilogb(box.half.maxCoeff()), -1000, 1000));
+  const double unit = powerOfTwo(box.half.maxCoeff());
   const auto local = [&](const Vec3& p, const Vec3& center) -> Vec3 {
     return rss.core.axes.transpose() * ((p - center) / unit);
   };

@@ -2,27 +2,36 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <map>
+#include <sched.h>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
 namespace corridor::bench {
 
-/// What a benchmark was called with: `--name value`, any number of times.
+/// What a benchmark was called with: `--name value`, any number of times, and flags.
 class Arguments {
  public:
   /// @throws std::runtime_error for a name that is not in `known`, or without a value.
-  Arguments(int argc, char** argv, const std::vector<std::string>& known) {
+  Arguments(int argc, char** argv, const std::vector<std::string>& known,
+            const std::vector<std::string>& flags = {}) {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    for (std::size_t i = 0; i < words.size(); i += 2) {
-      if (std::find(known.begin(), known.end(), words[i]) == known.end())
-        throw std::runtime_error(words[i] + ": unknown option");
-      if (i + 1 == words.size()) throw std::runtime_error(words[i] + ": a value is missing");
-      values_[words[i]].push_back(words[i + 1]);
+    for (auto word = words.begin(); word != words.end(); ++word) {
+      std::vector<std::string>& values = values_[*word];
+      if (std::find(flags.begin(), flags.end(), *word) != flags.end()) continue;
+      if (std::find(known.begin(), known.end(), *word) == known.end())
+        throw std::runtime_error(*word + ": unknown option");
+      if (word + 1 == words.end()) throw std::runtime_error(*word + ": a value is missing");
+      values.push_back(*++word);
     }
   }
+  bool has(const std::string& name) const { return values_.count(name) > 0; }
   std::vector<std::string> texts(const std::string& name) const {
     const auto found = values_.find(name);
     return found == values_.end() ? std::vector<std::string>() : found->second;
@@ -50,16 +59,58 @@ class Arguments {
   double number(const std::string& name, double fallback) const {
     return numbers(name, {fallback}).back();
   }
+  /// --rounds, a whole number above 0.
+  int rounds(int fallback) const {
+    return std::max(static_cast<int>(number("--rounds", fallback)), 1);
+  }
+  /// --data DIR, or the shared test data's folder; empty where there is neither.
+  std::filesystem::path data() const {
+    const auto shared = test::dataFolder();
+    return text("--data", shared ? shared->string() : "");
+  }
+  /// The workloads of `data()` whose names have one of --workload's texts, or all.
+  /// @throws std::runtime_error where there is none.
+  std::vector<std::string> workloads() const {
+    if (data().empty()) throw std::runtime_error("--data DIR, or $CORRIDOR_DATA, is needed");
+    const auto wanted = texts("--workload");
+    std::vector<std::string> names;
+    for (const std::string& name : test::workloadNames(data() / "collision")) {
+      const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
+      if (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), named)) names.push_back(name);
+    }
+    if (names.empty()) throw std::runtime_error("no workload there has such a name");
+    return names;
+  }
 
  private:
   std::map<std::string, std::vector<std::string>> values_;
 };
 
+/// Pins the program to a core: that of --cpu, or the last of those that it may use.
+/// @returns its number. @throws std::runtime_error where there is no such core.
+inline int pin(const Arguments& arguments) {
+  cpu_set_t set;
+  int cpu = -1;
+  if (arguments.has("--cpu")) {
+    cpu = std::stoi(arguments.text("--cpu"));
+  } else {
+    sched_getaffinity(0, sizeof set, &set);
+    for (int i = 0; i < CPU_SETSIZE; ++i)
+      if (CPU_ISSET(i, &set)) cpu = i;
+  }
+  CPU_ZERO(&set);
+  CPU_SET(cpu, &set);
+  if (cpu < 0 || sched_setaffinity(0, sizeof set, &set) != 0)
+    throw std::runtime_error("--cpu: there is no CPU " + std::to_string(cpu) + " to use");
+  return cpu;
+}
+
 /// The body of a benchmark's main. @returns its exit status.
 template <class Run>
-int runWith(int argc, char** argv, const std::vector<std::string>& known, const Run& run) {
+int runWith(int argc, char** argv, const std::vector<std::string>& known, const Run& run,
+            const std::vector<std::string>& flags = {}) {
   try {
-    run(Arguments(argc, argv, known));
+    run(Arguments(argc, argv, known, flags));
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 2;

@@ -38,6 +38,7 @@
 #include "collision/volumes/overlap_obb_obb_variants.h"
 #include "planner/app/cost_model.h"
 #include "planner/app/query_timing.h"
+#include "tests/benchmark/arguments.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
@@ -260,12 +261,6 @@ test::Workload made() {
   return w;
 }
 
-struct Options {
-  std::filesystem::path data;
-  std::vector<std::string> workloads;
-  int rounds = 15, cpu = -1;
-};
-
 /// The columns, after SAT's.
 constexpr const char* kNames[] = {"SAT", "GJK", "LP", "edges, faces", "FCL", "posing"};
 constexpr std::size_t kTests = std::size(kNames);
@@ -277,7 +272,7 @@ struct Means {
   int count = 0, wideCount = 0;
 };
 
-void run(test::Workload workload, const Options& o, Means& means) {
+void run(test::Workload workload, int rounds, Means& means) {
   const Recorded r(std::move(workload));
   const Ours<StandardOverlap> sat(r);
   const Ours<Gjk> gjk(r);
@@ -290,7 +285,7 @@ void run(test::Workload workload, const Options& o, Means& means) {
 #ifdef CORRIDOR_WITH_FCL
   const Fcl fcl(r);
 #endif
-  for (int i = 0; i < o.rounds; ++i) {
+  for (int i = 0; i < rounds; ++i) {
     sat.pass(costs[0], found[0]);
     gjk.pass(costs[1], found[1]);
     lp.pass(costs[2], found[2]);
@@ -328,14 +323,9 @@ void run(test::Workload workload, const Options& o, Means& means) {
   std::fflush(stdout);
 }
 
-void report(const Options& o) {
-  if (o.cpu >= 0) {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    CPU_SET(o.cpu, &set);
-    if (sched_setaffinity(0, sizeof set, &set) != 0)
-      throw std::runtime_error("--cpu: there is no CPU " + std::to_string(o.cpu) + " to use");
-  }
+void report(const bench::Arguments& arguments) {
+  const int rounds = arguments.rounds(15);
+  bench::pin(arguments);
   std::printf(
       "Nanoseconds a test, of boxes that are apart, and of boxes that are not; after the colon the "
       "mixed cost, SAT's being 1. Wide kernel: %s.\n\n| workload | apart |",
@@ -345,51 +335,22 @@ void report(const Options& o) {
   for (std::size_t i = 0; i < kTests + 2; ++i) std::printf("--:|");
   std::printf("\n");
   Means means;
-  if (o.data.empty()) {
-    run(made(), o, means);
+  if (arguments.data().empty()) {
+    run(made(), rounds, means);
   } else {
-    for (const std::string& name : test::workloadNames(o.data / "collision")) {
-      const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
-      if (o.workloads.empty() || std::ranges::any_of(o.workloads, named))
-        run(test::loadWorkload(o.data / "collision", name), o, means);
-    }
+    for (const std::string& name : arguments.workloads())
+      run(test::loadWorkload(arguments.data() / "collision", name), rounds, means);
   }
-  if (means.count == 0) throw std::runtime_error("no workload there has such a name");
   std::printf("\ngeometric means of the mixed cost over SAT's:");
   for (std::size_t i = 1; i < kTests; ++i)
     std::printf(" %s %.2f;", kNames[i], std::exp(means.logs[i] / means.count));
   std::printf(" wide %.2f\n", std::exp(means.wideLogs / std::max(means.wideCount, 1)));
 }
 
-Options options(int argc, char** argv) {
-  Options o;
-  if (const auto data = test::dataFolder()) o.data = *data;
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  for (std::size_t i = 0; i < words.size(); i += 2) {
-    if (i + 1 == words.size()) throw std::runtime_error(words[i] + ": unknown, or without a value");
-    const std::string& value = words[i + 1];
-    if (words[i] == "--data")
-      o.data = value;
-    else if (words[i] == "--workload")
-      o.workloads.push_back(value);
-    else if (words[i] == "--rounds")
-      o.rounds = std::max(std::stoi(value), 1);
-    else if (words[i] == "--cpu")
-      o.cpu = std::stoi(value);
-    else
-      throw std::runtime_error(words[i] + ": unknown option");
-  }
-  return o;
-}
-
 }  // namespace
 }  // namespace corridor
 
 int main(int argc, char** argv) {
-  try {
-    corridor::report(corridor::options(argc, argv));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  return corridor::bench::runWith(argc, argv, {"--data", "--workload", "--rounds", "--cpu"},
+                                  corridor::report);
 }

@@ -15,12 +15,10 @@
 /// distance: off by more than 1e-12·d + 4·2^-53·S of the truth, S the largest coordinate).
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <sched.h>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -29,8 +27,9 @@
 #include "collision/core/simd_target.h"
 #include "collision/queries/interference.h"
 #include "planner/app/query_timing.h"
+#include "tests/benchmark/arguments.h"
 #include "tests/benchmark/competitors.h"
-#include "tests/support/support.h"
+#include "tests/benchmark/shapes.h"
 
 namespace corridor {
 namespace {
@@ -39,13 +38,10 @@ using app::median;
 using namespace bench;
 
 struct Options {
-  std::filesystem::path data;
-  std::vector<std::string> workloads;
-  Query query = Query::interference;
-  ObbFit fit = ObbFit::triangles;
-  int rounds = 5;
-  int cpu = -1;
-  bool csv = false;
+  std::filesystem::path folder;
+  Query query;
+  ObbFit fit;
+  int rounds;
 };
 
 using Field = std::vector<std::unique_ptr<Competitor>>;
@@ -174,15 +170,6 @@ std::vector<bool> rejectedByRoot(const test::Workload& w) {
   return rejected;
 }
 
-double sizeOf(const TriangleMesh& mesh) {
-  Vec3 low = mesh.vertices[0], high = low;
-  for (const Vec3& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high - low).norm();
-}
-
 /// A workload's rows of the three tables, kept until all are known.
 struct Rows {
   std::vector<std::vector<std::string>> queries, roots, builds;
@@ -191,9 +178,9 @@ struct Rows {
 };
 
 void run(const std::string& name, const Options& o, Rows& rows) {
-  const test::Workload w = test::loadWorkload(o.data, name);
+  const test::Workload w = test::loadWorkload(o.folder, name);
   // The tolerance query is asked at a hundredth of the smaller mesh.
-  const double tolerance = 0.01 * std::min(sizeOf(w.a), sizeOf(w.b));
+  const double tolerance = 0.01 * std::min(diagonal(w.a), diagonal(w.b));
   const Field field = competitors(w, o, tolerance);
   for (int i = 0; i < o.rounds; ++i)
     for (const auto& competitor : field) competitor->pass();
@@ -252,21 +239,6 @@ void run(const std::string& name, const Options& o, Rows& rows) {
   rows.buildRatios.add(ratio(builds));
 }
 
-/// Pins the program to one core. @returns its number.
-int pin(int cpu) {
-  cpu_set_t set;
-  if (cpu < 0) {  // the last of those that it may use
-    sched_getaffinity(0, sizeof set, &set);
-    for (int i = 0; i < CPU_SETSIZE; ++i)
-      if (CPU_ISSET(i, &set)) cpu = i;
-  }
-  CPU_ZERO(&set);
-  CPU_SET(cpu, &set);
-  if (sched_setaffinity(0, sizeof set, &set) != 0)
-    throw std::runtime_error("--cpu: there is no CPU " + std::to_string(cpu) + " to use");
-  return cpu;
-}
-
 std::string processor() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);)
@@ -274,21 +246,40 @@ std::string processor() {
   return "unknown";
 }
 
-void report(const Options& o) {
-  const int cpu = pin(o.cpu);
+template <class Value>
+Value chosen(const Arguments& arguments, const std::string& option,
+             const std::vector<std::pair<std::string, Value>>& values) {
+  const std::string word = arguments.text(option, values[0].first);
+  std::string known;
+  for (const auto& [name, value] : values) {
+    if (name == word) return value;
+    known += " " + name;
+  }
+  throw std::runtime_error(option + ": one of" + known + " is needed, not " + word);
+}
+
+void report(const Arguments& arguments) {
+  const std::vector<std::string> workloads = arguments.workloads();
+  const Options o{arguments.data() / "collision",
+                  chosen<Query>(arguments, "--query",
+                                {{"interference", Query::interference},
+                                 {"distance", Query::distance},
+                                 {"tolerance", Query::tolerance}}),
+                  chosen<ObbFit>(arguments, "--fit",
+                                 {{"triangles", ObbFit::triangles},
+                                  {"vertices", ObbFit::vertices},
+                                  {"hull", ObbFit::hull}}),
+                  arguments.rounds(5)};
+  const int cpu = pin(arguments);
   std::cout << "processor: " << processor() << ", core " << cpu
             << "\ninstruction set: ours: " << simdTarget()
             << " (Highway's name); FCL: that of the installed library\nrounds: " << o.rounds
             << "\n";
   Rows rows;
-  for (const std::string& name : test::workloadNames(o.data)) {
-    const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
-    if (!o.workloads.empty() && std::none_of(o.workloads.begin(), o.workloads.end(), named))
-      continue;
+  for (const std::string& name : workloads) {
     std::cerr << name << "\n";
     run(name, o, rows);
   }
-  if (rows.builds.empty()) throw std::runtime_error("no workload there has such a name");
   const auto header = [&](std::vector<std::string> first, const std::string& unit,
                           const std::vector<std::string>& last) {
     for (const std::string& name : rows.names) first.push_back(name + " " + unit);
@@ -297,7 +288,7 @@ void report(const Options& o) {
   };
   const auto print = [&](const std::string& title, const std::vector<std::string>& head,
                          const std::vector<std::vector<std::string>>& lines) {
-    Table table(title, o.csv);
+    Table table(title, arguments.has("--csv"));
     table.row(head);
     for (const auto& line : lines) table.row(line);
   };
@@ -315,62 +306,11 @@ void report(const Options& o) {
   std::cout << "\nratio: " << rows.buildRatios.text() << "\n";
 }
 
-template <class Value>
-Value chosen(const std::string& option, const std::string& word,
-             const std::vector<std::pair<std::string, Value>>& values) {
-  std::string known;
-  for (const auto& [name, value] : values) {
-    if (name == word) return value;
-    known += " " + name;
-  }
-  throw std::runtime_error(option + ": one of" + known + " is needed, not " + word);
-}
-
-Options options(int argc, char** argv) {
-  Options o;
-  if (const auto data = test::dataFolder()) o.data = *data / "collision";
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (word == "--csv") {
-      o.csv = true;
-      continue;
-    }
-    if (i + 1 == words.size()) throw std::runtime_error(word + ": unknown, or without a value");
-    const std::string& value = words[++i];
-    if (word == "--data")
-      o.data = std::filesystem::path(value) / "collision";
-    else if (word == "--workload")
-      o.workloads.push_back(value);
-    else if (word == "--query")
-      o.query = chosen<Query>(word, value,
-                              {{"interference", Query::interference},
-                               {"distance", Query::distance},
-                               {"tolerance", Query::tolerance}});
-    else if (word == "--fit")
-      o.fit = chosen<ObbFit>(word, value,
-                             {{"vertices", ObbFit::vertices},
-                              {"triangles", ObbFit::triangles},
-                              {"hull", ObbFit::hull}});
-    else if (word == "--rounds")
-      o.rounds = std::max(std::stoi(value), 1);
-    else if (word == "--cpu")
-      o.cpu = std::stoi(value);
-    else
-      throw std::runtime_error(word + ": unknown option");
-  }
-  if (o.data.empty()) throw std::runtime_error("--data DIR, or $CORRIDOR_DATA, is needed");
-  return o;
-}
-
 }  // namespace
 }  // namespace corridor
 
 int main(int argc, char** argv) {
-  try {
-    corridor::report(corridor::options(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 2;
-  }
+  return corridor::bench::runWith(argc, argv,
+                                  {"--data", "--workload", "--query", "--rounds", "--fit", "--cpu"},
+                                  corridor::report, {"--csv"});
 }

@@ -14,6 +14,16 @@
 /// Meshes of any fineness, and poses, for benchmarks.
 namespace corridor::bench {
 
+/// The diagonal of a mesh's bounds.
+inline double diagonal(const TriangleMesh& mesh) {
+  Vec3 low = mesh.vertices[0], high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).norm();
+}
+
 /// A unit sphere of 20·frequency² triangles, corners on the sphere: each face of an icosahedron
 /// divided. Corners along the edges of the icosahedron are stored once a face.
 inline TriangleMesh icosphere(int frequency) {

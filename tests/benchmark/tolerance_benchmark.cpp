@@ -19,22 +19,12 @@
 #include "planner/app/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
-#include "tests/support/support.h"
-#include "tests/support/workload.h"
+#include "tests/benchmark/shapes.h"
 
 namespace corridor {
 namespace {
 
 using namespace bench;
-
-double sizeOf(const TriangleMesh& mesh) {
-  Vec3 low = mesh.vertices[0], high = low;
-  for (const Vec3& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high - low).norm();
-}
 
 TriangleMesh scaled(TriangleMesh mesh, double factor) {
   for (Vec3& v : mesh.vertices) v *= factor;
@@ -70,7 +60,7 @@ struct Options {
 };
 
 Row measure(const test::Workload& w, double relative, const Options& o) {
-  const double tolerance = relative * std::min(sizeOf(w.a), sizeOf(w.b));
+  const double tolerance = relative * std::min(diagonal(w.a), diagonal(w.b));
   const WideObbTree a(w.a), b(w.b);
   // Concentric: A shrinks by t/1, its radius.
   const bool concentric = w.name.find("spheres") != w.name.npos;
@@ -120,21 +110,12 @@ Row measure(const test::Workload& w, double relative, const Options& o) {
 }
 
 void run(const Arguments& arguments) {
-  const auto data = test::dataFolder();
-  const std::filesystem::path folder =
-      std::filesystem::path(arguments.text("--data", data ? data->string() : "")) / "collision";
-  if (!std::filesystem::is_directory(folder))
-    throw std::runtime_error("--data DIR, or $CORRIDOR_DATA, is needed");
-  const Options o{static_cast<int>(arguments.number("--poses", 50)),
-                  static_cast<int>(arguments.number("--rounds", 5))};
-  const auto wanted = arguments.texts("--workload");
+  const Options o{static_cast<int>(arguments.number("--poses", 50)), arguments.rounds(5)};
   std::cout << "# instruction set: " << simdTarget()
             << "\nworkload,tolerance/size,poses,interference_ns,tolerance_ns,ratio,ratio of N_v\n";
   double worst = 0, logs = 0, count = 0;
-  for (const std::string& name : test::workloadNames(folder)) {
-    const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
-    if (!wanted.empty() && std::none_of(wanted.begin(), wanted.end(), named)) continue;
-    const test::Workload w = test::loadWorkload(folder, name);
+  for (const std::string& name : arguments.workloads()) {
+    const test::Workload w = test::loadWorkload(arguments.data() / "collision", name);
     for (const double relative : {1e-4, 1e-3, 1e-2}) {
       const Row row = measure(w, relative, o);
       std::cout << name << "," << relative << "," << row.poses;

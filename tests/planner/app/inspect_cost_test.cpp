@@ -125,10 +125,7 @@ TEST_F(InspectCost, BadInputIsOneLineAndExit2) {
   write("arm.urdf", "<robot name=\"arm\"/>");
   write("problem.yaml", "format: corridor-problem-1\n");
   const auto fault = [&](const std::string& arguments, const std::string& told) {
-    const Result result = run("inspect " + arguments);
-    EXPECT_EQ(result.status, 2) << arguments;
-    EXPECT_EQ(result.err, told + "\n") << arguments;
-    EXPECT_EQ(result.out, "") << arguments;
+    expectFault("inspect " + arguments, told);
   };
   fault("a.obj --against",
         "--against: 1 required TEXT missing; corridor inspect --help tells more");

@@ -39,6 +39,14 @@ class ProgramTest : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
 
+  /// Bad input: one line on stderr, nothing on stdout, exit status 2.
+  void expectFault(const std::string& arguments, const std::string& told) const {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(result.err, told + "\n") << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+  }
+
   std::filesystem::path folder_ = newFolder();
 };
 

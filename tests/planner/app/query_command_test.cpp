@@ -211,10 +211,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   write("comments.txt", "# nothing\n\n");
   write("empty.obj", "v 0 0 0\nv 1 0 0\n");
   const auto fault = [&](const std::string& arguments, const std::string& told) {
-    const Result result = run("query " + arguments);
-    EXPECT_EQ(result.status, 2) << arguments;
-    EXPECT_EQ(result.err, told + "\n") << arguments;
-    EXPECT_EQ(result.out, "") << arguments;
+    expectFault("query " + arguments, told);
   };
   const std::string more = "; corridor query --help tells more";
   fault("a.obj b.obj", "--poses: a file of poses is needed, or --grid");
