@@ -11,6 +11,8 @@
 // clang-format on
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "hwy/highway.h"
 
@@ -20,9 +22,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Corners of a tree's leaves under x ↦ matrix·(p − origin) + offset, those asked for last. Each
-/// leaf's are floats relative to one of its corners, so that they are off by 2^-24 of the leaf, not
-/// of the mesh.
+/// Corners of a tree's leaves under x ↦ matrix·(p − origin) + offset, those asked for last. The
+/// leaves of a node are together, floats relative to a corner of one of them, so that they are off
+/// by 2^-24 of the node, not of the mesh.
 class LeafCache {
  public:
   LeafCache(const WideObbTree& tree, const Mat3& matrix, const Vec3& offset)
@@ -30,24 +32,37 @@ class LeafCache {
     std::fill_n(held_, kSize, WideObbTree::kNone);
   }
 
-  /// Of the leaf that is a node's `child`.
-  const LeafCorners& get(std::uint32_t child) {
-    const std::uint32_t slot = child * 0x9e3779b1U >> (32 - kBits);  // Knuth's multiplicative hash
-    LeafCorners& corners = corners_[slot];
-    if (held_[slot] == child) return corners;
-    held_[slot] = child;
-    const std::uint32_t first = WideObbTree::leafFirst(child),
-                        count = WideObbTree::leafCount(child);
+  /// Of the leaves that are these lanes of a node: the i-th triangle of a lane's is 4·lane + i.
+  /// What else it holds means nothing.
+  const TriangleCorners& get(const WideObbTree::Node& node, unsigned lanes) {
+    const auto number = static_cast<std::uint32_t>(&node - tree_.nodes().data());
+    const std::uint32_t slot = number * 0x9e3779b1U >> (32 - kBits);  // Knuth's multiplicative hash
+    if (held_[slot] != number) {
+      held_[slot] = number;
+      filled_[slot] = 0;
+    }
+    for (unsigned missing = lanes & ~filled_[slot]; missing; missing &= missing - 1)
+      fill(slot, node, static_cast<unsigned>(std::countr_zero(missing)));
+    return corners_[slot];
+  }
+
+ private:
+  void fill(std::uint32_t slot, const WideObbTree::Node& node, unsigned lane) {
+    TriangleCorners& corners = corners_[slot];
+    const std::uint32_t first = WideObbTree::leafFirst(node.child[lane]),
+                        count = WideObbTree::leafCount(node.child[lane]);
     const Vec3& o = tree_.origin();
-    alignas(64) double raw[3][12];  // lanes that are left repeat the first triangle
+    alignas(64) double raw[3][12];  // triangles that are missing repeat the first one
     for (std::uint32_t i = 0; i < 4; ++i)
       for (int k = 0; k < 3; ++k) {
         const Vec3& p = tree_.corner(first + (i < count ? i : 0), k);
         for (int c = 0; c < 3; ++c) raw[c][4 * k + i] = p[c] - o[c];
       }
-    for (int c = 0; c < 3; ++c)
-      corners.center[c] = (matrix_(c, 0) * raw[0][0] + matrix_(c, 1) * raw[1][0]) +
-                          (matrix_(c, 2) * raw[2][0] + offset_[c]);
+    if (!filled_[slot])
+      for (int c = 0; c < 3; ++c)
+        corners.center[c] = (matrix_(c, 0) * raw[0][0] + matrix_(c, 1) * raw[1][0]) +
+                            (matrix_(c, 2) * raw[2][0] + offset_[c]);
+    filled_[slot] |= 1U << lane;
     const hn::CappedTag<double, 4> d;
     const hn::Rebind<float, decltype(d)> f;
     for (std::size_t at = 0; at < 12; at += hn::Lanes(d)) {
@@ -58,19 +73,18 @@ class LeafCache {
             hn::Add(hn::Mul(x, hn::Set(d, matrix_(c, 0))), hn::Mul(y, hn::Set(d, matrix_(c, 1)))),
             hn::Add(hn::Mul(z, hn::Set(d, matrix_(c, 2))), hn::Set(d, offset_[c])));
         hn::Store(hn::DemoteTo(f, hn::Sub(s, hn::Set(d, corners.center[c]))), f,
-                  &corners.x[at / 4][c][at % 4]);
+                  &corners.x[at / 4][c][4 * lane + at % 4]);
       }
     }
-    return corners;
   }
 
- private:
-  static constexpr int kBits = 5, kSize = 1 << kBits;
+  static constexpr int kBits = 4, kSize = 1 << kBits;
   const WideObbTree& tree_;
   Mat3 matrix_;
   Vec3 offset_;
   std::uint32_t held_[kSize];
-  LeafCorners corners_[kSize];
+  unsigned filled_[kSize];  // which lanes
+  TriangleCorners corners_[kSize];
 };
 
 }  // namespace corridor::HWY_NAMESPACE

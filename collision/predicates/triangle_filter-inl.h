@@ -20,10 +20,9 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Which of the sixteen pairs of triangles may touch: bit 4·i + j for a's i-th and b's j-th. A
-/// cleared bit is a proof that the two are farther apart than `error`, the distance that the
-/// corners given may be off by, both sides together. By the separating-axis theorem: both planes
-/// and the nine cross products of edges.
+/// Which of sixteen pairs of triangles may touch, a bit each. A cleared bit is a proof that the two
+/// are farther apart than `error`, the distance that the corners given may be off by, both sides
+/// together. By the separating-axis theorem: both planes and the nine cross products of edges.
 ///
 /// Rounding, u = 2^-24: corners are off by 3u·D a coordinate (`TrianglePairs`, D its size). Any
 /// vector L separates if the projections do: two projections are off by less than 2(3u +
@@ -34,8 +33,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// or not, times an edge below 2^30.
 ///
 /// `pad`: the triangles shall be farther apart by that, too; it scales with the axes' true lengths.
-HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b, float error,
-                                      float pad = 0) {
+HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCorners& b,
+                                      const TriangleNumbers& numbers, float error, float pad = 0) {
   const LaneTag d;
   using V = LaneFloat;
   using Vec = LaneVec;
@@ -48,7 +47,7 @@ HWY_INLINE unsigned touchingTriangles(const LeafCorners& a, const LeafCorners& b
   unsigned mask = 0;
   const V zero = hn::Zero(d);
   for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
-    const TrianglePairs pairs(a, b, at);
+    const TrianglePairs pairs(a, b, numbers, at);
     const Vec &e1 = pairs.s1, &e2 = pairs.s2, &p0 = pairs.t[0], &p1 = pairs.t[1], &p2 = pairs.t[2];
     const Vec f1 = sub(p1, p0), f2 = sub(p2, p0);
     const Vec ea[3] = {e1, sub(e2, e1), e2};

@@ -1,4 +1,4 @@
-// Four triangles and four others as SIMD lanes, for every SIMD target: included once per target by
+// Pairs of triangles as SIMD lanes, for every SIMD target: included once per target by
 // foreach_target.h.
 
 // clang-format off
@@ -10,18 +10,18 @@
 #endif
 // clang-format on
 
-#include "hwy/highway.h"
+#include <cstdint>
 
-#include "collision/core/lanes.h"
+#include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Corners of four triangles, relative to a point: [corner][coordinate][triangle].
-struct alignas(64) LeafCorners {
-  float x[3][3][4];
+/// Corners of up to sixteen triangles, relative to a point: [corner][coordinate][triangle].
+struct alignas(64) TriangleCorners {
+  float x[3][3][16];
   double center[3];
 };
 
@@ -55,41 +55,64 @@ HWY_INLINE LaneFloat max3(LaneFloat x, LaneFloat y, LaneFloat z) {
   return hn::Max(hn::Max(x, y), z);
 }
 
+/// The elements of sixteen floats that the lanes ask for.
+HWY_INLINE LaneFloat lookedUp(const float* HWY_RESTRICT sixteen,
+                              hn::Vec<hn::RebindToSigned<LaneTag>> index) {
+  const LaneTag d;
+  if constexpr (kTriangleLanes == 16) {
+    return hn::TableLookupLanes(hn::Load(d, sixteen), hn::IndicesFromVec(d, index));
+  } else if constexpr (kTriangleLanes == 8) {
+    const hn::RebindToSigned<LaneTag> i;
+    const auto within = hn::IndicesFromVec(d, hn::And(index, hn::Set(i, 7)));
+    return hn::IfThenElse(hn::RebindMask(d, hn::Gt(index, hn::Set(i, 7))),
+                          hn::TableLookupLanes(hn::Load(d, sixteen + 8), within),
+                          hn::TableLookupLanes(hn::Load(d, sixteen), within));
+  } else {
+    return hn::GatherIndex(d, sixteen, index);
+  }
+}
+
+/// Pairs of triangles, one a lane: of each the number in `a` and in `b`, below 16.
+struct TriangleNumbers {
+  const std::uint8_t *a, *b;  ///< sixteen readable each
+};
+
 /// The pairs of lanes at, at + 1, …: corners of both relative to the first one of a's, which is s_0
 /// = 0.
 ///
 /// Rounding, u = 2^-24. With o that corner, b's are t = b.x + (ΔC − o), ΔC the difference of the
-/// leaves' points, in floats rounded at each step, so off by u(3|b.x| + 3|t| + 2|o|) < 3u·size a
-/// coordinate (b.x alone may be far larger than t: a leaf of small triangles far apart).
+/// points that `a` and `b` are relative to, in floats rounded at each step, so off by u(3|b.x| +
+/// 3|t| + 2|o|) < 3u·size a coordinate (b.x alone may be far larger than t: small triangles far
+/// from that point).
 struct TrianglePairs {
   LaneVec s1, s2, t[3];
   LaneFloat size;  ///< the sum of all those sizes, in |.|₁; not a maximum, which could lose a NaN
 
-  HWY_INLINE TrianglePairs(const LeafCorners& a, const LeafCorners& b, std::size_t at) {
+  HWY_INLINE TrianglePairs(const TriangleCorners& a, const TriangleCorners& b,
+                           const TriangleNumbers& numbers, std::size_t at) {
     const LaneTag d;
-    const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
-    const auto corner = [&](int k) {
-      return LaneVec{hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][0]), rows),
-                     hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][1]), rows),
-                     hn::TableLookupLanes(hn::LoadDup128(d, a.x[k][2]), rows)};
+    const hn::RebindToSigned<LaneTag> i;
+    const hn::Rebind<std::uint8_t, LaneTag> bytes;
+    const auto ofA = hn::PromoteTo(i, hn::LoadU(bytes, numbers.a + at)),
+               ofB = hn::PromoteTo(i, hn::LoadU(bytes, numbers.b + at));
+    const auto corner = [](const TriangleCorners& from, auto index, int k) {
+      return LaneVec{lookedUp(from.x[k][0], index), lookedUp(from.x[k][1], index),
+                     lookedUp(from.x[k][2], index)};
     };
-    const auto ofB = [&](int k) {
-      return LaneVec{hn::LoadDup128(d, b.x[k][0]), hn::LoadDup128(d, b.x[k][1]),
-                     hn::LoadDup128(d, b.x[k][2])};
-    };
-    const LaneVec o = corner(0);
+    const LaneVec o = corner(a, ofA, 0);
     const LaneVec away = sub(LaneVec{hn::Set(d, static_cast<float>(b.center[0] - a.center[0])),
                                      hn::Set(d, static_cast<float>(b.center[1] - a.center[1])),
                                      hn::Set(d, static_cast<float>(b.center[2] - a.center[2]))},
                              o);
-    s1 = sub(corner(1), o);
-    s2 = sub(corner(2), o);
+    s1 = sub(corner(a, ofA, 1), o);
+    s2 = sub(corner(a, ofA, 2), o);
+    size = hn::Add(hn::Add(sum(o), sum(s1)), sum(s2));
     for (int k = 0; k < 3; ++k) {
-      const LaneVec p = ofB(k);
+      const LaneVec p = corner(b, ofB, k);
       t[k] = {hn::Add(p.x, away.x), hn::Add(p.y, away.y), hn::Add(p.z, away.z)};
+      if (k == 0) size = hn::Add(size, sum(p));
+      size = hn::Add(size, sum(t[k]));
     }
-    size = hn::Add(hn::Add(hn::Add(sum(o), sum(t[0])), hn::Add(sum(t[1]), sum(t[2]))),
-                   hn::Add(hn::Add(sum(s1), sum(s2)), sum(ofB(0))));
   }
 };
 

@@ -54,18 +54,24 @@ class Nearest {
     return nearBoxes(a, b, pose_.floats, limit_, squares);
   }
 
-  /// The nearest first, since it may rule out the others.
+  /// The nearest first, since it may rule out the others, about sixteen pairs of triangles at a
+  /// time.
   bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
               const float* keys) {
     while (pairs) {
-      auto least = static_cast<unsigned>(std::countr_zero(pairs));
-      for (unsigned rest = pairs & (pairs - 1); rest; rest &= rest - 1) {
-        const auto bit = static_cast<unsigned>(std::countr_zero(rest));
-        if (keys[bit] < keys[least]) least = bit;
+      LeafPairs some(na, nb);
+      while (pairs) {
+        auto least = static_cast<unsigned>(std::countr_zero(pairs));
+        for (unsigned rest = pairs & (pairs - 1); rest; rest &= rest - 1) {
+          const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+          if (keys[bit] < keys[least]) least = bit;
+        }
+        if (skip(keys[least])) pairs = 0;
+        if (!pairs || (some.count() && some.count() + some.sizeOf(least) > 16)) break;
+        some.add(least);
+        pairs &= ~(1U << least);
       }
-      if (skip(keys[least])) return false;
-      leaf(na, nb, 1U << least);
-      pairs &= ~(1U << least);
+      if (some.count()) measure(na, nb, some);
     }
     return false;
   }
@@ -81,23 +87,22 @@ class Nearest {
   }
 
  private:
-  void leaf(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pair) {
-    leaves_.forEachNearLeaf(
-        na, nb, pair, [&] { return limit_; },
-        [&](std::uint32_t firstA, std::uint32_t firstB, const LeafCorners& a, const LeafCorners& b,
-            unsigned open) {
+  void measure(const WideObbTree::Node& na, const WideObbTree::Node& nb, LeafPairs& pairs) {
+    leaves_.forEachNearSixteen(
+        na, nb, pairs, [&] { return limit_; },
+        [&](const TriangleCorners& a, const TriangleCorners& b, unsigned first, unsigned open) {
           alignas(64) float lower[16], upper[16];
-          triangleDistances(a, b, pose_.leafError, lower, upper);
+          triangleDistances(a, b, pairs.from(first), pose_.leafError, lower, upper);
           for (unsigned rest = open; rest; rest &= rest - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(rest));
             if (!(upper[bit] < least_)) continue;
             least_ = upper[bit];
-            closest_ = {firstA + bit / 4, firstB + bit % 4};
+            closest_ = pairs.triangles(first + bit);
           }
           if (least_ < HUGE_VALF) lowerLimit(least_ / pose_.unitA * (2 - pose_.shrink));
           for (unsigned rest = open; rest; rest &= rest - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(rest));
-            const std::uint32_t s = firstA + bit / 4, t = firstB + bit % 4;
+            const auto [s, t] = pairs.triangles(first + bit);
             if (upper[bit] == HUGE_VALF) {  // too far for floats: else the limit would stay there
               look(s, t);
             } else if (!(lower[bit] > limit_)) {

@@ -21,11 +21,10 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Of the sixteen pairs of triangles (lane 4·i + j: a's i-th, b's j-th) the distance of two points,
-/// at least the distance, and the gap along the line through them, at most the distance: each with
-/// all rounding in it, `error` included, the distance that the corners given may be off by, both
-/// sides together. Crossing triangles' are not told (upper is right, and lower 0). Where nothing
-/// can be told, [0, inf].
+/// Of sixteen pairs of triangles the distance of two points, at least the distance, and the gap
+/// along the line through them, at most the distance: each with all rounding in it, `error`
+/// included, the distance that the corners given may be off by, both sides together. Crossing
+/// triangles' are not told (upper is right, and lower 0). Where nothing can be told, [0, inf].
 ///
 /// The points are the closest of two edges, or of a corner and a face (Ericson 2005, 5.1.5, 5.1.9):
 /// whichever they are, they are points of the triangles but for rounding, and any direction bounds
@@ -38,7 +37,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// projections: 3u + √3·3u of |n|·D on each side, and a quotient: 20u·D. Products that underflow,
 /// flushed or not, lose less than 2^-124 a sum: 2^-62 of a length where nothing else is left, 2^-25
 /// of it above 2^-50, and of a projection onto such an n less than u·|n|·D; below, `lower` is 0.
-HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, float error,
+HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorners& b,
+                                  const TriangleNumbers& numbers, float error,
                                   float* HWY_RESTRICT lower, float* HWY_RESTRICT upper) {
   const LaneTag d;
   using V = LaneFloat;
@@ -56,7 +56,7 @@ HWY_INLINE void triangleDistances(const LeafCorners& a, const LeafCorners& b, fl
   };
   const auto inverse = [&](V x) { return hn::Div(one, x); };
   for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
-    const TrianglePairs pairs(a, b, at);
+    const TrianglePairs pairs(a, b, numbers, at);
     // Corners and edges; edge k goes from corner k to the next.
     const Vec s[3] = {{zero, zero, zero}, pairs.s1, pairs.s2};
     const Vec* const t = pairs.t;

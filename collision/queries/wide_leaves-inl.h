@@ -10,7 +10,10 @@
 #endif
 // clang-format on
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
 
 #include "hwy/highway.h"
 
@@ -18,9 +21,72 @@
 #include "collision/hierarchy/leaf_cache-inl.h"
 #include "collision/hierarchy/wide_pose.h"
 #include "collision/predicates/triangle_filter-inl.h"
+#include "collision/queries/triangle_pair.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
+
+/// For pairs of leaves of which b's has count triangles: of the k-th pair of triangles a's is
+/// kFirst[count − 1][k] = k / count, b's kSecond[count − 1][k] = k % count.
+using PairPatterns = std::array<std::array<std::uint8_t, 16>, 4>;
+constexpr PairPatterns pairPatterns(bool second) {
+  PairPatterns patterns{};
+  for (unsigned count = 1; count <= 4; ++count)
+    for (unsigned k = 0; k < 16; ++k)
+      patterns[count - 1][k] = static_cast<std::uint8_t>(second ? k % count : k / count & 3);
+  return patterns;
+}
+alignas(16) inline constexpr PairPatterns kFirst = pairPatterns(false), kSecond =
+                                                                            pairPatterns(true);
+
+/// Pairs of triangles of the leaves of two nodes: the i-th triangle of a lane's leaf is 4·lane + i.
+class LeafPairs {
+ public:
+  LeafPairs(const WideObbTree::Node& na, const WideObbTree::Node& nb) : na_(na), nb_(nb) {}
+
+  /// How many pairs of triangles a pair of leaves has, bit 4·i + j for lanes i and j.
+  unsigned sizeOf(unsigned pair) const {
+    return WideObbTree::leafCount(na_.child[pair / 4]) *
+           WideObbTree::leafCount(nb_.child[pair % 4]);
+  }
+  void add(unsigned pair) {
+    const unsigned i = pair / 4, j = pair % 4;
+    const std::uint32_t countB = WideObbTree::leafCount(nb_.child[j]);
+    // What is written beyond the pairs that there are, the next one writes over.
+    put(kFirst[countB - 1], i, a_ + count_);
+    put(kSecond[countB - 1], j, b_ + count_);
+    count_ += sizeOf(pair);
+    lanesA_ |= 1U << i;
+    lanesB_ |= 1U << j;
+  }
+  /// To be called when all are added: what is read beyond the last is one of these.
+  void finish() {
+    std::fill_n(a_ + count_, 16, a_[0]);
+    std::fill_n(b_ + count_, 16, b_[0]);
+  }
+  unsigned count() const { return count_; }
+  unsigned lanesA() const { return lanesA_; }  ///< whose leaves are among them
+  unsigned lanesB() const { return lanesB_; }
+  /// The k-th and up to fifteen more.
+  TriangleNumbers from(unsigned k) const { return {a_ + k, b_ + k}; }
+  /// The k-th pair's triangles in the trees' leaf order.
+  TrianglePair triangles(unsigned k) const { return {triangle(na_, a_[k]), triangle(nb_, b_[k])}; }
+
+ private:
+  static std::uint32_t triangle(const WideObbTree::Node& node, unsigned number) {
+    return WideObbTree::leafFirst(node.child[number / 4]) + number % 4;
+  }
+  static void put(const std::array<std::uint8_t, 16>& pattern, unsigned lane, std::uint8_t* to) {
+    const hn::CappedTag<std::uint8_t, 16> d;
+    const auto base = hn::Set(d, static_cast<std::uint8_t>(4 * lane));
+    for (std::size_t at = 0; at < 16; at += hn::Lanes(d))
+      hn::StoreU(hn::Add(hn::Load(d, pattern.data() + at), base), d, to + at);
+  }
+
+  const WideObbTree::Node &na_, &nb_;
+  unsigned count_ = 0, lanesA_ = 0, lanesB_ = 0;
+  std::uint8_t a_[16 * 16 + 16], b_[16 * 16 + 16];
+};
 
 /// The triangles of two trees' leaves under one relative pose, filtered in float.
 class WideLeaves {
@@ -31,41 +97,41 @@ class WideLeaves {
         leavesA_(a, Mat3::Identity() * pose.unitA, Vec3::Zero()),
         leavesB_(b, pose.m * pose.unitA, pose.t) {}
 
-  /// Calls `near(first_a, first_b, corners_a, corners_b, open)` for each of these pairs of leaves
-  /// that has pairs of triangles (`open`'s bits 4·i + j) that aren't proved to be farther apart
-  /// than `pad()` (a's unit), until it returns true; returns whether it did.
+  /// Calls `near(corners_a, corners_b, first, open)` for sixteen of the pairs at a time, from
+  /// `first`, of which some (`open`'s bits) aren't proved to be farther apart than `pad()` (a's
+  /// unit), until it returns true; returns whether it did.
   template <class Pad, class Near>
-  bool forEachNearLeaf(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
-                       Pad&& pad, Near&& near) {
-    for (; pairs; pairs &= pairs - 1) {
-      const auto pair = static_cast<unsigned>(std::countr_zero(pairs));
-      const std::uint32_t childA = na.child[pair / 4], childB = nb.child[pair % 4];
-      const std::uint32_t firstA = WideObbTree::leafFirst(childA),
-                          firstB = WideObbTree::leafFirst(childB);
-      const unsigned countA = WideObbTree::leafCount(childA),
-                     countB = WideObbTree::leafCount(childB);
-      counters_.triangleTests += countA * countB;
-      unsigned wanted = 0;
-      for (unsigned s = 0; s < countA; ++s) wanted |= ((1U << countB) - 1) << 4 * s;
-      const LeafCorners &a = leavesA_.get(childA), &b = leavesB_.get(childB);
-      const unsigned open = touchingTriangles(a, b, error_, pad()) & wanted;
-      if (open && near(firstA, firstB, a, b, open)) return true;
+  bool forEachNearSixteen(const WideObbTree::Node& na, const WideObbTree::Node& nb,
+                          LeafPairs& pairs, Pad&& pad, Near&& near) {
+    pairs.finish();
+    const TriangleCorners &a = leavesA_.get(na, pairs.lanesA()),
+                          &b = leavesB_.get(nb, pairs.lanesB());
+    for (unsigned first = 0; first < pairs.count(); first += 16) {
+      const unsigned count = std::min(pairs.count() - first, 16U);
+      counters_.triangleTests += count;
+      const unsigned open =
+          touchingTriangles(a, b, pairs.from(first), error_, pad()) & ((1U << count) - 1);
+      if (open && near(a, b, first, open)) return true;
     }
     return false;
   }
-  /// The same with `found(s, t)` for each pair of triangles, in leaf order.
+  /// The same with `found(s, t)` for each pair of triangles in leaf order, of these pairs of
+  /// leaves.
   template <class Pad, class Found>
-  bool forEachNear(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
+  HWY_NOINLINE bool forEachNear(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned leaves,
                    Pad&& pad, Found&& found) {
-    return forEachNearLeaf(na, nb, pairs, pad,
-                           [&](std::uint32_t firstA, std::uint32_t firstB, const LeafCorners&,
-                               const LeafCorners&, unsigned open) {
-                             for (; open; open &= open - 1) {
-                               const auto bit = static_cast<unsigned>(std::countr_zero(open));
-                               if (found(firstA + bit / 4, firstB + bit % 4)) return true;
-                             }
-                             return false;
-                           });
+    LeafPairs pairs(na, nb);
+    for (; leaves; leaves &= leaves - 1) pairs.add(static_cast<unsigned>(std::countr_zero(leaves)));
+    return forEachNearSixteen(
+        na, nb, pairs, pad,
+        [&](const TriangleCorners&, const TriangleCorners&, unsigned first, unsigned open) {
+          for (; open; open &= open - 1) {
+            const auto [s, t] =
+                pairs.triangles(first + static_cast<unsigned>(std::countr_zero(open)));
+            if (found(s, t)) return true;
+          }
+          return false;
+        });
   }
 
  private:
