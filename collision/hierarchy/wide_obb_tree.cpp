@@ -283,9 +283,9 @@ class WideObbBuilder {
     std::sort(order.begin(), order.end(), [&](int i, int j) { return reach[i] > reach[j]; });
     WideObbTree::Node& node = tree_.nodes_[index];
     for (int j = 0; j < 3; ++j) {
-      node.center[j][lane] = static_cast<float>(center[j]);
+      node.vectors[j][Obb4::kCenter][lane] = static_cast<float>(center[j]);
       node.half[j][lane] = up(reach[order[j]] + pad);
-      for (int k = 0; k < 3; ++k) node.axes[j][k][lane] = static_cast<float>(u(k, order[j]));
+      for (int k = 0; k < 3; ++k) node.vectors[k][j][lane] = static_cast<float>(u(k, order[j]));
     }
   }
 

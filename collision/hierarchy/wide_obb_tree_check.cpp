@@ -7,9 +7,9 @@ namespace {
 Obb boxOf(const WideObbTree::Node& node, std::uint32_t lane) {
   Obb box;
   for (int j = 0; j < 3; ++j) {
-    box.center[j] = node.center[j][lane];
+    box.center[j] = node.vectors[j][Obb4::kCenter][lane];
     box.half[j] = node.half[j][lane];
-    for (int k = 0; k < 3; ++k) box.axes(k, j) = node.axes[j][k][lane];
+    for (int k = 0; k < 3; ++k) box.axes(k, j) = node.vectors[k][j][lane];
   }
   return box;
 }

@@ -47,10 +47,7 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   floats.scale = static_cast<float>(scale);
   for (int i = 0; i < 3; ++i) {
     floats.offset[i] = static_cast<float>(t[i]);
-    for (int j = 0; j < 3; ++j) {
-      floats.turn[i][j] = static_cast<float>(m(i, j));
-      floats.scaled[i][j] = static_cast<float>(m(i, j) * scale);
-    }
+    for (int j = 0; j < 3; ++j) floats.turn[i][j] = static_cast<float>(m(i, j));
   }
 }
 

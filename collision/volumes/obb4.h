@@ -10,7 +10,7 @@
 /// |c| ≤ 3 (what they hold is in the cube [−1, 1]³). In coordinates z = Aᵀ(x − c_a) box a is {AᵀA
 /// x}, inside the axis-aligned box of half extents a + η·Σa, and box b is {T + R y}, T = Aᵀ(sM c_b
 /// + t − c_a), R = AᵀMU in real arithmetic. Computed:
-///   p̂ = sM̂ c_b + t̂ − c_a: a coordinate is off by 6.2u·s|c_b| + 3.1u|t_i| + 1.1u|c_a|; as a ball
+///   p̂ = s(M̂ c_b) + t̂ − c_a: a coordinate is off by 6.2u·s|c_b| + 3.1u|t_i| + 1.1u|c_a|; as a ball
 ///       u·(33s + 3.1|t| + 6): absolute, told once a query. T's product 5.4u·|T|₁ more.
 ///   V̂ = M̂U: 4.1u an entry; R̂ = AᵀV̂: ε_R = √3·4.1u + 3.1u < 10.3u an entry.
 ///   η_R = ‖R̂ᵀR̂ − I‖_max ≤ 3(2η + η_M) + 2√3·ε_R < 49u + 3.1η_M.
@@ -22,23 +22,22 @@
 /// included, loses less than 2^-118.
 namespace corridor {
 
-/// Four oriented boxes {center + Σ_j axes_j·x_j : |x_j| ≤ half_j}, for the floats stored as exact
+/// Four oriented boxes {center + Σ_j axis_j·x_j : |x_j| ≤ half_j}, for the floats stored as exact
 /// reals; the four of a row are contiguous. Their axes were orthonormal to 2^-40 before they were
 /// rounded to float; what they hold is in the cube [−1, 1]³.
-struct alignas(16) Obb4 {
-  float center[3][4];
-  float axes[3][3][4];  ///< [j][k]: component k of axis j
+struct alignas(64) Obb4 {
+  static constexpr int kCenter = 3;
+  float vectors[3][4][4];  ///< [k][j]: component k of axis j, or of the centre (j = kCenter)
   float half[3][4];
 };
 
 /// How b's frame lies in a's, and the margins: what the test reads.
 struct Obb4Pose {
-  float turn[3][3];    ///< M
-  float scaled[3][3];  ///< s·M
-  float offset[3];     ///< t
-  float scale;         ///< s
-  float relative;      ///< times (|T|₁ + Σa + Σb)
-  float ball;          ///< of a's unit
+  float turn[3][3];  ///< M
+  float offset[3];   ///< t
+  float scale;       ///< s, a power of two
+  float relative;    ///< times (|T|₁ + Σa + Σb)
+  float ball;        ///< of a's unit
 };
 
 }  // namespace corridor

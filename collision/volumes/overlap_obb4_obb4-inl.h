@@ -44,28 +44,32 @@ struct BoxPairs {
       return hn::TableLookupLanes(hn::LoadDup128(d, four), rows);
     };
     const auto second = [&](const float* four) { return hn::LoadDup128(d, four); };
-    const V c0 = second(nb.center[0]), c1 = second(nb.center[1]), c2 = second(nb.center[2]);
+    // b's axes and centres in a's frame: sixteen numbers a coordinate.
+    alignas(64) float posed[3][16];
+    for (std::size_t row = 0; row < 16; row += kLanes) {
+      const auto of = [&](int k) { return hn::Load(d, &nb.vectors[k][0][0] + row); };
+      const V u0 = of(0), u1 = of(1), u2 = of(2);
+      for (int k = 0; k < 3; ++k)
+        hn::Store(dot(set(pose.turn[k][0]), set(pose.turn[k][1]), set(pose.turn[k][2]), u0, u1, u2),
+                  d, posed[k] + row);
+    }
+    const V scale = set(pose.scale);
     V p[3];
     for (int k = 0; k < 3; ++k)
-      p[k] = hn::Sub(hn::Add(dot(set(pose.scaled[k][0]), set(pose.scaled[k][1]),
-                                 set(pose.scaled[k][2]), c0, c1, c2),
-                             set(pose.offset[k])),
-                     first(na.center[k]));
-    V v[3][3];
-    for (int j = 0; j < 3; ++j) {
-      const V u0 = second(nb.axes[j][0]), u1 = second(nb.axes[j][1]), u2 = second(nb.axes[j][2]);
-      for (int k = 0; k < 3; ++k)
-        v[j][k] = dot(set(pose.turn[k][0]), set(pose.turn[k][1]), set(pose.turn[k][2]), u0, u1, u2);
-    }
+      p[k] = hn::Sub(
+          hn::Add(hn::Mul(scale, second(posed[k] + 4 * Obb4::kCenter)), set(pose.offset[k])),
+          first(na.vectors[k][Obb4::kCenter]));
     for (int i = 0; i < 3; ++i) {
-      const V u0 = first(na.axes[i][0]), u1 = first(na.axes[i][1]), u2 = first(na.axes[i][2]);
+      const V u0 = first(na.vectors[0][i]), u1 = first(na.vectors[1][i]),
+              u2 = first(na.vectors[2][i]);
       T[i] = dot(u0, u1, u2, p[0], p[1], p[2]);
       for (int j = 0; j < 3; ++j) {
-        R[i][j] = dot(u0, u1, u2, v[j][0], v[j][1], v[j][2]);
+        R[i][j] = dot(u0, u1, u2, second(posed[0] + 4 * j), second(posed[1] + 4 * j),
+                      second(posed[2] + 4 * j));
         Q[i][j] = hn::Abs(R[i][j]);
       }
       a[i] = first(na.half[i]);
-      b[i] = hn::Mul(set(pose.scale), second(nb.half[i]));
+      b[i] = hn::Mul(scale, second(nb.half[i]));
     }
     const V sizes = sum3(sum3(hn::Abs(T[0]), hn::Abs(T[1]), hn::Abs(T[2])), sum3(a[0], a[1], a[2]),
                          sum3(b[0], b[1], b[2]));
