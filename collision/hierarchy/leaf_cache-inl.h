@@ -69,9 +69,10 @@ class LeafCache {
       const auto x = hn::Load(d, raw[0] + at), y = hn::Load(d, raw[1] + at),
                  z = hn::Load(d, raw[2] + at);
       for (int c = 0; c < 3; ++c) {
-        const auto s = hn::Add(
-            hn::Add(hn::Mul(x, hn::Set(d, matrix_(c, 0))), hn::Mul(y, hn::Set(d, matrix_(c, 1)))),
-            hn::Add(hn::Mul(z, hn::Set(d, matrix_(c, 2))), hn::Set(d, offset_[c])));
+        const auto s = hn::MulAdd(
+            z, hn::Set(d, matrix_(c, 2)),
+            hn::MulAdd(y, hn::Set(d, matrix_(c, 1)),
+                       hn::MulAdd(x, hn::Set(d, matrix_(c, 0)), hn::Set(d, offset_[c]))));
         hn::Store(hn::DemoteTo(f, hn::Sub(s, hn::Set(d, corners.center[c]))), f,
                   &corners.x[at / 4][c][4 * lane + at % 4]);
       }

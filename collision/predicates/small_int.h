@@ -6,11 +6,29 @@
 
 /// Signed integers of few bits, for grids of few bits: all that touches by construction (boxes, CAD
 /// parts on a grid, under quarter turns). Several times faster than what Boost has, which looks at
-/// the length of every number. Results that need more bits wrap.
+/// the length of every number. Results that need more bits wrap (of `Int53`, round).
 namespace corridor::exact {
 
 __extension__ using SignedPair = __int128;
 __extension__ using UnsignedPair = unsigned __int128;
+
+/// Integers times a power of two that all of an expression's coordinates share: doubles are exact
+/// below 2^53 of it.
+class Int53 {
+ public:
+  Int53() = default;
+  explicit Int53(double value) : value_(value) {}
+
+  bool is_zero() const { return value_ == 0; }  // NOLINT: Boost's name
+  int sign() const { return value_ > 0 ? 1 : value_ < 0 ? -1 : 0; }
+  friend Int53 operator*(Int53 a, Int53 b) { return Int53(a.value_ * b.value_); }
+  friend Int53 operator+(Int53 a, Int53 b) { return Int53(a.value_ + b.value_); }
+  friend Int53 operator-(Int53 a, Int53 b) { return Int53(a.value_ - b.value_); }
+  friend auto operator<=>(const Int53&, const Int53&) = default;  // NOLINT: no null pointer here
+
+ private:
+  double value_ = 0;
+};
 
 class Int128 {
  public:

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "collision/predicates/exact_number.h"
 #include "collision/predicates/triangle_contact.h"
@@ -88,9 +91,7 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Int>& n, const Point
 /// extreme point of their intersection lies on the rim of one of them. (A degenerate triangle is
 /// all rim.)
 template <class Int>
-bool touch(const exact::MappedCorners& a0, const exact::MappedCorners& b0,
-           const exact::Grid& grid) {
-  const Points<Int> a = exact::mapped<Int>(a0, grid), b = exact::mapped<Int>(b0, grid);
+bool touch(const Points<Int>& a, const Points<Int>& b) {
   const Vector<Int> nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
   if (strictlyOneSide(a, nA, b) || strictlyOneSide(b, nB, a)) return false;
   for (int i = 0; i < 3; ++i)
@@ -100,10 +101,50 @@ bool touch(const exact::MappedCorners& a0, const exact::MappedCorners& b0,
   return false;
 }
 
+template <class Int>
+bool touch(const exact::MappedCorners& a, const exact::MappedCorners& b, const exact::Grid& grid) {
+  return touch<Int>(exact::mapped<Int>(a, grid), exact::mapped<Int>(b, grid));
+}
+
+/// Triangles on a grid so coarse that doubles decide, under signed permutations: most that touch by
+/// construction do so. Whether they do; nothing where they aren't of that kind.
+std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                                   const Transform& X_WB) {
+  double size = 0;
+  for (const Transform* X : {&X_WA, &X_WB}) {
+    if (!(X->m.array() * X->m.array() == X->m.array().abs()).all()) return std::nullopt;
+    size = std::max(size, X->t.cwiseAbs().maxCoeff());
+  }
+  for (const Triangle* t : {&a, &b})
+    for (const Vec3& p : *t) size = std::max(size, p.cwiseAbs().maxCoeff());
+  // Entries are 0 or ±1. With corners and translations that are whole multiples, below 2^13, of a
+  // power of two, mapped corners are below 2^15 of it, differences below 2^16, and orientations
+  // below 6·2^48 < 2^51: all exact, sums on the way included, and none underflows.
+  if (!(size > 0x1p-250 && size < 0x1p250)) return std::nullopt;
+  // Adding and subtracting 3·2^51 such units rounds to whole ones.
+  const double rounder = std::ldexp(3.0, std::ilogb(size) - 12 + 51);
+  const auto whole = [&](const Vec3& p) {
+    return (((p.array() + rounder) - rounder) == p.array()).all();
+  };
+  const auto mapped = [&](const Triangle& t, const Transform& X) {
+    Points<exact::Int53> points;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = X * t[i];
+      points[i] = {exact::Int53(p[0]), exact::Int53(p[1]), exact::Int53(p[2])};
+    }
+    return points;
+  };
+  if (!whole(X_WA.t) || !whole(X_WB.t)) return std::nullopt;
+  for (int i = 0; i < 3; ++i)
+    if (!whole(a[i]) || !whole(b[i])) return std::nullopt;
+  return touch(mapped(a, X_WA), mapped(b, X_WB));
+}
+
 }  // namespace
 
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB) {
+  if (const auto known = touchInDoubles(a, X_WA, b, X_WB)) return *known;
   const exact::MappedCorners cornersA(X_WA, a), cornersB(X_WB, b);
   exact::Grid grid;
   grid.include(cornersA);

@@ -60,21 +60,21 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
     // Products of three such numbers are far from overflow.
     const V D = pairs.size;
     const V per = hn::IfThenElse(hn::Lt(D, hn::Set(d, 0x1p30F)),
-                                 hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 40 * 0x1p-24F), D)),
+                                 hn::MulAdd(hn::Set(d, 40 * 0x1p-24F), D, hn::Set(d, error)),
                                  hn::Set(d, HUGE_VALF));
     const V tiny = hn::Set(d, 0x1p-90F);  // underflow
     // The plane of a.
     const Vec na = cross(e1, e2);
     const V s0 = dot(na, p0), s1 = dot(na, p1), s2 = dot(na, p2);
     V gap = hn::Max(min3(s0, s1, s2), hn::Neg(max3(s0, s1, s2)));
-    V margin = hn::Add(hn::Mul(per, hn::Mul(le[0], le[2])), tiny);
+    V margin = hn::MulAdd(per, hn::Mul(le[0], le[2]), tiny);
     if (padded) margin = hn::Add(margin, padding(na));
     auto open = hn::Not(hn::Gt(gap, margin));
     // That of b.
     const Vec nb = cross(f1, f2);
     const V h = dot(nb, p0), t1 = dot(nb, e1), t2 = dot(nb, e2);
     gap = hn::Max(hn::Sub(min3(zero, t1, t2), h), hn::Sub(h, max3(zero, t1, t2)));
-    margin = hn::Add(hn::Mul(per, hn::Mul(lf[0], lf[2])), tiny);
+    margin = hn::MulAdd(per, hn::Mul(lf[0], lf[2]), tiny);
     if (padded) margin = hn::Add(margin, padding(nb));
     open = hn::AndNot(hn::Gt(gap, margin), open);
     if (!hn::AllFalse(d, open)) {
@@ -88,7 +88,7 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
           const V q0 = dot(L, j == 1 ? p1 : p0), q1 = dot(L, j == 0 ? p2 : j == 1 ? p0 : p1);
           gap = hn::Max(hn::Sub(hn::Min(q0, q1), hn::Max(s, zero)),
                         hn::Sub(hn::Min(s, zero), hn::Max(q0, q1)));
-          margin = hn::Add(hn::Mul(reach, lf[j]), tiny);
+          margin = hn::MulAdd(reach, lf[j], tiny);
           if (padded) margin = hn::Add(margin, padding(L));
           open = hn::AndNot(hn::Gt(gap, margin), open);
         }

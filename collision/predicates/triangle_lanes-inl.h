@@ -38,12 +38,11 @@ HWY_INLINE LaneVec sub(const LaneVec& p, const LaneVec& q) {
   return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
 }
 HWY_INLINE LaneVec cross(const LaneVec& p, const LaneVec& q) {
-  return {hn::Sub(hn::Mul(p.y, q.z), hn::Mul(p.z, q.y)),
-          hn::Sub(hn::Mul(p.z, q.x), hn::Mul(p.x, q.z)),
-          hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x))};
+  return {hn::NegMulAdd(p.z, q.y, hn::Mul(p.y, q.z)), hn::NegMulAdd(p.x, q.z, hn::Mul(p.z, q.x)),
+          hn::NegMulAdd(p.y, q.x, hn::Mul(p.x, q.y))};
 }
 HWY_INLINE LaneFloat dot(const LaneVec& p, const LaneVec& q) {
-  return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
+  return hn::MulAdd(p.z, q.z, hn::MulAdd(p.y, q.y, hn::Mul(p.x, q.x)));
 }
 HWY_INLINE LaneFloat sum(const LaneVec& p) {
   return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));

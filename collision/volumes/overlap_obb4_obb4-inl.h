@@ -34,7 +34,10 @@ struct BoxPairs {
   V set(float x) const { return hn::Set(d, x); }
   static V sum3(V x, V y, V z) { return hn::Add(hn::Add(x, y), z); }
   static V dot(V x0, V x1, V x2, V y0, V y1, V y2) {
-    return sum3(hn::Mul(x0, y0), hn::Mul(x1, y1), hn::Mul(x2, y2));
+    return hn::MulAdd(x2, y2, hn::MulAdd(x1, y1, hn::Mul(x0, y0)));
+  }
+  static V dotAnd(V sum, V x0, V x1, V x2, V y0, V y1, V y2) {
+    return hn::MulAdd(x2, y2, hn::MulAdd(x1, y1, hn::MulAdd(x0, y0, sum)));
   }
 
   /// Pairs `at` and the following ones, as many as there are lanes.
@@ -56,9 +59,8 @@ struct BoxPairs {
     const V scale = set(pose.scale);
     V p[3];
     for (int k = 0; k < 3; ++k)
-      p[k] = hn::Sub(
-          hn::Add(hn::Mul(scale, second(posed[k] + 4 * Obb4::kCenter)), set(pose.offset[k])),
-          first(na.vectors[k][Obb4::kCenter]));
+      p[k] = hn::Sub(hn::MulAdd(scale, second(posed[k] + 4 * Obb4::kCenter), set(pose.offset[k])),
+                     first(na.vectors[k][Obb4::kCenter]));
     for (int i = 0; i < 3; ++i) {
       const V u0 = first(na.vectors[0][i]), u1 = first(na.vectors[1][i]),
               u2 = first(na.vectors[2][i]);
@@ -73,23 +75,23 @@ struct BoxPairs {
     }
     const V sizes = sum3(sum3(hn::Abs(T[0]), hn::Abs(T[1]), hn::Abs(T[2])), sum3(a[0], a[1], a[2]),
                          sum3(b[0], b[1], b[2]));
-    slack = hn::Add(hn::Mul(set(pose.relative), sizes), set(pose.ball));
+    slack = hn::MulAdd(set(pose.relative), sizes, set(pose.ball));
   }
 
   /// Gaps along a's axes, b's, and the cross product of a's i-th and b's j-th (which is no unit
   /// vector).
   V faceOfA(int i) const {
-    return hn::Sub(hn::Abs(T[i]), hn::Add(dot(b[0], b[1], b[2], Q[i][0], Q[i][1], Q[i][2]), a[i]));
+    return hn::Sub(hn::Abs(T[i]), dotAnd(a[i], b[0], b[1], b[2], Q[i][0], Q[i][1], Q[i][2]));
   }
   V faceOfB(int j) const {
     return hn::Sub(hn::Abs(dot(T[0], T[1], T[2], R[0][j], R[1][j], R[2][j])),
-                   hn::Add(dot(a[0], a[1], a[2], Q[0][j], Q[1][j], Q[2][j]), b[j]));
+                   dotAnd(b[j], a[0], a[1], a[2], Q[0][j], Q[1][j], Q[2][j]));
   }
   V edges(int i, int j) const {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    return hn::Sub(hn::Abs(hn::Sub(hn::Mul(T[i2], R[i1][j]), hn::Mul(T[i1], R[i2][j]))),
-                   hn::Add(hn::Add(hn::Mul(a[i1], Q[i2][j]), hn::Mul(a[i2], Q[i1][j])),
-                           hn::Add(hn::Mul(b[j1], Q[i][j2]), hn::Mul(b[j2], Q[i][j1]))));
+    return hn::Sub(
+        hn::Abs(hn::NegMulAdd(T[i1], R[i2][j], hn::Mul(T[i2], R[i1][j]))),
+        dotAnd(hn::Mul(a[i1], Q[i2][j]), a[i2], b[j1], b[j2], Q[i1][j], Q[i][j2], Q[i][j1]));
   }
   V largestEdgeGap(V gap) const {
     for (int i = 0; i < 3; ++i)
