@@ -27,8 +27,9 @@ namespace corridor::HWY_NAMESPACE {
 /// by 2^-24 of the node, not of the mesh.
 class LeafCache {
  public:
-  LeafCache(const WideObbTree& tree, const Mat3& matrix, const Vec3& offset)
-      : tree_(tree), matrix_(matrix), offset_(offset) {
+  LeafCache(const WideObbTree& tree, const Mat3& matrix, const Vec3& offset) : tree_(tree) {
+    for (int k = 0; k < 4; ++k)
+      for (int c = 0; c < 4; ++c) columns_[k][c] = c == 3 ? 0 : k == 3 ? offset[c] : matrix(c, k);
     std::fill_n(held_, kSize, WideObbTree::kNone);
   }
 
@@ -51,38 +52,34 @@ class LeafCache {
     TriangleCorners& corners = corners_[slot];
     const std::uint32_t first = WideObbTree::leafFirst(node.child[lane]),
                         count = WideObbTree::leafCount(node.child[lane]);
-    const Vec3& o = tree_.origin();
-    alignas(64) double raw[3][12];  // triangles that are missing repeat the first one
-    for (std::uint32_t i = 0; i < 4; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const Vec3& p = tree_.corner(first + (i < count ? i : 0), k);
-        for (int c = 0; c < 3; ++c) raw[c][4 * k + i] = p[c] - o[c];
-      }
-    if (!filled_[slot])
-      for (int c = 0; c < 3; ++c)
-        corners.center[c] = (matrix_(c, 0) * raw[0][0] + matrix_(c, 1) * raw[1][0]) +
-                            (matrix_(c, 2) * raw[2][0] + offset_[c]);
-    filled_[slot] |= 1U << lane;
+    // One point at a time, its coordinates side by side: most leaves have one triangle or two.
     const hn::CappedTag<double, 4> d;
     const hn::Rebind<float, decltype(d)> f;
-    for (std::size_t at = 0; at < 12; at += hn::Lanes(d)) {
-      const auto x = hn::Load(d, raw[0] + at), y = hn::Load(d, raw[1] + at),
-                 z = hn::Load(d, raw[2] + at);
-      for (int c = 0; c < 3; ++c) {
-        const auto s = hn::MulAdd(
-            z, hn::Set(d, matrix_(c, 2)),
-            hn::MulAdd(y, hn::Set(d, matrix_(c, 1)),
-                       hn::MulAdd(x, hn::Set(d, matrix_(c, 0)), hn::Set(d, offset_[c]))));
-        hn::Store(hn::DemoteTo(f, hn::Sub(s, hn::Set(d, corners.center[c]))), f,
-                  &corners.x[at / 4][c][4 * lane + at % 4]);
+    const Vec3& o = tree_.origin();
+    const auto map = [&](const Vec3& p, std::size_t at) {
+      const auto of = [&](int k) { return hn::Load(d, columns_[k] + at); };
+      return hn::MulAdd(hn::Set(d, p[2] - o[2]), of(2),
+                        hn::MulAdd(hn::Set(d, p[1] - o[1]), of(1),
+                                   hn::MulAdd(hn::Set(d, p[0] - o[0]), of(0), of(3))));
+    };
+    if (!filled_[slot])
+      for (std::size_t at = 0; at < 4; at += hn::Lanes(d))
+        hn::Store(map(tree_.corner(first, 0), at), d, corners.center + at);
+    filled_[slot] |= 1U << lane;
+    alignas(16) float relative[4];
+    for (std::uint32_t i = 0; i < count; ++i)
+      for (int k = 0; k < 3; ++k) {
+        for (std::size_t at = 0; at < 4; at += hn::Lanes(d))
+          hn::Store(hn::DemoteTo(f, hn::Sub(map(tree_.corner(first + i, k), at),
+                                            hn::Load(d, corners.center + at))),
+                    f, relative + at);
+        for (int c = 0; c < 3; ++c) corners.x[k][c][4 * lane + i] = relative[c];
       }
-    }
   }
 
   static constexpr int kBits = 4, kSize = 1 << kBits;
   const WideObbTree& tree_;
-  Mat3 matrix_;
-  Vec3 offset_;
+  alignas(32) double columns_[4][4];  // of the matrix, then the offset; the last row is 0
   std::uint32_t held_[kSize];
   unsigned filled_[kSize];  // which lanes
   TriangleCorners corners_[kSize];

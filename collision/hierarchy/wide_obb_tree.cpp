@@ -97,6 +97,7 @@ class WideObbBuilder {
     tree_.unit_ = size > 0 && std::isfinite(size) ? std::ilogb(size) + 1 : 0;
     scale_ = std::ldexp(1.0, -std::clamp(tree_.unit_, -1000, 1000));
     tree_.unit_ = std::clamp(tree_.unit_, -1000, 1000);
+    tree_.length_ = std::ldexp(1.0, tree_.unit_);
     double radius = 0;
     for (const auto& t : mesh_.triangles)
       for (const std::uint32_t v : t)

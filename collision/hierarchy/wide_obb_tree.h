@@ -50,7 +50,8 @@ class WideObbTree {
   std::uint32_t meshTriangle(std::uint32_t i) const { return meshTriangle_[i]; }
 
   const Vec3& origin() const { return origin_; }
-  int unit() const { return unit_; }
+  /// 2^unit, metres.
+  double length() const { return length_; }
   /// Largest |p − origin|₂ of all corners, metres, rounded up.
   double radius() const { return radius_; }
   /// Of a sphere about the frame's origin, metres: holds all corners.
@@ -70,6 +71,7 @@ class WideObbTree {
   std::vector<std::uint32_t> meshTriangle_;
   Vec3 origin_ = Vec3::Zero();
   int unit_ = 0;
+  double length_ = 1;
   double radius_ = 0, reach_ = 0;
 };
 

@@ -26,14 +26,16 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   if (apart) return;
   m.noalias() = X_WA.m.transpose().lazyProduct(X_WB.m);
   const Vec3 offset = X_WA.m.transpose() * D;
-  const double defect = orthonormalityDefect(m);
+  // |MᵀM − I| entry by entry, of M = M_AᵀM_B: that of B and ‖M_B‖²‖M_A M_Aᵀ − I‖, which is ‖M_AᵀM_A
+  // − I‖ ≤ 3η_A; and m's rounding, 3.1u·√3 an entry, twice √3 times.
+  const double defect = defectB + 3.2 * defectA + 24 * kUnit;
   // Entries of m and of the offset, three products and two sums each: 3.1u·3 as a norm.
   const double reach = 1.1 * b.radius() + D.cwiseAbs().sum();
   // Differences and products that underflow, flushed to zero, lose less than 2^-1018.
   const double metres =
       1.2 * ((3.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms) + 0x1p-1015;
-  unitA = std::ldexp(1.0, -a.unit());
-  scale = std::ldexp(1.0, b.unit() - a.unit());
+  unitA = 1 / a.length();
+  scale = b.length() * unitA;  // powers of two; 0 or infinite where it is out of range
   t = offset * unitA;
   const double error = usable ? metres * unitA : HUGE_VAL;
   constexpr double u = 0x1p-24;

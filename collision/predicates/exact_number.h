@@ -37,13 +37,15 @@ struct Vector {
   }
   bool isZero() const { return x.is_zero() && y.is_zero() && z.is_zero(); }
 };
-template <class Int>
-Int dot(const Vector<Int>& a, const Vector<Int>& b) {
+/// Products may be of another type than their factors (small_int.h).
+template <class A, class B>
+auto dot(const Vector<A>& a, const Vector<B>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class Int>
-Vector<Int> cross(const Vector<Int>& a, const Vector<Int>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+auto cross(const Vector<Int>& a, const Vector<Int>& b) {
+  return Vector<decltype(a.x * b.x)>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                                     a.x * b.y - a.y * b.x};
 }
 template <class Int>
 int sign(const Int& x) {
@@ -116,6 +118,19 @@ struct Grid {
   /// Bits of a coordinate (4 terms, sum below 2^(high + 2)).
   int coordinateBits() const { return high <= low ? 3 : high + 2 - low; }
 };
+
+/// What `run.template operator()<Int>()` returns for the fastest integers that hold orientations of
+/// points of that grid: with coordinates below 2^k, differences are below 2^(k+1), cross products
+/// below 2^(2k+3), orientations below 2^(3k+6) (3·2^(k+1)·2^(2k+3)): that many bits hold every
+/// intermediate value.
+template <class Run>
+auto withIntegersFor(const Grid& grid, const Run& run) {
+  const int k = grid.coordinateBits(), bits = 3 * k + 6;
+  if (k <= 61) return run.template operator()<Int64>();  // 2^62, 2^125, 2^189
+  if (bits <= 512) return run.template operator()<FixedInt<512>>();
+  if (bits <= 1024) return run.template operator()<FixedInt<1024>>();
+  return run.template operator()<BigInt>();
+}
 
 template <class Int>
 Int term(const Dyadic& a, const Dyadic& b, const Grid& grid) {

@@ -53,13 +53,7 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
   const Corners corners = {corner(p), corner(q), corner(r), corner(s)};
   exact::Grid grid;
   for (const exact::MappedCorners& each : corners) grid.include(each);
-  // As in `trianglesTouchExact`.
-  const int bits = 3 * grid.coordinateBits() + 6;
-  if (bits <= 127) return exactSign<exact::Int128>(corners, grid);
-  if (bits <= 255) return exactSign<exact::Int256>(corners, grid);
-  if (bits <= 512) return exactSign<exact::FixedInt<512>>(corners, grid);
-  if (bits <= 1024) return exactSign<exact::FixedInt<1024>>(corners, grid);
-  return exactSign<exact::BigInt>(corners, grid);
+  return exact::withIntegersFor(grid, [&]<class Int>() { return exactSign<Int>(corners, grid); });
 }
 
 }  // namespace corridor

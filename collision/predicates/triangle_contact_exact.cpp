@@ -32,7 +32,8 @@ bool rangesMeet(const Int& a, const Int& b, const Int& c, const Int& d) {
 template <class Int>
 bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r,
                    const Vector<Int>& s) {
-  const Vector<Int> d = q - p, e = s - r, n = cross(d, e), f = r - p;
+  const Vector<Int> d = q - p, e = s - r, f = r - p;
+  const auto n = cross(d, e);
   if (!n.isZero()) {  // not parallel: they meet only in their common plane, and there as their
                       // projections do
     if (sign(dot(n, f)) != 0) return false;
@@ -49,9 +50,9 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
 }
 
 /// Closed segment pq against the closed triangle t with normal n (zero if degenerate).
-template <class Int>
+template <class Int, class Product>
 bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t,
-                            const Vector<Int>& n) {
+                            const Vector<Product>& n) {
   if (n.isZero()) {  // a segment or a point: the union of its edges
     for (int i = 0; i < 3; ++i)
       if (segmentsTouch(p, q, t[i], t[(i + 1) % 3])) return true;
@@ -80,8 +81,9 @@ bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Po
   return !(positive && negative);
 }
 
-template <class Int>
-bool strictlyOneSide(const Points<Int>& plane, const Vector<Int>& n, const Points<Int>& points) {
+template <class Int, class Product>
+bool strictlyOneSide(const Points<Int>& plane, const Vector<Product>& n,
+                     const Points<Int>& points) {
   const int s = sign(dot(n, points[0] - plane[0]));
   return s != 0 && s == sign(dot(n, points[1] - plane[0])) &&
          s == sign(dot(n, points[2] - plane[0]));
@@ -92,7 +94,7 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Int>& n, const Point
 /// all rim.)
 template <class Int>
 bool touch(const Points<Int>& a, const Points<Int>& b) {
-  const Vector<Int> nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
+  const auto nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
   if (strictlyOneSide(a, nA, b) || strictlyOneSide(b, nB, a)) return false;
   for (int i = 0; i < 3; ++i)
     if (segmentTouchesTriangle(a[i], a[(i + 1) % 3], b, nB) ||
@@ -149,14 +151,8 @@ bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangl
   exact::Grid grid;
   grid.include(cornersA);
   grid.include(cornersB);
-  // With coordinates below 2^k, differences are below 2^(k+1), cross products below 2^(2k+3),
-  // orientations below 2^(3k+6) (3·2^(k+1)·2^(2k+3)): that many bits hold every intermediate value.
-  const int bits = 3 * grid.coordinateBits() + 6;
-  if (bits <= 127) return touch<exact::Int128>(cornersA, cornersB, grid);
-  if (bits <= 255) return touch<exact::Int256>(cornersA, cornersB, grid);
-  if (bits <= 512) return touch<exact::FixedInt<512>>(cornersA, cornersB, grid);
-  if (bits <= 1024) return touch<exact::FixedInt<1024>>(cornersA, cornersB, grid);
-  return touch<exact::BigInt>(cornersA, cornersB, grid);
+  return exact::withIntegersFor(grid,
+                                [&]<class Int>() { return touch<Int>(cornersA, cornersB, grid); });
 }
 
 }  // namespace corridor

@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Corners of up to sixteen triangles, relative to a point: [corner][coordinate][triangle].
 struct alignas(64) TriangleCorners {
   float x[3][3][16];
-  double center[3];
+  double center[4];  ///< and a 0
 };
 
 using LaneTag = hn::CappedTag<float, 16>;

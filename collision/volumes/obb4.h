@@ -16,16 +16,16 @@
 ///   η_R = ‖R̂ᵀR̂ − I‖_max ≤ 3(2η + η_M) + 2√3·ε_R < 49u + 3.1η_M.
 /// Growth is moved to box a, as in overlap_obb_obb.h: then an exactly axis-aligned box and an exact
 /// parallelepiped are asked along e_i, R̂_j, and e_i × R̂_j, where R̂_j × R̂_k = ±R̂_l but for 3η_R. A
-/// projection and its radius take fewer than 12 roundings of numbers below |T|₁ + Σa + Σb. Times
-/// this sum, the most that one term gets is Σb's: √3·ε_R + 3η_R + 13u < 178u + 9.3η_M. A ball's
-/// radius is taken whole on cross axes, whose length is at most 1 + 2^-18. Underflow, flush to zero
-/// included, loses less than 2^-118.
+/// projection and its radius take fewer than 12 roundings (fused, fewer still) of numbers below
+/// |T|₁ + Σa + Σb. Times this sum, the most that one term gets is Σb's: √3·ε_R + 3η_R + 13u < 178u
+/// + 9.3η_M. A ball's radius is taken whole on cross axes, whose length is at most 1 + 2^-18.
+/// Underflow, flush to zero included, loses less than 2^-118.
 namespace corridor {
 
 /// Four oriented boxes {center + Σ_j axis_j·x_j : |x_j| ≤ half_j}, for the floats stored as exact
 /// reals; the four of a row are contiguous. Their axes were orthonormal to 2^-40 before they were
 /// rounded to float; what they hold is in the cube [−1, 1]³.
-struct alignas(64) Obb4 {
+struct alignas(16) Obb4 {
   static constexpr int kCenter = 3;
   float vectors[3][4][4];  ///< [k][j]: component k of axis j, or of the centre (j = kCenter)
   float half[3][4];

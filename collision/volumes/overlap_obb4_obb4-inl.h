@@ -50,7 +50,7 @@ struct BoxPairs {
     // b's axes and centres in a's frame: sixteen numbers a coordinate.
     alignas(64) float posed[3][16];
     for (std::size_t row = 0; row < 16; row += kLanes) {
-      const auto of = [&](int k) { return hn::Load(d, &nb.vectors[k][0][0] + row); };
+      const auto of = [&](int k) { return hn::LoadU(d, &nb.vectors[k][0][0] + row); };
       const V u0 = of(0), u1 = of(1), u2 = of(2);
       for (int k = 0; k < 3; ++k)
         hn::Store(dot(set(pose.turn[k][0]), set(pose.turn[k][1]), set(pose.turn[k][2]), u0, u1, u2),
@@ -113,8 +113,9 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
 /// (obb4.h has the derivation). `gaps` gets the largest gap along a face normal of each pair:
 /// the less, the deeper they overlap.
 ///
-/// Separate multiplications and additions in one order, so that all targets decide alike. Each axis
-/// alone is a proof: a NaN on one of them may be lost in a maximum, but it never separates.
+/// In one order, and fused wherever the target can: all that can decide alike (SSE can't: a box
+/// more or less is opened there, for the same answer). Each axis alone is a proof: a NaN on one of
+/// them may be lost in a maximum, but it never separates.
 HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                      float* HWY_RESTRICT gaps) {
   const hn::CappedTag<float, 16> d;

@@ -1,5 +1,6 @@
 #include "collision/predicates/small_int.h"
 
+#include <cstdint>
 #include <random>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -12,63 +13,64 @@ namespace {
 
 using Reference = boost::multiprecision::cpp_int;
 
-template <class Int>
-class SmallInt : public testing::Test {};
-using Types = testing::Types<Int128, Int256>;
-TYPED_TEST_SUITE(SmallInt, Types);
+/// |value| < 2^length, all lengths alike.
+std::int64_t any(std::mt19937_64& random, unsigned most) {
+  const auto length = static_cast<unsigned>(random() % (most + 1));
+  const auto value = static_cast<std::int64_t>(random() & ((1ULL << length) - 1));
+  return random() % 2 ? value : -value;
+}
 
-/// Sums, differences, products, shifts and comparisons of numbers of all lengths that don't wrap,
-/// against Boost's: both are built from the same 64-bit numbers.
-TYPED_TEST(SmallInt, AgreesWithBoost) {
-  const unsigned bits = std::is_same_v<TypeParam, Int128> ? 127 : 255;
+/// Orientations are dot(a, cross(b, c)): of what coordinates below 2^61 differ by, so that every
+/// product and every sum has the most bits that it may have; against Boost's.
+TEST(SmallInt, OrientationsAgreeWithBoost) {
   std::mt19937_64 random(test::testSeed(61));
-  const auto any = [&](unsigned most) {
-    const auto length = static_cast<unsigned>(random() % (most + 1));
-    TypeParam value(0);
-    Reference reference = 0;
-    for (unsigned left = length; left > 0;) {  // |value| < 2^length
-      const unsigned part = std::min(left, 62U);
-      const auto digit = static_cast<std::int64_t>(random() & ((1ULL << part) - 1));
-      value <<= part;
-      value += TypeParam(digit);
-      reference = (reference << part) + digit;
-      left -= part;
+  int zeros = 0;
+  for (int n = 0; n < 200'000 / test::kSlowdown; ++n) {
+    std::int64_t x[3][3];
+    for (auto& row : x)
+      for (auto& value : row) value = any(random, 62);
+    if (n % 2)  // nearly or exactly dependent
+      for (int k = 0; k < 3; ++k) {
+        for (auto& row : x) row[k] >>= 1;
+        x[2][k] = x[0][k] + x[1][k];
+      }
+    if (n % 4 == 1) x[2][n % 3] += 1;
+    Reference determinant = 0;
+    Int192 sum;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const Int128 minor = Int64(x[1][j]) * Int64(x[2][k]) - Int64(x[1][k]) * Int64(x[2][j]);
+      const Reference reference = Reference(x[1][j]) * x[2][k] - Reference(x[1][k]) * x[2][j];
+      ASSERT_EQ(minor.sign(), reference.sign());
+      ASSERT_EQ(minor.is_zero(), reference == 0);
+      ASSERT_EQ((minor * Int64(x[0][i])).sign(), Reference(reference * x[0][i]).sign());
+      sum = sum + (i % 2 ? minor * Int64(x[0][i]) : Int64(x[0][i]) * minor);
+      determinant += reference * x[0][i];
     }
-    if (random() % 2) {
-      value = TypeParam(0) - value;
-      reference = -reference;
-    }
-    return std::pair(value, reference);
-  };
-  const auto same = [](const TypeParam& value, const Reference& reference) {
-    // What is left after taking the reference away, digit by digit.
-    TypeParam rebuilt(0);
-    const Reference size = abs(reference);
-    for (int i = 4; i >= 0; --i) {
-      rebuilt <<= 60;
-      rebuilt +=
-          TypeParam(static_cast<std::int64_t>((size >> (60 * i)) & ((Reference(1) << 60) - 1)));
-    }
-    if (reference < 0) rebuilt = TypeParam(0) - rebuilt;
-    return rebuilt == value && value.sign() == reference.sign() &&
-           value.is_zero() == (reference == 0);
-  };
-  for (int n = 0; n < 100'000 / test::kSlowdown; ++n) {
-    const auto [a, x] = any(bits - 1);
-    const auto [b, y] = any(bits - 1);
-    ASSERT_TRUE(same(a, x) && same(b, y));
-    ASSERT_TRUE(same(a + b, x + y));
-    ASSERT_TRUE(same(a - b, x - y));
-    ASSERT_EQ(a < b, x < y);
-    ASSERT_EQ(a >= b, x >= y);
-    ASSERT_EQ(a == b, x == y);
-    const auto [c, z] = any(bits / 2);
-    const auto [d, w] = any(bits / 2);
-    ASSERT_TRUE(same(c * d, z * w));
-    const auto shift = static_cast<unsigned>(random() % (bits / 2));
-    TypeParam shifted = c;
-    shifted <<= shift;
-    ASSERT_TRUE(same(shifted, z << shift));
+    ASSERT_EQ(sum.sign(), determinant.sign()) << determinant;
+    ASSERT_EQ(sum.is_zero(), determinant == 0);
+    zeros += determinant == 0;
+    // Equal to the last bit: −determinant = high·2^64 + low.
+    const Reference two64 = Reference(1) << 64;
+    Reference low = -determinant % two64;
+    if (low < 0) low += two64;
+    const Reference high = (-determinant - low) / two64;
+    const auto half = [&](const Reference& y) { return static_cast<std::int64_t>(y); };
+    const SignedPair top = static_cast<SignedPair>(half(high / (Reference(1) << 62))) << 62;
+    const Int192 negative(top + half(high % (Reference(1) << 62)), static_cast<std::uint64_t>(low));
+    ASSERT_TRUE((sum + negative).is_zero()) << determinant;
+  }
+  EXPECT_GT(zeros, 1000 / test::kSlowdown);
+}
+
+TEST(SmallInt, SixtyFourBitsCompare) {
+  std::mt19937_64 random(test::testSeed(62));
+  for (int n = 0; n < 10'000; ++n) {
+    const std::int64_t x = any(random, 62), y = n % 5 ? any(random, 62) : x;
+    EXPECT_EQ(Int64(x) < Int64(y), x < y);
+    EXPECT_EQ(Int64(x) >= Int64(y), x >= y);
+    EXPECT_EQ((Int64(x) - Int64(y)).value(), x - y);
+    EXPECT_EQ((Int64(x) - Int64(y)).is_zero(), x == y);
   }
 }
 
