@@ -78,10 +78,14 @@ Vector<Real> local(const PosedSet& set, const Vector<Real>& n) {
          Vector<Real>(Vec3(m.row(2))) * n.z;
 }
 
-/// What a ball of radius 1 adds to a point of the core, farthest along n: M m/|m|.
+/// What a ball of radius 1 adds to a point of the core, farthest along n: M m/|m|; nothing where
+/// the map has flattened it along n.
 template <class Real>
 Vector<Real> ballPoint(const PosedSet& set, const Vector<Real>& n) {
-  const Vector<Real> m = local(set, n), unit = m * (Real(1) / gjk::length(m));
+  const Vector<Real> m = local(set, n);
+  const Real size = gjk::length(m);
+  if (!(size > Real(0))) return {};
+  const Vector<Real> unit = m * (Real(1) / size);
   const Mat3& rows = set.pose().m;
   return {dot(Vector<Real>(Vec3(rows.row(0))), unit), dot(Vector<Real>(Vec3(rows.row(1))), unit),
           dot(Vector<Real>(Vec3(rows.row(2))), unit)};

@@ -298,6 +298,24 @@ TEST(ConvexDistance, AnyAffineMap) {
   }
 }
 
+/// A map may be singular: along what it flattens a ball reaches nowhere.
+TEST(ConvexDistance, BallsFlattenedByTheirMap) {
+  const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
+  for (const Primitive& p : {Primitive(Sphere{1}), Primitive(Capsule{1, 2})})
+    for (const Mat3& m : {Mat3(Vec3(1, 1, 0).asDiagonal()), Mat3(Vec3(0, 0, 0).asDiagonal()),
+                          Mat3(Vec3(1, 1, 1e-200).asDiagonal())}) {
+      const ConvexPart part = placed(p, {});
+      const PosedSet a(plate, {}), b(part, {m, Vec3(0.1, 0.2, 0.75)});
+      Counters counters;
+      const ConvexDistance d = convexDistance(a, b, 0, 0, counters),
+                           back = convexDistance(b, a, 0, 0, counters);
+      EXPECT_NEAR(d.distance, 0.25, allowedAt(0.25, 2));
+      EXPECT_NEAR(back.distance, 0.25, allowedAt(0.25, 2));
+      EXPECT_NEAR((d.p_WB - d.p_WA).norm(), 0.25, 4 * kUnit);
+      EXPECT_LE(convexDistanceRange(a, b, HUGE_VAL, 0, counters).upper, 1.75);
+    }
+}
+
 TEST(ConvexDistance, AsCloseAsAskedFor) {
   Touching make(test::testSeed(34));
   Counters plain, lax;
