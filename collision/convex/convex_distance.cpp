@@ -118,6 +118,14 @@ class Pair {
   /// Of a distance found in double.
   double error() const { return 2 * error_; }
 
+  /// Do the closest points that a simplex has meet, as the search that ended with it says? Not
+  /// where cores overlap by so little that its corners are nearly in one plane: the weights are
+  /// noise.
+  template <class Real>
+  bool met(const gjk::Search<Real>& search) const {
+    return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <= near();
+  }
+
   /// A point that both sets have, as far as can be told.
   template <class Real>
   ConvexDistance contact(const gjk::Search<Real>& search, bool whole) const {
@@ -199,7 +207,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
     const bool balls = a.keepsBall() && b.keepsBall();
     const bool deep = found.overlap || found.upper + pair.band() <= pair.radii();
     if ((deep && balls) || convexSetsTouch(a, b, counters)) {
-      if (met && balls) return pair.contact(quick, false);
+      if (met && balls && pair.met(quick)) return pair.contact(quick, false);
       gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
       const double near = pair.near() - (balls ? 0 : pair.radii());
       finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never);

@@ -316,6 +316,32 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
     }
 }
 
+/// Where cores barely overlap, the four corners around the origin are nearly in one plane; still
+/// the point is both sets'.
+TEST(ConvexDistance, APointOfBothWhereTheyBarelyOverlap) {
+  Touching make(test::testSeed(35));
+  Counters counters;
+  int touching = 0;
+  for (int n = 0; n < 4'000 / test::kSlowdown; ++n) {
+    const Feature fa = make.feature(Shape::cylinder),
+                  fb = make.feature(n % 2 ? Shape::cylinder : Shape::box);
+    const Vec3 normal = make.vector().normalized();
+    const Posed a{fa.part, make.pose(fa, Vec3::Zero(), normal)};
+    Posed b{fb.part, make.pose(fb, Vec3::Zero(), -normal)};
+    b.X.t -= normal * std::pow(10.0, -8 - n % 5);
+    const ConvexDistance d = convexDistance(a.set(), b.set(), 0, 0, counters);
+    if (d.distance > 0) continue;
+    ++touching;
+    EXPECT_EQ(d.p_WA, d.p_WB);
+    const ConvexPart point{{d.p_WA}, 0, false};
+    for (const Posed& side : {a, b})
+      EXPECT_LE(convexDistance(side.set(), {point, {}}, 0, 0, counters).distance,
+                0x1p-30 * sizeOf(a, b))
+          << n;
+  }
+  EXPECT_GT(touching, 3'000 / test::kSlowdown);
+}
+
 TEST(ConvexDistance, AsCloseAsAskedFor) {
   Touching make(test::testSeed(34));
   Counters plain, lax;
