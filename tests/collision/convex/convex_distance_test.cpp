@@ -195,6 +195,33 @@ TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
   EXPECT_GT(apart, 20 / test::kSlowdown);
 }
 
+/// The lower bound is one, to the last digit, of faces whose corners doubles can't tell apart.
+TEST(ConvexDistance, LowerThanAHundredDigits) {
+  Touching make(test::testSeed(36));
+  Counters counters;
+  for (int n = 0; n < 40 / test::kSlowdown + 1; ++n) {
+    const Mat3 turn = make.turning(Vec3::UnitZ(), make.vector().normalized());
+    Posed a, b;
+    for (int i = 0; i < 4; ++i) {
+      a.part.points.push_back(turn * Vec3(make.real(), make.real(), 0));
+      b.part.points.push_back(turn * Vec3(make.real(), make.real(), 1e-3));
+    }
+    test::Digits truth = 1e300;
+    const auto without = [](const ConvexPart& part, int k) {
+      const auto& p = part.points;
+      return Triangle{p[(k + 1) % 4], p[(k + 2) % 4], p[(k + 3) % 4]};
+    };
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 4; ++k)
+        truth = std::min(truth,
+                         test::referenceDistance(without(a.part, i), a.X, without(b.part, k), b.X));
+    EXPECT_LE(convexDistance(a.set(), b.set(), 0, 0, counters).lower,
+              static_cast<double>(truth) * (1 + 2 * kUnit))
+        << n;
+  }
+  EXPECT_GT(counters.exactTests, 0u);
+}
+
 ConvexPart placedAt(const Primitive& primitive, const Vec3& t, const Vec3& axis = Vec3::UnitX(),
                     double angle = 0) {
   Transform X;
