@@ -104,7 +104,9 @@ class Pair {
         b_(b),
         size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
         radii_(a.set().ball + b.set().ball),
-        error_(roundedUp(a.error() + b.error() + 2 * kUnit * size_)) {}
+        // Beside those of the projections: their sum and this bound's own subtraction; and a gap,
+        // below `size`, is one along a direction as long as 1 + 5u.
+        error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
 
   double size() const { return size_; }
   double radii() const { return radii_; }

@@ -33,8 +33,9 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
                               double absolute, Counters& counters);
 
 /// A proved range of their distance, in double. lower > 0: they don't touch. Both ends are within
-/// some 2^-45·S of the distance, or 2^-20 of it; or it ended as soon as lower exceeded `beyond`
-/// or upper was no more than `near`. @param beyond, near  metres.
+/// some 2^-45·S of the distance, or 2^-20 of it, but where caps of cylinders face each other or a
+/// ball's map isn't rigid; or it ended as soon as lower exceeded `beyond` or upper was no more than
+/// `near`. @param beyond, near  metres.
 struct ConvexRange {
   double lower = 0, upper = 0;
 };
