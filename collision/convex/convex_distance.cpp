@@ -78,10 +78,14 @@ Vector<Real> local(const PosedSet& set, const Vector<Real>& n) {
          Vector<Real>(Vec3(m.row(2))) * n.z;
 }
 
-/// What a ball of radius 1 adds to a point of the core, farthest along n: M m/|m|.
+/// What a ball of radius 1 adds to a point of the core, farthest along n: M m/|m|; nothing where
+/// the map has flattened it along n.
 template <class Real>
 Vector<Real> ballPoint(const PosedSet& set, const Vector<Real>& n) {
-  const Vector<Real> m = local(set, n), unit = m * (Real(1) / gjk::length(m));
+  const Vector<Real> m = local(set, n);
+  const Real size = gjk::length(m);
+  if (!(size > Real(0))) return {};
+  const Vector<Real> unit = m * (Real(1) / size);
   const Mat3& rows = set.pose().m;
   return {dot(Vector<Real>(Vec3(rows.row(0))), unit), dot(Vector<Real>(Vec3(rows.row(1))), unit),
           dot(Vector<Real>(Vec3(rows.row(2))), unit)};
@@ -100,7 +104,9 @@ class Pair {
         b_(b),
         size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
         radii_(a.set().ball + b.set().ball),
-        error_(roundedUp(a.error() + b.error() + 2 * kUnit * size_)) {}
+        // Beside those of the projections: their sum and this bound's own subtraction; and a gap,
+        // below `size`, is one along a direction as long as 1 + 5u.
+        error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
 
   double size() const { return size_; }
   double radii() const { return radii_; }
@@ -113,6 +119,14 @@ class Pair {
   double gap(const Vec3& n) const { return -b_.highest(-n) - a_.highest(n) - error_; }
   /// Of a distance found in double.
   double error() const { return 2 * error_; }
+
+  /// Do the closest points that a simplex has meet, as the search that ended with it says? Not
+  /// where cores overlap by so little that its corners are nearly in one plane: the weights are
+  /// noise.
+  template <class Real>
+  bool met(const gjk::Search<Real>& search) const {
+    return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <= near();
+  }
 
   /// A point that both sets have, as far as can be told.
   template <class Real>
@@ -195,7 +209,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
     const bool balls = a.keepsBall() && b.keepsBall();
     const bool deep = found.overlap || found.upper + pair.band() <= pair.radii();
     if ((deep && balls) || convexSetsTouch(a, b, counters)) {
-      if (met && balls) return pair.contact(quick, false);
+      if (met && balls && pair.met(quick)) return pair.contact(quick, false);
       gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
       const double near = pair.near() - (balls ? 0 : pair.radii());
       finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never);

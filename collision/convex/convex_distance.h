@@ -16,11 +16,12 @@ struct ConvexDistance {
 /// The distance of two convex sets, each under its own map, and points of either that have it.
 ///
 /// 0 if and only if `convexSetsTouch`; then both points are one that both sets have (in its band:
-/// up to the band). Else `distance` is above the true one by at most relative·true + absolute, and,
-/// whatever is asked, by 1e-12·true + 4·2^-53·S, S the largest Σ|m||p| + |t| of the points mapped,
-/// each of the two with its radii; `lower` ≤ true is proved in real arithmetic and tells how well
-/// it went. The points are on the sets' surfaces up to 2^-50·S. Any finite maps: a ball under one
-/// that isn't rigid is an ellipsoid, which takes longer.
+/// up to the band; where they overlap by less than 2^-30·S: up to that). Else `distance` is above
+/// the true one by at most relative·true + absolute, and, whatever is asked, by 1e-12·true +
+/// 4·2^-53·S, S the largest Σ|m||p| + |t| of the points mapped, each of the two with its radii (of
+/// maps that aren't rigid: the largest ‖M‖|p| + |t|, ‖M‖ at least 1); `lower` ≤ true is proved in
+/// real arithmetic and tells how well it went. The points are on the sets' surfaces up to 2^-50·S.
+/// Any finite maps: a ball under one that isn't rigid is an ellipsoid, which takes longer.
 ///
 /// GJK in double; where its bounds, all rounding covered, don't agree to what is asked, again in
 /// double-double, beginning with the corners that it found: by default nearly always where they are
@@ -32,8 +33,9 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
                               double absolute, Counters& counters);
 
 /// A proved range of their distance, in double. lower > 0: they don't touch. Both ends are within
-/// some 2^-45·S of the distance, or 2^-20 of it; or it ended as soon as lower exceeded `beyond`
-/// or upper was no more than `near`. @param beyond, near  metres.
+/// some 2^-45·S of the distance, or 2^-20 of it, but where caps of cylinders face each other or a
+/// ball's map isn't rigid; or it ended as soon as lower exceeded `beyond` or upper was no more than
+/// `near`. @param beyond, near  metres.
 struct ConvexRange {
   double lower = 0, upper = 0;
 };

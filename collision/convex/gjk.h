@@ -76,6 +76,7 @@ class Search {
       face = nearest<Real>(b_.somewhere() - a_.somewhere());
       face.count = 0;  // a direction to begin with, no corner
     }
+    Vector<Real> last;
     for (; answer.rounds < Effort<Real>::rounds; ++answer.rounds) {
       const Real norm = length(face.v);
       if (!(norm > Real(0))) return answer;  // touching, as far as can be told; or NaN
@@ -94,8 +95,9 @@ class Search {
         if ((answer.accepted = accept(answer.direction, lower))) return answer;
       }
       if (enough(upper_, gap)) return answer;
-      bool known = false;
+      bool known = answer.rounds > 0 && corner.w == last;  // it has been of no use
       for (int i = 0; i < face.count; ++i) known = known || corner.w == face.corner[i];
+      last = corner.w;
       if (known && stepped) continue;
       if (known) return answer;  // nothing new that way
       known_.corner[known_.count++] = corner;

@@ -43,7 +43,8 @@ Distance distance(const VolumeTree<Volume>& a, const Transform& X_WA, const Volu
 /// The tolerance query: are they at most `d` metres apart?
 ///
 /// `false` is a proof that they are farther apart than d. `true` is right but where the distance
-/// exceeds d by less than 1e-12·d + 4·2^-53·S + 2^-998 m. For d = 0 it is `interference`.
+/// exceeds d by less than 1e-12·d + 4·2^-53·S + 2^-998 m, or parts touch in the band of
+/// `convexSetsTouch`. For d = 0 it is `interference`.
 /// @pre as above, d ≥ 0.
 template <BoundingVolume Volume>
 bool closerThan(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,

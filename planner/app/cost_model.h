@@ -45,7 +45,8 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
   // The better one alone: the sum falls by v²/vv, or p²/pp.
   const CostModel boxes{vv > 0 ? std::max(v / vv, 0.0) : 0, 0};
   const CostModel triangles{0, pp > 0 ? std::max(p / pp, 0.0) : 0};
-  return boxes.box * v >= triangles.triangle * p ? boxes : triangles;
+  // Equal, but for the rounding of the sums, where the counts are proportional.
+  return boxes.box * v >= (1 - 1e-12) * triangles.triangle * p ? boxes : triangles;
 }
 
 /// The number that a share of the numbers do not exceed. @pre not empty, 0 ≤ share ≤ 1.

@@ -187,6 +187,26 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
   EXPECT_GT(exactly, 100);
 }
 
+/// A corner in a face, in integers, and then under one map for both, which leaves it there exactly:
+/// the proof's own rounding decides.
+TEST(ConvexContact, WhatTouchesDoesUnderAMapOfBoth) {
+  Touching make(test::testSeed(26));
+  Counters counters;
+  const auto integers = [&] {
+    return Vec3(make.pick(64) - 32, make.pick(64) - 32, make.pick(64) - 32);
+  };
+  int falseFree = 0;
+  for (int n = 0; n < 50'000 / test::kSlowdown; ++n) {
+    const Vec3 p = integers(), u = integers(), v = integers(), w = integers();
+    const ConvexPart a{{p, p + 4 * u, p + 4 * v, p - w}, 0, false},
+        b{{p + u + v, p + u + v + w}, 0, false};
+    const Transform X{make.turning(Vec3::UnitX(), make.vector().normalized()), 100 * make.vector()};
+    falseFree += !convexSetsTouch({a, X}, {b, X}, counters);
+    falseFree += !convexSetsTouch({b, X}, {a, X}, counters);
+  }
+  EXPECT_EQ(falseFree, 0);
+}
+
 /// Maps that are not rigid: the sets are what the maps make of them (a ball an ellipsoid). A unit
 /// ball and a unit cylinder stretched along z, above a plate.
 TEST(ConvexContact, AnyAffineMap) {

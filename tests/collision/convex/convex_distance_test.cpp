@@ -195,6 +195,33 @@ TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
   EXPECT_GT(apart, 20 / test::kSlowdown);
 }
 
+/// The lower bound is one, to the last digit, of faces whose corners doubles can't tell apart.
+TEST(ConvexDistance, LowerThanAHundredDigits) {
+  Touching make(test::testSeed(36));
+  Counters counters;
+  for (int n = 0; n < 40 / test::kSlowdown + 1; ++n) {
+    const Mat3 turn = make.turning(Vec3::UnitZ(), make.vector().normalized());
+    Posed a, b;
+    for (int i = 0; i < 4; ++i) {
+      a.part.points.push_back(turn * Vec3(make.real(), make.real(), 0));
+      b.part.points.push_back(turn * Vec3(make.real(), make.real(), 1e-3));
+    }
+    test::Digits truth = 1e300;
+    const auto without = [](const ConvexPart& part, int k) {
+      const auto& p = part.points;
+      return Triangle{p[(k + 1) % 4], p[(k + 2) % 4], p[(k + 3) % 4]};
+    };
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 4; ++k)
+        truth = std::min(truth,
+                         test::referenceDistance(without(a.part, i), a.X, without(b.part, k), b.X));
+    EXPECT_LE(convexDistance(a.set(), b.set(), 0, 0, counters).lower,
+              static_cast<double>(truth) * (1 + 2 * kUnit))
+        << n;
+  }
+  EXPECT_GT(counters.exactTests, 0u);
+}
+
 ConvexPart placedAt(const Primitive& primitive, const Vec3& t, const Vec3& axis = Vec3::UnitX(),
                     double angle = 0) {
   Transform X;
@@ -296,6 +323,50 @@ TEST(ConvexDistance, AnyAffineMap) {
       EXPECT_LE(in.p_WA[2], 0.5 + 1e-10);
     }
   }
+}
+
+/// A map may be singular: along what it flattens a ball reaches nowhere.
+TEST(ConvexDistance, BallsFlattenedByTheirMap) {
+  const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
+  for (const Primitive& p : {Primitive(Sphere{1}), Primitive(Capsule{1, 2})})
+    for (const Mat3& m : {Mat3(Vec3(1, 1, 0).asDiagonal()), Mat3(Vec3(0, 0, 0).asDiagonal()),
+                          Mat3(Vec3(1, 1, 1e-200).asDiagonal())}) {
+      const ConvexPart part = placed(p, {});
+      const PosedSet a(plate, {}), b(part, {m, Vec3(0.1, 0.2, 0.75)});
+      Counters counters;
+      const ConvexDistance d = convexDistance(a, b, 0, 0, counters),
+                           back = convexDistance(b, a, 0, 0, counters);
+      EXPECT_NEAR(d.distance, 0.25, allowedAt(0.25, 2));
+      EXPECT_NEAR(back.distance, 0.25, allowedAt(0.25, 2));
+      EXPECT_NEAR((d.p_WB - d.p_WA).norm(), 0.25, 4 * kUnit);
+      EXPECT_LE(convexDistanceRange(a, b, HUGE_VAL, 0, counters).upper, 1.75);
+    }
+}
+
+/// Where cores barely overlap, the four corners around the origin are nearly in one plane; still
+/// the point is both sets'.
+TEST(ConvexDistance, APointOfBothWhereTheyBarelyOverlap) {
+  Touching make(test::testSeed(35));
+  Counters counters;
+  int touching = 0;
+  for (int n = 0; n < 4'000 / test::kSlowdown; ++n) {
+    const Feature fa = make.feature(Shape::cylinder),
+                  fb = make.feature(n % 2 ? Shape::cylinder : Shape::box);
+    const Vec3 normal = make.vector().normalized();
+    const Posed a{fa.part, make.pose(fa, Vec3::Zero(), normal)};
+    Posed b{fb.part, make.pose(fb, Vec3::Zero(), -normal)};
+    b.X.t -= normal * std::pow(10.0, -8 - n % 5);
+    const ConvexDistance d = convexDistance(a.set(), b.set(), 0, 0, counters);
+    if (d.distance > 0) continue;
+    ++touching;
+    EXPECT_EQ(d.p_WA, d.p_WB);
+    const ConvexPart point{{d.p_WA}, 0, false};
+    for (const Posed& side : {a, b})
+      EXPECT_LE(convexDistance(side.set(), {point, {}}, 0, 0, counters).distance,
+                0x1p-30 * sizeOf(a, b))
+          << n;
+  }
+  EXPECT_GT(touching, 3'000 / test::kSlowdown);
 }
 
 TEST(ConvexDistance, AsCloseAsAskedFor) {

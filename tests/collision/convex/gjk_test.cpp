@@ -56,6 +56,28 @@ TEST(Gjk, WorstErrors) {
     }
 }
 
+/// What barely overlaps, by less than the corners can tell, ends the search, too.
+TEST(Gjk, BarelyOverlappingSetsEnd) {
+  Touching make(test::testSeed(25));
+  int most = 0;
+  for (const Shape sa : test::kShapes)
+    for (const Shape sb : test::kShapes)
+      for (int n = 0; n < 1'000 / test::kSlowdown; ++n) {
+        const Feature a = make.feature(sa), b = make.feature(sb);
+        const Vec3 normal = make.vector().normalized();
+        const Transform X_WA = make.pose(a, Vec3::Zero(), normal);
+        Transform X_WB = make.pose(b, Vec3::Zero(), -normal);
+        X_WB.t -= normal * std::pow(10.0, -8 - n % 5);
+        const PosedSet setA(a.set(), X_WA), setB(b.set(), X_WB);
+        const double size = setA.reach() + setB.reach() + X_WA.t.norm() + X_WB.t.norm();
+        const auto never = [](const Vec3&, double) { return false; };
+        most = std::max(most,
+                        gjk::search<DoubleDouble>(setA, setB, size, 0x1p-49 * size, never).rounds);
+      }
+  std::cout << "rounds: at most " << most << "\n";
+  EXPECT_LT(most, 200);
+}
+
 TEST(DoubleDouble, HasAHundredBits) {
   const DoubleDouble third = DoubleDouble(1) / DoubleDouble(3);
   EXPECT_LT(std::abs(static_cast<double>(third * DoubleDouble(3) - DoubleDouble(1))), 0x1p-100);

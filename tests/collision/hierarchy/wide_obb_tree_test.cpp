@@ -3,6 +3,10 @@
 #include <cmath>
 #include <random>
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 #include <gtest/gtest.h>
 
 #include "tests/support/soups.h"
@@ -26,6 +30,23 @@ TEST(WideObbTree, ContainsItsTrianglesInRationals) {
       EXPECT_EQ(WideObbTree(mesh).check(), std::nullopt) << offset << " 2^" << exponent;
     }
 }
+
+#ifdef __SSE2__
+/// Built where what underflows is flushed to zero, and read as zero.
+TEST(WideObbTree, ContainsWhatIsFlushed) {
+  std::mt19937_64 random(test::testSeed(23));
+  for (const int exponent : {-1005, -1015, -1030}) {
+    TriangleMesh mesh = test::soup(random, 100, 0.3);
+    for (Vec3& v : mesh.vertices)
+      v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    const unsigned before = _mm_getcsr();
+    _mm_setcsr(before | 0x8040);
+    const WideObbTree tree(mesh);
+    _mm_setcsr(before);
+    EXPECT_EQ(tree.check(), std::nullopt) << exponent;
+  }
+}
+#endif
 
 TEST(WideObbTree, SharedMeshes) {
   const auto data = test::dataFolder();

@@ -9,6 +9,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/predicates/triangle_contact.h"
+#include "collision/queries/closer_triangles.h"
 #include "collision/queries/closest_points.h"
 #include "collision/queries/interference.h"
 #include "tests/collision/hierarchy/volumes.h"
@@ -62,6 +63,10 @@ TEST(ClosestPoints, WithinTheirErrorOfADistanceWithHundredDigits) {
     const DistanceRange range = TriangleDistances(X_WA, reachA, X_WB, reachB)(a, b);
     EXPECT_LE(range.lower, truth) << n;
     EXPECT_GE(range.upper, truth) << n;
+    // Within what is no more than a double above the truth they are.
+    EXPECT_TRUE(CloserTriangles(X_WA, reachA, X_WB, reachB, std::nextafter(truth, HUGE_VAL))(
+        a, b, counters))
+        << n;
     tightest += range.upper - range.lower < 1e-3 * truth;
   }
   EXPECT_LE(worst, 1);

@@ -42,6 +42,10 @@ TEST(CostModel, WhatIsNotToldApartIsOneCost) {
   EXPECT_NEAR(model.box, 10, 1e-9);
   EXPECT_EQ(model.triangle, 0);
   EXPECT_NEAR(fittedCosts({{10, 5, 90}, {10, 5, 110}}).box, 10, 0.2);
+  for (int k = 1; k < 100; ++k) {  // whatever the rounding
+    const double t = 3, v = 7;
+    EXPECT_EQ(fittedCosts({{v, v * k, t}, {2 * v + 1, (2 * v + 1) * k, 5 * t}}).triangle, 0) << k;
+  }
   EXPECT_EQ(fittedCosts({{0, 0, 100}}).predicted({1, 1, 1}), 0);
 }
 
