@@ -39,7 +39,8 @@ class WideObbTree {
 
   /// @pre the mesh has a triangle, finite coordinates, and indices in range (`checkMesh`).
   /// @throws std::length_error for 2^29 − 1 triangles or more.
-  explicit WideObbTree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles);
+  explicit WideObbTree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles,
+                       unsigned threads = 1);
 
   /// Depth first; node 0 has the parts of the whole.
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -63,7 +64,6 @@ class WideObbTree {
   std::optional<std::string> check() const;
 
  private:
-  friend class WideObbBuilder;
   std::vector<Node> nodes_;
   std::vector<Vec3> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
