@@ -36,13 +36,18 @@ struct Cluster {
 };
 using Parts = std::array<Cluster, kWidth>;
 
-/// A part of the tree: one node and the pieces below it, or all nodes below a cluster, level by
-/// level, children by their number in the piece.
+/// A part of the tree: one node and the pieces below it, or all nodes below a cluster, depth first,
+/// children by their number in the piece.
 struct Piece {
   std::vector<WideObbTree::Node> nodes;
   std::array<std::unique_ptr<Piece>, kWidth> below;
   std::uint32_t at = 0;  // of its first node in the tree
 };
+
+/// Not a leaf, nor nothing.
+bool isNode(std::uint32_t child) {
+  return !WideObbTree::isLeaf(child);
+}
 
 /// What all threads read, and the columns that each reorders its part of.
 struct Shared {
@@ -148,15 +153,15 @@ class Worker {
 
   /// Builds a piece, or its one node where the cluster is large; what is below becomes `more`.
   void operator()(const Task& task, std::vector<Task>& more) {
-    Piece& piece = *task.piece;
     wholes_ = {task.cluster};
+    nodes_.clear();
     while (!wholes_.empty()) {
       divide();
-      const std::size_t base = piece.nodes.size();
-      piece.nodes.resize(base + wholes_.size());
+      const std::size_t base = nodes_.size();
+      nodes_.resize(base + wholes_.size());
       wholes_.clear();
-      for (std::size_t i = base; i < piece.nodes.size(); ++i) {
-        WideObbTree::Node& node = piece.nodes[i];
+      for (std::size_t i = base; i < nodes_.size(); ++i) {
+        WideObbTree::Node& node = nodes_[i];
         std::fill_n(node.child, kWidth, WideObbTree::kNone);
         const Parts& parts = parts_[i - base];
         for (std::uint32_t lane = 0; lane < kWidth && parts[lane].count > 0; ++lane) {
@@ -165,16 +170,16 @@ class Worker {
           if (isLeaf(part, node, lane)) {
             node.child[lane] = 0x80000000U | part.first << 2 | (part.count - 1);
           } else if (task.cluster.count > kPiece) {
-            node.child[lane] = 0;
-            piece.below[lane] = std::make_unique<Piece>();
-            more.push_back({part, piece.below[lane].get()});
+            task.piece->below[lane] = std::make_unique<Piece>();
+            more.push_back({part, task.piece->below[lane].get()});
           } else {
-            node.child[lane] = static_cast<std::uint32_t>(piece.nodes.size() + wholes_.size());
+            node.child[lane] = static_cast<std::uint32_t>(nodes_.size() + wholes_.size());
             wholes_.push_back(part);
           }
         }
       }
     }
+    layDown(task.piece->nodes);
   }
 
   void fitAxes(Cluster& cluster) {
@@ -328,8 +333,28 @@ class Worker {
     }
   }
 
+  /// Copies `nodes_`, depth first.
+  void layDown(std::vector<WideObbTree::Node>& nodes) const {
+    struct Item {
+      std::uint32_t node, parent, lane;
+    };
+    nodes.reserve(nodes_.size());
+    std::vector<Item> stack = {{0, 0, 0}};
+    while (!stack.empty()) {
+      const Item item = stack.back();
+      stack.pop_back();
+      const auto at = static_cast<std::uint32_t>(nodes.size());
+      if (at > 0) nodes[item.parent].child[item.lane] = at;
+      nodes.push_back(nodes_[item.node]);
+      for (std::uint32_t lane = kWidth; lane-- > 0;)
+        if (const std::uint32_t child = nodes_[item.node].child[lane]; isNode(child))
+          stack.push_back({child, at, lane});
+    }
+  }
+
   Shared& shared_;
   WideRecords spare_;
+  std::vector<WideObbTree::Node> nodes_;  // of a piece, level by level
   std::vector<Cluster> wholes_;
   std::vector<Parts> parts_;
   std::vector<Cluster*> fits_;
@@ -337,26 +362,34 @@ class Worker {
   std::vector<Triangle> triangles_;  // of one cluster
 };
 
-/// Writes a piece's nodes depth first.
-void layDown(const Piece& piece, std::vector<WideObbTree::Node>& nodes) {
-  struct Item {
-    std::uint32_t from, parent, lane;
-  };
-  std::vector<Item> stack = {{0, WideObbTree::kNone, 0}};
-  std::uint32_t at = piece.at;
+/// A piece and all below, depth first, as one.
+std::vector<WideObbTree::Node> join(Piece& root) {
+  if (std::none_of(root.below.begin(), root.below.end(), [](const auto& p) { return bool(p); }))
+    return std::move(root.nodes);
+  std::vector<Piece*> pieces, stack = {&root};
+  std::uint32_t count = 0;
   while (!stack.empty()) {
-    const Item item = stack.back();
+    Piece* const piece = stack.back();
     stack.pop_back();
-    if (item.parent != WideObbTree::kNone) nodes[item.parent].child[item.lane] = at;
-    WideObbTree::Node& node = nodes[at] = piece.nodes[item.from];
+    pieces.push_back(piece);
+    piece->at = count;
+    count += static_cast<std::uint32_t>(piece->nodes.size());
     for (std::uint32_t lane = kWidth; lane-- > 0;)
-      if (piece.below[lane]) {
-        node.child[lane] = piece.below[lane]->at;
-      } else if (!WideObbTree::isLeaf(node.child[lane])) {
-        stack.push_back({node.child[lane], at, lane});
-      }
-    ++at;
+      if (piece->below[lane]) stack.push_back(piece->below[lane].get());
   }
+  std::vector<WideObbTree::Node> nodes;
+  nodes.reserve(count);
+  for (const Piece* piece : pieces)
+    for (WideObbTree::Node node : piece->nodes) {
+      for (std::uint32_t lane = 0; lane < kWidth; ++lane)
+        if (piece->below[lane]) {
+          node.child[lane] = piece->below[lane]->at;
+        } else if (isNode(node.child[lane])) {
+          node.child[lane] += piece->at;
+        }
+      nodes.push_back(node);
+    }
+  return nodes;
 }
 
 WideLayout layOut(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
@@ -384,19 +417,7 @@ WideLayout layOut(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
     const auto share = static_cast<unsigned>(std::min<std::size_t>(threads, n / kPiece + 1));
     runTasks(share, Worker::Task{whole, &root}, [&] { return Worker(shared); });
   }
-  std::vector<Piece*> pieces, stack = {&root};
-  std::uint32_t count = 0;
-  while (!stack.empty()) {
-    Piece* const piece = stack.back();
-    stack.pop_back();
-    piece->at = count;
-    count += static_cast<std::uint32_t>(piece->nodes.size());
-    pieces.push_back(piece);
-    for (std::uint32_t lane = kWidth; lane-- > 0;)
-      if (piece->below[lane]) stack.push_back(piece->below[lane].get());
-  }
-  tree.nodes.resize(count);
-  for (const Piece* piece : pieces) layDown(*piece, tree.nodes);
+  tree.nodes = join(root);
   tree.order.resize(n);
   for (std::uint32_t i = 0; i < n; ++i) tree.order[i] = shared.records.triangle(i);
   return tree;

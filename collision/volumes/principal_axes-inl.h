@@ -54,6 +54,9 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
                  hn::IfThenElse(mask, p.z, q.z)};
   };
   const V zero = hn::Zero(d), one = set(1), third = set(1.0 / 3);
+  // Spreads that differ less are alike: sums of floats are off by some 2^-22. Then axes are the
+  // coordinates', where noise would turn a cube's.
+  const V even = set(0x1p-20);
   for (std::size_t at = 0; at < 8; at += hn::Lanes(d)) {
     const auto load = [&](int k) { return hn::Load(d, c.entry[k] + at); };
     V xx = load(0), xy = load(1), xz = load(2), yy = load(3), yz = load(4), zz = load(5);
@@ -91,7 +94,6 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
       w = select(larger, other, w);
       square = hn::IfThenElse(larger, otherSquare, square);
     }
-    const auto found = hn::Gt(square, set(0x1p-160));
     w = times(hn::Div(one, hn::Sqrt(square)), w);
     // A basis of the plane: Duff et al., Building an Orthonormal Basis, Revisited, 2017.
     const V sign = hn::CopySign(one, w.z);
@@ -108,7 +110,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
     V cosine = hn::IfThenElse(wide, hn::Add(m, r), n),
       sine = hn::IfThenElse(wide, n, hn::Sub(r, m));
     const V length = hn::Sqrt(hn::Add(hn::Mul(cosine, cosine), hn::Mul(sine, sine)));
-    const auto turned = hn::Gt(length, set(0x1p-80));
+    const V spread = hn::Add(hn::Add(dot(bs, s), dot(bt, t)), hn::Add(third, third));
+    const auto turned = hn::Gt(r, hn::Mul(even, spread));
     const V shorten = hn::Div(one, length);
     cosine = hn::IfThenElse(turned, hn::Mul(cosine, shorten), one);
     sine = hn::IfThenElse(turned, hn::Mul(sine, shorten), zero);
@@ -118,8 +121,9 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
     const Vec3V axes[3] = {select(largest, w, u), select(largest, u, v), select(largest, v, w)};
     // Orthonormal, and no NaN: then it is an answer.
     const V limit = set(0x1p-41);
-    auto good = hn::And(found, hn::And(hn::Gt(trace, zero),
-                                       hn::Lt(inverse, set(std::numeric_limits<double>::max()))));
+    auto good = hn::And(
+        hn::Gt(p, even),
+        hn::And(hn::Gt(trace, zero), hn::Lt(inverse, set(std::numeric_limits<double>::max()))));
     good = hn::And(good, hn::Gt(inverse, zero));
     for (int i = 0; i < 3; ++i) {
       good = hn::And(good, hn::Lt(hn::Abs(hn::Sub(dot(axes[i], axes[i]), one)), limit));
