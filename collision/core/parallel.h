@@ -5,14 +5,15 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 namespace corridor {
 
-/// Runs `work()` on `threads` threads, this one among them (0 or 1: on this one alone), until all
-/// have returned. Throws what the first of them threw.
+/// Runs `work()` on `threads` threads, this one among them (0 or 1: on this one alone; fewer where
+/// the system has no more), until all have returned. Throws what the first of them threw.
 template <class Work>
 void onThreads(unsigned threads, const Work& work) {
   std::exception_ptr error;
@@ -27,7 +28,10 @@ void onThreads(unsigned threads, const Work& work) {
   };
   {
     std::vector<std::jthread> others;
-    for (unsigned i = 1; i < threads; ++i) others.emplace_back(guarded);
+    try {
+      for (unsigned i = 1; i < threads; ++i) others.emplace_back(guarded);
+    } catch (const std::system_error&) {
+    }
     guarded();
   }
   if (error) std::rethrow_exception(error);
