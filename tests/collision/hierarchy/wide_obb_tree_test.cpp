@@ -1,6 +1,7 @@
 #include "collision/hierarchy/wide_obb_tree.h"
 
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #ifdef __SSE2__
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/collision/queries/every_target.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
@@ -89,10 +91,9 @@ TEST(WideObbTree, DeepAndIndivisible) {
   EXPECT_LT(tree.bytes(), 10'000U * 80);
 }
 
-/// The promise of the header: a mesh of shared vertices takes at most 80 bytes a triangle.
-TEST(WideObbTree, SmoothMeshesTakeEightyBytesATriangle) {
-  TriangleMesh mesh;  // a wavy sheet
-  const std::uint32_t n = 120;
+/// A wavy sheet of 2n² triangles.
+TriangleMesh sheet(std::uint32_t n) {
+  TriangleMesh mesh;
   for (std::uint32_t i = 0; i <= n; ++i)
     for (std::uint32_t k = 0; k <= n; ++k)
       mesh.vertices.emplace_back(i, k, 5 * std::sin(0.1 * i) * std::cos(0.07 * k));
@@ -102,8 +103,60 @@ TEST(WideObbTree, SmoothMeshesTakeEightyBytesATriangle) {
       mesh.triangles.push_back({v, v + 1, v + n + 1});
       mesh.triangles.push_back({v + 1, v + n + 2, v + n + 1});
     }
+  return mesh;
+}
+
+/// The promise of the header: a mesh of shared vertices takes at most 80 bytes a triangle.
+TEST(WideObbTree, SmoothMeshesTakeEightyBytesATriangle) {
+  const TriangleMesh mesh = sheet(120);
   const WideObbTree tree(mesh);
   EXPECT_LE(tree.bytes(), 80 * mesh.triangles.size());
+}
+
+/// Bit for bit.
+void expectSame(const WideObbTree& a, const WideObbTree& b) {
+  ASSERT_EQ(a.nodes().size(), b.nodes().size());
+  ASSERT_EQ(a.triangleCount(), b.triangleCount());
+  static_assert(sizeof(WideObbTree::Node) == 64 * sizeof(float), "no padding");
+  EXPECT_EQ(
+      std::memcmp(a.nodes().data(), b.nodes().data(), a.nodes().size() * sizeof(WideObbTree::Node)),
+      0);
+  for (std::uint32_t i = 0; i < a.triangleCount(); ++i)
+    ASSERT_EQ(a.meshTriangle(i), b.meshTriangle(i)) << i;
+  EXPECT_EQ(a.origin(), b.origin());
+  EXPECT_EQ(a.unit(), b.unit());
+  EXPECT_EQ(a.radius(), b.radius());
+  EXPECT_EQ(a.reach(), b.reach());
+}
+
+/// Meshes that are built in many pieces, with nothing for an order to hold on to in the second.
+std::vector<TriangleMesh> largeMeshes() {
+  std::mt19937_64 random(test::testSeed(22));
+  return {sheet(100), test::soup(random, 20'000, 0.1)};
+}
+
+TEST(WideObbTree, TheSameForAnyNumberOfThreads) {
+  for (const TriangleMesh& mesh : largeMeshes())
+    for (const ObbFit fit : {ObbFit::triangles, ObbFit::vertices}) {
+      const WideObbTree one(mesh, fit);
+      for (const unsigned threads : {0U, 2U, 3U, 8U}) {
+        SCOPED_TRACE(threads);
+        expectSame(one, WideObbTree(mesh, fit, threads));
+      }
+    }
+}
+
+TEST(WideObbTree, TheSameForAnyInstructionSet) {
+  for (const TriangleMesh& mesh : largeMeshes()) {
+    const WideObbTree best(mesh);
+    for (const std::int64_t target : test::simdTargets()) {
+      SCOPED_TRACE(hwy::TargetName(target));
+      hwy::SetSupportedTargetsForTest(target);
+      const WideObbTree tree(mesh);
+      hwy::SetSupportedTargetsForTest(0);
+      expectSame(best, tree);
+    }
+  }
 }
 
 TEST(WideObbTree, CheckFindsWhatIsWrong) {

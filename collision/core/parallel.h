@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace corridor {
+
+/// Runs `work()` on `threads` threads, this one among them (0 or 1: on this one alone; fewer where
+/// the system has no more), until all have returned. Throws what the first of them threw.
+template <class Work>
+void onThreads(unsigned threads, const Work& work) {
+  std::exception_ptr error;
+  std::mutex mutex;
+  const auto guarded = [&] {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (unsigned i = 1; i < threads; ++i) others.emplace_back(guarded);
+    } catch (const std::system_error&) {
+    }
+    guarded();
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+/// Calls `work(begin, end)` for parts of [0, n) that together are the whole, in no order.
+template <class Work>
+void inParts(unsigned threads, std::size_t n, const Work& work) {
+  constexpr std::size_t kPart = 16384;
+  std::mutex mutex;
+  std::size_t next = 0;
+  const auto share = static_cast<unsigned>(std::min<std::size_t>(threads, n / kPart + 1));
+  onThreads(share, [&] {
+    while (true) {
+      std::size_t begin = 0;
+      {
+        const std::lock_guard lock(mutex);
+        begin = next;
+        next = std::min(n, begin + kPart);
+      }
+      if (begin == n) return;
+      work(begin, std::min(n, begin + kPart));
+    }
+  });
+}
+
+/// Tasks that beget tasks: `makeWorker()` is called once a thread, and what it returns is called as
+/// `worker(task, more)` for `first` and for all that any call appended to its `more`, in no order.
+template <class Task, class MakeWorker>
+void runTasks(unsigned threads, Task first, const MakeWorker& makeWorker) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<Task> waiting;
+  waiting.push_back(std::move(first));
+  unsigned running = 0;
+  bool failed = false;
+  onThreads(threads, [&] {
+    std::unique_lock lock(mutex);
+    try {
+      auto worker = makeWorker();
+      std::vector<Task> more;
+      while (true) {
+        changed.wait(lock, [&] { return failed || !waiting.empty() || running == 0; });
+        if (failed || waiting.empty()) break;
+        Task task = std::move(waiting.back());
+        waiting.pop_back();
+        ++running;
+        lock.unlock();
+        more.clear();
+        worker(task, more);
+        lock.lock();
+        --running;
+        for (Task& t : more) waiting.push_back(std::move(t));
+        changed.notify_all();
+      }
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      failed = true;
+      changed.notify_all();
+      throw;
+    }
+    changed.notify_all();
+  });
+}
+
+}  // namespace corridor
