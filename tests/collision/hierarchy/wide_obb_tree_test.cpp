@@ -124,7 +124,7 @@ void expectSame(const WideObbTree& a, const WideObbTree& b) {
   for (std::uint32_t i = 0; i < a.triangleCount(); ++i)
     ASSERT_EQ(a.meshTriangle(i), b.meshTriangle(i)) << i;
   EXPECT_EQ(a.origin(), b.origin());
-  EXPECT_EQ(a.unit(), b.unit());
+  EXPECT_EQ(a.length(), b.length());
   EXPECT_EQ(a.radius(), b.radius());
   EXPECT_EQ(a.reach(), b.reach());
 }
