@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "collision/core/counters.h"
+#include "collision/core/last_pairs.h"
 #include "collision/core/transform.h"
 
 namespace corridor {
 
-/// What a query may write: scratch memory and counters of one thread. No answer depends on what it
-/// holds.
+/// What a query may write: scratch memory, counters and guesses of one thread. No verdict depends
+/// on what it holds, and no distance beyond the error that it may have; which of several triangles
+/// are named for it may.
 class QueryContext {
  public:
   Counters counters;
@@ -43,6 +45,7 @@ class QueryContext {
     Transform X_AB;
   };
   std::vector<Posed> posed;
+  LastPairs lastPairs;  ///< of wide trees: where their queries look first
 };
 
 }  // namespace corridor

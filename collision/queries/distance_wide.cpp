@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "collision/core/rounding.h"
+#include "collision/predicates/triangle_contact.h"
 #include "collision/queries/closer_triangles.h"
 #include "collision/queries/interference_wide.h"
 #include "collision/queries/nearest_triangles.h"
@@ -76,6 +78,19 @@ class Nearest {
     return false;
   }
 
+  /// A pair to start from, in leaf order.
+  void start(std::uint32_t s, std::uint32_t t, double upper) {
+    const float limit = limitOf(pose_, upper);
+    if (!(limit < HUGE_VALF)) return;
+    least_ = limit;
+    closest_ = {s, t};
+    lowerLimit(upper);
+  }
+  /// A pair to start the next query from.
+  std::optional<TrianglePair> closest() const {
+    return least_ < HUGE_VALF ? std::optional(closest_) : std::nullopt;
+  }
+
   Distance result() {
     // What set the limit may be beyond it, since options lower it.
     if (least_ < HUGE_VALF) look(closest_.a, closest_.b);
@@ -140,7 +155,14 @@ Distance wideDistance(const WideObbTree& a, const Transform& X_WA, const WideObb
                       const Transform& X_WB, const WidePose& pose, const DistanceOptions& options,
                       QueryContext& context) {
   Nearest query(a, X_WA, b, X_WB, pose, options, context);
+  LastPair& last = context.lastPairs.of(&a, &b);
+  if (last.isIn(a.triangleCount(), b.triangleCount())) {
+    const TriangleDistances bounds(X_WA, a.reach(), X_WB, b.reach());
+    query.start(last.a, last.b, bounds(a.triangle(last.a), b.triangle(last.b)).upper);
+    ++context.counters.triangleTests;
+  }
   walkWide(a, b, pose.floats.scale, context, query);
+  if (const auto closest = query.closest()) last.found(closest->a, closest->b);
   return query.result();
 }
 
@@ -168,12 +190,14 @@ class Closer {
     found_ = leaves_.forEachNear(
         na, nb, pairs, [&] { return limit_; },
         [&](std::uint32_t s, std::uint32_t t) {
-          return closer_(a_.triangle(s), b_.triangle(t), counters_);
+          if (!closer_(a_.triangle(s), b_.triangle(t), counters_)) return false;
+          pair_ = {s, t};
+          return true;
         });
     return found_;
   }
 
-  bool found() const { return found_; }
+  std::optional<TrianglePair> found() const { return found_ ? std::optional(pair_) : std::nullopt; }
 
  private:
   const WideObbTree &a_, &b_;
@@ -183,10 +207,12 @@ class Closer {
   CloserTriangles closer_;
   float limit_;
   bool found_ = false;
+  TrianglePair pair_;
 };
 
-bool wideCloser(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
-                const Transform& X_WB, const WidePose& pose, double d, QueryContext& context) {
+std::optional<TrianglePair> wideCloser(const WideObbTree& a, const Transform& X_WA,
+                                       const WideObbTree& b, const Transform& X_WB,
+                                       const WidePose& pose, double d, QueryContext& context) {
   Closer query(a, X_WA, b, X_WB, pose, d, context.counters);
   walkWide(a, b, pose.floats.scale, context, query);
   return query.found();
@@ -200,6 +226,18 @@ namespace corridor {
 
 HWY_EXPORT(wideDistance);
 HWY_EXPORT(wideCloser);
+
+namespace {
+
+/// Are two triangles at most d apart, in real arithmetic? Then any search says so. (What is within
+/// rounding of d only `CloserTriangles` calls closer.)
+bool provedCloser(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                  const Transform& X_WB, const TriangleDistances& bounds, double d,
+                  Counters& counters) {
+  return trianglesTouch(a, X_WA, b, X_WB, counters) || bounds(a, b).upper <= d;
+}
+
+}  // namespace
 
 Distance distance(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
                   const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
@@ -222,7 +260,16 @@ bool closerThan(const WideObbTree& a, const Transform& X_WA, const WideObbTree& 
     ++context.counters.boxTests;
     return false;
   }
-  return HWY_DYNAMIC_DISPATCH(wideCloser)(a, X_WA, b, X_WB, pose, d, context);
+  LastPair& last = context.lastPairs.of(&a, &b);
+  if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
+    const bool closer = provedCloser(a.triangle(last.a), X_WA, b.triangle(last.b), X_WB,
+                                     {X_WA, a.reach(), X_WB, b.reach()}, d, context.counters);
+    last.tested(closer);
+    if (closer) return true;
+  }
+  const auto pair = HWY_DYNAMIC_DISPATCH(wideCloser)(a, X_WA, b, X_WB, pose, d, context);
+  if (pair) last.found(pair->a, pair->b);
+  return pair.has_value();
 }
 
 }  // namespace corridor

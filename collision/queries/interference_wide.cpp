@@ -114,7 +114,16 @@ std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& 
 std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Transform& X_WA,
                                                   const WideObbTree& b, const Transform& X_WB,
                                                   const WidePose& pose, QueryContext& context) {
-  return HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context);
+  LastPair& last = context.lastPairs.of(&a, &b);
+  if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
+    const bool touch =
+        trianglesTouch(a.triangle(last.a), X_WA, b.triangle(last.b), X_WB, context.counters);
+    last.tested(touch);
+    if (touch) return TrianglePair{last.a, last.b};
+  }
+  const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context);
+  if (hit) last.found(hit->a, hit->b);
+  return hit;
 }
 
 std::vector<TriangleContact> contacts(const WideObbTree& a, const Transform& X_WA,

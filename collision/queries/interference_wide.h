@@ -16,6 +16,9 @@ namespace corridor {
 /// contact found, or none; exact for the twelve doubles of each map in real arithmetic, for any
 /// finite maps; near-rigid ones are fast. @pre finite maps.
 ///
+/// The pair that touched last, as the context remembers, is tested first: what came before changes
+/// which touching pair is named, and the counts, never the verdict.
+///
 /// SIMD by run-time dispatch; every target gives the same verdict and the same counts.
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,

@@ -26,17 +26,22 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 /// All poses of a batch in memory, asked one after the other, `repeat` times over: passes over all
 /// poses rather than repeats of each, so that a query finds the caches that other poses left.
-/// `ask(pose number, context)` is all that is timed.
-template <class Ask>
-std::vector<Answer> timed(const Batch& batch, const Ask& ask) {
+/// `ask(pose number, context)` of these two trees is all that is timed.
+template <class Tree, class Ask>
+std::vector<Answer> timed(const Batch& batch, const Tree& a, const Tree& b, const Ask& ask) {
   std::vector<Answer> answers(batch.poses.size());
   const auto repeat = static_cast<std::size_t>(batch.repeat);
   std::vector<double> ns(answers.size() * repeat);
   QueryContext context;
+  LastPair& last = context.lastPairs.of(&a, &b);
   for (std::size_t pass = 0; pass < repeat; ++pass)
     for (std::size_t i = 0; i < answers.size(); ++i) {
       Answer& answer = answers[i];
-      const auto once = [&] { answer.hit = ask(i, context); };
+      const LastPair before = last;
+      const auto once = [&] {
+        last = before;
+        answer.hit = ask(i, context);
+      };
       const auto first = [&] {
         context.counters = {};
         once();
@@ -84,25 +89,25 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   const Transform X_WA;
   switch (batch.asked) {
     case Asked::interference:
-      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
         return touching<Overlap>(a, b, batch.poses[i], context);
       });
       break;
     case Asked::distance:
       result.distances.resize(batch.poses.size());
-      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
         result.distances[i] = distance(a, X_WA, b, batch.poses[i], {}, context);
         return result.distances[i].distance == 0;
       });
       break;
     case Asked::tolerance:
-      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
         return closerThan(a, X_WA, b, batch.poses[i], batch.tolerance, context);
       });
       break;
     case Asked::contacts: {
       std::vector<std::vector<TriangleContact>> found(batch.poses.size());
-      result.answers = timed(batch, [&](std::size_t i, QueryContext& context) {
+      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
         found[i] = allContacts<Overlap>(a, b, batch.poses[i], context);
         return !found[i].empty();
       });

@@ -105,7 +105,7 @@ class Ours {
   std::size_t bytes() const { return a_.bytes() + b_.bytes(); }
   void prepare(const std::vector<Transform>& poses) { poses_ = poses; }
   /// What is kept from the last answer must not make the same question's next answer cheap.
-  void forget() {}
+  void forget() { context_.lastPairs.of(&a_, &b_) = {}; }
   Answer answer(std::size_t i) {
     Answer answer;
     context_.counters = {};

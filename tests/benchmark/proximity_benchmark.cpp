@@ -50,7 +50,10 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
     Cost cost;
     std::vector<double> ns;
     for (const Transform& X : poses) {
-      const auto query = [&] { interference(a, {}, b, X, context); };
+      const auto query = [&] {
+        context.lastPairs.of(&a, &b) = {};  // else the second time a contact is known
+        interference(a, {}, b, X, context);
+      };
       const auto counted = [&] {
         context.counters = {};
         query();
