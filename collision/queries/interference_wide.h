@@ -19,7 +19,8 @@ namespace corridor {
 /// The pair that touched last, as the context remembers, is tested first: what came before changes
 /// which touching pair is named, and the counts, never the verdict.
 ///
-/// SIMD by run-time dispatch; every target gives the same verdict and the same counts.
+/// SIMD by run-time dispatch; every target gives the same verdict, and all that multiply and add at
+/// once (all but SSE) the same counts.
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
                                          QueryContext& context);
