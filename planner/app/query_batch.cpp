@@ -26,7 +26,8 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 /// All poses of a batch in memory, asked one after the other, `repeat` times over: passes over all
 /// poses rather than repeats of each, so that a query finds the caches that other poses left.
-/// `ask(pose number, context)` of these two trees is all that is timed.
+/// `ask(pose number, context)` of these two trees is all that is timed. What is told of a pose is
+/// its own: nothing is remembered of the answers to others.
 template <class Tree, class Ask>
 std::vector<Answer> timed(const Batch& batch, const Tree& a, const Tree& b, const Ask& ask) {
   std::vector<Answer> answers(batch.poses.size());
@@ -37,9 +38,8 @@ std::vector<Answer> timed(const Batch& batch, const Tree& a, const Tree& b, cons
   for (std::size_t pass = 0; pass < repeat; ++pass)
     for (std::size_t i = 0; i < answers.size(); ++i) {
       Answer& answer = answers[i];
-      const LastPair before = last;
       const auto once = [&] {
-        last = before;
+        last = {};
         answer.hit = ask(i, context);
       };
       const auto first = [&] {
