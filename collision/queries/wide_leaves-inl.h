@@ -118,8 +118,8 @@ class WideLeaves {
   /// The same with `found(s, t)` for each pair of triangles in leaf order, of these pairs of
   /// leaves.
   template <class Pad, class Found>
-  HWY_NOINLINE bool forEachNear(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned leaves,
-                   Pad&& pad, Found&& found) {
+  HWY_NOINLINE bool forEachNear(const WideObbTree::Node& na, const WideObbTree::Node& nb,
+                                unsigned leaves, Pad&& pad, Found&& found) {
     LeafPairs pairs(na, nb);
     for (; leaves; leaves &= leaves - 1) pairs.add(static_cast<unsigned>(std::countr_zero(leaves)));
     return forEachNearSixteen(
