@@ -59,8 +59,7 @@ struct Shared {
 };
 
 /// Origin and unit: the middle of the bounds, and the power of two that brings all into [−1, 1].
-/// Returns the unit's inverse.
-double place(const TriangleMesh& mesh, unsigned threads, WideLayout& tree) {
+void place(const TriangleMesh& mesh, unsigned threads, WideLayout& tree) {
   Vec3 lower = mesh.corner(0, 0), upper = lower;
   std::mutex mutex;
   inParts(threads, mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
@@ -79,8 +78,8 @@ double place(const TriangleMesh& mesh, unsigned threads, WideLayout& tree) {
   tree.origin = 0.5 * lower + 0.5 * upper;
   const double size = std::max((upper - tree.origin).maxCoeff(), (tree.origin - lower).maxCoeff());
   // Sizes that overflow give boxes that overlap everything, not wrong ones.
-  tree.unit = size > 0 && std::isfinite(size) ? std::clamp(std::ilogb(size) + 1, -1000, 1000) : 0;
-  return std::ldexp(1.0, -tree.unit);
+  const bool usable = size > 0 && std::isfinite(size);
+  tree.length = usable ? std::ldexp(1.0, std::clamp(std::ilogb(size) + 1, -1000, 1000)) : 1;
 }
 
 /// Fills the records [begin, end), and returns the largest |p|² of their corners.
@@ -395,7 +394,8 @@ std::vector<WideObbTree::Node> join(Piece& root) {
 WideLayout layOut(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
   WideLayout tree;
   const std::size_t n = mesh.triangles.size();
-  const double scale = place(mesh, threads, tree);
+  place(mesh, threads, tree);
+  const double scale = 1 / tree.length;
   Shared shared = {mesh, fit, scale, std::vector<Vec3>(mesh.vertices.size()), WideRecords(n)};
   inParts(threads, mesh.vertices.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -9,7 +9,7 @@ struct WideLayout {
   std::vector<WideObbTree::Node> nodes;
   std::vector<std::uint32_t> order;  ///< the mesh's triangles in leaf order
   Vec3 origin = Vec3::Zero();
-  int unit = 0;
+  double length = 1;  ///< of the unit, metres
   double radius = 0;
 };
 

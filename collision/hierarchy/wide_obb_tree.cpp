@@ -1,6 +1,5 @@
 #include "collision/hierarchy/wide_obb_tree.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "collision/core/parallel.h"
@@ -21,8 +20,7 @@ WideObbTree::WideObbTree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
     for (std::size_t i = begin; i < end; ++i) triangles_[i] = mesh.triangles[meshTriangle_[i]];
   });
   origin_ = layout.origin;
-  unit_ = layout.unit;
-  length_ = std::ldexp(1.0, unit_);
+  length_ = layout.length;
   radius_ = layout.radius;
   reach_ = roundedUp(origin_.stableNorm() + radius_);
 }

@@ -72,7 +72,6 @@ class WideObbTree {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::uint32_t> meshTriangle_;
   Vec3 origin_ = Vec3::Zero();
-  int unit_ = 0;
   double length_ = 1;
   double radius_ = 0, reach_ = 0;
 };

@@ -23,8 +23,7 @@ std::string named(const char* what, std::size_t i) {
 std::optional<std::string> WideObbTree::check() const {
   using exact::Rational;
   using exact::Row;
-  const Rational unit = unit_ >= 0 ? pow(boost::multiprecision::cpp_int(2), unit_)
-                                   : 1 / Rational(pow(boost::multiprecision::cpp_int(2), -unit_));
+  const Rational unit(length_);
   const Row origin = exact::row(origin_);
   const auto own = [&](std::uint32_t triangle, int k) {
     Row p = exact::minus(exact::row(corner(triangle, k)), origin);

@@ -73,7 +73,7 @@ class Nearest {
         some.add(least);
         pairs &= ~(1U << least);
       }
-      if (some.count()) measure(na, nb, some);
+      if (some.count()) measure(some);
     }
     return false;
   }
@@ -102,9 +102,9 @@ class Nearest {
   }
 
  private:
-  void measure(const WideObbTree::Node& na, const WideObbTree::Node& nb, LeafPairs& pairs) {
+  void measure(LeafPairs& pairs) {
     leaves_.forEachNearSixteen(
-        na, nb, pairs, [&] { return limit_; },
+        pairs, [&] { return limit_; },
         [&](const TriangleCorners& a, const TriangleCorners& b, unsigned first, unsigned open) {
           alignas(64) float lower[16], upper[16];
           triangleDistances(a, b, pairs.from(first), pose_.leafError, lower, upper);

@@ -8,6 +8,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/volumes/moments.h"
+#include "collision/volumes/principal_axes.h"
 
 namespace corridor {
 namespace {

@@ -10,15 +10,39 @@
 #endif
 // clang-format on
 
+#include <cstdint>
+
 #include "hwy/highway.h"
 
-#include "collision/core/lanes.h"
 #include "collision/volumes/obb4.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+
+/// Lane l is the pair (l / 4, l % 4): b's are a row of four, repeated; a's element kRowOfLane[l] of
+/// its row.
+alignas(64) inline constexpr std::int32_t kRowOfLane[16] = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                            2, 2, 2, 2, 3, 3, 3, 3};
+
+/// Axes and centres (but for the scale and the offset) of b's boxes in a's frame: as in `Obb4`.
+struct PosedBoxes {
+  alignas(64) float vectors[3][4][4];
+
+  HWY_INLINE PosedBoxes(const Obb4& boxes, const Obb4Pose& pose) {
+    const hn::CappedTag<float, 16> d;
+    for (std::size_t at = 0; at < 16; at += hn::Lanes(d)) {
+      const auto of = [&](int k) { return hn::LoadU(d, &boxes.vectors[k][0][0] + at); };
+      const auto u0 = of(0), u1 = of(1), u2 = of(2);
+      for (int k = 0; k < 3; ++k)
+        hn::Store(hn::MulAdd(hn::Set(d, pose.turn[k][2]), u2,
+                             hn::MulAdd(hn::Set(d, pose.turn[k][1]), u1,
+                                        hn::Mul(hn::Set(d, pose.turn[k][0]), u0))),
+                  d, &vectors[k][0][0] + at);
+    }
+  }
+};
 
 /// Sixteen pairs of boxes in a's boxes' frames: what every test of them starts from.
 struct BoxPairs {
@@ -41,33 +65,26 @@ struct BoxPairs {
   }
 
   /// Pairs `at` and the following ones, as many as there are lanes.
-  HWY_INLINE BoxPairs(const Obb4& na, const Obb4& nb, const Obb4Pose& pose, std::size_t at) {
+  HWY_INLINE BoxPairs(const Obb4& na, const Obb4& nb, const PosedBoxes& posed, const Obb4Pose& pose,
+                      std::size_t at) {
     const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
     const auto first = [&](const float* four) {
       return hn::TableLookupLanes(hn::LoadDup128(d, four), rows);
     };
     const auto second = [&](const float* four) { return hn::LoadDup128(d, four); };
-    // b's axes and centres in a's frame: sixteen numbers a coordinate.
-    alignas(64) float posed[3][16];
-    for (std::size_t row = 0; row < 16; row += kLanes) {
-      const auto of = [&](int k) { return hn::LoadU(d, &nb.vectors[k][0][0] + row); };
-      const V u0 = of(0), u1 = of(1), u2 = of(2);
-      for (int k = 0; k < 3; ++k)
-        hn::Store(dot(set(pose.turn[k][0]), set(pose.turn[k][1]), set(pose.turn[k][2]), u0, u1, u2),
-                  d, posed[k] + row);
-    }
     const V scale = set(pose.scale);
     V p[3];
     for (int k = 0; k < 3; ++k)
-      p[k] = hn::Sub(hn::MulAdd(scale, second(posed[k] + 4 * Obb4::kCenter), set(pose.offset[k])),
-                     first(na.vectors[k][Obb4::kCenter]));
+      p[k] =
+          hn::Sub(hn::MulAdd(scale, second(posed.vectors[k][Obb4::kCenter]), set(pose.offset[k])),
+                  first(na.vectors[k][Obb4::kCenter]));
     for (int i = 0; i < 3; ++i) {
       const V u0 = first(na.vectors[0][i]), u1 = first(na.vectors[1][i]),
               u2 = first(na.vectors[2][i]);
       T[i] = dot(u0, u1, u2, p[0], p[1], p[2]);
       for (int j = 0; j < 3; ++j) {
-        R[i][j] = dot(u0, u1, u2, second(posed[0] + 4 * j), second(posed[1] + 4 * j),
-                      second(posed[2] + 4 * j));
+        R[i][j] = dot(u0, u1, u2, second(posed.vectors[0][j]), second(posed.vectors[1][j]),
+                      second(posed.vectors[2][j]));
         Q[i][j] = hn::Abs(R[i][j]);
       }
       a[i] = first(na.half[i]);
@@ -119,9 +136,10 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
 HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                      float* HWY_RESTRICT gaps) {
   const hn::CappedTag<float, 16> d;
+  const PosedBoxes posed(b, pose);
   unsigned mask = 0;
   for (std::size_t at = 0; at < 16; at += BoxPairs::kLanes) {
-    const BoxPairs pairs(a, b, pose, at);
+    const BoxPairs pairs(a, b, posed, pose, at);
     auto gap = pairs.faceOfA(0);
     for (int i = 1; i < 3; ++i) gap = hn::Max(gap, pairs.faceOfA(i));
     for (int j = 0; j < 3; ++j) gap = hn::Max(gap, pairs.faceOfB(j));
@@ -143,9 +161,10 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
 HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
                               float* HWY_RESTRICT squares) {
   const hn::CappedTag<float, 16> d;
+  const PosedBoxes posed(b, pose);
   unsigned mask = 0;
   for (std::size_t at = 0; at < 16; at += BoxPairs::kLanes) {
-    const BoxPairs pairs(a, b, pose, at);
+    const BoxPairs pairs(a, b, posed, pose, at);
     const auto zero = hn::Zero(d);
     auto ofA = zero, ofB = zero;
     for (int i = 0; i < 3; ++i) {

@@ -19,7 +19,7 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Eight symmetric matrices, and their `principalAxes` (moments.h).
+/// Eight symmetric matrices, and their `principalAxes` (principal_axes.h).
 struct alignas(64) Covariances8 {
   double entry[6][8];  ///< xx, xy, xz, yy, yz, zz
 };

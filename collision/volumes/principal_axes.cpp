@@ -1,4 +1,4 @@
-#include "collision/volumes/moments.h"
+#include "collision/volumes/principal_axes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collision/volumes/principal_axes.cpp"

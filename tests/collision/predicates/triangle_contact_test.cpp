@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <string>
 
@@ -120,6 +121,38 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
   EXPECT_FALSE(touch(segment, point(1, 1, 1.5)));
   const Triangle collinear = {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 2)};
   EXPECT_TRUE(touch(segment, collinear));
+}
+
+/// Corners that are off the other's plane by as little as a grid allows, for grids of all numbers
+/// of bits: each kind of integer is used up to its last bit, and none beyond.
+TEST(TriangleContact, GridsOfAnyNumberOfBits) {
+  std::mt19937_64 random(test::testSeed(53));
+  int touching = 0, cases = 0;
+  for (int bits = 4; bits <= 200; bits += bits < 90 ? 1 : 10)
+    for (int n = 0; n < 60 / test::kSlowdown + 2; ++n, ++cases) {
+      // Of the grid's 2^-bits only the last 50 bits of a coordinate are used, or the first.
+      const auto integer = [&] {
+        const int used = std::min(bits, 50);
+        return static_cast<double>(static_cast<std::int64_t>(random() >> (64 - used)) -
+                                   (std::int64_t{1} << (used - 1)));
+      };
+      const auto point = [&] { return Vec3(integer(), integer(), integer()); };
+      const double fine = std::exp2(-std::max(bits - 50, 0));
+      Triangle a = {point(), point(), point()}, b = {point(), point(), point()};
+      const double s = 0.25, t = 0.375;
+      b[0] = (a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0])).array().round();
+      if (n % 3 == 1) b[0] = a[n % 2];  // and some that touch exactly
+      if (n % 3 == 2) b[0][n % 3] += n % 2 ? 1 : -1;
+      if (bits > 50) b[1] *= fine;  // a coarse grid's corners and a fine one's
+      Transform X_WB;
+      if (n % 2) X_WB.m << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+      for (Vec3& p : b) p = X_WB.m.transpose() * p;
+      const bool expected = test::rationalContact(a, {}, b, X_WB);
+      ASSERT_EQ(touch(a, b, {}, X_WB), expected) << bits << " bits, case " << n;
+      touching += expected;
+    }
+  EXPECT_GT(touching, cases / 4);
+  EXPECT_LT(touching, cases - cases / 8);
 }
 
 /// Contact by the exact maps only: the rounded corners would say the opposite.

@@ -1,3 +1,5 @@
+#include "collision/volumes/principal_axes.h"
+
 #include <cmath>
 #include <limits>
 #include <random>
@@ -5,7 +7,6 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "collision/volumes/moments.h"
 #include "collision/volumes/obb.h"
 #include "tests/collision/queries/every_target.h"
 #include "tests/support/support.h"
