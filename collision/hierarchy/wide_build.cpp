@@ -77,7 +77,8 @@ void place(const TriangleMesh& mesh, unsigned threads, WideLayout& tree) {
   });
   tree.origin = 0.5 * lower + 0.5 * upper;
   const double size = std::max((upper - tree.origin).maxCoeff(), (tree.origin - lower).maxCoeff());
-  // Sizes that overflow give boxes that overlap everything, not wrong ones.
+  // Above 2^1000 m not all is in [−1, 1], and boxes may be too small: no query reads them
+  // (WidePose).
   const bool usable = size > 0 && std::isfinite(size);
   tree.length = usable ? std::ldexp(1.0, std::clamp(std::ilogb(size) + 1, -1000, 1000)) : 1;
 }

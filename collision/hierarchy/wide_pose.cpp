@@ -13,8 +13,11 @@ WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTre
   // replaced by M_Aᵀ: M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹, of norm ≤ 3η_A/√(1 − 3η_A).
   const Vec3 D = (X_WB * b.origin()) - (X_WA * a.origin());
   const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
-  // Maps of greater defect prune nothing. NaN: not usable.
-  const bool usable = defectA < 0x1p-6 && defectB < 0x1p-6;
+  // Maps of greater defect prune nothing, nor do boxes of meshes above 2^960 m, which the tree's
+  // unit doesn't bring into [−1, 1] from 2^1000 on; an entry of m·unitA that is flushed would move
+  // b by 2^-1022·unitA⁻¹ of itself, more than the margins have left. NaN: not usable.
+  const bool usable =
+      defectA < 0x1p-6 && defectB < 0x1p-6 && a.length() <= 0x1p960 && b.length() <= 0x1p960;
   // D has at most five roundings of terms that sum up to `terms` over its coordinates; |M_ij|
   // ≤ 1.1.
   const double terms = 3.4 * (b.origin().cwiseAbs().sum() + a.origin().cwiseAbs().sum()) +

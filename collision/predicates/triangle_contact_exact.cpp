@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "collision/predicates/exact_number.h"
@@ -108,13 +110,20 @@ bool touch(const exact::MappedCorners& a, const exact::MappedCorners& b, const e
   return touch<Int>(exact::mapped<Int>(a, grid), exact::mapped<Int>(b, grid));
 }
 
+/// Is x, squared or rounded, still of this size? By bits, since where subnormals are flushed, ==
+/// takes them for zeros.
+bool sameSize(double x, double y) {
+  return (std::bit_cast<std::uint64_t>(x) ^ std::bit_cast<std::uint64_t>(y)) << 1 == 0;
+}
+
 /// Triangles on a grid so coarse that doubles decide, under signed permutations: most that touch by
 /// construction do so. Whether they do; nothing where they aren't of that kind.
 std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                    const Transform& X_WB) {
   double size = 0;
   for (const Transform* X : {&X_WA, &X_WB}) {
-    if (!(X->m.array() * X->m.array() == X->m.array().abs()).all()) return std::nullopt;
+    if (!std::all_of(X->m.data(), X->m.data() + 9, [](double x) { return sameSize(x * x, x); }))
+      return std::nullopt;
     size = std::max(size, X->t.cwiseAbs().maxCoeff());
   }
   for (const Triangle* t : {&a, &b})
@@ -126,7 +135,8 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
   // Adding and subtracting 3·2^51 such units rounds to whole ones.
   const double rounder = std::ldexp(3.0, std::ilogb(size) - 12 + 51);
   const auto whole = [&](const Vec3& p) {
-    return (((p.array() + rounder) - rounder) == p.array()).all();
+    return std::all_of(p.data(), p.data() + 3,
+                       [&](double x) { return sameSize((x + rounder) - rounder, x); });
   };
   const auto mapped = [&](const Triangle& t, const Transform& X) {
     Points<exact::Int53> points;

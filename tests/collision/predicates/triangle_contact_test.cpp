@@ -6,6 +6,10 @@
 #include <random>
 #include <string>
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -122,6 +126,29 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
   const Triangle collinear = {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 2)};
   EXPECT_TRUE(touch(segment, collinear));
 }
+
+#ifdef __SSE2__
+/// A corner in a face, or apart from it by a subnormal: its own, its map's, or the shift's. A
+/// library that is linked may have set the processor to read such as zero.
+TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
+  const Triangle face = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
+  const Triangle tip = {Vec3(1, 2, 0), Vec3(1, 2, 4), Vec3(2, 2, 4)};
+  Triangle corner = tip;
+  corner[0][2] = 0x1p-1040;
+  Transform turn, shift;
+  turn.m(2, 0) = 0x1p-1040;
+  shift.t[2] = 0x1p-1040;
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | 0x8040);
+  const bool touches[] = {touch(face, tip), touch(face, corner), touch(face, tip, {}, turn),
+                          touch(face, tip, {}, shift)};
+  _mm_setcsr(before);
+  EXPECT_TRUE(touches[0]);
+  EXPECT_FALSE(touches[1]) << "corner";
+  EXPECT_FALSE(touches[2]) << "map";
+  EXPECT_FALSE(touches[3]) << "shift";
+}
+#endif
 
 /// Corners that are off the other's plane by as little as a grid allows, for grids of all numbers
 /// of bits: each kind of integer is used up to its last bit, and none beyond.

@@ -52,6 +52,62 @@ TEST_P(WideMargins, SmallTrianglesInARow) {
   }
 }
 
+/// Meshes of up to 2^1023 m with a small triangle that another touches in one corner, under any
+/// rotation, or one by so little that the entries which tell it from the identity are near 2^-22.
+struct FarCorner {
+  TriangleMesh a, b;
+  Transform X;
+  bool touch = false;
+
+  FarCorner(std::mt19937_64& random, int exponent, int n) {
+    std::uniform_real_distribution real(-1.0, 1.0);
+    const auto any = [&](double size) {
+      const double x = real(random), y = real(random), z = real(random);
+      return Vec3(size * x, size * y, size * z);
+    };
+    const double S = std::ldexp(0.9, exponent), s = std::ldexp(S, -20 - n % 28);
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 c(i & 1 ? S : -S, i & 2 ? S : -S, i == 1 || i == 2 ? S : -S);
+      const Vec3 d(0.01 * S, 0, 0), e(0, 0.01 * S, 0);
+      add(a, c, c + d, c + e);
+      if (n % 3 == 0) add(b, 0.9 * c, 0.9 * c + d, 0.9 * c + e);
+    }
+    const Vec3 p = any(0.7 * S), u = any(s), v = any(s), normal = (u / s).cross(v / s);
+    add(a, p, p + u, p + v);
+    a.triangles.resize(a.triangles.size() + 4, a.triangles.back());  // too many for a leaf
+    const double angle = n % 4 == 1 ? 3 : std::ldexp(1.0, -23 - n % 5 * 3);
+    const Vec3 axis = any(1).normalized();
+    if (n % 2) X.m = Eigen::AngleAxisd(angle * real(random), axis).toRotationMatrix();
+    const Vec3 q = X.m.transpose() * p;
+    const auto above = [&] {
+      const Vec3 d = any(s);
+      return Vec3(q + X.m.transpose() * (d.dot(normal) < 0 ? Vec3(-d) : d));
+    };
+    const Vec3 r = above(), t = above();
+    add(b, q - X.m.transpose() * (1e-3 * s * normal), r, t);
+    b.triangles.resize(b.triangles.size() + 4, b.triangles.back());
+    touch = test::bruteForceTouch(a, {}, b, X);
+  }
+};
+
+/// From 2^1000 m on, coordinates in the tree's unit are no longer below 1.
+TEST_P(WideMargins, LargestMeshes) {
+  std::mt19937_64 random(test::testSeed(61));
+  int touching = 0;
+  for (const int exponent : {955, 960, 1000, 1010, 1022})
+    for (int n = 0; n < 100 / test::kSlowdown; ++n) {
+      const FarCorner c(random, exponent, n);
+      if (!c.touch) continue;
+      ++touching;
+      const WideObbTree a(c.a), b(c.b);
+      QueryContext context;
+      EXPECT_TRUE(interference(a, {}, b, c.X, context)) << exponent << " " << n;
+      EXPECT_TRUE(interference(b, c.X, a, {}, context)) << exponent << " " << n;
+      EXPECT_TRUE(closerThan(a, {}, b, c.X, 1, context)) << exponent << " " << n;
+    }
+  EXPECT_GT(touching, 150 / test::kSlowdown);
+}
+
 #ifdef __SSE2__
 /// A library that is linked may have set the processor to flush what underflows to zero, and to
 /// read it as zero.
@@ -80,6 +136,24 @@ TEST_P(WideMargins, RadiusWhoseSquareIsFlushed) {
   QueryContext context;
   EXPECT_TRUE(interference(a, {}, b, X, context));
   EXPECT_TRUE(interference(b, X, a, {}, context));
+}
+
+/// A turn's small entries, times the unit of a large mesh.
+TEST_P(WideMargins, EntriesThatAreFlushed) {
+  std::mt19937_64 random(test::testSeed(62));
+  int touching = 0;
+  for (const int exponent : {960, 985, 995, 999, 1022})
+    for (int n = 3; n < 600; n += 12) {  // turned by little, and both large
+      const FarCorner c(random, exponent, n);
+      if (!c.touch) continue;
+      ++touching;
+      const Flushing flushing;
+      const WideObbTree a(c.a), b(c.b);
+      QueryContext context;
+      EXPECT_TRUE(interference(a, {}, b, c.X, context)) << exponent << " " << n;
+      EXPECT_TRUE(interference(b, c.X, a, {}, context)) << exponent << " " << n;
+    }
+  EXPECT_GT(touching, 80);
 }
 
 /// Meshes of 2^-996 whose triangles are so small, and whose shift, that differences are flushed.
