@@ -110,10 +110,14 @@ bool touch(const exact::MappedCorners& a, const exact::MappedCorners& b, const e
   return touch<Int>(exact::mapped<Int>(a, grid), exact::mapped<Int>(b, grid));
 }
 
-/// Is x, squared or rounded, still of this size? By bits, since where subnormals are flushed, ==
-/// takes them for zeros.
-bool sameSize(double x, double y) {
-  return (std::bit_cast<std::uint64_t>(x) ^ std::bit_cast<std::uint64_t>(y)) << 1 == 0;
+/// Are two arrays the same but for signs? By bits: where subnormals are flushed, == takes them for
+/// zeros.
+template <class Array>
+bool sameSizes(const Array& x, const Array& y) {
+  std::uint64_t different = 0;
+  for (Eigen::Index i = 0; i < Array::SizeAtCompileTime; ++i)
+    different |= std::bit_cast<std::uint64_t>(x(i)) ^ std::bit_cast<std::uint64_t>(y(i));
+  return different << 1 == 0;
 }
 
 /// Triangles on a grid so coarse that doubles decide, under signed permutations: most that touch by
@@ -122,8 +126,7 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
                                    const Transform& X_WB) {
   double size = 0;
   for (const Transform* X : {&X_WA, &X_WB}) {
-    if (!std::all_of(X->m.data(), X->m.data() + 9, [](double x) { return sameSize(x * x, x); }))
-      return std::nullopt;
+    if (!sameSizes<Mat3>(X->m.cwiseAbs2(), X->m)) return std::nullopt;
     size = std::max(size, X->t.cwiseAbs().maxCoeff());
   }
   for (const Triangle* t : {&a, &b})
@@ -135,8 +138,7 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
   // Adding and subtracting 3·2^51 such units rounds to whole ones.
   const double rounder = std::ldexp(3.0, std::ilogb(size) - 12 + 51);
   const auto whole = [&](const Vec3& p) {
-    return std::all_of(p.data(), p.data() + 3,
-                       [&](double x) { return sameSize((x + rounder) - rounder, x); });
+    return sameSizes<Vec3>((p.array() + rounder) - rounder, p);
   };
   const auto mapped = [&](const Triangle& t, const Transform& X) {
     Points<exact::Int53> points;
