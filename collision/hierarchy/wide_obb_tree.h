@@ -18,8 +18,8 @@ namespace corridor {
 ///
 /// A binary top-down tree (planes through the area-weighted mean, orthogonal to the direction of
 /// the largest area-weighted variance) of which about every second level is kept. All boxes are in
-/// the tree's own frame and unit: x = (p − origin)·2^-unit, so that |x_i| ≤ 1 whatever the mesh's
-/// size and place, and float's error is 2^-24 of the mesh.
+/// the tree's own frame and unit: x = (p − origin)·2^-unit, so that |x_i| ≤ 1 wherever the mesh is,
+/// and float's error is 2^-24 of the mesh. Of meshes above 2^960 m queries look at all triangles.
 ///
 /// Immutable. Keeps a copy of the mesh's vertices, so that the mesh may go.
 class WideObbTree {

@@ -80,9 +80,10 @@ struct TriangleNumbers {
 /// = 0.
 ///
 /// Rounding, u = 2^-24. With o that corner, b's are t = b.x + (ΔC − o), ΔC the difference of the
-/// points that `a` and `b` are relative to, in floats rounded at each step, so off by u(3|b.x| +
-/// 3|t| + 2|o|) < 3u·size a coordinate (b.x alone may be far larger than t: small triangles far
-/// from that point).
+/// points that `a` and `b` are relative to, in floats rounded at each step. b.x, o, ΔC, w = ΔC − o
+/// and t are off by u of themselves, |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w|, and w = t_0 − b.x_0:
+/// together less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size a coordinate (b.x alone may be
+/// far larger than t: small triangles far from that point).
 struct TrianglePairs {
   LaneVec s1, s2, t[3];
   LaneFloat size;  ///< the sum of all those sizes, in |.|₁; not a maximum, which could lose a NaN
