@@ -12,6 +12,7 @@ struct Counters {
   std::uint64_t exactTests =
       0;                     ///< of these, decided by exact arithmetic because the filter could not
   std::uint64_t poses = 0;   ///< poses computed along motions
+  std::uint64_t splits = 0;  ///< windows of time that were halved
   std::uint64_t edges = 0;   ///< motion queries
   std::uint64_t states = 0;  ///< static queries
   std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`
@@ -24,6 +25,7 @@ inline Counters& Counters::operator+=(const Counters& other) {
   triangleTests += other.triangleTests;
   exactTests += other.exactTests;
   poses += other.poses;
+  splits += other.splits;
   edges += other.edges;
   states += other.states;
   undecided += other.undecided;

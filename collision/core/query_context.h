@@ -22,16 +22,21 @@ class QueryContext {
     std::uint32_t a, b, bodies;
   };
   std::vector<NodePair> stack;  ///< of the traversal under way
-  /// Two nodes of wide trees, the least key of their boxes' pairs, and which of their boxes are
-  /// asked about (a's four bits above b's).
+  /// Two nodes of wide trees, the least key of their boxes' pairs, and which of these are asked
+  /// about: bit 4·i + j for a's i-th and b's j-th.
   struct WideItem {
     std::uint32_t a, b;
     float key;
-    std::uint32_t masks;
+    std::uint32_t pairs;
   };
   std::vector<WideItem> wideStack;
-  std::vector<NodePair> pending,
-      next;  ///< what motion queries hand down to shorter windows of time
+  /// Pairs of nodes of one pair of bodies: a range of `pending`.
+  struct PairItems {
+    std::uint32_t bodies;
+    std::size_t begin, end;
+  };
+  std::vector<WideItem> pending;  ///< what motion queries hand down to shorter windows of time,
+  std::vector<PairItems> groups;  ///< and whose it is
   /// What distance queries have left to look at, and pairs of triangles (in leaf order) that may be
   /// the closest, each with a lower bound of its distance, metres.
   struct BoundedPair {
@@ -39,12 +44,6 @@ class QueryContext {
     double bound;
   };
   std::vector<BoundedPair> bounded, candidates;
-  /// Motions that the window of time under way has asked for, and their maps at its middle.
-  struct Posed {
-    std::size_t motion;
-    Transform X_AB;
-  };
-  std::vector<Posed> posed;
   LastPairs lastPairs;  ///< of wide trees: where their queries look first
 };
 

@@ -5,7 +5,7 @@
 
 namespace corridor {
 
-/// The OBBTree of Gottschalk, Lin, Manocha 1996: what motions are proved with.
+/// The OBBTree of Gottschalk, Lin, Manocha 1996, binary and in double.
 using ObbTree = VolumeTree<Obb>;
 
 }  // namespace corridor

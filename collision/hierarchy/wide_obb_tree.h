@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/geometry/convex_part.h"
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/predicates/triangle.h"
 #include "collision/volumes/obb.h"
@@ -43,6 +44,12 @@ class WideObbTree {
   /// @throws std::length_error for 2^29 − 1 triangles or more.
   explicit WideObbTree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles,
                        unsigned threads = 1);
+  /// One box, which holds a convex solid: its only item, number 0. @pre a sound part
+  /// (`checkPrimitive`).
+  explicit WideObbTree(const ConvexPart& part);
+
+  /// The solid, or null: the leaves hold triangles.
+  const ConvexPart* part() const { return part_ ? &*part_ : nullptr; }
 
   /// Depth first; node 0 has the parts of the whole.
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -55,15 +62,16 @@ class WideObbTree {
   const Vec3& origin() const { return origin_; }
   /// 2^unit, metres.
   double length() const { return length_; }
-  /// Largest |p − origin|₂ of all corners, metres, rounded up.
+  /// Largest |p − origin|₂ of all points, metres, rounded up.
   double radius() const { return radius_; }
-  /// Of a sphere about the frame's origin, metres: holds all corners.
+  /// Of a sphere about the frame's origin, metres: holds all points.
   double reach() const { return reach_; }
 
   std::size_t bytes() const;
 
-  /// Proves in rationals that every box contains every triangle below it, that each triangle is in
-  /// exactly one leaf, and that every node is the child of one box. Returns the first complaint.
+  /// Proves in rationals that every box contains every triangle (or the solid) below it, that each
+  /// is in exactly one leaf, and that every node is the child of one box. Returns the first
+  /// complaint.
   std::optional<std::string> check() const;
 
  private:
@@ -71,6 +79,7 @@ class WideObbTree {
   std::vector<Vec3> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::uint32_t> meshTriangle_;
+  std::optional<ConvexPart> part_;
   Vec3 origin_ = Vec3::Zero();
   double length_ = 1;
   double radius_ = 0, reach_ = 0;

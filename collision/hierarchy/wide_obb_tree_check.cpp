@@ -1,5 +1,7 @@
 #include "collision/hierarchy/exact_volume.h"
+#include "collision/hierarchy/volume_tree.h"
 #include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/volumes/part_obb.h"
 
 namespace corridor {
 namespace {
@@ -23,6 +25,17 @@ std::string named(const char* what, std::size_t i) {
 std::optional<std::string> WideObbTree::check() const {
   using exact::Rational;
   using exact::Row;
+  if (part_) {
+    // The part is in its enclosing box, and that in the node's.
+    if (const auto complaint = VolumeTree<Obb>(*part_).check()) return complaint;
+    const exact::ExactVolume<Obb> around(boxOf(nodes_[0], 0));
+    for (Row corner : exact::ExactVolume<Obb>(enclosingObb(*part_)).corners()) {
+      corner = exact::minus(corner, exact::row(origin_));
+      for (Rational& x : corner) x /= Rational(length_);
+      if (!around.contains(corner, 0)) return "the box does not contain the part";
+    }
+    return std::nullopt;
+  }
   const Rational unit(length_);
   const Row origin = exact::row(origin_);
   const auto own = [&](std::uint32_t triangle, int k) {

@@ -40,28 +40,31 @@ struct Lanes {
   }
 };
 
-/// Walks pairs of nodes of two trees. An item is a node of a and one of b, and which of their boxes
-/// are still asked about; their sixteen pairs are tested at once. Then both nodes are descended, or
-/// the one of clearly larger boxes, or the one that still has parts.
+/// Walks pairs of nodes of two trees. An item is a node of a and one of b, and which of the sixteen
+/// pairs of their boxes are asked about (bit 4·i + j); these are tested at once. Then both nodes
+/// are descended, or the one of clearly larger boxes, or the one that still has parts.
 ///
 /// A Query says
-///   bool skip(float key): is an item, whose least key was this, of no interest any more?
-///   unsigned boxes(const Node& a, const Node& b, float* keys): which of the sixteen pairs are to
-///   be
-///     looked at (bit 4·i + j), and a key for each;
+///   bool skip(const Item&): is an item, whose least key is told, of no interest any more?
+///   unsigned boxes(const Item&, const Node& a, const Node& b, float* keys): which of the item's
+///     pairs are to be looked at, and a key for each; of others it may say anything;
 ///   kSorted: are all that were pushed together looked at in the order of their keys, or only the
-///   one
-///     of the least key first?
-///   bool leaves(const Node& a, const Node& b, unsigned pairs, const float* keys): looks at pairs
-///   of leaves; true: enough.
+///     one of the least key first?
+///   bool leaves(const Item&, const Node& a, const Node& b, unsigned pairs, const float* keys):
+///     looks at pairs of leaves; true: enough.
 ///
-/// The stack is the context's, so that no query allocates once it has grown. What is pushed is
-/// written first and kept if it counts, without branches: which boxes overlap can't be predicted.
+/// The stack is the context's, so that no query allocates once it has grown; what is on it already
+/// is where the walk starts. Where it is told enough, what it did not come to stays there: with the
+/// item at hand, of which some pairs may have been looked at, on top. What is pushed is written
+/// first and kept if it counts, without branches: which boxes overlap can't be predicted.
+///
+/// @param count of the items to start from.
+/// @return how many are left.
 template <class Query>
-void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryContext& context,
-              Query& query) {
+std::size_t walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB,
+                     QueryContext& context, Query& query, std::size_t count) {
   using Item = QueryContext::WideItem;
-  constexpr unsigned kAll = 15;
+  constexpr unsigned kAll = 15, kAllPairs = 0xffff;
   constexpr std::size_t kMostPushed = 16 + 1;  // and one that is written and not kept
   // Two nodes whose boxes differ by less than this are descended together. Measured: 1.3 to 2.5
   // cost the same near contact; the less, the better for a small body far inside a large one.
@@ -75,26 +78,24 @@ void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryCon
     return (lanes & 1) * 0xfU | (lanes & 2) * 0x78U | (lanes & 4) * 0x3c0U | (lanes & 8) * 0x1e00U;
   };
   auto& stack = context.wideStack;
-  std::size_t top = 0;
+  std::size_t top = count;
   const auto makeRoom = [&] {
     if (stack.size() < top + kMostPushed) stack.resize(2 * (top + kMostPushed));
   };
   makeRoom();
-  stack[top++] = {0, 0, -HUGE_VALF, kAll << 4 | kAll};
   while (top > 0) {
-    const Item item = stack[--top];
-    if (query.skip(item.key)) continue;
+    Item item = stack[--top];
+    if (query.skip(item)) continue;
     const WideObbTree::Node &na = a.nodes()[item.a], &nb = b.nodes()[item.b];
     const Lanes lanesA(na), lanesB(nb);
-    const unsigned heldA = item.masks >> 4 & lanesA.held, heldB = item.masks & lanesB.held;
-    const unsigned wanted = rowsOf(heldA) & heldB * 0x1111U;
-    context.counters.boxTests += static_cast<unsigned>(std::popcount(wanted));
+    item.pairs &= rowsOf(lanesA.held) & lanesB.held * 0x1111U;
+    context.counters.boxTests += static_cast<unsigned>(std::popcount(item.pairs));
     alignas(64) float keys[16];
-    const unsigned open = query.boxes(na, nb, keys) & wanted;
+    const unsigned open = query.boxes(item, na, nb, keys) & item.pairs;
     if (!open) continue;
     const unsigned leafRows = rowsOf(lanesA.leaves), leafColumns = lanesB.leaves * 0x1111U;
     if (const unsigned pairs = open & leafRows & leafColumns)
-      if (query.leaves(na, nb, pairs, keys)) return;
+      if (query.leaves(item, na, nb, pairs, keys)) return top + 1;
     const float sizeA = size(na), sizeB = size(nb) * scaleB;
     const unsigned splitA = sizeB > kLarger * sizeA ? 0 : ~0U,
                    splitB = sizeA > kLarger * sizeB ? 0 : ~0U;
@@ -110,7 +111,7 @@ void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryCon
     Item* end = begin;
     for (unsigned rest = both; rest; rest &= rest - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(rest));
-      *end++ = {na.child[bit / 4], nb.child[bit % 4], keys[bit], kAll << 4 | kAll};
+      *end++ = {na.child[bit / 4], nb.child[bit % 4], keys[bit], kAllPairs};
     }
     if (onlyA | onlyB) {
       const auto keyOf = [&](unsigned pairs, unsigned pair) {
@@ -120,7 +121,7 @@ void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryCon
         const unsigned row = onlyA >> 4 * r & kAll;
         const float key = std::min(std::min(keyOf(onlyA, 4 * r), keyOf(onlyA, 4 * r + 1)),
                                    std::min(keyOf(onlyA, 4 * r + 2), keyOf(onlyA, 4 * r + 3)));
-        *end = {na.child[r], item.b, key, kAll << 4 | row};
+        *end = {na.child[r], item.b, key, row * 0x1111U};
         end += row != 0;
       }
       for (unsigned c = 0; c < 4; ++c) {
@@ -128,7 +129,7 @@ void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryCon
         const unsigned rows = (column | column >> 3 | column >> 6 | column >> 9) & kAll;
         const float key = std::min(std::min(keyOf(onlyB, c), keyOf(onlyB, c + 4)),
                                    std::min(keyOf(onlyB, c + 8), keyOf(onlyB, c + 12)));
-        *end = {item.a, nb.child[c], key, rows << 4 | kAll};
+        *end = {item.a, nb.child[c], key, rowsOf(rows)};
         end += rows != 0;
       }
     }
@@ -141,6 +142,16 @@ void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryCon
     }
     top += static_cast<std::size_t>(end - begin);
   }
+  return 0;
+}
+
+/// The same for the whole of both trees.
+template <class Query>
+void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryContext& context,
+              Query& query) {
+  if (context.wideStack.empty()) context.wideStack.resize(1);
+  context.wideStack[0] = {0, 0, -HUGE_VALF, 0xffff};
+  walkWide(a, b, scaleB, context, query, 1);
 }
 
 }  // namespace corridor::HWY_NAMESPACE

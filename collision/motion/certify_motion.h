@@ -5,7 +5,7 @@
 #include <span>
 
 #include "collision/core/query_context.h"
-#include "collision/hierarchy/obb_tree.h"
+#include "collision/hierarchy/body.h"
 #include "collision/motion/motion_window.h"
 
 namespace corridor {
@@ -45,8 +45,9 @@ struct MotionOptions {
   double reserve = 0;     ///< metres that `free` leaves beyond margin and tube; less is `undecided`
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
   double timeTolerance = 1.0 / 1024;  ///< of [0, 1]; how narrow a bracket `earliest` asks for
-  std::uint64_t workLimit =
-      20'000'000;  ///< box and triangle tests, after which the answer is `undecided`
+  /// Box and triangle tests, soon after which (a pair of nodes: 16 and 256 at most) the answer is
+  /// `undecided`.
+  std::uint64_t workLimit = 20'000'000;
 };
 
 /// The relative motions along an edge, numbered by whoever owns it: as many as there are pairs of
@@ -68,24 +69,24 @@ class MotionSource {
   MotionSource& operator=(const MotionSource&) = default;
 };
 
-/// Two bodies' trees, b moving as seen from a by `motion`, and their indices in the scene.
+/// Two bodies, b moving as seen from a by `motion`, and their indices in the scene.
 struct MotionPair {
-  const ObbTree* a;
-  const ObbTree* b;
+  const Body* a;
+  const Body* b;
   std::size_t motion = 0;
   std::size_t bodyA = 0, bodyB = 0;
 };
 
 /// Is the motion free of contact of every pair, for all t in [0, 1], for the tube around it, and
 /// with the margin kept? Surfaces of meshes: one inside another touches nothing (`Scene` knows of
-/// solids); primitives are solid.
+/// solids); primitives are solid. Pairs of one motion, and of these
+/// the ones of one b, are best put side by side.
 ///
 /// Method (design: «The certified edge»): a window of time is halved where boxes or leaves can't
-/// be told apart; each window hands the undecided pairs of nodes down to its halves. At a window's
-/// middle, boxes are separated with the margin that covers what the body does in the whole window
-/// (`BoxTravel`), leaf pairs along the direction of their closest points, every corner with its own
-/// travel. Where only the verdict is asked for, eight poses are tested for contact before all that:
-/// most motions that touch anything do so for long.
+/// be told apart (`descend`); each window hands the undecided pairs of nodes down to its halves.
+/// Bodies whose bounds stay apart are never descended, nor do they get a tree. Where only the
+/// verdict is asked for, what the whole motion leaves open is tested for contact at eight poses
+/// before it is walked: most motions that touch anything do so for long.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context);
 

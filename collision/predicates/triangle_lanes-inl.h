@@ -86,6 +86,7 @@ struct TriangleNumbers {
 /// far larger than t: small triangles far from that point).
 struct TrianglePairs {
   LaneVec s1, s2, t[3];
+  LaneVec away;    ///< from what b's corners are relative to, to o: t = b.x + away
   LaneFloat size;  ///< the sum of all those sizes, in |.|₁; not a maximum, which could lose a NaN
 
   HWY_INLINE TrianglePairs(const TriangleCorners& a, const TriangleCorners& b,
@@ -100,10 +101,10 @@ struct TrianglePairs {
                      lookedUp(from.x[k][2], index)};
     };
     const LaneVec o = corner(a, ofA, 0);
-    const LaneVec away = sub(LaneVec{hn::Set(d, static_cast<float>(b.center[0] - a.center[0])),
-                                     hn::Set(d, static_cast<float>(b.center[1] - a.center[1])),
-                                     hn::Set(d, static_cast<float>(b.center[2] - a.center[2]))},
-                             o);
+    away = sub(LaneVec{hn::Set(d, static_cast<float>(b.center[0] - a.center[0])),
+                       hn::Set(d, static_cast<float>(b.center[1] - a.center[1])),
+                       hn::Set(d, static_cast<float>(b.center[2] - a.center[2]))},
+               o);
     s1 = sub(corner(a, ofA, 1), o);
     s2 = sub(corner(a, ofA, 2), o);
     size = hn::Add(hn::Add(sum(o), sum(s1)), sum(s2));

@@ -50,16 +50,17 @@ class Nearest {
   }
 
   static constexpr bool kSorted = true;
-  bool skip(float square) const { return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F); }
+  bool skip(const QueryContext::WideItem& item) const { return beyond(item.key); }
 
-  unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* squares) const {
+  unsigned boxes(const QueryContext::WideItem&, const WideObbTree::Node& a,
+                 const WideObbTree::Node& b, float* squares) const {
     return nearBoxes(a, b, pose_.floats, limit_, squares);
   }
 
   /// The nearest first, since it may rule out the others, about sixteen pairs of triangles at a
   /// time.
-  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
-              const float* keys) {
+  bool leaves(const QueryContext::WideItem&, const WideObbTree::Node& na,
+              const WideObbTree::Node& nb, unsigned pairs, const float* keys) {
     while (pairs) {
       LeafPairs some(na, nb);
       while (pairs) {
@@ -68,7 +69,7 @@ class Nearest {
           const auto bit = static_cast<unsigned>(std::countr_zero(rest));
           if (keys[bit] < keys[least]) least = bit;
         }
-        if (skip(keys[least])) pairs = 0;
+        if (beyond(keys[least])) pairs = 0;
         if (!pairs || (some.count() && some.count() + some.sizeOf(least) > 16)) break;
         some.add(least);
         pairs &= ~(1U << least);
@@ -102,6 +103,10 @@ class Nearest {
   }
 
  private:
+  bool beyond(float square) const {
+    return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F);
+  }
+
   void measure(LeafPairs& pairs) {
     leaves_.forEachNearSixteen(
         pairs, [&] { return limit_; },
@@ -179,14 +184,15 @@ class Closer {
         limit_(limitOf(pose, d)) {}
 
   static constexpr bool kSorted = true;
-  static bool skip(float) { return false; }
+  static bool skip(const QueryContext::WideItem&) { return false; }
 
-  unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* squares) const {
+  unsigned boxes(const QueryContext::WideItem&, const WideObbTree::Node& a,
+                 const WideObbTree::Node& b, float* squares) const {
     return nearBoxes(a, b, pose_.floats, limit_, squares);
   }
 
-  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
-              const float*) {
+  bool leaves(const QueryContext::WideItem&, const WideObbTree::Node& na,
+              const WideObbTree::Node& nb, unsigned pairs, const float*) {
     found_ = leaves_.forEachNear(
         na, nb, pairs, [&] { return limit_; },
         [&](std::uint32_t s, std::uint32_t t) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "collision/convex/convex_contact.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/triangle_intersection.h"
 
@@ -18,13 +19,24 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Pairs of triangles that touch: boxes by floats, triangles by floats, those that are left by the
-/// exact predicate. `Found(s, t)`, in leaf order, is told each, until it returns true.
+/// A tree's item as a convex set; keeps the corners that the set looks at.
+struct ItemSet {
+  Triangle corners;
+  ConvexSet set;
+  ItemSet(const WideObbTree& tree, std::uint32_t item)
+      : corners(tree.part() ? Triangle() : tree.triangle(item)),
+        set(tree.part() ? ConvexSet(*tree.part()) : ConvexSet(corners)) {}
+  ItemSet(const ItemSet&) = delete;
+  ItemSet& operator=(const ItemSet&) = delete;
+};
+
+/// Pairs of triangles (or solids) that touch: boxes by floats, triangles by floats, those that are
+/// left by the exact predicate. `Found(s, t)`, in leaf order, is told each, until it returns true.
 template <class Found>
 class Touching {
  public:
   Touching(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b, const Transform& X_WB,
-           const WidePose& pose, Counters& counters, const Found& found)
+           const WidePose& pose, Counters& counters, const Found& found, std::uint64_t workEnd)
       : a_(a),
         b_(b),
         X_WA_(X_WA),
@@ -32,17 +44,26 @@ class Touching {
         pose_(pose),
         counters_(counters),
         leaves_(a, b, pose, counters),
-        found_(found) {}
+        found_(found),
+        workEnd_(workEnd) {}
 
   static constexpr bool kSorted = false;
-  static bool skip(float) { return false; }
+  bool skip(const QueryContext::WideItem&) const {
+    return counters_.boxTests + counters_.triangleTests >= workEnd_;
+  }
 
-  unsigned boxes(const WideObbTree::Node& a, const WideObbTree::Node& b, float* gaps) const {
+  unsigned boxes(const QueryContext::WideItem&, const WideObbTree::Node& a,
+                 const WideObbTree::Node& b, float* gaps) const {
     return overlappingBoxes(a, b, pose_.floats, gaps);
   }
 
-  bool leaves(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned pairs,
-              const float*) {
+  bool leaves(const QueryContext::WideItem&, const WideObbTree::Node& na,
+              const WideObbTree::Node& nb, unsigned pairs, const float*) {
+    if (a_.part() || b_.part())
+      return forEachItem(na, nb, pairs, [&](unsigned, std::uint32_t s, std::uint32_t t) {
+        const ItemSet setA(a_, s), setB(b_, t);
+        return convexSetsTouch({setA.set, X_WA_}, {setB.set, X_WB_}, counters_) && found_(s, t);
+      });
     return leaves_.forEachNear(
         na, nb, pairs, [] { return 0.0F; },
         [&](std::uint32_t s, std::uint32_t t) {
@@ -60,17 +81,19 @@ class Touching {
   Counters& counters_;
   WideLeaves leaves_;
   const Found& found_;
+  std::uint64_t workEnd_;
 };
 
 std::optional<TrianglePair> firstTouching(const WideObbTree& a, const Transform& X_WA,
                                           const WideObbTree& b, const Transform& X_WB,
-                                          const WidePose& pose, QueryContext& context) {
+                                          const WidePose& pose, QueryContext& context,
+                                          std::uint64_t workEnd) {
   std::optional<TrianglePair> hit;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
     hit = TrianglePair{s, t};
     return true;
   };
-  Touching query(a, X_WA, b, X_WB, pose, context.counters, found);
+  Touching query(a, X_WA, b, X_WB, pose, context.counters, found, workEnd);
   walkWide(a, b, pose.floats.scale, context, query);
   return hit;
 }
@@ -83,7 +106,7 @@ std::vector<TrianglePair> allTouching(const WideObbTree& a, const Transform& X_W
     all.push_back({s, t});
     return false;
   };
-  Touching query(a, X_WA, b, X_WB, pose, context.counters, found);
+  Touching query(a, X_WA, b, X_WB, pose, context.counters, found, kNoWorkLimit);
   walkWide(a, b, pose.floats.scale, context, query);
   return all;
 }
@@ -99,21 +122,22 @@ HWY_EXPORT(allTouching);
 
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
-                                         QueryContext& context) {
+                                         QueryContext& context, std::uint64_t workEnd) {
   ++context.counters.states;
   const WidePose pose(a, X_WA, b, X_WB, 0);
   if (pose.apart) {
     ++context.counters.boxTests;
     return std::nullopt;
   }
-  const auto hit = touchingLeafTriangles(a, X_WA, b, X_WB, pose, context);
+  const auto hit = touchingLeafTriangles(a, X_WA, b, X_WB, pose, context, workEnd);
   if (!hit) return hit;
   return TrianglePair{a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
 }
 
 std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Transform& X_WA,
                                                   const WideObbTree& b, const Transform& X_WB,
-                                                  const WidePose& pose, QueryContext& context) {
+                                                  const WidePose& pose, QueryContext& context,
+                                                  std::uint64_t workEnd) {
   LastPair& last = context.lastPairs.of(&a, &b);
   if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
     const bool touch =
@@ -121,7 +145,7 @@ std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Tr
     last.tested(touch);
     if (touch) return TrianglePair{last.a, last.b};
   }
-  const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context);
+  const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context, workEnd);
   if (hit) last.found(hit->a, hit->b);
   return hit;
 }

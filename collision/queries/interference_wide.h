@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,23 +13,29 @@
 
 namespace corridor {
 
+constexpr std::uint64_t kNoWorkLimit = ~std::uint64_t{0};
+
 /// `interference` (interference.h) for wide trees: the same verdicts, several times faster. First
-/// contact found, or none; exact for the twelve doubles of each map in real arithmetic, for any
-/// finite maps; near-rigid ones are fast. @pre finite maps.
+/// contact found, or none; solids as `convexSetsTouch` says, exact for the twelve doubles of each
+/// map in real arithmetic, for any finite maps; near-rigid ones are fast. @pre finite maps.
 ///
 /// The pair that touched last, as the context remembers, is tested first: what came before changes
 /// which touching pair is named, and the counts, never the verdict.
+///
+/// Gives up, as if nothing touched, soon after the counted box and triangle tests reach `workEnd`.
 ///
 /// SIMD by run-time dispatch; every target gives the same verdict, and all that multiply and add at
 /// once (all but SSE) the same counts.
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
-                                         QueryContext& context);
+                                         QueryContext& context,
+                                         std::uint64_t workEnd = kNoWorkLimit);
 
 /// The same by triangles in leaf order, for queries that have the pose. @pre not `pose.apart`.
 std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Transform& X_WA,
                                                   const WideObbTree& b, const Transform& X_WB,
-                                                  const WidePose& pose, QueryContext& context);
+                                                  const WidePose& pose, QueryContext& context,
+                                                  std::uint64_t workEnd = kNoWorkLimit);
 
 /// `contacts` (contacts.h, with its promises) for wide trees. Allocates what it returns.
 std::vector<TriangleContact> contacts(const WideObbTree& a, const Transform& X_WA,

@@ -21,6 +21,81 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Between the closest points of an edge or corner of a's and one of b's, or of a corner and a
+/// face, of pairs of triangles (Ericson 2005, 5.1.5, 5.1.9): a vector and its square.
+struct ClosestLanes {
+  LaneVec n;
+  LaneFloat square;
+};
+HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
+  const LaneTag d;
+  using V = LaneFloat;
+  using Vec = LaneVec;
+  const auto add = [](const Vec& p, const Vec& q) {
+    return Vec{hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
+  };
+  const auto scaled = [](const Vec& p, V s) {
+    return Vec{hn::Mul(p.x, s), hn::Mul(p.y, s), hn::Mul(p.z, s)};
+  };
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+  // In [0, 1] whatever x is, NaN too.
+  const auto clamped = [&](V x) {
+    return hn::IfThenElse(hn::Gt(x, zero), hn::IfThenElse(hn::Lt(x, one), x, one), zero);
+  };
+  const auto inverse = [&](V x) { return hn::Div(one, x); };
+  // Corners and edges; edge k goes from corner k to the next.
+  const Vec s[3] = {{zero, zero, zero}, pairs.s1, pairs.s2};
+  const Vec* const t = pairs.t;
+  const Vec e[3] = {s[1], sub(s[2], s[1]), sub(s[0], s[2])};
+  const Vec f[3] = {sub(t[1], t[0]), sub(t[2], t[1]), sub(t[0], t[2])};
+  Vec n = t[0];  // between the closest points found
+  V least = dot(n, n);
+  const auto offer = [&](const Vec& p, auto allowed) {
+    const V square = dot(p, p);
+    const auto closer = hn::And(allowed, hn::Lt(square, least));  // false for NaN
+    n = {hn::IfThenElse(closer, p.x, n.x), hn::IfThenElse(closer, p.y, n.y),
+         hn::IfThenElse(closer, p.z, n.z)};
+    least = hn::IfThenElse(closer, square, least);
+  };
+  V ee[3], ff[3], perE[3], perF[3];
+  for (int i = 0; i < 3; ++i) {
+    ee[i] = dot(e[i], e[i]);
+    ff[i] = dot(f[i], f[i]);
+    perE[i] = inverse(ee[i]);
+    perF[i] = inverse(ff[i]);
+  }
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const Vec r = sub(t[k], s[i]);
+      const V ef = dot(e[i], f[k]), er = dot(e[i], r), fr = dot(f[k], r);
+      const V det = hn::Sub(hn::Mul(ee[i], ff[k]), hn::Mul(ef, ef));
+      const V x = clamped(hn::Div(hn::Sub(hn::Mul(er, ff[k]), hn::Mul(ef, fr)), det));
+      const V y = clamped(hn::Mul(hn::Sub(hn::Mul(ef, x), fr), perF[k]));
+      const V z = clamped(hn::Mul(hn::Add(hn::Mul(ef, y), er), perE[i]));
+      offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kTriangleLanes));
+    }
+  // Corners over the face at `at0`, whose edges there are u and v, less their feet in it.
+  const auto faces = [&](const Vec* ps, const Vec& at0, const Vec& u, const Vec& v, V uu, V vv,
+                         bool flip) {
+    const V uv = dot(u, v);
+    const V per = inverse(hn::Sub(hn::Mul(uu, vv), hn::Mul(uv, uv)));
+    for (int i = 0; i < 3; ++i) {
+      const Vec w = sub(ps[i], at0);
+      const V wu = dot(w, u), wv = dot(w, v);
+      const V x = hn::Mul(hn::Sub(hn::Mul(vv, wu), hn::Mul(uv, wv)), per),
+              y = hn::Mul(hn::Sub(hn::Mul(uu, wv), hn::Mul(uv, wu)), per);
+      const auto inside =
+          hn::And(hn::And(hn::Ge(x, zero), hn::Ge(y, zero)), hn::Le(hn::Add(x, y), one));
+      if (hn::AllFalse(d, inside)) continue;
+      const Vec p = sub(w, add(scaled(u, x), scaled(v, y)));
+      offer(flip ? Vec{hn::Neg(p.x), hn::Neg(p.y), hn::Neg(p.z)} : p, inside);
+    }
+  };
+  faces(t, s[0], s[1], s[2], ee[0], ee[2], false);
+  faces(s, t[0], f[0], sub(t[2], t[0]), ff[0], ff[2], true);
+  return {n, least};
+}
+
 /// Of sixteen pairs of triangles the distance of two points, at least the distance, and the gap
 /// along the line through them, at most the distance: each with all rounding in it, `error`
 /// included, the distance that the corners given may be off by, both sides together. Crossing
@@ -42,71 +117,13 @@ HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorner
                                   float* HWY_RESTRICT lower, float* HWY_RESTRICT upper) {
   const LaneTag d;
   using V = LaneFloat;
-  using Vec = LaneVec;
-  const auto add = [](const Vec& p, const Vec& q) {
-    return Vec{hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
-  };
-  const auto scaled = [](const Vec& p, V s) {
-    return Vec{hn::Mul(p.x, s), hn::Mul(p.y, s), hn::Mul(p.z, s)};
-  };
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0F), infinite = hn::Set(d, HUGE_VALF);
-  // In [0, 1] whatever x is, NaN too.
-  const auto clamped = [&](V x) {
-    return hn::IfThenElse(hn::Gt(x, zero), hn::IfThenElse(hn::Lt(x, one), x, one), zero);
-  };
-  const auto inverse = [&](V x) { return hn::Div(one, x); };
+  const V zero = hn::Zero(d), infinite = hn::Set(d, HUGE_VALF);
   for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
     const TrianglePairs pairs(a, b, numbers, at);
-    // Corners and edges; edge k goes from corner k to the next.
-    const Vec s[3] = {{zero, zero, zero}, pairs.s1, pairs.s2};
-    const Vec* const t = pairs.t;
-    const Vec e[3] = {s[1], sub(s[2], s[1]), sub(s[0], s[2])};
-    const Vec f[3] = {sub(t[1], t[0]), sub(t[2], t[1]), sub(t[0], t[2])};
-    Vec n = t[0];  // between the closest points found
-    V least = dot(n, n);
-    const auto offer = [&](const Vec& p, auto allowed) {
-      const V square = dot(p, p);
-      const auto closer = hn::And(allowed, hn::Lt(square, least));  // false for NaN
-      n = {hn::IfThenElse(closer, p.x, n.x), hn::IfThenElse(closer, p.y, n.y),
-           hn::IfThenElse(closer, p.z, n.z)};
-      least = hn::IfThenElse(closer, square, least);
-    };
-    V ee[3], ff[3], perE[3], perF[3];
-    for (int i = 0; i < 3; ++i) {
-      ee[i] = dot(e[i], e[i]);
-      ff[i] = dot(f[i], f[i]);
-      perE[i] = inverse(ee[i]);
-      perF[i] = inverse(ff[i]);
-    }
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const Vec r = sub(t[k], s[i]);
-        const V ef = dot(e[i], f[k]), er = dot(e[i], r), fr = dot(f[k], r);
-        const V det = hn::Sub(hn::Mul(ee[i], ff[k]), hn::Mul(ef, ef));
-        const V x = clamped(hn::Div(hn::Sub(hn::Mul(er, ff[k]), hn::Mul(ef, fr)), det));
-        const V y = clamped(hn::Mul(hn::Sub(hn::Mul(ef, x), fr), perF[k]));
-        const V z = clamped(hn::Mul(hn::Add(hn::Mul(ef, y), er), perE[i]));
-        offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kTriangleLanes));
-      }
-    // Corners over the face at `at0`, whose edges there are u and v, less their feet in it.
-    const auto faces = [&](const Vec* ps, const Vec& at0, const Vec& u, const Vec& v, V uu, V vv,
-                           bool flip) {
-      const V uv = dot(u, v);
-      const V per = inverse(hn::Sub(hn::Mul(uu, vv), hn::Mul(uv, uv)));
-      for (int i = 0; i < 3; ++i) {
-        const Vec w = sub(ps[i], at0);
-        const V wu = dot(w, u), wv = dot(w, v);
-        const V x = hn::Mul(hn::Sub(hn::Mul(vv, wu), hn::Mul(uv, wv)), per),
-                y = hn::Mul(hn::Sub(hn::Mul(uu, wv), hn::Mul(uv, wu)), per);
-        const auto inside =
-            hn::And(hn::And(hn::Ge(x, zero), hn::Ge(y, zero)), hn::Le(hn::Add(x, y), one));
-        if (hn::AllFalse(d, inside)) continue;
-        const Vec p = sub(w, add(scaled(u, x), scaled(v, y)));
-        offer(flip ? Vec{hn::Neg(p.x), hn::Neg(p.y), hn::Neg(p.z)} : p, inside);
-      }
-    };
-    faces(t, s[0], s[1], s[2], ee[0], ee[2], false);
-    faces(s, t[0], f[0], sub(t[2], t[0]), ff[0], ff[2], true);
+    const LaneVec& s1 = pairs.s1;
+    const LaneVec& s2 = pairs.s2;
+    const LaneVec* const t = pairs.t;
+    const auto [n, least] = closestLanes(pairs);
     const V D = pairs.size;
     // Squares don't overflow; their products, in parameters, may: NaN, clamped or not inside.
     const auto known = hn::Lt(D, hn::Set(d, 0x1p50F));
@@ -114,8 +131,8 @@ HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorner
     const V length = hn::Sqrt(least);
     const V up = hn::Add(hn::Mul(hn::Add(length, hn::Set(d, 0x1p-60F)), hn::Set(d, 1 + 0x1p-20F)),
                          hn::Mul(off, hn::Set(d, 1 + 0x1p-20F)));
-    const V gap = hn::Sub(min3(dot(n, t[0]), dot(n, t[1]), dot(n, t[2])),
-                          max3(zero, dot(n, s[1]), dot(n, s[2])));
+    const V gap =
+        hn::Sub(min3(dot(n, t[0]), dot(n, t[1]), dot(n, t[2])), max3(zero, dot(n, s1), dot(n, s2)));
     const V low = hn::Sub(hn::Mul(hn::Div(gap, length), hn::Set(d, 1 - 0x1p-20F)), off);
     const auto told =
         hn::And(known, hn::And(hn::Gt(low, zero), hn::Gt(length, hn::Set(d, 0x1p-50F))));

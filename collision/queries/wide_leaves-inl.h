@@ -14,6 +14,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "hwy/highway.h"
 
@@ -38,6 +39,23 @@ constexpr PairPatterns pairPatterns(bool second) {
 }
 alignas(16) inline constexpr PairPatterns kFirst = pairPatterns(false), kSecond =
                                                                             pairPatterns(true);
+
+/// Calls `found(leaves, s, t)` for each pair of items, numbered in leaf order, of each of these
+/// pairs of leaves of two nodes, until it returns true; returns whether it did. For trees of which
+/// one holds a solid.
+template <class Found>
+bool forEachItem(const WideObbTree::Node& na, const WideObbTree::Node& nb, unsigned leaves,
+                 Found&& found) {
+  for (; leaves; leaves &= leaves - 1) {
+    const auto pair = static_cast<unsigned>(std::countr_zero(leaves));
+    const std::uint32_t a = na.child[pair / 4], b = nb.child[pair % 4];
+    for (std::uint32_t i = 0; i < WideObbTree::leafCount(a); ++i)
+      for (std::uint32_t k = 0; k < WideObbTree::leafCount(b); ++k)
+        if (found(1U << pair, WideObbTree::leafFirst(a) + i, WideObbTree::leafFirst(b) + k))
+          return true;
+  }
+  return false;
+}
 
 /// Pairs of triangles of the leaves of two nodes: the i-th triangle of a lane's leaf is 4·lane + i.
 class LeafPairs {
@@ -71,6 +89,8 @@ class LeafPairs {
   unsigned lanesB() const { return lanesB_; }
   /// The k-th and up to fifteen more.
   TriangleNumbers from(unsigned k) const { return {a_ + k, b_ + k}; }
+  /// The k-th pair's leaves: bit 4·i + j for lanes i and j.
+  unsigned leavesOf(unsigned k) const { return 1U << (a_[k] / 4 * 4 + b_[k] / 4); }
   /// The k-th pair's triangles in the trees' leaf order.
   TrianglePair triangles(unsigned k) const { return {triangle(na_, a_[k]), triangle(nb_, b_[k])}; }
 
@@ -94,10 +114,7 @@ class LeafPairs {
 class WideLeaves {
  public:
   WideLeaves(const WideObbTree& a, const WideObbTree& b, const WidePose& pose, Counters& counters)
-      : error_(pose.leafError),
-        counters_(counters),
-        leavesA_(a, Mat3::Identity() * pose.unitA, Vec3::Zero()),
-        leavesB_(b, pose.m * pose.unitA, pose.t) {}
+      : a_(a), b_(b), pose_(pose), counters_(counters) {}
 
   /// Finishes the pairs; calls `near(corners_a, corners_b, first, open)` for sixteen at a time,
   /// from `first`, of which some (`open`'s bits) aren't proved to be farther apart than `pad()`
@@ -105,13 +122,17 @@ class WideLeaves {
   template <class Pad, class Near>
   bool forEachNearSixteen(LeafPairs& pairs, Pad&& pad, Near&& near) {
     pairs.finish();
-    const TriangleCorners &a = leavesA_.get(pairs.a(), pairs.lanesA()),
-                          &b = leavesB_.get(pairs.b(), pairs.lanesB());
+    if (!leavesA_) {  // most queries that the boxes decide never come here
+      leavesA_.emplace(a_, Mat3::Identity() * pose_.unitA, Vec3::Zero());
+      leavesB_.emplace(b_, pose_.m * pose_.unitA, pose_.t);
+    }
+    const TriangleCorners &a = leavesA_->get(pairs.a(), pairs.lanesA()),
+                          &b = leavesB_->get(pairs.b(), pairs.lanesB());
     for (unsigned first = 0; first < pairs.count(); first += 16) {
       const unsigned count = std::min(pairs.count() - first, 16U);
       counters_.triangleTests += count;
       const unsigned open =
-          touchingTriangles(a, b, pairs.from(first), error_, pad()) & ((1U << count) - 1);
+          touchingTriangles(a, b, pairs.from(first), pose_.leafError, pad()) & ((1U << count) - 1);
       if (open && near(a, b, first, open)) return true;
     }
     return false;
@@ -136,9 +157,10 @@ class WideLeaves {
   }
 
  private:
-  float error_;
+  const WideObbTree &a_, &b_;
+  const WidePose& pose_;
   Counters& counters_;
-  LeafCache leavesA_, leavesB_;
+  std::optional<LeafCache> leavesA_, leavesB_;
 };
 
 }  // namespace corridor::HWY_NAMESPACE

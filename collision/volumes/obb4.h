@@ -40,4 +40,27 @@ struct Obb4Pose {
   float ball;        ///< of a's unit
 };
 
+/// How four boxes b move in a window of time, told at its middle (`MotionWindow` says of what): a
+/// point x of the j-th goes to x + s·(linear_j + angular × (x − c_j)) + remainder, |s| ≤ 1, where
+/// along any vector n |n·remainder| ≤ bend_j·|n × angular| + curvature_j·|n|, and never farther
+/// than cap_j; pad_j is what it may be off besides. In a's unit and frame; all that bounds is
+/// rounded up, and at least (1 + 2^-16) times what it is in A, for the defects of axes.
+///
+/// Derivation of the test with it. In coordinates of a's box (above) a point T + R y of box b goes
+/// by s·(V + W × R y) and a remainder, V = Aᵀlinear, W = Aᵀangular but for 3η|W||y| of A's defect.
+/// Along a unit vector n that is at most |n·V| + Σ_k b_k |R_k·(n × W)|, and
+///   n = e_i:        R_k·(e_i × W) = R_(i+2)k W_(i+1) − R_(i+1)k W_(i+2), as written;
+///   n = R_j:        R_k·(R_j × W) = ±W·R_l, l the third of j, k, l, but for 3η_R|W|;
+///   n = e_i × R_j:  R_k·(n × W) = W_i (R_j·R_k) − R_ik (W·R_j), where R_j·R_k = δ_jk but for η_R.
+/// V's and W's coordinates round as T's do: each is off by less than 6u of its vector, R by ε_R. So
+/// all these are off by less than (3η_R + 3η + 2·√3·ε_R + 20u)·|W|(Σb + bend) + 40u·(|V| +
+/// curvature + pad), that is 209u + 10η_M times |W|(Σb + bend), of which `relative`, 180u + 10η_M,
+/// has twice.
+/// What V is off by in double, where it is small beside its terms, is in `curvature`.
+struct Obb4Travel {
+  float linear[3][4];  ///< of the centres, to first order
+  float angular[3];    ///< radians; half the window's rotation
+  float bend[4], curvature[4], cap[4], pad[4];
+};
+
 }  // namespace corridor

@@ -21,10 +21,10 @@ void require(double x, const char* what) {
     throw std::invalid_argument(std::string(what) + " is to be finite and not negative");
 }
 
-/// Calls `query` with both bodies' trees: the wide ones of two meshes.
+/// Calls `query` with both bodies' trees: the wide ones, but where distances of solids are asked.
 template <class Query>
 auto onTrees(const Body& a, const Body& b, Query&& query) {
-  return a.part() || b.part() ? query(a.tree(), b.tree()) : query(a.wideTree(), b.wideTree());
+  return a.part() || b.part() ? query(a.binaryTree(), b.binaryTree()) : query(a.tree(), b.tree());
 }
 
 /// Is a component of `inner` inside `solid`, surfaces that don't touch? The triangle around, and
@@ -33,9 +33,9 @@ auto onTrees(const Body& a, const Body& b, Query&& query) {
 std::optional<TrianglePair> inside(const Body& solid, const Transform& X_WS, const Body& inner,
                                    const Transform& X_WI, QueryContext& context) {
   if (!solid.solid() || solid.part()) return std::nullopt;
-  const MeshBody around{solid.tree(), solid.components()};
+  const MeshBody around{solid.binaryTree(), solid.components()};
   if (inner.part()) return enclosed(around, X_WS, *inner.part(), X_WI, context);
-  return enclosed(around, X_WS, {inner.tree(), inner.components()}, X_WI, context);
+  return enclosed(around, X_WS, {inner.binaryTree(), inner.components()}, X_WI, context);
 }
 
 /// A point of what `inside` found.
@@ -55,10 +55,7 @@ std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA
 std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
                                          const Transform& X_WB, QueryContext& context) {
   require(X_WA, X_WB);
-  const auto hit = onTrees(a, b, [&](const auto& ta, const auto& tb) {
-    return interference(ta, X_WA, tb, X_WB, context);
-  });
-  if (hit) return hit;
+  if (const auto hit = interference(a.tree(), X_WA, b.tree(), X_WB, context)) return hit;
   return insideEachOther(a, X_WA, b, X_WB, context);
 }
 

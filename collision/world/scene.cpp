@@ -11,32 +11,16 @@
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
+#include "collision/motion/may_meet.h"
 #include "collision/world/body_queries.h"
 
 namespace corridor {
 namespace {
 
-/// Can body b's sphere, over the whole window and with all pads, meet body a's axis-aligned box? No
-/// tree is needed for this, so that bodies which nothing comes near never get one.
-bool mayMeet(const Body& a, const Body& b, const MotionWindow& window, double margin) {
-  const Vec3 y = window.X_AB.m * b.sphereCenter();
-  const Vec3 c = y + window.X_AB.t;
-  const Vec3 outside = (a.lower() - c).cwiseMax(c - a.upper()).cwiseMax(Vec3::Zero());
-  const PointTravel travel = travelOf(window, c, b.sphereRadius());
-  // c is off by less than 8u of its terms a coordinate, the differences by u of both of theirs:
-  // √3·(8 + 2)·u. stableNorm: an overflow of `outside` would separate.
-  const double size = y.stableNorm() + b.sphereRadius() + window.X_AB.t.cwiseAbs().sum() +
-                      a.lower().cwiseAbs().sum() + a.upper().cwiseAbs().sum();
-  return !(roundedDown(outside.stableNorm()) >
-           roundedUp(b.sphereRadius() + travel.cap + travel.pad + margin + 32 * kUnit * size));
-}
-
-/// The same for two bodies at rest under any two maps.
-bool mayMeet(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB) {
-  // No matrix of doubles is a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|. Far from
-  // rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
+/// Two frames at rest under any two maps, as a window for `sweptBall`.
+MotionWindow atRest(const Transform& X_WA, const Transform& X_WB) {
+  // No matrix of doubles is a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|.
   const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
-  if (!(defectA < 0x1p-10 && defectB < 0x1p-10)) return true;
   MotionWindow still;
   still.X_AB = rigidInverse(X_WA) * X_WB;
   // What X_AB is off from M_A⁻¹(X_WB x − t_A): M_A⁻¹ = M_Aᵀ + (1 − M_AᵀM_A)M_A⁻¹, the latter below
@@ -49,7 +33,13 @@ bool mayMeet(const Body& a, const Transform& X_WA, const Body& b, const Transfor
     still.reachError = 3 * defectB;
     still.fixedError = 0;
   }
-  return mayMeet(a, b, still, 0);
+  // Far from rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
+  if (!(defectA < 0x1p-10 && defectB < 0x1p-10)) still.fixedError = HUGE_VAL;
+  return still;
+}
+
+bool isSolidMesh(const Body& body) {
+  return body.solid() && !body.part();
 }
 
 /// The one door for numbers of motion queries: a negative margin, say, would prove too much.
@@ -70,7 +60,8 @@ void require(const MotionOptions& options) {
 Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     : bodies_(std::move(bodies)), pairs_(std::move(pairs)) {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> motions;
-  motionOf_.reserve(pairs_.size());
+  std::vector<std::size_t> motionOf;
+  motionOf.reserve(pairs_.size());
   for (Pair& pair : pairs_) {
     if (pair.a >= bodies_.size() || pair.b >= bodies_.size())
       throw std::invalid_argument("a pair of bodies that the scene doesn't have");
@@ -78,12 +69,16 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     const FramePair frames{bodies_[pair.a].frame, bodies_[pair.b].frame};
     const auto [found, added] = motions.try_emplace({frames.a, frames.b}, framePairs_.size());
     if (added) framePairs_.push_back(frames);
-    motionOf_.push_back(found->second);
+    motionOf.push_back(found->second);
   }
   order_.resize(pairs_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](std::size_t i, std::size_t k) { return motionOf_[i] < motionOf_[k]; });
+  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t i, std::size_t k) {
+    return std::pair(motionOf[i], pairs_[i].b) < std::pair(motionOf[k], pairs_[k].b);
+  });
+  for (const std::size_t i : order_)
+    motionPairs_.push_back({&bodies_[pairs_[i].a].body, &bodies_[pairs_[i].b].body, motionOf[i],
+                            pairs_[i].a, pairs_[i].b});
 }
 
 double Scene::defaultTolerance() const {
@@ -111,40 +106,35 @@ std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
     for (const std::size_t frame : {pair.a, pair.b})
       if (frame >= X_WF.size() || !X_WF[frame].isFinite())
         throw std::invalid_argument("every frame is to have a finite pose");
-  for (const Pair& pair : pairs_) {
-    const Placed &a = bodies_[pair.a], &b = bodies_[pair.b];
-    const Transform &X_WA = X_WF[a.frame], &X_WB = X_WF[b.frame];
-    if (!mayMeet(a.body, X_WA, b.body, X_WB)) continue;
-    if (const auto hit = corridor::interference(a.body, X_WA, b.body, X_WB, context))
-      return Contact{pair.a, pair.b, hit->a, hit->b};
+  MotionWindow still;
+  SweptBall ball;
+  const MotionPair* last = nullptr;
+  for (const MotionPair& pair : motionPairs_) {
+    const FramePair& frames = framePairs_[pair.motion];
+    const Transform &X_WA = X_WF[frames.a], &X_WB = X_WF[frames.b];
+    const bool same = last && last->motion == pair.motion;
+    if (!same) still = atRest(X_WA, X_WB);
+    if (!same || last->b != pair.b) ball = sweptBall(*pair.b, still);
+    last = &pair;
+    if (!mayMeet(*pair.a, ball, 0)) continue;
+    if (const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context))
+      return Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
   }
   return std::nullopt;
 }
 
-MotionResult Scene::certifyPairs(std::span<const std::size_t> pairs, MotionSource& motion,
+MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
                                  const MotionOptions& options, QueryContext& context) const {
-  std::vector<MotionPair> near;
-  MotionWindow window;
-  std::size_t asked = framePairs_.size();
-  if (!motion.ambiguous())
-    for (const std::size_t i : pairs) {
-      const Pair& pair = pairs_[i];
-      if (motionOf_[i] != asked) {
-        asked = motionOf_[i];
-        window = motion.window(asked, 0.5, 0.5);
-      }
-      const Body &a = bodies_[pair.a].body, &b = bodies_[pair.b].body;
-      if (mayMeet(a, b, window, options.margin + options.reserve))
-        near.push_back({&a.tree(), &b.tree(), asked, pair.a, pair.b});
-    }
-  MotionResult result = certifyMotion(motion, near, options, context);
+  MotionResult result = certifyMotion(motion, pairs, options, context);
   if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
   // Surfaces that stay apart at t = 0 by more than all rounding: the rounded pose decides for the
   // real one, and for all of what is certified.
-  for (const MotionPair& pair : near) {
-    const Body &a = bodies_[pair.bodyA].body, &b = bodies_[pair.bodyB].body;
-    if (!a.solid() && !b.solid()) continue;
-    const auto hit = insideEachOther(a, {}, b, motion.window(pair.motion, 0, 0).X_AB, context);
+  for (const MotionPair& pair : pairs) {
+    // A convex part has looked at what is inside it when it looked for contacts.
+    if (!isSolidMesh(*pair.a) && !isSolidMesh(*pair.b)) continue;
+    const MotionWindow start = motion.window(pair.motion, 0, 0);
+    if (!mayMeet(*pair.a, sweptBall(*pair.b, start), 0)) continue;
+    const auto hit = insideEachOther(*pair.a, {}, *pair.b, start.X_AB, context);
     if (!hit) continue;
     context.counters.undecided -= result.verdict == MotionVerdict::undecided;
     result = {};
@@ -159,16 +149,16 @@ MotionResult Scene::certifyPairs(std::span<const std::size_t> pairs, MotionSourc
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context) const {
   require(options);
-  return certifyPairs(order_, motion, options, context);
+  return certifyPairs(motionPairs_, motion, options, context);
 }
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                                  QueryContext& context) const {
   require(options);
   std::vector<MotionResult> results;
-  results.reserve(pairs_.size());
+  results.resize(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    results.push_back(certifyPairs({&i, 1}, motion, options, context));
+    results[order_[i]] = certifyPairs({&motionPairs_[i], 1}, motion, options, context);
   return results;
 }
 

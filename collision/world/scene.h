@@ -8,50 +8,10 @@
 #include <vector>
 
 #include "collision/core/query_context.h"
-#include "collision/geometry/convex_part.h"
-#include "collision/geometry/mesh_components.h"
-#include "collision/geometry/triangle_mesh.h"
-#include "collision/hierarchy/obb_tree.h"
-#include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/hierarchy/body.h"
 #include "collision/motion/certify_motion.h"
 
 namespace corridor {
-
-/// A named shape, a mesh or a convex primitive, whose trees are built when a query first needs them
-/// (thread-safe). Immutable otherwise. In the coordinates of the frame that it is fixed to.
-class Body {
- public:
-  /// A mesh: its surface, or with `solid` all that it encloses, too.
-  /// @throws std::invalid_argument if the mesh has no triangle, or `checkMesh` complains, or it is
-  /// to be solid and has a component that isn't watertight.
-  Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
-  /// A solid primitive.
-  Body(std::string name, ConvexPart part);
-  ~Body();
-  Body(Body&&) noexcept;
-  Body& operator=(Body&&) noexcept;
-
-  const std::string& name() const;
-  const TriangleMesh& mesh() const;  ///< empty for a primitive
-  const ConvexPart* part() const;    ///< null for a mesh
-  bool solid() const;                ///< true for primitives
-  const ObbTree& tree() const;       ///< builds it if nobody has
-  /// Of a mesh, for queries at rest, which are several times faster on it; builds it if nobody has.
-  const WideObbTree& wideTree() const;
-  const MeshComponents& components() const;  ///< of a mesh; found if nobody has
-  bool treeBuilt() const;                    ///< any of them
-  /// Radius about the origin of the frame of all points, rounded up.
-  double radius() const;
-  /// A sphere around all points: centre, and radius rounded up.
-  const Vec3& sphereCenter() const;
-  double sphereRadius() const;
-  const Vec3& lower() const;  ///< axis-aligned bounds
-  const Vec3& upper() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
 
 /// Bodies on frames that move, and which of them are tested against which. Frame 0 is the world. It
 /// knows nothing of why frames move: a `MotionSource` says how each pair of frames does, or a list
@@ -99,13 +59,13 @@ class Scene {
                                             QueryContext& context) const;
 
  private:
-  MotionResult certifyPairs(std::span<const std::size_t> pairs, MotionSource& motion,
+  MotionResult certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
                             const MotionOptions& options, QueryContext& context) const;
 
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;
-  std::vector<std::size_t> motionOf_;  // of each pair
-  std::vector<std::size_t> order_;     // of the pairs: those of one motion together
+  std::vector<std::size_t> order_;       // of the pairs: those of one motion together,
+  std::vector<MotionPair> motionPairs_;  // and in that order
   std::vector<FramePair> framePairs_;
 };
 

@@ -8,6 +8,7 @@
 #include <xmmintrin.h>
 #endif
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "tests/collision/queries/every_target.h"
@@ -49,6 +50,35 @@ TEST(WideObbTree, ContainsWhatIsFlushed) {
   }
 }
 #endif
+
+TEST(WideObbTree, HoldsASolidInRationals) {
+  std::mt19937_64 random(test::testSeed(24));
+  const auto real = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const auto vector = [&] { return Vec3(real(-1, 1), real(-1, 1), real(-1, 1)); };
+  for (int n = 0; n < 30; ++n) {
+    const double size = std::exp2(n % 7 == 0 ? real(-300, 300) : real(-20, 20));
+    const double a = size * std::exp2(real(-20, 0)), b = size * std::exp2(real(-20, 0));
+    Convex hull;
+    for (int i = 0; i < 1 + n % 9; ++i) hull.points.push_back(size * vector());
+    const Primitive primitives[] = {Box{Vec3(a, b, size)}, Sphere{a}, Capsule{a, b}, Cylinder{a, b},
+                                    hull};
+    const Transform X{Eigen::AngleAxisd(real(0, 3), vector().normalized()).toRotationMatrix(),
+                      10 * size * vector()};
+    for (const Primitive& primitive : primitives) {
+      const WideObbTree tree(placed(primitive, n % 3 ? X : Transform()));
+      ASSERT_EQ(tree.check(), std::nullopt) << nameOf(primitive) << ' ' << n;
+      ASSERT_NE(tree.part(), nullptr);
+      for (const Vec3& p : tree.part()->points) {
+        // A disc's rim is farther than its axis, but not by all of its radius.
+        const double ball = tree.part()->flatEnds ? 0 : tree.part()->radius;
+        ASSERT_LE((p - tree.origin()).norm() + ball, tree.radius() * (1 + 1e-15));
+        ASSERT_LE(p.norm() + ball, tree.reach() * (1 + 1e-15));
+      }
+    }
+  }
+}
 
 TEST(WideObbTree, SharedMeshes) {
   const auto data = test::dataFolder();

@@ -1,12 +1,18 @@
 #pragma once
 
+#include <utility>
+
 #include "collision/motion/rigid_motion.h"
 #include "tests/support/meshes.h"
 
 /// Bodies and motions that the tests of certified motions share.
 namespace corridor::test {
 
-inline MotionResult certify(const ObbTree& moving, const ObbTree& fixed, const RigidMotion& motion,
+inline Body bodyOf(TriangleMesh mesh) {
+  return Body("", std::move(mesh));
+}
+
+inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMotion& motion,
                             const MotionOptions& options, QueryContext& context) {
   const MotionPair pair{&fixed, &moving};
   RigidEdge edge(motion);

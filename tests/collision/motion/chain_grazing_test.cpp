@@ -91,7 +91,7 @@ TEST(CertifyMotion, ChainsThatGrazeByConstruction) {
     MotionOptions options;
     options.tolerance = 1e-7;
     options.earliest = n % 2;
-    const ObbTree a(g.a), b(g.b);
+    const Body a("", g.a), b("", g.b);
     ChainMotion motion(g.joints);
     const MotionPair pair{&a, &b};
     const MotionResult r = certifyMotion(motion, {&pair, 1}, options, context);
@@ -136,8 +136,8 @@ TEST(CertifyMotion, RandomChainsAgainstSamples) {
       joints.push_back({real() > 0.5, vector(), 2 * vector(), from, from + length * real()});
     }
     ChainMotion motion(joints);
-    const ObbTree treeA(a), treeB(b);
-    const MotionPair pair{&treeA, &treeB};
+    const Body bodyA("", a), bodyB("", b);
+    const MotionPair pair{&bodyA, &bodyB};
     MotionOptions options;
     options.tolerance = 1e-7;
     QueryContext context;
@@ -145,7 +145,8 @@ TEST(CertifyMotion, RandomChainsAgainstSamples) {
     ++verdicts[static_cast<int>(r.verdict)];
     const auto touches = [&](double t) {
       const auto X = motion.pose(t);
-      return interference(treeA, {}, treeB, {X.R.cast<double>(), X.t.cast<double>()}, context);
+      return interference(bodyA.binaryTree(), {}, bodyB.binaryTree(),
+                          {X.R.cast<double>(), X.t.cast<double>()}, context);
     };
     if (r.verdict == MotionVerdict::contact) {
       ASSERT_TRUE(touches(r.contactTime)) << n;

@@ -114,7 +114,7 @@ TEST(CertifyMotion, GrazingByConstruction) {
     MotionOptions options;
     options.tolerance = 1e-7 * size;
     options.earliest = n % 2;
-    const MotionResult r = certify(ObbTree(g.moving), ObbTree(g.fixed),
+    const MotionResult r = certify(test::bodyOf(g.moving), test::bodyOf(g.fixed),
                                    RigidMotion::spatial(g.from, g.to, {}), options, context);
     if (gap < 0) {
       falseFree += r.verdict == MotionVerdict::free;

@@ -1,3 +1,5 @@
+#include "collision/hierarchy/body.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -11,7 +13,6 @@
 
 #include "collision/core/rounding.h"
 #include "collision/geometry/mesh_health.h"
-#include "collision/world/scene.h"
 
 namespace corridor {
 
@@ -24,10 +25,10 @@ struct Body::Impl {
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
        center = Vec3::Zero();
   double radius = 0, sphereRadius = 0;
-  mutable std::once_flag once, wideOnce, componentsOnce;
+  mutable std::once_flag once, binaryOnce, componentsOnce;
   mutable std::atomic<bool> built = false;
-  mutable std::optional<ObbTree> tree;
-  mutable std::optional<WideObbTree> wideTree;
+  mutable std::optional<WideObbTree> tree;
+  mutable std::optional<ObbTree> binaryTree;
   mutable MeshComponents components;
 
   /// Bounds of balls of radius `grow` about the points that `each` goes through, whose boxes are
@@ -131,24 +132,28 @@ const MeshComponents& Body::components() const {
   return impl_->components;
 }
 
-const ObbTree& Body::tree() const {
+const WideObbTree& Body::tree() const {
   std::call_once(impl_->once, [this] {
     if (impl_->part) {
       impl_->tree.emplace(*impl_->part);
     } else {
-      impl_->tree.emplace(impl_->mesh, impl_->params);
+      impl_->tree.emplace(impl_->mesh, impl_->params.fit);
     }
     impl_->built = true;
   });
   return *impl_->tree;
 }
 
-const WideObbTree& Body::wideTree() const {
-  std::call_once(impl_->wideOnce, [this] {
-    impl_->wideTree.emplace(impl_->mesh, impl_->params.fit);
+const ObbTree& Body::binaryTree() const {
+  std::call_once(impl_->binaryOnce, [this] {
+    if (impl_->part) {
+      impl_->binaryTree.emplace(*impl_->part);
+    } else {
+      impl_->binaryTree.emplace(impl_->mesh, impl_->params);
+    }
     impl_->built = true;
   });
-  return *impl_->wideTree;
+  return *impl_->binaryTree;
 }
 
 }  // namespace corridor

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision/core/query_context.h"
+#include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/motion/motion_window.h"
+
+namespace corridor {
+
+/// What one window of time makes of pairs of nodes of two trees.
+struct Descent {
+  enum class Kind {
+    done,       ///< what is not among the leftovers is apart all along the window
+    contact,    ///< `s` and `t` touch at the rounded pose of the window's middle
+    undecided,  ///< of `s` and `t` nothing is known, and no shorter window would tell
+    workLimit,  ///< out of work
+  };
+  Kind kind = Kind::done;
+  std::uint32_t s = 0, t = 0;  ///< by their numbers in their meshes
+  double gap = 0;              ///< `undecided`: metres beyond the margin at the middle
+  bool wide = false;           ///< `undecided`, and b goes farther in the window than the tolerance
+};
+
+struct DescentOptions {
+  double margin = 0, tolerance = 0;  ///< metres
+  bool shortest = false;             ///< the window is not to be halved
+  std::uint64_t workEnd = 0;         ///< box and triangle tests of the counters, to stop at
+  unsigned mostLeft = 0;             ///< pairs that may be left to halves before all the rest is
+};
+
+/// Walks the trees below pairs of nodes, b moving as the window says; what the window can't tell
+/// apart goes to `later`, after what that holds.
+///
+/// Boxes are told apart with what they travel in the whole window (overlap_obb4_moving-inl.h), leaf
+/// pairs along the direction of their closest points (`decideMovingTriangles`,
+/// `decideMovingParts`). Time before space: a pair of boxes that travel farther than they are large
+/// is left to shorter windows.
+///
+/// @param count how many items of `context.wideStack` to start from. For `contact` all that was not
+/// looked at, and the pair that touches, are in `later`, too; for `undecided` and `workLimit`
+/// nothing is to be made of it.
+Descent descend(const WideObbTree& a, const WideObbTree& b, const MotionWindow& window,
+                const DescentOptions& options, std::size_t count,
+                std::vector<QueryContext::WideItem>& later, QueryContext& context);
+
+}  // namespace corridor

@@ -1,0 +1,90 @@
+// Pairs of triangles of which one moves, for every SIMD target: included once per target by
+// foreach_target.h.
+
+// clang-format off
+#if defined(CORRIDOR_MOVING_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
+#ifdef CORRIDOR_MOVING_TRIANGLES_INL_H_
+#undef CORRIDOR_MOVING_TRIANGLES_INL_H_
+#else
+#define CORRIDOR_MOVING_TRIANGLES_INL_H_
+#endif
+// clang-format on
+
+#include <cmath>
+
+#include "hwy/highway.h"
+
+#include "collision/motion/wide_travel-inl.h"
+#include "collision/queries/triangle_distances-inl.h"
+#include "collision/volumes/overlap_obb4_obb4-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+/// Of sixteen pairs, a bit each.
+struct MovingPairs {
+  unsigned apart = 0;  ///< proved farther apart than `pad`, all along the window
+  unsigned later = 0;  ///< apart at the middle by more than `pad`, but clearly not all along: not
+                       ///< for lack of digits
+};
+
+/// Along the line n through the closest points at the middle (any direction is legal): b's corner k
+/// is at n·t_k, and goes by s·h_k, h_k = n·linear + (n × angular)·p_k, p_k from the point that it
+/// is relative to, and a remainder; or by `cap` at most.
+///
+/// Rounding, u = 2^-24: `triangleDistances` has that of n·t_k, in `off`. p_k = t_k − away is off by
+/// 4u·D a coordinate, and below 2D; n × angular by 2u|n||ω|; so h_k by less than u|n|(6|linear|₁ +
+/// 32|ω|₁D), the rounding of `linear` and `angular` themselves (u of each) included.
+HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleCorners& b,
+                                       const TriangleNumbers& numbers, float error,
+                                       const LeafTravel& travel) {
+  const LaneTag d;
+  using V = LaneFloat;
+  const auto set = [&](float x) { return hn::Set(d, x); };
+  const V zero = hn::Zero(d);
+  const LaneVec linear{set(travel.linear[0]), set(travel.linear[1]), set(travel.linear[2])},
+      angular{set(travel.angular[0]), set(travel.angular[1]), set(travel.angular[2])};
+  const V pad = set(travel.pad);
+  // What corners are off at the middle, and for that along the way.
+  const V reach = hn::Mul(hn::Add(set(1 + 0x1p-20F), sum(angular)), set(error));
+  MovingPairs found;
+  for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
+    const TrianglePairs pairs(a, b, numbers, at);
+    const auto [n, square] = closestLanes(pairs);
+    const V length = hn::Sqrt(square);
+    const V highest = max3(zero, dot(n, pairs.s1), dot(n, pairs.s2));
+    const V along = dot(n, linear);
+    const LaneVec spin = cross(n, angular);
+    V still[3], moving[3];
+    for (int k = 0; k < 3; ++k) {
+      still[k] = dot(n, pairs.t[k]);
+      moving[k] =
+          hn::Sub(still[k], hn::Abs(hn::Add(along, dot(spin, sub(pairs.t[k], pairs.away)))));
+    }
+    // Gaps in terms of a unit vector: the quotient and the root round by less than 4u.
+    const V per = hn::Div(set(1), length);
+    const auto gapOf = [&](const V(&x)[3]) {
+      return hn::Mul(hn::Sub(min3(x[0], x[1], x[2]), highest), per);
+    };
+    const V middle = gapOf(still);
+    const V D = pairs.size;
+    const V off = hn::MulAdd(set(48 * 0x1p-24F), D, reach);
+    const V more = hn::Mul(set(32 * 0x1p-24F),
+                           hn::MulAdd(sum(angular), D, hn::Add(sum(linear), hn::Abs(middle))));
+    const V lost = hn::Add(off, more);
+    const V isotropic = hn::Sub(middle, set(travel.cap)),
+            directional = hn::Sub(gapOf(moving), set(travel.remainder));
+    const V gap = hn::Sub(hn::Max(isotropic, directional), pad);
+    const auto known = hn::And(hn::Lt(D, set(0x1p50F)), hn::Gt(length, set(0x1p-50F)));
+    const auto apart = hn::And(known, hn::Gt(gap, lost));
+    const auto later = hn::And(hn::Gt(hn::Sub(middle, pad), lost), hn::Lt(gap, hn::Neg(lost)));
+    found.apart |= bitsOf(d, apart, at);
+    found.later |= bitsOf(d, hn::And(known, later), at);
+  }
+  return found;
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
