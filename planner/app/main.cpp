@@ -153,7 +153,7 @@ void addInspect(CLI::App& program, InspectArguments& a, int& status) {
 
 void addQuery(CLI::App& program, QueryArguments& a, int& status) {
   CLI::App* command = program.add_subcommand(
-      "query", "Ask two meshes at many poses: CSV on stdout, times on stderr");
+      "query", "Ask two meshes at many poses, or of many motions: CSV on stdout, times on stderr");
   command->add_option("A", a.meshA, "a mesh file, in metres; it stays where it is")->required();
   command->add_option("B", a.meshB, "a mesh file, in metres; it is posed")->required();
   const char* poses = "Poses of B";
@@ -183,6 +183,12 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
       ->group(poses);
   command->add_option("--save-poses", a.savePoses, "a file for the grid's poses, as --poses reads")
       ->group(poses);
+  command
+      ->add_option("--motions", a.motions,
+                   "instead of poses: a file of B's motions, one a line: the pose where it begins, "
+                   "12 numbers, and where it ends; from one to the other B goes straight and turns "
+                   "the shorter way (slerp). Asked is the first contact")
+      ->group("Motions of B");
   const char* asked = "What is asked";
   const auto named = [](const auto& kinds) {
     std::vector<std::string> names;
@@ -207,8 +213,11 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
                    "how two volumes are tested; " + variants(&VolumeKind::overlaps))
       ->group(asked);
   command
-      ->add_option("--tolerance", a.tolerance,
-                   "metres, of --query tolerance: are A and B at most that far apart?")
+      ->add_option(
+          "--tolerance", a.tolerance,
+          "metres, of --query tolerance: are A and B at most that far apart? Of --motions: "
+          "the clearance below which it may be undecided (default: 1e-7 of the smaller "
+          "one's radius)")
       ->check(from(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
       ->group(asked);
   command
@@ -220,9 +229,12 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
       std::string(
           "Example: corridor query a.obj b.obj --poses poses.txt --repeat 5 > hits.csv\n"
           "         corridor query a.obj b.obj --grid 20x20x20 --rotations 10 --query contacts\n"
+          "         corridor query a.obj b.obj --motions motions.txt > first_contacts.csv\n"
           "CSV: pose,hit,bv_tests,triangle_tests; of contacts, one line each with its segment: "
           "pose,a,b,px,py,pz,qx,qy,qz; of distance pose,distance,ax,ay,az,bx,by,bz with a point of "
-          "either; of tolerance pose,closer. Poses and triangles count from 0.\n"
+          "either; of tolerance pose,closer; of motions motion,verdict,t0,t1,gap,triangle_a,"
+          "triangle_b,bv_tests,triangle_tests,splits: free, contact (no contact before t0, one at "
+          "t1) or undecided (gap metres at t1). All count from 0.\n"
           "Touching is contact; meshes are surfaces. Times are of one query on one core, reading "
           "and printing aside; what is quicker than 5 µs is repeated until the clock can tell "
           "it.\n") +

@@ -1,9 +1,12 @@
 #include "planner/app/query_batch.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
+#include "collision/motion/rigid_motion.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/distance_wide.h"
 #include "collision/queries/interference.h"
@@ -24,14 +27,15 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-/// All poses of a batch in memory, asked one after the other, `repeat` times over: passes over all
+/// All poses of a batch in memory, asked one after the other, `passes` times over: passes over all
 /// poses rather than repeats of each, so that a query finds the caches that other poses left.
 /// `ask(pose number, context)` of these two trees is all that is timed. What is told of a pose is
 /// its own: nothing is remembered of the answers to others.
 template <class Tree, class Ask>
-std::vector<Answer> timed(const Batch& batch, const Tree& a, const Tree& b, const Ask& ask) {
-  std::vector<Answer> answers(batch.poses.size());
-  const auto repeat = static_cast<std::size_t>(batch.repeat);
+std::vector<Answer> timed(std::size_t count, int passes, const Tree& a, const Tree& b,
+                          const Ask& ask) {
+  std::vector<Answer> answers(count);
+  const auto repeat = static_cast<std::size_t>(passes);
   std::vector<double> ns(answers.size() * repeat);
   QueryContext context;
   LastPair& last = context.lastPairs.of(&a, &b);
@@ -52,7 +56,7 @@ std::vector<Answer> timed(const Batch& batch, const Tree& a, const Tree& b, cons
     }
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const auto begin = ns.begin() + static_cast<std::ptrdiff_t>(i * repeat);
-    answers[i].ns = median(std::vector<double>(begin, begin + batch.repeat));
+    answers[i].ns = median(std::vector<double>(begin, begin + passes));
   }
   return answers;
 }
@@ -89,28 +93,32 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   const Transform X_WA;
   switch (batch.asked) {
     case Asked::interference:
-      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
-        return touching<Overlap>(a, b, batch.poses[i], context);
-      });
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
+            return touching<Overlap>(a, b, batch.poses[i], context);
+          });
       break;
     case Asked::distance:
       result.distances.resize(batch.poses.size());
-      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
-        result.distances[i] = distance(a, X_WA, b, batch.poses[i], {}, context);
-        return result.distances[i].distance == 0;
-      });
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
+            result.distances[i] = distance(a, X_WA, b, batch.poses[i], {}, context);
+            return result.distances[i].distance == 0;
+          });
       break;
     case Asked::tolerance:
-      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
-        return closerThan(a, X_WA, b, batch.poses[i], batch.tolerance, context);
-      });
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
+            return closerThan(a, X_WA, b, batch.poses[i], batch.tolerance, context);
+          });
       break;
     case Asked::contacts: {
       std::vector<std::vector<TriangleContact>> found(batch.poses.size());
-      result.answers = timed(batch, a, b, [&](std::size_t i, QueryContext& context) {
-        found[i] = allContacts<Overlap>(a, b, batch.poses[i], context);
-        return !found[i].empty();
-      });
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
+            found[i] = allContacts<Overlap>(a, b, batch.poses[i], context);
+            return !found[i].empty();
+          });
       for (std::size_t i = 0; i < found.size(); ++i)
         for (const TriangleContact& c : found[i])
           result.contacts.push_back({i, c.a, c.b, c.p_W, c.q_W});
@@ -139,6 +147,39 @@ BatchResult runWide(const Batch& batch) {
 }
 
 }  // namespace
+
+BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
+                       const std::vector<PoseMotion>& motions, const std::string& fit,
+                       std::optional<double> tolerance, int repeat) {
+  BatchResult result;
+  const TreeParams params{obbFitNamed(fit).value_or(ObbFit::triangles)};
+  const Body a("A", std::move(meshA), false, params), b("B", std::move(meshB), false, params);
+  auto start = std::chrono::steady_clock::now();
+  result.bytesA = a.tree().bytes();
+  result.buildMsA = millisecondsSince(start);
+  start = std::chrono::steady_clock::now();
+  result.bytesB = b.tree().bytes();
+  result.buildMsB = millisecondsSince(start);
+  MotionOptions options;
+  options.tolerance = tolerance.value_or(1e-7 * std::min(a.sphereRadius(), b.sphereRadius()));
+  if (!(options.tolerance > 0)) options.tolerance = 1e-300;  // a single point; any will do
+  options.earliest = true;
+  result.tolerance = options.tolerance;
+  std::vector<RigidEdge> edges;
+  for (const PoseMotion& motion : motions)
+    edges.emplace_back(RigidMotion::spatial(motion.from, motion.to, {}));
+  const MotionPair pair{&a, &b, 0, 0, 1};
+  result.motions.resize(motions.size());
+  result.answers =
+      timed(motions.size(), repeat, a.tree(), b.tree(), [&](std::size_t i, QueryContext& context) {
+        MotionAnswer& answer = result.motions[i];
+        const std::uint64_t splits = context.counters.splits;
+        answer.result = certifyMotion(edges[i], {&pair, 1}, options, context);
+        answer.splits = context.counters.splits - splits;
+        return answer.result.verdict == MotionVerdict::contact;
+      });
+  return result;
+}
 
 bool testsOverlap(Asked asked) {
   return asked == Asked::interference || asked == Asked::contacts;

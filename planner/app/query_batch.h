@@ -2,11 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "collision/geometry/triangle_mesh.h"
+#include "collision/motion/certify_motion.h"
 #include "collision/queries/distance.h"
+#include "planner/app/query_poses.h"
 
 /// What `corridor query` can ask, and of which trees: two tables, and the batch that is timed.
 namespace corridor::app {
@@ -46,10 +49,17 @@ struct ContactRow {
   std::uint32_t a, b;
   Vec3 p, q;
 };
+/// A motion's answer.
+struct MotionAnswer {
+  MotionResult result;
+  std::uint64_t splits = 0;  ///< windows of time that were halved
+};
 struct BatchResult {
-  std::vector<Answer> answers;       ///< by pose; a hit is a contact, or closer than the tolerance
-  std::vector<Distance> distances;   ///< by pose, of `Asked::distance`
-  std::vector<ContactRow> contacts;  ///< of `Asked::contacts`
+  std::vector<Answer> answers;        ///< by pose; a hit is a contact, or closer than the tolerance
+  std::vector<Distance> distances;    ///< by pose, of `Asked::distance`
+  std::vector<ContactRow> contacts;   ///< of `Asked::contacts`
+  std::vector<MotionAnswer> motions;  ///< by motion
+  double tolerance = 0;               ///< metres, of motions
   double buildMsA = 0, buildMsB = 0;
   std::size_t bytesA = 0, bytesB = 0;
 };
@@ -63,5 +73,10 @@ struct VolumeKind {
   BatchResult (*run)(const Batch& batch);
 };
 const std::vector<VolumeKind>& volumeKinds();
+
+/// The first contact of motions of b, a at rest, on the tree that motions are proved with.
+/// @param tolerance metres; unset: 1e-7 of the smaller one's radius.
+BatchResult runMotions(TriangleMesh a, TriangleMesh b, const std::vector<PoseMotion>& motions,
+                       const std::string& fit, std::optional<double> tolerance, int repeat);
 
 }  // namespace corridor::app

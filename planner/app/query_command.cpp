@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
@@ -70,10 +71,22 @@ std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& mesh
 
 /// What CLI11 can't check of options in pairs. @throws InputError
 void checkOptions(const QueryArguments& a) {
+  if (a.motions) {
+    const auto ofPoses = [&](const char* option, bool given) {
+      if (given) throw InputError(Fault{option, 0, "is of poses; --motions has none"});
+    };
+    ofPoses("--poses", a.poses.has_value());
+    ofPoses("--grid", a.grid.has_value());
+    ofPoses("--query", a.query != "interference");
+    ofPoses("--volume", a.volume != "obb");
+    ofPoses("--overlap", a.overlap.has_value());
+    if (a.tolerance && !(*a.tolerance > 0))
+      throw InputError(Fault{"--tolerance", 0, "of --motions it is to be above 0"});
+  }
   if (a.poses && a.grid)
     throw InputError(Fault{"--grid", 0, "the poses are told by --poses; one of the two is needed"});
-  if (!a.poses && !a.grid)
-    throw InputError(Fault{"--poses", 0, "a file of poses is needed, or --grid"});
+  if (!a.poses && !a.grid && !a.motions)
+    throw InputError(Fault{"--poses", 0, "a file of poses is needed, or --grid, or --motions"});
   const auto ofGrid = [&](const char* option, bool given) {
     if (given && !a.grid) throw InputError(Fault{option, 0, "is of --grid, which is not given"});
   };
@@ -115,13 +128,13 @@ void printCsv(const QueryKind& kind, const BatchResult& result) {
   std::cout << text << std::flush;
 }
 
-void printSummary(const BatchResult& result, const std::vector<std::string>& variant) {
+/// `words`: what was asked and what is told of all answers; then come the times.
+void printSummary(const BatchResult& result, const std::vector<std::string>& words) {
   std::vector<double> ns;
-  double hits = 0, boxTests = 0, triangleTests = 0, sum = 0;
+  double boxTests = 0, triangleTests = 0, sum = 0;
   for (const Answer& answer : result.answers) {
     ns.push_back(answer.ns);
     sum += answer.ns;
-    hits += answer.hit;
     boxTests += static_cast<double>(answer.boxTests);
     triangleTests += static_cast<double>(answer.triangleTests);
   }
@@ -130,15 +143,13 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& var
   const std::size_t rank = (95 * ns.size() + 99) / 100 - 1;
   const double middle = median(ns);
   std::nth_element(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(rank), ns.end());
-  for (const std::string& word : variant) std::cerr << word << '\n';
+  for (const std::string& word : words) std::cerr << word << '\n';
   std::cerr << "simd=" << simdTarget() << '\n';
   const auto tell = [](const char* key, const char* format, double value) {
     char text[64];
     std::snprintf(text, sizeof text, format, value);
     std::cerr << key << '=' << text << '\n';
   };
-  tell("poses", "%.0f", count);
-  tell("hits", "%.0f", hits);
   tell("median_ns", "%.1f", middle);
   tell("mean_ns", "%.1f", sum / count);
   tell("p95_ns", "%.1f", ns[rank]);
@@ -150,10 +161,61 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& var
   tell("bytes_b", "%.0f", static_cast<double>(result.bytesB));
 }
 
+void printMotions(const BatchResult& result) {
+  std::string text =
+      "motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,splits\n";
+  char line[256];
+  for (std::size_t i = 0; i < result.motions.size(); ++i) {
+    const MotionAnswer& motion = result.motions[i];
+    const MotionResult& r = motion.result;
+    const char* verdict = r.verdict == MotionVerdict::free      ? "free"
+                          : r.verdict == MotionVerdict::contact ? "contact"
+                                                                : "undecided";
+    std::snprintf(line, sizeof line, "%zu,%s,%.17g,%.17g,%.17g,%d,%d,%llu,%llu,%llu\n", i, verdict,
+                  r.certifiedUntil, r.contactTime, r.gap,
+                  r.pair ? static_cast<int>(r.pair->triangleA) : -1,
+                  r.pair ? static_cast<int>(r.pair->triangleB) : -1,
+                  static_cast<unsigned long long>(result.answers[i].boxTests),
+                  static_cast<unsigned long long>(result.answers[i].triangleTests),
+                  static_cast<unsigned long long>(motion.splits));
+    text += line;
+  }
+  std::cout << text << std::flush;
+}
+
+void checkRepeats(const QueryArguments& a, std::size_t count, const char* what) {
+  if (a.repeat <= kMostQueries / count) return;
+  throw InputError(Fault{"--repeat", 0,
+                         grouped(a.repeat) + " passes over " + counted(count, what) +
+                             " are more than " + grouped(kMostQueries) + " queries"});
+}
+
+int queryMotions(const QueryArguments& a) {
+  const std::string fit = variantNamed("--fit", a.fit, volumeKinds().front(), &VolumeKind::fits);
+  MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
+  const std::vector<PoseMotion> motions = readMotions(*a.motions);
+  checkRepeats(a, motions.size(), "motion");
+  const BatchResult result = runMotions(std::move(meshA.mesh), std::move(meshB.mesh), motions, fit,
+                                        a.tolerance, static_cast<int>(a.repeat));
+  printMotions(result);
+  const auto number = [&](MotionVerdict verdict) {
+    return std::to_string(std::count_if(
+        result.motions.begin(), result.motions.end(),
+        [&](const MotionAnswer& motion) { return motion.result.verdict == verdict; }));
+  };
+  printSummary(
+      result,
+      {"fit=" + fit, "tolerance=" + rounded(result.tolerance),
+       "motions=" + std::to_string(motions.size()), "free=" + number(MotionVerdict::free),
+       "hits=" + number(MotionVerdict::contact), "undecided=" + number(MotionVerdict::undecided)});
+  return kDone;
+}
+
 }  // namespace
 
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
+  if (a.motions) return queryMotions(a);
   const QueryKind& query = kindNamed("--query", a.query, queryKinds());
   const VolumeKind& volume = kindNamed("--volume", a.volume, volumeKinds());
   const std::string fit = variantNamed("--fit", a.fit, volume, &VolumeKind::fits);
@@ -168,16 +230,16 @@ int queryCommand(const QueryArguments& a) {
                                query.name + " asks how far volumes are apart"});
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
-  if (a.repeat > kMostQueries / poses.size())
-    throw InputError(Fault{"--repeat", 0,
-                           grouped(a.repeat) + " passes over " + counted(poses.size(), "pose") +
-                               " are more than " + grouped(kMostQueries) + " queries"});
+  checkRepeats(a, poses.size(), "pose");
   if (a.savePoses) writePoses(*a.savePoses, poses);
   const BatchResult result = volume.run({meshA.mesh, meshB.mesh, poses, query.asked, fit, overlap,
                                          a.tolerance.value_or(0), static_cast<int>(a.repeat)});
   printCsv(query, result);
-  printSummary(
-      result, {"query=" + query.name, "volume=" + volume.name, "fit=" + fit, "overlap=" + overlap});
+  const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
+                                  [](const Answer& answer) { return answer.hit; });
+  printSummary(result,
+               {"query=" + query.name, "volume=" + volume.name, "fit=" + fit, "overlap=" + overlap,
+                "poses=" + std::to_string(poses.size()), "hits=" + std::to_string(hits)});
   return kDone;
 }
 

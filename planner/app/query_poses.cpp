@@ -41,13 +41,47 @@ std::string whyNoRotation(const Mat3& R) {
   return "";
 }
 
-/// One line's pose, or what is wrong with it; neither on a line without words.
-std::string parsePose(std::string_view line, std::optional<Transform>& pose) {
-  std::vector<double> values;
+/// Of a line.
+using Numbers = std::vector<double>;
+
+/// The `parse` functions say what is wrong, or "".
+std::string parsePose(const double* values, Transform& X) {
+  X.m = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values);
+  X.t = Eigen::Map<const Vec3>(values + 9);
+  return whyNoRotation(X.m);
+}
+
+std::string parsePose(const Numbers& values, Transform& X) {
+  if (values.size() != 12)
+    return "a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not " +
+           std::to_string(values.size());
+  return parsePose(values.data(), X);
+}
+
+std::string parseMotion(const Numbers& values, PoseMotion& motion) {
+  if (values.size() != 24)
+    return "a motion has 24 numbers (the pose where it begins, r00 r01 r02 r10 r11 r12 r20 r21 r22 "
+           "tx ty tz, and the one where it ends), not " +
+           std::to_string(values.size());
+  for (const bool last : {false, true}) {
+    Transform X;
+    if (const std::string complaint = parsePose(values.data() + (last ? 12 : 0), X);
+        !complaint.empty())
+      return (last ? "where it ends " : "where it begins ") + complaint;
+    RigidPose& pose = last ? motion.to : motion.from;
+    pose.p = X.t;
+    pose.q = Eigen::Quaterniond(X.m);
+    pose.q.normalize();
+  }
+  return "";
+}
+
+/// The numbers of a line, or what is wrong with it.
+std::string numbersOf(std::string_view line, Numbers& values) {
   while (true) {
     constexpr std::string_view kBlanks = " \t\r,";
     line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlanks)));
-    if (line.empty()) break;
+    if (line.empty()) return "";
     const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
     line.remove_prefix(word.size());
     double value = 0;
@@ -55,16 +89,43 @@ std::string parsePose(std::string_view line, std::optional<Transform>& pose) {
       return complaint;
     values.push_back(value);
   }
-  if (values.empty()) return "";
-  if (values.size() != 12)
-    return "a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not " +
-           std::to_string(values.size());
-  Transform X;
-  X.m = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
-  X.t = Eigen::Map<const Vec3>(values.data() + 9);
-  std::string complaint = whyNoRotation(X.m);
-  if (complaint.empty()) pose = X;
-  return complaint;
+}
+
+/// What `parse(numbers, made)` makes of the lines of a file; `what` they are.
+template <class Made, class Parse>
+std::vector<Made> readLines(const std::filesystem::path& file, const std::string& what,
+                            const Parse& parse) {
+  const std::string name = file.string();
+  FaultList faults(name);
+  std::vector<Made> all;
+  const std::string text = readTextStream(file, "a file of " + what + ", one a line,");
+  int number = 0, faulty = 0, lastFaulty = 0;
+  // Some editors put a mark in front that nobody sees.
+  for (std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line(text.data() + begin, end - begin);
+    begin = end + 1;
+    ++number;
+    line = line.substr(0, line.find('#'));
+    Numbers values;
+    std::string complaint = numbersOf(line, values);
+    if (complaint.empty() && values.empty()) continue;
+    Made made;
+    if (complaint.empty()) complaint = parse(values, made);
+    if (complaint.empty()) {
+      all.push_back(made);
+      continue;
+    }
+    if (++faulty <= kFaultsTold) faults.add(name, number, complaint);
+    lastFaulty = number;
+  }
+  if (faulty > kFaultsTold)
+    faults.add(name, lastFaulty,
+               "and so on: " + counted(static_cast<std::uint64_t>(faulty), "line") +
+                   " are at fault, this is the last");
+  if (all.empty() && faulty == 0) faults.add(name, 0, "no " + what);
+  faults.throwIfAny();
+  return all;
 }
 
 struct Bounds {
@@ -110,32 +171,12 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
 }  // namespace
 
 std::vector<Transform> readPoses(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  FaultList faults(name);
-  std::vector<Transform> poses;
-  const std::string text = readTextStream(file, "a file of poses, one a line,");
-  int number = 0, faulty = 0, lastFaulty = 0;
-  // Some editors put a mark in front that nobody sees.
-  for (std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line(text.data() + begin, end - begin);
-    begin = end + 1;
-    ++number;
-    line = line.substr(0, line.find('#'));
-    std::optional<Transform> pose;
-    if (const std::string complaint = parsePose(line, pose); !complaint.empty()) {
-      if (++faulty <= kFaultsTold) faults.add(name, number, complaint);
-      lastFaulty = number;
-    }
-    if (pose) poses.push_back(*pose);
-  }
-  if (faulty > kFaultsTold)
-    faults.add(name, lastFaulty,
-               "and so on: " + counted(static_cast<std::uint64_t>(faulty), "line") +
-                   " are at fault, this is the last");
-  if (poses.empty() && faulty == 0) faults.add(name, 0, "no poses");
-  faults.throwIfAny();
-  return poses;
+  return readLines<Transform>(
+      file, "poses", [](const Numbers& values, Transform& X) { return parsePose(values, X); });
+}
+
+std::vector<PoseMotion> readMotions(const std::filesystem::path& file) {
+  return readLines<PoseMotion>(file, "motions", parseMotion);
 }
 
 std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,

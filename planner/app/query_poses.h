@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/geometry/triangle_mesh.h"
+#include "collision/motion/rigid_motion.h"
 
 namespace corridor::app {
 
@@ -20,6 +21,14 @@ namespace corridor::app {
 /// rotation is a mistake: of ‖RᵀR − I‖_max at most `kRotationDefect` is let pass, and no mirror.
 /// @throws InputError with all faults; a file without poses is one.
 std::vector<Transform> readPoses(const std::filesystem::path& file);
+
+/// Two poses of B, where a motion begins and where it ends, 24 numbers a line; the rest as
+/// `readPoses`. Their rotations are told as unit quaternions (rounded), which is what moves; so an
+/// orientation may be as far from the matrix in the file as that is from a rotation.
+struct PoseMotion {
+  RigidPose from, to;
+};
+std::vector<PoseMotion> readMotions(const std::filesystem::path& file);
 
 /// A rotation written with four decimals has entries off by 0.5e-4, and an entry of RᵀR that is off
 /// by up to 2·√3·0.5e-4 = 1.8e-4. It is, too, what boxes still prune under (`boxPairMargins`

@@ -214,7 +214,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
     expectFault("query " + arguments, told);
   };
   const std::string more = "; corridor query --help tells more";
-  fault("a.obj b.obj", "--poses: a file of poses is needed, or --grid");
+  fault("a.obj b.obj", "--poses: a file of poses is needed, or --grid, or --motions");
   fault("a.obj b.obj --poses poses.txt --grid 2x2x2",
         "--grid: the poses are told by --poses; one of the two is needed");
   fault("a.obj b.obj --poses poses.txt --seed 1", "--seed: is of --grid, which is not given");

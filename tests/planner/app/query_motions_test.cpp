@@ -1,0 +1,165 @@
+// `corridor query --motions`: the first contact of each motion.
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/app/program_test.h"
+
+namespace {
+
+using corridor::test::ProgramTest;
+
+const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the rotation that is none
+const std::string kHeader =
+    "motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,splits";
+
+/// A row of the CSV, by the header's words.
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> wordsOf(const std::string& line, char separator) {
+  std::vector<std::string> words;
+  std::istringstream in(line);
+  for (std::string word; std::getline(in, word, separator);) words.push_back(word);
+  return words;
+}
+
+std::vector<Row> rowsOf(const std::string& csv) {
+  const std::vector<std::string> lines = wordsOf(csv, '\n');
+  EXPECT_FALSE(lines.empty());
+  if (lines.empty()) return {};
+  EXPECT_EQ(lines[0], kHeader);
+  const std::vector<std::string> keys = wordsOf(lines[0], ',');
+  std::vector<Row> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> values = wordsOf(lines[i], ',');
+    EXPECT_EQ(values.size(), keys.size()) << lines[i];
+    Row row;
+    for (std::size_t k = 0; k < std::min(keys.size(), values.size()); ++k) row[keys[k]] = values[k];
+    EXPECT_EQ(row["motion"], std::to_string(i - 1));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+class QueryMotions : public ProgramTest {
+ protected:
+  QueryMotions() {
+    // A floor, and a needle that points down at it, its tip at the origin.
+    write("a.obj", "v 9 9 9\nv 9 9 8\nv 9 8 9\nv -4 -4 0\nv 4 -4 0\nv 0 4 0\nf 1 2 3\nf 4 5 6\n");
+    write("b.obj", "v 0 0 0\nv 0.1 0 1\nv -0.1 0 1\nf 1 2 3\n");
+  }
+  Result query(const std::string& motions, const std::string& more = "") const {
+    write("motions.txt", motions);
+    return run("query a.obj b.obj --motions motions.txt " + more);
+  }
+};
+
+TEST_F(QueryMotions, ClosedForms) {
+  // Down through the floor at t = 1/3; over it; half a turn, less 0.1 rad, about x that swings the
+  // needle's upper end down to the floor when 1 + cos φ = …: the tip stays 0.5 above.
+  const Result result =
+      query("# from, to\n" + kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 1e-3, " +
+            kStill + "1 0 1e-3\n" + kStill + "0 0 0.5 1 0 0 0 -0.8 -0.6 0 0.6 -0.8 0 0 0.5\n");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::vector<Row> rows = rowsOf(result.out);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].at("verdict"), "contact");
+  EXPECT_LE(std::stod(rows[0].at("t0")), 1.0 / 3);
+  EXPECT_GE(std::stod(rows[0].at("t1")), 1.0 / 3);
+  EXPECT_LE(std::stod(rows[0].at("t1")) - std::stod(rows[0].at("t0")), 1.0 / 1024);
+  EXPECT_EQ(rows[0].at("triangle_a"), "1");
+  EXPECT_EQ(rows[0].at("triangle_b"), "0");
+  EXPECT_EQ(rows[1].at("verdict"), "free");
+  EXPECT_EQ(rows[1].at("t0"), "1");
+  EXPECT_EQ(rows[1].at("t1"), "-1");
+  EXPECT_EQ(rows[1].at("triangle_a"), "-1");
+  // The upper end is at 0.5 + cos φ: down at the floor for φ = 120°, of 180° − asin 0.6.
+  const double t = 2 * std::acos(-1.0) / 3 / std::acos(-0.8);
+  EXPECT_EQ(rows[2].at("verdict"), "contact");
+  EXPECT_LE(std::stod(rows[2].at("t0")), t);
+  EXPECT_GE(std::stod(rows[2].at("t1")), t);
+  EXPECT_THAT(result.err, testing::HasSubstr("motions=3\nfree=1\nhits=2\nundecided=0\n"));
+  for (const char* key : {"median_ns=", "mean_ns=", "p95_ns=", "bv_tests=", "triangle_tests=",
+                          "build_ms_a=", "bytes_b=", "simd=", "tolerance="})
+    EXPECT_THAT(result.err, testing::HasSubstr(key));
+}
+
+TEST_F(QueryMotions, BelowTheToleranceItIsUndecided) {
+  const std::string along = kStill + "-1 0 1e-3 " + kStill + "1 0 1e-3\n";
+  const auto verdict = [&](const std::string& more) {
+    return rowsOf(query(along, more).out).at(0).at("verdict");
+  };
+  EXPECT_EQ(verdict("--tolerance 1e-4"), "free");
+  EXPECT_EQ(verdict("--tolerance 1e-4 --fit hull --repeat 3"), "free");
+  EXPECT_NE(verdict("--tolerance 0.1"), "contact");
+}
+
+TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
+  const auto fault = [&](const std::string& motion, const std::string& told) {
+    const Result result = query(motion + "\n");
+    EXPECT_EQ(result.status, 2) << motion;
+    EXPECT_EQ(result.err, "motions.txt:1: " + told + "\n");
+    EXPECT_EQ(result.out, "");
+  };
+  fault(kStill + "0 0 0",
+        "a motion has 24 numbers (the pose where it begins, r00 r01 r02 r10 r11 r12 r20 r21 r22 tx "
+        "ty tz, and the one where it ends), not 12");
+  fault(kStill + "0 0 0 " + kStill + "0 0 inf", "a finite number is needed, not \"inf\"");
+  fault(kStill + "0 0 0 1 0 0 0 1 0 0 0 -1 0 0 0",
+        "where it ends the matrix mirrors (determinant -1); a rotation is needed");
+  const std::string one = kStill + "0 0 1 " + kStill + "0 0 2\n";
+  const auto option = [&](const std::string& more, const std::string& told) {
+    const Result result = query(one, more);
+    EXPECT_EQ(result.status, 2) << more;
+    EXPECT_EQ(result.err, told + "\n");
+    EXPECT_EQ(result.out, "");
+  };
+  option("--grid 2x2x2", "--grid: is of poses; --motions has none");
+  option("--query distance", "--query: is of poses; --motions has none");
+  option("--volume aabb", "--volume: is of poses; --motions has none");
+  option("--tolerance 0", "--tolerance: of --motions it is to be above 0");
+  write("motions.txt", "# none\n");
+  expectFault("query a.obj b.obj --motions motions.txt", "motions.txt: no motions");
+}
+
+/// Known times of first contact: none missed, none invented, every bracket holds its own.
+TEST_F(QueryMotions, SharedMotions) {
+  const auto data = corridor::test::dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  const auto folder = *data / "collision";
+  for (const std::string name : {"b_bunny_torus", "b_torus1_torus2_mixed"}) {
+    std::istringstream pair(contents(folder / "ccd" / name / "pair.txt"));
+    std::string which, a, b;
+    pair >> which >> a >> which >> b;
+    const Result result =
+        run("query '" + (folder / a).string() + "' '" + (folder / b).string() + "' --motions '" +
+            (folder / "ccd" / name / "motions.txt").string() + "'");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const std::vector<Row> rows = rowsOf(result.out);
+    std::istringstream truth(contents(folder / "ccd" / name / "truth.txt"));
+    std::size_t i = 0, contacts = 0;
+    for (std::string line; std::getline(truth, line);) {
+      if (line.starts_with('#')) continue;
+      ASSERT_LT(i, rows.size());
+      const Row& row = rows[i++];
+      const double t = std::stod(line);
+      EXPECT_EQ(row.at("verdict"), t < 0 ? "free" : "contact") << name << ' ' << i - 1;
+      if (t < 0) continue;
+      ++contacts;
+      // The truth steps by at least 1e-6 of the motion.
+      EXPECT_LE(std::stod(row.at("t0")), t + 1e-6) << name << ' ' << i - 1;
+      EXPECT_GE(std::stod(row.at("t1")), t - 1e-6) << name << ' ' << i - 1;
+      EXPECT_LE(std::stod(row.at("t1")) - std::stod(row.at("t0")), 1.0 / 1024);
+    }
+    EXPECT_EQ(i, rows.size());
+    EXPECT_GT(contacts, 50u);
+  }
+}
+
+}  // namespace
