@@ -27,7 +27,7 @@ std::optional<std::string> WideObbTree::check() const {
   using exact::Row;
   if (part_) {
     // The part is in its enclosing box, and that in the node's.
-    if (const auto complaint = VolumeTree<Obb>(*part_).check()) return complaint;
+    if (auto complaint = VolumeTree<Obb>(*part_).check()) return complaint;
     const exact::ExactVolume<Obb> around(boxOf(nodes_[0], 0));
     for (Row corner : exact::ExactVolume<Obb>(enclosingObb(*part_)).corners()) {
       corner = exact::minus(corner, exact::row(origin_));

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "collision/core/rounding.h"
 #include "collision/hierarchy/wide_obb_tree.h"
@@ -19,8 +21,9 @@ WideObbTree::WideObbTree(const ConvexPart& part) : meshTriangle_{0}, part_(part)
   radius_ = size;
   reach_ = roundedUp(origin_.stableNorm() + radius_);
 
-  int order[3] = {0, 1, 2};
-  std::sort(order, order + 3, [&](int i, int k) { return box.half[i] > box.half[k]; });
+  std::array<int, 3> order = {0, 1, 2};  // the longest first
+  for (const auto& [i, k] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)})
+    if (box.half[order[i]] < box.half[order[k]]) std::swap(order[i], order[k]);
   Node& node = nodes_.emplace_back();
   std::fill_n(node.child, kWidth, kNone);
   node.child[0] = std::uint32_t{1} << 31;  // a leaf: the first item, and no other

@@ -44,14 +44,6 @@
 namespace corridor {
 namespace {
 
-/// At least 2 sin(min(δ, π)/2), and at most 0.5 % more: Taylor's polynomial of degree 5 is above
-/// the sine for δ ≥ 0, and grows up to δ = 3, where it is 2.002.
-double chord(double amount) {
-  if (!(amount < 3)) return 2;
-  const double square = amount * amount;
-  return amount * (1 - square * (1.0 / 24 - square / 1920));
-}
-
 double taxicab(const Vec3& v) {
   return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
 }

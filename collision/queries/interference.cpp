@@ -1,35 +1,24 @@
 #include "collision/queries/interference.h"
 
-#include <limits>
-
 #include "collision/hierarchy/traverse.h"
 #include "collision/queries/touching_pairs.h"
 
 namespace corridor {
 namespace {
 
-template <class TreeA, class TreeB, class Test>
-std::optional<TrianglePair> firstBelow(const TreeA& a, const Transform& X_WA, const TreeB& b,
-                                       const Transform& X_WB, const Test& test,
-                                       const QueryContext::NodePair& nodes, QueryContext& context,
-                                       std::uint64_t workEnd) {
-  std::optional<TrianglePair> found;
-  const auto first = [&](std::uint32_t s, std::uint32_t t) {
-    found = TrianglePair{a.meshTriangle(s), b.meshTriangle(t)};
-    return true;
-  };
-  TouchingPairs query(a, X_WA, b, X_WB, test, context.counters, first, workEnd);
-  traverse(a, b, nodes, context.stack, query);
-  return found;
-}
-
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
 std::optional<TrianglePair> firstContact(const TreeA& a, const Transform& X_WA, const TreeB& b,
                                          const Transform& X_WB, QueryContext& context) {
   ++context.counters.states;
   const auto test = pairTestOf<Volume, Overlap>(a, X_WA, b, X_WB);
-  return firstBelow(a, X_WA, b, X_WB, test, {0, 0, 0}, context,
-                    std::numeric_limits<std::uint64_t>::max());
+  std::optional<TrianglePair> found;
+  const auto first = [&](std::uint32_t s, std::uint32_t t) {
+    found = TrianglePair{a.meshTriangle(s), b.meshTriangle(t)};
+    return true;
+  };
+  TouchingPairs query(a, X_WA, b, X_WB, test, context.counters, first);
+  traverse(a, b, {0, 0, 0}, context.stack, query);
+  return found;
 }
 
 }  // namespace
@@ -57,14 +46,6 @@ std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA,
                                          const VolumeTree<Aabb>& b, const Transform& X_WB,
                                          QueryContext& context) {
   return firstContact<Aabb>(a, X_WA, b, X_WB, context);
-}
-
-std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b,
-                                              const Transform& X_AB,
-                                              const QueryContext::NodePair& nodes,
-                                              QueryContext& context, std::uint64_t workEnd) {
-  const PairTest<Obb> test(a.bounds(), b.bounds(), X_AB, 0);
-  return firstBelow(a, Transform(), b, X_AB, test, nodes, context, workEnd);
 }
 
 }  // namespace corridor

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "collision/core/query_context.h"
@@ -33,12 +32,5 @@ std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA,
 std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA,
                                          const VolumeTree<Aabb>& b, const Transform& X_WB,
                                          QueryContext& context);
-
-/// A contact below one pair of nodes, with a at the identity. Gives up, with none, when the
-/// context's box and triangle tests reach `workEnd`.
-std::optional<TrianglePair> interferenceBelow(const ObbTree& a, const ObbTree& b,
-                                              const Transform& X_AB,
-                                              const QueryContext::NodePair& nodes,
-                                              QueryContext& context, std::uint64_t workEnd);
 
 }  // namespace corridor

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "collision/convex/convex_contact.h"
@@ -29,35 +28,26 @@ ConvexSet convexSetOf(const Tree& tree, std::uint32_t item) {
 
 /// What `traverse` (hierarchy/traverse.h) asks, for items of two trees that touch: a pair whose
 /// volumes are apart is dropped, and `Found(s, t)`, in leaf order, is told each pair of items in
-/// contact, until it returns true or the counted tests reach `workEnd`.
+/// contact, until it returns true.
 template <class TreeA, class TreeB, class Test, class Found>
 class TouchingPairs {
  public:
   using Item = QueryContext::NodePair;
 
   TouchingPairs(const TreeA& a, const Transform& X_WA, const TreeB& b, const Transform& X_WB,
-                const Test& test, Counters& counters, const Found& found,
-                std::uint64_t workEnd = std::numeric_limits<std::uint64_t>::max())
-      : a_(a),
-        b_(b),
-        X_WA_(X_WA),
-        X_WB_(X_WB),
-        test_(test),
-        counters_(counters),
-        found_(found),
-        workEnd_(workEnd) {}
+                const Test& test, Counters& counters, const Found& found)
+      : a_(a), b_(b), X_WA_(X_WA), X_WB_(X_WB), test_(test), counters_(counters), found_(found) {}
 
   bool enter(const Item&, const typename TreeA::Node& na, const typename TreeB::Node& nb) {
-    if (!spare()) return false;
     ++counters_.boxTests;
     return !test_.separated(na.box, nb.box, 0);
   }
   /// All of one leaf's items against all of the other's.
   bool leaves(const typename TreeA::Node& na, const typename TreeB::Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
-      for (std::uint32_t t = nb.first; t < nb.first + nb.count && spare(); ++t)
+      for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t)
         if (touch(s, t) && found_(s, t)) return true;
-    return !spare();
+    return false;
   }
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
     stack.push_back({i, k, 0});
@@ -67,8 +57,6 @@ class TouchingPairs {
   }
 
  private:
-  bool spare() const { return counters_.boxTests + counters_.triangleTests < workEnd_; }
-
   bool touch(std::uint32_t s, std::uint32_t t) const {
     if (a_.part() || b_.part())
       return convexSetsTouch({convexSetOf(a_, s), X_WA_}, {convexSetOf(b_, t), X_WB_}, counters_);
@@ -81,7 +69,6 @@ class TouchingPairs {
   const Test& test_;
   Counters& counters_;
   const Found& found_;
-  std::uint64_t workEnd_;
 };
 
 }  // namespace corridor

@@ -20,7 +20,7 @@ class PairTest<Aabb> {
   }
 
   bool separated(const Aabb& a, const Aabb& b, double pad) const {
-    return internal::separated(pair(a, b), a.half, b.half, margins_, pad, internal::NoTravel{});
+    return internal::separated(pair(a, b), a.half, b.half, margins_, pad);
   }
   double distanceBound(const Aabb& a, const Aabb& b) const {
     return internal::boxDistanceBound(pair(a, b), a.half, b.half, margins_);

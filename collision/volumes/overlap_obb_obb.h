@@ -32,7 +32,7 @@ namespace corridor {
 
 /// Bounds that hold for all pairs of boxes of two trees under one relative map.
 struct BoxPairMargins {
-  double relative = 0;  ///< times (|T|₁ + Σa + Σb + travel terms): absolute slack of every axis
+  double relative = 0;  ///< times (|T|₁ + Σa + Σb): absolute slack of every axis
   double absolute =
       0;  ///< metres: ε_T and what the caller adds (pose errors), as the radius of a ball
 };
@@ -57,18 +57,6 @@ inline BoxPairMargins boxPairMargins(double defectA, double reachA, double defec
   return margins;
 }
 
-/// How box b moves while the map is the one at the middle of a window of time (collision/motion):
-/// box b's points go from x to x + s·(linear + angular × (x − c_B)) + remainder, |s| ≤ 1, with
-/// |L·remainder| ≤ bend·|L × angular| + curvature·|L| for any vector L, and never by more than
-/// `cap` (`PointTravel`).
-struct BoxTravel {
-  Vec3 linear = Vec3::Zero();   ///< of b's centre, in a's frame, metres
-  Vec3 angular = Vec3::Zero();  ///< in a's frame, radians
-  double bend = 0;              ///< metres
-  double curvature = 0;         ///< metres
-  double cap = 0;               ///< metres: the isotropic bound
-};
-
 namespace internal {
 
 /// std::hypot guards against overflow at ten times the price; the entries here are of rotations.
@@ -86,81 +74,23 @@ struct BoxPair {
         T(a.axes.transpose() * ((X_AB.m * b.center + X_AB.t) - a.center)) {}
 };
 
-/// Travel along a direction: nothing for boxes that stand still.
-struct NoTravel {
-  double magnitude() const { return 0; }
-  double alongFaceA(int) const { return 0; }
-  double alongFaceB(int) const { return 0; }
-  double alongEdges(int, int, int, int) const { return 0; }
-};
-
-/// First order exact, second order bounded, never more than the isotropic cap (numerics:
-/// directional bounds). For a unit-ish L a point c_B + Σ x_k u_k of b moves along L by at most
-/// |L·v| + Σ b_k |u_k·(L × ω)| + bend·|L × ω| + curvature·|L|.
-struct DirectionalTravel {
-  const Mat3& R;
-  const Vec3& b;
-  Vec3 v, w;  // in coordinates of box a
-  Vec3 wB;    // u_k·ω
-  double bend, curvature, cap, sum;
-
-  DirectionalTravel(const BoxPair& pair, const Obb& a, const Obb& box, const BoxTravel& travel)
-      : R(pair.R),
-        b(box.half),
-        v(a.axes.transpose() * travel.linear),
-        w(a.axes.transpose() * travel.angular),
-        wB(pair.R.transpose() * w),
-        bend(travel.bend),
-        curvature(travel.curvature),
-        cap(travel.cap),
-        sum(v.cwiseAbs().sum() + 2 * w.cwiseAbs().sum() * (b.sum() + bend) + curvature) {
-  }  // 3η_R of the terms that use R's orthonormality
-
-  double magnitude() const { return sum; }
-  double alongFaceA(int i) const {  // u_k·(e_i × ω) = R_(i+2)k ω_(i+1) − R_(i+1)k ω_(i+2)
-    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-    double s = std::abs(v[i]) + bend * length(w[i1], w[i2]) + curvature;
-    for (int k = 0; k < 3; ++k) s += b[k] * std::abs(R(i2, k) * w[i1] - R(i1, k) * w[i2]);
-    return std::min(s, cap);
-  }
-  double alongFaceB(int j) const {  // u_k·(u_j × ω) = ±u_l·ω
-    const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    const double s = std::abs(v.dot(R.col(j))) + b[j1] * std::abs(wB[j2]) +
-                     b[j2] * std::abs(wB[j1]) + bend * length(wB[j1], wB[j2]) + curvature;
-    return std::min(s, cap);
-  }
-  double alongEdges(int i1, int i2, int i, int j) const {  // L × ω = u_j (e_i·ω) − e_i (u_j·ω)
-    double s = std::abs(v[i2] * R(i1, j) - v[i1] * R(i2, j));
-    double square = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double along = (k == j ? w[i] : 0) - R(i, k) * wB[j];  // u_k·(L × ω)
-      s += b[k] * std::abs(along);
-      square += along * along;
-    }
-    const double l = length(R(i1, j), R(i2, j));
-    return std::min(s + bend * std::sqrt(square) + curvature * l, cap * l);
-  }
-};
-
 /// `Pair` has R, absR and T of a BoxPair.
-template <class Pair, class Travel>
+template <class Pair>
 bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMargins& margins,
-               double pad, const Travel& travel) {
+               double pad) {
   const Mat3 &R = pair.R, &Q = pair.absR;
   const Vec3& T = pair.T;
-  const double slack =
-      margins.relative * (T.cwiseAbs().sum() + a.sum() + b.sum() + travel.magnitude() + pad) +
-      kTiny;
+  const double slack = margins.relative * (T.cwiseAbs().sum() + a.sum() + b.sum() + pad) + kTiny;
   const double ball = margins.absolute + pad;
   for (int i = 0; i < 3; ++i) {
     const double gap =
         std::abs(T[i]) - (a[i] + Q(i, 0) * b[0] + Q(i, 1) * b[1] + Q(i, 2) * b[2]) - ball - slack;
-    if (gap > 0 && gap > travel.alongFaceA(i)) return true;
+    if (gap > 0) return true;
   }
   for (int j = 0; j < 3; ++j) {
     const double gap = std::abs(T[0] * R(0, j) + T[1] * R(1, j) + T[2] * R(2, j)) -
                        (b[j] + Q(0, j) * a[0] + Q(1, j) * a[1] + Q(2, j) * a[2]) - ball - slack;
-    if (gap > 0 && gap > travel.alongFaceB(j)) return true;
+    if (gap > 0) return true;
   }
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
@@ -169,8 +99,7 @@ bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMarg
       const double gap =
           std::abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
           (a[i1] * Q(i2, j) + a[i2] * Q(i1, j) + b[j1] * Q(i, j2) + b[j2] * Q(i, j1)) - slack;
-      if (gap > 0 && gap > ball * length(R(i1, j), R(i2, j)) + travel.alongEdges(i1, i2, i, j))
-        return true;
+      if (gap > 0 && gap > ball * length(R(i1, j), R(i2, j))) return true;
     }
   }
   return false;
@@ -219,16 +148,7 @@ double boxDistanceBound(const Pair& pair, const Vec3& a, const Vec3& b,
 /// Apart by more than `pad` metres?
 inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB,
                           const BoxPairMargins& margins, double pad) {
-  return internal::separated(internal::BoxPair(a, b, X_AB), a.half, b.half, margins, pad,
-                             internal::NoTravel{});
-}
-
-/// Apart by more than `pad` metres all along a window of time in which b travels as told?
-inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB,
-                          const BoxPairMargins& margins, double pad, const BoxTravel& travel) {
-  const internal::BoxPair pair(a, b, X_AB);
-  return internal::separated(pair, a.half, b.half, margins, pad,
-                             internal::DirectionalTravel(pair, a, b, travel));
+  return internal::separated(internal::BoxPair(a, b, X_AB), a.half, b.half, margins, pad);
 }
 
 template <>

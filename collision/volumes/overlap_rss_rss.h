@@ -31,8 +31,7 @@ class PairTest<Rss> {
     const internal::BoxPair pair(a.core, b.core, X_AB_);
     const double radii = a.size + b.size;
     return internal::separated(pair, a.core.half, b.core.half, margins_,
-                               roundedUp(pad + radii * (1 + margins_.relative)),
-                               internal::NoTravel{}) ||
+                               roundedUp(pad + radii * (1 + margins_.relative))) ||
            alongClosest(pair, a.core.half, b.core.half, radii, pad, pad) > pad;
   }
   double distanceBound(const Rss& a, const Rss& b) const {

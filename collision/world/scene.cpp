@@ -76,6 +76,9 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
   std::stable_sort(order_.begin(), order_.end(), [&](std::size_t i, std::size_t k) {
     return std::pair(motionOf[i], pairs_[i].b) < std::pair(motionOf[k], pairs_[k].b);
   });
+  solidMeshes_ = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    return isSolidMesh(bodies_[pair.a].body) || isSolidMesh(bodies_[pair.b].body);
+  });
   for (const std::size_t i : order_)
     motionPairs_.push_back({&bodies_[pairs_[i].a].body, &bodies_[pairs_[i].b].body, motionOf[i],
                             pairs_[i].a, pairs_[i].b});
@@ -126,6 +129,7 @@ std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
 MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
                                  const MotionOptions& options, QueryContext& context) const {
   MotionResult result = certifyMotion(motion, pairs, options, context);
+  if (!solidMeshes_) return result;
   if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
   // Surfaces that stay apart at t = 0 by more than all rounding: the rounded pose decides for the
   // real one, and for all of what is certified.

@@ -67,6 +67,7 @@ class Scene {
   std::vector<std::size_t> order_;       // of the pairs: those of one motion together,
   std::vector<MotionPair> motionPairs_;  // and in that order
   std::vector<FramePair> framePairs_;
+  bool solidMeshes_ = false;  // any in a pair: then what is inside them matters
 };
 
 }  // namespace corridor
