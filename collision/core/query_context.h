@@ -34,6 +34,7 @@ class QueryContext {
   struct PairItems {
     std::uint32_t bodies;
     std::size_t begin, end;
+    double clearance = 0;  ///< of what longer windows told apart already, metres; where asked for
   };
   std::vector<WideItem> pending;  ///< what motion queries hand down to shorter windows of time,
   std::vector<PairItems> groups;  ///< and whose it is

@@ -1,10 +1,13 @@
 #include "collision/motion/certify_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "collision/convex/convex_distance.h"
+#include "collision/core/rounding.h"
 #include "collision/motion/descend.h"
 #include "collision/motion/may_meet.h"
 #include "collision/queries/interference_wide.h"
@@ -16,21 +19,22 @@ namespace {
 class Certifier {
  public:
   Certifier(MotionSource& motion, std::span<const MotionPair> pairs, const MotionOptions& options,
-            QueryContext& context)
+            QueryContext& context, MotionEvidence* evidence)
       : motion_(motion),
         pairs_(pairs),
         options_(options),
         context_(context),
         counters_(context.counters),
         items_(context.pending),
-        groups_(context.groups) {}
+        groups_(context.groups),
+        evidence_(evidence) {}
 
   MotionResult run() {
     items_.clear();
     groups_.clear();
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
       items_.push_back(kWhole);
-      groups_.push_back({k, k, k + std::size_t{1}});
+      groups_.push_back({k, k, k + std::size_t{1}, HUGE_VAL});
     }
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
@@ -78,7 +82,7 @@ class Certifier {
     const Body* swept = nullptr;  // whose ball that is, in this window of this motion
     std::size_t posed = std::numeric_limits<std::size_t>::max();
     for (std::size_t g = w.begin; g < w.end; ++g) {
-      const Group group = groups_[g];
+      Group group = groups_[g];
       const MotionPair& pair = pairs_[group.bodies];
       if (pair.motion != posed) {
         posed = pair.motion;
@@ -91,16 +95,24 @@ class Certifier {
       if (isWhole(group)) {
         if (swept != pair.b) ball = sweptBall(*pair.b, window);
         swept = pair.b;
-        if (!mayMeet(*pair.a, ball, options_.margin)) continue;
+        const double clearance = clearanceBound(*pair.a, ball);
+        if (clearance > options_.margin) {
+          proved(w, group, clearance - options_.margin);
+          continue;
+        }
       }
       const std::size_t later = items_.size(), count = group.end - group.begin;
       auto& stack = context_.wideStack;
       if (stack.size() < count) stack.resize(2 * count);
       std::copy_n(items_.begin() + static_cast<std::ptrdiff_t>(group.begin), count, stack.begin());
-      const DescentOptions asked = {options_.margin, options_.tolerance, h <= kShortest, workEnd_,
-                                    kLeftovers};
+      const DescentOptions asked = {options_.margin, options_.tolerance, h <= kShortest,
+                                    workEnd_,        kLeftovers,         evidence_ != nullptr};
       found_ = descend(pair.a->tree(), pair.b->tree(), window, asked, count, items_, context_);
-      if (items_.size() > later) groups_.push_back({group.bodies, later, items_.size()});
+      group.clearance = std::min(group.clearance, found_.clearance);
+      if (items_.size() > later)
+        groups_.push_back({group.bodies, later, items_.size(), group.clearance});
+      else if (found_.kind == Descent::Kind::done)
+        proved(w, group, HUGE_VAL);
       if (found_.kind == Descent::Kind::done) continue;
       bodies_ = group.bodies;
       for (std::size_t k = g + 1; k < w.end; ++k)
@@ -110,6 +122,14 @@ class Certifier {
     return true;
   }
 
+  /// All of the group is apart in the window, its last by `clearance` beyond margin and pads.
+  void proved(const Window& w, const Group& group, double clearance) {
+    if (!evidence_) return;
+    const double beyond = std::min(group.clearance, clearance);
+    evidence_->free.push_back(
+        {group.bodies, w.t0, w.t1, roundedDown(options_.margin + options_.reserve + beyond)});
+  }
+
   bool isWhole(const Group& group) const {
     const Item& item = items_[group.begin];
     return group.end - group.begin == 1 && item.a == 0 && item.b == 0 && item.pairs == kWhole.pairs;
@@ -117,25 +137,27 @@ class Certifier {
 
   /// For the verdict alone: false: `result_` says why.
   bool walkByLevels(const Window& all) {
-    std::vector<Window> windows = {all}, below;
-    for (int level = 0; level < kFirstLevels && !windows.empty(); ++level) {
-      below.clear();
-      for (const Window& w : windows) {
+    std::array<Window, 1 << kFirstLevels> windows, below;
+    windows[0] = all;
+    std::size_t count = 1;
+    for (int level = 0; level < kFirstLevels && count; ++level) {
+      std::size_t halves = 0;
+      for (const Window& w : std::span(windows).first(count)) {
         const std::size_t later = groups_.size();
         if (!look(w)) return stopped(w);
         if (groups_.size() == later) continue;
         if (level >= kSampledLevels && touchesAt(middle_, later)) return contact(0, false);
         ++counters_.splits;
-        below.push_back({w.t0, middle_, later, groups_.size()});
-        below.push_back({middle_, w.t1, later, groups_.size()});
+        below[halves++] = {w.t0, middle_, later, groups_.size()};
+        below[halves++] = {middle_, w.t1, later, groups_.size()};
       }
       std::swap(windows, below);
-      if (level == 0 && !windows.empty() && touchesAtSamples(windows[0].begin))
-        return contact(0, false);
+      count = halves;
+      if (level == 0 && count && touchesAtSamples(windows[0].begin)) return contact(0, false);
     }
     // Depth first, so that a place that can't be decided is found before everything else is
     // refined.
-    for (const Window& w : windows)
+    for (const Window& w : std::span(windows).first(count))
       if (!walkInOrder(w, kFirstLevels)) return false;
     return true;
   }
@@ -237,6 +259,7 @@ class Certifier {
   Counters& counters_;
   std::vector<Item>& items_;
   std::vector<Group>& groups_;
+  MotionEvidence* evidence_;
   std::uint64_t workEnd_ = 0;
   double middle_ = 0;         // of the window that was looked at last
   Descent found_;             // in it
@@ -246,10 +269,33 @@ class Certifier {
   MotionResult result_;
 };
 
+/// Where the two that `contact` names touch, in a's frame.
+Vec3 contactPoint(MotionSource& motion, std::span<const MotionPair> pairs,
+                  const MotionResult& result, Counters& counters) {
+  const Contact& contact = *result.pair;
+  const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const MotionPair& p) {
+    return p.bodyA == contact.bodyA && p.bodyB == contact.bodyB;
+  });
+  const auto cornersOf = [](const Body& body, std::size_t i) {
+    const TriangleMesh& mesh = body.mesh();
+    return body.part() ? Triangle()
+                       : Triangle{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
+  };
+  const Triangle a = cornersOf(*pair->a, contact.triangleA),
+                 b = cornersOf(*pair->b, contact.triangleB);
+  const auto setOf = [](const Body& body, const Triangle& corners) {
+    return body.part() ? ConvexSet(*body.part()) : ConvexSet(corners);
+  };
+  const Transform X_AB = motion.window(pair->motion, result.contactTime, 0).X_AB;
+  return convexDistance({setOf(*pair->a, a), {}}, {setOf(*pair->b, b), X_AB}, 0, 0, counters).p_WA;
+}
+
 }  // namespace
 
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
-                           const MotionOptions& options, QueryContext& context) {
+                           const MotionOptions& options, QueryContext& context,
+                           MotionEvidence* evidence) {
+  if (evidence) *evidence = {};
   ++context.counters.edges;
   MotionResult result;
   if (motion.ambiguous()) {
@@ -257,7 +303,9 @@ MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pai
     result.reason = UndecidedReason::ambiguous;
     result.certifiedUntil = 0;
   } else {
-    result = Certifier(motion, pairs, options, context).run();
+    result = Certifier(motion, pairs, options, context, evidence).run();
+    if (evidence && result.verdict == MotionVerdict::contact)
+      evidence->point_A = contactPoint(motion, pairs, result, context.counters);
   }
   context.counters.undecided += result.verdict == MotionVerdict::undecided;
   return result;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/body.h"
@@ -77,6 +78,24 @@ struct MotionPair {
   std::size_t bodyA = 0, bodyB = 0;
 };
 
+/// Proved: all through [t0, t1], and for the tube around it, pair `pair` of a query stays at least
+/// `clearance` metres apart. At least margin and reserve; what was asked for is in it.
+struct FreeInterval {
+  std::size_t pair = 0;
+  double t0 = 0, t1 = 0;
+  double clearance = 0;
+};
+
+/// Why an answer is what it is. Of a query without `earliest` whose answer isn't `free`: what was
+/// proved until then.
+struct MotionEvidence {
+  /// Of each pair they cover [0, certifiedUntil] without a gap, not in order; and maybe more.
+  std::vector<FreeInterval> free;
+  /// Of `contact`: a point of body a where the two touch (with a margin: where they are closest),
+  /// in a's frame, metres, at `contactTime`; off by rounding of their coordinates.
+  std::optional<Vec3> point_A;
+};
+
 /// Is the motion free of contact of every pair, for all t in [0, 1], for the tube around it, and
 /// with the margin kept? Surfaces of meshes: one inside another touches nothing (`Scene` knows of
 /// solids); primitives are solid. Pairs of one motion, and of these
@@ -87,7 +106,10 @@ struct MotionPair {
 /// Bodies whose bounds stay apart are never descended, nor do they get a tree. Where only the
 /// verdict is asked for, what the whole motion leaves open is tested for contact at eight poses
 /// before it is walked: most motions that touch anything do so for long.
+/// @param evidence  where not null, gets why: `checkEvidence` (check_evidence.h) proves it anew. No
+/// verdict depends on it; it takes half again the time.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
-                           const MotionOptions& options, QueryContext& context);
+                           const MotionOptions& options, QueryContext& context,
+                           MotionEvidence* evidence = nullptr);
 
 }  // namespace corridor

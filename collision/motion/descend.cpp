@@ -58,7 +58,8 @@ class Moving {
 
   unsigned boxes(const Item& item, const Node& na, const Node& nb, float* keys) {
     const NodeTravel& travel = travel_.of(nb);
-    const MovingBoxes found = movingBoxes(na, nb, pose_.floats, travel, keys);
+    const MovingBoxes found = movingBoxes(na, nb, pose_.floats, travel, keys, clearances());
+    noteClearances(item.pairs & ~found.open);
     if (options_.shortest) return found.open;
     const unsigned coarse = found.coarse & item.pairs & travel.far * 0x1111U;
     leave(item, coarse);
@@ -85,6 +86,16 @@ class Moving {
     return left_ + static_cast<unsigned>(std::popcount(open)) >= options_.mostLeft;
   }
 
+  float* clearances() { return options_.clearance ? clearances_ : nullptr; }
+  /// Of pairs that were told apart.
+  void noteClearances(unsigned pairs) {
+    if (!options_.clearance) return;
+    for (; pairs; pairs &= pairs - 1)
+      result_.clearance =
+          std::min(result_.clearance,
+                   static_cast<double>(clearances_[std::countr_zero(pairs)]) / pose_.unitA);
+  }
+
   bool solids(const Node& na, const Node& nb, unsigned pairs, unsigned& open) {
     return forEachItem(na, nb, pairs, [&](unsigned leaves, std::uint32_t s, std::uint32_t t) {
       if (open & leaves || full(open)) {
@@ -105,20 +116,18 @@ class Moving {
     LeafPairs pairs(na, nb);
     for (unsigned rest = leaves; rest; rest &= rest - 1)
       pairs.add(static_cast<unsigned>(std::countr_zero(rest)));
-    const NodeTravel& travel = travel_.of(nb);
-    float most = 0;
-    for (unsigned lanes = pairs.lanesB(); lanes; lanes &= lanes - 1) {
-      const auto j = static_cast<unsigned>(std::countr_zero(lanes));
-      const float goes = travel.cap[j] + travel.pad[j];
-      most = goes < HUGE_VALF ? std::max(most, goes) : HUGE_VALF;  // NaN: nothing is filtered
-    }
+    LeafTravel goes = travel_.ofLeaves(nb, pairs.lanesB());
     // Where a shorter window is no help, or none is to be had, doubles decide all that is left.
-    const bool last = options_.shortest || !travel.far;
+    const bool last = options_.shortest || !travel_.of(nb).far;
+    // A pair that the filter drops, which knows no distances, would have none either.
+    const float far = options_.clearance ? HUGE_VALF : goes.cap + goes.pad;
     return leaves_.forEachNearSixteen(
-        pairs, [&] { return most; },
+        pairs, [&] { return far; },
         [&](const TriangleCorners& a, const TriangleCorners& b, unsigned first, unsigned near) {
-          const LeafTravel goes = travel_.ofLeaves(nb, pairs.lanesB(), a_.origin(), b.center);
-          const MovingPairs found = movingTriangles(a, b, pairs.from(first), pose_.leafError, goes);
+          travel_.setLinear(goes, b.center, a_.origin());
+          const MovingPairs found =
+              movingTriangles(a, b, pairs.from(first), pose_.leafError, goes, clearances());
+          noteClearances(near & found.apart);
           for (near &= ~found.apart; near; near &= near - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(near));
             const unsigned pair = pairs.leavesOf(first + bit);
@@ -139,7 +148,10 @@ class Moving {
   /// True: enough.
   bool take(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t, unsigned leaves,
             unsigned& open) {
-    if (answer.separated) return false;
+    if (answer.separated) {
+      result_.clearance = std::min(result_.clearance, answer.clearance);
+      return false;
+    }
     result_.s = a_.meshTriangle(s);
     result_.t = b_.meshTriangle(t);
     if (answer.contact) {
@@ -166,6 +178,7 @@ class Moving {
   WideTravel travel_;
   WideLeaves leaves_;
   unsigned left_ = 0;  // pairs that `later_` has of this window
+  alignas(64) float clearances_[16];
   Descent result_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Descent {
   std::uint32_t s = 0, t = 0;  ///< by their numbers in their meshes
   double gap = 0;              ///< `undecided`: metres beyond the margin at the middle
   bool wide = false;           ///< `undecided`, and b goes farther in the window than the tolerance
+  /// Where asked for: what was told apart is proved to stay at least this much farther apart than
+  /// margin and pads, metres; nothing was: infinite.
+  double clearance = HUGE_VAL;
 };
 
 struct DescentOptions {
@@ -28,6 +32,7 @@ struct DescentOptions {
   bool shortest = false;             ///< the window is not to be halved
   std::uint64_t workEnd = 0;         ///< box and triangle tests of the counters, to stop at
   unsigned mostLeft = 0;             ///< pairs that may be left to halves before all the rest is
+  bool clearance = false;            ///< asked for: costs time
 };
 
 /// Walks the trees below pairs of nodes, b moving as the window says; what the window can't tell

@@ -1,5 +1,6 @@
 #include "collision/motion/may_meet.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "collision/core/rounding.h"
@@ -15,15 +16,15 @@ SweptBall sweptBall(const Body& b, const MotionWindow& window) {
   return {c, roundedUp(b.sphereRadius() + travel.cap + travel.pad + 16 * kUnit * terms)};
 }
 
-bool mayMeet(const Body& a, const SweptBall& ball, double margin) {
+double clearanceBound(const Body& a, const SweptBall& ball) {
   const Vec3& c = ball.center;
   const Vec3 outside = (a.lower() - c).cwiseMax(c - a.upper()).cwiseMax(Vec3::Zero());
   // Squares that overflow, or underflow (to subnormals, that may be rounded up), tell nothing.
   // Differences are off by u of both terms, √3 of it as a length.
   const double gap = rootFromBelow(outside.squaredNorm());
   const double terms = c.cwiseAbs().sum() + a.lower().cwiseAbs().sum() + a.upper().cwiseAbs().sum();
-  return !(gap < HUGE_VAL &&
-           roundedDown(gap) > roundedUp(ball.radius + margin + 4 * kUnit * terms));
+  const double needed = roundedUp(ball.radius + 4 * kUnit * terms);
+  return gap < HUGE_VAL && gap > needed ? std::max(0.0, roundedDown(roundedDown(gap) - needed)) : 0;
 }
 
 }  // namespace corridor

@@ -13,7 +13,11 @@ struct SweptBall {
 };
 SweptBall sweptBall(const Body& b, const MotionWindow& window);
 
-/// Can the ball come nearer than `margin` to body a's axis-aligned box? `false` is a proof.
-bool mayMeet(const Body& a, const SweptBall& ball, double margin);
+/// How far the ball stays from body a's axis-aligned box at least, metres; 0: nothing is known.
+double clearanceBound(const Body& a, const SweptBall& ball);
+/// Can the ball come nearer than `margin` to it? `false` is a proof.
+inline bool mayMeet(const Body& a, const SweptBall& ball, double margin) {
+  return !(clearanceBound(a, ball) > margin);
+}
 
 }  // namespace corridor

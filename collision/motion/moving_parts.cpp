@@ -111,15 +111,18 @@ MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const Motio
             std::max(best.still, gaps.still)};
     return gaps.moving > needed;
   };
+  const auto apart = [&] {
+    return MovingTrianglesAnswer{.separated = true, .clearance = roundedDown(best.moving - needed)};
+  };
   gjk::Answer found = gjk::search<double>(pair.a(), pair.b(), pair.size(), near, attempt);
-  if (found.accepted) return {.separated = true};
+  if (found.accepted) return apart();
   const bool met = found.overlap || found.upper <= near;
   // Not apart where the two are, or a quarter of the gap lost to the tilt of n.
   if (!met && !(best.middle > pair.slack() &&
                 best.middle - margin > 0.75 * (found.upper - pair.radii() - margin))) {
     ++counters.exactTests;
     found = gjk::search<DoubleDouble>(pair.a(), pair.b(), pair.size(), near, attempt);
-    if (found.accepted) return {.separated = true};
+    if (found.accepted) return apart();
   }
   const double distance = met ? 0 : std::max(0.0, found.upper - pair.radii());
   answer.travel = pair.travel().cap;

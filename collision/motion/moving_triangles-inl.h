@@ -35,9 +35,13 @@ struct MovingPairs {
 /// Rounding, u = 2^-24: `triangleDistances` has that of n·t_k, in `off`. p_k = t_k − away is off by
 /// 4u·D a coordinate, and below 2D; n × angular by 2u|n||ω|; so h_k by less than u|n|(6|linear|₁ +
 /// 32|ω|₁D), the rounding of `linear` and `angular` themselves (u of each) included.
+///
+/// @param clearances where not null, gets how much farther apart than `pad` each pair that is told
+/// apart is proved to be all along the window, in a's unit.
 HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleCorners& b,
                                        const TriangleNumbers& numbers, float error,
-                                       const LeafTravel& travel) {
+                                       const LeafTravel& travel,
+                                       float* HWY_RESTRICT clearances = nullptr) {
   const LaneTag d;
   using V = LaneFloat;
   const auto set = [&](float x) { return hn::Set(d, x); };
@@ -78,6 +82,7 @@ HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleC
     const auto known = hn::And(hn::Lt(D, set(0x1p50F)), hn::Gt(length, set(0x1p-50F)));
     const auto apart = hn::And(known, hn::Gt(gap, lost));
     const auto later = hn::And(hn::Gt(hn::Sub(middle, pad), lost), hn::Lt(gap, hn::Neg(lost)));
+    if (clearances) hn::Store(hn::Mul(set(1 - 0x1p-18F), hn::Sub(gap, lost)), d, clearances + at);
     found.apart |= bitsOf(d, apart, at);
     found.later |= bitsOf(d, hn::And(known, later), at);
   }

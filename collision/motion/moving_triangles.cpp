@@ -109,6 +109,10 @@ void offerFeatureDirections(const Triangle& a, const Triangle& b, const Vec3& n,
     for (const Vec3& f : edgesB) offer(e.cross(f));
 }
 
+MovingTrianglesAnswer apart(double moving, double needed) {
+  return {.separated = true, .clearance = roundedDown(moving - needed)};
+}
+
 }  // namespace
 
 MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
@@ -136,10 +140,7 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
 
   MovingTrianglesAnswer answer;
   Gaps gaps = gapsAlong(n, a, corners);
-  if (gaps.moving > needed) {
-    answer.separated = true;
-    return answer;
-  }
+  if (gaps.moving > needed) return apart(gaps.moving, needed);
   answer.travel = std::max({corners.travel[0].cap, corners.travel[1].cap, corners.travel[2].cap});
   answer.gap = std::max(0.0, distance - margin);
   if (margin > 0 && distance + slack <= margin) {
@@ -157,10 +158,7 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
       if (other.moving > gaps.moving) gaps.moving = other.moving;
       if (other.still > gaps.still) gaps.still = other.still;
     });
-    if (gaps.moving > needed) {
-      answer.separated = true;
-      return answer;
-    }
+    if (gaps.moving > needed) return apart(gaps.moving, needed);
   }
   answer.stuck = !(gaps.still > needed);
   return answer;

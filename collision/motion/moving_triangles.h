@@ -9,6 +9,7 @@ namespace corridor {
 /// What a window of time says of a triangle a at rest and a triangle b that moves.
 struct MovingTrianglesAnswer {
   bool separated = false;  ///< proved farther apart than the margin, all along the window
+  double clearance = 0;    ///< `separated`: by how much, proved; metres
   bool contact =
       false;  ///< at the rounded pose of the middle: exactly touching, or proved within the margin
   bool stuck = false;  ///< neither, and rounding and the tube alone forbid a proof at the middle:

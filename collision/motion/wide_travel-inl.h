@@ -73,19 +73,12 @@ class WideTravel {
     return travels_[slot];
   }
 
-  /// Of the leaves that are these lanes of a node (a bit each), whose corners are relative to
-  /// `center` (in a's frame and unit).
-  LeafTravel ofLeaves(const WideObbTree::Node& node, unsigned lanes, const Vec3& originA,
-                      const double* center) {
+  /// Of the leaves that are these lanes of a node (a bit each); `linear` is left to `setLinear`.
+  LeafTravel ofLeaves(const WideObbTree::Node& node, unsigned lanes) {
     const NodeTravel& boxes = of(node);
     LeafTravel leaves;
-    const Vec3 y = Vec3(center[0], center[1], center[2]) / unitA_ + originA - window_.X_AB.t;
-    const Vec3 linear = (window_.linear + window_.angular.cross(y)) * unitA_;
     const auto angle = static_cast<float>(window_.angle * (1 + 0x1p-20));
-    for (int k = 0; k < 3; ++k) {
-      leaves.linear[k] = static_cast<float>(linear[k]);
-      leaves.angular[k] = boxes.angular[k];
-    }
+    std::copy_n(boxes.angular, 3, leaves.angular);
     // NaN: nothing is told.
     const auto raise = [](float& most, float x) {
       most = x < HUGE_VALF ? std::max(most, x) : HUGE_VALF;
@@ -99,6 +92,13 @@ class WideTravel {
     return leaves;
   }
 
+  /// For corners that are relative to `center` (in a's unit, from a's origin).
+  void setLinear(LeafTravel& leaves, const double* center, const Vec3& originA) const {
+    const Vec3 y = Vec3(center[0], center[1], center[2]) / unitA_ + originA - window_.X_AB.t;
+    const Vec3 linear = (window_.linear + window_.angular.cross(y)) * unitA_;
+    for (int k = 0; k < 3; ++k) leaves.linear[k] = static_cast<float>(linear[k]);
+  }
+
  private:
   using D = hn::CappedTag<double, 4>;
   using V = hn::Vec<D>;
@@ -110,12 +110,6 @@ class WideTravel {
     return hn::MulAdd(x2, y2, hn::MulAdd(x1, y1, hn::Mul(x0, y0)));
   }
   static V norm(V x, V y, V z) { return hn::Sqrt(dot(x, y, z, x, y, z)); }
-  /// As in motion_window.cpp.
-  static double chord(double amount) {
-    if (!(amount < 3)) return 2;
-    const double square = amount * amount;
-    return amount * (1 - square * (1.0 / 24 - square / 1920));
-  }
 
   void compute(const WideObbTree::Node& node, NodeTravel& travel) const {
     const hn::Rebind<float, D> f;

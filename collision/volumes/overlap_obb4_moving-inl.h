@@ -99,8 +99,12 @@ constexpr float kTravelOfSize = 1, kRemainderOfSize = 32;
 
 /// `keys` gets the largest gap along a face normal of each pair, less what b travels along it.
 /// (obb4.h has the derivation.)
+/// @param clearances where not null, gets how much farther apart than the pad each pair that is
+/// told apart is proved to be all along the window, in a's unit (axes are no longer than 1 + 2^-20,
+/// and the difference rounds by 2^-24 of itself).
 HWY_INLINE MovingBoxes movingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
-                                   const Obb4Travel& travel, float* HWY_RESTRICT keys) {
+                                   const Obb4Travel& travel, float* HWY_RESTRICT keys,
+                                   float* HWY_RESTRICT clearances = nullptr) {
   const hn::CappedTag<float, 16> d;
   const PosedBoxes posed(b, pose);
   MovingBoxes found;
@@ -118,6 +122,8 @@ HWY_INLINE MovingBoxes movingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose&
       open = hn::Not(hn::Gt(gap, pairs.slack));
     }
     found.open |= bitsOf(d, open, at);
+    if (clearances)
+      hn::Store(hn::Mul(pairs.set(1 - 0x1p-18F), hn::Sub(gap, pairs.slack)), d, clearances + at);
     const auto turn = BoxPairs::sum3(hn::Abs(pairs.w[0]), hn::Abs(pairs.w[1]), hn::Abs(pairs.w[2]));
     const auto remainder = hn::MulAdd(pairs.bend, turn, pairs.curvature);
     // Boxes that rounding makes large are not told apart by shorter windows.

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/motion/check_evidence.h"
+#include "collision/queries/distance.h"
+#include "tests/collision/motion/bodies.h"
+#include "tests/collision/queries/every_target.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::add;
+using test::at;
+using test::bodyOf;
+using test::box;
+using test::turned;
+using Kind = EvidenceFault::Kind;
+
+/// A motion, its answer with evidence, and what the check of it says.
+struct Case {
+  const Body &fixed, &moving;
+  RigidMotion motion;
+  MotionOptions options;
+  MotionResult result;
+  MotionEvidence evidence;
+  QueryContext context;
+
+  Case(const Body& fixed_, const Body& moving_, const RigidMotion& motion_, double tolerance = 1e-7)
+      : fixed(fixed_), moving(moving_), motion(motion_) {
+    options.tolerance = tolerance;
+    options.earliest = true;
+  }
+  MotionPair pair() const { return {&fixed, &moving}; }
+  void run() {
+    RigidEdge edge(motion);
+    const MotionPair one = pair();
+    result = certifyMotion(edge, {&one, 1}, options, context, &evidence);
+  }
+  std::optional<EvidenceFault> check() {
+    RigidEdge edge(motion);
+    const MotionPair one = pair();
+    return checkEvidence(edge, {&one, 1}, options, result.certifiedUntil, evidence, context);
+  }
+  double leastClearance() const {
+    double least = HUGE_VAL;
+    for (const FreeInterval& i : evidence.free) least = std::min(least, i.clearance);
+    return least;
+  }
+};
+
+class Evidence : public test::EveryTarget {};
+INSTANTIATE_TEST_SUITE_P(Simd, Evidence, testing::ValuesIn(test::simdTargets()), test::targetName);
+
+TEST_P(Evidence, ASlideHasTheClearanceOfItsGap) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  for (const double gap : {0.25, 1e-2, 1e-3}) {
+    Case slide(wall, cube,
+               RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)), {}));
+    slide.run();
+    ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
+    EXPECT_FALSE(slide.evidence.point_A);
+    EXPECT_LE(slide.leastClearance(), gap * (1 + 1e-12));
+    // Axes of two edges are not of unit length: what they prove may be a fraction.
+    EXPECT_GE(slide.leastClearance(), 0.1 * gap);
+    EXPECT_FALSE(slide.check());
+  }
+}
+
+TEST_P(Evidence, KeepsWhatWasAskedFor) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  Case slide(wall, cube,
+             RigidMotion::spatial(at(Vec3(-5, 0.4, 0)), at(Vec3(5, 0.4, 0)),
+                                  {.position = 0.01, .rotation = 0}));
+  slide.options.margin = 0.05;
+  slide.options.reserve = 0.02;
+  slide.run();
+  ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
+  EXPECT_GE(slide.leastClearance(), 0.07 * (1 - 1e-12)) << "margin and reserve";
+  // The tube may take 0.01 along each coordinate: √3 of it as a length, for all the proof knows.
+  EXPECT_LE(slide.leastClearance(), 0.09 * (1 + 1e-12)) << "the tube takes its own";
+  EXPECT_FALSE(slide.check());
+}
+
+TEST_P(Evidence, TamperedWithItFails) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  Case swing(
+      wall, cube,
+      RigidMotion::spatial(at(Vec3(-2, 0.1, 0)), turned(Vec3(2, 0.05, 0), 1.5, Vec3(1, 1, 1)), {}));
+  swing.run();
+  ASSERT_EQ(swing.result.verdict, MotionVerdict::free);
+  ASSERT_GT(swing.evidence.free.size(), 2U);
+  ASSERT_FALSE(swing.check());
+  const MotionEvidence whole = swing.evidence;
+  const auto fault = [&] {
+    const auto found = swing.check();
+    swing.evidence = whole;
+    EXPECT_TRUE(found);
+    return found ? found->kind : Kind::malformed;
+  };
+
+  for (std::size_t i = 0; i < whole.free.size(); ++i) {
+    swing.evidence.free.erase(swing.evidence.free.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_EQ(fault(), Kind::gap) << i;
+  }
+  auto least = std::min_element(
+      swing.evidence.free.begin(), swing.evidence.free.end(),
+      [](const FreeInterval& x, const FreeInterval& y) { return x.clearance < y.clearance; });
+  least->clearance = 1;  // the cube comes nearer than half of that
+  EXPECT_EQ(fault(), Kind::refuted);
+  swing.evidence.free[0].pair = 1;
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.evidence.free[0].clearance = std::nan("");
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.evidence.free[0].t1 = 1.5;
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.evidence.free[0].t1 = swing.evidence.free[0].t0;
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.options.margin = 1;
+  EXPECT_EQ(fault(), Kind::malformed) << "less than what was asked for";
+}
+
+TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 c = spread * Vec3(real(), real(), real());
+    add(mesh, c, c + size * Vec3(real(), real(), real()), c + size * Vec3(real(), real(), real()));
+  }
+  return mesh;
+}
+
+/// Whatever is said holds: for the check, and against distances at samples that it knows nothing
+/// of.
+TEST_P(Evidence, RandomMotions) {
+  std::mt19937_64 random(test::testSeed(41));
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  int free = 0, contact = 0;
+  for (int n = 0; n < 200; ++n) {
+    // Every third time a solid instead of a mesh, on either side.
+    const auto make = [&](int which, int count, double spread) {
+      return n % 3 == which ? Body("", ConvexPart{{Vec3::Zero(), spread * Vec3(0.3, 0.2, 0.1)},
+                                                  0.2 * spread,
+                                                  false})
+                            : bodyOf(blob(random, count, spread, 0.3));
+    };
+    const Body fixed = make(0, 60, 2), moving = make(1, 12, 0.3);
+    const double length = std::pow(10.0, real(-2, 0.5));
+    const RigidPose a{2 * Vec3(real(), real(), real()),
+                      Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
+    const RigidPose b{a.p + length * Vec3(real(), real(), real()),
+                      Eigen::Quaterniond(Eigen::AngleAxisd(
+                          length * real(), Vec3(real(), real(), real()).normalized())) *
+                          a.q};
+    Case c(fixed, moving, RigidMotion::spatial(a, b, {}));
+    c.options.earliest = n % 2;
+    c.run();
+    const MotionResult result = c.result;
+    RigidEdge edge(c.motion);
+    const MotionPair pair = c.pair();
+    const MotionResult bare = certifyMotion(edge, {&pair, 1}, c.options, c.context);
+    ASSERT_EQ(bare.verdict, result.verdict) << n;
+    EXPECT_EQ(bare.certifiedUntil, result.certifiedUntil);
+    EXPECT_EQ(bare.contactTime, result.contactTime);
+    const auto fault = c.check();
+    EXPECT_FALSE(fault) << n << ": kind " << int(fault->kind) << " at " << fault->t;
+    for (const FreeInterval& i : c.evidence.free)
+      for (int k = 0; k <= 4; ++k) {
+        const Transform X = c.motion.at(i.t0 + (i.t1 - i.t0) * k / 4);
+        const double d =
+            distance(fixed.binaryTree(), {}, moving.binaryTree(), X, {}, c.context).distance;
+        ASSERT_GE(d, i.clearance * (1 - 1e-12) - 1e-14) << n;
+      }
+    free += result.verdict == MotionVerdict::free;
+    if (result.verdict != MotionVerdict::contact) {
+      EXPECT_FALSE(c.evidence.point_A);
+      continue;
+    }
+    ++contact;
+    ASSERT_TRUE(c.evidence.point_A) << n;
+    TriangleMesh dot;
+    const Vec3 p = *c.evidence.point_A;
+    add(dot, p, p, p);
+    const Body point = bodyOf(dot);
+    const Transform X = c.motion.at(result.contactTime);
+    for (const auto& [body, pose] : {std::pair(&fixed, Transform()), std::pair(&moving, X)})
+      EXPECT_LT(distance(body->binaryTree(), pose, point.binaryTree(), {}, {}, c.context).distance,
+                1e-13)
+          << n;
+  }
+  EXPECT_GT(free, 30);
+  EXPECT_GT(contact, 30);
+}
+
+}  // namespace
+}  // namespace corridor
