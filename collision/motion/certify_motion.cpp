@@ -39,7 +39,7 @@ class Certifier {
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
     const Window all = {0, 1, 0, groups_.size()};
-    if (options_.earliest ? walkInOrder(all, 0) : walkByLevels(all)) return {};
+    if (options_.earliest ? walkInOrder(all) : walkByLevels(all)) return {};
     if (!options_.earliest) result_.certifiedUntil = 0;
     return result_;
   }
@@ -52,14 +52,16 @@ class Certifier {
 
   /// What one window may leave of a pair to its halves before it gives up: a window far too wide to
   /// decide anything should not look at everything.
-  static constexpr unsigned kLeftovers = 16;
+  static constexpr unsigned kLeftovers = 8;
+  /// And of how many pairs of bodies one may leave something, if that is nearly all that it has
+  /// looked at, before it leaves all the others too.
+  static constexpr std::size_t kLeftBodies = 12;
   /// The first levels of halving: walked level by level for a verdict alone, so that a contact
-  /// anywhere is found soon; and what their windows leave is tested for contact at their middles.
+  /// anywhere is found soon.
   static constexpr int kFirstLevels = 4;
-  /// Where a motion is sampled for a verdict, once the whole window has left something open: the
-  /// end, then the middles of the first levels.
-  static constexpr double kSamples[] = {1, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
-  static constexpr int kSampledLevels = 3;
+  /// Where a motion is sampled for a verdict, once the whole window has left something open.
+  /// Measured: more samples find contacts no sooner, and are most of what a free motion costs.
+  static constexpr double kSamples[] = {1, 0.5};
   /// Half windows are not halved below 2^-48 of the motion: much below, their middles would no
   /// longer be exact.
   static constexpr double kShortest = 0x1p-48;
@@ -81,8 +83,13 @@ class Certifier {
     SweptBall ball;
     const Body* swept = nullptr;  // whose ball that is, in this window of this motion
     std::size_t posed = std::numeric_limits<std::size_t>::max();
-    for (std::size_t g = w.begin; g < w.end; ++g) {
+    std::size_t looked = 0, left = 0;
+    for (std::size_t g = w.begin; g < w.end; ++g, ++looked) {
       Group group = groups_[g];
+      if (left >= kLeftBodies && 4 * left > 3 * looked && h > kShortest) {
+        groups_.push_back(group);
+        continue;
+      }
       const MotionPair& pair = pairs_[group.bodies];
       if (pair.motion != posed) {
         posed = pair.motion;
@@ -109,10 +116,12 @@ class Certifier {
                                     workEnd_,        kLeftovers,         evidence_ != nullptr};
       found_ = descend(pair.a->tree(), pair.b->tree(), window, asked, count, items_, context_);
       group.clearance = std::min(group.clearance, found_.clearance);
-      if (items_.size() > later)
+      if (items_.size() > later) {
         groups_.push_back({group.bodies, later, items_.size(), group.clearance});
-      else if (found_.kind == Descent::Kind::done)
+        ++left;
+      } else if (found_.kind == Descent::Kind::done) {
         proved(w, group, HUGE_VAL);
+      }
       if (found_.kind == Descent::Kind::done) continue;
       bodies_ = group.bodies;
       for (std::size_t k = g + 1; k < w.end; ++k)
@@ -146,7 +155,6 @@ class Certifier {
         const std::size_t later = groups_.size();
         if (!look(w)) return stopped(w);
         if (groups_.size() == later) continue;
-        if (level >= kSampledLevels && touchesAt(middle_, later)) return contact(0, false);
         ++counters_.splits;
         below[halves++] = {w.t0, middle_, later, groups_.size()};
         below[halves++] = {middle_, w.t1, later, groups_.size()};
@@ -158,27 +166,27 @@ class Certifier {
     // Depth first, so that a place that can't be decided is found before everything else is
     // refined.
     for (const Window& w : std::span(windows).first(count))
-      if (!walkInOrder(w, kFirstLevels)) return false;
+      if (!walkInOrder(w)) return false;
     return true;
   }
 
   /// Depth first, earlier half first: all is certified up to w.t0. False: stop, `result_` says why.
-  bool walkInOrder(const Window& w, int level) {
+  bool walkInOrder(const Window& w) {
     const std::size_t items = items_.size(), later = groups_.size();
     const bool done = look(w);
     const double t = middle_;
     const std::size_t count = groups_.size();
     if (!done && found_.kind != Descent::Kind::contact) return stopped(w);
-    if (!done || (options_.earliest && level < kFirstLevels && touchesAt(t, later))) {
-      if (!done) touched();
+    if (!done) {
+      touched();
       // Only the first half matters now.
       if (!options_.earliest || t - w.t0 <= options_.timeTolerance) return contact(w.t0, false);
       ++counters_.splits;
-      return walkInOrder({w.t0, t, later, count}, level + 1);
+      return walkInOrder({w.t0, t, later, count});
     }
     counters_.splits += count > later;
-    const bool free = count == later || (walkInOrder({w.t0, t, later, count}, level + 1) &&
-                                         walkInOrder({t, w.t1, later, count}, level + 1));
+    const bool free = count == later || (walkInOrder({w.t0, t, later, count}) &&
+                                         walkInOrder({t, w.t1, later, count}));
     items_.resize(items);
     groups_.resize(later);
     return free;

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/motion/may_meet.h"
 #include "collision/queries/interference.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/support/support.h"
@@ -357,18 +356,6 @@ TEST(CertifyMotion, GrazingIsSaidOnlyOfNarrowGaps) {
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_FALSE(r.grazing);
   EXPECT_LE(r.certifiedUntil, 0.25);
-}
-
-/// A ball that reaches 0.3e-162 into a body: the square of the gap to its centre, 1.6e-162, is
-/// subnormal and was rounded to that of 2.2e-162.
-TEST(MayMeet, GapWhoseSquareIsSubnormal) {
-  const double e = 1.6e-162, r = 1.9e-162;
-  TriangleMesh a, b;
-  add(a, Vec3::Zero(), Vec3(0, e, 0), Vec3(0, 0, e));
-  add(b, Vec3(-r, 0, 0), Vec3(r, 0, 0), Vec3(0, 0, 0.1 * e));
-  MotionWindow still;
-  still.X_AB.t = Vec3(-e, 0.2 * e, 0.1 * e);
-  EXPECT_TRUE(mayMeet(bodyOf(a), sweptBall(bodyOf(b), still), 0));
 }
 
 }  // namespace

@@ -88,11 +88,12 @@ TEST_P(Evidence, KeepsWhatWasAskedFor) {
 }
 
 TEST_P(Evidence, TamperedWithItFails) {
+  // The bar's corner comes as near as 0.03 at the end of its turn.
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
-             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
-  Case swing(
-      wall, cube,
-      RigidMotion::spatial(at(Vec3(-2, 0.1, 0)), turned(Vec3(2, 0.05, 0), 1.5, Vec3(1, 1, 1)), {}));
+             bar = bodyOf(box(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1)));
+  Case swing(wall, bar,
+             RigidMotion::spatial(at(Vec3(-2, 0.15, 0)),
+                                  turned(Vec3(2, 0.15, 0), 0.85, Vec3::UnitZ()), {}));
   swing.run();
   ASSERT_EQ(swing.result.verdict, MotionVerdict::free);
   ASSERT_GT(swing.evidence.free.size(), 2U);
@@ -112,7 +113,7 @@ TEST_P(Evidence, TamperedWithItFails) {
   auto least = std::min_element(
       swing.evidence.free.begin(), swing.evidence.free.end(),
       [](const FreeInterval& x, const FreeInterval& y) { return x.clearance < y.clearance; });
-  least->clearance = 1;  // the cube comes nearer than half of that
+  least->clearance = 1;  // it comes nearer than half of that
   EXPECT_EQ(fault(), Kind::refuted);
   swing.evidence.free[0].pair = 1;
   EXPECT_EQ(fault(), Kind::malformed);

@@ -85,6 +85,10 @@ TEST_P(WideTravels, AreThoseOfTheSpheres) {
     if (n % 2) w.fixedError = real(0, 0.01), w.reachError = real(0, 0.01);
     const double unitA = std::ldexp(1.0, n % 9 - 4), margin = n % 4 ? 0 : real(0, 0.1),
                  tolerance = size * real(0, 1);
+    double turned = w.angle;
+    for (const ScrewTravel& screw : screws) turned += screw.amount + screw.tube;
+    const double rounding = 16 * kUnit * (w.X_AB.t.cwiseAbs().sum() + 12 * tree.reach() + w.speed) *
+                            (1 + turned) * (1 + turned);
     std::vector<Obb4Travel> travels;
     std::vector<unsigned> far;
     HWY_DYNAMIC_DISPATCH(travelsOf)(tree, w, unitA, margin, tolerance, travels, far);
@@ -100,9 +104,11 @@ TEST_P(WideTravels, AreThoseOfTheSpheres) {
         const Vec3 y = w.X_AB.m * (tree.origin() + tree.length() * center);
         const PointTravel is = travelOf(w, y + w.X_AB.t, three(node.half).norm());
         const Obb4Travel& told = travels[i];
-        // At least 2^-16 above what is in exact arithmetic, and no more than 2^-14.
+        // At least 2^-16 above what is in exact arithmetic, and no more than 2^-14 and what the
+        // kernel allows more for the lever's rounding, which every joint hands on.
         const auto covers = [&](float bound, double x) {
-          return bound >= unitA * x * (1 + 0x1p-16) && bound <= unitA * (x * (1 + 0x1p-14) + 1e-11);
+          return bound >= unitA * x * (1 + 0x1p-16) &&
+                 bound <= unitA * (x * (1 + 0x1p-14) + rounding);
         };
         ASSERT_TRUE(covers(told.cap[lane], is.cap)) << n;
         ASSERT_TRUE(covers(told.bend[lane], is.bend)) << n;
@@ -111,7 +117,8 @@ TEST_P(WideTravels, AreThoseOfTheSpheres) {
         bending += told.bend[lane] > 0;
         const Vec3 first = unitA * (w.linear + w.angular.cross(y));
         for (int k = 0; k < 3; ++k) {
-          ASSERT_NEAR(told.linear[k][lane], first[k], 0x1p-23 * std::abs(first[k]) + 1e-11 * unitA);
+          ASSERT_NEAR(told.linear[k][lane], first[k],
+                      0x1p-23 * std::abs(first[k]) + rounding * unitA);
           ASSERT_NEAR(told.angular[k], w.angular[k], 0x1p-23 * std::abs(w.angular[k]));
         }
         if (is.cap > tolerance) {

@@ -1,0 +1,98 @@
+#include "collision/motion/may_meet.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/queries/distance.h"
+#include "tests/collision/motion/bodies.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::add;
+using test::at;
+using test::bodyOf;
+using test::box;
+
+/// A ball that reaches 0.3e-162 into a body: the square of the gap to its centre, 1.6e-162, is
+/// subnormal and was rounded to that of 2.2e-162.
+TEST(MayMeet, GapWhoseSquareIsSubnormal) {
+  const double e = 1.6e-162, r = 1.9e-162;
+  TriangleMesh a, b;
+  add(a, Vec3::Zero(), Vec3(0, e, 0), Vec3(0, 0, e));
+  add(b, Vec3(-r, 0, 0), Vec3(r, 0, 0), Vec3(0, 0, 0.1 * e));
+  MotionWindow still;
+  still.X_AB.t = Vec3(-e, 0.2 * e, 0.1 * e);
+  EXPECT_TRUE(mayMeet(bodyOf(a), sweptBall(bodyOf(b), still), 0));
+}
+
+/// Along a wall, ten times as far as the gap is wide: only what it goes across counts.
+TEST(MayMeet, ASlideKeepsItsGap) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
+  std::array<ScrewTravel, 2> screws;
+  for (const double tilt : {0.0, 0.1}) {
+    const RigidMotion slide =
+        RigidMotion::spatial(at(Vec3(-5, -tilt, 0)), at(Vec3(5, tilt, 0)), {});
+    const double bound = clearanceBound(wall, sweptBall(bar, slide.window(0.5, 0.5, screws)));
+    EXPECT_NEAR(bound, 0.5 - tilt, 1e-12) << "the ball's radius is 0.5";
+    EXPECT_LE(bound, 0.5 - tilt);
+  }
+}
+
+/// Never more than the distance at any sampled time; and more than the way that the body goes would
+/// leave, where it goes sideways.
+TEST(MayMeet, RandomMotions) {
+  std::mt19937_64 random(test::testSeed(66));
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const auto vector = [&] {
+    const double x = real(), y = real(), z = real();
+    return Vec3(x, y, z);
+  };
+  QueryContext context;
+  std::array<ScrewTravel, 2> screws;
+  int proved = 0, sideways = 0;
+  for (int n = 0; n < 3'000 / test::kSlowdown; ++n) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 c = 0.3 * vector();
+      const Vec3 d = 0.3 * vector();
+      add(mesh, c, d, 0.3 * vector());
+    }
+    const Body b = bodyOf(mesh), a = bodyOf(box(-0.5 * Vec3::Ones(), Vec3(0.5, 0.8, 2)));
+    const auto quaternion = [&](double angle) {
+      return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector().normalized()));
+    };
+    const RigidPose from{3 * vector(), quaternion(real(-3, 3))};
+    const double length = std::pow(10.0, real(-1, 0.7));
+    const RigidPose to{from.p + length * vector(), quaternion(length * real()) * from.q};
+    const RigidMotion motion = RigidMotion::spatial(from, to, {});
+    const double h = std::ldexp(0.5, -static_cast<int>(real(0, 4)));
+    const MotionWindow window = motion.window(0.5, h, screws);
+    const SweptBall ball = sweptBall(b, window);
+    const double bound = clearanceBound(a, ball);
+    if (!(bound > 0)) continue;
+    ++proved;
+    SweptBall isotropic = ball;
+    isotropic.curvature = HUGE_VAL;
+    const double without = clearanceBound(a, isotropic);
+    EXPECT_LE(without, bound);
+    sideways += without == 0;
+    for (int k = -8; k <= 8; ++k) {
+      const Transform X = motion.at(0.5 + h * k / 8);
+      const double d = distance(a.binaryTree(), {}, b.binaryTree(), X, {}, context).distance;
+      ASSERT_GE(d, bound * (1 - 1e-12) - 1e-14) << n << " at " << k;
+    }
+  }
+  EXPECT_GT(proved, 500 / test::kSlowdown);
+  EXPECT_GT(sideways, 30 / test::kSlowdown);
+  std::cout << proved << " proved, " << sideways << " of them by the direction\n";
+}
+
+}  // namespace
+}  // namespace corridor
