@@ -106,11 +106,10 @@ MotionResult DistanceSteps::workLimit(double t0) const {
 
 MotionResult DistanceSteps::close(std::uint32_t pair, double t0, double time, double clearance) {
   for (double after = kFirstProbe; !motion_.still(); after *= 2) {
-    const double t1 = std::min(t0 + after, 1.0), h = t1 - t0;
-    const bool narrow = !options_.earliest || h <= options_.timeTolerance;
+    const double t1 = std::min(t0 + after, 1.0), h = (t1 - t0) / 2;
+    const bool narrow = !options_.earliest || t1 - t0 <= options_.timeTolerance;
     // `grazing`: all over [t0, t1] the clearance is under twice the tolerance.
-    if (!narrow && !(h <= 0.5 && clearance + bound(pair, t0, h).travel <= 2 * options_.tolerance))
-      break;
+    if (!narrow && clearance + 2 * bound(pair, t0 + h, h).travel > 2 * options_.tolerance) break;
     const Look there = look(pair, t1, 0, true);
     if (there.contact) {
       MotionResult result = contact(pair, t0, t1, there);
