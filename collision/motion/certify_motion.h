@@ -56,8 +56,8 @@ struct MotionOptions {
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
-  /// Motion `i` in [t − h, t + h]. @pre 0 ≤ t − h, t + h ≤ 1, both exact. The span stays good until
-  /// the next call for the same i.
+  /// Motion `i` in [t − h, t + h], outside of [0, 1] as if it went on. @pre 0 ≤ t ≤ 1, h ≤ 1/2,
+  /// t − h and t + h exact. The span stays good until the next call for the same i.
   virtual MotionWindow window(std::size_t i, double t, double h) = 0;
   /// The shorter way is not unique within 1e-9 rad somewhere (half turns): no edge.
   virtual bool ambiguous() const = 0;

@@ -34,8 +34,8 @@ class RigidMotion {
   bool still() const { return delta_.isZero(0) && angle_ == 0; }
 
   /// What the body does in [t − h, t + h], seen from the world: a slide, then a turn about its
-  /// reference point. The tube is in the errors. The window looks at `screws`. @pre 0 ≤ t − h,
-  /// t + h ≤ 1, both exact.
+  /// reference point. The tube is in the errors. The window looks at `screws`. @pre 0 ≤ t ≤ 1,
+  /// h ≤ 1/2, t − h and t + h exact.
   MotionWindow window(double t, double h, std::span<ScrewTravel, 2> screws) const;
   /// The rounded pose at t: that of every window about it.
   Transform at(double t) const;

@@ -4,9 +4,8 @@
 #include <stdexcept>
 
 #include "collision/queries/containment.h"
-#include "collision/queries/distance_wide.h"
-#include "collision/queries/interference.h"
 #include "collision/queries/interference_wide.h"
+#include "collision/queries/surface_distance.h"
 
 namespace corridor {
 namespace {
@@ -19,12 +18,6 @@ void require(const Transform& X_WA, const Transform& X_WB) {
 void require(double x, const char* what) {
   if (!(std::isfinite(x) && x >= 0))
     throw std::invalid_argument(std::string(what) + " is to be finite and not negative");
-}
-
-/// Calls `query` with both bodies' trees: the wide ones, but where distances of solids are asked.
-template <class Query>
-auto onTrees(const Body& a, const Body& b, Query&& query) {
-  return a.part() || b.part() ? query(a.binaryTree(), b.binaryTree()) : query(a.tree(), b.tree());
 }
 
 /// Is a component of `inner` inside `solid`, surfaces that don't touch? The triangle around, and
@@ -64,9 +57,7 @@ Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Tra
   require(X_WA, X_WB);
   require(options.relative, "a distance's relative error");
   require(options.absolute, "a distance's absolute error");
-  Distance d = onTrees(a, b, [&](const auto& ta, const auto& tb) {
-    return distance(ta, X_WA, tb, X_WB, options, context);
-  });
+  Distance d = surfaceDistance(a, X_WA, b, X_WB, options, context);
   if (d.distance == 0) return d;
   if (const auto hit = inside(a, X_WA, b, X_WB, context)) {
     const Vec3 p_W = pointOf(b, hit->b, X_WB);
@@ -82,10 +73,7 @@ bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Trans
                 double d, QueryContext& context) {
   require(X_WA, X_WB);
   require(d, "a tolerance");
-  return onTrees(a, b,
-                 [&](const auto& ta, const auto& tb) {
-                   return closerThan(ta, X_WA, tb, X_WB, d, context);
-                 }) ||
+  return surfacesCloserThan(a, X_WA, b, X_WB, d, context) ||
          insideEachOther(a, X_WA, b, X_WB, context).has_value();
 }
 

@@ -103,8 +103,10 @@ double Scene::defaultTolerance() const {
   return 1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8);
 }
 
-std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
-                                           QueryContext& context) const {
+/// Visits the pairs of bodies whose bounds don't keep them farther apart than `within` metres,
+/// which may fall on the way, until the visitor returns true.
+template <class Visit>
+void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within, Visit visit) const {
   for (const FramePair& pair : framePairs_)
     for (const std::size_t frame : {pair.a, pair.b})
       if (frame >= X_WF.size() || !X_WF[frame].isFinite())
@@ -119,16 +121,35 @@ std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
     if (!same) still = atRest(X_WA, X_WB);
     if (!same || last->b != pair.b) ball = sweptBall(*pair.b, still);
     last = &pair;
-    if (!mayMeet(*pair.a, ball, 0)) continue;
-    if (const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context))
-      return Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
+    if (mayMeet(*pair.a, ball, within) && visit(pair, X_WA, X_WB)) return;
   }
-  return std::nullopt;
+}
+
+std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
+                                           QueryContext& context) const {
+  std::optional<Contact> contact;
+  forNearPairs(X_WF, 0, [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
+    if (const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context))
+      contact = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
+    return contact.has_value();
+  });
+  return contact;
+}
+
+double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context) const {
+  double least = std::numeric_limits<double>::infinity();
+  forNearPairs(
+      X_WF, least, [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
+        least = std::min(least, distance(*pair.a, X_WA, *pair.b, X_WB, {}, context).distance);
+        return least == 0;
+      });
+  return least;
 }
 
 MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
-                                 const MotionOptions& options, QueryContext& context) const {
-  MotionResult result = certifyMotion(motion, pairs, options, context);
+                                 const MotionOptions& options, QueryContext& context,
+                                 EdgeMethod method) const {
+  MotionResult result = certifyMotionBy(method, motion, pairs, options, context);
   if (!solidMeshes_) return result;
   if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
   // Surfaces that stay apart at t = 0 by more than all rounding: the rounded pose decides for the
@@ -151,9 +172,9 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
 }
 
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
-                            QueryContext& context) const {
+                            QueryContext& context, EdgeMethod method) const {
   require(options);
-  return certifyPairs(motionPairs_, motion, options, context);
+  return certifyPairs(motionPairs_, motion, options, context, method);
 }
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,
@@ -162,7 +183,8 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    results[order_[i]] = certifyPairs({&motionPairs_[i], 1}, motion, options, context);
+    results[order_[i]] =
+        certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::certified);
   return results;
 }
 

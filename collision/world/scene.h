@@ -9,7 +9,7 @@
 
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/body.h"
-#include "collision/motion/certify_motion.h"
+#include "collision/motion/edge_method.h"
 
 namespace corridor {
 
@@ -50,17 +50,24 @@ class Scene {
   /// primitives; solids included. First contact found.
   std::optional<Contact> interference(std::span<const Transform> X_WF, QueryContext& context) const;
 
-  /// Is the motion free? (`certifyMotion`; a solid that has another body inside is a contact at t =
-  /// 0.) `motion` numbers its motions as `framePairs()`.
-  MotionResult certify(MotionSource& motion, const MotionOptions& options,
-                       QueryContext& context) const;
+  /// The least distance of all pairs, metres: 0 if and only if `interference` says contact; else
+  /// with the errors of `queries/distance.h`. Infinite without pairs.
+  double clearance(std::span<const Transform> X_WF, QueryContext& context) const;
+
+  /// Is the motion free? (`certifyMotion`, by any method; a solid that has another body inside is a
+  /// contact at t = 0.) `motion` numbers its motions as `framePairs()`.
+  MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
+                       EdgeMethod method = EdgeMethod::certified) const;
   /// What `certify` says of each pair of bodies on its own, in the order of `pairs()`.
   std::vector<MotionResult> certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                             QueryContext& context) const;
 
  private:
   MotionResult certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
-                            const MotionOptions& options, QueryContext& context) const;
+                            const MotionOptions& options, QueryContext& context,
+                            EdgeMethod method) const;
+  template <class Visit>
+  void forNearPairs(std::span<const Transform> X_WF, const double& within, Visit visit) const;
 
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;

@@ -12,6 +12,7 @@
 #include "collision/core/nearest.h"
 #include "planner/app/commands.h"
 #include "planner/app/query_batch.h"
+#include "planner/problem/keys.h"
 
 namespace {
 
@@ -48,7 +49,9 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   command->add_option("--set", a.set, "key=value: a parameter of the planner, by OMPL's name")
       ->group(planning)
       ->allow_extra_args(false);
-  command->add_option("--sampler", a.sampler, "uniform, gaussian, obstacle_based or bridge_test")
+  command
+      ->add_option("--sampler", a.sampler,
+                   "uniform, gaussian, obstacle_based, bridge_test or max_clearance")
       ->group(planning);
   command->add_option("--time", a.time, "seconds")
       ->check(from(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
@@ -67,8 +70,10 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   command->add_flag("--no-simplify", a.noSimplify, "the planner's own path")->group(planning);
   const char* checking = "Checking";
   command
-      ->add_option("--edges", a.edges, "certified (default), or discrete: samples, as a yardstick")
-      ->check(CLI::IsMember({"certified", "discrete"}))
+      ->add_option("--edges", a.edges,
+                   "certified (default); adaptive or advancement: proved by distances, as "
+                   "comparisons; or discrete: samples, as a yardstick")
+      ->check(CLI::IsMember(corridor::problemChoices().at("checker.edges")))
       ->group(checking);
   command
       ->add_option("--resolution", a.resolution,
@@ -188,6 +193,11 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
                    "instead of poses: a file of B's motions, one a line: the pose where it begins, "
                    "12 numbers, and where it ends; from one to the other B goes straight and turns "
                    "the shorter way (slerp). Asked is the first contact")
+      ->group("Motions of B");
+  command
+      ->add_option("--edges", a.edges,
+                   "how motions are proved, the first is the default: " +
+                       corridor::joined(corridor::edgeMethodNames()))
       ->group("Motions of B");
   const char* asked = "What is asked";
   const auto named = [](const auto& kinds) {

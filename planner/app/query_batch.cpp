@@ -150,7 +150,7 @@ BatchResult runWide(const Batch& batch) {
 
 BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
                        const std::vector<PoseMotion>& motions, const std::string& fit,
-                       std::optional<double> tolerance, int repeat) {
+                       std::optional<double> tolerance, int repeat, EdgeMethod method) {
   BatchResult result;
   const TreeParams params{obbFitNamed(fit).value_or(ObbFit::triangles)};
   const Body a("A", std::move(meshA), false, params), b("B", std::move(meshB), false, params);
@@ -174,7 +174,7 @@ BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
       timed(motions.size(), repeat, a.tree(), b.tree(), [&](std::size_t i, QueryContext& context) {
         MotionAnswer& answer = result.motions[i];
         const std::uint64_t splits = context.counters.splits;
-        answer.result = certifyMotion(edges[i], {&pair, 1}, options, context);
+        answer.result = certifyMotionBy(method, edges[i], {&pair, 1}, options, context);
         answer.splits = context.counters.splits - splits;
         return answer.result.verdict == MotionVerdict::contact;
       });

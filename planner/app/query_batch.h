@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "collision/geometry/triangle_mesh.h"
-#include "collision/motion/certify_motion.h"
+#include "collision/motion/edge_method.h"
 #include "collision/queries/distance.h"
 #include "planner/app/query_poses.h"
 
@@ -74,9 +74,10 @@ struct VolumeKind {
 };
 const std::vector<VolumeKind>& volumeKinds();
 
-/// The first contact of motions of b, a at rest, on the tree that motions are proved with.
+/// The first contact of motions of b, a at rest, on the trees that the method works with.
 /// @param tolerance metres; unset: 1e-7 of the smaller one's radius.
 BatchResult runMotions(TriangleMesh a, TriangleMesh b, const std::vector<PoseMotion>& motions,
-                       const std::string& fit, std::optional<double> tolerance, int repeat);
+                       const std::string& fit, std::optional<double> tolerance, int repeat,
+                       EdgeMethod method);
 
 }  // namespace corridor::app

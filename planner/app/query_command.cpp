@@ -90,6 +90,8 @@ void checkOptions(const QueryArguments& a) {
   const auto ofGrid = [&](const char* option, bool given) {
     if (given && !a.grid) throw InputError(Fault{option, 0, "is of --grid, which is not given"});
   };
+  if (a.edges && !a.motions)
+    throw InputError(Fault{"--edges", 0, "is of --motions, which is not given"});
   ofGrid("--lower", a.lower.has_value());
   ofGrid("--upper", a.upper.has_value());
   ofGrid("--rotations", a.rotations.has_value());
@@ -190,13 +192,24 @@ void checkRepeats(const QueryArguments& a, std::size_t count, const char* what) 
                              " are more than " + grouped(kMostQueries) + " queries"});
 }
 
+/// @throws InputError for an unknown name.
+EdgeMethod methodNamed(const std::string& name) {
+  if (const auto method = edgeMethodNamed(name)) return *method;
+  throw InputError(Fault{"--edges", 0,
+                         "unknown method " + quotedWord(name) +
+                             didYouMean(name, edgeMethodNames()) +
+                             "; there are: " + joined(edgeMethodNames())});
+}
+
 int queryMotions(const QueryArguments& a) {
+  const std::string edges = a.edges.value_or(edgeMethodNames().front());
+  const EdgeMethod method = methodNamed(edges);
   const std::string fit = variantNamed("--fit", a.fit, volumeKinds().front(), &VolumeKind::fits);
   MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<PoseMotion> motions = readMotions(*a.motions);
   checkRepeats(a, motions.size(), "motion");
   const BatchResult result = runMotions(std::move(meshA.mesh), std::move(meshB.mesh), motions, fit,
-                                        a.tolerance, static_cast<int>(a.repeat));
+                                        a.tolerance, static_cast<int>(a.repeat), method);
   printMotions(result);
   const auto number = [&](MotionVerdict verdict) {
     return std::to_string(std::count_if(
@@ -205,7 +218,7 @@ int queryMotions(const QueryArguments& a) {
   };
   printSummary(
       result,
-      {"fit=" + fit, "tolerance=" + rounded(result.tolerance),
+      {"edges=" + edges, "fit=" + fit, "tolerance=" + rounded(result.tolerance),
        "motions=" + std::to_string(motions.size()), "free=" + number(MotionVerdict::free),
        "hits=" + number(MotionVerdict::contact), "undecided=" + number(MotionVerdict::undecided)});
   return kDone;

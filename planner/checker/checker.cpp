@@ -79,6 +79,7 @@ Checker::Checker(const Problem& problem)
     : problem_(problem),
       scene_(makeScene(problem)),
       bodyOf_(bodiesOfShapes(problem)),
+      method_(edgeMethodNamed(problem.checker.edges).value_or(EdgeMethod::certified)),
       pool_(std::make_unique<Pool>()) {
   options_.tolerance = problem.checker.tolerance.value_or(scene_.defaultTolerance());
   options_.reserve = options_.tolerance;
@@ -110,11 +111,16 @@ MotionResult Checker::state(const Configuration& q) const {
 
 MotionResult Checker::edge(const Configuration& from, const Configuration& to,
                            bool earliest) const {
+  return edge(from, to, earliest, method_);
+}
+
+MotionResult Checker::edge(const Configuration& from, const Configuration& to, bool earliest,
+                           EdgeMethod method) const {
   Workspace& workspace = mine();
   MotionOptions options = options_;
   options.earliest = earliest;
   workspace.motion.set(from, to);
-  return scene_.certify(workspace.motion, options, workspace.context);
+  return scene_.certify(workspace.motion, options, workspace.context, method);
 }
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
@@ -123,6 +129,14 @@ std::optional<Contact> Checker::interference(const Configuration& q) const {
   const std::optional<Contact> contact = scene_.interference(framePoses(problem_.tree, q), context);
   context.counters.states = before + 1;  // the scene counts pairs of bodies
   return contact;
+}
+
+double Checker::clearance(const Configuration& q) const {
+  QueryContext& context = mine().context;
+  const std::uint64_t before = context.counters.states;
+  const double least = scene_.clearance(framePoses(problem_.tree, q), context);
+  context.counters.states = before + 1;  // the scene counts pairs of bodies
+  return least - options_.margin;
 }
 
 std::vector<Scene::Pair> Checker::pairsNotFree(const Configuration& q) const {
@@ -148,7 +162,8 @@ bool Checker::certifiedState(const Configuration& q) const {
 }
 
 bool Checker::certifiedEdge(const Configuration& from, const Configuration& to) const {
-  return inBounds(from) && inBounds(to) && edge(from, to, false).verdict == MotionVerdict::free;
+  return inBounds(from) && inBounds(to) &&
+         edge(from, to, false, EdgeMethod::certified).verdict == MotionVerdict::free;
 }
 
 }  // namespace corridor

@@ -35,16 +35,22 @@ class Checker {
   bool inBounds(const Configuration& q) const;
   /// Bounds aside. @pre finite.
   MotionResult state(const Configuration& q) const;
-  /// Bounds aside. @pre finite.
+  /// Bounds aside, by the method that the problem asks for (its default where edges are
+  /// `discrete`). @pre finite.
   MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Exact static interference: neither margin nor tolerance nor tube. @pre finite.
   std::optional<Contact> interference(const Configuration& q) const;
+  /// How far the closest tested pair is apart beyond the margin, metres: 0 or less where `state`
+  /// can't be free, the margin below 0 where a pair touches (there is no depth). Infinite where no
+  /// pair is tested. Neither tolerance nor tube. @pre finite.
+  double clearance(const Configuration& q) const;
   /// The pairs of bodies of the problem of which `state` isn't free, each once. @pre finite.
   std::vector<Scene::Pair> pairsNotFree(const Configuration& q) const;
 
   /// In bounds and `state` is free.
   bool certifiedState(const Configuration& q) const;
-  /// Both ends in bounds (so all of it is) and `edge` is free.
+  /// Both ends in bounds (so all of it is), and the edge is free by the default method, whatever
+  /// the problem asks for.
   bool certifiedEdge(const Configuration& from, const Configuration& to) const;
 
   /// Of all threads; call it while no query runs.
@@ -54,11 +60,14 @@ class Checker {
   struct Workspace;
   class Pool;
   Workspace& mine() const;
+  MotionResult edge(const Configuration& from, const Configuration& to, bool earliest,
+                    EdgeMethod method) const;
 
   const Problem& problem_;
   Scene scene_;
   std::vector<std::size_t> bodyOf_;
   MotionOptions options_;
+  EdgeMethod method_;
   std::unique_ptr<Pool> pool_;
 };
 

@@ -1,8 +1,21 @@
 #include "planner/checker/state_validity_checkers.h"
 
+#include <cmath>
+
 #include "planner/checker/problem_state_space.h"
 
 namespace corridor {
+
+ClearanceChecker::ClearanceChecker(const ompl::base::SpaceInformationPtr& si,
+                                   const Checker& checker)
+    : StateValidityChecker(si), checker_(checker) {
+  specs_.clearanceComputationType = ompl::base::StateValidityCheckerSpecs::EXACT;
+}
+
+double ClearanceChecker::clearance(const ompl::base::State* state) const {
+  const Configuration q = configurationOf(*si_, state);
+  return checker_.space().isFinite(q) ? checker_.clearance(q) : -HUGE_VAL;
+}
 
 bool CertifiedStateValidityChecker::isValid(const ompl::base::State* state) const {
   return checker_.certifiedState(configurationOf(*si_, state));

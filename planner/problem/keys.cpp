@@ -1,5 +1,7 @@
 #include "planner/problem/keys.h"
 
+#include "collision/motion/edge_method.h"
+
 namespace corridor {
 namespace {
 
@@ -80,7 +82,7 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
       {"world.*.unit", {"m", "cm", "mm", "in"}},
       {"world.*.up", {"x", "y", "z"}},
       {"planner.stop", {"first", "time"}},
-      {"checker.edges", {"certified", "discrete"}},
+      {"checker.edges", edgeMethodNames() + Words{"discrete"}},
       {"checker.fit", {"vertices", "triangles", "hull"}},
   };
   return choices;

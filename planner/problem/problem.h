@@ -91,7 +91,7 @@ struct Problem {
   double objectiveThreshold = 0;
   bool simplify = true;
   struct CheckerSpec {
-    std::string edges = "certified";  ///< or "discrete"
+    std::string edges = "certified";  ///< a name of `EdgeMethod`, or "discrete"
     double resolution = 0.01;         ///< discrete: OMPL's longest_valid_segment_fraction
     std::optional<double> tolerance;  ///< metres; unset: Scene::defaultTolerance
     std::string fit = "triangles";    ///< of the OBBs: vertices, triangles, hull

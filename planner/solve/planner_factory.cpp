@@ -11,6 +11,7 @@
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/samplers/BridgeTestValidStateSampler.h>
 #include <ompl/base/samplers/GaussianValidStateSampler.h>
+#include <ompl/base/samplers/MaximizeClearanceValidStateSampler.h>
 #include <ompl/base/samplers/ObstacleBasedValidStateSampler.h>
 #include <ompl/base/samplers/UniformValidStateSampler.h>
 #include <ompl/geometric/planners/AnytimePathShortening.h>
@@ -238,13 +239,14 @@ void setValidStateSampler(ob::SpaceInformation& si, const std::string& name,
     use(std::type_identity<ob::ObstacleBasedValidStateSampler>{});
   } else if (name == "bridge_test") {
     use(std::type_identity<ob::BridgeTestValidStateSampler>{});
+  } else if (name == "max_clearance") {
+    use(std::type_identity<ob::MaximizeClearanceValidStateSampler>{});
   } else {
-    const std::vector<std::string> names = {"uniform", "gaussian", "obstacle_based", "bridge_test"};
-    const std::string what =
-        name == "max_clearance"
-            ? "sampler max_clearance needs a clearance, which isn't computed yet"
-            : "unknown sampler " + quotedWord(name) + didYouMean(name, names);
-    throw InputError(Fault{nameAt.file, nameAt.line, what + "; there are: " + joined(names)});
+    const std::vector<std::string> names = {"uniform", "gaussian", "obstacle_based", "bridge_test",
+                                            "max_clearance"};
+    throw InputError(Fault{nameAt.file, nameAt.line,
+                           "unknown sampler " + quotedWord(name) + didYouMean(name, names) +
+                               "; there are: " + joined(names)});
   }
 }
 

@@ -39,8 +39,7 @@ std::shared_ptr<ompl::base::Planner> makePlanner(
     const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt = {});
 
 /// Valid-state samplers by OMPL's names; sets the allocator of `si`.
-/// @throws InputError for an unknown name, and for max_clearance, which needs a clearance that the
-/// checker doesn't compute yet.
+/// @throws InputError for an unknown name.
 void setValidStateSampler(ompl::base::SpaceInformation& si, const std::string& name,
                           const PlannerParameter& nameAt = {});
 

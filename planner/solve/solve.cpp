@@ -9,6 +9,7 @@
 
 #include <ompl/base/Planner.h>
 #include <ompl/base/SpaceInformation.h>
+#include <ompl/base/objectives/MaximizeMinClearanceObjective.h>
 #include <ompl/base/objectives/MechanicalWorkOptimizationObjective.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/samplers/informed/RejectionInfSampler.h>
@@ -79,8 +80,8 @@ class Solve {
     report_.motion = checker_.options();
     report_.seed = problem.seed;
     report_.planner = problem.planner.name;
-    report_.checker =
-        discrete() ? "discrete, resolution " + shortest(problem.checker.resolution) : "certified";
+    report_.checker = problem.checker.edges +
+                      (discrete() ? ", resolution " + shortest(problem.checker.resolution) : "");
   }
 
   SolveReport run();
@@ -88,6 +89,7 @@ class Solve {
 
  private:
   bool discrete() const { return problem_.checker.edges == "discrete"; }
+  bool keepsClear() const { return problem_.objective == "max_min_clearance"; }
   PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
                                const std::string& value = "") const;
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
@@ -232,10 +234,8 @@ void Solve::setUpObjective() {
   ob::OptimizationObjectivePtr objective;
   if (name == "mechanical_work") {
     objective = std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
-  } else if (name == "max_min_clearance") {
-    throw InputError(problem_.faultAt("objective",
-                                      "objective max_min_clearance needs a clearance, which isn't "
-                                      "computed yet; there are: length, mechanical_work"));
+  } else if (keepsClear()) {
+    objective = std::make_shared<ob::MaximizeMinClearanceObjective>(si_);
   } else if (name == "length" || (planner_ && planner_->getSpecs().optimizingPaths)) {
     objective = std::make_shared<PathLengthObjective>(si_);
   }
@@ -243,8 +243,11 @@ void Solve::setUpObjective() {
   // Where a problem doesn't say when to stop, planners have rules of their own: PRM stops at the
   // first, PRMstar uses its time.
   const bool first = problem_.planner.stopAtFirst.value_or(name.empty() && !optimises_);
-  objective->setCostThreshold(first ? objective->infiniteCost()
-                                    : ob::Cost(problem_.objectiveThreshold));
+  // A clearance of 0 is none to stop at: every path has it.
+  const double threshold = keepsClear() && !(problem_.objectiveThreshold > 0)
+                               ? std::numeric_limits<double>::infinity()
+                               : problem_.objectiveThreshold;
+  objective->setCostThreshold(first ? objective->infiniteCost() : ob::Cost(threshold));
   definition_->setOptimizationObjective(objective);
 }
 
@@ -315,7 +318,7 @@ void Solve::finish() {
   og::PathGeometric path = *definition_->getSolutionPath()->as<og::PathGeometric>();
   report_.rawStates = path.getStateCount();
   std::vector<Path> versions;
-  if (problem_.simplify) {
+  if (problem_.simplify && !keepsClear()) {  // shortcuts would cut the corners
     const double until =
         std::max(problem_.planner.time, clock_.seconds() + kSimplifyShare * problem_.planner.time);
     versions =

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <random>
 #include <utility>
 
+#include "collision/motion/edge_method.h"
 #include "collision/motion/rigid_motion.h"
 #include "tests/support/meshes.h"
 
@@ -13,10 +15,22 @@ inline Body bodyOf(TriangleMesh mesh) {
 }
 
 inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMotion& motion,
-                            const MotionOptions& options, QueryContext& context) {
+                            const MotionOptions& options, QueryContext& context,
+                            EdgeMethod method = EdgeMethod::certified) {
   const MotionPair pair{&fixed, &moving};
   RigidEdge edge(motion);
-  return certifyMotion(edge, {&pair, 1}, options, context);
+  return certifyMotionBy(method, edge, {&pair, 1}, options, context);
+}
+
+/// Triangles about random points within `spread` of the origin.
+inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
+  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 c = spread * Vec3(real(), real(), real());
+    add(mesh, c, c + size * Vec3(real(), real(), real()), c + size * Vec3(real(), real(), real()));
+  }
+  return mesh;
 }
 
 inline RigidPose at(const Vec3& p) {

@@ -14,6 +14,7 @@ namespace {
 
 using test::add;
 using test::at;
+using test::blob;
 using test::bodyOf;
 using test::box;
 using test::certify;
@@ -173,16 +174,6 @@ TEST(CertifyMotion, AmbiguousHalfTurn) {
 }
 
 // ---- random edges ----
-
-TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
-  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
-  TriangleMesh mesh;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 c = spread * Vec3(real(), real(), real());
-    add(mesh, c, c + size * Vec3(real(), real(), real()), c + size * Vec3(real(), real(), real()));
-  }
-  return mesh;
-}
 
 /// Metamorphic (numerics, test 4), and static samples of what is called free: the exact
 /// interference test at rounded poses of the curve, all inside the default tube.

@@ -1,5 +1,6 @@
+#include "tests/collision/motion/grazing.h"
+
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -7,96 +8,13 @@
 #include "collision/motion/certify_motion.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/collision/queries/every_target.h"
-#include "tests/support/reference_motion.h"
 #include "tests/support/support.h"
 
 namespace corridor {
 namespace {
 
-using test::add;
 using test::certify;
-using test::ReferenceMotion;
-
-/// A fixed mesh below the plane through x* with normal n, a moving one above it at height `gap` at
-/// t = 1 (or all along), known by construction: negative gaps interpenetrate in the interior of the
-/// features, positive ones are that far apart.
-struct Grazing {
-  enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
-  TriangleMesh fixed, moving;
-  RigidPose from, to;
-  bool known = false;  ///< all corners stay above their height at contact: the verdict is known
-
-  Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
-    const auto real = [&](double low = -1, double high = 1) {
-      return std::uniform_real_distribution(low, high)(random);
-    };
-    const Vec3 n = Vec3(real(), real(), real()).normalized();
-    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
-    const double spread = real(0, 6.28);
-    const auto inPlane = [&](double angle, double r) {
-      return Vec3(r * (std::cos(angle + spread) * u + std::sin(angle + spread) * v));
-    };
-    const auto around = [&](int i) {
-      return inPlane(2.1 * i, real(0.3, 1));
-    };  // three of these surround the origin
-    const Vec3 x = 3 * Vec3(real(), real(), real());
-    // In the plane's frame about x, heights along n: the fixed triangle at ≤ 0, the moving one at ≥
-    // 0 (+ gap).
-    Triangle a, b;
-    if (feature == cornerOnFace) {
-      for (int i = 0; i < 3; ++i) a[i] = around(i);
-      b = {Vec3::Zero(), around(0) + n, around(1) + n * real(0.3, 1)};
-    } else if (feature == faceOnCorner) {
-      for (int i = 0; i < 3; ++i) b[i] = around(i);
-      a = {Vec3::Zero(), around(0) - n, around(1) - n * real(0.3, 1)};
-    } else {
-      const double turn = real(0.3, 2.8);
-      a = {inPlane(0, real(0.3, 1)), inPlane(std::numbers::pi, real(0.3, 1)), around(2) - n};
-      b = {inPlane(turn, real(0.3, 1)), inPlane(turn + std::numbers::pi, real(0.3, 1)),
-           around(1) + n};
-    }
-    to = {size * (x + Vec3(real(), real(), real())),
-          Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
-    const ReferenceMotion at(to, to);
-    const auto toBody = [&](const Vec3& p) {
-      const auto world = (size * (x + p + gap * n)).cast<long double>().eval();
-      return Vec3((at.rotation(0).transpose() * (world - at.position(0))).cast<double>());
-    };
-    add(fixed, size * (x + a[0]), size * (x + a[1]), size * (x + a[2]));
-    add(moving, toBody(b[0]), toBody(b[1]), toBody(b[2]));
-    for (int i = 0; i < 40; ++i) {  // company, so that the trees have depth
-      const Vec3 c = 2 * around(i) + n * real(1, 2), d = 2 * around(i) - n * real(0.5, 2);
-      add(moving, toBody(c), toBody(c + 0.1 * around(0)), toBody(c + 0.1 * n));
-      add(fixed, size * (x + d), size * (x + d + 0.1 * around(1)), size * (x + d - 0.1 * n));
-    }
-    if (slides) {  // along the plane, turning about its normal: every height is constant
-      from.p = to.p + size * inPlane(real(), real(0, 3));
-      from.q = Eigen::Quaterniond(Eigen::AngleAxisd(real(-2, 2), n)) * to.q;
-      // The reference point turns in place, and so the slide is a slide of the body's heights about
-      // it.
-    } else {
-      from.p = to.p + size * (n * real(0.5, 3) + inPlane(real(), real(0, 3)));
-      from.q = Eigen::Quaterniond(
-                   Eigen::AngleAxisd(real(-1, 1), Vec3(real(), real(), real()).normalized())) *
-               to.q;
-    }
-    const ReferenceMotion motion(from, to);
-    known = true;
-    const auto heights = [&](long double t) {
-      const auto R = motion.rotation(t);
-      const auto nL = n.cast<long double>().eval();
-      const long double base = (motion.position(t) / size - x.cast<long double>()).dot(nL);
-      long double lowest = 1e300L;
-      for (const Vec3& p : moving.vertices)
-        lowest = std::min(lowest, base + nL.dot(R * p.cast<long double>()) / size);
-      return lowest;
-    };
-    for (int i = 0; i <= 200 && known && !slides; ++i)
-      known = heights(i / 200.0L) >= heights(1) - 1e-17L;
-    for (int k = 1; k < 12 && known && !slides; ++k)
-      known = heights(1 - std::pow(10.0L, -k)) >= heights(1) - 1e-17L;
-  }
-};
+using test::Grazing;
 
 TEST(CertifyMotion, GrazingByConstruction) {
   std::mt19937_64 random(test::testSeed(8));

@@ -241,11 +241,11 @@ TEST_F(ArmCommandLine, CheckOfStartAndGoal) {
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
         "0]}\n"
         "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n"
-        "planner: {name: RRT, params: {rnge: 1}}\nsampler: max_clearance\n");
+        "planner: {name: RRT, params: {rnge: 1}}\nsampler: most_clearance\n");
   const Result bad = run("check bad.yaml");
   EXPECT_EQ(bad.status, 2);
   EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT has no parameter \"rnge\""));
-  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: sampler max_clearance needs a clearance"));  // all
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: unknown sampler \"most_clearance\""));  // all
 }
 
 TEST_F(ArmCommandLine, InspectTellsPairsAndRobots) {
@@ -296,8 +296,9 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
         testing::Eq("--set: key=value is needed, not \"range\"\n"));
   fault("solve problem.yaml --set range=long",
         testing::Eq("--set: RRTConnect's parameter range: \"long\" is not a number\n"));
-  fault("solve problem.yaml --sampler max_clearance",
-        StartsWith("--sampler: sampler max_clearance needs a clearance"));
+  fault(
+      "solve problem.yaml --sampler max_clearence",
+      StartsWith("--sampler: unknown sampler \"max_clearence\"; did you mean \"max_clearance\"?"));
   fault("solve problem.yaml problem.yaml -o s.yaml",
         testing::Eq("--output: names one file, but there are 2 problems\n"));
   fault("solve problem.yaml -o none/s.yaml", testing::Eq("--output: there is no folder none\n"));

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
@@ -93,8 +94,10 @@ inline Configuration poseOf(Rigid kind, double x, double y, double yaw = 0) {
 
 /// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³ with a wall of 0.001 at x = 0 that has a gap above
 /// y = 2: from one side of the wall to the other.
-inline Problem hallProblem(Rigid kind) {
+/// @param edges as in `checker: {edges: …}`.
+inline Problem hallProblem(Rigid kind, const std::string& edges = "certified") {
   Problem problem = rigidProblem(kind);
+  problem.checker.edges = edges;
   problem.file = "hall.yaml";
   problem.name = "hall";
   problem.digest = "0123456789abcdef";
@@ -116,9 +119,9 @@ inline Problem hallProblem(Rigid kind) {
 
 /// The hall as OMPL sees it.
 struct Hall {
-  explicit Hall(Rigid rigid)
+  explicit Hall(Rigid rigid, const std::string& edges = "certified")
       : kind(rigid),
-        problem(hallProblem(rigid)),
+        problem(hallProblem(rigid, edges)),
         checker(problem),
         space(std::make_shared<ProblemStateSpace>(problem.space)),
         si(std::make_shared<ompl::base::SpaceInformation>(space)) {}

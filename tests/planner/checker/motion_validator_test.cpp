@@ -7,6 +7,7 @@
 
 #include "planner/checker/motion_validators.h"
 #include "planner/checker/state_validity_checkers.h"
+#include "planner/problem/keys.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
 
@@ -19,18 +20,27 @@ using test::Rigid;
 
 struct Kind {
   Rigid space;
-  bool certified;
+  std::string edges;  ///< as in `checker: {edges: …}`
+
+  bool proves() const { return edges != "discrete"; }
 };
 
+/// Every name that a problem may give, in both spaces.
+std::vector<Kind> kinds() {
+  std::vector<Kind> all;
+  for (const std::string& edges : problemChoices().at("checker.edges"))
+    for (const Rigid space : {Rigid::SE3, Rigid::SE2}) all.push_back({space, edges});
+  return all;
+}
+
 std::string nameOf(const testing::TestParamInfo<Kind>& info) {
-  return std::string(info.param.certified ? "Certified" : "Discrete") +
-         (info.param.space == Rigid::SE3 ? "SE3" : "SE2");
+  return info.param.edges + (info.param.space == Rigid::SE3 ? "SE3" : "SE2");
 }
 
 class MotionValidators : public testing::TestWithParam<Kind> {
  protected:
-  MotionValidators() : hall_(GetParam().space) {
-    if (GetParam().certified) {
+  MotionValidators() : hall_(GetParam().space, GetParam().edges) {
+    if (GetParam().proves()) {
       hall_.si->setStateValidityChecker(
           std::make_shared<CertifiedStateValidityChecker>(hall_.si, hall_.checker));
       hall_.si->setMotionValidator(
@@ -182,7 +192,7 @@ TEST_P(MotionValidators, ManyThreadsCountRightAndAgree) {
   for (std::thread& thread : pool) thread.join();
   for (int k = 1; k < threads; ++k) EXPECT_EQ(valid[k], valid[0]);
   EXPECT_EQ(validator().getCheckedMotionCount(), unsigned(threads * edges));
-  if (GetParam().certified) {
+  if (GetParam().proves()) {
     EXPECT_EQ(hall_.checker.counters().edges, unsigned(threads * edges));
   }
 }
@@ -201,10 +211,7 @@ TEST(DiscreteMotionValidator, StepsOverAThinWallAndCertifiedDoesNot) {
   EXPECT_FALSE(certified.checkMotion(from.get(), to.get()));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MotionValidators,
-                         testing::Values(Kind{Rigid::SE3, true}, Kind{Rigid::SE2, true},
-                                         Kind{Rigid::SE3, false}, Kind{Rigid::SE2, false}),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(All, MotionValidators, testing::ValuesIn(kinds()), nameOf);
 
 }  // namespace
 }  // namespace corridor

@@ -118,7 +118,12 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:8: seed: a whole number from 0 to 2^64 - 1 is needed, not "
             "\"18446744073709551616\"");
   EXPECT_EQ(with("checker: {edges: certain}\n"),
-            "problem.yaml:8: checker.edges: one of certified, discrete is needed, not \"certain\"");
+            "problem.yaml:8: checker.edges: one of certified, adaptive, advancement, discrete is "
+            "needed, not "
+            "\"certain\"");
+  EXPECT_EQ(with("checker: {edges: advancment}\n"),
+            "problem.yaml:8: checker.edges: one of certified, adaptive, advancement, discrete is "
+            "needed, not \"advancment\"; did you mean \"advancement\"?");
   EXPECT_EQ(with("checker: {fit: triangle}\n"),
             "problem.yaml:8: checker.fit: one of vertices, triangles, hull is needed, not "
             "\"triangle\"; did you mean \"triangles\"?");

@@ -2,8 +2,10 @@
 // refutation.
 #include "planner/solve/solve.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -13,6 +15,7 @@
 #include "planner/solve/planner_factory.h"
 #include "planner/solve/verify_solution.h"
 #include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
 
 namespace corridor {
 namespace {
@@ -165,22 +168,53 @@ TEST(Solve, BadNamesListWhatThereIs) {
   problem.sampler = "gausian";
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:11: unknown sampler \"gausian\"; did you mean \"gaussian\"?; there are: "
-            "uniform, gaussian, obstacle_based, bridge_test");
-  problem.sampler = "max_clearance";
-  EXPECT_EQ(complaintOf(problem),
-            "hall.yaml:11: sampler max_clearance needs a clearance, which isn't computed yet; "
-            "there are: uniform, gaussian, obstacle_based, bridge_test");
-  problem.sampler = "uniform";
+            "uniform, gaussian, obstacle_based, bridge_test, max_clearance");
+}
+
+TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
+  Problem problem = hallProblem(GetParam());
+  for (const char* edges : {"adaptive", "advancement"}) {
+    problem.checker.edges = edges;
+    const SolveReport report = solveProblem(problem);
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << edges << ": " << report.why;
+    EXPECT_TRUE(report.certified);
+    EXPECT_EQ(report.checker, edges);
+    const Solution solution = makeSolution(problem, report);
+    EXPECT_EQ(verifySolution(problem, solution).verdict, PathVerdict::proved) << edges;
+  }
+}
+
+/// The gap in the wall is 3 m wide, the bar 0.2 m: short paths cut its corner, clear ones don't.
+TEST(Solve, MaximisesTheLeastClearance) {
+  Problem problem = hallProblem(Rigid::SE2);
+  problem.planner.name = "RRTstar";
+  problem.planner.time = 3 * test::kSlowdown;
+  const auto leastClearance = [&] {
+    const SolveReport report = solveProblem(problem);
+    EXPECT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+    EXPECT_TRUE(report.certified);
+    const Checker checker(problem);
+    double least = HUGE_VAL;
+    for (std::size_t i = 1; i < report.path.size(); ++i)
+      for (int k = 0; k <= 100; ++k)
+        least = std::min(least, checker.clearance(problem.space.interpolate(
+                                    report.path[i - 1], report.path[i], k / 100.0)));
+    return least;
+  };
+  const double ofShortest = leastClearance();
   problem.objective = "max_min_clearance";
-  EXPECT_EQ(complaintOf(problem),
-            "hall.yaml:12: objective max_min_clearance needs a clearance, which isn't computed "
-            "yet; there are: length, mechanical_work");
+  const double ofClearest = leastClearance();
+  std::cout << "least clearance " << ofShortest << " m of the shortest, " << ofClearest
+            << " m of the clearest path\n";
+  EXPECT_LT(ofShortest, 0.1);
+  EXPECT_GT(ofClearest, 0.5);
 }
 
 TEST(Solve, SamplersSolve) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.planner.name = "PRM";
-  for (const char* sampler : {"uniform", "gaussian", "obstacle_based", "bridge_test"}) {
+  for (const char* sampler :
+       {"uniform", "gaussian", "obstacle_based", "bridge_test", "max_clearance"}) {
     problem.sampler = sampler;
     EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << sampler;
   }

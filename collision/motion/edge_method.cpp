@@ -1,0 +1,36 @@
+#include "collision/motion/edge_method.h"
+
+#include <algorithm>
+
+#include "collision/motion/adaptive_motion.h"
+#include "collision/motion/conservative_advancement.h"
+
+namespace corridor {
+
+const std::vector<std::string>& edgeMethodNames() {
+  static const std::vector<std::string> names{"certified", "adaptive", "advancement"};
+  return names;
+}
+
+std::optional<EdgeMethod> edgeMethodNamed(std::string_view name) {
+  const auto& names = edgeMethodNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<EdgeMethod>(found - names.begin());
+}
+
+MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
+                             std::span<const MotionPair> pairs, const MotionOptions& options,
+                             QueryContext& context) {
+  switch (method) {
+    case EdgeMethod::certified:
+      break;
+    case EdgeMethod::adaptive:
+      return certifyByBisection(motion, pairs, options, context);
+    case EdgeMethod::advancement:
+      return certifyByAdvancement(motion, pairs, options, context);
+  }
+  return certifyMotion(motion, pairs, options, context);
+}
+
+}  // namespace corridor

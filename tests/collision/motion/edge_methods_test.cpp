@@ -1,0 +1,420 @@
+// One suite for all methods that prove motions: closed forms, motions that graze by construction,
+// and random ones against static samples and against each other.
+#include <array>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/motion/edge_method.h"
+#include "collision/queries/interference.h"
+#include "tests/collision/motion/bodies.h"
+#include "tests/collision/motion/grazing.h"
+#include "tests/support/chain_motion.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::add;
+using test::at;
+using test::blob;
+using test::bodyOf;
+using test::box;
+using test::ChainMotion;
+using test::Grazing;
+using test::turned;
+
+class EdgeMethods : public testing::TestWithParam<EdgeMethod> {
+ protected:
+  EdgeMethods() { options_.tolerance = 1e-7; }
+  MotionResult ask(const Body& moving, const Body& fixed, const RigidMotion& motion) {
+    return test::certify(moving, fixed, motion, options_, context_, GetParam());
+  }
+  /// Of a static pose.
+  bool touch(const Body& moving, const Body& fixed, const Transform& X) {
+    return interference(fixed.binaryTree(), {}, moving.binaryTree(), X, context_).has_value();
+  }
+
+  MotionOptions options_;
+  QueryContext context_;
+};
+
+INSTANTIATE_TEST_SUITE_P(All, EdgeMethods,
+                         testing::Values(EdgeMethod::certified, EdgeMethod::adaptive,
+                                         EdgeMethod::advancement),
+                         [](const auto& method) {
+                           return edgeMethodNames().at(static_cast<std::size_t>(method.param));
+                         });
+
+TEST(EdgeMethodNames, AreThoseOfTheEnumeration) {
+  EXPECT_EQ(edgeMethodNames().size(), 3u);
+  EXPECT_EQ(edgeMethodNamed("certified"), EdgeMethod::certified);
+  EXPECT_EQ(edgeMethodNamed("adaptive"), EdgeMethod::adaptive);
+  EXPECT_EQ(edgeMethodNamed("advancement"), EdgeMethod::advancement);
+  EXPECT_FALSE(edgeMethodNamed("discrete"));
+}
+
+TEST_P(EdgeMethods, SlideBesideAWall) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  for (const double gap : {0.25, 0.02, 1e-3, -1e-6, -1e-3, -0.25}) {
+    context_.counters = {};
+    const RigidMotion slide =
+        RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)), {});
+    EXPECT_EQ(ask(cube, wall, slide).verdict,
+              gap > 0 ? MotionVerdict::free : MotionVerdict::contact)
+        << gap;
+    EXPECT_EQ(context_.counters.edges, 1u);
+    EXPECT_EQ(context_.counters.states, 0u) << "what an edge measures is no state";
+    if (gap > 0) {
+      // Windows no longer than twice the gap, halved at most once too often; advancement asks for
+      // each of its steps up to three times how far it goes.
+      EXPECT_LE(static_cast<double>(context_.counters.poses), 64 + 4 * 10 / gap) << gap;
+    }
+  }
+}
+
+TEST_P(EdgeMethods, FirstContactOfATranslation) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  options_.earliest = true;
+  for (const double reserve : {0.0, 1e-3, 1e-2}) {
+    if (reserve > 0 && GetParam() == EdgeMethod::certified) continue;  // it stops at whole windows
+    options_.reserve = reserve;
+    const MotionResult r =
+        ask(cube, wall, RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(0, 5, 0)), {}));
+    const double first = 0.55;  // 5.5 of 10 m
+    EXPECT_LE(r.certifiedUntil, first - reserve / 10);
+    EXPECT_GE(r.certifiedUntil, first - reserve / 10 - options_.timeTolerance);
+    if (reserve < 5e-3) {
+      ASSERT_EQ(r.verdict, MotionVerdict::contact) << reserve;
+      EXPECT_GE(r.contactTime, first - 1e-15);
+      EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
+      EXPECT_TRUE(r.pair);
+    }
+  }
+}
+
+/// A blade of length 1 turns about z; a point sits at distance 1 + gap from the axis. The point has
+/// no inside: contact shows as a clearance under the tolerance. What must not be is `free`.
+TEST_P(EdgeMethods, BladeAgainstAPoint) {
+  TriangleMesh blade;
+  add(blade, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.2, 0, 0.1));
+  const Body bladeBody = bodyOf(blade);
+  options_.earliest = true;
+  for (const double gap : {1e-2, 1e-4, 1e-6, 3e-7, -1e-9, -1e-6, -1e-2}) {
+    TriangleMesh point;
+    const Vec3 p = (1 + gap) * Vec3(std::cos(0.7), std::sin(0.7), 0);
+    add(point, p, p, p);
+    const Body pointBody = bodyOf(point);
+    const MotionResult r =
+        ask(bladeBody, pointBody,
+            RigidMotion::spatial({}, turned(Vec3::Zero(), 2.5, Vec3::UnitZ()), {}));
+    if (gap > 0) {
+      EXPECT_EQ(r.verdict, MotionVerdict::free) << gap;
+      EXPECT_EQ(r.certifiedUntil, 1);
+    } else {
+      EXPECT_NE(r.verdict, MotionVerdict::free) << gap;
+      EXPECT_LE(r.certifiedUntil, 0.7 / 2.5) << gap;
+      EXPECT_GT(r.certifiedUntil, 0.7 / 2.5 - 1e-3) << gap;
+    }
+  }
+}
+
+TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
+  const Body plate = bodyOf(box(Vec3(-5, -5, 0), Vec3(5, 5, 1e-4))),
+             cube = bodyOf(box(Vec3(-0.1, -0.1, -1e-3), Vec3(0.1, 0.1, 1e-3)));
+  options_.tolerance = 1e-8;
+  for (const bool earliest : {false, true}) {
+    options_.earliest = earliest;
+    const MotionResult r =
+        ask(cube, plate, RigidMotion::spatial(at(Vec3(0, 0, -7)), at(Vec3(0, 0, 6)), {}));
+    ASSERT_EQ(r.verdict, MotionVerdict::contact);
+    const double first = (7 - 1e-3) / 13;
+    EXPECT_GE(r.contactTime, first - 1e-15);
+    EXPECT_LE(r.certifiedUntil, first);
+    if (earliest) {
+      EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
+    }
+  }
+}
+
+TEST_P(EdgeMethods, MarginTubeReserveAndWorkLimit) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  const RigidPose a = at(Vec3(-0.01, 0.4, 0)), b = at(Vec3(0.01, 0.4, 0));  // clearance 0.1
+  Tube tube;
+  const auto verdict = [&](const RigidPose& from, const RigidPose& to) {
+    return ask(cube, wall, RigidMotion::spatial(from, to, tube));
+  };
+  options_.margin = 0.0999;
+  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
+  EXPECT_EQ(verdict(a, a).verdict, MotionVerdict::free);
+  options_.margin = 0.1001;
+  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::contact);
+  EXPECT_EQ(verdict(a, a).verdict, MotionVerdict::contact) << "a state is an edge of zero length";
+  options_.margin = 0;
+  tube = {0.05, 0.01};  // √3·0.05 + 0.01·√0.75 = 0.095
+  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
+  tube = {0.06, 0.01};
+  const MotionResult r = verdict(a, b);
+  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
+  EXPECT_EQ(r.reason, UndecidedReason::clearance);
+  EXPECT_NEAR(r.gap, 0.1, 1e-9);
+  tube = {};
+  options_.reserve = 0.0999;
+  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
+  options_.reserve = 0.1001;
+  EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
+      << "too near to be called free, but no contact";
+  options_.reserve = 0;
+  EXPECT_EQ(context_.counters.undecided, 2u);
+  for (const std::uint64_t limit : {3, 100'000}) {
+    options_.workLimit = limit;
+    context_.counters = {};
+    if (limit > 3 && GetParam() == EdgeMethod::certified) continue;  // it is enough for that
+    const MotionResult beside = verdict(at(Vec3(-5, 0.5 - 1e-6, 0)), at(Vec3(5, 0.5 - 1e-6, 0)));
+    EXPECT_EQ(beside.reason, UndecidedReason::workLimit) << limit;
+    EXPECT_LT(context_.counters.poses, limit / 10 + 10) << "it ends soon after";
+  }
+}
+
+TEST_P(EdgeMethods, AmbiguousHalfTurn) {
+  const Body far = bodyOf(box(Vec3(100, 0, 0), Vec3(101, 1, 1))),
+             cube = bodyOf(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
+  const MotionResult r =
+      ask(cube, far,
+          RigidMotion::spatial({}, turned(Vec3::Zero(), std::numbers::pi, Vec3(1, 2, 3)), {}));
+  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
+  EXPECT_EQ(r.reason, UndecidedReason::ambiguous);
+  EXPECT_EQ(context_.counters.edges, 1u);
+  EXPECT_EQ(context_.counters.undecided, 1u);
+}
+
+TEST_P(EdgeMethods, FarBodiesGetNoTree) {
+  const Body far = bodyOf(box(Vec3(100, 0, 0), Vec3(101, 1, 1))),
+             cube = bodyOf(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
+  EXPECT_EQ(ask(cube, far, RigidMotion::spatial({}, at(Vec3(5, 0, 0)), {})).verdict,
+            MotionVerdict::free);
+  EXPECT_FALSE(far.treeBuilt());
+}
+
+/// Points have no size to compare a travel with: windows end at 2^-48 of the motion.
+TEST_P(EdgeMethods, PointThroughAPointEnds) {
+  TriangleMesh mesh;
+  add(mesh, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
+  const Body point = bodyOf(mesh);
+  std::mt19937_64 random(test::testSeed(6));
+  std::uniform_real_distribution<double> u(1, 2);
+  options_.tolerance = 1e-300;
+  for (int i = 0; i < 100; ++i) {
+    options_.earliest = i % 2;
+    context_.counters = {};
+    const MotionResult r =
+        ask(point, point,
+            RigidMotion::spatial(at(Vec3(-u(random), 0, 0)), at(Vec3(u(random), 0, 0)), {}));
+    EXPECT_NE(r.verdict, MotionVerdict::free);
+    EXPECT_LT(context_.counters.poses, 1000u);
+  }
+}
+
+/// A tip within the tube at t = 1/4, a wall hit at t = 1/2: nothing grazes in between.
+TEST_P(EdgeMethods, GrazingIsSaidOnlyOfNarrowGaps) {
+  TriangleMesh robot, tip, wall;
+  add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
+  add(tip, Vec3(0.25, 0, -1e-9), Vec3(0.25, -1, -1), Vec3(0.25, 1, -1));
+  add(wall, Vec3(0.5, -1, -1), Vec3(0.5, 1, -1), Vec3(0.5, 0, 1));
+  const Body moving = bodyOf(robot), fixed[] = {bodyOf(tip), bodyOf(wall)};
+  const MotionPair pairs[] = {{&fixed[0], &moving, 0, 0, 2}, {&fixed[1], &moving, 0, 1, 2}};
+  options_.tolerance = 1e-12;
+  options_.earliest = true;
+  RigidEdge edge(RigidMotion::spatial(at(Vec3::Zero()), at(Vec3::UnitX()), {1e-8, 0}));
+  const MotionResult r = certifyMotionBy(GetParam(), edge, pairs, options_, context_);
+  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
+  EXPECT_FALSE(r.grazing);
+  EXPECT_LE(r.certifiedUntil, 0.25);
+  if (GetParam() != EdgeMethod::certified) {  // which stops where a window can't be proved
+    EXPECT_GT(r.certifiedUntil, 0.2);
+    EXPECT_EQ(r.pair->bodyA, 0u);
+  }
+}
+
+/// So slow that it stays under twice the tolerance for all of the way to the contact.
+TEST_P(EdgeMethods, SlowContactGrazes) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  options_.earliest = true;
+  const MotionResult r =
+      ask(cube, wall,
+          RigidMotion::spatial(at(Vec3(0, 0.5 - 5e-8, 0)), at(Vec3(0, 0.5 + 1.5e-7, 0)), {}));
+  ASSERT_EQ(r.verdict, MotionVerdict::contact);
+  EXPECT_GE(r.contactTime, 0.25 - 1e-6);
+  EXPECT_LE(r.certifiedUntil, 0.25 + 1e-6);
+  EXPECT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options_.timeTolerance);
+}
+
+/// Never a false `free` or `contact`; and free wherever the clearance is above twice the tolerance,
+/// if the work is enough.
+TEST_P(EdgeMethods, GrazingByConstruction) {
+  std::mt19937_64 random(test::testSeed(8));
+  const int count = (test::stressAsked() ? 10'000 : 1'000) / test::kSlowdown;
+  int apart = 0, together = 0, free = 0, contact = 0, tooMuch = 0;
+  for (int n = 0; apart + together < count; ++n) {
+    const double size = std::pow(10.0, n % 5 - 2);
+    const double amount = std::pow(10.0, -2 - n % 12);
+    const double gap = n / 12 % 2 ? amount : -amount;
+    const auto feature = static_cast<Grazing::Feature>(n % 7 % Grazing::features);
+    const Grazing g(random, feature, n % 3 == 0, gap, size);
+    if (!g.known) continue;
+    (gap > 0 ? apart : together)++;
+    options_.tolerance = 1e-7 * size;
+    options_.earliest = n % 2;
+    options_.workLimit = 500'000;
+    const MotionResult r =
+        ask(bodyOf(g.moving), bodyOf(g.fixed), RigidMotion::spatial(g.from, g.to, {}));
+    const bool limit = r.reason == UndecidedReason::workLimit;
+    tooMuch += limit;
+    if (gap < 0) {
+      ASSERT_NE(r.verdict, MotionVerdict::free) << n;
+      contact += r.verdict == MotionVerdict::contact;
+      if (amount > 1e-6 && !limit) {
+        EXPECT_EQ(r.verdict, MotionVerdict::contact) << n;
+      }
+    } else {
+      ASSERT_NE(r.verdict, MotionVerdict::contact) << n;
+      free += r.verdict == MotionVerdict::free;
+      if (amount > 2e-7 && !limit) {
+        EXPECT_EQ(r.verdict, MotionVerdict::free) << n;
+      }
+    }
+    if (options_.earliest && r.verdict == MotionVerdict::contact) {
+      ASSERT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options_.timeTolerance) << n;
+    }
+  }
+  std::cout << free << " of " << apart << " free, " << contact << " of " << together
+            << " in contact, " << tooMuch << " took too much work\n";
+  EXPECT_GT(free, apart / 5);
+  EXPECT_GT(contact, together / 4);
+  if (GetParam() == EdgeMethod::certified) {
+    EXPECT_EQ(tooMuch, 0);
+  }
+}
+
+/// What is called free has no contact at any sampled pose, what is called contact has one; and no
+/// method contradicts the default one.
+TEST_P(EdgeMethods, RandomEdges) {
+  std::mt19937_64 random(test::testSeed(9));
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const int count = test::stressAsked() ? 5'000 : 400;
+  std::array<int, 3> verdicts = {};
+  for (int n = 0; n < count; ++n) {
+    const Body fixed = bodyOf(blob(random, 60, 2, 0.3)),
+               moving = bodyOf(blob(random, 12, 0.3, 0.3));
+    const double length = std::pow(10.0, real(-2, 0.5));
+    const RigidPose a{2 * Vec3(real(), real(), real()),
+                      Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
+    const RigidPose b{a.p + length * Vec3(real(), real(), real()),
+                      Eigen::Quaterniond(Eigen::AngleAxisd(
+                          length * real(), Vec3(real(), real(), real()).normalized())) *
+                          a.q};
+    const RigidMotion motion = RigidMotion::spatial(a, b, {0x1p-40 * 4, 0x1p-40 * 6});
+    options_.earliest = false;
+    const MotionResult r = ask(moving, fixed, motion);
+    ++verdicts.at(static_cast<std::size_t>(r.verdict));
+    QueryContext other;
+    const MotionResult known = test::certify(moving, fixed, motion, options_, other);
+    if (r.verdict != MotionVerdict::undecided && known.verdict != MotionVerdict::undecided) {
+      ASSERT_EQ(r.verdict, known.verdict) << n;
+    }
+    options_.earliest = true;
+    const MotionResult first = ask(moving, fixed, motion);
+    ASSERT_EQ(r.verdict == MotionVerdict::free, first.verdict == MotionVerdict::free) << n;
+    const double until = r.verdict == MotionVerdict::free ? 1 : first.certifiedUntil;
+    for (int i = 0; i <= 100 && until > 0; ++i)
+      ASSERT_FALSE(touch(moving, fixed, motion.at(until * i / 100))) << n << " at " << i;
+    if (r.verdict == MotionVerdict::contact) {
+      ASSERT_TRUE(touch(moving, fixed, motion.at(r.contactTime))) << n;
+    }
+    if (first.verdict == MotionVerdict::contact) {
+      ASSERT_TRUE(touch(moving, fixed, motion.at(first.contactTime))) << n;
+      ASSERT_TRUE(first.grazing ||
+                  first.contactTime - first.certifiedUntil <= options_.timeTolerance);
+    }
+  }
+  std::cout << verdicts[0] << " free, " << verdicts[1] << " contact, " << verdicts[2]
+            << " undecided\n";
+  EXPECT_GT(verdicts[0], count / 10);
+  EXPECT_GT(verdicts[1], count / 10);
+  EXPECT_LE(verdicts[2], count / 100);
+}
+
+/// Primitives: a rod of radius 0.1 along z, and a ball of radius 0.2 that swings away from it, and
+/// that goes into it.
+TEST_P(EdgeMethods, BallAroundARod) {
+  const Body ball("ball", placed(Sphere{0.2}, Transform{Mat3::Identity(), Vec3(1, 0, 0)})),
+      rod("rod", placed(Cylinder{0.1, 4}, {}));
+  // The ball's centre is at (gap − 0.7 + cos φ, sin φ), φ in [0, 0.5]: it begins `gap` beside the
+  // rod, or in it, and goes away, since 1.49 − 1.4 cos φ grows.
+  const auto around = [&](double gap) {
+    return RigidMotion::spatial(turned(Vec3(gap - 0.7, 0, 0), 0, Vec3::UnitZ()),
+                                turned(Vec3(gap - 0.7, 0, 0.5), 0.5, Vec3::UnitZ()), {});
+  };
+  for (const double gap : {0.01, 1e-4, 1e-6}) {
+    EXPECT_EQ(ask(ball, rod, around(gap)).verdict, MotionVerdict::free) << gap;
+  }
+  for (const double gap : {-1e-6, -0.01}) {
+    EXPECT_EQ(ask(ball, rod, around(gap)).verdict, MotionVerdict::contact) << gap;
+  }
+  options_.earliest = true;
+  const MotionResult r =
+      ask(ball, rod, RigidMotion::spatial(at(Vec3(1, 0, 0)), at(Vec3(-3, 0, 0)), {}));
+  ASSERT_EQ(r.verdict, MotionVerdict::contact);
+  const double first = 1.7 / 4;  // the centre from 2 to 0.3
+  EXPECT_LE(r.certifiedUntil, first);
+  EXPECT_GE(r.contactTime, first - 1e-12);
+  EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
+}
+
+/// Chains of joints, for which windows are told in other ways.
+TEST_P(EdgeMethods, RandomChainsAgainstSamples) {
+  std::mt19937_64 random(test::testSeed(24));
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const auto vector = [&] { return Vec3(real(), real(), real()); };
+  std::array<int, 3> verdicts = {};
+  const int count = test::stressAsked() ? 2'000 : 150;
+  for (int n = 0; n < count; ++n) {
+    const Body a = bodyOf(blob(random, 40, 3, 0.4)), b = bodyOf(blob(random, 40, 0.4, 0.3));
+    std::vector<ChainMotion::Joint> joints;
+    for (int j = 0; j < 1 + n % 5; ++j) {
+      const double from = real(-3, 3), length = std::pow(10.0, real(-2, 0));
+      joints.push_back({real() > 0.5, vector(), 2 * vector(), from, from + length * real()});
+    }
+    ChainMotion motion(joints);
+    const MotionPair pair{&a, &b};
+    options_.earliest = n % 2;
+    const MotionResult r = certifyMotionBy(GetParam(), motion, {&pair, 1}, options_, context_);
+    ++verdicts.at(static_cast<std::size_t>(r.verdict));
+    const auto touches = [&](double t) {
+      const auto X = motion.pose(t);
+      return touch(b, a, {X.R.cast<double>(), X.t.cast<double>()});
+    };
+    if (r.verdict == MotionVerdict::contact) {
+      ASSERT_TRUE(touches(r.contactTime)) << n;
+    }
+    for (int i = 0; i <= 100 && r.certifiedUntil > 0; ++i)
+      ASSERT_FALSE(touches(r.certifiedUntil * i / 100)) << n << " at " << i;
+  }
+  std::cout << verdicts[0] << " free, " << verdicts[1] << " contact, " << verdicts[2]
+            << " undecided\n";
+  EXPECT_GT(verdicts[0], count / 10);
+  EXPECT_GT(verdicts[1], count / 10);
+  EXPECT_LE(verdicts[2], count / 50);
+}
+
+}  // namespace
+}  // namespace corridor
