@@ -4,8 +4,8 @@
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
+#include "planner/benchmark/checking_tally.h"
 #include "planner/benchmark/child_process.h"
-#include "planner/benchmark/timed_checks.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/solve_steps.h"
 #include "planner/solve/verify_solution.h"
@@ -24,7 +24,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OmplRecord, planner, setup, host, cpu, settin
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, solved, certified,
                                    verdict, finding, time, processorTime, setUpTime, plannerTime,
                                    simplificationTime, certificationTime, checkingTime,
-                                   verificationTime, counters, pathStates, length, ompl)
+                                   verificationTime, states, edges, counters, pathStates, length,
+                                   ompl)
 
 namespace {
 
@@ -37,7 +38,7 @@ constexpr double kPatience = 60;
 /// could take it.
 class WholeSolve final : public ob::Planner {
  public:
-  WholeSolve(Solve& solve, const CheckingTime& checking, BenchmarkRun& run)
+  WholeSolve(Solve& solve, const CheckingTally& checking, BenchmarkRun& run)
       : Planner(solve.spaceInformation(), solve.planner()->getName()),
         solve_(solve),
         checking_(checking),
@@ -59,6 +60,8 @@ class WholeSolve final : public ob::Planner {
     solve_.clock().pause();
     // Now: to fill its columns, OMPL then tests the planner's path, twice.
     run_.checkingTime = checking_.seconds() + solve_.report().certificationTime;
+    run_.states = checking_.states;
+    run_.edges = checking_.motions;
     return status;
   }
   void getPlannerData(ob::PlannerData& data) const override {
@@ -67,7 +70,7 @@ class WholeSolve final : public ob::Planner {
 
  private:
   Solve& solve_;
-  const CheckingTime& checking_;
+  const CheckingTally& checking_;
   BenchmarkRun& run_;
 };
 
@@ -156,11 +159,11 @@ void checkRun(const Problem& planned, const std::map<std::string, std::string>& 
 
 BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkPeer>& peer,
                           double memory, Path& path) {
-  CheckingTime checking;
+  CheckingTally checking;
   SolveOptions options;
   options.adaptChecking = [&](const ob::SpaceInformationPtr& si, const Checker& checker) {
     if (peer) si->setStateValidityChecker(peer->states(si, checker));
-    timeChecks(si, checking);
+    tallyChecks(si, checking);
   };
   Solve solve(planned, options);
   solve.setUp();

@@ -42,7 +42,9 @@ struct BenchmarkRun {
   double setUpTime = 0, plannerTime = 0, simplificationTime = 0, certificationTime = 0;
   double checkingTime = 0;  ///< of `time` after set-up: in tests of states and motions
   double verificationTime = 0;
-  Counters counters;
+  /// What planner and simplifier asked for: states tested, samples of edges included, and edges.
+  std::uint64_t states = 0, edges = 0;
+  Counters counters;  ///< of Corridor's checker; a peer's own tests aren't counted
   std::size_t pathStates = 0;
   PathLength length;
   OmplRecord ompl;

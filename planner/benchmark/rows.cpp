@@ -67,8 +67,8 @@ Row runRow(const Campaign& campaign, const CampaignResult& result, const Campaig
   const auto measure = [&](const char* name, double value) {
     row.emplace_back(name, ended ? RowValue{value} : RowValue{});
   };
-  const auto count = [&](const char* name, std::uint64_t value) {
-    row.emplace_back(name, ended ? RowValue{value} : RowValue{});
+  const auto count = [&](const char* name, RowValue value) {
+    row.emplace_back(name, ended ? std::move(value) : RowValue{});
   };
   const auto ofPath = [&](const char* name, RowValue value) {
     row.emplace_back(name, run.solved ? std::move(value) : RowValue{});
@@ -85,11 +85,12 @@ Row runRow(const Campaign& campaign, const CampaignResult& result, const Campaig
   measure("certification_s", run.certificationTime);
   measure("checking_s", run.checkingTime);
   ofPath("verification_s", run.verificationTime);
-  count("states", run.counters.states);
-  count("edges", run.counters.edges);
-  count("edges_undecided", run.counters.undecided);
-  count("box_tests", run.counters.boxTests);
-  count("triangle_tests", run.counters.triangleTests);
+  count("states", run.states);
+  count("edges", run.edges);
+  const bool counts = !campaign.variants[cell.variant].peer;
+  count("edges_undecided", counts ? RowValue{run.counters.undecided} : RowValue{});
+  count("box_tests", counts ? RowValue{run.counters.boxTests} : RowValue{});
+  count("triangle_tests", counts ? RowValue{run.counters.triangleTests} : RowValue{});
   ofPath("path_states", std::uint64_t{run.pathStates});
   ofPath("length_m", run.length.metres);
   ofPath("rotation_rad", run.length.radians);
@@ -130,14 +131,18 @@ Row summaryRow(const Campaign& campaign, const CampaignResult& result, const Cam
   row.emplace_back("time_p95_s", numberOrNothing(quantileOf(values(time), 0.95)));
   median("processor_s", [](const Run& r) { return r.processorTime; });
   median("checking_share", [](const Run& r) { return r.checkingTime / r.time; });
-  median("states", [](const Run& r) { return static_cast<double>(r.counters.states); });
-  median("edges", [](const Run& r) { return static_cast<double>(r.counters.edges); });
+  median("states", [](const Run& r) { return static_cast<double>(r.states); });
+  median("edges", [](const Run& r) { return static_cast<double>(r.edges); });
   std::uint64_t edgesUndecided = 0;
   for (const Run& run : cell.runs) edgesUndecided += run.counters.undecided;
-  row.emplace_back("edges_undecided", edgesUndecided);
-  median("box_tests", [](const Run& r) { return static_cast<double>(r.counters.boxTests); });
-  median("triangle_tests",
-         [](const Run& r) { return static_cast<double>(r.counters.triangleTests); });
+  const bool counts = !campaign.variants[cell.variant].peer;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  row.emplace_back("edges_undecided", counts ? RowValue{edgesUndecided} : RowValue{});
+  median("box_tests",
+         [&](const Run& r) { return counts ? static_cast<double>(r.counters.boxTests) : none; });
+  median("triangle_tests", [&](const Run& r) {
+    return counts ? static_cast<double>(r.counters.triangleTests) : none;
+  });
   median("length_m", [](const Run& r) { return r.length.metres; });
   median("rotation_rad", [](const Run& r) { return r.length.radians; });
   return row;

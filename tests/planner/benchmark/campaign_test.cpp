@@ -114,6 +114,9 @@ TEST(Campaign, ARunIsASolve) {
       EXPECT_NEAR(run.time,
                   run.setUpTime + run.plannerTime + run.simplificationTime + run.certificationTime,
                   1e-9);
+      EXPECT_EQ(run.counters.undecided, report.counters.undecided);
+      EXPECT_GT(run.edges, 0u);
+      EXPECT_GT(run.states, 0u);
       EXPECT_GT(run.checkingTime, 0);
       EXPECT_LT(run.checkingTime, run.time);
     }
@@ -151,7 +154,8 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
   EXPECT_EQ(runs[2].failure, "out of memory");
   // The peer is the same test as `discrete`, which didn't notice.
   for (const BenchmarkRun& run : result.cells[1].runs) EXPECT_TRUE(run.solved) << run.failure;
-  EXPECT_EQ(runs[3].counters.states, result.cells[1].runs[3].counters.states);
+  EXPECT_EQ(runs[3].states, result.cells[1].runs[3].states);
+  EXPECT_EQ(runs[3].edges, result.cells[1].runs[3].edges);
   EXPECT_EQ(runs[3].length.metres, result.cells[1].runs[3].length.metres);
 
   const OmplLog log = OmplLogReader::read(omplLog(campaign, result, 0, 0));

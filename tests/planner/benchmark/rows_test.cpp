@@ -62,6 +62,8 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
     run.result = i < 4 ? "solved" : i == 4 ? "not found" : "failed";
     run.time = i < 4 ? 1.0 + static_cast<double>(i) : 100;
     run.checkingTime = 0.5 * run.time;
+    run.states = 100 * (i + 1);
+    run.edges = i + 1;
     run.counters.boxTests = 10 * (i + 1);
     run.counters.undecided = 1;
   }
@@ -73,7 +75,7 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
             "problem,variant,planner,runs,failed,solved,certified,proved,refuted,undecided,time_s,"
             "time_p95_s,processor_s,checking_share,states,edges,edges_undecided,box_tests,"
             "triangle_tests,length_m,rotation_rad\n"
-            "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.5,0,0,6,25,0,0,0\n");
+            "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.5,250,2.5,6,25,0,0,0\n");
   // What a run doesn't have is left empty.
   const auto value = [&](std::size_t run, const std::string& name) {
     for (const auto& [column, held] : runRow(campaign, result, cell, cell.runs[run]))
