@@ -55,7 +55,6 @@ std::vector<Fault> faultsInChild(const Campaign& campaign) {
     for (const CampaignCell& cell : cells) {
       std::map<std::string, std::string> elsewhere;
       if (!campaign.planners.empty()) elsewhere["planner.name"] = "--planners";
-      if (campaign.variants[cell.variant].knob) elsewhere["checker.resolution"] = "--variants";
       try {
         checkRun(plannedProblem(campaign, cell, campaign.seed), elsewhere);
       } catch (const InputError& error) {
