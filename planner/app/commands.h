@@ -21,6 +21,18 @@ struct SolveArguments {
 };
 int solveCommand(const SolveArguments& arguments);
 
+struct BenchmarkArguments {
+  std::vector<std::string> problems;
+  std::vector<std::string> variants = {"certified", "discrete:0.01"};
+  std::vector<std::string> planners;  ///< none: each problem's own
+  std::uint64_t runs = 10, seed = 1;
+  std::optional<double> time;  ///< seconds a run
+  double memory = 4096;        ///< MB a run
+  std::optional<std::string> output;
+  bool json = false;
+};
+int benchmarkCommand(const BenchmarkArguments& arguments);
+
 struct VerifyArguments {
   std::string problem, solution;
   bool json = false, quiet = false;

@@ -106,6 +106,60 @@ void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
   command->callback([&] { status = verifyCommand(a); });
 }
 
+void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "benchmark", "Compare ways to check edges: run time, and how many paths are refuted");
+  command->add_option("PROBLEM", a.problems, "one or more, as of corridor solve")->required();
+  const char* compared = "What is compared";
+  command
+      ->add_option("--variants", a.variants,
+                   "comma separated: what `checker: {edges: …}` takes, each with its knob or "
+                   "without: certified:TOLERANCE (m), discrete:RESOLUTION (OMPL's "
+                   "longest_valid_segment_fraction) (default: certified,discrete:0.01)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(compared);
+  command
+      ->add_option("--planners", a.planners,
+                   "comma separated, by OMPL's names (default: each problem's own)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(compared);
+  command
+      ->add_option("--runs", a.runs,
+                   "of each problem, variant and planner (default 10); the seeds are the same "
+                   "for all")
+      ->check(from<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
+      ->group(compared);
+  command->add_option("--seed", a.seed, "the first; one more each run (default 1)")
+      ->check(from<std::uint64_t>(1, std::numeric_limits<std::uint32_t>::max(),
+                                  "a whole number from 1 to 2^32 - 1"))
+      ->group(compared);
+  const char* limits = "Limits of a run (over what the problem says)";
+  command->add_option("--time", a.time, "seconds")
+      ->check(from(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+                   "a number of seconds above 0"))
+      ->group(limits);
+  command->add_option("--memory", a.memory, "MB (default 4096)")
+      ->check(from(1.0, 1e9, "a number of MB from 1 to 1e9"))
+      ->group(limits);
+  const char* results = "Results";
+  command
+      ->add_option("-o,--output", a.output,
+                   "a folder for runs.csv, summary.csv and the logs of OMPL's Benchmark")
+      ->group(results);
+  command->add_flag("--json", a.json, "results as JSON")->group(results);
+  command->footer(
+      std::string(
+          "Example: corridor benchmark problems/thin_plate problems/piano --variants "
+          "certified,discrete:0.01,discrete:0.001 -o results\n"
+          "Each run is a process of its own, under OMPL's Benchmark; each path is judged by the "
+          "independent verifier: `refuted` of those that were returned do collide, or break what "
+          "the problem asks for. Times and counts are medians over the runs that were solved.\n") +
+      kExitStatus);
+  command->callback([&] { status = benchmarkCommand(a); });
+}
+
 void addCheck(CLI::App& program, CheckArguments& a, int& status) {
   CLI::App* command =
       program.add_subcommand("check", "Check a problem, or many states of it, without planning");
@@ -260,7 +314,8 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
     return error.what() + ("; corridor " + given[0]->get_name()) + " --help tells more";
   if (firstWord.empty() || firstWord[0] == '-')
     return error.what() + std::string("; corridor --help tells more");
-  const std::vector<std::string> commands{"solve", "verify", "check", "inspect", "query"};
+  const std::vector<std::string> commands{"solve", "verify",  "benchmark",
+                                          "check", "inspect", "query"};
   return "unknown command " + corridor::quotedWord(firstWord) +
          corridor::didYouMean(firstWord, commands) + "; there are: " + corridor::joined(commands);
 }
@@ -275,11 +330,13 @@ int main(int argc, char** argv) {
   int status = kDone;
   SolveArguments solve;
   VerifyArguments verify;
+  BenchmarkArguments benchmark;
   CheckArguments check;
   InspectArguments inspect;
   QueryArguments query;
   addSolve(program, solve, status);
   addVerify(program, verify, status);
+  addBenchmark(program, benchmark, status);
   addCheck(program, check, status);
   addInspect(program, inspect, status);
   addQuery(program, query, status);

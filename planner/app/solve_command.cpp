@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -11,6 +10,7 @@
 
 #include "collision/core/error.h"
 #include "planner/app/commands.h"
+#include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/solution.h"
@@ -21,18 +21,6 @@ namespace corridor::app {
 namespace {
 
 using nlohmann::ordered_json;
-
-// The one thing that a signal handler can reach.
-std::atomic<bool> interruptAsked = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// Asks to stop at the first SIGINT; a second one ends the program as always.
-void listenForInterrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interruptAsked = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-}
 
 /// What the command line says over what the problem says. @returns which keys, and by which option.
 std::map<std::string, std::string> applyArguments(const SolveArguments& a, Problem& problem) {
@@ -146,11 +134,12 @@ struct Solved {
   SolveReport report;
 };
 
-Solved solveOne(const std::string& file, const SolveArguments& a) {
+Solved solveOne(const std::string& file, const SolveArguments& a,
+                const std::atomic<bool>& interrupted) {
   Problem problem = readProblem(file);
   SolveOptions options;
   options.setElsewhere = applyArguments(a, problem);
-  options.interrupted = &interruptAsked;
+  options.interrupted = &interrupted;
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {
     options.progress = [&](const SolveProgress& p) {
@@ -190,12 +179,12 @@ int solveCommand(const SolveArguments& a) {
               "names one file, but there are " + counted(a.problems.size(), "problem")});
   requireFolderFor(a.output, "--output");
   requireFolderFor(a.picture, "--picture");
-  listenForInterrupts();
+  const std::atomic<bool>& interrupted = listenForInterrupts();
   int status = kDone;
   ordered_json results = ordered_json::array();
   for (const std::string& file : a.problems) {
     try {
-      const auto [problem, report] = solveOne(file, a);
+      const auto [problem, report] = solveOne(file, a, interrupted);
       if (a.json) {
         results.push_back(jsonOf(report, problem, file));
       } else {
@@ -210,7 +199,7 @@ int solveCommand(const SolveArguments& a) {
         results.push_back({{"problem", file}, {"result", "bad input"}, {"why", error.what()}});
       status = kBadInput;
     }
-    if (interruptAsked) {
+    if (interrupted) {
       status = kInterrupted;
       break;
     }

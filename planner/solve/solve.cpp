@@ -1,14 +1,10 @@
 #include "planner/solve/solve.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <optional>
 
-#include <ompl/base/Planner.h>
-#include <ompl/base/SpaceInformation.h>
 #include <ompl/base/objectives/MaximizeMinClearanceObjective.h>
 #include <ompl/base/objectives/MechanicalWorkOptimizationObjective.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
@@ -19,14 +15,12 @@
 
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
-#include "planner/checker/motion_validators.h"
 #include "planner/checker/problem_goal.h"
-#include "planner/checker/problem_state_space.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/endpoint_help.h"
 #include "planner/solve/goal.h"
-#include "planner/solve/planner_factory.h"
+#include "planner/solve/solve_steps.h"
 
 namespace corridor {
 
@@ -44,16 +38,6 @@ constexpr double kProgressPeriod = 0.1;  // s
 /// Finer steps than this are no use to anyone, and OMPL counts them in 32 bits.
 constexpr double kFinestResolution = 1e-9;
 
-class Clock {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 /// The length of a path, as the space measures it. OMPL's own throws where its direct sampling of
 /// ellipses doesn't know the space; there samples are drawn and those that can't help rejected.
 class PathLengthObjective : public ob::PathLengthOptimizationObjective {
@@ -67,60 +51,34 @@ class PathLengthObjective : public ob::PathLengthOptimizationObjective {
   }
 };
 
-/// A problem on its way through OMPL.
-class Solve {
- public:
-  Solve(const Problem& problem, const SolveOptions& options)
-      : problem_(problem),
-        options_(options),
-        checker_(problem),
-        space_(std::make_shared<ProblemStateSpace>(problem.space)),
-        start_(startOf(problem)),
-        goals_(goalsOf(problem)) {
-    report_.motion = checker_.options();
-    report_.seed = problem.seed;
-    report_.planner = problem.planner.name;
-    report_.checker = problem.checker.edges +
-                      (discrete() ? ", resolution " + shortest(problem.checker.resolution) : "");
+/// The longest step of a tree's growth, where all that moves are joints that turn: 0.7 rad in one
+/// of them. OMPL's, 20 % of the space's extent, is 3 to 6 rad: such an edge hits something nearly
+/// always. Measured on problems of two arms: trees with it take 2 to 15 times as long.
+std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
+  double weight = 0;
+  for (const Coordinate& c : space.coordinates()) {
+    if (c.kind == Coordinate::Kind::rotation || (c.kind == Coordinate::Kind::line && !c.angular))
+      return std::nullopt;
+    weight = std::max(weight, c.weight);
   }
+  return 0.7 * weight;
+}
 
-  SolveReport run();
-  void setUp();
+}  // namespace
 
- private:
-  bool discrete() const { return problem_.checker.edges == "discrete"; }
-  bool keepsClear() const { return problem_.objective == "max_min_clearance"; }
-  PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
-                               const std::string& value = "") const;
-  bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
-  void checkEnds();
-  void setUpEnds();
-  void setUpSpace();
-  void setResolution();
-  void setUpPlanner();
-  void setUpObjective();
-  void tellProgress();
-  void plan();
-  void finish();
-  bool joinsStartAndGoal(const Path& path) const;
-  std::string whyNotFound(ob::PlannerStatus status) const;
-
-  const Problem& problem_;
-  const SolveOptions& options_;
-  Clock clock_;
-  Checker checker_;
-  std::shared_ptr<ProblemStateSpace> space_;
-  Configuration start_;
-  std::vector<Configuration> goals_, goalSamples_;
-  ob::SpaceInformationPtr si_;
-  std::shared_ptr<CountingMotionValidator> validator_;
-  ob::ProblemDefinitionPtr definition_;
-  ob::PlannerPtr planner_;
-  bool optimises_ = false;
-  std::mutex progressMutex_;
-  double progressTold_ = 0;
-  SolveReport report_;
-};
+Solve::Solve(const Problem& problem, const SolveOptions& options)
+    : problem_(problem),
+      options_(options),
+      checker_(problem),
+      space_(std::make_shared<ProblemStateSpace>(problem.space)),
+      start_(startOf(problem)),
+      goals_(goalsOf(problem)) {
+  report_.motion = checker_.options();
+  report_.seed = problem.seed;
+  report_.planner = problem.planner.name;
+  report_.checker = problem.checker.edges +
+                    (discrete() ? ", resolution " + shortest(problem.checker.resolution) : "");
+}
 
 PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key,
                                     const std::string& value) const {
@@ -158,6 +116,7 @@ void Solve::setUpSpace() {
     validator_ = std::make_shared<CertifiedMotionValidator>(si_, checker_);
   }
   si_->setMotionValidator(validator_);
+  if (options_.adaptChecking) options_.adaptChecking(si_, checker_);
 }
 
 void Solve::setResolution() {
@@ -169,19 +128,6 @@ void Solve::setResolution() {
                                shortest(kFinestResolution) + ", 1)"});
   }
   space_->setLongestValidSegmentFraction(r);
-}
-
-/// The longest step of a tree's growth, where all that moves are joints that turn: 0.7 rad in one
-/// of them. OMPL's, 20 % of the space's extent, is 3 to 6 rad: such an edge hits something nearly
-/// always. Measured on problems of two arms: trees with it take 2 to 15 times as long.
-std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
-  double weight = 0;
-  for (const Coordinate& c : space.coordinates()) {
-    if (c.kind == Coordinate::Kind::rotation || (c.kind == Coordinate::Kind::line && !c.angular))
-      return std::nullopt;
-    weight = std::max(weight, c.weight);
-  }
-  return 0.7 * weight;
 }
 
 void Solve::setUpPlanner() {
@@ -223,6 +169,7 @@ void Solve::setUp() {
 }
 
 void Solve::setUpEnds() {
+  checkEnds();
   ob::ScopedState<> start(si_);
   space_->write(start_, start.get());
   definition_->addStartState(start);
@@ -287,11 +234,12 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
   return text + "; more time, another planner or seed may help";
 }
 
-void Solve::plan() {
+ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
+  report_.setUpTime = clock_.seconds();
   const double until = problem_.planner.time;
-  const ob::PlannerTerminationCondition stop([this, until] {
+  const ob::PlannerTerminationCondition stop([this, until, &orElse] {
     tellProgress();
-    return clock_.seconds() >= until || interrupted();
+    return clock_.seconds() >= until || interrupted() || orElse.eval();
   });
   planner_->setProblemDefinition(definition_);
   planner_->setup();
@@ -307,11 +255,22 @@ void Solve::plan() {
                                                                         : SolveOutcome::notFound;
     report_.why = whyNotFound(status);
   }
+  report_.time = clock_.seconds();
+  report_.processorTime = clock_.processorSeconds();
+  report_.counters = checker_.counters();
+  return status;
 }
 
 /// The start kept bit for bit and the goal reached, whatever planner and simplifier say of that.
 bool Solve::joinsStartAndGoal(const Path& path) const {
   return !path.empty() && path.front() == start_ && inGoal(problem_, goals_, path.back());
+}
+
+bool Solve::certified(const Path& path) {
+  const double before = clock_.seconds();
+  const bool holds = certifiedPath(checker_, path);
+  report_.certificationTime += clock_.seconds() - before;
+  return holds;
 }
 
 void Solve::finish() {
@@ -329,7 +288,7 @@ void Solve::finish() {
   for (std::size_t i = versions.size(); i-- > 0 && report_.outcome != SolveOutcome::solved;) {
     Path states = withShortTurns(problem_.space, versions[i]);
     if (!joinsStartAndGoal(states)) continue;
-    if (!discrete() && !certifiedPath(checker_, states)) continue;
+    if (!discrete() && !certified(states)) continue;
     report_.outcome = SolveOutcome::solved;
     report_.certified = !discrete();
     report_.version = static_cast<int>(i);
@@ -342,24 +301,17 @@ void Solve::finish() {
                                "whole, from start to goal";
 }
 
-SolveReport Solve::run() {
-  setUp();  // before the checks of start and goal: bad names cost no time
-  checkEnds();
-  setUpEnds();
-  plan();
-  report_.time = clock_.seconds();
-  report_.counters = checker_.counters();
-  return report_;
-}
-
-}  // namespace
-
 void checkSettings(const Problem& problem) {
-  Solve(problem, {}).setUp();
+  const SolveOptions options;
+  Solve(problem, options).setUp();
 }
 
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options) {
-  return Solve(problem, options).run();
+  Solve solve(problem, options);
+  solve.setUp();  // before the checks of start and goal: bad names cost no time
+  solve.setUpEnds();
+  solve.plan(ob::plannerNonTerminatingCondition());
+  return solve.report();
 }
 
 }  // namespace corridor

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "collision/core/counters.h"
@@ -25,6 +26,11 @@ struct SolveOptions {
   /// For messages: keys of the problem that weren't read from its file, and where they come from
   /// ("planner.name" → "--planner").
   std::map<std::string, std::string> setElsewhere;
+  /// Called once the checkers of states and motions are set, before planning: may put others in
+  /// their place (planner/benchmark measures peers and times so). Start, goals and the last
+  /// certification stay Corridor's.
+  std::function<void(const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>
+      adaptChecking;
 };
 
 enum class SolveOutcome {
@@ -47,7 +53,10 @@ struct SolveReport {
   bool repeats =
       true;  ///< the planner gives the same path for the same seed, if time doesn't run out
   std::uint64_t seed = 0;
-  double time = 0, planningTime = 0;  ///< all of it; the planner's part
+  double time = 0, planningTime = 0;  ///< all of it; until the planner was done
+  double setUpTime = 0;               ///< of these: until the planner began
+  double certificationTime = 0;       ///< of `time`: the last step's proofs
+  double processorTime = 0;           ///< of all threads, in `time`
   Counters counters;                  ///< of everything: states, edges, undecided, N_v, N_p
   PathLength length;
   std::size_t rawStates = 0;  ///< of the planner's own path

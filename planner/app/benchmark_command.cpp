@@ -1,0 +1,101 @@
+#include <cstdio>
+#include <iostream>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/core/error.h"
+#include "planner/app/commands.h"
+#include "planner/app/interrupt.h"
+#include "planner/app/output.h"
+#include "planner/benchmark/campaign.h"
+#include "planner/benchmark/rows.h"
+#include "planner/benchmark/write_reports.h"
+
+namespace corridor::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Reads problems and words; all faults at once.
+Campaign campaignOf(const BenchmarkArguments& a) {
+  Campaign campaign;
+  std::vector<Fault> faults;
+  const auto collect = [&](auto step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  };
+  for (const std::string& word : a.variants)
+    collect([&] { campaign.variants.push_back(readVariant(word)); });
+  for (const std::string& file : a.problems)
+    collect([&] { campaign.problems.push_back(readProblem(file)); });
+  if (!faults.empty()) throw InputError(std::move(faults));
+  campaign.planners = a.planners;
+  campaign.runs = a.runs;
+  campaign.seed = a.seed;
+  campaign.time = a.time;
+  campaign.limits.memory = a.memory;
+  return campaign;
+}
+
+ordered_json jsonOf(const Row& row) {
+  ordered_json j;
+  for (const auto& [name, value] : row)
+    std::visit(
+        [&j, &key = name](const auto& held) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+            j[key] = nullptr;
+          else
+            j[key] = held;
+        },
+        value);
+  return j;
+}
+
+ordered_json jsonOf(const Campaign& campaign, const CampaignResult& result) {
+  ordered_json j = {{"format", "corridor-benchmark-report-1"},
+                    {"seed", campaign.seed},
+                    {"runs", campaign.runs},
+                    {"interrupted", result.interrupted},
+                    {"results", ordered_json::array()}};
+  for (const CampaignCell& cell : result.cells) {
+    ordered_json of = jsonOf(summaryRow(campaign, result, cell));
+    of["rows"] = ordered_json::array();
+    for (const BenchmarkRun& run : cell.runs)
+      of["rows"].push_back(jsonOf(runRow(campaign, result, cell, run)));
+    j["results"].push_back(std::move(of));
+  }
+  return j;
+}
+
+}  // namespace
+
+int benchmarkCommand(const BenchmarkArguments& a) {
+  const Campaign campaign = campaignOf(a);
+  checkCampaign(campaign);
+  if (a.output) makeReportFolder(*a.output);
+  CampaignOptions options;
+  options.interrupted = &listenForInterrupts();
+  const bool show = ::isatty(STDERR_FILENO) != 0;
+  if (show) {
+    options.progress = [](const CampaignProgress& p) {
+      std::fprintf(stderr, "\r%s of %s: %s, %s, %s, seed %s\033[K", grouped(p.done + 1).c_str(),
+                   counted(p.total, "run").c_str(), p.problem.c_str(), p.variant.c_str(),
+                   p.planner.c_str(), std::to_string(p.seed).c_str());
+    };
+  }
+  const CampaignResult result = runCampaign(campaign, options);
+  if (show) std::fputs("\r\033[K", stderr);
+  if (result.interrupted) warn("interrupted: what follows is of the runs that were done");
+  if (a.output) writeReports(campaign, result, *a.output);
+  if (a.json)
+    std::cout << jsonOf(campaign, result).dump(2) << '\n';
+  else
+    std::cout << tableOf(summaryRows(campaign, result));
+  return result.interrupted ? kInterrupted : kDone;
+}
+
+}  // namespace corridor::app

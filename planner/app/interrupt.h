@@ -1,0 +1,11 @@
+#pragma once
+
+#include <atomic>
+
+namespace corridor::app {
+
+/// From now on the first SIGINT asks to stop, by the flag returned; a second one ends the program
+/// as always.
+const std::atomic<bool>& listenForInterrupts();
+
+}  // namespace corridor::app

@@ -1,0 +1,236 @@
+#include "planner/benchmark/benchmark_run.h"
+
+#include <nlohmann/json.hpp>
+#include <ompl/geometric/SimpleSetup.h>
+#include <ompl/tools/benchmark/Benchmark.h>
+
+#include "planner/benchmark/checking_tally.h"
+#include "planner/benchmark/child_process.h"
+#include "planner/problem/yaml_reader.h"
+#include "planner/solve/solve_steps.h"
+#include "planner/solve/verify_solution.h"
+
+namespace corridor {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+// How a run comes from its process.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counters, boxTests, triangleTests, exactTests, poses, splits,
+                                   edges, states, undecided)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathLength, metres, radians)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OmplRecord, planner, setup, host, cpu, settings, properties,
+                                   progressNames, progress)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, solved, certified,
+                                   verdict, finding, time, processorTime, setUpTime, plannerTime,
+                                   simplificationTime, certificationTime, checkingTime,
+                                   verificationTime, states, edges, counters, pathStates, length,
+                                   ompl)
+
+namespace {
+
+/// Seconds beyond a planner's time for what doesn't look at the clock: setting up, and some steps
+/// of some planners.
+constexpr double kPatience = 60;
+
+/// What OMPL's Benchmark takes for the planner: it plans, simplifies and certifies as `solve` does.
+/// OMPL's own simplifying (of Benchmark::Request) would replace the planner's path before anyone
+/// could take it.
+class WholeSolve final : public ob::Planner {
+ public:
+  WholeSolve(Solve& solve, const CheckingTally& checking, BenchmarkRun& run)
+      : Planner(solve.spaceInformation(), solve.planner()->getName()),
+        solve_(solve),
+        checking_(checking),
+        run_(run) {
+    specs_ = solve.planner()->getSpecs();
+    params_.include(solve.planner()->params());
+    plannerProgressProperties_ = solve.planner()->getPlannerProgressProperties();
+  }
+  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& stop) override {
+    solve_.clock().resume();
+    ob::PlannerStatus status = ob::PlannerStatus::CRASH;
+    try {
+      status = solve_.plan(stop);
+    } catch (const std::bad_alloc&) {
+      run_.failure = "out of memory";
+    } catch (const std::exception& error) {  // Benchmark would print it and go on
+      run_.failure = error.what();
+    }
+    solve_.clock().pause();
+    // Now: to fill its columns, OMPL then tests the planner's path, twice.
+    run_.checkingTime = checking_.seconds() + solve_.report().certificationTime;
+    run_.states = checking_.states;
+    run_.edges = checking_.motions;
+    return status;
+  }
+  void getPlannerData(ob::PlannerData& data) const override {
+    solve_.planner()->getPlannerData(data);
+  }
+
+ private:
+  Solve& solve_;
+  const CheckingTally& checking_;
+  BenchmarkRun& run_;
+};
+
+/// What OMPL's Benchmark takes a problem from. SimpleSetup's own `print` measures the space by
+/// thousands of random states and motions: it would take longer than many runs, count as tests,
+/// and change the planner's random numbers.
+class PlainSetup final : public og::SimpleSetup {
+ public:
+  PlainSetup(const Solve& solve, const Problem& problem)
+      : SimpleSetup(solve.spaceInformation()), problem_(problem), checker_(solve.report().checker) {
+    getProblemDefinition() = solve.definition();
+  }
+  void print(std::ostream& out) const override {
+    out << "Problem " << problem_.file.string() << '\n'
+        << "SHA-256 " << problem_.digest << '\n'
+        << "Edges " << checker_ << '\n';
+    si_->getStateSpace()->printSettings(out);
+  }
+
+ private:
+  const Problem& problem_;
+  std::string checker_;
+};
+
+const char* resultOf(SolveOutcome outcome) {
+  return outcome == SolveOutcome::solved        ? "solved"
+         : outcome == SolveOutcome::approximate ? "approximate only"
+                                                : "not found";
+}
+
+void take(const SolveReport& report, BenchmarkRun& run) {
+  run.result = resultOf(report.outcome);
+  run.why = report.why;
+  run.solved = report.outcome == SolveOutcome::solved;
+  run.certified = report.certified;
+  run.time = report.time;
+  run.processorTime = report.processorTime;
+  run.setUpTime = report.setUpTime;
+  run.plannerTime = report.planningTime - report.setUpTime;
+  run.certificationTime = report.certificationTime;
+  run.simplificationTime = report.time - report.planningTime - report.certificationTime;
+  run.counters = report.counters;
+  run.pathStates = report.path.size();
+  run.length = report.length;
+}
+
+OmplRecord recordOf(const ompl::tools::Benchmark::CompleteExperiment& experiment) {
+  const auto& planner = experiment.planners.at(0);
+  OmplRecord record{planner.name,
+                    experiment.setupInfo,
+                    experiment.host,
+                    experiment.cpuInfo,
+                    planner.common,
+                    planner.runs.at(0),
+                    {},
+                    {}};
+  if (!planner.runsProgressData.empty()) {
+    record.progressNames = planner.progressPropertyNames;
+    record.progress = planner.runsProgressData[0];
+  }
+  return record;
+}
+
+std::string text(const BenchmarkRun& run) {
+  return nlohmann::json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string firstFinding(const VerifyReport& report) {
+  if (!report.violations.empty()) return report.violations.front();
+  if (report.motion.findings.empty()) return "";
+  const PathFinding& f = report.motion.findings.front();
+  return "edge " + std::to_string(f.edge) + " at t = " + shortest(f.t) + ": " + f.reason +
+         (f.a.empty() ? "" : ": " + f.a + " and " + f.b) +
+         (f.gap > 0 ? ", " + shortest(f.gap) + " m apart" : "");
+}
+
+}  // namespace
+
+void checkRun(const Problem& planned, const std::map<std::string, std::string>& setElsewhere) {
+  SolveOptions options;
+  options.setElsewhere = setElsewhere;
+  Solve solve(planned, options);
+  solve.setUp();
+  solve.setUpEnds();
+}
+
+BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkPeer>& peer,
+                          double memory, Path& path) {
+  CheckingTally checking;
+  SolveOptions options;
+  options.adaptChecking = [&](const ob::SpaceInformationPtr& si, const Checker& checker) {
+    if (peer) si->setStateValidityChecker(peer->states(si, checker));
+    tallyChecks(si, checking);
+  };
+  Solve solve(planned, options);
+  solve.setUp();
+  solve.setUpEnds();
+  solve.clock().pause();
+
+  BenchmarkRun run;
+  run.seed = planned.seed;
+  PlainSetup setup(solve, planned);
+  const auto planner = std::make_shared<WholeSolve>(solve, checking, run);
+  setup.setPlanner(planner);
+  ompl::tools::Benchmark benchmark(setup, planned.name);
+  benchmark.addPlanner(planner);
+  ompl::tools::Benchmark::Request request;
+  request.maxTime = planned.planner.time;
+  request.maxMem = memory;
+  request.runCount = 1;
+  request.displayProgress = request.saveConsoleOutput = request.simplify = false;
+  benchmark.benchmark(request);
+
+  take(solve.report(), run);
+  if (!run.failure.empty()) run.result = "failed";
+  const auto& experiment = benchmark.getRecordedExperimentData();
+  if (experiment.planners.empty() || experiment.planners[0].runs.empty())
+    throw std::runtime_error("OMPL's Benchmark recorded nothing");
+  run.ompl = recordOf(experiment);
+  path = solve.report().path;
+  return run;
+}
+
+void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
+  Solution solution;
+  solution.path = path;
+  const SolveClock clock;
+  const VerifyReport report = verifySolution(problem, solution);
+  run.verificationTime = clock.seconds();
+  run.verdict = report.verdict == PathVerdict::proved    ? "proved"
+                : report.verdict == PathVerdict::refuted ? "refuted"
+                                                         : "undecided";
+  if (report.verdict != PathVerdict::proved) run.finding = firstFinding(report);
+}
+
+BenchmarkRun runInChild(const Problem& problem, const Problem& planned,
+                        const std::optional<BenchmarkPeer>& peer, const BenchmarkLimits& limits,
+                        const std::atomic<bool>* interrupted) {
+  const auto work = [&](const auto& send) {
+    Path path;
+    BenchmarkRun run = runUnderOmpl(planned, peer, limits.memory, path);
+    send(text(run));
+    if (run.solved) verifyRun(problem, path, run);
+    send(text(run));
+  };
+  // OMPL stops the planner at limits.memory, if it asks; this is for all else.
+  const auto bytes = static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024);
+  const ChildEnd end =
+      inChild(work, {{2 * planned.planner.time + kPatience, limits.patience}, bytes}, interrupted);
+  BenchmarkRun run;
+  if (!end.messages.empty()) run = nlohmann::json::parse(end.messages.back()).get<BenchmarkRun>();
+  run.seed = planned.seed;
+  if (end.messages.empty()) {
+    run.result = "failed";
+    run.failure = end.failure;
+  } else if (!end.failure.empty() && run.solved) {  // while verifying
+    run.verdict = "undecided";
+    run.failure = "the verifier was " + end.failure;
+  }
+  return run;
+}
+
+}  // namespace corridor

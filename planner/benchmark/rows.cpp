@@ -1,0 +1,213 @@
+#include "planner/benchmark/rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+namespace {
+
+RowValue textOrNothing(const std::string& text) {
+  return text.empty() ? RowValue{} : RowValue{text};
+}
+
+RowValue numberOrNothing(double value) {
+  return std::isnan(value) ? RowValue{} : RowValue{value};
+}
+
+Row namesOf(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell) {
+  return {{"problem", result.names[cell.problem]},
+          {"variant", campaign.variants[cell.variant].name},
+          {"planner", cell.planner}};
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string csvText(const RowValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* yes = std::get_if<bool>(&value)) return *yes ? "1" : "0";
+  if (const auto* count = std::get_if<std::uint64_t>(&value)) return std::to_string(*count);
+  if (const auto* number = std::get_if<double>(&value)) return shortest(*number);
+  return "";
+}
+
+std::string tableText(const RowValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) {
+    char text[32];
+    // Whole numbers (medians of counts) up to 2^53 as such.
+    const bool whole = *number == std::floor(*number) && std::abs(*number) < 0x1p53;
+    std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", *number);
+    return text;
+  }
+  const std::string text = csvText(value);
+  return text.empty() ? "-" : text;
+}
+
+/// Letters, not bytes: of UTF-8.
+std::size_t widthOf(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+Row runRow(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell,
+           const BenchmarkRun& run) {
+  Row row = namesOf(campaign, result, cell);
+  const bool ended = run.result != "failed";
+  const auto measure = [&](const char* name, double value) {
+    row.emplace_back(name, ended ? RowValue{value} : RowValue{});
+  };
+  const auto count = [&](const char* name, RowValue value) {
+    row.emplace_back(name, ended ? std::move(value) : RowValue{});
+  };
+  const auto ofPath = [&](const char* name, RowValue value) {
+    row.emplace_back(name, run.solved ? std::move(value) : RowValue{});
+  };
+  row.emplace_back("seed", run.seed);
+  row.emplace_back("result", run.result);
+  ofPath("certified", run.certified);
+  ofPath("verdict", run.verdict);
+  measure("time_s", run.time);
+  measure("processor_s", run.processorTime);
+  measure("set_up_s", run.setUpTime);
+  measure("planner_s", run.plannerTime);
+  measure("simplification_s", run.simplificationTime);
+  measure("certification_s", run.certificationTime);
+  measure("checking_s", run.checkingTime);
+  ofPath("verification_s", run.verificationTime);
+  count("states", run.states);
+  count("edges", run.edges);
+  const bool counts = !campaign.variants[cell.variant].peer;
+  count("edges_undecided", counts ? RowValue{run.counters.undecided} : RowValue{});
+  count("box_tests", counts ? RowValue{run.counters.boxTests} : RowValue{});
+  count("triangle_tests", counts ? RowValue{run.counters.triangleTests} : RowValue{});
+  ofPath("path_states", std::uint64_t{run.pathStates});
+  ofPath("length_m", run.length.metres);
+  ofPath("rotation_rad", run.length.radians);
+  row.emplace_back("why", textOrNothing(run.why));
+  row.emplace_back("finding", textOrNothing(run.finding));
+  row.emplace_back("failure", textOrNothing(run.failure));
+  return row;
+}
+
+Row summaryRow(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell) {
+  Row row = namesOf(campaign, result, cell);
+  const auto number = [&](const char* name, const std::function<bool(const BenchmarkRun&)>& is) {
+    row.emplace_back(
+        name, static_cast<std::uint64_t>(std::count_if(cell.runs.begin(), cell.runs.end(), is)));
+  };
+  const auto values = [&](const std::function<double(const BenchmarkRun&)>& of) {
+    std::vector<double> all;
+    for (const BenchmarkRun& run : cell.runs)
+      if (run.solved) all.push_back(of(run));
+    return all;
+  };
+  const auto median = [&](const char* name, const std::function<double(const BenchmarkRun&)>& of) {
+    row.emplace_back(name, numberOrNothing(medianOf(values(of))));
+  };
+  using Run = BenchmarkRun;
+  const auto verdict = [](const char* is) {
+    return [is](const Run& r) { return r.verdict == is; };
+  };
+  row.emplace_back("runs", std::uint64_t{cell.runs.size()});
+  number("failed", [](const Run& r) { return r.result == "failed"; });
+  number("solved", [](const Run& r) { return r.solved; });
+  number("certified", [](const Run& r) { return r.certified; });
+  number("proved", verdict("proved"));
+  number("refuted", verdict("refuted"));
+  number("undecided", verdict("undecided"));
+  const auto time = [](const Run& r) { return r.time; };
+  median("time_s", time);
+  row.emplace_back("time_p95_s", numberOrNothing(quantileOf(values(time), 0.95)));
+  median("processor_s", [](const Run& r) { return r.processorTime; });
+  median("checking_share", [](const Run& r) { return r.checkingTime / r.time; });
+  median("states", [](const Run& r) { return static_cast<double>(r.states); });
+  median("edges", [](const Run& r) { return static_cast<double>(r.edges); });
+  std::uint64_t edgesUndecided = 0;
+  for (const Run& run : cell.runs) edgesUndecided += run.counters.undecided;
+  const bool counts = !campaign.variants[cell.variant].peer;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  row.emplace_back("edges_undecided", counts ? RowValue{edgesUndecided} : RowValue{});
+  median("box_tests",
+         [&](const Run& r) { return counts ? static_cast<double>(r.counters.boxTests) : none; });
+  median("triangle_tests", [&](const Run& r) {
+    return counts ? static_cast<double>(r.counters.triangleTests) : none;
+  });
+  median("length_m", [](const Run& r) { return r.length.metres; });
+  median("rotation_rad", [](const Run& r) { return r.length.radians; });
+  return row;
+}
+
+std::vector<Row> runRows(const Campaign& campaign, const CampaignResult& result) {
+  std::vector<Row> rows;
+  for (const CampaignCell& cell : result.cells)
+    for (const BenchmarkRun& run : cell.runs) rows.push_back(runRow(campaign, result, cell, run));
+  return rows;
+}
+
+std::vector<Row> summaryRows(const Campaign& campaign, const CampaignResult& result) {
+  std::vector<Row> rows;
+  for (const CampaignCell& cell : result.cells) rows.push_back(summaryRow(campaign, result, cell));
+  return rows;
+}
+
+std::string csvOf(const std::vector<Row>& rows) {
+  std::string text;
+  const auto line = [&](const Row& row, auto cell) {
+    for (const auto& column : row) text += (&column == &row.front() ? "" : ",") + cell(column);
+    text += '\n';
+  };
+  if (!rows.empty()) line(rows[0], [](const auto& column) { return column.first; });
+  for (const Row& row : rows) line(row, [](const auto& column) { return csvText(column.second); });
+  return text;
+}
+
+std::string tableOf(const std::vector<Row>& rows) {
+  if (rows.empty()) return "";
+  std::string text;
+  std::vector<std::string> lines(rows.size() + 1);
+  for (std::size_t c = 0; c < rows[0].size(); ++c) {
+    const std::string& name = rows[0][c].first;
+    std::vector<std::string> cells{name};
+    for (const Row& row : rows) cells.push_back(tableText(row[c].second));
+    const bool says = std::any_of(cells.begin() + 1, cells.end(), [](const std::string& cell) {
+      return cell != "0" && cell != "-";
+    });
+    if (!says && name != "refuted") continue;
+    std::size_t width = 0;
+    for (const std::string& cell : cells) width = std::max(width, widthOf(cell));
+    const bool left = std::holds_alternative<std::string>(rows[0][c].second);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::string pad(width - widthOf(cells[i]), ' ');
+      lines[i] += (c ? "  " : "") + (left ? cells[i] + pad : pad + cells[i]);
+    }
+  }
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
+double medianOf(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double quantileOf(std::vector<double> values, double p) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(p * static_cast<double>(values.size()));
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+}  // namespace corridor

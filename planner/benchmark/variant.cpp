@@ -1,0 +1,61 @@
+#include "planner/benchmark/variant.h"
+
+#include <algorithm>
+
+#include "collision/core/error.h"
+#include "collision/core/nearest.h"
+#include "planner/problem/keys.h"
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+namespace {
+
+/// As of `corridor solve --resolution`.
+constexpr double kFinestResolution = 1e-9;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw InputError(Fault{"--variants", 0, why});
+}
+
+}  // namespace
+
+void Variant::apply(Problem::CheckerSpec& checker) const {
+  checker.edges = edges;
+  if (!knob) return;
+  if (samples())
+    checker.resolution = *knob;
+  else
+    checker.tolerance = *knob;
+}
+
+Variant readVariant(const std::string& text, const std::vector<BenchmarkPeer>& peers) {
+  const auto colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  std::vector<std::string> names = problemChoices().at("checker.edges");
+  Variant variant{text, name, {}, {}};
+  bool known = std::find(names.begin(), names.end(), name) != names.end();
+  for (const BenchmarkPeer& peer : peers) {
+    names.push_back(peer.name);
+    if (peer.name != name) continue;
+    known = true;
+    variant.edges = "discrete";
+    variant.peer = peer;
+  }
+  if (!known)
+    refuse("unknown variant " + quotedWord(name) + didYouMean(name, names) +
+           "; there are: " + joined(names) + "; each may have a knob: discrete:0.01");
+  if (colon == std::string::npos) return variant;
+  const std::string knob = text.substr(colon + 1);
+  double value = 0;
+  const bool number = parseNumber(knob, Range::Any, value).empty();
+  if (variant.samples() && !(number && value >= kFinestResolution && value < 1))
+    refuse(quotedWord(text) + ": a resolution from " + shortest(kFinestResolution) +
+           " to below 1 is needed, not " + quotedWord(knob));
+  if (!variant.samples() && !(number && value > 0))
+    refuse(quotedWord(text) + ": a tolerance above 0, in metres, is needed, not " +
+           quotedWord(knob));
+  variant.knob = value;
+  return variant;
+}
+
+}  // namespace corridor

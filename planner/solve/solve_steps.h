@@ -1,0 +1,110 @@
+#pragma once
+
+#include <ctime>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+
+#include "planner/checker/motion_validators.h"
+#include "planner/checker/problem_state_space.h"
+#include "planner/solve/planner_factory.h"
+#include "planner/solve/solve.h"
+
+namespace corridor {
+
+/// Seconds, on the wall and of the processor (all threads), while it isn't paused.
+class SolveClock {
+ public:
+  /// Cheap: planners ask in every step.
+  double seconds() const { return wall_ + (running_ ? now(CLOCK_MONOTONIC) - wallSince_ : 0); }
+  double processorSeconds() const {
+    return processor_ + (running_ ? now(CLOCK_PROCESS_CPUTIME_ID) - processorSince_ : 0);
+  }
+  void pause() {
+    wall_ = seconds();
+    processor_ = processorSeconds();
+    running_ = false;
+  }
+  void resume() {
+    wallSince_ = now(CLOCK_MONOTONIC);
+    processorSince_ = now(CLOCK_PROCESS_CPUTIME_ID);
+    running_ = true;
+  }
+
+ private:
+  static double now(clockid_t clock) {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+
+  double wall_ = 0, processor_ = 0;  // until it was last paused
+  double wallSince_ = now(CLOCK_MONOTONIC), processorSince_ = now(CLOCK_PROCESS_CPUTIME_ID);
+  bool running_ = true;
+};
+
+/// A problem on its way through OMPL: what solveProblem does at one go, in steps, so that OMPL's
+/// Benchmark (planner/benchmark) can take its place around the second. In this order, once each:
+/// setUp, setUpEnds, plan. Between the steps the clock may be paused: what others do there is no
+/// part of the solve.
+class Solve {
+ public:
+  /// Both must outlive the object.
+  Solve(const Problem& problem, const SolveOptions& options);
+
+  /// Space, checker, sampler, planner, objective. Seeds OMPL's random numbers.
+  /// @throws InputError with all that is wrong with names and parameters.
+  void setUp();
+  /// Start and goals. @throws InputError where the start or all goals aren't free.
+  void setUpEnds();
+  /// Plans, simplifies, certifies: the report is complete then.
+  /// @param orElse ends planning, too.
+  /// @returns what the planner said.
+  ompl::base::PlannerStatus plan(const ompl::base::PlannerTerminationCondition& orElse);
+
+  SolveClock& clock() { return clock_; }
+  const SolveReport& report() const { return report_; }
+  const ompl::base::SpaceInformationPtr& spaceInformation() const { return si_; }
+  const ompl::base::ProblemDefinitionPtr& definition() const { return definition_; }
+  const ompl::base::PlannerPtr& planner() const { return planner_; }
+
+ private:
+  bool discrete() const { return problem_.checker.edges == "discrete"; }
+  bool keepsClear() const { return problem_.objective == "max_min_clearance"; }
+  PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
+                               const std::string& value = "") const;
+  bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
+  void checkEnds();
+  void setUpSpace();
+  void setResolution();
+  void setUpPlanner();
+  void setUpObjective();
+  void tellProgress();
+  void finish();
+  bool certified(const Path& path);
+  bool joinsStartAndGoal(const Path& path) const;
+  std::string whyNotFound(ompl::base::PlannerStatus status) const;
+
+  const Problem& problem_;
+  const SolveOptions& options_;
+  SolveClock clock_;
+  Checker checker_;
+  std::shared_ptr<ProblemStateSpace> space_;
+  Configuration start_;
+  std::vector<Configuration> goals_, goalSamples_;
+  ompl::base::SpaceInformationPtr si_;
+  std::shared_ptr<CountingMotionValidator> validator_;
+  ompl::base::ProblemDefinitionPtr definition_;
+  ompl::base::PlannerPtr planner_;
+  bool optimises_ = false;
+  std::mutex progressMutex_;
+  double progressTold_ = 0;
+  SolveReport report_;
+};
+
+}  // namespace corridor

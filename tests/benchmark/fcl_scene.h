@@ -1,0 +1,100 @@
+#pragma once
+
+#ifdef CORRIDOR_WITH_FCL
+
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/collision_object.h>
+
+#include "planner/checker/checker.h"
+
+/// FCL as its users have it: a BVHModel<OBBRSS> a mesh and its own primitives, their boxes compared
+/// first, the first contact only. Poses are by Corridor's kinematics.
+namespace corridor::bench {
+
+using FclGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
+
+inline FclGeometry fclMesh(const TriangleMesh& mesh) {
+  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSS<double>>>();
+  std::vector<fcl::Triangle> triangles;
+  for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  model->beginModel();
+  model->addSubModel(mesh.vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+/// A shape in the frame of its body. Convex hulls aren't compared: no scene here has one.
+struct FclShape {
+  FclGeometry geometry;
+  std::size_t frame = 0;
+  fcl::Transform3d at = fcl::Transform3d::Identity();
+};
+
+inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
+  FclShape made{nullptr, frame};
+  if (shape.mesh) {
+    made.geometry = fclMesh(shape.mesh->mesh);
+    return made;
+  }
+  made.at.linear() = shape.at.q.normalized().toRotationMatrix();
+  made.at.translation() = shape.at.p;
+  if (const auto* box = std::get_if<Box>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Boxd>(box->size);
+  else if (const auto* sphere = std::get_if<Sphere>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Sphered>(sphere->radius);
+  else if (const auto* capsule = std::get_if<Capsule>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Capsuled>(capsule->radius, capsule->length);
+  else if (const auto* cylinder = std::get_if<Cylinder>(&*shape.primitive))
+    made.geometry = std::make_shared<fcl::Cylinderd>(cylinder->radius, cylinder->length);
+  else
+    throw std::runtime_error("FCL is given no convex hulls");
+  return made;
+}
+
+/// The problem's shapes as FCL has them, the same pairs.
+class FclScene {
+ public:
+  explicit FclScene(const Checker& checker) : pairs_(checker.scene().pairs()) {
+    for (const ProblemBody& body : checker.problem().bodies)
+      for (const PlacedShape& shape : body.shapes) shapes_.push_back(fclShape(shape, body.frame));
+  }
+  bool touches(const std::vector<Transform>& X_WF) {
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      fcl::Transform3d pose = fcl::Transform3d::Identity();
+      pose.linear() = X_WF[shapes_[i].frame].m;
+      pose.translation() = X_WF[shapes_[i].frame].t;
+      objects_.resize(shapes_.size(), nullptr);
+      if (!objects_[i]) objects_[i] = std::make_shared<fcl::CollisionObjectd>(shapes_[i].geometry);
+      objects_[i]->setTransform(pose * shapes_[i].at);
+      objects_[i]->computeAABB();
+    }
+    const fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    for (const Scene::Pair& pair : pairs_) {
+      if (!objects_[pair.a]->getAABB().overlap(objects_[pair.b]->getAABB())) continue;
+      result.clear();
+      if (fcl::collide(objects_[pair.a].get(), objects_[pair.b].get(), request, result) > 0)
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<Scene::Pair> pairs_;
+  std::vector<FclShape> shapes_;
+  std::vector<std::shared_ptr<fcl::CollisionObjectd>> objects_;
+};
+
+}  // namespace corridor::bench
+
+#endif  // CORRIDOR_WITH_FCL

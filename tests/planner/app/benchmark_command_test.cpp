@@ -1,0 +1,209 @@
+// `corridor benchmark` as its users meet it: table, JSON, files, and bad input that runs nothing.
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/planner/app/program_test.h"
+#include "tests/planner/benchmark/ompl_log_reader.h"
+
+namespace {
+
+using corridor::test::OmplLogReader;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+using testing::UnorderedElementsAre;
+
+class BenchmarkCommand : public corridor::test::ProgramTest {
+ protected:
+  BenchmarkCommand() {
+    write("robot.yaml",
+          "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+    write("hall.yaml", problem("-2, 0"));
+  }
+
+  /// A cube before a wall that is thinner than the steps of `discrete:0.1`.
+  static std::string problem(const std::string& start) {
+    return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 6, 1], at: "
+           "[0, -1, 0]}\nstart: {at: [" +
+           start + "]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n";
+  }
+
+  std::vector<std::string> files(const std::string& folder) const {
+    std::vector<std::string> names;
+    if (std::filesystem::exists(folder_ / folder))
+      for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder))
+        names.push_back(entry.path().filename());
+    return names;
+  }
+
+  static std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> all;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+};
+
+TEST_F(BenchmarkCommand, FilesTableAndVerdicts) {
+  const Result result =
+      run("benchmark hall.yaml --variants certified,discrete:0.2 --planners RRTConnect,KPIECE1 "
+          "--runs 3 --seed 4 -o results");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const std::vector<std::string> table = lines(result.out);
+  ASSERT_EQ(table.size(), 5u) << result.out;
+  EXPECT_THAT(table[0], testing::MatchesRegex(
+                            "problem +variant +planner +runs +solved .* refuted .*time_s +.*"));
+  EXPECT_THAT(files("results"),
+              UnorderedElementsAre("runs.csv", "summary.csv", "hall.certified.log",
+                                   "hall.discrete-0.2.log"));
+  const std::vector<std::string> rows = lines(read("results/runs.csv"));
+  ASSERT_EQ(rows.size(), 1u + 2 * 2 * 3);
+  EXPECT_THAT(rows[0], StartsWith("problem,variant,planner,seed,result,certified,verdict,time_s,"));
+  EXPECT_THAT(rows[1], StartsWith("hall,certified,RRTConnect,4,solved,1,proved,"));
+  EXPECT_THAT(rows[3], StartsWith("hall,certified,RRTConnect,6,solved,1,proved,"));
+  EXPECT_THAT(rows[4], StartsWith("hall,discrete:0.2,RRTConnect,4,solved,0,"));
+  const std::vector<std::string> summary = lines(read("results/summary.csv"));
+  ASSERT_EQ(summary.size(), 5u);
+  EXPECT_THAT(summary[1], StartsWith("hall,certified,RRTConnect,3,0,3,3,3,0,0,"));
+  std::size_t refuted = 0;
+  for (const char* log : {"results/hall.certified.log", "results/hall.discrete-0.2.log"}) {
+    const auto read = OmplLogReader::read(this->read(log));
+    ASSERT_EQ(read.planners.size(), 2u);
+    for (const auto& planner : read.planners) {
+      ASSERT_EQ(planner.runs.size(), 3u);
+      for (const auto& one : planner.runs) refuted += one.at("refuted") == "1";
+    }
+  }
+  EXPECT_EQ(refuted, static_cast<std::size_t>(
+                         std::count_if(rows.begin(), rows.end(), [](const std::string& row) {
+                           return row.find(",refuted,") != std::string::npos;
+                         })));
+  EXPECT_GT(refuted, 0u);
+}
+
+TEST_F(BenchmarkCommand, JsonAgreesWithItself) {
+  const Result result =
+      run("benchmark hall.yaml --variants certified,discrete:0.2 --runs 2 --json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["format"], "corridor-benchmark-report-1");
+  EXPECT_EQ(json["interrupted"], false);
+  ASSERT_EQ(json["results"].size(), 2u);
+  for (const auto& cell : json["results"]) {
+    EXPECT_EQ(cell["runs"], 2);
+    ASSERT_EQ(cell["rows"].size(), 2u);
+    for (const char* verdict : {"proved", "refuted", "undecided"})
+      EXPECT_EQ(cell[verdict],
+                std::count_if(cell["rows"].begin(), cell["rows"].end(),
+                              [&](const auto& row) { return row["verdict"] == verdict; }));
+    EXPECT_EQ(cell["box_tests"], 0.5 * (cell["rows"][0]["box_tests"].get<double>() +
+                                        cell["rows"][1]["box_tests"].get<double>()));
+  }
+  EXPECT_EQ(json["results"][0]["proved"], 2);
+  EXPECT_EQ(json["results"][0]["rows"][0]["failure"], nullptr);
+  // The same figures as of solve.
+  const auto solved = nlohmann::json::parse(run("solve hall.yaml --seed 2 --json").out);
+  const auto& row = json["results"][0]["rows"][1];
+  EXPECT_EQ(row["triangle_tests"], solved["problems"][0]["triangle_tests"]);
+  EXPECT_EQ(row["box_tests"], solved["problems"][0]["box_tests"]);
+  EXPECT_EQ(row["length_m"], solved["problems"][0]["path"]["length_m"]);
+}
+
+TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
+  const auto refuse = [&](const std::string& arguments, const std::string& told) {
+    const Result result = run("benchmark " + arguments + " -o results");
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_THAT(result.err, StartsWith(told)) << arguments;
+    EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "results")) << arguments;
+  };
+  refuse("hall.yaml --variants certifed",
+         "--variants: unknown variant \"certifed\"; did you mean \"certified\"?");
+  refuse("hall.yaml --variants discrete:fine",
+         "--variants: \"discrete:fine\": a resolution from 1e-09 to below 1 is needed");
+  refuse("hall.yaml --variants discrete:2",
+         "--variants: \"discrete:2\": a resolution from 1e-09 to below 1 is needed");
+  refuse("hall.yaml --variants certified:0",
+         "--variants: \"certified:0\": a tolerance above 0, in metres, is needed");
+  refuse("hall.yaml --variants fcl:0.01", "--variants: unknown variant \"fcl\"");
+  refuse("hall.yaml --variants certified,certified", "--variants: \"certified\" is named twice");
+  refuse("hall.yaml --planners RRTConect",
+         "--planners: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?");
+  refuse("hall.yaml --runs 0", "--runs: a whole number from 1 to 1000000 is needed");
+  refuse("hall.yaml --runs few", "--runs: a whole number from 1 to 1000000 is needed");
+  refuse("hall.yaml --time 0", "--time: a number of seconds above 0 is needed");
+  refuse("hall.yaml --time nan", "--time: a number of seconds above 0 is needed");
+  refuse("hall.yaml --seed 0", "--seed: a whole number from 1 to 2^32 - 1 is needed");
+  refuse("hall.yaml --memory 0", "--memory: a number of MB from 1 to 1e9 is needed");
+  refuse("nothing.yaml", "nothing.yaml: ");
+  refuse("", "PROBLEM is required");
+  write("touching.yaml", problem("0, 0"));
+  refuse("hall.yaml touching.yaml", "touching.yaml:5: start is in contact");
+}
+
+TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
+  const auto refuse = [&](const std::string& folder, const std::string& told) {
+    const Result result = run("benchmark hall.yaml --runs 1 -o " + folder);
+    EXPECT_EQ(result.status, 2) << folder;
+    EXPECT_EQ(result.err, told + "\n");
+    EXPECT_EQ(result.out, "");
+  };
+  refuse("robot.yaml", "robot.yaml: is a file; a folder is needed");
+  refuse("robot.yaml/results", "robot.yaml/results: can't be made: Not a directory");
+  refuse("none/results", "none/results: can't be made: No such file or directory");
+  refuse("/proc", "/proc: can't be written to");
+}
+
+TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
+  std::filesystem::create_directory(folder_ / "results");
+  write("results/notes.txt", "mine");
+  write("results/runs.csv", "old");
+  ASSERT_EQ(run("benchmark hall.yaml --variants discrete:0.05 --runs 1 -o results").status, 0);
+  EXPECT_EQ(read("results/notes.txt"), "mine");
+  EXPECT_EQ(lines(read("results/runs.csv")).size(), 2u);
+  EXPECT_THAT(files("results"), UnorderedElementsAre("notes.txt", "runs.csv", "summary.csv",
+                                                     "hall.discrete-0.05.log"));
+}
+
+TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
+  const std::string command =
+      "cd '" + folder_.string() +
+      "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
+      "' benchmark hall.yaml --runs 1000000 -o results >out.txt 2>err.txt";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(read("err.txt"),
+            "corridor: warning: interrupted: what follows is of the runs that were done\n");
+  const std::size_t rows = lines(read("results/runs.csv")).size();
+  EXPECT_GT(rows, 1u);
+  EXPECT_LT(rows, 100'000u);
+  EXPECT_EQ(OmplLogReader::read(read("results/hall.certified.log")).planners.size(), 1u);
+}
+
+TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
+  write("hall.yaml",
+        "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
+        "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");
+  const Result result =
+      run("benchmark hall.yaml --variants certified --runs 1 --time 0.5 --json");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const auto cell = nlohmann::json::parse(result.out)["results"][0];
+  EXPECT_EQ(cell["solved"], 0);
+  EXPECT_EQ(cell["failed"], 0);
+  EXPECT_EQ(cell["time_s"], nullptr);
+  EXPECT_EQ(cell["rows"][0]["result"], "not found");
+  EXPECT_EQ(cell["rows"][0]["verdict"], nullptr);
+  EXPECT_THAT(cell["rows"][0]["why"].get<std::string>(), HasSubstr("nothing found in the time"));
+}
+
+}  // namespace

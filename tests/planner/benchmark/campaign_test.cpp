@@ -1,0 +1,293 @@
+// Campaigns as a whole: figures are those of solve, seeds repeat, a crash costs its run only,
+// OMPL's log is OMPL's, and the verifier's verdicts on the thin plate.
+#include "planner/benchmark/campaign.h"
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ompl/config.h>
+
+#include "collision/core/error.h"
+#include "planner/benchmark/ompl_log.h"
+#include "planner/benchmark/rows.h"
+#include "planner/checker/state_validity_checkers.h"
+#include "planner/solve/solve.h"
+#include "tests/planner/benchmark/ompl_log_reader.h"
+#include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::hallProblem;
+using test::OmplLog;
+using test::OmplLogReader;
+using test::Rigid;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Campaign campaignOf(const std::vector<std::string>& variants, std::uint64_t runs,
+                    const std::vector<BenchmarkPeer>& peers = {}) {
+  Campaign campaign;
+  campaign.problems = {hallProblem(Rigid::SE3)};
+  for (const std::string& variant : variants)
+    campaign.variants.push_back(readVariant(variant, peers));
+  campaign.runs = runs;
+  return campaign;
+}
+
+std::string complaintOf(const Campaign& campaign) {
+  try {
+    checkCampaign(campaign);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+int countOf(const CampaignCell& cell, const std::string& verdict) {
+  return static_cast<int>(
+      std::count_if(cell.runs.begin(), cell.runs.end(),
+                    [&](const BenchmarkRun& run) { return run.verdict == verdict; }));
+}
+
+/// All but times.
+std::vector<Row> repeatable(const Campaign& campaign, const CampaignResult& result) {
+  std::vector<Row> rows = runRows(campaign, result);
+  for (Row& row : rows)
+    std::erase_if(row, [](const auto& column) { return column.first.ends_with("_s"); });
+  return rows;
+}
+
+TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
+  Campaign campaign = campaignOf({"certified", "discrete:0.01"}, 3);
+  campaign.problems = {
+      readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / "thin_plate")};
+  campaign.time = 20.0 * test::kSlowdown;
+  checkCampaign(campaign);
+  const CampaignResult result = runCampaign(campaign);
+  ASSERT_EQ(result.cells.size(), 2u);
+  const CampaignCell &certified = result.cells[0], &discrete = result.cells[1];
+  ASSERT_EQ(certified.runs.size(), 3u);
+  ASSERT_EQ(discrete.runs.size(), 3u);
+  EXPECT_EQ(countOf(certified, "proved"), 3);
+  EXPECT_EQ(countOf(discrete, "refuted"), 3);
+  for (const BenchmarkRun& run : certified.runs) {
+    EXPECT_TRUE(run.solved && run.certified) << run.why;
+    EXPECT_EQ(run.finding, "");
+    EXPECT_GT(run.certificationTime, 0);
+    EXPECT_GT(run.verificationTime, 0);
+  }
+  for (const BenchmarkRun& run : discrete.runs) {
+    EXPECT_TRUE(run.solved && !run.certified) << run.why;
+    EXPECT_THAT(run.finding, HasSubstr("contact: paper_plane and plate"));
+  }
+}
+
+/// A row is what `solve` does with that seed, to the last test of two boxes.
+TEST(Campaign, ARunIsASolve) {
+  Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 2);
+  campaign.planners = {"RRTConnect", "KPIECE1"};
+  campaign.seed = 5;
+  campaign.time = 20.0 * test::kSlowdown;
+  const CampaignResult result = runCampaign(campaign);
+  ASSERT_EQ(result.cells.size(), 4u);
+  for (const CampaignCell& cell : result.cells) {
+    ASSERT_EQ(cell.runs.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const BenchmarkRun& run = cell.runs[i];
+      EXPECT_EQ(run.seed, 5 + i);
+      const Problem planned = plannedProblem(campaign, cell, run.seed);
+      const SolveReport report = solveProblem(planned);
+      ASSERT_EQ(report.outcome, SolveOutcome::solved);
+      EXPECT_TRUE(run.solved) << run.why << run.failure;
+      EXPECT_EQ(run.certified, report.certified);
+      EXPECT_EQ(run.pathStates, report.path.size());
+      EXPECT_EQ(run.length.metres, report.length.metres);
+      EXPECT_EQ(run.length.radians, report.length.radians);
+      EXPECT_EQ(run.counters.states, report.counters.states);
+      EXPECT_EQ(run.counters.edges, report.counters.edges);
+      EXPECT_EQ(run.counters.boxTests, report.counters.boxTests);
+      EXPECT_EQ(run.counters.triangleTests, report.counters.triangleTests);
+      EXPECT_NEAR(run.time,
+                  run.setUpTime + run.plannerTime + run.simplificationTime + run.certificationTime,
+                  1e-9);
+      EXPECT_EQ(run.counters.undecided, report.counters.undecided);
+      EXPECT_GT(run.edges, 0u);
+      EXPECT_GT(run.states, 0u);
+      EXPECT_GT(run.checkingTime, 0);
+      EXPECT_LT(run.checkingTime, run.time);
+    }
+  }
+}
+
+TEST(Campaign, TheSameSeedsGiveTheSameRows) {
+  Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 3);
+  campaign.time = 20.0 * test::kSlowdown;
+  campaign.problems[0].bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  const CampaignResult first = runCampaign(campaign), second = runCampaign(campaign);
+  const std::vector<Row> rows = repeatable(campaign, first);
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(csvOf(rows), csvOf(repeatable(campaign, second)));
+  EXPECT_NE(first.cells[0].runs[0].length.metres, first.cells[0].runs[1].length.metres);
+  EXPECT_EQ(countOf(first.cells[0], "proved"), 3);
+  EXPECT_GT(countOf(first.cells[1], "refuted"), 0);
+}
+
+TEST(Campaign, ACrashCostsItsRunOnly) {
+  BenchmarkPeer peer{"shaky", [](const auto& si, const Checker& checker) {
+                       if (checker.problem().seed == 2) std::raise(SIGKILL);
+                       if (checker.problem().seed == 3) throw std::bad_alloc();
+                       return std::make_shared<ExactStateValidityChecker>(si, checker);
+                     }};
+  Campaign campaign = campaignOf({"shaky:0.02", "discrete:0.02"}, 4, {peer});
+  campaign.time = 20.0 * test::kSlowdown;
+  const CampaignResult result = runCampaign(campaign);
+  const std::vector<BenchmarkRun>& runs = result.cells[0].runs;
+  ASSERT_EQ(runs.size(), 4u);
+  EXPECT_TRUE(runs[0].solved);
+  EXPECT_TRUE(runs[3].solved);
+  EXPECT_EQ(runs[1].result, "failed");
+  EXPECT_EQ(runs[1].failure, "killed by signal 9 (Killed)");
+  EXPECT_EQ(runs[2].failure, "out of memory");
+  // The peer is the same test as `discrete`, which didn't notice.
+  for (const BenchmarkRun& run : result.cells[1].runs) EXPECT_TRUE(run.solved) << run.failure;
+  EXPECT_EQ(runs[3].states, result.cells[1].runs[3].states);
+  EXPECT_EQ(runs[3].edges, result.cells[1].runs[3].edges);
+  EXPECT_EQ(runs[3].length.metres, result.cells[1].runs[3].length.metres);
+
+  const OmplLog log = OmplLogReader::read(omplLog(campaign, result, 0, 0));
+  ASSERT_EQ(log.planners.size(), 1u);
+  ASSERT_EQ(log.planners[0].runs.size(), 4u);
+  const auto& crashed = log.planners[0].runs[1];
+  EXPECT_EQ(crashed.at("solved"), "0");
+  EXPECT_EQ(log.statuses.at(std::stoul(crashed.at("status"))), "Crash");
+  EXPECT_EQ(crashed.at("time"), "");
+  EXPECT_EQ(log.parameters.at("edges TEXT"), "shaky");
+}
+
+/// Where a planner itself throws, OMPL's Benchmark would go on as if it had ended well.
+TEST(Campaign, AThrowWithinAPlannerIsTold) {
+  class Thrower : public ExactStateValidityChecker {
+   public:
+    using ExactStateValidityChecker::ExactStateValidityChecker;
+    bool isValid(const ompl::base::State*) const override {
+      throw std::runtime_error("the sky is falling");
+    }
+  };
+  BenchmarkPeer peer{"thrower", [](const auto& si, const Checker& checker) {
+                       return std::make_shared<Thrower>(si, checker);
+                     }};
+  const Campaign campaign = campaignOf({"thrower"}, 1, {peer});
+  const CampaignResult result = runCampaign(campaign);
+  EXPECT_EQ(result.cells[0].runs.at(0).result, "failed");
+  EXPECT_EQ(result.cells[0].runs.at(0).failure, "the sky is falling");
+}
+
+TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
+  Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 2);
+  Problem& problem = campaign.problems[0];
+  problem.name = "a hall";
+  problem.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  campaign.planners = {"RRTConnect", "RRTstar"};  // the second tells its progress
+  campaign.time = 2.0 * test::kSlowdown;
+  const CampaignResult result = runCampaign(campaign);
+  for (std::size_t v = 0; v < 2; ++v) {
+    const OmplLog log = OmplLogReader::read(omplLog(campaign, result, 0, v));
+    EXPECT_EQ(log.version, OMPL_VERSION);
+    EXPECT_EQ(log.experiment, v == 0 ? "a_hall/certified" : "a_hall/discrete:0.2");
+    EXPECT_EQ(log.parameters.at("edges TEXT"), v == 0 ? "certified" : "discrete");
+    EXPECT_EQ(log.parameters.count("resolution REAL"), v);
+    EXPECT_EQ(log.seed, "1");
+    EXPECT_EQ(log.runs, 2u);
+    EXPECT_EQ(log.time, *campaign.time);
+    EXPECT_THAT(log.setup, HasSubstr("Problem hall.yaml\n"));
+    EXPECT_THAT(log.setup, HasSubstr("Planner RRTConnect specs:"));
+    EXPECT_THAT(log.setup, HasSubstr("Planner RRTstar specs:"));
+    EXPECT_NE(log.host, "");
+    ASSERT_EQ(log.planners.size(), 2u);
+    EXPECT_EQ(log.planners[0].name, "geometric_RRTConnect");
+    EXPECT_EQ(log.planners[0].settings.count("range"), 1u);
+    EXPECT_TRUE(log.planners[0].progressNames.empty());
+    EXPECT_EQ(log.planners[1].name, "geometric_RRTstar");
+    EXPECT_THAT(log.planners[1].progressNames, testing::Contains("time"));
+    for (std::size_t p = 0; p < 2; ++p) {
+      const CampaignCell& cell = result.cells[2 * p + v];
+      ASSERT_EQ(log.planners[p].runs.size(), 2u);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto& row = log.planners[p].runs[i];
+        const BenchmarkRun& run = cell.runs[i];
+        ASSERT_TRUE(run.solved) << run.why << run.failure;
+        EXPECT_EQ(row.at("seed"), std::to_string(i + 1));
+        EXPECT_EQ(row.at("solved"), "1");
+        EXPECT_EQ(log.statuses.at(std::stoul(row.at("status"))), "Exact solution");
+        EXPECT_EQ(row.at("certified"), v == 0 ? "1" : "0");
+        EXPECT_EQ(row.at("proved"), run.verdict == "proved" ? "1" : "0");
+        EXPECT_EQ(row.at("refuted"), run.verdict == "refuted" ? "1" : "0");
+        EXPECT_EQ(row.at("box_tests"), std::to_string(run.counters.boxTests));
+        // OMPL's clock stands around all but setting up, and waits up to 1 ms for a thread.
+        EXPECT_NEAR(std::stod(row.at("time")), run.time - run.setUpTime, 0.05 * test::kSlowdown);
+        if (p == 1) {
+          EXPECT_GT(log.planners[1].progressSamples.at(i), 0u);
+        }
+      }
+    }
+  }
+}
+
+TEST(Campaign, InterruptedItKeepsWhatIsDone) {
+  Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 50);
+  std::atomic<bool> interrupted = false;
+  CampaignOptions options;
+  options.interrupted = &interrupted;
+  std::vector<std::uint64_t> seeds;
+  options.progress = [&](const CampaignProgress& p) {
+    EXPECT_EQ(p.total, 100u);
+    EXPECT_EQ(p.done, seeds.size());
+    seeds.push_back(p.seed);
+    if (seeds.size() == 4) interrupted = true;
+  };
+  const CampaignResult result = runCampaign(campaign, options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_THAT(seeds, ElementsAre(1, 1, 2, 2));  // variants take turns
+  EXPECT_EQ(result.cells[0].runs.size(), 2u);
+  EXPECT_EQ(result.cells[1].runs.size(), 1u);
+  EXPECT_EQ(OmplLogReader::read(omplLog(campaign, result, 0, 1)).planners.at(0).runs.size(), 1u);
+}
+
+TEST(Campaign, AllThatIsWrongIsToldBeforeAnythingRuns) {
+  EXPECT_EQ(complaintOf(campaignOf({"certified", "discrete:0.1"}, 1)), "");
+  EXPECT_EQ(complaintOf(campaignOf({"certified", "certified"}, 0)),
+            "--variants: \"certified\" is named twice\n--runs: 1 or more are needed, not 0");
+  EXPECT_EQ(complaintOf(campaignOf({}, 1)), "--variants: a variant is needed");
+  Campaign campaign = campaignOf({"certified", "discrete:0.1"}, 1);
+  campaign.planners = {"RRTConnect", "RTT"};
+  EXPECT_THAT(complaintOf(campaign),
+              StartsWith("--planners: unknown planner \"RTT\"; did you mean \"RRT\"?; there are: "
+                         "RRTConnect, "));
+  EXPECT_THAT(complaintOf(campaign), testing::Not(HasSubstr("\n")));  // once, not for each variant
+  campaign = campaignOf({"certified"}, 1);
+  campaign.problems[0].start.head(3) = Vec3(-0.4, -2, 0);
+  EXPECT_THAT(complaintOf(campaign), StartsWith("hall.yaml:4: start is in contact: \"bar\""));
+  campaign = campaignOf({"certified"}, 1);
+  campaign.problems[0].planner.params = {{"rnge", "1"}};
+  EXPECT_THAT(complaintOf(campaign), HasSubstr("RRTConnect has no parameter \"rnge\""));
+  campaign.planners = {"RRT"};  // they were another planner's
+  EXPECT_EQ(complaintOf(campaign), "");
+}
+
+TEST(Campaign, ProblemsOfOneNameAreToldApart) {
+  Campaign campaign = campaignOf({"discrete:0.02"}, 1);
+  campaign.problems.push_back(campaign.problems[0]);
+  campaign.problems.push_back(campaign.problems[0]);
+  EXPECT_THAT(runCampaign(campaign).names, ElementsAre("hall", "hall-2", "hall-3"));
+}
+
+}  // namespace
+}  // namespace corridor

@@ -1,0 +1,84 @@
+// What `--variants` takes.
+#include "planner/benchmark/variant.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "collision/core/error.h"
+#include "collision/core/nearest.h"
+#include "planner/problem/keys.h"
+
+namespace corridor {
+namespace {
+
+std::string complaintOf(const std::string& text, const std::vector<BenchmarkPeer>& peers = {}) {
+  try {
+    readVariant(text, peers);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Variant, SetsTheKnobOfItsKind) {
+  Problem::CheckerSpec checker;
+  readVariant("discrete:0.005").apply(checker);
+  EXPECT_EQ(checker.edges, "discrete");
+  EXPECT_EQ(checker.resolution, 0.005);
+  EXPECT_FALSE(checker.tolerance);
+  checker = {};
+  readVariant("certified:1e-6").apply(checker);
+  EXPECT_EQ(checker.edges, "certified");
+  EXPECT_EQ(checker.resolution, Problem::CheckerSpec{}.resolution);
+  EXPECT_EQ(checker.tolerance, 1e-6);
+}
+
+TEST(Variant, WithoutAKnobTheProblemsOwnStays) {
+  Problem::CheckerSpec checker;
+  checker.resolution = 0.02;
+  checker.tolerance = 1e-5;
+  for (const char* name : {"certified", "discrete"}) {
+    readVariant(name).apply(checker);
+    EXPECT_EQ(checker.edges, name);
+    EXPECT_EQ(checker.resolution, 0.02);
+    EXPECT_EQ(checker.tolerance, 1e-5);
+  }
+}
+
+TEST(Variant, EveryEdgesOfAProblemIsOne) {
+  for (const std::string& edges : problemChoices().at("checker.edges")) {
+    EXPECT_EQ(readVariant(edges).edges, edges);
+    EXPECT_EQ(readVariant(edges + ":0.001").knob, 0.001);
+  }
+}
+
+TEST(Variant, APeerSamples) {
+  const std::vector<BenchmarkPeer> peers{{"other", {}}};
+  const Variant variant = readVariant("other:0.1", peers);
+  EXPECT_EQ(variant.edges, "discrete");
+  EXPECT_EQ(variant.knob, 0.1);
+  ASSERT_TRUE(variant.peer);
+  EXPECT_EQ(variant.peer->name, "other");
+  EXPECT_FALSE(readVariant("discrete:0.1", peers).peer);
+}
+
+TEST(Variant, BadOnesAreToldInOneLine) {
+  const std::string names = joined(problemChoices().at("checker.edges"));
+  EXPECT_EQ(complaintOf("certifed"),
+            "--variants: unknown variant \"certifed\"; did you mean "
+            "\"certified\"?; there are: " +
+                names + "; each may have a knob: discrete:0.01");
+  EXPECT_THAT(complaintOf("other:0.1"), testing::StartsWith("--variants: unknown variant"));
+  EXPECT_THAT(complaintOf(""), testing::StartsWith("--variants: unknown variant \"\""));
+  for (const char* knob : {"", "1", "0", "-0.1", "1e-10", "nan", "fine", "0.1abc", "0.1:0.2"})
+    EXPECT_EQ(complaintOf(std::string("discrete:") + knob),
+              std::string("--variants: \"discrete:") + knob +
+                  "\": a resolution from 1e-09 to below 1 is needed, not \"" + knob + "\"");
+  for (const char* knob : {"", "0", "-1e-7", "inf", "small"})
+    EXPECT_EQ(complaintOf(std::string("certified:") + knob),
+              std::string("--variants: \"certified:") + knob +
+                  "\": a tolerance above 0, in metres, is needed, not \"" + knob + "\"");
+}
+
+}  // namespace
+}  // namespace corridor
