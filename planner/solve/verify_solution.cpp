@@ -151,6 +151,8 @@ double toleranceOf(const Problem& problem, const PathProblem& plain) {
   return 1e-8 * smallest;
 }
 
+}  // namespace
+
 PathProblem plainProblem(const Problem& problem) {
   PathProblem plain;
   plain.tree = &problem.tree;
@@ -174,8 +176,6 @@ PathProblem plainProblem(const Problem& problem) {
   plain.tolerance = toleranceOf(problem, plain);
   return plain;
 }
-
-}  // namespace
 
 VerifyReport verifySolution(const Problem& problem, const Solution& solution) {
   VerifyReport report;

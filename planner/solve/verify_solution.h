@@ -18,6 +18,9 @@ struct VerifyReport {
   Configuration tube;  ///< that was proved, as Problem::tube
 };
 
+/// A problem as planner/verify wants it. The problem must outlive it.
+PathProblem plainProblem(const Problem& problem);
+
 /// Checks that the path starts at the start, ends in the goal, stays in the bounds, and (by
 /// planner/verify) that every curve in the problem's tube around it keeps the problem's margin.
 /// Shares neither bounds, poses nor trees with the checker

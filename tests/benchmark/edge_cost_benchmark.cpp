@@ -2,7 +2,7 @@
 ///
 /// For each problem (YAML, OMPL.app's .cfg, SET.json#INDEX), random edges that start at valid
 /// states. Of a rigid body: 2, 5, 10 and 20 % of the scene's size long; of joints: 0.1, 0.3, 1 and
-/// 2 (the root of the sum of squares, rad and m) in a random direction. Per edge: the certified
+/// 3 (the root of the sum of squares, rad and m) in a random direction. Per edge: the certified
 /// query; Corridor's own interference test and FCL's (BVHModel<OBBRSS> and FCL's own primitives,
 /// Debian's build; poses by Corridor's kinematics) at n samples, that is n + 1 evenly spaced poses,
 /// up to the first contact. Same edges, same pairs, same run, one thread; times are sums over the
@@ -22,70 +22,13 @@
 
 #include "planner/checker/checker.h"
 #include "tests/benchmark/fcl_scene.h"
+#include "tests/benchmark/random_edges.h"
 
 namespace corridor {
 namespace {
 
-struct Edge {
-  Configuration from, to;
-};
-
-/// Random states and edges of a problem.
-class Edges {
- public:
-  Edges(const Problem& problem, std::uint64_t seed) : problem_(problem), random_(seed) {}
-
-  bool rigid() const {
-    return problem_.space.groups().size() == 1 &&
-           problem_.space.groups()[0].kind != CoordinateGroup::Kind::joints;
-  }
-  /// @param length a share of the scene's size, or a norm of joint values. May leave the bounds.
-  Edge random(double length) {
-    Edge e{uniform(), {}};
-    e.to = e.from;
-    double size = 0, squares = 0;
-    Configuration step = Configuration::Zero(e.from.size());
-    for (const Coordinate& c : problem_.space.coordinates()) {
-      const auto i = static_cast<Eigen::Index>(c.first);
-      if (c.kind == Coordinate::Kind::rotation) {
-        Eigen::Map<Eigen::Quaterniond> q(e.to.data() + c.first);
-        q = Eigen::Quaterniond(Eigen::AngleAxisd(length * 3.14159 * real(),
-                                                 Vec3(real(), real(), real()).normalized())) *
-            q;
-      } else if (rigid() && c.kind == Coordinate::Kind::circle) {
-        e.to[i] += length * 3.14159 * real();
-      } else {
-        step[i] = normal_(random_);
-        squares += step[i] * step[i];
-        size += (c.upper - c.lower) * (c.upper - c.lower);
-      }
-    }
-    e.to += step / std::sqrt(squares) * length * (rigid() ? std::sqrt(size) : 1);
-    return e;
-  }
-
- private:
-  double real(double low = -1, double high = 1) {
-    return std::uniform_real_distribution(low, high)(random_);
-  }
-  Configuration uniform() {
-    Configuration q(static_cast<Eigen::Index>(problem_.space.size()));
-    for (const Coordinate& c : problem_.space.coordinates()) {
-      const auto i = static_cast<Eigen::Index>(c.first);
-      if (c.kind == Coordinate::Kind::line)
-        q[i] = real(c.lower, c.upper);
-      else if (c.kind == Coordinate::Kind::circle)
-        q[i] = real(-3.14159, 3.14159);
-      else
-        for (int k = 0; k < 4; ++k) q[i + k] = normal_(random_);
-    }
-    return q;
-  }
-
-  const Problem& problem_;
-  std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
-};
+using bench::RandomEdges;
+using Edge = RandomEdges::Edge;
 
 double seconds(const std::function<void()>& work) {
   std::vector<double> times;
@@ -106,13 +49,13 @@ void run(const std::string& file, int count) {
 #ifdef CORRIDOR_WITH_FCL
   bench::FclScene fclScene(checker);
 #endif
-  Edges random(problem, 20261121);
+  RandomEdges random(problem, 20261121);
   for (const double length :
-       random.rigid() ? std::vector{0.02, 0.05, 0.1, 0.2} : std::vector{0.1, 0.3, 1.0, 2.0}) {
+       random.rigid() ? std::vector{0.02, 0.05, 0.1, 0.2} : std::vector{0.1, 0.3, 1.0, 3.0}) {
     std::vector<Edge> free, other;
     int undecided = 0;
     while (static_cast<int>(free.size() + other.size()) < count) {
-      const Edge e = random.random(length);
+      const Edge e = random.next(length);
       if (!checker.inBounds(e.to) || checker.interference(e.from)) continue;
       const MotionVerdict verdict = certify(e).verdict;
       undecided += verdict == MotionVerdict::undecided;

@@ -68,6 +68,14 @@ class FclScene {
     for (const ProblemBody& body : checker.problem().bodies)
       for (const PlacedShape& shape : body.shapes) shapes_.push_back(fclShape(shape, body.frame));
   }
+  /// Of meshes only.
+  explicit FclScene(const Scene& scene) : pairs_(scene.pairs()) {
+    for (const Scene::Placed& placed : scene.bodies())
+      shapes_.push_back({fclMesh(placed.body.mesh()), placed.frame});
+  }
+  const fcl::CollisionGeometryd* geometry(std::size_t shape) const {
+    return shapes_[shape].geometry.get();
+  }
   bool touches(const std::vector<Transform>& X_WF) {
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       fcl::Transform3d pose = fcl::Transform3d::Identity();

@@ -182,7 +182,7 @@ TEST(CertifyMotion, RandomEdges) {
   const auto real = [&](double low = -1, double high = 1) {
     return std::uniform_real_distribution(low, high)(random);
   };
-  const int count = test::stressAsked() ? 20'000 : 1'500;
+  const int count = (test::stressAsked() ? 450'000 : 25'000) / test::kSlowdown;
   int free = 0, contact = 0, undecided = 0;
   for (int n = 0; n < count; ++n) {
     const Body fixed = bodyOf(blob(random, 60, 2, 0.3)),

@@ -85,7 +85,7 @@ long double lowest(const Feature& b, const LineAndTurn& motion, long double t, c
 /// slides on the plane and turns about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
-  const int count = test::stressAsked() ? 60'000 : 6'000;
+  const int count = (test::stressAsked() ? 100'000 : 20'000) / test::kSlowdown;
   int falseFree = 0, falseContact = 0, notFree = 0, notFound = 0, apart = 0, together = 0;
   std::uint64_t slideWindows = 0, slides = 0;
   for (int n = 0; apart + together < count; ++n) {

@@ -1,0 +1,184 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/checker/checker.h"
+#include "planner/robot/edge_motion.h"
+#include "planner/solve/verify_solution.h"
+#include "tests/benchmark/fcl_scene.h"
+#include "tests/benchmark/random_edges.h"
+#include "tests/collision/motion/grazing.h"
+
+/// Edges of which the truth is known, by construction, in closed form, or from the independent
+/// verifier, and never by sampling.
+namespace corridor::bench {
+
+struct EdgeCase {
+  const Scene* scene = nullptr;
+  double size = 1;  ///< what tolerances are relative to, metres
+  bool contact = false;
+  double firstContact = -1;  ///< t, where it is known
+  /// The motion, set up anew: part of what an edge costs.
+  std::function<MotionSource&()> motion;
+  /// Poses of the scene's frames at t.
+  std::function<void(double t, std::vector<Transform>& X_WF)> poses;
+  /// One rigid mesh and one fixed one, by a straight line and slerp: what FCL has a motion for.
+  bool rigid = false;
+#ifdef CORRIDOR_WITH_FCL
+  /// FCL's models, where they aren't meshes only.
+  std::function<std::shared_ptr<FclScene>()> fcl;
+#endif
+};
+
+/// A name, cases, and whatever they look at.
+struct EdgeSet {
+  std::string name;
+  std::vector<EdgeCase> cases;
+  std::vector<std::shared_ptr<const void>> kept;
+  int dropped = 0;  ///< edges whose truth nobody could tell
+};
+
+/// A case of one rigid mesh, from pose to pose, among one fixed mesh.
+inline void addRigid(EdgeSet& set, TriangleMesh fixed, TriangleMesh moving, const RigidPose& from,
+                     const RigidPose& to, double size, bool contact, double firstContact = -1) {
+  std::vector<Scene::Placed> bodies;
+  bodies.push_back({Body("fixed", std::move(fixed)), 0});
+  bodies.push_back({Body("moving", std::move(moving)), 1});
+  const auto scene =
+      std::make_shared<const Scene>(std::move(bodies), std::vector<Scene::Pair>{{0, 1}});
+  const auto edge = std::make_shared<std::optional<RigidEdge>>();
+  const RigidMotion motion = RigidMotion::spatial(from, to, {});
+  EdgeCase made;
+  made.scene = scene.get();
+  made.size = size;
+  made.contact = contact;
+  made.firstContact = firstContact;
+  made.rigid = true;
+  made.motion = [edge, from, to]() -> MotionSource& {
+    return edge->emplace(RigidMotion::spatial(from, to, {}));
+  };
+  made.poses = [motion](double t, std::vector<Transform>& X_WF) {
+    X_WF.assign({Transform(), motion.at(t)});
+  };
+  set.cases.push_back(std::move(made));
+  set.kept.push_back(scene);
+}
+
+/// Meshes that touch, or miss each other by a gap, at the end of the motion or all along it; ±10^-2
+/// to ±10^-13 of the size.
+inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
+  EdgeSet set{"grazing", {}, {}, 0};
+  for (int n = 0; static_cast<int>(set.cases.size()) < count; ++n) {
+    const double size = std::pow(10.0, n % 5 - 2), amount = std::pow(10.0, -2 - n % 12);
+    const double gap = n / 12 % 2 ? amount : -amount;
+    test::Grazing g(random, static_cast<test::Grazing::Feature>(n % 7 % 3), n % 3 == 0, gap, size);
+    if (g.known) addRigid(set, g.fixed, g.moving, g.from, g.to, size, gap < 0);
+  }
+  return set;
+}
+
+/// Closed forms, of which the time of first contact is known: a rod that falls about its end onto a
+/// plate; a box that slides into a wall; a blade that turns past a ledge and misses it, or not.
+inline EdgeSet closedForms(int count, std::mt19937_64& random) {
+  EdgeSet set{"closed forms", {}, {}, 0};
+  const auto real = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const auto still = Eigen::Quaterniond::Identity();
+  const auto turnedBy = [](double angle, const Vec3& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
+  };
+  for (int n = 0; n < count; ++n) {
+    const double amount = std::pow(10.0, -1 - n / 6 % 8);
+    const bool contact = n / 3 % 2;
+    if (n % 3 == 0) {
+      // A rod from the origin along x turns down by `angle` about y; the plate is at z = −sin(a):
+      // its far end meets it after a of the angle.
+      const double angle = real(0.3, 1.5), a = contact ? angle * real(0.01, 0.99) : angle + amount;
+      const double depth = std::sin(std::min(a, std::numbers::pi / 2));
+      addRigid(
+          set, test::box(Vec3(-3, -3, -depth - 0.001), Vec3(3, 3, -depth)),
+          [] {
+            TriangleMesh rod;
+            test::add(rod, Vec3::Zero(), Vec3::UnitX(), Vec3(0.5, 0, 0));
+            return rod;
+          }(),
+          {Vec3::Zero(), still}, {Vec3::Zero(), turnedBy(angle, Vec3::UnitY())}, 1, contact,
+          contact ? a / angle : -1);
+    } else if (n % 3 == 1) {
+      // A box runs 2 m towards a thin wall, and ends `amount` before it, or beyond.
+      const double t = contact ? real(0.01, 0.99) : 1 + amount / 2;
+      const double wall = 2 * t + 0.5;
+      addRigid(set, test::box(Vec3(wall, -1, -1), Vec3(wall + 0.001, 1, 1)),
+               test::box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()), {Vec3::Zero(), still},
+               {Vec3(2, 0, 0), still}, 1, contact, contact ? t : -1);
+    } else {
+      // A blade of length 1 turns about z past the edge of a ledge that begins at x = cos(a)∓.
+      const double angle = real(0.5, 2.5), a = angle * real(0.3, 0.9);
+      const double reach = contact ? 1 - amount : 1 + amount;
+      const Vec3 tip = reach * Vec3(std::cos(a), std::sin(a), 0);
+      TriangleMesh needle, blade;
+      test::add(needle, tip + Vec3(0, 0, -1), tip + Vec3(0, 0, 1), tip + Vec3(0, 0, 0.5));
+      test::add(blade, Vec3::Zero(), Vec3::UnitX(), Vec3(0.3, -0.1, 0));
+      // The leading edge, from the origin to (1, 0, 0), sweeps over the needle at angle a.
+      addRigid(set, needle, blade, {Vec3::Zero(), still},
+               {Vec3::Zero(), turnedBy(angle, Vec3::UnitZ())}, 1, contact,
+               contact ? a / angle : -1);
+    }
+  }
+  return set;
+}
+
+/// Random edges of a problem between states in its bounds, the first free; half of them free where
+/// there are enough. The truth is the verifier's.
+inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed) {
+  const auto problem = std::make_shared<const Problem>(readProblem(file));
+  const auto checker = std::make_shared<const Checker>(*problem);
+  const auto motion = std::make_shared<EdgeMotion>(problem->tree, problem->space,
+                                                   checker->scene().framePairs(), problem->tube);
+  EdgeSet set{problem->name, {}, {problem, checker, motion}, 0};
+  const PathProblem plain = plainProblem(*problem);
+  RandomEdges random(*problem, seed);
+  int free = 0, touching = 0;
+  for (int n = 0; free + touching < count && n < 200 * count; ++n) {
+    const RandomEdges::Edge e =
+        random.next(random.rigid() ? std::vector{0.02, 0.05, 0.1, 0.2}[n % 4]
+                                   : std::vector{0.1, 0.3, 1.0, 3.0}[n % 4]);
+    if (!checker->inBounds(e.to) || checker->interference(e.from)) continue;
+    // Which is more: only so that either has its half.
+    const bool maybeFree = checker->edge(e.from, e.to, false).verdict == MotionVerdict::free;
+    if ((maybeFree ? free : touching) >= count / 2) continue;
+    const PathVerdict truth = verifyPath(plain, {e.from, e.to}).verdict;
+    if (truth == PathVerdict::undecided) {
+      ++set.dropped;
+      continue;
+    }
+    EdgeCase made;
+    made.scene = &checker->scene();
+    made.size = checker->scene().defaultTolerance() * 1e7;
+    made.contact = truth == PathVerdict::refuted;
+    made.motion = [motion, e]() -> MotionSource& {
+      motion->set(e.from, e.to);
+      return *motion;
+    };
+    made.poses = [problem, e](double t, std::vector<Transform>& X_WF) {
+      X_WF = framePoses(problem->tree, problem->space.interpolate(e.from, e.to, t));
+    };
+#ifdef CORRIDOR_WITH_FCL
+    made.fcl = [checker] { return std::make_shared<FclScene>(*checker); };
+#endif
+    (made.contact ? touching : free)++;
+    set.cases.push_back(std::move(made));
+  }
+  return set;
+}
+
+}  // namespace corridor::bench

@@ -1,0 +1,236 @@
+/// Run time against error, edge by edge: `edge_error_benchmark [--problem FILE]… [--edges N]
+/// [--rounds N] [--seed N] [--cpu N] [--out FOLDER]`.
+///
+/// Every edge method at a sweep of its knob, and FCL (Debian's; BVHModel<OBBRSS>) as a peer, on
+/// edges of which the truth is known without sampling: grazing by construction, closed forms with
+/// the time of first contact, and random edges of problems, of which the independent verifier says
+/// what is true. CSV on stdout, one line a set, method and knob: time an edge, contacts missed,
+/// free edges called otherwise, undecided, and how far the time of first contact is off. With
+/// --out, a plot a set.
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <optional>
+
+#ifdef CORRIDOR_WITH_FCL
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/narrowphase/continuous_collision.h>
+#endif
+
+#include "tests/benchmark/arguments.h"
+#include "tests/benchmark/edge_cases.h"
+#include "tests/benchmark/fcl_scene.h"
+#include "tests/benchmark/plot.h"
+
+namespace corridor::bench {
+namespace {
+
+struct Answer {
+  MotionVerdict verdict = MotionVerdict::free;
+  double firstContact = -1;  ///< t, where a contact was found
+};
+
+/// What a method says of an edge, its knob set.
+using Method = std::function<Answer(const EdgeCase&)>;
+
+/// The first contact asked for, as by a planner that wants to know how far it can go.
+Method proving(EdgeMethod method, double tolerance) {
+  const auto context = std::make_shared<QueryContext>();
+  return [=](const EdgeCase& edge) {
+    MotionOptions options;
+    options.tolerance = tolerance * edge.size;
+    options.earliest = true;
+    options.timeTolerance = 1e-9;
+    const MotionResult r = edge.scene->certify(edge.motion(), options, *context, method);
+    return Answer{r.verdict, r.contactTime};
+  };
+}
+
+/// OMPL's rule with the resolution a share of the edge: poses one after another from the start.
+template <class Touches>
+Method sampling(int steps, Touches touches) {
+  const auto poses = std::make_shared<std::vector<Transform>>();
+  return [=](const EdgeCase& edge) {
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      edge.poses(t, *poses);
+      if (touches(edge, *poses)) return Answer{MotionVerdict::contact, t};
+    }
+    return Answer{};
+  };
+}
+
+Method discrete(int steps) {
+  const auto context = std::make_shared<QueryContext>();
+  return sampling(steps, [=](const EdgeCase& edge, const std::vector<Transform>& X_WF) {
+    return edge.scene->interference(X_WF, *context).has_value();
+  });
+}
+
+#ifdef CORRIDOR_WITH_FCL
+/// FCL's models of scenes, built when they are first asked for, and outside of any time.
+class FclScenes {
+ public:
+  void add(const EdgeCase& edge, const std::shared_ptr<FclScene>& scene) {
+    scenes_[edge.scene] = scene;
+  }
+  FclScene& of(const EdgeCase& edge) const { return *scenes_.at(edge.scene); }
+  bool knows(const EdgeCase& edge) const { return scenes_.count(edge.scene) > 0; }
+
+ private:
+  std::map<const Scene*, std::shared_ptr<FclScene>> scenes_;
+};
+
+Method fclDiscrete(const FclScenes& scenes, int steps) {
+  return sampling(steps, [&scenes](const EdgeCase& edge, const std::vector<Transform>& X_WF) {
+    return scenes.of(edge).touches(X_WF);
+  });
+}
+
+/// Its conservative advancement, motions set explicitly.
+Method fclContinuous(const FclScenes& scenes, double tolerance) {
+  return [&scenes, tolerance](const EdgeCase& edge) {
+    std::vector<Transform> from, to;
+    edge.poses(0, from);
+    edge.poses(1, to);
+    const auto fclPose = [](const Transform& X) {
+      fcl::Transform3d pose = fcl::Transform3d::Identity();
+      pose.linear() = X.m;
+      pose.translation() = X.t;
+      return pose;
+    };
+    const fcl::InterpMotion<double> still(fclPose(from[0]), fclPose(to[0])),
+        moving(fclPose(from[1]), fclPose(to[1]));
+    const FclScene& scene = scenes.of(edge);
+    const fcl::ContinuousCollisionRequestd request(
+        100, tolerance, fcl::CCDM_LINEAR, fcl::GST_LIBCCD, fcl::CCDC_CONSERVATIVE_ADVANCEMENT);
+    fcl::ContinuousCollisionResultd result;
+    fcl::continuousCollide(scene.geometry(0), &still, scene.geometry(1), &moving, request, result);
+    return result.is_collide ? Answer{MotionVerdict::contact, result.time_of_contact} : Answer{};
+  };
+}
+#endif
+
+struct Tally {
+  int edges = 0, contacts = 0, missed = 0, falseAlarms = 0, undecided = 0;
+  double us = 0;
+  std::vector<double> timeErrors;
+};
+
+/// Times all, the median of the rounds; counts what was said in the last. Stops early where it
+/// would take more than a minute: the edges that were asked are what is told.
+Tally run(const EdgeSet& set, const Method& method, int rounds) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  Tally tally;
+  for (const EdgeCase& edge : set.cases) {
+    std::vector<double> times;
+    Answer answer;
+    for (int i = 0; i < rounds; ++i) {
+      const auto begin = Clock::now();
+      answer = method(edge);
+      times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
+    }
+    std::nth_element(times.begin(), times.begin() + rounds / 2, times.end());
+    tally.us += times[static_cast<std::size_t>(rounds / 2)];
+    ++tally.edges;
+    tally.contacts += edge.contact;
+    tally.undecided += answer.verdict == MotionVerdict::undecided;
+    tally.missed += edge.contact && answer.verdict == MotionVerdict::free;
+    tally.falseAlarms += !edge.contact && answer.verdict == MotionVerdict::contact;
+    if (edge.firstContact >= 0 && answer.verdict == MotionVerdict::contact)
+      tally.timeErrors.push_back(std::abs(answer.firstContact - edge.firstContact));
+    if (Clock::now() - start > std::chrono::minutes(1)) break;
+  }
+  tally.us /= tally.edges;
+  return tally;
+}
+
+/// One set: every method at every knob, as CSV, and what its plot shows.
+class Report {
+ public:
+  Report(const EdgeSet& set, int rounds)
+      : set_(set),
+        rounds_(rounds),
+        plot_(set.name + ": contacts missed, or 1 of " + std::to_string(2 * set.cases.size()) +
+                  " where none is",
+              "µs an edge", "share of the edges with contact") {}
+
+  void line(const std::string& method, double knob, const Method& ask) {
+    Tally t = run(set_, ask, rounds_);
+    std::sort(t.timeErrors.begin(), t.timeErrors.end());
+    const bool timed = !t.timeErrors.empty();
+    std::cout << set_.name << ',' << method << ',' << knob << ',' << t.edges << ',' << t.contacts
+              << ',' << t.us << ',' << t.missed << ',' << t.falseAlarms << ',' << t.undecided
+              << ',';
+    if (timed) std::cout << t.timeErrors[t.timeErrors.size() / 2] << ',' << t.timeErrors.back();
+    std::cout << (timed ? "\n" : ",\n") << std::flush;
+    if (series_.empty() || series_.back().name != method) series_.push_back({method, {}});
+    if (t.contacts > 0)
+      series_.back().points.push_back(
+          {t.us, std::max(static_cast<double>(t.missed),
+                          0.5 * t.contacts / static_cast<double>(set_.cases.size())) /
+                     t.contacts});
+  }
+  void write(const std::filesystem::path& folder) {
+    for (Series& series : series_) plot_.add(std::move(series));
+    std::string name = set_.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    plot_.write(folder / ("edge_error_" + name + ".svg"));
+  }
+
+ private:
+  const EdgeSet& set_;
+  int rounds_;
+  Plot plot_;
+  std::vector<Series> series_;
+};
+
+void compare(const EdgeSet& set, int rounds, const std::string& folder) {
+  if (set.cases.empty()) throw std::runtime_error(set.name + ": no edge of known truth");
+  std::cerr << set.name << ": " << set.cases.size() << " edges, " << set.dropped
+            << " left out, whose truth the verifier couldn't tell\n";
+  Report report(set, rounds);
+  for (std::size_t m = 0; m < edgeMethodNames().size(); ++m)
+    for (const double tolerance : {1e-2, 1e-3, 1e-5, 1e-7, 1e-9})
+      report.line(edgeMethodNames()[m], tolerance, proving(static_cast<EdgeMethod>(m), tolerance));
+  const std::vector<int> steps = {10, 32, 100, 316, 1'000, 10'000, 100'000};
+  for (const int n : steps) report.line("discrete", 1.0 / n, discrete(n));
+#ifdef CORRIDOR_WITH_FCL
+  FclScenes scenes;
+  for (const EdgeCase& edge : set.cases)
+    if (!scenes.knows(edge))
+      scenes.add(edge, edge.fcl ? edge.fcl() : std::make_shared<FclScene>(*edge.scene));
+  for (const int n : steps) report.line("FCL discrete", 1.0 / n, fclDiscrete(scenes, n));
+  if (set.cases[0].rigid)
+    for (const double tolerance : {1e-2, 1e-4, 1e-6})
+      report.line("FCL continuous", tolerance, fclContinuous(scenes, tolerance));
+#endif
+  if (!folder.empty()) report.write(folder);
+}
+
+void runAll(const Arguments& arguments) {
+  pin(arguments);
+  const int count = static_cast<int>(arguments.number("--edges", 200));
+  const auto seed = static_cast<std::uint64_t>(arguments.number("--seed", 1));
+  const std::string folder = arguments.text("--out");
+  const int rounds = arguments.rounds(3);
+  std::mt19937_64 random(seed);
+  std::cout << "set,method,knob,edges,contacts,us,missed,false_alarms,undecided,"
+               "time_error_median,time_error_max\n";
+  compare(closedForms(count, random), rounds, folder);
+  compare(grazingEdges(count, random), rounds, folder);
+  for (const std::string& file : arguments.texts("--problem"))
+    compare(sceneEdges(file, count, seed), rounds, folder);
+}
+
+}  // namespace
+}  // namespace corridor::bench
+
+int main(int argc, char** argv) {
+  return corridor::bench::runWith(argc, argv,
+                                  {"--problem", "--edges", "--rounds", "--seed", "--cpu", "--out"},
+                                  corridor::bench::runAll);
+}
