@@ -73,7 +73,7 @@ struct SolveReport {
 /// the time doesn't run out. OMPL's random numbers hang on one seed a process: don't call this from
 /// two threads at once.
 /// @throws InputError: start or goal in contact, too close, or out of bounds; unknown planner,
-/// parameter or sampler; an objective that needs what isn't there.
+/// parameter or sampler.
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options = {});
 
 /// All that solveProblem would find wrong with planner, parameters, sampler, resolution and
