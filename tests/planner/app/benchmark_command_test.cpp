@@ -175,10 +175,9 @@ TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
 }
 
 TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
-  const std::string command =
-      "cd '" + folder_.string() +
-      "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
-      "' benchmark hall.yaml --runs 1000000 -o results >out.txt 2>err.txt";
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
+                              "' benchmark hall.yaml --runs 1000000 -o results >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
@@ -194,8 +193,7 @@ TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
         "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");
-  const Result result =
-      run("benchmark hall.yaml --variants certified --runs 1 --time 0.5 --json");
+  const Result result = run("benchmark hall.yaml --variants certified --runs 1 --time 0.5 --json");
   EXPECT_EQ(result.status, 0) << result.err;
   const auto cell = nlohmann::json::parse(result.out)["results"][0];
   EXPECT_EQ(cell["solved"], 0);
