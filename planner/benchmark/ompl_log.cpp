@@ -6,6 +6,7 @@
 
 #include <ompl/base/PlannerStatus.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/config.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
 #include "planner/benchmark/rows.h"
@@ -29,6 +30,11 @@ class Log final : public Benchmark {
   explicit Log(og::SimpleSetup& unused) : Benchmark(unused) {}
   CompleteExperiment& experiment() { return exp_; }
 };
+
+std::string versionOfOmpl() {
+  return std::to_string(OMPL_MAJOR_VERSION) + "." + std::to_string(OMPL_MINOR_VERSION) + "." +
+         std::to_string(OMPL_PATCH_VERSION);
+}
 
 /// OMPL's readers take the last word of the line.
 std::string oneWord(std::string text) {
@@ -115,7 +121,12 @@ std::string omplLog(const Campaign& campaign, const CampaignResult& result, std:
   }
   std::ostringstream text;
   log.saveResultsToStream(text);
-  return text.str();
+  std::string all = text.str();
+  // Debian's OMPL 1.5.2 has an empty OMPL_VERSION, and its readers then take "version" for it.
+  const std::string unversioned = "OMPL version \n";
+  if (all.rfind(unversioned, 0) == 0)
+    all.replace(0, unversioned.size(), "OMPL version " + versionOfOmpl() + "\n");
+  return all;
 }
 
 }  // namespace corridor

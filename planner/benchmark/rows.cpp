@@ -43,8 +43,9 @@ std::string csvText(const RowValue& value) {
 std::string tableText(const RowValue& value) {
   if (const auto* number = std::get_if<double>(&value)) {
     char text[32];
-    // Whole numbers (medians of counts) up to 2^53 as such.
-    const bool whole = *number == std::floor(*number) && std::abs(*number) < 0x1p53;
+    // Counts, whose medians may be halves, without an exponent.
+    const bool whole =
+        (*number == std::floor(*number) || std::abs(*number) >= 1000) && std::abs(*number) < 0x1p53;
     std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", *number);
     return text;
   }

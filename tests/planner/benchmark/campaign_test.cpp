@@ -200,7 +200,9 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
   const CampaignResult result = runCampaign(campaign);
   for (std::size_t v = 0; v < 2; ++v) {
     const OmplLog log = OmplLogReader::read(omplLog(campaign, result, 0, v));
-    EXPECT_EQ(log.version, OMPL_VERSION);
+    EXPECT_EQ(log.version, std::to_string(OMPL_MAJOR_VERSION) + "." +
+                               std::to_string(OMPL_MINOR_VERSION) + "." +
+                               std::to_string(OMPL_PATCH_VERSION));
     EXPECT_EQ(log.experiment, v == 0 ? "a_hall/certified" : "a_hall/discrete:0.2");
     EXPECT_EQ(log.parameters.at("edges TEXT"), v == 0 ? "certified" : "discrete");
     EXPECT_EQ(log.parameters.count("resolution REAL"), v);

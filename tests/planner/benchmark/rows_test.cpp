@@ -39,11 +39,11 @@ TEST(Rows, TableLinesUpAndLeavesOutWhatSaysNothing) {
                                {"time_s", {}},
                                {"failed", std::uint64_t{0}},
                                {"refuted", std::uint64_t{0}},
-                               {"edges", 2.5}}};
+                               {"edges", 20000.5}}};
   EXPECT_EQ(tableOf(rows),
             "name   time_s  refuted    edges\n"
             "naïve  0.1235        0  1234567\n"
-            "b           -        0      2.5\n");
+            "b           -        0    20000\n");
 }
 
 /// Medians are of the runs that were solved; a run that failed counts nowhere but as such.
