@@ -60,9 +60,11 @@ std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastF
   const MotionResult result = checker_.edge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   // The tube covers the rounding of a state on the edge, so the first try nearly always holds; but
-  // [0, t0] may be proved with a clearance that leaves nothing for a second proof.
+  // [0, t0] may be proved with a clearance that leaves nothing for a second proof (`advancement`
+  // goes as near as it can). So a little less is tried, then twice as much.
   const double least = checker_.options().timeTolerance;
-  for (double t = result.certifiedUntil; t >= least; t /= 2) {
+  for (double back = 0; result.certifiedUntil - back >= least; back = back > 0 ? 2 * back : least) {
+    const double t = result.certifiedUntil - back;
     const Configuration at = checker_.space().interpolate(from, to, t);
     if (checker_.certifiedState(at) && isFree(from, at)) return Progress{t, at};
   }

@@ -203,11 +203,14 @@ TEST(Solve, MaximisesTheLeastClearance) {
   };
   const double ofShortest = leastClearance();
   problem.objective = "max_min_clearance";
+  problem.objectiveThreshold = 0.5;  // enough: it stops there
+  problem.planner.time = 300 * test::kSlowdown;
   const double ofClearest = leastClearance();
   std::cout << "least clearance " << ofShortest << " m of the shortest, " << ofClearest
             << " m of the clearest path\n";
   EXPECT_LT(ofShortest, 0.1);
-  EXPECT_GT(ofClearest, 0.5);
+  // Between OMPL's samples of an edge, some 0.15 m apart, it may be less.
+  EXPECT_GT(ofClearest, 0.4);
 }
 
 TEST(Solve, SamplersSolve) {
