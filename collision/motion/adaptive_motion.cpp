@@ -39,7 +39,8 @@ class Bisection {
       std::pop_heap(queue_.begin(), queue_.end(), Later{earliest_});
       const Window w = queue_.back();
       queue_.pop_back();
-      if (block_ && w.t0 >= block_->time - steps_.options().timeTolerance) return blocked(w.t0);
+      if (block_ && w.t0 >= block_->time - steps_.options().timeTolerance)
+        return blocked(std::min(w.t0, block_->time));
       if (steps_.outOfWork()) return steps_.workLimit(w.t0);
       if (const auto result = decide(w)) return *result;
     }

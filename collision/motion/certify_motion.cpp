@@ -83,12 +83,12 @@ class Certifier {
     SweptBall ball;
     const Body* swept = nullptr;  // whose ball that is, in this window of this motion
     std::size_t posed = std::numeric_limits<std::size_t>::max();
-    std::size_t looked = 0, left = 0;
-    for (std::size_t g = w.begin; g < w.end; ++g, ++looked) {
+    std::size_t left = 0;
+    for (std::size_t g = w.begin; g < w.end; ++g) {
       Group group = groups_[g];
-      if (left >= kLeftBodies && 4 * left > 3 * looked && h > kShortest) {
-        groups_.push_back(group);
-        continue;
+      if (left >= kLeftBodies && 4 * left > 3 * (g - w.begin) && h > kShortest) {
+        for (; g < w.end; ++g) groups_.push_back(Group(groups_[g]));
+        return true;
       }
       const MotionPair& pair = pairs_[group.bodies];
       if (pair.motion != posed) {
@@ -182,7 +182,7 @@ class Certifier {
       // Only the first half matters now.
       if (!options_.earliest || t - w.t0 <= options_.timeTolerance) return contact(w.t0, false);
       ++counters_.splits;
-      return walkInOrder({w.t0, t, later, count});
+      return walkInOrder({w.t0, t, later, count}) ? contact(t, false) : false;
     }
     counters_.splits += count > later;
     const bool free = count == later || (walkInOrder({w.t0, t, later, count}) &&
@@ -195,21 +195,41 @@ class Certifier {
   /// Is one of the groups from `begin` on in contact at the rounded pose at t?
   bool touchesAt(double t, std::size_t begin) {
     std::size_t posed = std::numeric_limits<std::size_t>::max();
-    Transform X_AB;
+    MotionWindow there;
     for (std::size_t g = begin; g < groups_.size() && work() < workEnd_; ++g) {
       if (g > begin && groups_[g].bodies == groups_[g - 1].bodies) continue;
       const MotionPair& pair = pairs_[groups_[g].bodies];
       if (pair.motion != posed) {
         posed = pair.motion;
-        X_AB = motion_.window(posed, t, 0).X_AB;
+        there = motion_.window(posed, t, 0);
         ++counters_.poses;
       }
-      const auto hit = interference(pair.a->tree(), {}, pair.b->tree(), X_AB, context_, workEnd_);
-      --counters_.states;  // part of an edge
-      if (!hit) continue;
-      contactTime_ = t;
-      contactPair_ = {pair.bodyA, pair.bodyB, hit->a, hit->b};
-      return true;
+      // What the window has not come to may be far away, and need no tree.
+      if (isWhole(groups_[g]) && !mayMeet(*pair.a, sweptBall(*pair.b, there), 0)) continue;
+      if (touches(pair, there.X_AB, t)) return true;
+    }
+    return false;
+  }
+
+  /// Are the two in contact at the rounded pose, that of t?
+  bool touches(const MotionPair& pair, const Transform& X_AB, double t) {
+    const auto hit = interference(pair.a->tree(), {}, pair.b->tree(), X_AB, context_, workEnd_);
+    --counters_.states;  // part of an edge
+    if (!hit) return false;
+    contactTime_ = t;
+    contactPair_ = {pair.bodyA, pair.bodyB, hit->a, hit->b};
+    return true;
+  }
+
+  /// A window that ends where a contact begins is never proved: is there one at its end, or after
+  /// it, as soon as the bracket allows? Of the two that were not told apart.
+  bool touchesAfter(const Window& w) {
+    const MotionPair& pair = pairs_[bodies_];
+    for (double after = 0; !motion_.still(); after = std::max(2 * after, 0x1p-40)) {
+      const double t = std::min(w.t1 + after, 1.0);
+      if (after > 0 && t - w.t0 > options_.timeTolerance) return false;
+      if (touches(pair, motion_.window(pair.motion, t, 0).X_AB, t)) return true;
+      if (t == 1) return false;
     }
     return false;
   }
@@ -245,6 +265,8 @@ class Certifier {
       return contact(0, false);
     }
     const bool clearance = found_.kind == Descent::Kind::undecided;
+    const bool near = contactTime_ >= 0 && contactTime_ - w.t0 <= options_.timeTolerance;
+    if (clearance && !near && contactTime_ != w.t1) touchesAfter(w);
     if (contactTime_ == w.t1 && clearance && !found_.wide) return contact(w.t0, true);
     if (contactTime_ >= 0 && contactTime_ - w.t0 <= options_.timeTolerance)
       return contact(w.t0, false);

@@ -20,25 +20,32 @@ PointTravel travelOfBody(const Body& b, const MotionWindow& window) {
   return travelOf(window, y + window.X_AB.t, roundedUp(b.sphereRadius() + 16 * kUnit * terms));
 }
 
-/// Proves the claim for all of [t0, t1], or finds a place where it can't be proved.
-std::optional<double> refuted(MotionSource& motion, const MotionPair& pair, double t0, double t1,
-                              double claim, QueryContext& context) {
-  const double h = (t1 - t0) / 2, middle = t0 + h;
+/// Proves half of the claim for all of [t0, t1], or tells where it can't be.
+std::optional<EvidenceFault> faultIn(MotionSource& motion, std::span<const MotionPair> pairs,
+                                     const FreeInterval& i, QueryContext& context) {
+  const MotionPair& pair = pairs[i.pair];
+  const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
   const MotionWindow window = motion.window(pair.motion, middle, h);
+  const auto closer = [&](double d) {
+    return closerThan(pair.a->binaryTree(), {}, pair.b->binaryTree(), window.X_AB, d, context);
+  };
   const PointTravel travel = travelOfBody(*pair.b, window);
-  const double needed = roundedUp(claim / 2 + travel.cap + travel.pad);
-  if (!closerThan(pair.a->binaryTree(), {}, pair.b->binaryTree(), window.X_AB, needed, context))
-    return {};
-  // Were the claim true, the distance at the middle would exceed claim + pad.
-  if (travel.cap < claim / 4) return middle;
-  const auto first = refuted(motion, pair, t0, middle, claim, context);
-  return first ? first : refuted(motion, pair, middle, t1, claim, context);
+  const double needed = roundedUp(i.clearance / 2 + travel.cap + travel.pad);
+  if (needed < HUGE_VAL && !closer(needed)) return std::nullopt;
+  // Nothing is gained by shorter windows: what is not proved is lost to the pad, or not so.
+  if (!(travel.cap >= i.clearance / 4) || !(i.t0 < middle && middle < i.t1))
+    return EvidenceFault{closer(0.75 * i.clearance) ? Kind::refuted : Kind::unproved, i.pair,
+                         middle};
+  const auto first = faultIn(motion, pairs, {i.pair, i.t0, middle, i.clearance}, context);
+  return first ? first : faultIn(motion, pairs, {i.pair, middle, i.t1, i.clearance}, context);
 }
 
-/// Dyadic, as windows are: then their middles are exact.
+/// On the grid of windows: then their middles are exact.
 bool isWindow(const FreeInterval& i) {
-  const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
-  return i.t0 >= 0 && i.t1 <= 1 && h > 0 && middle - h == i.t0 && middle + h == i.t1;
+  const auto onGrid = [](double t) {
+    return t >= 0 && t <= 1 && std::ldexp(t, 48) == std::floor(std::ldexp(t, 48));
+  };
+  return onGrid(i.t0) && onGrid(i.t1) && i.t0 < i.t1;
 }
 
 }  // namespace
@@ -48,8 +55,10 @@ std::optional<EvidenceFault> checkEvidence(MotionSource& motion, std::span<const
                                            const MotionEvidence& evidence, QueryContext& context) {
   std::vector<FreeInterval> intervals = evidence.free;
   const double least = options.margin + options.reserve;
+  if (!(until >= 0 && until <= 1)) return EvidenceFault{Kind::malformed, 0, until};
   for (const FreeInterval& i : intervals)
-    if (i.pair >= pairs.size() || !isWindow(i) || !(i.clearance >= roundedDown(least)))
+    if (i.pair >= pairs.size() || !isWindow(i) ||
+        !(i.clearance >= roundedDown(least) && i.clearance > 0 && i.clearance < HUGE_VAL))
       return EvidenceFault{Kind::malformed, i.pair, i.t0};
   std::sort(intervals.begin(), intervals.end(), [](const FreeInterval& x, const FreeInterval& y) {
     return x.pair != y.pair ? x.pair < y.pair : x.t0 < y.t0;
@@ -62,8 +71,7 @@ std::optional<EvidenceFault> checkEvidence(MotionSource& motion, std::span<const
     if (covered < until) return EvidenceFault{Kind::gap, k, covered};
   }
   for (const FreeInterval& i : intervals)
-    if (const auto t = refuted(motion, pairs[i.pair], i.t0, i.t1, i.clearance, context))
-      return EvidenceFault{Kind::refuted, i.pair, *t};
+    if (auto fault = faultIn(motion, pairs, i, context)) return fault;
   return std::nullopt;
 }
 

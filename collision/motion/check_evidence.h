@@ -9,9 +9,12 @@ namespace corridor {
 /// What is wrong with the evidence of a motion query.
 struct EvidenceFault {
   enum class Kind {
-    malformed,  ///< an interval that isn't one of [0, 1], or of no pair, or that claims too little
+    malformed,  ///< an interval that isn't one of [0, 1] on the grid of 2^-48, or of no pair, or
+                ///< that claims too little or nothing; or `until` is no time
     gap,        ///< the pair's intervals don't cover `t`
-    refuted,    ///< at `t` the pair is closer than half of what an interval around it claims
+    refuted,    ///< at `t` the pair is closer than an interval around it claims
+    unproved,   ///< at `t` the claim holds, but not for all that tube and rounding may do by this
+                ///< method, which takes them for the whole of b, not for the part that is close
   };
   Kind kind = Kind::malformed;
   std::size_t pair = 0;

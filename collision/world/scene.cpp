@@ -121,7 +121,10 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within, 
     if (!same) still = atRest(X_WA, X_WB);
     if (!same || last->b != pair.b) ball = sweptBall(*pair.b, still);
     last = &pair;
-    if (mayMeet(*pair.a, ball, within) && visit(pair, X_WA, X_WB)) return;
+    // The ball and the box are told in A's frame, whose map need not keep lengths.
+    const double inA =
+        within > 0 ? roundedUp(within * (1 + 4 * orthonormalityDefect(X_WA.m))) : within;
+    if (mayMeet(*pair.a, ball, inA) && visit(pair, X_WA, X_WB)) return;
   }
 }
 

@@ -40,9 +40,9 @@ class Checker {
   MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Exact static interference: neither margin nor tolerance nor tube. @pre finite.
   std::optional<Contact> interference(const Configuration& q) const;
-  /// How far the closest tested pair is apart beyond the margin, metres: 0 or less where `state`
-  /// can't be free, the margin below 0 where a pair touches (there is no depth). Infinite where no
-  /// pair is tested. Neither tolerance nor tube. @pre finite.
+  /// How far the closest tested pair is apart beyond the margin, metres: where it is 0 or less,
+  /// `state` isn't free (it may not be where it is less than tolerance and tube); the margin below
+  /// 0 where a pair touches (there is no depth). Infinite where no pair is tested. @pre finite.
   double clearance(const Configuration& q) const;
   /// The pairs of bodies of the problem of which `state` isn't free, each once. @pre finite.
   std::vector<Scene::Pair> pairsNotFree(const Configuration& q) const;

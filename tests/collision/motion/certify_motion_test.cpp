@@ -349,5 +349,52 @@ TEST(CertifyMotion, GrazingIsSaidOnlyOfNarrowGaps) {
   EXPECT_LE(r.certifiedUntil, 0.25);
 }
 
+/// A contact that begins at a time which windows begin and end at: none that ends there is proved.
+TEST(CertifyMotion, ContactsThatBeginWithAWindow) {
+  const Body a = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones())),
+             b = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
+  for (const EdgeMethod method :
+       {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
+    for (const double reserve : {0.0, 1e-7})
+      for (const bool earliest : {false, true})
+        for (int k = 0; k <= 64; ++k) {
+          QueryContext context;
+          MotionOptions options;
+          options.tolerance = 1e-7;
+          options.reserve = reserve;
+          options.earliest = earliest;
+          const double from = -1 - 4 * (k / 64.0);  // the faces meet at −1
+          const MotionResult r = certify(
+              b, a,
+              RigidMotion::spatial(at(Vec3(from, 0.3, 0.2)), at(Vec3(from + 4, 0.3, 0.2)), {}),
+              options, context, method);
+          ASSERT_EQ(r.verdict, MotionVerdict::contact)
+              << k << "/64 by " << edgeMethodNames()[static_cast<std::size_t>(method)];
+          if (!earliest) continue;
+          EXPECT_LE(r.certifiedUntil, k / 64.0);
+          EXPECT_GE(r.contactTime, k / 64.0 - 1e-12);
+          EXPECT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options.timeTolerance) << k;
+        }
+}
+
+/// Many bodies that the whole motion can't be told from, and others that are far away: those get no
+/// tree, neither where it looks nor where it samples.
+TEST(CertifyMotion, FarBodiesGetNoTree) {
+  const Body mover = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
+  std::vector<Body> near, far;
+  for (int i = 0; i < 12; ++i) near.push_back(bodyOf(box(Vec3(i, 1, -1), Vec3(i + 0.9, 1.1, 1))));
+  for (int i = 0; i < 24; ++i) far.push_back(bodyOf(box(Vec3(1e3, i, 0), Vec3(1e3 + 1, i + 1, 1))));
+  std::vector<MotionPair> pairs;
+  for (const Body& body : near) pairs.push_back({&body, &mover, 0, pairs.size() + 1, 0});
+  for (const Body& body : far) pairs.push_back({&body, &mover, 0, pairs.size() + 1, 0});
+  RigidEdge edge(
+      RigidMotion::spatial(at(Vec3::Zero()), turned(Vec3(12, 0.1, 0), 3, Vec3::UnitX()), {}));
+  MotionOptions options;
+  options.tolerance = 1e-7;
+  QueryContext context;
+  certifyMotion(edge, pairs, options, context);
+  for (const Body& body : far) EXPECT_FALSE(body.treeBuilt());
+}
+
 }  // namespace
 }  // namespace corridor

@@ -119,6 +119,10 @@ TEST_P(Evidence, TamperedWithItFails) {
   EXPECT_EQ(fault(), Kind::malformed);
   swing.evidence.free[0].clearance = std::nan("");
   EXPECT_EQ(fault(), Kind::malformed);
+  swing.evidence.free[0].clearance = 0;
+  EXPECT_EQ(fault(), Kind::malformed) << "claims nothing";
+  swing.evidence.free[0].t1 = 0.1;
+  EXPECT_EQ(fault(), Kind::malformed) << "on no grid";
   swing.evidence.free[0].t1 = 1.5;
   EXPECT_EQ(fault(), Kind::malformed);
   swing.evidence.free[0].t1 = swing.evidence.free[0].t0;
@@ -135,6 +139,43 @@ TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size
     add(mesh, c, c + size * Vec3(real(), real(), real()), c + size * Vec3(real(), real(), real()));
   }
   return mesh;
+}
+
+/// The check takes the whole body for as loose as its farthest point: it may not be able to prove a
+/// claim then, but doesn't call it false.
+TEST_P(Evidence, WhatATubeTakesIsNotRefuted) {
+  TriangleMesh two;
+  add(two, Vec3::Zero(), Vec3(0.01, 0, 0), Vec3(0, 0, 0.01));
+  add(two, Vec3(10, 5, 0), Vec3(10.01, 5, 0), Vec3(10, 5, 0.01));
+  TriangleMesh floor;
+  add(floor, Vec3(-0.1, -0.006, -0.1), Vec3(0.1, -0.006, -0.1), Vec3(0, -0.006, 0.1));
+  const Body fixed = bodyOf(floor), moving = bodyOf(two);
+  Case c(fixed, moving, RigidMotion::spatial(at(Vec3::Zero()), at(Vec3(0, 0.001, 0)), {0, 0.01}));
+  c.run();
+  ASSERT_EQ(c.result.verdict, MotionVerdict::free);
+  const auto fault = c.check();
+  if (fault) {
+    EXPECT_EQ(fault->kind, Kind::unproved);
+  }
+}
+
+/// Two bodies that go through each other: no claim, however small, and no lengths whose products
+/// overflow make the check believe it, or keep it busy for ever.
+TEST_P(Evidence, FalseClaimsAreNotBelieved) {
+  for (const double size : {1.0, 1e160}) {
+    const Body fixed = bodyOf(box(-size * Vec3::Ones(), size * Vec3::Ones())),
+               moving = bodyOf(box(-size * Vec3::Ones(), size * Vec3::Ones()));
+    for (const double claim : {1.0, 1e-3, 1e-17, 1e-300}) {
+      Case c(fixed, moving,
+             RigidMotion::spatial(at(Vec3(-3 * size, 0, 0)),
+                                  turned(Vec3(3 * size, 0, 0), 1e-3, Vec3::UnitZ()), {0, 1e-3}));
+      c.result.certifiedUntil = 1;
+      c.evidence.free = {{0, 0, 1, claim}};
+      EXPECT_TRUE(c.check()) << size << ' ' << claim;
+      c.result.certifiedUntil = std::nan("");
+      EXPECT_TRUE(c.check());
+    }
+  }
 }
 
 /// Whatever is said holds: for the check, and against distances at samples that it knows nothing

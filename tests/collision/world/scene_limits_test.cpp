@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/world/rigid_scene.h"
+#include "tests/support/meshes.h"
 
 namespace corridor {
 namespace {
@@ -43,6 +44,22 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
         scene({p, p, p}, {Vec3(exact - s, 0, 0), Vec3(exact + s, 0, 0), Vec3(exact, s, 0)});
     EXPECT_TRUE(point.interference(X, context)) << i;
   }
+}
+
+/// A map that shrinks: what is measured in a frame isn't what the world measures. The second pair
+/// is the closer one, by less than the map takes.
+TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {
+  const auto box = [](const Vec3& low, const Vec3& high) { return Body("", test::box(low, high)); };
+  std::vector<Scene::Placed> bodies;
+  bodies.push_back({box(Vec3(-1000, -1, -1), Vec3(-999, 1, 1)), 1});
+  bodies.push_back({box(-0.01 * Vec3::Ones(), 0.01 * Vec3::Ones()), 2});
+  bodies.push_back({box(-0.01 * Vec3::Ones(), 0.01 * Vec3::Ones()), 3});
+  Transform shrinks;
+  shrinks.m *= 1 - 0x1p-12;
+  const std::vector<Transform> X_WF = {{}, shrinks, {Mat3::Identity(), Vec3(0.124, 0, 0)}, {}};
+  QueryContext context;
+  const Scene both(std::move(bodies), {{0, 1}, {0, 2}});
+  EXPECT_NEAR(both.clearance(X_WF, context), 999 * (1 - 0x1p-12) - 0.01, 1e-9);
 }
 
 TEST(SceneLimits, RefusesWhatIsOutOfRange) {
