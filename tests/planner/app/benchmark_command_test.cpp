@@ -175,10 +175,9 @@ TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
 }
 
 TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
-  const std::string command =
-      "cd '" + folder_.string() +
-      "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
-      "' benchmark hall.yaml --runs 1000000 -o results >out.txt 2>err.txt";
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
+                              "' benchmark hall.yaml --runs 1000000 -o results >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
@@ -194,16 +193,17 @@ TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
         "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");
-  const Result result =
-      run("benchmark hall.yaml --variants certified --runs 1 --time 0.5 --json");
+  const Result result = run("benchmark hall.yaml --variants certified --runs 1 --time 0.5 --json");
   EXPECT_EQ(result.status, 0) << result.err;
   const auto cell = nlohmann::json::parse(result.out)["results"][0];
   EXPECT_EQ(cell["solved"], 0);
   EXPECT_EQ(cell["failed"], 0);
   EXPECT_EQ(cell["time_s"], nullptr);
-  EXPECT_EQ(cell["rows"][0]["result"], "not found");
+  // Whichever the planner calls it: RRTConnect's tree ends somewhere near the wall.
+  EXPECT_THAT(cell["rows"][0]["result"].get<std::string>(),
+              testing::AnyOf("approximate only", "not found"));
   EXPECT_EQ(cell["rows"][0]["verdict"], nullptr);
-  EXPECT_THAT(cell["rows"][0]["why"].get<std::string>(), HasSubstr("nothing found in the time"));
+  EXPECT_THAT(cell["rows"][0]["why"].get<std::string>(), HasSubstr("another planner or seed"));
 }
 
 }  // namespace
