@@ -199,11 +199,11 @@ TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
   EXPECT_EQ(cell["solved"], 0);
   EXPECT_EQ(cell["failed"], 0);
   EXPECT_EQ(cell["time_s"], nullptr);
-  // How far the planner comes in the time is the machine's.
+  // Whichever the planner calls it: RRTConnect's tree ends somewhere near the wall.
   EXPECT_THAT(cell["rows"][0]["result"].get<std::string>(),
-              testing::AnyOf("not found", "approximate only"));
+              testing::AnyOf("approximate only", "not found"));
   EXPECT_EQ(cell["rows"][0]["verdict"], nullptr);
-  EXPECT_FALSE(cell["rows"][0]["why"].get<std::string>().empty());
+  EXPECT_THAT(cell["rows"][0]["why"].get<std::string>(), HasSubstr("another planner or seed"));
 }
 
 }  // namespace

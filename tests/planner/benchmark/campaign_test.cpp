@@ -233,8 +233,8 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
         EXPECT_EQ(row.at("proved"), run.verdict == "proved" ? "1" : "0");
         EXPECT_EQ(row.at("refuted"), run.verdict == "refuted" ? "1" : "0");
         EXPECT_EQ(row.at("box_tests"), std::to_string(run.counters.boxTests));
-        // OMPL's clock stands around all but setting up, and waits up to 1 ms for a thread.
-        EXPECT_NEAR(std::stod(row.at("time")), run.time - run.setUpTime, 0.05 * test::kSlowdown);
+        // OMPL's clock stands around all but setting up, and has six digits.
+        EXPECT_GE(std::stod(row.at("time")), 0.999 * (run.time - run.setUpTime));
         if (p == 1) {
           EXPECT_GT(log.planners[1].progressSamples.at(i), 0u);
         }
