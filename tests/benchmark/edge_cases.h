@@ -30,8 +30,6 @@ struct EdgeCase {
   std::function<MotionSource&()> motion;
   /// Poses of the scene's frames at t.
   std::function<void(double t, std::vector<Transform>& X_WF)> poses;
-  /// One rigid mesh and one fixed one, by a straight line and slerp: what FCL has a motion for.
-  bool rigid = false;
 #ifdef CORRIDOR_WITH_FCL
   /// FCL's models, where they aren't meshes only.
   std::function<std::shared_ptr<FclScene>()> fcl;
@@ -61,7 +59,6 @@ inline void addRigid(EdgeSet& set, TriangleMesh fixed, TriangleMesh moving, cons
   made.size = size;
   made.contact = contact;
   made.firstContact = firstContact;
-  made.rigid = true;
   made.motion = [edge, from, to]() -> MotionSource& {
     return edge->emplace(RigidMotion::spatial(from, to, {}));
   };

@@ -14,11 +14,6 @@
 #include <map>
 #include <optional>
 
-#ifdef CORRIDOR_WITH_FCL
-#include <fcl/math/motion/interp_motion.h>
-#include <fcl/narrowphase/continuous_collision.h>
-#endif
-
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/edge_cases.h"
 #include "tests/benchmark/fcl_scene.h"
@@ -87,29 +82,6 @@ Method fclDiscrete(const FclScenes& scenes, int steps) {
   return sampling(steps, [&scenes](const EdgeCase& edge, const std::vector<Transform>& X_WF) {
     return scenes.of(edge).touches(X_WF);
   });
-}
-
-/// Its conservative advancement, motions set explicitly.
-Method fclContinuous(const FclScenes& scenes, double tolerance) {
-  return [&scenes, tolerance](const EdgeCase& edge) {
-    std::vector<Transform> from, to;
-    edge.poses(0, from);
-    edge.poses(1, to);
-    const auto fclPose = [](const Transform& X) {
-      fcl::Transform3d pose = fcl::Transform3d::Identity();
-      pose.linear() = X.m;
-      pose.translation() = X.t;
-      return pose;
-    };
-    const fcl::InterpMotion<double> still(fclPose(from[0]), fclPose(to[0])),
-        moving(fclPose(from[1]), fclPose(to[1]));
-    const FclScene& scene = scenes.of(edge);
-    const fcl::ContinuousCollisionRequestd request(
-        100, tolerance, fcl::CCDM_LINEAR, fcl::GST_LIBCCD, fcl::CCDC_CONSERVATIVE_ADVANCEMENT);
-    fcl::ContinuousCollisionResultd result;
-    fcl::continuousCollide(scene.geometry(0), &still, scene.geometry(1), &moving, request, result);
-    return result.is_collide ? Answer{MotionVerdict::contact, result.time_of_contact} : Answer{};
-  };
 }
 #endif
 
@@ -204,9 +176,6 @@ void compare(const EdgeSet& set, int rounds, const std::string& folder) {
     if (!scenes.knows(edge))
       scenes.add(edge, edge.fcl ? edge.fcl() : std::make_shared<FclScene>(*edge.scene));
   for (const int n : steps) report.line("FCL discrete", 1.0 / n, fclDiscrete(scenes, n));
-  if (set.cases[0].rigid)
-    for (const double tolerance : {1e-2, 1e-4, 1e-6})
-      report.line("FCL continuous", tolerance, fclContinuous(scenes, tolerance));
 #endif
   if (!folder.empty()) report.write(folder);
 }

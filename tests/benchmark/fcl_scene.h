@@ -73,9 +73,6 @@ class FclScene {
     for (const Scene::Placed& placed : scene.bodies())
       shapes_.push_back({fclMesh(placed.body.mesh()), placed.frame});
   }
-  const fcl::CollisionGeometryd* geometry(std::size_t shape) const {
-    return shapes_[shape].geometry.get();
-  }
   bool touches(const std::vector<Transform>& X_WF) {
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       fcl::Transform3d pose = fcl::Transform3d::Identity();
