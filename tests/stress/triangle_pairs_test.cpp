@@ -118,7 +118,7 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     }
     if (expected) return expectSegment(random, p, scale);
     if (reference) {
-      const auto truth = static_cast<double>(test::referenceDistance(p.a, p.X_WA, p.b, p.X_WB));
+      const auto truth = test::referenceDistance(p.a, p.X_WA, p.b, p.X_WB);
       ASSERT_LE(std::abs(d - truth), off) << d << " instead of " << truth;
     }
     // Bit for bit as long as nothing that was computed underflows.

@@ -1,82 +1,147 @@
 #include "tests/support/reference_distance.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include <boost/multiprecision/cpp_int.hpp>
 
 namespace corridor::test {
 namespace {
 
-using P = std::array<Digits, 3>;
+// Integers, because no number of digits is enough: corners that lie 2^-1074 apart and some metres
+// from a third one make a triangle whose sides are different lines.
+namespace mp = boost::multiprecision;
+using Integer = mp::number<mp::cpp_int::backend_type, mp::et_off>;
+using P = std::array<Integer, 3>;
+
+/// A square of a distance: over / under, under > 0.
+struct Fraction {
+  Integer over, under = 1;
+};
+bool operator<(const Fraction& a, const Fraction& b) {
+  return a.over * b.under < b.over * a.under;
+}
 
 P minus(const P& a, const P& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-Digits dot(const P& a, const P& b) {
+Integer dot(const P& a, const P& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-P along(const P& a, const P& d, const Digits& s) {
-  return {a[0] + s * d[0], a[1] + s * d[1], a[2] + s * d[2]};
+P cross(const P& a, const P& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Digits square(const P& d) {
+Integer square(const P& d) {
   return dot(d, d);
 }
 
-P mapped(const Transform& X, const Vec3& p) {
-  P q;
-  for (int i = 0; i < 3; ++i)
-    q[i] = Digits(X.m(i, 0)) * p[0] + Digits(X.m(i, 1)) * p[1] + Digits(X.m(i, 2)) * p[2] + X.t[i];
-  return q;
+/// The exponent of a double's last bit that isn't zero; at most 0.
+int lastBit(double x) {
+  int exponent = 0;
+  const auto bits =
+      static_cast<unsigned long long>(std::ldexp(std::frexp(std::abs(x), &exponent), 53));
+  return bits == 0 ? 0 : std::min(0, exponent - 53 + std::countr_zero(bits));
 }
 
-Digits toSegment(const P& p, const P& a, const P& b) {
-  const P d = minus(b, a);
-  Digits s = square(d) > 0 ? Digits(dot(minus(p, a), d) / square(d)) : Digits(0);
-  s = std::clamp<Digits>(s, 0, 1);
-  return square(minus(p, along(a, d, s)));
+/// Points of the world as integers, times 2^-(2 * unit).
+class Grid {
+ public:
+  void cover(double x) { unit_ = std::min(unit_, lastBit(x)); }
+  void cover(const Vec3& p) {
+    for (const double x : p) cover(x);
+  }
+  void cover(const Transform& X) {
+    for (int i = 0; i < 9; ++i) cover(X.m.data()[i]);
+    cover(X.t);
+  }
+  P mapped(const Transform& X, const Vec3& p) const {
+    P q;
+    for (int i = 0; i < 3; ++i) {
+      q[i] = integer(X.t[i]) * integer(1);
+      for (int k = 0; k < 3; ++k) q[i] += integer(X.m(i, k)) * integer(p[k]);
+    }
+    return q;
+  }
+  /// The root, from some 75 bits.
+  double distance(const Fraction& squared) const {
+    const auto bits = [](const Integer& x) { return x == 0 ? 0 : static_cast<int>(msb(x)); };
+    const int shift = (150 + bits(squared.under) - bits(squared.over)) / 2;
+    const Integer over = shift < 0 ? squared.over >> -2 * shift : squared.over << 2 * shift;
+    const Integer root = sqrt(Integer(over / squared.under));
+    return std::ldexp(root.convert_to<double>(), 2 * unit_ - shift);
+  }
+
+ private:
+  Integer integer(double x) const {
+    int exponent = 0;
+    const auto bits = static_cast<long long>(std::ldexp(std::frexp(x, &exponent), 53));
+    const int shift = exponent - 53 - unit_;  // below zero: what goes is zeros
+    return shift < 0 ? Integer(bits >> -shift) : Integer(bits) << shift;
+  }
+  int unit_ = 0;  // for 1
+};
+
+Fraction toSegment(const P& p, const P& a, const P& b) {
+  const P d = minus(b, a), w = minus(p, a);
+  const Integer along = dot(w, d), length = square(d);
+  if (along <= 0) return {square(w)};
+  if (along >= length) return {square(minus(p, b))};
+  return {square(cross(w, d)), length};
 }
 
-Digits toTriangle(const P& p, const std::array<P, 3>& t) {
-  Digits best =
+Fraction toTriangle(const P& p, const std::array<P, 3>& t) {
+  const Fraction sides =
       std::min({toSegment(p, t[0], t[1]), toSegment(p, t[1], t[2]), toSegment(p, t[2], t[0])});
-  const P u = minus(t[1], t[0]), v = minus(t[2], t[0]), w = minus(p, t[0]);
-  const P n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  if (square(n) == 0) return best;
-  const auto inside = [&](const P& e, const P& q) {  // left of an edge
-    const P c = {e[1] * q[2] - e[2] * q[1], e[2] * q[0] - e[0] * q[2], e[0] * q[1] - e[1] * q[0]};
-    return dot(c, n) >= 0;
-  };
-  if (inside(u, w) && inside(minus(t[2], t[1]), minus(p, t[1])) &&
-      inside(minus(t[0], t[2]), minus(p, t[2])))
-    best = std::min<Digits>(best, dot(n, w) * dot(n, w) / square(n));
-  return best;
+  const P n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  const Integer area = square(n);
+  if (area == 0) return sides;
+  for (int i = 0; i < 3; ++i)
+    if (dot(cross(minus(t[(i + 1) % 3], t[i]), minus(p, t[i])), n) < 0) return sides;
+  const Integer height = dot(n, minus(p, t[0]));
+  return std::min(sides, {height * height, area});
 }
 
 /// Inner points of both edges; their ends are left to `toTriangle`.
-Digits edges(const P& p, const P& p1, const P& q, const P& q1, const Digits& best) {
-  const P d = minus(p1, p), e = minus(q1, q), r = minus(q, p);
-  const Digits a = square(d), b = dot(d, e), c = square(e), det = a * c - b * b;
-  if (det <= 0) return best;
-  const Digits s = (dot(d, r) * c - dot(e, r) * b) / det, t = (dot(d, r) * b - dot(e, r) * a) / det;
-  if (s < 0 || s > 1 || t < 0 || t > 1) return best;
-  return std::min<Digits>(best, square(minus(along(p, d, s), along(q, e, t))));
+Fraction edges(const P& p, const P& p1, const P& q, const P& q1, const Fraction& best) {
+  const P d = minus(p1, p), e = minus(q1, q), r = minus(q, p), n = cross(d, e);
+  const Integer area = square(n);
+  if (area == 0) return best;
+  // r + t e - s d along n: s = (r x e) n / n^2, t = (r x d) n / n^2.
+  const Integer s = dot(cross(r, e), n), t = dot(cross(r, d), n);
+  if (s < 0 || s > area || t < 0 || t > area) return best;
+  const Integer height = dot(r, n);
+  return std::min(best, {height * height, area});
 }
 
 }  // namespace
 
-Digits referenceDistance(const Triangle& a, const Transform& X_WA, const Triangle& b,
+double referenceDistance(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB) {
+  Grid grid;
+  for (const Vec3& p : a) grid.cover(p);
+  for (const Vec3& p : b) grid.cover(p);
+  grid.cover(X_WA);
+  grid.cover(X_WB);
   std::array<P, 3> s, t;
-  for (int i = 0; i < 3; ++i) s[i] = mapped(X_WA, a[i]), t[i] = mapped(X_WB, b[i]);
-  Digits best = toTriangle(s[0], t);
+  for (int i = 0; i < 3; ++i) s[i] = grid.mapped(X_WA, a[i]), t[i] = grid.mapped(X_WB, b[i]);
+  Fraction best = toTriangle(s[0], t);
   for (int i = 0; i < 3; ++i) {
     best = std::min({best, toTriangle(s[i], t), toTriangle(t[i], s)});
     for (int k = 0; k < 3; ++k) best = edges(s[i], s[(i + 1) % 3], t[k], t[(k + 1) % 3], best);
   }
-  return sqrt(best);
+  return grid.distance(best);
 }
 
-Digits referenceDistance(const Vec3& p_W, const Triangle& t, const Transform& X_WT) {
-  return sqrt(
-      toTriangle(mapped({}, p_W), {mapped(X_WT, t[0]), mapped(X_WT, t[1]), mapped(X_WT, t[2])}));
+double referenceDistance(const Vec3& p_W, const Triangle& t, const Transform& X_WT) {
+  Grid grid;
+  grid.cover(p_W);
+  for (const Vec3& p : t) grid.cover(p);
+  grid.cover(X_WT);
+  return grid.distance(
+      toTriangle(grid.mapped({}, p_W),
+                 {grid.mapped(X_WT, t[0]), grid.mapped(X_WT, t[1]), grid.mapped(X_WT, t[2])}));
 }
 
 }  // namespace corridor::test

@@ -177,7 +177,7 @@ TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
     Counters counters;
     if (convexSetsTouch(a.set(), b.set(), counters)) continue;
     ++apart;
-    test::Digits truth = 1e300;
+    double truth = 1e300;
     const auto triples = [](const ConvexPart& part) {
       std::vector<Triangle> all;
       const auto& p = part.points;
@@ -196,7 +196,7 @@ TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
 }
 
 /// The lower bound is one, to the last digit, of faces whose corners doubles can't tell apart.
-TEST(ConvexDistance, LowerThanAHundredDigits) {
+TEST(ConvexDistance, LowerThanTheExactDistance) {
   Touching make(test::testSeed(36));
   Counters counters;
   for (int n = 0; n < 40 / test::kSlowdown + 1; ++n) {
@@ -206,7 +206,7 @@ TEST(ConvexDistance, LowerThanAHundredDigits) {
       a.part.points.push_back(turn * Vec3(make.real(), make.real(), 0));
       b.part.points.push_back(turn * Vec3(make.real(), make.real(), 1e-3));
     }
-    test::Digits truth = 1e300;
+    double truth = 1e300;
     const auto without = [](const ConvexPart& part, int k) {
       const auto& p = part.points;
       return Triangle{p[(k + 1) % 4], p[(k + 2) % 4], p[(k + 3) % 4]};

@@ -62,7 +62,7 @@ Meeting meeting(std::mt19937_64& random, int n, double gap, double offset) {
   m.a = triangles(cloud(-1));
   m.b = triangles(inB);
   const Triangle point = {m.b[0][0], m.b[0][0], m.b[0][0]};
-  m.distance = roundedUp(static_cast<double>(test::referenceDistance(m.a[0][0], point, m.X_AB)));
+  m.distance = roundedUp(test::referenceDistance(m.a[0][0], point, m.X_AB));
   return m;
 }
 
