@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/motion/distance_steps.h"
+#include "collision/motion/motion_answer.h"
 
 namespace corridor {
 namespace {

@@ -10,6 +10,7 @@
 #include "collision/core/rounding.h"
 #include "collision/motion/descend.h"
 #include "collision/motion/may_meet.h"
+#include "collision/motion/motion_answer.h"
 #include "collision/queries/interference_wide.h"
 
 namespace corridor {
@@ -326,19 +327,12 @@ MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pai
                            const MotionOptions& options, QueryContext& context,
                            MotionEvidence* evidence) {
   if (evidence) *evidence = {};
-  ++context.counters.edges;
-  MotionResult result;
-  if (motion.ambiguous()) {
-    result.verdict = MotionVerdict::undecided;
-    result.reason = UndecidedReason::ambiguous;
-    result.certifiedUntil = 0;
-  } else {
-    result = Certifier(motion, pairs, options, context, evidence).run();
+  return answered(motion, context, [&] {
+    const MotionResult result = Certifier(motion, pairs, options, context, evidence).run();
     if (evidence && result.verdict == MotionVerdict::contact)
       evidence->point_A = contactPoint(motion, pairs, result, context.counters);
-  }
-  context.counters.undecided += result.verdict == MotionVerdict::undecided;
-  return result;
+    return result;
+  });
 }
 
 }  // namespace corridor

@@ -73,20 +73,4 @@ class DistanceSteps {
   std::uint64_t looks_ = 0, workEnd_ = 0;
 };
 
-/// Counts the query, and asks `run` for the answer but of an edge whose way is ambiguous.
-template <class Run>
-MotionResult answered(const MotionSource& motion, QueryContext& context, const Run& run) {
-  ++context.counters.edges;
-  MotionResult result;
-  if (motion.ambiguous()) {
-    result.verdict = MotionVerdict::undecided;
-    result.reason = UndecidedReason::ambiguous;
-    result.certifiedUntil = 0;
-  } else {
-    result = run();
-  }
-  context.counters.undecided += result.verdict == MotionVerdict::undecided;
-  return result;
-}
-
 }  // namespace corridor

@@ -1,3 +1,4 @@
+// Of the default method alone; what every method must hold is in edge_methods_test.cpp.
 #include "collision/motion/certify_motion.h"
 
 #include <numbers>
@@ -39,36 +40,6 @@ TEST(CertifyMotion, BoxPastAWall) {
   }
 }
 
-/// A blade of length 1 turns about z; a point sits at distance 1 + gap from the axis.
-TEST(CertifyMotion, BladeAgainstAPoint) {
-  TriangleMesh blade, point;
-  add(blade, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.2, 0, 0.1));
-  const Body bladeTree = bodyOf(blade);
-  for (const double gap : {1e-2, 1e-4, 1e-6, 3e-7, -1e-9, -1e-6, -1e-2}) {
-    point = {};
-    const Vec3 p = (1 + gap) * Vec3(std::cos(0.7), std::sin(0.7), 0);
-    add(point, p, p, p);
-    const Body pointTree = bodyOf(point);
-    QueryContext context;
-    MotionOptions options;
-    options.tolerance = 1e-7;
-    options.earliest = true;
-    const MotionResult r = certify(
-        bladeTree, pointTree,
-        RigidMotion::spatial({}, turned(Vec3::Zero(), 2.5, Vec3::UnitZ()), {}), options, context);
-    // A point has no inside: that a turning edge sweeps over it is never seen at a sampled time, so
-    // contact shows as a clearance under the tolerance. What must not be is `free`.
-    if (gap > 0) {
-      EXPECT_EQ(r.verdict, MotionVerdict::free) << gap;
-    }
-    if (gap < 0) {
-      EXPECT_NE(r.verdict, MotionVerdict::free) << gap;
-      EXPECT_LE(r.certifiedUntil, 0.7 / 2.5) << gap;
-      EXPECT_GT(r.certifiedUntil, 0.7 / 2.5 - 1e-3) << gap;
-    }
-  }
-}
-
 /// A needle through a hole: free with the clearance that the hole leaves.
 TEST(CertifyMotion, NeedleThroughAHole) {
   const double hole = 0.1, thick = 0.05;
@@ -101,76 +72,6 @@ TEST(CertifyMotion, NeedleThroughAHole) {
         options, context);
     EXPECT_EQ(r.verdict, radius < 0.09988 ? MotionVerdict::free : MotionVerdict::contact) << radius;
   }
-}
-
-TEST(CertifyMotion, ThinPlateIsNotJumped) {
-  const Body plate = bodyOf(box(Vec3(-5, -5, 0), Vec3(5, 5, 1e-4))),
-             cube = bodyOf(box(Vec3(-0.1, -0.1, -1e-3), Vec3(0.1, 0.1, 1e-3)));
-  QueryContext context;
-  MotionOptions options;
-  options.tolerance = 1e-8;
-  options.earliest = true;
-  const MotionResult r =
-      certify(cube, plate, RigidMotion::spatial(at(Vec3(0, 0, -7)), at(Vec3(0, 0, 6)), {}), options,
-              context);
-  ASSERT_EQ(r.verdict, MotionVerdict::contact);
-  const double first = (7 - 1e-3) / 13;
-  EXPECT_LE(r.certifiedUntil, first);
-  EXPECT_GE(r.contactTime, first - 1e-15);
-  EXPECT_LE(r.contactTime - r.certifiedUntil, options.timeTolerance);
-  ASSERT_TRUE(r.pair);
-}
-
-TEST(CertifyMotion, MarginTubeAndWorkLimit) {
-  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
-             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
-  const RigidPose a = at(Vec3(-5, 0.4, 0)), b = at(Vec3(5, 0.4, 0));  // clearance 0.1
-  QueryContext context;
-  MotionOptions options;
-  options.tolerance = 1e-7;
-  Tube tube;
-  const auto verdict = [&](const RigidPose& from, const RigidPose& to) {
-    return certify(cube, wall, RigidMotion::spatial(from, to, tube), options, context);
-  };
-  options.margin = 0.0999;
-  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
-  options.margin = 0.1001;
-  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::contact);
-  EXPECT_EQ(verdict(a, a).verdict, MotionVerdict::contact) << "a state is an edge of zero length";
-  options.margin = 0;
-  tube = {0.05, 0.01};  // √3·0.05 + 0.01·√0.75 = 0.095
-  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
-  tube = {0.06, 0.01};
-  const MotionResult r = verdict(a, b);
-  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
-  EXPECT_EQ(r.reason, UndecidedReason::clearance);
-  EXPECT_NEAR(r.gap, 0.1, 1e-9);
-  tube = {};
-  options.reserve = 0.0999;
-  EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
-  options.reserve = 0.1001;
-  EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
-      << "too near to be called free, but no contact";
-  options.reserve = 0;
-  options.workLimit = 3;
-  EXPECT_EQ(
-      verdict(at(Vec3(-5, 0.4999999, 0)), turned(Vec3(5, 0.4999, 0), 0.1, Vec3(1, 2, 3))).reason,
-      UndecidedReason::workLimit);
-  EXPECT_EQ(context.counters.undecided, 3U);
-}
-
-TEST(CertifyMotion, AmbiguousHalfTurn) {
-  const Body far = bodyOf(box(Vec3(100, 0, 0), Vec3(101, 1, 1))),
-             cube = bodyOf(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
-  QueryContext context;
-  MotionOptions options;
-  options.tolerance = 1e-7;
-  const MotionResult r =
-      certify(cube, far,
-              RigidMotion::spatial({}, turned(Vec3::Zero(), std::numbers::pi, Vec3(1, 2, 3)), {}),
-              options, context);
-  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
-  EXPECT_EQ(r.reason, UndecidedReason::ambiguous);
 }
 
 // ---- random edges ----
@@ -285,27 +186,6 @@ TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
     }
 }
 
-/// Points have no size to compare a window's travel with: windows end at 2^-48, not in a stack
-/// overflow.
-TEST(CertifyMotion, PointThroughAPointEnds) {
-  TriangleMesh point;
-  add(point, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
-  const Body tree = bodyOf(point);
-  std::mt19937_64 random(test::testSeed(6));
-  std::uniform_real_distribution<double> u(1, 2);
-  for (int i = 0; i < 200; ++i) {
-    MotionOptions options;
-    options.tolerance = 1e-300;
-    options.earliest = i % 2;
-    QueryContext context;
-    const MotionResult r = certify(
-        tree, tree, RigidMotion::spatial(at(Vec3(-u(random), 0, 0)), at(Vec3(u(random), 0, 0)), {}),
-        options, context);
-    EXPECT_NE(r.verdict, MotionVerdict::free);
-    EXPECT_LT(context.counters.poses, 1000U);
-  }
-}
-
 /// Indivisible leaves and static probes count too; the greatest limit is none.
 TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   TriangleMesh many;
@@ -328,25 +208,6 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   used.counters.boxTests = 5;
   options.workLimit = ~std::uint64_t{0};
   EXPECT_NE(certify(moving, fixed, motion, options, used).reason, UndecidedReason::workLimit);
-}
-
-/// A tip within the tube at t = 1/4, a wall hit at t = 1/2: nothing grazes in between.
-TEST(CertifyMotion, GrazingIsSaidOnlyOfNarrowGaps) {
-  TriangleMesh robot, tip, wall;
-  add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
-  add(tip, Vec3(0.25, 0, -1e-9), Vec3(0.25, -1, -1), Vec3(0.25, 1, -1));
-  add(wall, Vec3(0.5, -1, -1), Vec3(0.5, 1, -1), Vec3(0.5, 0, 1));
-  const Body moving = bodyOf(robot), fixed[] = {bodyOf(tip), bodyOf(wall)};
-  const MotionPair pairs[] = {{&fixed[0], &moving, 0, 0, 2}, {&fixed[1], &moving, 0, 1, 2}};
-  MotionOptions options;
-  options.tolerance = 1e-12;
-  options.earliest = true;
-  QueryContext context;
-  RigidEdge edge(RigidMotion::spatial(at(Vec3::Zero()), at(Vec3::UnitX()), {1e-8, 0}));
-  const MotionResult r = certifyMotion(edge, pairs, options, context);
-  EXPECT_EQ(r.verdict, MotionVerdict::undecided);
-  EXPECT_FALSE(r.grazing);
-  EXPECT_LE(r.certifiedUntil, 0.25);
 }
 
 /// A contact that begins at a time which windows begin and end at: none that ends there is proved.
