@@ -17,6 +17,15 @@ class FaultList {
   explicit FaultList(std::string mainFile = {}) : mainFile_(std::move(mainFile)) {}
   void add(std::string file, int line, std::string text);
   void add(const InputError& error);
+  /// Does something that may throw an InputError, and keeps its faults instead.
+  template <class Step>
+  void collect(const Step& step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      add(error);
+    }
+  }
 
   std::size_t size() const { return faults_.size(); }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
+#include "collision/core/fault_list.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
@@ -20,19 +21,12 @@ using nlohmann::ordered_json;
 /// Reads problems and words; all faults at once.
 Campaign campaignOf(const BenchmarkArguments& a) {
   Campaign campaign;
-  std::vector<Fault> faults;
-  const auto collect = [&](auto step) {
-    try {
-      step();
-    } catch (const InputError& error) {
-      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-    }
-  };
+  FaultList faults;
   for (const std::string& word : a.variants)
-    collect([&] { campaign.variants.push_back(readVariant(word)); });
+    faults.collect([&] { campaign.variants.push_back(readVariant(word)); });
   for (const std::string& file : a.problems)
-    collect([&] { campaign.problems.push_back(readProblem(file)); });
-  if (!faults.empty()) throw InputError(std::move(faults));
+    faults.collect([&] { campaign.problems.push_back(readProblem(file)); });
+  faults.throwIfAny();
   campaign.planners = a.planners;
   campaign.runs = a.runs;
   campaign.seed = a.seed;

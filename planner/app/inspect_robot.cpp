@@ -5,29 +5,12 @@
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/problem/robot_file.h"
+#include "planner/robot/joint_types.h"
 
 namespace corridor::app {
 namespace {
 
 using nlohmann::ordered_json;
-
-const char* nameOf(JointType type) {
-  switch (type) {
-    case JointType::fixed:
-      return "fixed";
-    case JointType::revolute:
-      return "revolute";
-    case JointType::continuous:
-      return "continuous";
-    case JointType::prismatic:
-      return "prismatic";
-    case JointType::planar:
-      return "planar";
-    case JointType::floating:
-      return "floating";
-  }
-  return "";
-}
 
 std::string jointText(const RobotModel& model, const JointModel& joint) {
   std::string text = "\"" + joint.name + "\": " + nameOf(joint.type) + ", " +

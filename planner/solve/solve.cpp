@@ -14,6 +14,7 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include "collision/core/error.h"
+#include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
@@ -152,20 +153,13 @@ void Solve::setUp() {
   ompl::RNG::setSeed(problem_.seed);
   setUpSpace();
   definition_ = std::make_shared<ob::ProblemDefinition>(si_);
-  std::vector<Fault> faults;
-  const auto collect = [&](auto step) {
-    try {
-      step();
-    } catch (const InputError& error) {
-      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-    }
-  };
-  collect([&] { setResolution(); });
-  collect([&] { setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler")); });
+  FaultList faults;
+  faults.collect([&] { setResolution(); });
+  faults.collect([&] { setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler")); });
   si_->setup();
-  collect([&] { setUpPlanner(); });
-  collect([&] { setUpObjective(); });
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.collect([&] { setUpPlanner(); });
+  faults.collect([&] { setUpObjective(); });
+  faults.throwIfAny();
 }
 
 void Solve::setUpEnds() {

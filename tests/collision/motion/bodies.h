@@ -33,6 +33,22 @@ inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, doub
   return mesh;
 }
 
+/// Two poses within 2 m of the origin, most of them centimetres to metres apart, and turned as
+/// much.
+inline std::pair<RigidPose, RigidPose> randomEdge(std::mt19937_64& random) {
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const double length = std::pow(10.0, real(-2, 0.5));
+  const RigidPose a{2 * Vec3(real(), real(), real()),
+                    Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
+  const RigidPose b{a.p + length * Vec3(real(), real(), real()),
+                    Eigen::Quaterniond(Eigen::AngleAxisd(
+                        length * real(), Vec3(real(), real(), real()).normalized())) *
+                        a.q};
+  return {a, b};
+}
+
 inline RigidPose at(const Vec3& p) {
   return {p, Eigen::Quaterniond::Identity()};
 }

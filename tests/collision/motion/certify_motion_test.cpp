@@ -19,6 +19,7 @@ using test::blob;
 using test::bodyOf;
 using test::box;
 using test::certify;
+using test::randomEdge;
 using test::turned;
 
 // ---- closed forms ----
@@ -80,21 +81,12 @@ TEST(CertifyMotion, NeedleThroughAHole) {
 /// interference test at rounded poses of the curve, all inside the default tube.
 TEST(CertifyMotion, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
-  const auto real = [&](double low = -1, double high = 1) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
   const int count = (test::stressAsked() ? 450'000 : 25'000) / test::kSlowdown;
   int free = 0, contact = 0, undecided = 0;
   for (int n = 0; n < count; ++n) {
     const Body fixed = bodyOf(blob(random, 60, 2, 0.3)),
                moving = bodyOf(blob(random, 12, 0.3, 0.3));
-    const double length = std::pow(10.0, real(-2, 0.5));
-    const RigidPose a{2 * Vec3(real(), real(), real()),
-                      Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
-    const RigidPose b{a.p + length * Vec3(real(), real(), real()),
-                      Eigen::Quaterniond(Eigen::AngleAxisd(
-                          length * real(), Vec3(real(), real(), real()).normalized())) *
-                          a.q};
+    const auto [a, b] = randomEdge(random);
     MotionOptions options;
     options.tolerance = 1e-7;
     QueryContext context;

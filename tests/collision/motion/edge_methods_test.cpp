@@ -23,6 +23,7 @@ using test::bodyOf;
 using test::box;
 using test::ChainMotion;
 using test::Grazing;
+using test::randomEdge;
 using test::turned;
 
 class EdgeMethods : public testing::TestWithParam<EdgeMethod> {
@@ -309,21 +310,12 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
 /// method contradicts the default one.
 TEST_P(EdgeMethods, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
-  const auto real = [&](double low = -1, double high = 1) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
   const int count = test::stressAsked() ? 5'000 : 400;
   std::array<int, 3> verdicts = {};
   for (int n = 0; n < count; ++n) {
     const Body fixed = bodyOf(blob(random, 60, 2, 0.3)),
                moving = bodyOf(blob(random, 12, 0.3, 0.3));
-    const double length = std::pow(10.0, real(-2, 0.5));
-    const RigidPose a{2 * Vec3(real(), real(), real()),
-                      Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
-    const RigidPose b{a.p + length * Vec3(real(), real(), real()),
-                      Eigen::Quaterniond(Eigen::AngleAxisd(
-                          length * real(), Vec3(real(), real(), real()).normalized())) *
-                          a.q};
+    const auto [a, b] = randomEdge(random);
     const RigidMotion motion = RigidMotion::spatial(a, b, {0x1p-40 * 4, 0x1p-40 * 6});
     options_.earliest = false;
     const MotionResult r = ask(moving, fixed, motion);

@@ -15,8 +15,10 @@ namespace {
 
 using test::add;
 using test::at;
+using test::blob;
 using test::bodyOf;
 using test::box;
+using test::randomEdge;
 using test::turned;
 using Kind = EvidenceFault::Kind;
 
@@ -131,16 +133,6 @@ TEST_P(Evidence, TamperedWithItFails) {
   EXPECT_EQ(fault(), Kind::malformed) << "less than what was asked for";
 }
 
-TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
-  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
-  TriangleMesh mesh;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 c = spread * Vec3(real(), real(), real());
-    add(mesh, c, c + size * Vec3(real(), real(), real()), c + size * Vec3(real(), real(), real()));
-  }
-  return mesh;
-}
-
 /// The check takes the whole body for as loose as its farthest point: it may not be able to prove a
 /// claim then, but doesn't call it false.
 TEST_P(Evidence, WhatATubeTakesIsNotRefuted) {
@@ -182,9 +174,6 @@ TEST_P(Evidence, FalseClaimsAreNotBelieved) {
 /// of.
 TEST_P(Evidence, RandomMotions) {
   std::mt19937_64 random(test::testSeed(41));
-  const auto real = [&](double low = -1, double high = 1) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
   int free = 0, contact = 0;
   for (int n = 0; n < 200; ++n) {
     // Every third time a solid instead of a mesh, on either side.
@@ -195,13 +184,7 @@ TEST_P(Evidence, RandomMotions) {
                             : bodyOf(blob(random, count, spread, 0.3));
     };
     const Body fixed = make(0, 60, 2), moving = make(1, 12, 0.3);
-    const double length = std::pow(10.0, real(-2, 0.5));
-    const RigidPose a{2 * Vec3(real(), real(), real()),
-                      Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
-    const RigidPose b{a.p + length * Vec3(real(), real(), real()),
-                      Eigen::Quaterniond(Eigen::AngleAxisd(
-                          length * real(), Vec3(real(), real(), real()).normalized())) *
-                          a.q};
+    const auto [a, b] = randomEdge(random);
     Case c(fixed, moving, RigidMotion::spatial(a, b, {}));
     c.options.earliest = n % 2;
     c.run();
