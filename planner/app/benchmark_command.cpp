@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "collision/core/error.h"
 #include "collision/core/fault_list.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
