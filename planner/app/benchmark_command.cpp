@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <unistd.h>
@@ -96,13 +97,21 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   if (result.interrupted)
     warn(any ? "interrupted: what follows is of the runs that were done"
              : "interrupted before the first run was done; nothing is written");
-  if (a.output && any) writeReports(campaign, result, *a.output);
+  // Neither the files nor the table are lost where the other can't be written: a folder that is
+  // gone, a pipe that is closed.
+  std::exception_ptr unwritten;
+  try {
+    if (a.output && any) writeReports(campaign, result, *a.output);
+  } catch (const InputError&) {
+    unwritten = std::current_exception();
+  }
   std::error_code notEmpty;
   if (made && !any) std::filesystem::remove(*a.output, notEmpty);
   if (a.json)
     std::cout << jsonOf(campaign, result).dump(2) << '\n';
   else if (any)
     std::cout << tableOf(summaryRows(campaign, result));
+  if (unwritten) std::rethrow_exception(unwritten);
   return result.interrupted ? kInterrupted : kDone;
 }
 

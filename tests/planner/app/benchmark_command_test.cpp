@@ -189,6 +189,18 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
   EXPECT_EQ(OmplLogReader::read(read("results/hall.certified.log")).planners.size(), 1u);
 }
 
+/// What took long is not lost with the folder.
+TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
+  // In the way of a file: a folder of its name.
+  std::filesystem::create_directories(folder_ / "results/runs.csv");
+  const Result result = run("benchmark hall.yaml --variants discrete:0.05 --runs 1 -o results");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("results/runs.csv: can't be written"));
+  EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+  EXPECT_EQ(lines(result.out).size(), 2u) << result.out;
+  EXPECT_THAT(files("results"), UnorderedElementsAre("runs.csv"));
+}
+
 /// No empty files, no logs without planners, and no table of nothing.
 TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
   write("hall.yaml",
