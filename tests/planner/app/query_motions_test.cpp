@@ -111,6 +111,15 @@ TEST_F(QueryMotions, EveryMethodFindsTheFirstContact) {
   }
 }
 
+/// As documented: it has no shorter way; and no time, gap or triangles are told of it.
+TEST_F(QueryMotions, HalfATurnIsUndecided) {
+  for (const std::string edges : {"certified", "adaptive", "advancement"}) {
+    const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out, kHeader + "\n0,undecided,0,-1,0,-1,-1,0,0,0\n") << edges;
+  }
+}
+
 TEST_F(QueryMotions, BelowTheToleranceItIsUndecided) {
   const std::string along = kStill + "-1 0 1e-3 " + kStill + "1 0 1e-3\n";
   const auto verdict = [&](const std::string& more) {
