@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <filesystem>
 #include <iostream>
 #include <unistd.h>
 
@@ -69,7 +72,7 @@ ordered_json jsonOf(const Campaign& campaign, const CampaignResult& result) {
 int benchmarkCommand(const BenchmarkArguments& a) {
   const Campaign campaign = campaignOf(a);
   checkCampaign(campaign);
-  if (a.output) makeReportFolder(*a.output);
+  const bool made = a.output && makeReportFolder(*a.output);
   CampaignOptions options;
   options.interrupted = &listenForInterrupts();
   const bool show = ::isatty(STDERR_FILENO) != 0;
@@ -82,12 +85,26 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   }
   const CampaignResult result = runCampaign(campaign, options);
   if (show) std::fputs("\r\033[K", stderr);
-  if (result.interrupted) warn("interrupted: what follows is of the runs that were done");
-  if (a.output) writeReports(campaign, result, *a.output);
+  const bool any = std::any_of(result.cells.begin(), result.cells.end(),
+                               [](const CampaignCell& cell) { return !cell.runs.empty(); });
+  if (result.interrupted)
+    warn(any ? "interrupted: what follows is of the runs that were done"
+             : "interrupted before the first run was done; nothing is written");
+  // Neither the files nor the table are lost where the other can't be written: a folder that is
+  // gone, a pipe that is closed.
+  std::exception_ptr unwritten;
+  try {
+    if (a.output && any) writeReports(campaign, result, *a.output);
+  } catch (const InputError&) {
+    unwritten = std::current_exception();
+  }
+  std::error_code notEmpty;
+  if (made && !any) std::filesystem::remove(*a.output, notEmpty);
   if (a.json)
     std::cout << jsonOf(campaign, result).dump(2) << '\n';
-  else
+  else if (any)
     std::cout << tableOf(summaryRows(campaign, result));
+  if (unwritten) std::rethrow_exception(unwritten);
   return result.interrupted ? kInterrupted : kDone;
 }
 

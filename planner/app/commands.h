@@ -62,11 +62,11 @@ struct QueryArguments {
   std::optional<std::string> grid, lower, upper;  ///< "10x10x5", "x,y,z"
   std::optional<std::uint64_t> rotations, seed;   ///< of a grid
   std::optional<std::string> savePoses;           ///< of a grid: a file for its poses
-  std::optional<std::string> motions;  ///< instead of poses: a file of motions, one a line
-  std::optional<std::string> edges;    ///< of motions: the method; unset: the first
-  std::string query = "interference", volume = "obb";
-  std::optional<std::string> fit, overlap;  ///< unset: the volume's first
-  std::optional<double> tolerance;          ///< metres, of the tolerance query and of motions
+  std::optional<std::string> motions;        ///< instead of poses: a file of motions, one a line
+  std::optional<std::string> edges;          ///< of motions: the method; unset: the first
+  std::optional<std::string> query, volume;  ///< of poses; unset: the first
+  std::optional<std::string> fit, overlap;   ///< unset: the volume's first
+  std::optional<double> tolerance;           ///< metres, of the tolerance query and of motions
   std::uint64_t repeat = 1;
 };
 int queryCommand(const QueryArguments& arguments);

@@ -110,10 +110,16 @@ int inspectCommand(const InspectArguments& a) {
       throw InputError(Fault{
           "--against", 0,
           "two meshes are compared, and " + a.file + " is a " + (robot ? "robot" : "problem")});
-    if (a.pairs)
-      throw InputError(Fault{"--pairs", 0, "is of a problem, and " + a.file + " is a mesh"});
-    return inspectCost(a);
   }
+  const std::string kind = robot ? "robot" : problem ? "problem" : "mesh";
+  const auto isOf = [&](const char* option, bool given, const std::string& what) {
+    if (given && kind != what)
+      throw InputError(Fault{option, 0, "is of a " + what + ", and " + a.file + " is a " + kind});
+  };
+  isOf("--pairs", a.pairs, "problem");
+  isOf("--unit", a.unit.has_value(), "mesh");
+  isOf("--up", a.up.has_value(), "mesh");
+  if (a.against) return inspectCost(a);
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);
 }
 

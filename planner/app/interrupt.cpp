@@ -1,20 +1,39 @@
 #include "planner/app/interrupt.h"
 
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 namespace corridor::app {
 namespace {
 
-// The one thing that a signal handler can reach.
+// All that a signal handler can reach.
 std::atomic<bool> interruptAsked = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<std::int64_t> askedAt = 0;  // milliseconds; 0: not yet
+static_assert(std::atomic<bool>::is_always_lock_free &&
+              std::atomic<std::int64_t>::is_always_lock_free);
+
+/// One interrupt may come twice: timeout(1) sends it to the program, then to its group.
+constexpr std::int64_t kSameMs = 500;
+
+void onInterrupt(int) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t ms = std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+  std::int64_t first = 0;
+  if (askedAt.compare_exchange_strong(first, ms)) {
+    interruptAsked = true;
+  } else if (ms - first > kSameMs) {  // who asks again wants no more waiting
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
+  }
+}
 
 }  // namespace
 
 const std::atomic<bool>& listenForInterrupts() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interruptAsked = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = onInterrupt;
   sigaction(SIGINT, &action, nullptr);
   return interruptAsked;
 }

@@ -4,8 +4,8 @@
 
 namespace corridor::app {
 
-/// From now on the first SIGINT asks to stop, by the flag returned; a second one ends the program
-/// as always.
+/// From now on the first SIGINT asks to stop, by the flag returned; another one, more than half a
+/// second later, ends the program as always.
 const std::atomic<bool>& listenForInterrupts();
 
 }  // namespace corridor::app

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <iostream>
@@ -155,7 +156,10 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
           "certified,discrete:0.01,discrete:0.001 -o results\n"
           "Each run is a process of its own, under OMPL's Benchmark; each path is judged by the "
           "independent verifier: `refuted` of those that were returned do collide, or break what "
-          "the problem asks for. Times and counts are medians over the runs that were solved.\n") +
+          "the problem asks for. Times and counts are medians over the runs that were solved.\n"
+          "Columns: *_s are seconds (time_s: all but reading files; time_p95_s: its 95 % quantile; "
+          "processor_s: of all threads), length_m metres, rotation_rad radians, checking_share the "
+          "part of time_s; all of them: planner/benchmark/README.md.\n") +
       kExitStatus);
   command->callback([&] { status = benchmarkCommand(a); });
 }
@@ -244,16 +248,18 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
       ->group(poses);
   command
       ->add_option("--motions", a.motions,
-                   "instead of poses: a file of B's motions, one a line: the pose where it begins, "
-                   "12 numbers, and where it ends; from one to the other B goes straight and turns "
-                   "the shorter way (slerp). Asked is the first contact")
+                   "instead of poses: a file (- is the standard input) of B's motions, one a line: "
+                   "the pose where it begins, 12 numbers as of --poses, and where it ends; from "
+                   "one to the other B goes straight and turns "
+                   "the shorter way (slerp; half a turn has none: undecided). Asked is the first "
+                   "contact")
       ->group("Motions of B");
   command
       ->add_option("--edges", a.edges,
                    "how motions are proved, the first is the default: " +
                        corridor::joined(corridor::edgeMethodNames()))
       ->group("Motions of B");
-  const char* asked = "What is asked";
+  const char* asked = "What is asked (of motions --fit, --tolerance and --repeat only)";
   const auto named = [](const auto& kinds) {
     std::vector<std::string> names;
     for (const auto& kind : kinds) names.push_back(kind.name);
@@ -279,14 +285,15 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
   command
       ->add_option(
           "--tolerance", a.tolerance,
-          "metres, of --query tolerance: are A and B at most that far apart? Of --motions: "
-          "the clearance below which it may be undecided (default: 1e-7 of the smaller "
+          "metres, of --query tolerance: are A and B at most that far apart? Of --motions, above "
+          "0: the clearance below which it may be undecided (default: 1e-7 of the smaller "
           "one's radius)")
       ->check(from(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
       ->group(asked);
   command
       ->add_option("--repeat", a.repeat,
-                   "passes over all poses; a pose's time is the median of its passes (default 1)")
+                   "passes over all poses or motions; the time of one is the median of its passes "
+                   "(default 1)")
       ->check(from<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
       ->group(asked);
   command->footer(
@@ -298,7 +305,9 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
           "pose,a,b,px,py,pz,qx,qy,qz; of distance pose,distance,ax,ay,az,bx,by,bz with a point of "
           "either; of tolerance pose,closer; of motions motion,verdict,t0,t1,gap,triangle_a,"
           "triangle_b,bv_tests,triangle_tests,splits: free, contact (no contact before t0, one at "
-          "t1) or undecided (gap metres at t1). All count from 0.\n"
+          "t1, at most 1/1024 of the motion later unless they graze) or undecided (none before t0; "
+          "at t1 those triangles are gap metres apart); t is 0 where the motion begins and 1 where "
+          "it ends, -1 is none. All count from 0.\n"
           "Touching is contact; meshes are surfaces. Times are of one query on one core, reading "
           "and printing aside; what is quicker than 5 µs is repeated until the clock can tell "
           "it.\n") +
@@ -306,12 +315,48 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
   command->callback([&] { status = queryCommand(a); });
 }
 
+/// An empty name or value is a shell variable that was not set: no message could name it later.
+void refuseEmptyValues(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands({}))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_items_expected_max() > 0)
+        option->check(CLI::Validator(
+            [](std::string& text) { return text.empty() ? std::string("is empty") : ""; }, ""));
+}
+
+/// CLI11's words for what a command does not take come last word first, and guess nothing.
+std::string unknownWord(const CLI::App& command) {
+  const std::vector<std::string> words = command.remaining();
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const std::string& word) { return word.starts_with('-'); });
+  if (option == words.end()) return "unexpected word " + corridor::quotedWord(words.back());
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : command.get_options())
+    for (const std::string& longName : known->get_lnames()) names.push_back("--" + longName);
+  return "unknown option " + corridor::quotedWord(name) + corridor::didYouMean(name, names);
+}
+
+/// The option that was given more often than it is taken, or "".
+std::string repeatedOption(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_items_expected_max() == 1 && option->count() > 1)
+      return option->get_name() + " is given " + std::to_string(option->count()) +
+             " times; once is enough";
+  return "";
+}
+
 /// What was wrong with the words of the command line, in one line.
 std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
                        const std::string& firstWord) {
   const auto given = program.get_subcommands();
-  if (!given.empty())
-    return error.what() + ("; corridor " + given[0]->get_name()) + " --help tells more";
+  if (!given.empty()) {
+    std::string fault;
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) fault = unknownWord(*given[0]);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) fault = repeatedOption(*given[0]);
+    if (fault.empty()) fault = error.what();
+    return fault + "; corridor " + given[0]->get_name() + " --help tells more";
+  }
   if (firstWord.empty() || firstWord[0] == '-')
     return error.what() + std::string("; corridor --help tells more");
   const std::vector<std::string> commands{"solve", "verify",  "benchmark",
@@ -340,8 +385,13 @@ int main(int argc, char** argv) {
   addCheck(program, check, status);
   addInspect(program, inspect, status);
   addQuery(program, query, status);
+  refuseEmptyValues(program);
   try {
     program.parse(argc, argv);
+    // A full disk behind `>` shows only here, and half of a result is none.
+    if (!std::cout.flush())
+      throw corridor::InputError(
+          corridor::Fault{"standard output", 0, "can't be written, or not all of it"});
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
     std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';

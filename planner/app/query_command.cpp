@@ -19,18 +19,20 @@ namespace {
 /// A time is kept of each: 8 bytes.
 constexpr std::uint64_t kMostQueries = 1'000'000'000;
 
-/// The row of a table whose name was given. @throws InputError with those that there are.
+/// The row of a table whose name was given, the first where none was. @throws InputError with
+/// those that there are.
 template <class Kind>
-const Kind& kindNamed(const std::string& option, const std::string& name,
+const Kind& kindNamed(const std::string& option, const std::optional<std::string>& name,
                       const std::vector<Kind>& kinds) {
+  if (!name) return kinds.front();
   std::vector<std::string> names;
   for (const Kind& kind : kinds) {
-    if (kind.name == name) return kind;
+    if (kind.name == *name) return kind;
     names.push_back(kind.name);
   }
   throw InputError(Fault{option, 0,
-                         "unknown " + option.substr(2) + " " + quotedWord(name) +
-                             didYouMean(name, names) + "; there are: " + joined(names)});
+                         "unknown " + option.substr(2) + " " + quotedWord(*name) +
+                             didYouMean(*name, names) + "; there are: " + joined(names)});
 }
 
 /// One of a volume's variants, the first where none is named. @throws InputError, which tells the
@@ -77,8 +79,8 @@ void checkOptions(const QueryArguments& a) {
     };
     ofPoses("--poses", a.poses.has_value());
     ofPoses("--grid", a.grid.has_value());
-    ofPoses("--query", a.query != "interference");
-    ofPoses("--volume", a.volume != "obb");
+    ofPoses("--query", a.query.has_value());
+    ofPoses("--volume", a.volume.has_value());
     ofPoses("--overlap", a.overlap.has_value());
     if (a.tolerance && !(*a.tolerance > 0))
       throw InputError(Fault{"--tolerance", 0, "of --motions it is to be above 0"});

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <ostream>
 #include <random>
 #include <string_view>
 
@@ -17,6 +17,7 @@
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/solve/solution.h"
 
 namespace corridor::app {
 namespace {
@@ -248,20 +249,20 @@ Vec3 parsePoint(const std::string& option, const std::string& text) {
 }
 
 void writePoses(const std::filesystem::path& file, const std::vector<Transform>& poses) {
-  std::ofstream out(file);
-  out << "# r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz: a point of B is at R b + t\n";
-  char text[32];
-  for (const Transform& X : poses) {
-    for (int i = 0; i < 9; ++i) {
-      std::snprintf(text, sizeof text, "%.17g ", X.m(i / 3, i % 3));
-      out << text;
+  writeWhole(file, [&](std::ostream& out) {
+    out << "# r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz: a point of B is at R b + t\n";
+    char text[32];
+    for (const Transform& X : poses) {
+      for (int i = 0; i < 9; ++i) {
+        std::snprintf(text, sizeof text, "%.17g ", X.m(i / 3, i % 3));
+        out << text;
+      }
+      for (int i = 0; i < 3; ++i) {
+        std::snprintf(text, sizeof text, "%.17g%c", X.t[i], i == 2 ? '\n' : ' ');
+        out << text;
+      }
     }
-    for (int i = 0; i < 3; ++i) {
-      std::snprintf(text, sizeof text, "%.17g%c", X.t[i], i == 2 ? '\n' : ' ');
-      out << text;
-    }
-  }
-  if (!out.flush()) throw InputError(Fault{"--save-poses", 0, file.string() + " can't be written"});
+  });
 }
 
 }  // namespace corridor::app

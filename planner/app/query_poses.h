@@ -60,7 +60,7 @@ std::array<std::size_t, 3> parseCounts(const std::string& text);
 /// "x,y,z" in metres. @throws InputError that begins with `option`
 Vec3 parsePoint(const std::string& option, const std::string& text);
 
-/// @throws InputError: can't be written.
+/// The file appears whole or not at all. @throws InputError: can't be written.
 void writePoses(const std::filesystem::path& file, const std::vector<Transform>& poses);
 
 }  // namespace corridor::app

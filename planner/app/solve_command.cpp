@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
+#include "collision/core/nearest.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
@@ -39,6 +40,8 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
     if (equals == std::string::npos || equals == 0)
       throw InputError(Fault{"--set", 0, "key=value is needed, not \"" + assignment + "\""});
     const std::string key = assignment.substr(0, equals);
+    if (set.count("planner.params." + key))
+      throw InputError(Fault{"--set", 0, quotedWord(key) + " is set twice"});
     problem.planner.params[key] = assignment.substr(equals + 1);
     set["planner.params." + key] = "--set";
   }
@@ -47,6 +50,9 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   if (a.seed) problem.seed = *a.seed;
   if (a.edges) problem.checker.edges = *a.edges;
   if (a.resolution) {
+    if (problem.checker.edges != "discrete")
+      throw InputError(Fault{"--resolution", 0,
+                             "is of --edges discrete, and edges are " + problem.checker.edges});
     problem.checker.resolution = *a.resolution;
     set["checker.resolution"] = "--resolution";
   }

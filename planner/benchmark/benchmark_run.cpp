@@ -48,6 +48,7 @@ class WholeSolve final : public ob::Planner {
     plannerProgressProperties_ = solve.planner()->getPlannerProgressProperties();
   }
   ob::PlannerStatus solve(const ob::PlannerTerminationCondition& stop) override {
+    begun_ = true;
     solve_.clock().resume();
     ob::PlannerStatus status = ob::PlannerStatus::CRASH;
     try {
@@ -67,11 +68,13 @@ class WholeSolve final : public ob::Planner {
   void getPlannerData(ob::PlannerData& data) const override {
     solve_.planner()->getPlannerData(data);
   }
+  bool begun() const { return begun_; }
 
  private:
   Solve& solve_;
   const CheckingTally& checking_;
   BenchmarkRun& run_;
+  bool begun_ = false;
 };
 
 /// What OMPL's Benchmark takes a problem from. SimpleSetup's own `print` measures the space by
@@ -185,6 +188,8 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkP
   benchmark.benchmark(request);
 
   take(solve.report(), run);
+  // It plans in a thread of its own, and goes on where that one finds no memory for its stack.
+  if (!planner->begun()) run.failure = "no memory for the thread that plans";
   if (!run.failure.empty()) run.result = "failed";
   const auto& experiment = benchmark.getRecordedExperimentData();
   if (experiment.planners.empty() || experiment.planners[0].runs.empty())

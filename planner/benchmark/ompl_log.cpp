@@ -104,7 +104,7 @@ std::string omplLog(const Campaign& campaign, const CampaignResult& result, std:
   else if (checker.tolerance)
     log.addExperimentParameter("tolerance", "REAL", shortest(*checker.tolerance));
   for (const CampaignCell& cell : result.cells) {
-    if (cell.problem != problem || cell.variant != variant) continue;
+    if (cell.problem != problem || cell.variant != variant || cell.runs.empty()) continue;
     experiment.planners.push_back(plannerOf(campaign, result, cell));
     for (const BenchmarkRun& run : cell.runs) {
       if (run.ompl.planner.empty()) continue;

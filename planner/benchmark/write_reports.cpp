@@ -23,7 +23,7 @@ std::string fileName(std::string text) {
 
 }  // namespace
 
-void makeReportFolder(const fs::path& folder) {
+bool makeReportFolder(const fs::path& folder) {
   std::error_code failure, ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     throw InputError(Fault{folder.string(), 0, "is a file; a folder is needed"});
@@ -37,6 +37,7 @@ void makeReportFolder(const fs::path& folder) {
     throw InputError(Fault{folder.string(), 0, "can't be written to"});
   }
   fs::remove(probe, ignored);
+  return made;
 }
 
 std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResult& result,
@@ -46,6 +47,10 @@ std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResul
   writeWhole(files[1], csvOf(summaryRows(campaign, result)));
   for (std::size_t p = 0; p < campaign.problems.size(); ++p)
     for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
+      const auto isRun = [&](const CampaignCell& cell) {
+        return cell.problem == p && cell.variant == v && !cell.runs.empty();
+      };
+      if (std::none_of(result.cells.begin(), result.cells.end(), isRun)) continue;
       const std::string name = fileName(result.names[p] + "." + campaign.variants[v].name);
       fs::path file = folder / (name + ".log");
       for (int i = 2; std::find(files.begin(), files.end(), file) != files.end(); ++i)

@@ -215,6 +215,11 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file) 
 }
 
 void writeWhole(const std::filesystem::path& file, const std::string& text) {
+  writeWhole(file, [&](std::ostream& out) { out << text; });
+}
+
+void writeWhole(const std::filesystem::path& file,
+                const std::function<void(std::ostream&)>& write) {
   std::error_code failure, ignored;
   // A device or a pipe is written to: renaming a file over it would replace it.
   const bool inPlace =
@@ -222,7 +227,7 @@ void writeWhole(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path written =
       inPlace ? file : std::filesystem::path(file.string() + ".tmp" + std::to_string(::getpid()));
   std::ofstream out(written, std::ios::binary);
-  out << text;
+  write(out);
   out.close();
   if (out && !inPlace) std::filesystem::rename(written, file, failure);
   if (!out || failure) {

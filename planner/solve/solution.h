@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,9 @@ Solution makeSolution(const Problem& problem, const SolveReport& report);
 /// @throws InputError where it can't be written.
 void writeSolution(const Solution& solution, const std::filesystem::path& file);
 
-/// The text in the file, whole or not at all. @throws InputError where it can't be written.
+/// What `write` puts into the file, or the text: whole or not at all.
+/// @throws InputError where it can't be written.
+void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 void writeWhole(const std::filesystem::path& file, const std::string& text);
 
 /// Reads what `writeSolution` wrote, strictly; or an OMPL.app `.path` file: a state a line.

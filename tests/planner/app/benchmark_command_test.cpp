@@ -189,6 +189,58 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
   EXPECT_EQ(OmplLogReader::read(read("results/hall.certified.log")).planners.size(), 1u);
 }
 
+/// What took long is not lost with the folder.
+TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
+  // In the way of a file: a folder of its name.
+  std::filesystem::create_directories(folder_ / "results/runs.csv");
+  const Result result = run("benchmark hall.yaml --variants discrete:0.05 --runs 1 -o results");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("results/runs.csv: can't be written"));
+  EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+  EXPECT_EQ(lines(result.out).size(), 2u) << result.out;
+  EXPECT_THAT(files("results"), UnorderedElementsAre("runs.csv"));
+}
+
+/// No empty files, no logs without planners, and no table of nothing.
+TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
+  write("hall.yaml",
+        "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
+        "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");
+  const auto interrupted = [&](const std::string& more) {
+    const std::string command = "cd '" + folder_.string() +
+                                "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
+                                "' benchmark hall.yaml --time 1000 " +
+                                more + " >out.txt 2>err.txt";
+    const int status = std::system(command.c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_EQ(read("err.txt"),
+              "corridor: warning: interrupted before the first run was done; nothing is written\n");
+  };
+  interrupted("-o results");
+  EXPECT_EQ(read("out.txt"), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
+  std::filesystem::create_directory(folder_ / "mine");
+  write("mine/runs.csv", "old");
+  interrupted("-o mine --json");
+  EXPECT_EQ(nlohmann::json::parse(read("out.txt"))["interrupted"], true);
+  EXPECT_EQ(read("mine/runs.csv"), "old");
+}
+
+TEST_F(BenchmarkCommand, ARunWithoutMemoryHasFailed) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer ends the process where memory ends";
+#endif
+  // Less than a thread's stack.
+  const Result result = run("benchmark hall.yaml --variants certified --runs 1 --memory 1 --json");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const auto cell = nlohmann::json::parse(result.out)["results"][0];
+  EXPECT_EQ(cell["failed"], 1);
+  EXPECT_EQ(cell["rows"][0]["result"], "failed");
+  EXPECT_EQ(cell["rows"][0]["time_s"], nullptr);
+  EXPECT_FALSE(cell["rows"][0]["failure"].get<std::string>().empty());
+}
+
 TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"

@@ -304,7 +304,7 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
   fault("solve problem.yaml -o none/s.yaml", testing::Eq("--output: there is no folder none\n"));
   fault("solve problem.yaml --picture .",
         testing::Eq("--picture: . is a folder; a file's name is needed\n"));
-  fault("solve problem.yaml --resolution 1",
+  fault("solve problem.yaml --edges discrete --resolution 1",
         testing::Eq("--resolution: checker.resolution: 1 is not in [1e-09, 1)\n"));
   write("fine.yaml", problem("-2, 0, 0", "checker: {edges: discrete, resolution: 1e-300}\n"));
   fault("solve fine.yaml",
@@ -356,8 +356,48 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   EXPECT_EQ(run("solve problem.yaml --seed 0").status, 0);
 }
 
+/// CLI11's own words for these name an option last, or not at all.
+TEST_F(CommandLine, WordsThatNoCommandTakesAreTold) {
+  const auto fault = [&](const std::string& arguments, const std::string& told) {
+    expectFault(arguments, told + "; corridor " + arguments.substr(0, arguments.find(' ')) +
+                               " --help tells more");
+  };
+  fault("solve problem.yaml --stopp first", "unknown option \"--stopp\"; did you mean \"--stop\"?");
+  fault("solve problem.yaml --tme=3", "unknown option \"--tme\"; did you mean \"--time\"?");
+  fault("verify problem.yaml s.yaml more.yaml", "unexpected word \"more.yaml\"");
+  fault("solve problem.yaml --time 1 --time 2", "--time is given 2 times; once is enough");
+  fault("solve problem.yaml -o a.yaml -o a.yaml", "--output is given 2 times; once is enough");
+  fault("solve problem.yaml -o ''", "--output: is empty");
+  fault("solve ''", "PROBLEM: is empty");
+  for (const char* edges : {"certified", "adaptive"})
+    expectFault(std::string("solve problem.yaml --resolution 0.1 --edges ") + edges,
+                std::string("--resolution: is of --edges discrete, and edges are ") + edges);
+  expectFault("inspect cube.obj --pairs", "--pairs: is of a problem, and cube.obj is a mesh");
+  expectFault("inspect problem.yaml --unit mm",
+              "--unit: is of a mesh, and problem.yaml is a problem");
+  expectFault("inspect robot.yaml --up y", "--up: is of a mesh, and robot.yaml is a robot");
+  expectFault("solve problem.yaml --set range=1 --set range=2", "--set: \"range\" is set twice");
+  EXPECT_EQ(run("solve problem.yaml --quiet --quiet").status, 0);
+}
+
+/// A device that is always full: what is lost must not look done.
+TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsTold) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  write("poses.txt", "1 0 0 0 1 0 0 0 1 0 0 0\n");
+  for (const char* command : {"solve problem.yaml", "check problem.yaml --json", "inspect cube.obj",
+                              "query cube.obj wall.obj --poses poses.txt",
+                              "benchmark problem.yaml --variants certified --runs 1"}) {
+    const Result result = run(command + std::string(" >/dev/full 2>told.txt; exit $?;"));
+    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_THAT(read("told.txt"),
+                testing::EndsWith("standard output: can't be written, or not all of it\n"))
+        << command;
+  }
+  EXPECT_EQ(run("solve problem.yaml --quiet >/dev/full; exit $?;").status, 0);
+}
+
 TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
-  for (const char* command : {"solve", "verify", "check", "inspect", "query"}) {
+  for (const char* command : {"solve", "verify", "check", "inspect", "query", "benchmark"}) {
     const Result help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("Example: corridor ") + command));

@@ -1,6 +1,7 @@
 // `corridor query --motions`: the first contact of each motion.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -110,6 +111,15 @@ TEST_F(QueryMotions, EveryMethodFindsTheFirstContact) {
   }
 }
 
+/// As documented: it has no shorter way; and no time, gap or triangles are told of it.
+TEST_F(QueryMotions, HalfATurnIsUndecided) {
+  for (const std::string edges : {"certified", "adaptive", "advancement"}) {
+    const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out, kHeader + "\n0,undecided,0,-1,0,-1,-1,0,0,0\n") << edges;
+  }
+}
+
 TEST_F(QueryMotions, BelowTheToleranceItIsUndecided) {
   const std::string along = kStill + "-1 0 1e-3 " + kStill + "1 0 1e-3\n";
   const auto verdict = [&](const std::string& more) {
@@ -143,6 +153,14 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   option("--grid 2x2x2", "--grid: is of poses; --motions has none");
   option("--query distance", "--query: is of poses; --motions has none");
   option("--volume aabb", "--volume: is of poses; --motions has none");
+  // Nor do they have the defaults of poses.
+  option("--query interference", "--query: is of poses; --motions has none");
+  option("--volume obb", "--volume: is of poses; --motions has none");
+  option("--overlap sat", "--overlap: is of poses; --motions has none");
+  for (const std::string given :
+       {"--lower 0,0,0", "--upper 0,0,0", "--rotations 2", "--seed 1", "--save-poses p.txt"})
+    option(given, given.substr(0, given.find(' ')) + ": is of --grid, which is not given");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "p.txt"));
   option("--edges adaptiv",
          "--edges: unknown method \"adaptiv\"; did you mean \"adaptive\"?; there are: certified, "
          "adaptive, advancement");
