@@ -106,12 +106,11 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
   lock();
 }
 
-Configuration ProblemStateSpace::read(const ob::State* state) const {
-  Configuration q(static_cast<Eigen::Index>(space_.size()));
+void ProblemStateSpace::read(const ob::State* state, double* q) const {
   const auto* compound = state->as<ob::CompoundState>();
   for (unsigned i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    double* numbers = q.data() + part.first;
+    double* numbers = q + part.first;
     if (part.kind == Kind::line) {
       const double* values = compound->as<ob::RealVectorStateSpace::StateType>(i)->values;
       std::copy(values, values + part.count, numbers);
@@ -123,6 +122,11 @@ Configuration ProblemStateSpace::read(const ob::State* state) const {
       std::copy(values, values + 4, numbers);
     }
   }
+}
+
+Configuration ProblemStateSpace::read(const ob::State* state) const {
+  Configuration q(static_cast<Eigen::Index>(space_.size()));
+  read(state, q.data());
   return q;
 }
 
@@ -152,7 +156,15 @@ void ProblemStateSpace::interpolate(const ob::State* from, const ob::State* to, 
 }
 
 double ProblemStateSpace::distance(const ob::State* a, const ob::State* b) const {
-  return space_.distance(read(a), read(b));
+  // Planners ask for more distances than for anything else: no allocation where few numbers do.
+  constexpr std::size_t kFew = 32;
+  if (space_.size() > kFew) return space_.distance(read(a), read(b));
+  double numbersA[kFew], numbersB[kFew];
+  read(a, numbersA);
+  read(b, numbersB);
+  const auto size = static_cast<Eigen::Index>(space_.size());
+  return space_.distance(Eigen::Map<const Configuration>(numbersA, size),
+                         Eigen::Map<const Configuration>(numbersB, size));
 }
 
 bool ProblemStateSpace::equalStates(const ob::State* a, const ob::State* b) const {

@@ -43,6 +43,9 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
     std::size_t first, count;  ///< numbers of a Configuration
   };
 
+  /// @param q gets as many numbers as a Configuration has.
+  void read(const ompl::base::State* state, double* q) const;
+
   const ConfigurationSpace& space_;
   std::vector<Part> parts_;  // of each subspace
 };

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Quaterniond;
 using std::numbers::pi;
 
-Quaterniond quaternionAt(const Configuration& q, std::size_t first) {
+Quaterniond quaternionAt(const ConfigurationRef& q, std::size_t first) {
   return Quaterniond(q.data() + first);
 }
 
@@ -58,7 +58,7 @@ double lengthOf(const Vector& v) {
 }
 
 /// How far b is from a in one coordinate, ≥ 0; of rotations the quaternions' angle.
-double differenceOf(const Coordinate& c, const Configuration& a, const Configuration& b) {
+double differenceOf(const Coordinate& c, const ConfigurationRef& a, const ConfigurationRef& b) {
   if (c.kind == Coordinate::Kind::rotation)
     return quaternionAngle(quaternionAt(a, c.first), quaternionAt(b, c.first));
   const double from = a[static_cast<Eigen::Index>(c.first)],
@@ -142,24 +142,27 @@ Configuration ConfigurationSpace::interpolate(const Configuration& from, const C
   return at;
 }
 
-double ConfigurationSpace::distance(const Configuration& a, const Configuration& b) const {
+double ConfigurationSpace::distance(const ConfigurationRef& a, const ConfigurationRef& b) const {
   double sum = 0;
   for (const CoordinateGroup& group : groups_) {
     const std::vector<std::size_t>& members = group.coordinates;
     if (group.kind == CoordinateGroup::Kind::joints) {
-      // Scaled by the largest, so that no square underflows to 0.
-      const auto weighted = [&](std::size_t member) {
-        const Coordinate& c = coordinates_[member];
-        return c.weight * differenceOf(c, a, b);
+      const auto lengthTimes = [&](double scale) {
+        double squares = 0;
+        for (const std::size_t member : members) {
+          const Coordinate& c = coordinates_[member];
+          const double weighted = scale * (c.weight * differenceOf(c, a, b));
+          squares += weighted * weighted;
+        }
+        return std::sqrt(squares);
       };
-      double largest = 0, squares = 0;
-      for (const std::size_t member : members) largest = std::max(largest, weighted(member));
-      if (largest == 0) continue;
-      for (const std::size_t member : members) {
-        const double share = weighted(member) / largest;
-        squares += share * share;
+      const double length = lengthTimes(1);
+      if (length > 1e-150 && length < HUGE_VAL) {
+        sum += length;
+      } else {  // squares under- or overflow
+        const double scale = length > 1 ? 0x1p-600 : 0x1p600;
+        sum += lengthTimes(scale) / scale;
       }
-      sum += largest * std::sqrt(squares);
     } else {
       Vec3 away = Vec3::Zero();  // the last of the group is the angle
       for (std::size_t k = 0; k + 1 < members.size(); ++k)

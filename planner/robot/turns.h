@@ -23,7 +23,8 @@ struct CircleTurn {
 /// S/2π + 1/2 ≤ S/π of them, is 2.5e-16 off 2π in double: below 2^-52·S together. Doubled.
 inline CircleTurn circleTurn(double from, double to) {
   if (from == to) return {};
-  return {std::remainder(to - from, 2 * std::numbers::pi),
+  const double turn = to - from;
+  return {std::abs(turn) <= std::numbers::pi ? turn : std::remainder(turn, 2 * std::numbers::pi),
           0x1p-51 * (std::abs(from) + std::abs(to))};
 }
 

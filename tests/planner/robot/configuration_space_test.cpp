@@ -182,6 +182,8 @@ TEST(ConfigurationSpace, DistanceIsZeroForEqualConfigurationsOnly) {
     EXPECT_EQ(body.distance(a, a), 0);
     EXPECT_TRUE(body.equal(a, a));
   }
+  EXPECT_EQ(arm.distance(values({-1e200}), values({1e200})), 2e200);
+  EXPECT_EQ(arm.distance(values({0}), values({1e-170})), 1e-170);
   Configuration a(7), b(7);
   a << 1, 2, 3, 3 * turned(1);
   b = a;
