@@ -13,18 +13,32 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-enum class Quality { Fair, Sliver, Degenerate };
+/// The bounds of the corners of triangles, and lengths as shares of their diagonal: whatever the
+/// mesh's size, their squares neither over- nor underflow.
+struct Bounds {
+  Vec3 min, max;
+  double quarter;  ///< of the diagonal, which itself may overflow
 
-/// `diagonal` of the mesh's bounds: lengths are taken in it, so that nothing over- or underflows.
-Quality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, double diagonal) {
-  constexpr double degenerateArea = 1e-12, sliverRatio = 1e-3;  // by definition, see MeshHealth
-  const Vec3 ab = b / diagonal - a / diagonal, ac = c / diagonal - a / diagonal,
-             bc = c / diagonal - b / diagonal;
+  explicit Bounds(const TriangleMesh& mesh) : min(mesh.corner(0, 0)), max(min) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        min = min.cwiseMin(mesh.corner(i, k));
+        max = max.cwiseMax(mesh.corner(i, k));
+      }
+    quarter = (max / 4 - min / 4).stableNorm();
+  }
+  Vec3 share(const Vec3& from, const Vec3& to) const { return (to / 4 - from / 4) / quarter; }
+};
+
+TriangleQuality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, const Bounds& bounds) {
+  constexpr double degenerateArea = 1e-12, sliverRatio = 1e-3;  // by definition
+  const Vec3 ab = bounds.share(a, b), ac = bounds.share(a, c), bc = bounds.share(b, c);
   const double doubleArea = ab.cross(ac).norm();
-  if (a == b || b == c || c == a || !(doubleArea / 2 > degenerateArea)) return Quality::Degenerate;
+  if (a == b || b == c || c == a || !(doubleArea / 2 > degenerateArea))
+    return TriangleQuality::degenerate;
   const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
-  return doubleArea < sliverRatio * longest ? Quality::Sliver
-                                            : Quality::Fair;  // height = doubleArea / longest edge
+  // The height is doubleArea / longest edge.
+  return doubleArea < sliverRatio * longest ? TriangleQuality::sliver : TriangleQuality::fair;
 }
 
 Triangle sorted(Triangle t) {
@@ -96,12 +110,16 @@ std::size_t countComponents(const std::vector<Triangle>& triangles, std::size_t 
 
 /// By the divergence theorem, about the bounds' centre: less cancellation far from the origin.
 double volumeOf(const std::vector<Triangle>& triangles, const std::vector<Vec3>& points,
-                const Vec3& centre) {
+                const Bounds& bounds) {
+  const Vec3 centre = bounds.min / 2 + bounds.max / 2;
   double sum = 0;
   for (const Triangle& t : triangles) {
-    sum += (points[t[0]] - centre).dot((points[t[1]] - centre).cross(points[t[2]] - centre));
+    const Vec3 a = bounds.share(centre, points[t[0]]), b = bounds.share(centre, points[t[1]]),
+               c = bounds.share(centre, points[t[2]]);
+    sum += a.dot(b.cross(c));
   }
-  return sum / 6;
+  const double diagonal = 4 * bounds.quarter;
+  return sum / 6 * diagonal * diagonal * diagonal;
 }
 
 }  // namespace
@@ -117,20 +135,17 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
     for (std::uint32_t& corner : t) corner = welder.index(mesh.vertices[corner]);
   }
   const std::vector<Vec3> points = welder.takePoints();
-  health.min = health.max = points.front();
-  for (const Vec3& p : points) {
-    health.min = health.min.cwiseMin(p);
-    health.max = health.max.cwiseMax(p);
-  }
-  const double diagonal = (health.max / 2 - health.min / 2).stableNorm() * 2;
+  const Bounds bounds(mesh);
+  health.min = bounds.min;
+  health.max = bounds.max;
 
   std::vector<Triangle> all, fair;  // corners sorted; then made distinct
   for (const Triangle& t : triangles) {
-    const Quality quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], diagonal);
-    health.degenerateTriangles += quality == Quality::Degenerate;
-    health.sliverTriangles += quality == Quality::Sliver;
+    const auto quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], bounds);
+    health.degenerateTriangles += quality == TriangleQuality::degenerate;
+    health.sliverTriangles += quality == TriangleQuality::sliver;
     all.push_back(sorted(t));
-    if (quality != Quality::Degenerate) fair.push_back(all.back());
+    if (quality != TriangleQuality::degenerate) fair.push_back(all.back());
   }
   const auto makeDistinct = [](std::vector<Triangle>& list) {
     std::sort(list.begin(), list.end());
@@ -143,8 +158,19 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.components = countComponents(triangles, points.size());
   health.watertight = isWatertight(triangles);
   if (health.watertight)
-    health.volume = volumeOf(triangles, points, health.min / 2 + health.max / 2);
+    if (const double volume = volumeOf(triangles, points, bounds); std::isfinite(volume))
+      health.volume = volume;
   return health;
+}
+
+std::vector<TriangleQuality> triangleQualities(const TriangleMesh& mesh) {
+  std::vector<TriangleQuality> qualities;
+  if (mesh.triangles.empty()) return qualities;
+  const Bounds bounds(mesh);
+  qualities.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    qualities.push_back(qualityOf(mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2), bounds));
+  return qualities;
 }
 
 std::optional<std::string> checkMesh(const TriangleMesh& mesh) {

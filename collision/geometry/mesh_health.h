@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "collision/geometry/triangle_mesh.h"
 
@@ -11,10 +12,8 @@ namespace corridor {
 /// What is worth knowing about a mesh before trusting it. None of it is an error: any soup is
 /// legal.
 ///
-/// Corners are identified by exact position, whatever their indices. A triangle is *degenerate*
-/// when two of its corners are equal or its area is at most 1e-12 of the squared diagonal of the
-/// mesh's bounds; a *sliver* when it is not, and its height over its longest edge is under 1e-3 of
-/// that edge. (Both are for people: no verdict depends on them.)
+/// Corners are identified by exact position, whatever their indices. Which triangles are degenerate
+/// or slivers is for people: no verdict depends on it.
 struct MeshHealth {
   std::size_t triangles = 0;
   std::size_t distinctTriangles =
@@ -27,14 +26,21 @@ struct MeshHealth {
   /// Every edge is used by exactly two triangles, in opposite directions (triangles with two equal
   /// corners aside).
   bool watertight = false;
-  std::optional<double>
-      volume;  ///< m³, where watertight; negative where the triangles face inwards. Rounded.
+  /// m³, where watertight, and within the range of doubles; negative where the triangles face
+  /// inwards. Rounded.
+  std::optional<double> volume;
   Vec3 min = Vec3::Zero();  ///< of the corners of triangles, metres
   Vec3 max = Vec3::Zero();
 };
 
 /// @pre `checkMesh` has nothing to complain of.
 MeshHealth inspectMesh(const TriangleMesh& mesh);
+
+/// *degenerate*: two corners are equal, or the area is at most 1e-12 of the squared diagonal of the
+/// mesh's bounds; *sliver*: not that, and the height over the longest edge is under 1e-3 of it.
+enum class TriangleQuality { fair, sliver, degenerate };
+/// Of each triangle. @pre as above.
+std::vector<TriangleQuality> triangleQualities(const TriangleMesh& mesh);
 
 /// For meshes made in memory: the first thing that makes the mesh illegal (a vertex that is not
 /// finite, an index out of range), as a sentence; nullopt if it is sound.

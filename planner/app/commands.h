@@ -49,6 +49,7 @@ int checkCommand(const CheckArguments& arguments);
 struct InspectArguments {
   std::string file;
   std::optional<std::string> unit, up;  ///< of a mesh file
+  bool selfIntersections = false;       ///< of a mesh file: look for them
   bool pairs = false;                   ///< of a problem: every pair
   std::optional<std::string> against;   ///< another mesh file: what queries of the two cost
   std::optional<std::string> poses;     ///< of `against`: a file of poses, one a line

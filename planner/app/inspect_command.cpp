@@ -6,6 +6,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/queries/self_intersections.h"
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
@@ -57,11 +58,20 @@ ordered_json meshJson(const MeshFile& file) {
 
 namespace {
 
+std::vector<TrianglePair> selfIntersectionsOf(const MeshFile& file) {
+  QueryContext context;
+  return selfIntersections(file.mesh, context);
+}
+
 int inspectMeshFile(const InspectArguments& a) {
   const MeshFile file = meshFileAsked(a.file, a);
   if (a.json) {
     ordered_json j = {{"format", "corridor-inspect-mesh-1"}, {"file", a.file}};
     j["mesh"] = meshJson(file);
+    if (a.selfIntersections) {
+      ordered_json& all = j["mesh"]["self_intersections"] = ordered_json::array();
+      for (const TrianglePair& pair : selfIntersectionsOf(file)) all.push_back({pair.a, pair.b});
+    }
     std::cout << j.dump(2) << '\n';
     return kDone;
   }
@@ -83,6 +93,14 @@ int inspectMeshFile(const InspectArguments& a) {
   out.line("slivers", grouped(health.sliverTriangles));
   out.line("boundary edges", grouped(health.boundaryEdges));
   out.line("non-manifold edges", grouped(health.nonManifoldEdges));
+  if (a.selfIntersections) {
+    const std::vector<TrianglePair> pairs = selfIntersectionsOf(file);
+    std::string text = grouped(pairs.size());
+    if (!pairs.empty())
+      text += ", the first of triangles " + std::to_string(pairs[0].a) + " and " +
+              std::to_string(pairs[0].b) + " (from 0)";
+    out.line("self-intersections", text);
+  }
   return kDone;
 }
 
@@ -119,6 +137,9 @@ int inspectCommand(const InspectArguments& a) {
   isOf("--pairs", a.pairs, "problem");
   isOf("--unit", a.unit.has_value(), "mesh");
   isOf("--up", a.up.has_value(), "mesh");
+  isOf("--self-intersections", a.selfIntersections, "mesh");
+  if (a.against && a.selfIntersections)
+    throw InputError(Fault{"--self-intersections", 0, "is not of --against"});
   if (a.against) return inspectCost(a);
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);
 }

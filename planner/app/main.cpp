@@ -191,6 +191,9 @@ void addInspect(CLI::App& program, InspectArguments& a, int& status) {
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
   command->add_option("--up", a.up, "of a mesh file: its up-axis, to be turned to z")
       ->check(CLI::IsMember({"x", "y", "z"}));
+  command->add_flag("--self-intersections", a.selfIntersections,
+                    "of a mesh file: pairs of its triangles that intersect anywhere but in corners "
+                    "and edges that they share (seconds for a million triangles)");
   command->add_flag("--pairs", a.pairs,
                     "of a problem: every pair of bodies, and why it isn't tested");
   const char* cost = "What queries of two meshes cost";

@@ -1,9 +1,10 @@
 /// What every volume costs, generic trees: `volume_tree_benchmark WORKLOAD [FOLDER]`.
 ///
 /// A workload of the shared collision data (in FOLDER, or $CORRIDOR_DATA/collision). A row a volume
-/// and way of building, as CSV on stdout: milliseconds to build and to refit the first mesh (least
-/// of three), medians in microseconds of interference, distance and «closer than 10^-3 of the
-/// size?» over the poses, and the means of N_v and N_p of interference.
+/// and way of building, and one of the tree over space, as CSV on stdout: milliseconds to build and
+/// to refit the first mesh (least of three), its bytes, medians in microseconds of interference,
+/// distance and «closer than 10^-3 of the size?» over the poses, and the means of N_v and N_p of
+/// interference. The tree over space has neither refitting nor distances.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/hierarchy/octree.h"
 #include "collision/queries/distance.h"
 #include "collision/queries/interference.h"
 #include "collision/volumes/pair_tests.h"
@@ -29,6 +31,23 @@ double microseconds(F&& f) {
       .count();
 }
 
+/// Over the poses, in microseconds.
+template <class Query>
+double median(const test::Workload& w, QueryContext& context, const Query& query) {
+  context.counters = {};
+  std::vector<double> times;
+  for (const Transform& X : w.poses) times.push_back(microseconds([&] { query(X); }));
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+void printTests(const test::Workload& w, const Counters& counters) {
+  const auto n = static_cast<double>(w.poses.size());
+  std::printf("%.1f,%.1f\n", static_cast<double>(counters.boxTests) / n,
+              static_cast<double>(counters.triangleTests) / n);
+}
+
 template <class Volume>
 void measure(const char* name, const test::Workload& w, TreeBuilding building) {
   TreeParams params;
@@ -41,29 +60,34 @@ void measure(const char* name, const test::Workload& w, TreeBuilding building) {
     refit = std::min(refit, microseconds([&] { a.refit(w.a); }));
   }
   QueryContext context;
-  const auto median = [&](const auto& query) {
-    context.counters = {};
-    std::vector<double> times;
-    for (const Transform& X : w.poses) times.push_back(microseconds([&] { query(X); }));
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    return *middle;
-  };
-  const double apart = median([&](const Transform& X) { distance(a, {}, b, X, {}, context); });
+  const double apart =
+      median(w, context, [&](const Transform& X) { distance(a, {}, b, X, {}, context); });
   const double tolerance = 1e-3 * a.node(0).radius;
   const double close =
-      median([&](const Transform& X) { closerThan(a, {}, b, X, tolerance, context); });
-  const double touch = median([&](const Transform& X) { interference(a, {}, b, X, context); });
-  const auto n = static_cast<double>(w.poses.size());
-  std::printf("%s,%s,%.3f,%.3f,%.2f,%.2f,%.2f,%.1f,%.1f\n", name,
+      median(w, context, [&](const Transform& X) { closerThan(a, {}, b, X, tolerance, context); });
+  const double touch =
+      median(w, context, [&](const Transform& X) { interference(a, {}, b, X, context); });
+  std::printf("%s,%s,%.3f,%.3f,%zu,%.2f,%.2f,%.2f,", name,
               building == TreeBuilding::topDown ? "top-down" : "bottom-up", build / 1e3,
-              refit / 1e3, touch, apart, close, static_cast<double>(context.counters.boxTests) / n,
-              static_cast<double>(context.counters.triangleTests) / n);
+              refit / 1e3, a.bytes(), touch, apart, close);
+  printTests(w, context.counters);
+}
+
+void measureOctree(const test::Workload& w) {
+  const Octree a(w.a), b(w.b);
+  double build = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i)
+    build = std::min(build, microseconds([&] { const Octree again(w.a); }));
+  QueryContext context;
+  const double touch =
+      median(w, context, [&](const Transform& X) { interference(a, {}, b, X, context); });
+  std::printf("octree,over space,%.3f,,%zu,%.2f,,,", build / 1e3, a.bytes(), touch);
+  printTests(w, context.counters);
 }
 
 void run(const test::Workload& w) {
   std::puts(
-      "volume,building,build_ms,refit_ms,interference_us,distance_us,closer_us,bv_tests,"
+      "volume,building,build_ms,refit_ms,bytes,interference_us,distance_us,closer_us,bv_tests,"
       "triangle_tests");
   for (const TreeBuilding building : {TreeBuilding::topDown, TreeBuilding::bottomUp}) {
     measure<Obb>("obb", w, building);
@@ -74,6 +98,7 @@ void run(const test::Workload& w) {
     measure<Kdop<18>>("kdop18", w, building);
     measure<Kdop<26>>("kdop26", w, building);
   }
+  measureOctree(w);
 }
 
 }  // namespace

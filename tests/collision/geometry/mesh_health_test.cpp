@@ -92,12 +92,20 @@ TEST(InspectMesh, DefectsAreCounted) {
 }
 
 TEST(InspectMesh, AnyScale) {
-  for (const double scale : {1e-200, 1.0, 1e300}) {
+  TriangleMesh largest = tetrahedron();
+  for (Vec3& v : largest.vertices) v = (2 * v - Vec3::Ones()) * 1.7e308;
+  EXPECT_EQ(inspectMesh(largest).degenerateTriangles, 0u);
+  for (const double scale : {1e-200, 1e-90, 1.0, 1e90, 1e110, 1e300}) {
     TriangleMesh mesh = tetrahedron();
     for (Vec3& v : mesh.vertices) v *= scale;
     const MeshHealth health = inspectMesh(mesh);
     EXPECT_EQ(health.degenerateTriangles, 0u) << scale;
     EXPECT_TRUE(health.watertight) << scale;
+    const double volume = scale * scale * scale / 6;
+    EXPECT_EQ(health.volume.has_value(), std::isfinite(volume)) << scale;
+    if (std::isfinite(volume)) {
+      EXPECT_NEAR(health.volume.value_or(-1), volume, 1e-15 * volume) << scale;
+    }
   }
   EXPECT_EQ(inspectMesh({}).triangles, 0u);
   const TriangleMesh point{{{1, 1, 1}}, {{0, 0, 0}}};

@@ -94,7 +94,8 @@ TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   EXPECT_EQ(solved["problems"][0]["certified"], true);
   EXPECT_EQ(nlohmann::json::parse(run("verify problem.yaml s.yaml --json").out)["verdict"],
             "proved");
-  const auto mesh = nlohmann::json::parse(run("inspect cube.obj --json").out);
+  const auto mesh = nlohmann::json::parse(run("inspect cube.obj --json --self-intersections").out);
+  EXPECT_EQ(mesh["mesh"]["self_intersections"], nlohmann::json::array());
   EXPECT_EQ(mesh["mesh"]["triangles"], 12);
   EXPECT_EQ(mesh["mesh"]["watertight"], true);
   EXPECT_EQ(nlohmann::json::parse(run("inspect problem.yaml --json").out)["pairs"]["tested"], 1);
@@ -373,6 +374,13 @@ TEST_F(CommandLine, WordsThatNoCommandTakesAreTold) {
     expectFault(std::string("solve problem.yaml --resolution 0.1 --edges ") + edges,
                 std::string("--resolution: is of --edges discrete, and edges are ") + edges);
   expectFault("inspect cube.obj --pairs", "--pairs: is of a problem, and cube.obj is a mesh");
+  expectFault("inspect problem.yaml --self-intersections",
+              "--self-intersections: is of a mesh, and problem.yaml is a problem");
+  expectFault("inspect cube.obj --against cube.obj --self-intersections",
+              "--self-intersections: is not of --against");
+  write("crossed.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_THAT(run("inspect crossed.obj --self-intersections").out,
+              HasSubstr("self-intersections: 1, the first of triangles 0 and 1 (from 0)"));
   expectFault("inspect problem.yaml --unit mm",
               "--unit: is of a mesh, and problem.yaml is a problem");
   expectFault("inspect robot.yaml --up y", "--up: is of a mesh, and robot.yaml is a robot");

@@ -1,0 +1,123 @@
+#include "collision/queries/self_intersections.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/traverse.h"
+#include "collision/hierarchy/volume_tree.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/touching_pairs.h"
+#include "collision/volumes/aabb.h"
+
+namespace corridor {
+namespace {
+
+/// A triangle's corners, those first that it shares with another one.
+struct Corners {
+  Triangle t;
+  int shared = 0;
+};
+
+Corners sharedFirst(const Triangle& t, const Triangle& other) {
+  Corners c{t};
+  for (int i = 0; i < 3; ++i)
+    if (std::find(other.begin(), other.end(), c.t[i]) != other.end())
+      std::swap(c.t[i], c.t[c.shared++]);
+  return c;
+}
+
+/// Do the convex hulls of up to three points each touch?
+bool touch(const Triangle& a, const Triangle& b, Counters& counters) {
+  return trianglesTouch(a, {}, b, {}, counters);
+}
+Triangle edge(const Vec3& p, const Vec3& q) {
+  return {p, q, q};
+}
+
+/// Does a triangle meet another one, of which it shares a corner or more, beyond what they share?
+/// Neither is degenerate.
+bool meetBeyond(const Corners& a, const Corners& b, Counters& counters) {
+  const auto& [s, count] = a;
+  const Triangle& t = b.t;
+  // What they have in common is convex. If it is more than one shared corner, it goes on from there
+  // until it leaves one of them, through that one's edge opposite the corner.
+  if (count == 1)
+    return touch(edge(s[1], s[2]), t, counters) || touch(edge(t[1], t[2]), s, counters);
+  // If it is more than a shared edge, they overlap in one plane, on the same side of that edge: one
+  // holds the other's third corner, or edges to these cross.
+  const Vec3 &p = s[0], &q = s[1], &c = s[2], &d = t[2];
+  return touch(edge(c, c), t, counters) || touch(edge(d, d), s, counters) ||
+         touch(edge(c, p), edge(d, q), counters) || touch(edge(c, q), edge(d, p), counters);
+}
+
+/// What `traverse` asks: the tree against itself, each pair of leaves in one order only.
+class SelfPairs {
+ public:
+  using Item = QueryContext::NodePair;
+  using Tree = VolumeTree<Aabb>;
+  using Node = Tree::Node;
+
+  SelfPairs(const Tree& tree, const std::vector<TriangleQuality>& qualities, Counters& counters)
+      : tree_(tree),
+        qualities_(qualities),
+        test_(pairTestOf<Aabb>(tree, {}, tree, {})),
+        counters_(counters) {}
+
+  bool enter(const Item&, const Node& na, const Node& nb) {
+    if (na.first >= nb.first + nb.count) return false;  // its mirror image is looked at
+    ++counters_.boxTests;
+    return !test_.separated(na.box, nb.box, 0);
+  }
+  bool leaves(const Node& na, const Node& nb) {
+    for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
+      for (std::uint32_t t = std::max(nb.first, s + 1); t < nb.first + nb.count; ++t)
+        if (intersect(s, t)) found_.push_back(numbered(s, t));
+    return false;
+  }
+  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
+    stack.push_back({i, k, 0});
+  }
+  void opened(std::vector<Item>&, std::size_t) {}
+
+  std::vector<TrianglePair> found() && { return std::move(found_); }
+
+ private:
+  bool intersect(std::uint32_t s, std::uint32_t t) {
+    if (degenerate(s) || degenerate(t)) return false;
+    const Corners a = sharedFirst(tree_.triangle(s), tree_.triangle(t)),
+                  b = sharedFirst(tree_.triangle(t), tree_.triangle(s));
+    if (a.shared == 3) return false;
+    return a.shared == 0 ? touch(a.t, b.t, counters_) : meetBeyond(a, b, counters_);
+  }
+  bool degenerate(std::uint32_t item) const {
+    return qualities_[tree_.meshTriangle(item)] == TriangleQuality::degenerate;
+  }
+  TrianglePair numbered(std::uint32_t s, std::uint32_t t) const {
+    const auto [low, high] = std::minmax(tree_.meshTriangle(s), tree_.meshTriangle(t));
+    return {low, high};
+  }
+
+  const Tree& tree_;
+  const std::vector<TriangleQuality>& qualities_;  // by the mesh's numbers
+  PairTest<Aabb, StandardOverlap> test_;
+  Counters& counters_;
+  std::vector<TrianglePair> found_;
+};
+
+}  // namespace
+
+std::vector<TrianglePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context) {
+  if (mesh.triangles.empty()) return {};
+  const std::vector<TriangleQuality> qualities = triangleQualities(mesh);
+  const VolumeTree<Aabb> tree(mesh);
+  SelfPairs query(tree, qualities, context.counters);
+  traverse(tree, tree, QueryContext::NodePair{0, 0, 0}, context.stack, query);
+  std::vector<TrianglePair> found = std::move(query).found();
+  std::sort(found.begin(), found.end(), [](const TrianglePair& x, const TrianglePair& y) {
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  return found;
+}
+
+}  // namespace corridor
