@@ -39,9 +39,9 @@ AssimpImport readWithAssimp(const std::string& file, AssimpRules rules) {
   AssimpImport result;
   function(file.c_str(), rules, result);
   if (!result.error.empty()) {
-    throw InputError(
-        Fault{file, 0,
-              "cannot be read as a mesh (OBJ, STL, PLY, or a format of assimp): " + result.error});
+    throw InputError(Fault{
+        file, 0,
+        "cannot be read as a mesh (OBJ, STL, PLY, OFF, or a format of assimp): " + result.error});
   }
   return result;
 }

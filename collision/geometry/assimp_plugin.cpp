@@ -5,6 +5,8 @@
 #include <charconv>
 #include <exception>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include <Eigen/Geometry>
@@ -13,6 +15,15 @@
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+
+/// Debian's assimp has its assertions on, and would end the program where a damaged file breaks
+/// one. This module comes before assimp in the order in which assimp's own symbols are looked up,
+/// so that this one is called instead; assimp's importers throw, and clean up, in the same way.
+namespace Assimp {
+ASSIMP_API void aiAssertViolation(const char* expression, const char*, int) {
+  throw std::runtime_error(std::string("assimp's assertion fails: ") + expression);
+}
+}  // namespace Assimp
 
 namespace corridor {
 namespace {
@@ -33,6 +44,9 @@ void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to) {
   for (unsigned i = 0; i < from.mNumFaces; ++i) {
     const aiFace& face = from.mFaces[i];
     if (face.mNumIndices != 3) continue;  // lines and points
+    if (std::any_of(face.mIndices, face.mIndices + 3,
+                    [&](unsigned corner) { return corner >= from.mNumVertices; }))
+      throw std::runtime_error("a face has a corner that is out of range");
     to.triangles.push_back(
         {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "collision/geometry/assimp_module.h"
+#include "collision/geometry/collada_asset.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/geometry/mesh_readers.h"
 #include "collision/geometry/vertex_welder.h"
@@ -44,9 +45,19 @@ struct StoredMesh {
   bool isCollada = false;
 };
 
-StoredMesh readOwn(std::string_view bytes, const std::string& extension, MeshFaults& faults) {
-  const auto reader = extension == ".obj" ? readObj : extension == ".stl" ? readStl : readPly;
-  ReadMesh read = reader(bytes, faults);
+using Reader = ReadMesh (*)(std::string_view, MeshFaults&);
+
+/// Null: assimp is to read it.
+Reader ownReader(const std::string& extension) {
+  return extension == ".obj"   ? readObj
+         : extension == ".stl" ? readStl
+         : extension == ".ply" ? readPly
+         : extension == ".off" ? readOff
+                               : nullptr;
+}
+
+StoredMesh readOwn(const std::filesystem::path& file, Reader reader, MeshFaults& faults) {
+  ReadMesh read = reader(readWholeFile(file), faults);
   StoredMesh stored;
   stored.file.mesh = std::move(read.mesh);
   stored.file.format = std::move(read.format);
@@ -83,6 +94,7 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
     faults.fail(0, "the format has a unit, which assimp does not hand on: state the unit");
   }
+  if (extension == ".dae") checkColladaAsset(readWholeFile(file), faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
   requireSound(import.mesh, faults, floatHint);
   StoredMesh stored;
@@ -141,8 +153,8 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
   MeshFaults faults(file.string());
   checkOptions(options, faults);
   const std::string extension = lowerExtension(file);
-  const bool own = extension == ".obj" || extension == ".stl" || extension == ".ply";
-  StoredMesh stored = own ? readOwn(readWholeFile(file), extension, faults)
+  const Reader own = ownReader(extension);
+  StoredMesh stored = own ? readOwn(file, own, faults)
                           : readForeign(file, extension, options.metresPerUnit.has_value(), faults);
   MeshFile result = std::move(stored.file);
   requireSound(result.mesh, faults);
@@ -164,6 +176,7 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   MeshFaults faults(file.string());
   requireMeshFile(file);
+  if (lowerExtension(file) == ".dae") checkColladaAsset(readWholeFile(file), faults);
   const AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
   requireSound(import.mesh, faults, floatHint);
   OmplAppMesh result;

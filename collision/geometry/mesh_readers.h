@@ -19,5 +19,6 @@ struct ReadMesh {
 ReadMesh readObj(std::string_view text, MeshFaults& faults);
 ReadMesh readStl(std::string_view bytes, MeshFaults& faults);
 ReadMesh readPly(std::string_view bytes, MeshFaults& faults);
+ReadMesh readOff(std::string_view text, MeshFaults& faults);
 
 }  // namespace corridor

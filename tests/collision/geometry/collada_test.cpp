@@ -76,6 +76,22 @@ TEST_F(Collada, UnitAndUpAxisAsked) {
             "(ROS's rule)");
 }
 
+TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
+  for (const char* const unit : {"0", "-1", "abc", "", "inf", "1 m"})
+    EXPECT_EQ(
+        complaint("a.dae", collada("\n<unit name=\"x\" meter=\"" + std::string(unit) + "\"/>")),
+        "a.dae:4: <unit meter=\"" + std::string(unit) +
+            "\">: a unit is a number of metres above 0");
+  EXPECT_EQ(complaint("a.dae", collada("<up_axis> W_UP </up_axis>")),
+            "a.dae:3: <up_axis> is \"W_UP\"; X_UP, Y_UP or Z_UP is needed");
+  for (const char* const sound :
+       {"<unit meter = ' 0.01 ' name=\"meter\"/><up_axis>\nZ_UP\n</up_axis>",
+        "<unit name=\"meter\"/>",
+        "<!-- <unit meter=\"0\"/> <up_axis>W</up_axis> --><unit meter=\"1e0\"/>"})
+    EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
+  EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
+}
+
 TEST_F(Collada, OmplAppTurnsToYUp) {
   OmplAppMesh read = readOmplAppMesh(write("z.dae", collada("<up_axis>Z_UP</up_axis>")));
   expectBounds(read.mesh, Vec3(8, 6, -18), Vec3(12, 6, -4));
@@ -95,7 +111,7 @@ TEST_F(Collada, OmplAppAveragesAllVerticesThoseOfLinesToo) {
 
 TEST_F(Collada, Complaints) {
   const std::string unreadable =
-      ": cannot be read as a mesh (OBJ, STL, PLY, or a format of assimp): ";
+      ": cannot be read as a mesh (OBJ, STL, PLY, OFF, or a format of assimp): ";
   EXPECT_EQ(complaint("a.nothing", "hello"),
             "a.nothing" + unreadable +
                 "No suitable reader found for the file format of file \"a.nothing\".");

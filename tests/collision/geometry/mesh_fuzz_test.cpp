@@ -106,6 +106,11 @@ TEST_F(MeshFuzz, BigEndianPly) {
   attack("a.ply", binaryPlyTetrahedron(true));
 }
 
+TEST_F(MeshFuzz, Off) {
+  attack("a.off",
+         "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+}
+
 TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
   // Cut anywhere before its last face is whole, a file is refused; OBJ has no end mark and may lose
   // whole lines.

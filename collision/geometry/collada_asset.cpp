@@ -1,0 +1,72 @@
+#include "collision/geometry/collada_asset.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace corridor {
+namespace {
+
+/// A text without its comments; as many lines as before.
+std::string withoutComments(std::string_view text) {
+  std::string rest(text);
+  for (auto from = rest.find("<!--"); from != rest.npos; from = rest.find("<!--", from)) {
+    const auto end = rest.find("-->", from);
+    const auto to = rest.begin() + static_cast<std::ptrdiff_t>(std::min(end, rest.size()));
+    std::replace_if(
+        rest.begin() + static_cast<std::ptrdiff_t>(from), to, [](char c) { return c != '\n'; },
+        ' ');
+  }
+  return rest;
+}
+
+bool isSpace(char c) {
+  return c == '\n' || isBlank(c);
+}
+
+int lineOf(std::string_view text, std::size_t at) {
+  return 1 + static_cast<int>(
+                 std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The value of an attribute in a tag's text; nothing where the tag has none.
+std::optional<std::string_view> attributeOf(std::string_view tag, const std::string& name) {
+  for (auto at = tag.find(name); at != tag.npos; at = tag.find(name, at + 1)) {
+    const std::string_view rest = trimmed(tag.substr(at + name.size()));
+    if (!rest.starts_with('=') || !isSpace(tag[at - 1])) continue;
+    const std::string_view value = trimmed(rest.substr(1));
+    if (value.empty()) return value;
+    return value.substr(1, value.find(value[0], 1) - 1);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void checkColladaAsset(std::string_view text, MeshFaults& faults) {
+  const std::string file = withoutComments(text);
+  const std::string_view asset = std::string_view(file).substr(0, file.find("</asset>"));
+  if (const auto at = asset.find("<unit"); at != asset.npos) {
+    const auto meter = attributeOf(asset.substr(at, asset.find('>', at) - at), "meter");
+    double metres = 0;
+    if (meter && (parseCoordinate(trimmed(*meter), metres) || !(metres > 0)))
+      faults.add(lineOf(asset, at),
+                 "<unit meter=" + inQuotes(*meter) + ">: a unit is a number of metres above 0");
+  }
+  if (const auto at = asset.find("<up_axis>"); at != asset.npos) {
+    const auto begin = at + 9;
+    const std::string_view axis = trimmed(asset.substr(begin, asset.find('<', begin) - begin));
+    if (axis != "X_UP" && axis != "Y_UP" && axis != "Z_UP")
+      faults.add(lineOf(asset, at),
+                 "<up_axis> is " + inQuotes(axis) + "; X_UP, Y_UP or Z_UP is needed");
+  }
+  faults.throwIfAny();
+}
+
+}  // namespace corridor

@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "collision/geometry/mesh_readers.h"
+
+namespace corridor {
+namespace {
+
+/// Text only: "OFF" or one of its kinds with more numbers a vertex; the counts; a vertex or a face
+/// a line, from which only the coordinates and the corners are read.
+class OffReader {
+ public:
+  OffReader(std::string_view text, MeshFaults& faults) : cursor_(text), faults_(faults) {}
+
+  ReadMesh read() {
+    readKeyword();
+    const std::int64_t vertices = count("vertices"), faces = count("faces");
+    if (nextWord().empty())
+      faults_.fail(cursor_.line(), "the number of edges is missing (any will do)");
+    endLine();
+    for (std::int64_t i = 0; i < vertices; ++i) readVertex(i, vertices);
+    for (std::int64_t i = 0; i < faces; ++i) readFace(i, faces);
+    if (const std::string_view more = nextWord(); !more.empty())
+      faults_.add(cursor_.line(), "ends with the last of its " + std::to_string(faces) +
+                                      " faces, and goes on with " + inQuotes(more));
+    faults_.throwIfAny();
+    return {std::move(mesh_), "OFF"};
+  }
+
+ private:
+  /// The next word that no comment hides, of this or a later line.
+  std::string_view nextWord() {
+    std::string_view word = cursor_.word();
+    while (word.starts_with('#')) word = cursor_.nextLine() ? cursor_.word() : std::string_view();
+    return word;
+  }
+  /// The next of this line.
+  std::string_view wordInLine() {
+    const std::string_view word = cursor_.wordInLine();
+    return word.substr(0, word.starts_with('#') ? 0 : word.npos);
+  }
+  void endLine() { cursor_.nextLine(); }
+
+  void readKeyword() {
+    std::string_view word = nextWord();
+    const std::string_view keyword = word;
+    for (const std::string_view kind : {"ST", "C", "N"})
+      if (word.starts_with(kind)) word.remove_prefix(kind.size());
+    if (word != "OFF")
+      faults_.fail(cursor_.line(), "begins with " + inQuotes(keyword) +
+                                       "; \"OFF\", \"COFF\", \"NOFF\" or \"STOFF\" is needed");
+  }
+
+  std::int64_t count(const std::string& what) {
+    const std::string_view word = nextWord();
+    std::int64_t number = 0;
+    if (word == "BINARY") faults_.fail(cursor_.line(), "is binary, which is not read: text is");
+    if (!parseInteger(word, number) || number < 0)
+      faults_.fail(cursor_.line(), "the number of " + what + " is " + inQuotes(word) +
+                                       "; a whole number is needed");
+    if (number > UINT32_MAX || number > static_cast<std::int64_t>(cursor_.bytesLeft()))
+      faults_.fail(cursor_.line(),
+                   std::to_string(number) + " " + what + " are more than the file has bytes for");
+    return number;
+  }
+
+  void requireMore(const char* what, std::int64_t i, std::int64_t all, std::string_view word) {
+    if (word.empty())
+      faults_.fail(cursor_.line(),
+                   "ends after " + std::to_string(i) + " of " + std::to_string(all) + " " + what);
+  }
+
+  void readVertex(std::int64_t i, std::int64_t all) {
+    Vec3 vertex = Vec3::Zero();
+    std::string_view word = nextWord();
+    requireMore("vertices", i, all, word);
+    for (int k = 0; k < 3; ++k, word = wordInLine()) {
+      if (word.empty()) {
+        faults_.add(cursor_.line(), "a vertex has 3 coordinates, found " + std::to_string(k));
+        break;
+      }
+      if (const auto complaint = parseCoordinate(word, vertex[k])) {
+        faults_.add(cursor_.line(), *complaint);
+        break;
+      }
+    }
+    mesh_.vertices.push_back(vertex);
+    endLine();
+  }
+
+  void readFace(std::int64_t i, std::int64_t all) {
+    const std::string_view word = nextWord();
+    requireMore("faces", i, all, word);
+    std::int64_t corners = 0;
+    if (!parseInteger(word, corners) || corners < 1) {
+      faults_.add(cursor_.line(),
+                  "a face begins with the number of its corners, not " + inQuotes(word));
+      corners = 0;
+    }
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::int64_t k = 0; k < corners; ++k) {
+      const auto corner = readCorner(k, corners);
+      if (!corner) break;
+      triangle[static_cast<std::size_t>(std::min<std::int64_t>(k, 2))] = *corner;
+      if (k < 2) continue;
+      mesh_.triangles.push_back(triangle);
+      triangle[1] = triangle[2];
+    }
+    endLine();
+  }
+
+  std::optional<std::uint32_t> readCorner(std::int64_t k, std::int64_t corners) {
+    const std::string_view word = wordInLine();
+    const auto count = static_cast<std::int64_t>(mesh_.vertices.size());
+    std::int64_t number = 0;
+    if (word.empty()) {
+      faults_.add(cursor_.line(),
+                  "a face of " + std::to_string(corners) + " corners has " + std::to_string(k));
+    } else if (!parseInteger(word, number)) {
+      faults_.add(cursor_.line(), "face corner " + inQuotes(word) + " is not a whole number");
+    } else if (number < 0 || number >= count) {
+      faults_.add(cursor_.line(), "face corner " + std::to_string(number) +
+                                      " is out of range: the file has " + std::to_string(count) +
+                                      " vertices, from 0");
+    } else {
+      return static_cast<std::uint32_t>(number);
+    }
+    return std::nullopt;
+  }
+
+  TextCursor cursor_;
+  MeshFaults& faults_;
+  TriangleMesh mesh_;
+};
+
+}  // namespace
+
+ReadMesh readOff(std::string_view text, MeshFaults& faults) {
+  return OffReader(text, faults).read();
+}
+
+}  // namespace corridor
