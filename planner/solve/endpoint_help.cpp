@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -10,9 +11,9 @@
 namespace corridor {
 namespace {
 
-std::string number(double value) {
+std::string number(double value, int digits = 4) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
 
@@ -23,10 +24,10 @@ const CoordinateGroup* onlyPose(const ConfigurationSpace& space) {
   return one ? &space.groups()[0] : nullptr;
 }
 
-std::string position(const Configuration& q, const CoordinateGroup& pose) {
+std::string position(const Configuration& q, const CoordinateGroup& pose, int digits = 4) {
   std::string text = "[";
   for (std::size_t k = 0; k + 1 < pose.coordinates.size(); ++k)
-    text += (k ? ", " : "") + number(q[static_cast<Eigen::Index>(k)]);
+    text += (k ? ", " : "") + number(q[static_cast<Eigen::Index>(k)], digits);
   return text + "]";
 }
 
@@ -128,8 +129,21 @@ std::vector<Configuration> directions(const ConfigurationSpace& space) {
 
 struct NearestFree {
   Configuration q;
+  int digits = 17;  ///< of its numbers: told with these, they are free as they are read back
   double away = 0;  ///< metres; or the largest step of a number
 };
+
+/// With as few digits as leave it free, but no fewer than four, where it is not as it was.
+NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
+                          const Checker& checker) {
+  for (const int digits : {4, 6, 9, 12}) {
+    Configuration q = exact;
+    for (Eigen::Index i = 0; i < q.size(); ++i)
+      if (q[i] != from[i]) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
+    if (checker.certifiedState(q)) return {q, digits, away};
+  }
+  return {exact, 17, away};
+}
 
 /// The nearest configuration found that is free: shells that grow by a tenth, then halving along
 /// the ray.
@@ -151,7 +165,7 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
         const double middle = (inside + outside) / 2;
         (freeAt(middle * d) ? outside : inside) = middle;
       }
-      return NearestFree{q + outside * d, outside};
+      return withFewDigits(q + outside * d, q, outside, checker);
     }
   }
   return std::nullopt;
@@ -162,14 +176,14 @@ std::string told(const std::optional<NearestFree>& free, const Configuration& q,
   if (const CoordinateGroup* pose = onlyPose(space)) {
     if (!free) return "no free position was found nearby with this orientation";
     return "the nearest free position found is " + number(free->away) +
-           " m away: at: " + position(free->q, *pose);
+           " m away: at: " + position(free->q, *pose, free->digits);
   }
   if (!free) return "no free values were found nearby";
   const std::vector<std::string> names = space.numberNames();
   std::string values;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (const auto k = static_cast<Eigen::Index>(i); free->q[k] != q[k])
-      values += (values.empty() ? "" : ", ") + names[i] + ": " + number(free->q[k]);
+      values += (values.empty() ? "" : ", ") + names[i] + ": " + number(free->q[k], free->digits);
   return "the nearest free values found are at most " + number(free->away) + " away: {" + values +
          "}";
 }

@@ -17,7 +17,7 @@ namespace corridor {
 
 using Path = std::vector<Configuration>;
 
-/// @pre the space of the path is a ProblemStateSpace.
+/// @pre the states are a ProblemStateSpace's, and that is the path's space.
 Path readPath(const ompl::geometric::PathGeometric& path);
 
 /// Versions of a path, from the planner's own to the simplest; each may serve if a later one fails.

@@ -268,7 +268,11 @@ bool Solve::certified(const Path& path) {
 }
 
 void Solve::finish() {
-  og::PathGeometric path = *definition_->getSolutionPath()->as<og::PathGeometric>();
+  // CForest's path is of a space of its own, wrapped around ours; its states are ours.
+  og::PathGeometric path(si_);
+  for (const ob::State* state :
+       definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())
+    path.append(state);
   report_.rawStates = path.getStateCount();
   std::vector<Path> versions;
   if (problem_.simplify && !keepsClear()) {  // shortcuts would cut the corners

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <ompl/base/MotionValidator.h>
 
 #include "collision/core/error.h"
 #include "planner/solve/planner_factory.h"
@@ -141,6 +143,23 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
       hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
 }
 
+/// Every name solves an easy problem, and none ends the program. (FMT and SST may find nothing in
+/// so little time.)
+TEST(Solve, EveryPlannerSolves) {
+  for (const PlannerInfo& info : knownPlanners()) {
+    Problem problem = hallProblem(Rigid::SE2);
+    problem.planner.name = info.name;
+    problem.planner.time = 2 * test::kSlowdown;
+    problem.planner.stopAtFirst = true;
+    const SolveReport report = solveProblem(problem);
+    if (report.outcome != SolveOutcome::solved && (info.name == "FMT" || info.name == "SST"))
+      continue;
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << info.name << ": " << report.why;
+    EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved)
+        << info.name;
+  }
+}
+
 TEST(Solve, BadNamesListWhatThereIs) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.planner.name = "RRTConect";
@@ -155,6 +174,12 @@ TEST(Solve, BadNamesListWhatThereIs) {
   problem.planner.params = {{"range", "0.6abc"}};
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:9: RRTConnect's parameter range: \"0.6abc\" is not a number");
+  problem.planner.params = {{"range", "-1"}};
+  EXPECT_EQ(complaintOf(problem), "hall.yaml:9: RRTConnect's parameter range: \"-1\" is below 0");
+  problem.planner.name = "RRT";
+  problem.planner.params = {{"goal_bias", "7"}};
+  EXPECT_THAT(complaintOf(problem), HasSubstr("RRT's parameter goal_bias: \"7\" is above 1"));
+  problem.planner.name = "RRTConnect";
   problem.planner.params = {{"intermediate_states", "maybe"}};
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:7: RRTConnect's parameter intermediate_states: \"maybe\" is neither true "
@@ -234,6 +259,59 @@ TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
   problem.goals[0].head(3) = Vec3(0.3, -2, 0);
   EXPECT_THAT(complaintOf(problem),
               HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
+}
+
+/// What the message tells is free as its reader types it in, to the last digit.
+TEST(Solve, AdviceForAStartInContactHolds) {
+  for (const double x : {-0.4, -0.1, 0.05, 0.3, 0.5}) {
+    Problem problem = hallProblem(Rigid::SE3);
+    problem.start.head(3) = Vec3(x, -2, 0.01);
+    const std::string complaint = complaintOf(problem);
+    const auto at = complaint.find("away: at: [");
+    ASSERT_NE(at, complaint.npos) << complaint;
+    Vec3 told;
+    ASSERT_EQ(std::sscanf(complaint.c_str() + at, "away: at: [%lf, %lf, %lf]", &told[0], &told[1],
+                          &told[2]),
+              3)
+        << complaint;
+    problem.start.head(3) = told;
+    EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << complaint;
+  }
+}
+
+/// A validator that believes every edge that is longer than the planner's: simplified versions go
+/// through the wall, and what is returned is one that doesn't.
+TEST(Solve, TheLastVersionThatHoldsIsReturned) {
+  class Believes final : public ompl::base::MotionValidator {
+   public:
+    explicit Believes(const ompl::base::SpaceInformationPtr& si)
+        : MotionValidator(si), inner_(si->getMotionValidator()) {}
+    bool checkMotion(const ompl::base::State* a, const ompl::base::State* b) const override {
+      return si_->distance(a, b) > 1.1 || inner_->checkMotion(a, b);
+    }
+    bool checkMotion(const ompl::base::State* a, const ompl::base::State* b,
+                     std::pair<ompl::base::State*, double>& lastValid) const override {
+      return inner_->checkMotion(a, b, lastValid);
+    }
+
+   private:
+    ompl::base::MotionValidatorPtr inner_;
+  };
+  Problem problem = hallProblem(Rigid::SE2);
+  problem.planner.params = {{"range", "1"}};
+  SolveOptions options;
+  std::size_t believed = 0;
+  options.adaptChecking = [&](const ompl::base::SpaceInformationPtr& si, const Checker&) {
+    si->setMotionValidator(std::make_shared<Believes>(si));
+    ++believed;
+  };
+  const SolveReport report = solveProblem(problem, options);
+  EXPECT_EQ(believed, 1u);
+  ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
+  EXPECT_TRUE(report.certified);
+  EXPECT_EQ(report.version, 0) << "the first shortcut is the straight line, through the wall";
+  EXPECT_GT(report.length.metres, 2 * std::hypot(3, 4) - 1e-9);
+  EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
 }
 
 TEST(Solve, MarginAndTube) {
