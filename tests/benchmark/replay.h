@@ -110,7 +110,8 @@ class Transcript {
 
 class TranscriptStates final : public ompl::base::StateValidityChecker {
  public:
-  /// Records the answers of the checker that `si` has. @pre `transcript` outlives the object.
+  /// Records the answers of the checker that `si` has, or gives the recorded ones instead.
+  /// @pre `transcript` outlives the object.
   TranscriptStates(const ompl::base::SpaceInformationPtr& si, Transcript& transcript)
       : StateValidityChecker(si), inner_(si->getStateValidityChecker()), transcript_(transcript) {
     specs_ = inner_->getSpecs();
