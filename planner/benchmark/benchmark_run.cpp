@@ -24,8 +24,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OmplRecord, planner, setup, host, cpu, settin
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, solved, certified,
                                    verdict, finding, time, processorTime, setUpTime, plannerTime,
                                    simplificationTime, certificationTime, checkingTime,
-                                   verificationTime, states, edges, counters, pathStates, length,
-                                   ompl)
+                                   searchProcessorTime, verificationTime, states, edges, counters,
+                                   pathStates, length, ompl)
 
 namespace {
 
@@ -111,6 +111,7 @@ void take(const SolveReport& report, BenchmarkRun& run) {
   run.certified = report.certified;
   run.time = report.time;
   run.processorTime = report.processorTime;
+  run.searchProcessorTime = report.searchProcessorTime;
   run.setUpTime = report.setUpTime;
   run.plannerTime = report.planningTime - report.setUpTime;
   run.certificationTime = report.certificationTime;
@@ -165,7 +166,8 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkP
   CheckingTally checking;
   SolveOptions options;
   options.adaptChecking = [&](const ob::SpaceInformationPtr& si, const Checker& checker) {
-    if (peer) si->setStateValidityChecker(peer->states(si, checker));
+    if (peer && peer->states) si->setStateValidityChecker(peer->states(si, checker));
+    if (peer && peer->motions) si->setMotionValidator(peer->motions(si, checker));
     tallyChecks(si, checking);
   };
   Solve solve(planned, options);
@@ -216,7 +218,8 @@ BenchmarkRun runInChild(const Problem& problem, const Problem& planned,
                         const std::atomic<bool>* interrupted) {
   const auto work = [&](const auto& send) {
     Path path;
-    BenchmarkRun run = runUnderOmpl(planned, peer, limits.memory, path);
+    BenchmarkRun run = peer && peer->run ? peer->run(planned, limits.memory, path)
+                                         : runUnderOmpl(planned, peer, limits.memory, path);
     send(text(run));
     if (run.solved) verifyRun(problem, path, run);
     send(text(run));

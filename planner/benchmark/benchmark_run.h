@@ -39,6 +39,7 @@ struct BenchmarkRun {
   /// All that `corridor solve` does but reading files; see SolveReport. `time` is the sum of
   /// setUpTime, plannerTime, simplificationTime and certificationTime.
   double time = 0, processorTime = 0;
+  double searchProcessorTime = 0;  ///< of processorTime: planner and simplifier
   double setUpTime = 0, plannerTime = 0, simplificationTime = 0, certificationTime = 0;
   double checkingTime = 0;  ///< of `time` after set-up: in tests of states and motions
   double verificationTime = 0;

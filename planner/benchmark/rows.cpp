@@ -80,6 +80,7 @@ Row runRow(const Campaign& campaign, const CampaignResult& result, const Campaig
   ofPath("verdict", run.verdict);
   measure("time_s", run.time);
   measure("processor_s", run.processorTime);
+  measure("search_processor_s", run.searchProcessorTime);
   measure("set_up_s", run.setUpTime);
   measure("planner_s", run.plannerTime);
   measure("simplification_s", run.simplificationTime);
@@ -131,6 +132,7 @@ Row summaryRow(const Campaign& campaign, const CampaignResult& result, const Cam
   median("time_s", time);
   row.emplace_back("time_p95_s", numberOrNothing(quantileOf(values(time), 0.95)));
   median("processor_s", [](const Run& r) { return r.processorTime; });
+  median("search_processor_s", [](const Run& r) { return r.searchProcessorTime; });
   median("checking_share", [](const Run& r) { return r.checkingTime / r.time; });
   median("states", [](const Run& r) { return static_cast<double>(r.states); });
   median("edges", [](const Run& r) { return static_cast<double>(r.edges); });

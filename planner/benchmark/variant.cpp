@@ -38,7 +38,7 @@ Variant readVariant(const std::string& text, const std::vector<BenchmarkPeer>& p
     names.push_back(peer.name);
     if (peer.name != name) continue;
     known = true;
-    variant.edges = "discrete";
+    variant.edges = peer.edges;
     variant.peer = peer;
   }
   if (!known)

@@ -9,19 +9,33 @@
 #include "planner/checker/checker.h"
 
 namespace ompl::base {
+class MotionValidator;
 class SpaceInformation;
 class StateValidityChecker;
 }  // namespace ompl::base
 
 namespace corridor {
 
-/// Another library's test of states, to compare with; its edges are sampled by OMPL's rule. The
-/// program knows none, so as to depend on none: tests/benchmark/plan_benchmark brings FCL.
+struct BenchmarkRun;
+
+/// Another test of states, of edges, or of both, to compare with. The program knows none, so as to
+/// depend on none: tests/benchmark/plan_benchmark brings FCL, and answers that were recorded.
 struct BenchmarkPeer {
+  template <class Made>
+  using Make = std::function<std::shared_ptr<Made>(
+      const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>;
+
   std::string name;
-  std::function<std::shared_ptr<ompl::base::StateValidityChecker>(
-      const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>
-      states;
+  Make<ompl::base::StateValidityChecker> states;        ///< null: as by `edges`
+  Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: as by `edges`
+  /// Of checker.edges, what the peer takes the place of. By "discrete", edges are sampled by OMPL's
+  /// rule, and `states` is asked.
+  std::string edges = "discrete";
+  /// Makes a run, where there is more to do than runUnderOmpl, and as that. It has a process of its
+  /// own. @throws what becomes the run's failure.
+  std::function<BenchmarkRun(const Problem& planned, double memory,
+                             std::vector<Configuration>& path)>
+      run = nullptr;
 };
 
 /// A way to check edges, with its knob: what a benchmark compares.

@@ -230,6 +230,7 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
 
 ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
   report_.setUpTime = clock_.seconds();
+  const double processorBefore = clock_.processorSeconds();
   const double until = problem_.planner.time;
   const ob::PlannerTerminationCondition stop([this, until, &orElse] {
     tellProgress();
@@ -251,6 +252,7 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
   }
   report_.time = clock_.seconds();
   report_.processorTime = clock_.processorSeconds();
+  report_.searchProcessorTime += report_.processorTime - processorBefore;
   report_.counters = checker_.counters();
   return status;
 }
@@ -261,9 +263,10 @@ bool Solve::joinsStartAndGoal(const Path& path) const {
 }
 
 bool Solve::certified(const Path& path) {
-  const double before = clock_.seconds();
+  const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
   const bool holds = certifiedPath(checker_, path);
   report_.certificationTime += clock_.seconds() - before;
+  report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;  // no search
   return holds;
 }
 

@@ -57,6 +57,7 @@ struct SolveReport {
   double setUpTime = 0;               ///< of these: until the planner began
   double certificationTime = 0;       ///< of `time`: the last step's proofs
   double processorTime = 0;           ///< of all threads, in `time`
+  double searchProcessorTime = 0;     ///< of that: planner and simplifier
   Counters counters;                  ///< of everything: states, edges, undecided, N_v, N_p
   PathLength length;
   std::size_t rawStates = 0;  ///< of the planner's own path

@@ -23,8 +23,9 @@ namespace corridor::bench {
 
 using FclGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
-inline FclGeometry fclMesh(const TriangleMesh& mesh) {
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSS<double>>>();
+template <class Volume = fcl::OBBRSS<double>>
+std::shared_ptr<fcl::BVHModel<Volume>> fclMesh(const TriangleMesh& mesh) {
+  auto model = std::make_shared<fcl::BVHModel<Volume>>();
   std::vector<fcl::Triangle> triangles;
   for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
   model->beginModel();

@@ -1,12 +1,15 @@
-/// `corridor benchmark` with FCL as a peer: `plan_benchmark --problem FILE… [--variant
-/// NAME[:KNOB]…]
+/// `corridor benchmark` with peers: `plan_benchmark --problem FILE… [--variant NAME[:KNOB]…]
 /// [--planner NAME…] [--runs N] [--seed N] [--time S] [--out FOLDER]`, each option any number of
-/// times. Variants are those of the program, and where FCL is installed `fcl:RESOLUTION`: states
-/// tested by FCL (Debian's; BVHModel<OBBRSS> and FCL's own primitives, all meshes as surfaces, no
-/// margin), edges sampled by OMPL's rule. Prints the same table.
+/// times. Variants are those of the program; where FCL is installed `fcl:RESOLUTION`: states tested
+/// by FCL (Debian's; BVHModel<OBBRSS> and FCL's own primitives, all meshes as surfaces, no margin),
+/// edges sampled by OMPL's rule; and `replay[:TOLERANCE]`: the certified run again with its
+/// recorded verdicts, at no cost. Prints the same table, what failed, and how many times as long as
+/// its replay certified takes.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include <ompl/base/StateValidityChecker.h>
 
@@ -16,6 +19,7 @@
 #include "planner/checker/problem_state_space.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/fcl_scene.h"
+#include "tests/benchmark/replay.h"
 
 namespace corridor::bench {
 namespace {
@@ -40,13 +44,39 @@ class FclStateValidityChecker final : public ompl::base::StateValidityChecker {
 #endif
 
 std::vector<BenchmarkPeer> peers() {
+  return {replayPeer(),
 #ifdef CORRIDOR_WITH_FCL
-  return {{"fcl", [](const auto& si, const Checker& checker) {
+          {"fcl",
+           [](const auto& si, const Checker& checker) {
              return std::make_shared<FclStateValidityChecker>(si, checker);
-           }}};
-#else
-  return {};
+           }}
 #endif
+  };
+}
+
+/// By seed, where both were solved.
+void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
+  const auto is = [&](const CampaignCell& cell, const char* edges, bool replay) {
+    const Variant& variant = campaign.variants[cell.variant];
+    return variant.edges == edges && (variant.peer && variant.peer->name == "replay") == replay;
+  };
+  for (const CampaignCell& real : result.cells)
+    for (const CampaignCell& replay : result.cells) {
+      if (!is(real, "certified", false) || !is(replay, "certified", true) ||
+          real.problem != replay.problem || real.planner != replay.planner ||
+          campaign.variants[real.variant].knob != campaign.variants[replay.variant].knob)
+        continue;
+      std::vector<double> ratios;
+      for (std::size_t i = 0; i < real.runs.size(); ++i)
+        if (real.runs[i].solved && replay.runs[i].solved)
+          ratios.push_back(real.runs[i].searchProcessorTime / replay.runs[i].searchProcessorTime);
+      if (ratios.empty()) continue;
+      const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+      std::cout << result.names[real.problem] << ", " << real.planner << ": certified takes "
+                << medianOf(ratios) << " times as long as its replay (processor, planner and "
+                << "simplifier; " << *least << " to " << *most << ", " << ratios.size()
+                << " seeds)\n";
+    }
 }
 
 void run(const Arguments& arguments) {
@@ -56,7 +86,8 @@ void run(const Arguments& arguments) {
   auto variants = arguments.texts("--variant");
   if (variants.empty()) {
     variants = {"certified", "discrete:0.01"};
-    for (const BenchmarkPeer& peer : peers()) variants.push_back(peer.name + ":0.01");
+    for (const BenchmarkPeer& peer : peers())
+      variants.push_back(peer.edges == "discrete" ? peer.name + ":0.01" : peer.name);
   }
   for (const std::string& variant : variants)
     campaign.variants.push_back(readVariant(variant, peers()));
@@ -70,6 +101,12 @@ void run(const Arguments& arguments) {
   const CampaignResult result = runCampaign(campaign);
   if (!folder.empty()) writeReports(campaign, result, folder);
   std::cout << tableOf(summaryRows(campaign, result));
+  for (const CampaignCell& cell : result.cells)
+    for (const BenchmarkRun& run : cell.runs)
+      if (!run.failure.empty())
+        std::cout << campaign.variants[cell.variant].name << ", seed " << run.seed << ": "
+                  << run.failure << '\n';
+  compareWithReplay(campaign, result);
 }
 
 }  // namespace

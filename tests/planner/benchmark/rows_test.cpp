@@ -62,6 +62,7 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
     run.result = i < 4 ? "solved" : i == 4 ? "not found" : "failed";
     run.time = i < 4 ? 1.0 + static_cast<double>(i) : 100;
     run.checkingTime = 0.5 * run.time;
+    run.searchProcessorTime = 0.1 * run.time;
     run.states = 100 * (i + 1);
     run.edges = i + 1;
     run.counters.boxTests = 10 * (i + 1);
@@ -73,9 +74,10 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
   const Row row = summaryRow(campaign, result, cell);
   EXPECT_EQ(csvOf({row}),
             "problem,variant,planner,runs,failed,solved,certified,proved,refuted,undecided,time_s,"
-            "time_p95_s,processor_s,checking_share,states,edges,edges_undecided,box_tests,"
+            "time_p95_s,processor_s,search_processor_s,checking_share,states,edges,edges_undecided,"
+            "box_tests,"
             "triangle_tests,length_m,rotation_rad\n"
-            "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.5,250,2.5,6,25,0,0,0\n");
+            "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.25,0.5,250,2.5,6,25,0,0,0\n");
   // What a run doesn't have is left empty.
   const auto value = [&](std::size_t run, const std::string& name) {
     for (const auto& [column, held] : runRow(campaign, result, cell, cell.runs[run]))

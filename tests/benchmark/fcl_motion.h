@@ -1,0 +1,137 @@
+#pragma once
+
+#ifdef CORRIDOR_WITH_FCL
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <fcl/math/bv/RSS.h>
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/narrowphase/continuous_collision.h>
+
+#include "tests/benchmark/fcl_scene.h"
+
+/// FCL's tests of whole motions, of rigid meshes. Each body moves as an fcl::InterpMotion; what it
+/// touches first counts, the earliest of the pairs.
+namespace corridor::bench {
+
+using FclMotion = fcl::InterpMotion<double>;
+
+/// As our edges move a body: its frame's origin goes straight, and it turns the shorter way at
+/// constant speed. FCL has other constructors: one leaves the reference point unset, one the
+/// velocities.
+inline FclMotion fclMotion(const Transform& from, const Transform& to) {
+  return FclMotion(from.m, from.t, to.m, to.t, fcl::Vector3d::Zero());
+}
+
+/// FCL's own advancement on trees of RSSs, which its continuousCollide never reaches: it takes the
+/// one for volumes without axes, that moves the vertices anew in every step and moves them once
+/// more in its bounds. FCL fixes the step at which it says contact, and makes this object itself:
+/// hence the static one.
+struct FclAdvancementNode : fcl::detail::MeshConservativeAdvancementTraversalNodeRSS<double> {
+  static inline thread_local double leastStep = 1e-5;  ///< of t in [0, 1]
+  FclAdvancementNode() { t_err = leastStep; }
+};
+
+class FclMotions {
+ public:
+  /// nullptr where not all is meshes.
+  static std::shared_ptr<const FclMotions> of(const Scene& scene) {
+    for (const Scene::Placed& placed : scene.bodies())
+      if (placed.body.part()) return nullptr;
+    return std::make_shared<const FclMotions>(scene);
+  }
+  /// @pre all bodies are meshes.
+  explicit FclMotions(const Scene& scene) : pairs_(scene.pairs()) {
+    for (const Scene::Placed& placed : scene.bodies())
+      bodies_.push_back({placed.frame, fclMesh<fcl::RSS<double>>(placed.body.mesh()),
+                         fclMesh(placed.body.mesh())});
+  }
+
+  /// Each body's motion, from its frame's poses at both ends.
+  std::vector<FclMotion> motions(std::span<const Transform> from,
+                                 std::span<const Transform> to) const {
+    std::vector<FclMotion> all;
+    all.reserve(bodies_.size());
+    for (const FclBody& body : bodies_) all.push_back(fclMotion(from[body.frame], to[body.frame]));
+    return all;
+  }
+  /// How far the motions' poses at t are from those given, metres at the bodies' own size: 0 but
+  /// for rounding where each body moves as FCL's motions do.
+  double differenceFrom(std::span<const FclMotion> motions, double t,
+                        std::span<const Transform> X_WF) const {
+    double most = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      fcl::Transform3d at;
+      motions[i].integrate(t);
+      motions[i].getCurrentTransform(at);
+      motions[i].integrate(0);
+      const Transform& X = X_WF[bodies_[i].frame];
+      most = std::max(most, (at.translation() - X.t).norm() +
+                                (at.linear() - X.m).norm() * bodies_[i].obbrss->aabb_radius);
+    }
+    return most;
+  }
+
+  /// Time of first contact in [0, 1] as fcl::continuousCollide tells it; nothing: none.
+  template <class Volume>
+  std::optional<double> continuousCollide(std::span<const FclMotion> motions,
+                                          const fcl::ContinuousCollisionRequestd& request) const {
+    return earliest(motions, [&](std::size_t a, std::size_t b) -> std::optional<double> {
+      fcl::ContinuousCollisionResultd result;
+      fcl::continuousCollide(bodies_[a].template model<Volume>(), &motions[a],
+                             bodies_[b].template model<Volume>(), &motions[b], request, result);
+      if (!result.is_collide) return std::nullopt;
+      return result.time_of_contact;
+    });
+  }
+  /// By FclAdvancementNode; `leastStep` of t.
+  std::optional<double> advance(std::span<const FclMotion> motions, double leastStep) const {
+    FclAdvancementNode::leastStep = leastStep;
+    return earliest(motions, [&](std::size_t a, std::size_t b) -> std::optional<double> {
+      double time = 0;
+      fcl::CollisionResultd result;
+      const bool contact =
+          fcl::detail::conservativeAdvancementMeshOriented<fcl::RSS<double>, FclAdvancementNode>(
+              *bodies_[a].rss, &motions[a], *bodies_[b].rss, &motions[b], {}, result, time);
+      if (!contact) return std::nullopt;
+      return time;
+    });
+  }
+
+ private:
+  struct FclBody {
+    std::size_t frame = 0;
+    std::shared_ptr<fcl::BVHModel<fcl::RSS<double>>> rss;
+    std::shared_ptr<fcl::BVHModel<fcl::OBBRSS<double>>> obbrss;
+
+    template <class Volume>
+    const fcl::CollisionGeometryd* model() const {
+      if constexpr (std::is_same_v<Volume, fcl::RSS<double>>)
+        return rss.get();
+      else
+        return obbrss.get();
+    }
+  };
+
+  template <class Ask>
+  std::optional<double> earliest(std::span<const FclMotion> motions, const Ask& ask) const {
+    std::optional<double> first;
+    for (const Scene::Pair& pair : pairs_) {
+      motions[pair.a].integrate(0);  // FCL begins where the last pair ended
+      motions[pair.b].integrate(0);
+      if (const auto t = ask(pair.a, pair.b); t && (!first || *t < *first)) first = t;
+    }
+    return first;
+  }
+
+  std::vector<Scene::Pair> pairs_;
+  std::vector<FclBody> bodies_;
+};
+
+}  // namespace corridor::bench
+
+#endif  // CORRIDOR_WITH_FCL

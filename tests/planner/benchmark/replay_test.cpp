@@ -1,0 +1,94 @@
+// Recorded answers: the second run is the first one again, for nothing; and what isn't the same is
+// told.
+#include "tests/benchmark/replay.h"
+
+#include <gtest/gtest.h>
+#include <ompl/base/ScopedState.h>
+
+#include "planner/benchmark/campaign.h"
+#include "planner/checker/problem_goal.h"
+#include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using bench::replayPeer;
+using bench::Transcript;
+
+CampaignResult resultOf(const std::string& planner, const std::vector<std::string>& variants) {
+  Campaign campaign;
+  campaign.problems = {test::hallProblem(test::Rigid::SE3)};
+  for (const std::string& variant : variants)
+    campaign.variants.push_back(readVariant(variant, {replayPeer()}));
+  campaign.planners = {planner};
+  campaign.runs = 2;
+  campaign.time = 20.0 * test::kSlowdown;
+  return runCampaign(campaign);
+}
+
+TEST(Replay, IsTheSameRunWithoutItsTests) {
+  for (const char* planner : {"RRTConnect", "KPIECE1", "SBL"}) {  // KPIECE1 asks for lastValid
+    const CampaignResult result = resultOf(planner, {"certified", "replay"});
+    for (std::size_t i = 0; i < 2; ++i) {
+      const BenchmarkRun &real = result.cells[0].runs[i], &replay = result.cells[1].runs[i];
+      ASSERT_EQ(replay.failure, "") << planner;
+      ASSERT_TRUE(real.solved && replay.solved && replay.certified) << planner;
+      EXPECT_EQ(replay.verdict, "proved");
+      EXPECT_EQ(replay.states, real.states);
+      EXPECT_EQ(replay.edges, real.edges);
+      EXPECT_EQ(replay.pathStates, real.pathStates);
+      EXPECT_EQ(replay.length.metres, real.length.metres);
+      // Start, goals, and the last certification are left.
+      EXPECT_LT(replay.counters.edges, real.counters.edges) << planner;
+    }
+  }
+}
+
+TEST(Replay, RefusesWhatDoesNotRepeat) {
+  const CampaignResult result = resultOf("CForest", {"replay"});
+  EXPECT_EQ(result.cells[0].runs[0].failure, "replay: CForest doesn't repeat");
+}
+
+TEST(Replay, TellsAnotherQuestion) {
+  const Problem problem = test::hallProblem(test::Rigid::SE3);
+  const auto space = std::make_shared<ProblemStateSpace>(problem.space);
+  const auto si = std::make_shared<ompl::base::SpaceInformation>(space);
+  ompl::base::ScopedState<> a(space), b(space);
+  Configuration q = startOf(problem);
+  space->write(q, a.get());
+  q[0] = std::nextafter(q[0], 9);
+  space->write(q, b.get());
+
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
+  Transcript recording;
+  recording.question(Transcript::Ask::state, *si, a.get());
+  EXPECT_TRUE(recording.answer<bool>([] { return true; }));
+  recording.write(file.get());
+
+  const auto ask = [&](Transcript::Ask kind, const ompl::base::ScopedState<>& state) {
+    Transcript replay = Transcript::read(file.get());
+    EXPECT_FALSE(replay.done());
+    replay.question(kind, *si, state.get());
+    EXPECT_TRUE(replay.answer<bool>([] { return false; }));  // what was recorded
+    EXPECT_TRUE(replay.done());
+    replay.question(kind, *si, state.get());  // one more than was asked
+  };
+  const auto toldOf = [&](Transcript::Ask kind, const ompl::base::ScopedState<>& state) {
+    try {
+      ask(kind, state);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(toldOf(Transcript::Ask::state, a),
+            "replay: question 2 is not the one that was recorded");
+  EXPECT_EQ(toldOf(Transcript::Ask::clearance, a),
+            "replay: question 1 is not the one that was recorded");
+  EXPECT_EQ(toldOf(Transcript::Ask::state, b),  // one bit
+            "replay: question 1 is not the one that was recorded");
+}
+
+}  // namespace
+}  // namespace corridor
