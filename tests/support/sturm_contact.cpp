@@ -194,50 +194,35 @@ class Pair {
     const auto above = [&](const Vector& direction, int i) {
       return reduced(dot(direction, corner - face.corners[i]));
     };
-    const Polynomial height = above(face.normal, 0);
-    std::array<std::optional<Polynomial>, 3> sides;
-    const auto side = [&](int i) -> const Polynomial& {
-      if (!sides[i]) sides[i] = above(face.inward[i], i);
-      return *sides[i];
-    };
     const auto inside = [&](Root& root) {
       for (int i = 0; i < 3; ++i)
-        if (root.signOf(side(i)) < 0) return false;
+        if (root.signOf(above(face.inward[i], i)) < 0) return false;
       return true;
     };
+    const Polynomial height = above(face.normal, 0);
     if (!height.isZero()) {
       tryRoots(height, inside);
     } else {  // the corner stays in the plane: it comes in over a side
-      for (int i = 0; i < 3; ++i) tryRoots(side(i), inside);
+      for (int i = 0; i < 3; ++i) tryRoots(above(face.inward[i], i), inside);
     }
   }
 
-  /// Edges that are parallel when they meet have a corner in common with the other's face.
+  /// Edges that stay in one plane, or that are parallel when they begin to meet, do so with an end
+  /// of one, which is a corner in the other's face.
   void edgesCross(int i, int j) {
     const Vector &e = moving_.edges[i], &f = fixed_.edges[j];
     const Vector &a = moving_.corners[i], &a1 = moving_.corners[(i + 1) % 3],
                  &b = fixed_.corners[j], &b1 = fixed_.corners[(j + 1) % 3];
     const Vector normal = reduced(cross(e, f));
-    const Polynomial height = reduced(dot(normal, b - a));
-    // Which side of the first line, in the plane of both, the other edge's ends are on.
-    std::array<std::optional<Polynomial>, 4> sides;
-    const auto side = [&](int k) -> const Polynomial& {
-      if (!sides[k]) {
-        const Vector offset = k == 0 ? b - a : k == 1 ? b1 - a : k == 2 ? a - b : a1 - b;
-        sides[k] = reduced(dot(normal, reduced(cross(offset, k < 2 ? e : f))));
-      }
-      return *sides[k];
-    };
-    const auto meet = [&](Root& root) {
-      const int b0 = root.signOf(side(0)), bSign = root.signOf(side(1));
-      if (b0 * bSign > 0 || (b0 == 0 && bSign == 0)) return false;  // all 0: parallel
-      return root.signOf(side(2)) * root.signOf(side(3)) <= 0;
-    };
-    if (!height.isZero()) {
-      tryRoots(height, meet);
-    } else {  // they stay in one plane: an end of one crosses the other's line
-      for (int k = 0; k < 4; ++k) tryRoots(side(k), meet);
-    }
+    tryRoots(reduced(dot(normal, b - a)), [&](Root& root) {
+      // Which side of an edge's line the other's ends are on; all 0 where the two are parallel.
+      const auto side = [&](const Vector& offset, const Vector& edge) {
+        return root.signOf(dot(normal, reduced(cross(offset, edge))));
+      };
+      const int first = side(b - a, e), second = side(b1 - a, e);
+      if (first * second > 0 || (first == 0 && second == 0)) return false;
+      return side(a - b, f) * side(a1 - b, f) <= 0;
+    });
   }
 
   Polynomial divisor_;  // W without constant factors

@@ -49,8 +49,9 @@ struct FirstContact {
 /// begin to touch with a corner in a face or with two edges that cross; of each such pair of
 /// features the polynomials that say when it is coplanar have their roots isolated by Sturm's
 /// theorem, and at each root, an algebraic number, signs of further polynomials tell exactly if the
-/// features meet. No case is left out: where a corner stays in a face's plane, or two edges in one,
-/// the roots are those of crossing the face's, or each other's, lines.
+/// features meet. No case is left out: where a corner stays in a face's plane, the roots are those
+/// of crossing the face's sides. All polynomials are determinants of corners as they stand, divided
+/// by the pose's denominator as often as that goes: quadratic then.
 /// @param fixed  in the world. @param moving  in the frame of the motion.
 /// @pre Neither triangle's corners lie on a line.
 FirstContact sturmContact(const Triangle& fixed, const Triangle& moving,
