@@ -16,6 +16,7 @@ namespace corridor::test {
 struct RationalScene {
   enum Kind {
     nearby,      ///< the fixed triangle lies about where the moving one comes along
+    coplanar,    ///< both, and the motion, in one plane
     meeting,     ///< features meet exactly at some time, one triangle on either side of a plane
     tangential,  ///< and there move along the plane
     kinds
@@ -24,18 +25,20 @@ struct RationalScene {
   RationalMotion motion = RationalMotion::line({}, Vec3::Zero());
   int push = 0;  ///< by 2^-push of the unit; 0: not at all
 
-  RationalScene(std::mt19937_64& random, Kind kind, bool turns) : random_(random) {
+  RationalScene(std::mt19937_64& random, Kind kind, bool turns)
+      : random_(random), flat_(kind == coplanar) {
     do {
       RigidPose from{vector(8), Eigen::Quaterniond::Identity()};
-      if (whole(0, 1))
-        while ((from.q = Eigen::Quaterniond(whole(-2, 2), whole(-2, 2), whole(-2, 2), whole(-2, 2)))
-                   .squaredNorm() == 0) {
-        }
+      if (whole(0, 1)) do {
+          const Vec3 v = kind == coplanar ? Vec3(0, 0, whole(-2, 2)) : vector(2);
+          from.q = Eigen::Quaterniond(whole(-2, 2), v.x(), v.y(), v.z());
+        } while (from.q.squaredNorm() == 0);
       const int halvings = whole(0, 2);  // s0 = 2^-halvings
       const double s0 = std::ldexp(1, -halvings);
       if (turns) {
-        const Vec3 n = nonZero(2);
-        motion = RationalMotion::turn(from, std::ldexp(1, halvings - (kind ? 0 : whole(0, 2))) * n);
+        const Vec3 n = flat_ ? Vec3(0, 0, whole(0, 1) ? 1 : -2) : nonZero(2);
+        const int shorter = kind == nearby || kind == coplanar ? whole(0, 2) : 0;
+        motion = RationalMotion::turn(from, std::ldexp(1, halvings - shorter) * n);
       } else {
         motion = RationalMotion::line(from, from.p + std::ldexp(1, halvings) * nonZero(6));
       }
@@ -50,14 +53,14 @@ struct RationalScene {
       }
       const Vec3 velocity = turns ? motion.m().cross(there[0] - centre).eval()
                                   : (motion.to().p - motion.from().p).eval();
-      if (kind == nearby) {
+      if (kind == nearby || kind == coplanar) {
         const double size = 1 + (there[1] - there[0]).cwiseAbs().maxCoeff();
         const Vec3 c = there[0] + vector(size / 2);
         for (Vec3& p : fixed) p = c + vector(size);
       } else {
         meet(there, kind == tangential ? velocity : Vec3::Zero());
       }
-    } while (flat(fixed) || flat(moving));
+    } while (onALine(fixed) || onALine(moving));
     scale(1.0 / 32);
   }
 
@@ -65,14 +68,14 @@ struct RationalScene {
   int whole(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
   Vec3 vector(double size) {
     const int n = static_cast<int>(size);
-    return Vec3(whole(-n, n), whole(-n, n), whole(-n, n));
+    return Vec3(whole(-n, n), whole(-n, n), flat_ ? 0 : whole(-n, n));
   }
   Vec3 nonZero(int size) {
     Vec3 v = vector(size);
     while (v.isZero(0)) v = vector(size);
     return v;
   }
-  static bool flat(const Triangle& t) {  // exact: the numbers are short
+  static bool onALine(const Triangle& t) {  // exact: the numbers are short
     return (t[1] - t[0]).cross(t[2] - t[0]).isZero(0);
   }
 
@@ -124,6 +127,7 @@ struct RationalScene {
   }
 
   std::mt19937_64& random_;
+  bool flat_;  // in the plane z = 0
 };
 
 /// Motions whose first contact is known.

@@ -71,7 +71,7 @@ TEST(Polynomials, SignsAtAnIrrationalRoot) {
 
 RationalScene sceneNumber(int n, std::mt19937_64& random) {
   return RationalScene(random, static_cast<RationalScene::Kind>(n % RationalScene::kinds),
-                       n % 4 != 0);
+                       n % 5 != 0);
 }
 
 /// The motion that the oracle knows is that of the edge: against its definition in long double.

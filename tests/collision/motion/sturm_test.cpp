@@ -141,12 +141,13 @@ TEST_P(Sturm, ClosedForms) {
 TEST_P(Sturm, Motions) {
   std::mt19937_64 random(test::testSeed(41));
   const int count = (test::stressAsked() ? 40'000 : 2'000) / test::kSlowdown;
-  const std::array<const char*, RationalScene::kinds> names = {"nearby", "meeting", "tangential"};
+  const std::array<const char*, RationalScene::kinds> names = {"nearby", "coplanar", "meeting",
+                                                               "tangential"};
   for (int kind = 0; kind < RationalScene::kinds; ++kind) {
     counts_ = {};
     for (int n = 0; n < count / RationalScene::kinds; ++n) {
       SCOPED_TRACE(testing::Message() << names[kind] << " " << n);
-      const RationalScene scene(random, static_cast<RationalScene::Kind>(kind), n % 4 != 0);
+      const RationalScene scene(random, static_cast<RationalScene::Kind>(kind), n % 5 != 0);
       check(scene.fixed, scene.moving, scene.motion, kQuestions[n % 3]);
       if (HasFatalFailure()) return;
     }
