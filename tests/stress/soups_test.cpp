@@ -1,5 +1,5 @@
-// Meshes of triangles that are hard to judge: the wide tree against the binary one and brute force,
-// and against what must hold whatever the answer is.
+// Meshes of triangles that are hard to judge: the wide tree against the binary one, brute force and
+// rationals, and against what must hold whatever the answer is.
 // 1,000 pairs of meshes, 20,000 with CORRIDOR_STRESS.
 #include "tests/support/soups.h"
 
@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "collision/core/rounding.h"
@@ -19,6 +20,7 @@
 #include "collision/volumes/rss.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/meshes.h"
+#include "tests/support/rational_contact.h"
 #include "tests/support/support.h"
 #include "tests/support/triangle_families.h"
 
@@ -206,22 +208,59 @@ TEST_F(SoupQueries, AgainstBruteForce) {
   EXPECT_TRUE(rotations_.size() == 24 || cases < 500) << rotations_.size() << " of 24 rotations";
 }
 
-/// Large meshes: the two trees, which have nothing but the predicate in common.
+/// Some of the contacts told, and some pairs that weren't though their bounds overlap, by
+/// rationals. Adds up how many of either.
+void expectRationals(Random& random, const Soups& s, const TrianglePairs& told, int& touching,
+                     int& apart) {
+  const auto contact = [&](std::uint32_t i, std::uint32_t k) {
+    return test::rationalContact(test::corners(s.a, i), s.X_WA, test::corners(s.b, k), s.X_WB);
+  };
+  const std::size_t asked = test::stressAsked() ? 300 : 50, step = told.size() / asked + 1;
+  std::size_t n = random() % step;
+  for (const auto& [i, k] : told)
+    if (n++ % step == 0) {
+      ASSERT_TRUE(contact(i, k)) << i << ", " << k;
+      ++touching;
+    }
+  const auto bounds = [](const TriangleMesh& mesh, std::size_t t, const Transform& X) {
+    Eigen::AlignedBox3d box;
+    for (int k = 0; k < 3; ++k) box.extend(X.m * mesh.corner(t, k) + X.t);
+    return box;
+  };
+  std::vector<Eigen::AlignedBox3d> ofB;
+  for (std::size_t k = 0; k < s.b.triangles.size(); ++k) ofB.push_back(bounds(s.b, k, s.X_WB));
+  for (std::size_t tries = 0; tries < asked; ++tries) {
+    const auto i = static_cast<std::uint32_t>(random() % s.a.triangles.size());
+    const Eigen::AlignedBox3d box = bounds(s.a, i, s.X_WA);
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t k = 0; k < ofB.size(); ++k)
+      if (box.intersects(ofB[k]) && !told.contains({i, k})) near.push_back(k);
+    if (near.empty()) continue;
+    const std::uint32_t k = near[random() % near.size()];
+    ASSERT_FALSE(contact(i, k)) << i << ", " << k;
+    ++apart;
+  }
+}
+
+/// Large meshes: the two trees, which have nothing but the predicate in common, and rationals.
 TEST_F(SoupQueries, HugeSoups) {
   Random random(test::testSeed(92));
   const int count = (test::stressAsked() ? 50'000 : 4'000) / test::kSlowdown;
-  int touching = 0;
-  for (int n = 0; n < (test::stressAsked() ? 10 : 4); ++n) {
+  int touching = 0, apart = 0;
+  for (int n = 0; n < 4; ++n) {
     const Soups s = anySoups(random, count);
     const WideObbTree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
     const TrianglePairs pairs = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
     ASSERT_EQ(pairs, pairsOf(contacts(binaryA, s.X_WA, binaryB, s.X_WB, context_))) << n;
     ASSERT_EQ(interference(a, s.X_WA, b, s.X_WB, context_).has_value(), !pairs.empty()) << n;
-    touching += !pairs.empty();
+    expectRationals(random, s, pairs, touching, apart);
+    ASSERT_FALSE(HasFatalFailure()) << n;
     std::cout << pairs.size() << " contacts\n";
   }
-  EXPECT_GT(touching, 0);
+  std::cout << touching << " of them and " << apart << " pairs that are none by rationals\n";
+  EXPECT_GT(touching, 50);
+  EXPECT_GT(apart, 50);
 }
 
 }  // namespace
