@@ -1,11 +1,15 @@
-// Meshes of triangles that are hard to judge: the wide tree against the binary one and brute force.
+// Meshes of triangles that are hard to judge: the wide tree against the binary one, brute force and
+// rationals, and against what must hold whatever the answer is.
 // 1,000 pairs of meshes, 20,000 with CORRIDOR_STRESS.
 #include "tests/support/soups.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <set>
+#include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "collision/core/rounding.h"
@@ -13,8 +17,10 @@
 #include "collision/queries/distance_wide.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_wide.h"
+#include "collision/volumes/rss.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/meshes.h"
+#include "tests/support/rational_contact.h"
 #include "tests/support/support.h"
 #include "tests/support/triangle_families.h"
 
@@ -115,23 +121,53 @@ class SoupQueries : public testing::Test {
   void expectInvariance(Random& random, const Soups& s, const TrianglePairs& expected) {
     const Mat3 R = test::exactRotation(random);
     const double unit = std::ldexp(1.0, static_cast<int>(random() % 401) - 200);
-    Soups q = s;
-    for (Transform* X : {&q.X_WA, &q.X_WB}) *X = {R * X->m, unit * (R * X->t)};
-    for (TriangleMesh* mesh : {&q.a, &q.b}) {
+    Soups turned = s;
+    for (Transform* X : {&turned.X_WA, &turned.X_WB}) *X = {R * X->m, R * X->t};
+    Soups q = turned;
+    for (Transform* X : {&q.X_WA, &q.X_WB}) X->t *= unit;
+    for (TriangleMesh* mesh : {&q.a, &q.b})
       for (Vec3& v : mesh->vertices) v *= unit;
+    rotations_.insert({R.data(), R.data() + R.size()});
+    expectSameDistance<WideObbTree>(s, turned, q, unit);
+    expectSameDistance<ObbTree>(s, turned, q, unit);
+    expectSameDistance<VolumeTree<Rss>>(s, turned, q, unit);
+    for (TriangleMesh* mesh : {&q.a, &q.b})
       for (auto& t : mesh->triangles) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
-    }
     const WideObbTree a(q.a), b(q.b);
     ASSERT_EQ(pairsOf(contacts(a, q.X_WA, b, q.X_WB, context_)), expected);
   }
 
+  /// Bit for bit the same hit, and distance where scaled. Turned, sums come in another order:
+  /// nearly always the same bits, else within the error that is promised.
+  template <class Tree>
+  void expectSameDistance(const Soups& s, const Soups& turned, const Soups& scaled, double unit) {
+    const auto told = [](const Soups& t) {
+      const Tree a(t.a), b(t.b);
+      QueryContext hit, far;  // what a context remembers may change the last digits
+      return std::pair(interference(a, t.X_WA, b, t.X_WB, hit).has_value(),
+                       distance(a, t.X_WA, b, t.X_WB, {}, far).distance);
+    };
+    const auto [hit, d] = told(s);
+    const auto [hitTurned, dTurned] = told(turned);
+    const auto [hitScaled, dScaled] = told(scaled);
+    ASSERT_EQ(hitTurned, hit);
+    ASSERT_EQ(hitScaled, hit);
+    ASSERT_EQ(dScaled, unit * dTurned);
+    const double scale = std::max(test::errorScale(s.a, s.X_WA), test::errorScale(s.b, s.X_WB));
+    ASSERT_LE(std::abs(dTurned - d), 2 * (1e-12 * d + 4 * kUnit * scale));
+    distances_ += !hit;
+    otherBits_ += dTurned != d;
+  }
+
   QueryContext context_;
+  std::set<std::vector<double>> rotations_;  // that occurred
+  int distances_ = 0, otherBits_ = 0;        // of trees; and of these not the same bits when turned
 };
 
 TEST_F(SoupQueries, AgainstBruteForce) {
   Random random(test::testSeed(91));
   const int cases = (test::stressAsked() ? 20'000 : 1'000) / test::kSlowdown;
-  int touching = 0;
+  int touching = 0, nearer = 0;
   std::size_t pairs = 0;
   for (int n = 0; n < cases; ++n) {
     const int count = 1 + static_cast<int>(random() % (n % 50 == 0 ? 2'000 : 100));
@@ -153,31 +189,78 @@ TEST_F(SoupQueries, AgainstBruteForce) {
     const WideObbTree a(s.a), b(s.b);
     const TrianglePairs grown = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
     ASSERT_TRUE(std::includes(grown.begin(), grown.end(), expected.begin(), expected.end()));
+    const double before = distance(WideObbTree(old), s.X_WA, b, s.X_WB, {}, context_).distance,
+                 after = distance(a, s.X_WA, b, s.X_WB, {}, context_).distance;
+    const double scale = std::max(test::errorScale(s.a, s.X_WA), test::errorScale(s.b, s.X_WB));
+    ASSERT_EQ(after == 0, !grown.empty());
+    ASSERT_LE(after, before + 2 * (1e-12 * before + 4 * kUnit * scale)) << "farther when grown";
+    nearer += after < before;
     ASSERT_FALSE(HasFatalFailure()) << "case " << n;
   }
   std::cout << cases << " pairs of meshes, " << touching << " touching, " << pairs
             << " contacts; N_v " << context_.counters.boxTests << ", N_p "
-            << context_.counters.triangleTests << "\n";
+            << context_.counters.triangleTests << "; " << otherBits_ << " of " << distances_
+            << " distances in other bits when turned\n";
+  EXPECT_LE(otherBits_, distances_ / 100 + 9);
   EXPECT_GT(touching, cases / 4);
   EXPECT_LT(touching, cases - cases / 8);
+  EXPECT_GE(nearer, cases / 200);
+  EXPECT_TRUE(rotations_.size() == 24 || cases < 500) << rotations_.size() << " of 24 rotations";
 }
 
-/// Large meshes: the two trees, which have nothing but the predicate in common.
+/// Some of the contacts told, and some pairs that weren't though their bounds overlap, by
+/// rationals. Adds up how many of either.
+void expectRationals(Random& random, const Soups& s, const TrianglePairs& told, int& touching,
+                     int& apart) {
+  const auto contact = [&](std::uint32_t i, std::uint32_t k) {
+    return test::rationalContact(test::corners(s.a, i), s.X_WA, test::corners(s.b, k), s.X_WB);
+  };
+  const std::size_t asked = test::stressAsked() ? 300 : 50, step = told.size() / asked + 1;
+  std::size_t n = random() % step;
+  for (const auto& [i, k] : told)
+    if (n++ % step == 0) {
+      ASSERT_TRUE(contact(i, k)) << i << ", " << k;
+      ++touching;
+    }
+  const auto bounds = [](const TriangleMesh& mesh, std::size_t t, const Transform& X) {
+    Eigen::AlignedBox3d box;
+    for (int k = 0; k < 3; ++k) box.extend(X.m * mesh.corner(t, k) + X.t);
+    return box;
+  };
+  std::vector<Eigen::AlignedBox3d> ofB;
+  for (std::size_t k = 0; k < s.b.triangles.size(); ++k) ofB.push_back(bounds(s.b, k, s.X_WB));
+  for (std::size_t tries = 0; tries < asked; ++tries) {
+    const auto i = static_cast<std::uint32_t>(random() % s.a.triangles.size());
+    const Eigen::AlignedBox3d box = bounds(s.a, i, s.X_WA);
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t k = 0; k < ofB.size(); ++k)
+      if (box.intersects(ofB[k]) && !told.contains({i, k})) near.push_back(k);
+    if (near.empty()) continue;
+    const std::uint32_t k = near[random() % near.size()];
+    ASSERT_FALSE(contact(i, k)) << i << ", " << k;
+    ++apart;
+  }
+}
+
+/// Large meshes: the two trees, which have nothing but the predicate in common, and rationals.
 TEST_F(SoupQueries, HugeSoups) {
   Random random(test::testSeed(92));
   const int count = (test::stressAsked() ? 50'000 : 4'000) / test::kSlowdown;
-  int touching = 0;
-  for (int n = 0; n < (test::stressAsked() ? 10 : 4); ++n) {
+  int touching = 0, apart = 0;
+  for (int n = 0; n < 4; ++n) {
     const Soups s = anySoups(random, count);
     const WideObbTree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
     const TrianglePairs pairs = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
     ASSERT_EQ(pairs, pairsOf(contacts(binaryA, s.X_WA, binaryB, s.X_WB, context_))) << n;
     ASSERT_EQ(interference(a, s.X_WA, b, s.X_WB, context_).has_value(), !pairs.empty()) << n;
-    touching += !pairs.empty();
+    expectRationals(random, s, pairs, touching, apart);
+    ASSERT_FALSE(HasFatalFailure()) << n;
     std::cout << pairs.size() << " contacts\n";
   }
-  EXPECT_GT(touching, 0);
+  std::cout << touching << " of them and " << apart << " pairs that are none by rationals\n";
+  EXPECT_GT(touching, 50);
+  EXPECT_GT(apart, 50);
 }
 
 }  // namespace

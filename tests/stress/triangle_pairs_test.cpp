@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iostream>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -78,11 +80,13 @@ std::optional<Triangle> grown(const Triangle& t) {
 class Pairs : public testing::TestWithParam<test::PairFamily> {
  protected:
   /// Verdicts: all of them are exact, so nothing may change them.
-  static void expectVerdict(Random& random, const PlacedPair& p, bool expected) {
+  void expectVerdict(Random& random, const PlacedPair& p, bool expected) {
     ASSERT_EQ(touch(p), expected);
     ASSERT_EQ(touch(swapped(p)), expected);
     ASSERT_EQ(trianglesTouchExact(p.a, p.X_WA, p.b, p.X_WB), expected);
-    PlacedPair other = turned(p, test::exactRotation(random));
+    const Mat3 R = test::exactRotation(random);
+    rotations_.insert({R.data(), R.data() + R.size()});
+    PlacedPair other = turned(p, R);
     std::shuffle(other.a.begin(), other.a.end(), random);
     ASSERT_EQ(touch(other), expected) << "turned";
     if (const auto q = scaled(p, static_cast<int>(random() % 401) - 200)) {
@@ -157,6 +161,8 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     test::add(mesh, t);
     return mesh;
   }
+
+  std::set<std::vector<double>> rotations_;  // that occurred
 };
 
 TEST_P(Pairs, AgainstRationals) {
@@ -185,6 +191,7 @@ TEST_P(Pairs, AgainstRationals) {
     EXPECT_GT(touching[i], all[i] / 50) << placings[i].name;
     EXPECT_LT(touching[i], all[i] - all[i] / 50) << placings[i].name;
   }
+  EXPECT_EQ(rotations_.size(), 24U);
 }
 INSTANTIATE_TEST_SUITE_P(Families, Pairs,
                          testing::ValuesIn(test::pairFamilies().begin(),

@@ -1,9 +1,12 @@
 #include "tests/support/workload.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "tests/support/support.h"
 
 namespace corridor::test {
 namespace {
@@ -73,6 +76,24 @@ Workload loadWorkload(const std::filesystem::path& folder, const std::string& na
   if (w.poses.size() != w.hit.size())
     throw std::runtime_error(name + ": poses and truths differ in number");
   return w;
+}
+
+bool Workload::hasDistances() const {
+  return !std::all_of(distance.begin(), distance.end(), [](double d) { return std::isnan(d); });
+}
+
+std::vector<std::size_t> posesInTurn(const Workload& w, std::size_t step, std::size_t way,
+                                     std::size_t ways) {
+  if (stressAsked()) step = ways = 1;
+  way %= ways;
+  if (w.poses.size() < 100) {
+    if (way > 0) return {};
+    ways = 1;
+  }
+  step *= kSlowdown;
+  std::vector<std::size_t> poses;
+  for (std::size_t i = way * step; i < w.poses.size(); i += ways * step) poses.push_back(i);
+  return poses;
 }
 
 }  // namespace corridor::test

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +11,7 @@
 #include "collision/volumes/bounding_sphere.h"
 #include "collision/volumes/kdop.h"
 #include "collision/volumes/rss.h"
+#include "tests/support/workload.h"
 
 namespace corridor::test {
 
@@ -26,9 +29,13 @@ struct VolumeNames {
   }
 };
 
+/// … every fit of boxes …
+inline constexpr std::pair<ObbFit, const char*> kFits[] = {
+    {ObbFit::triangles, "triangles"}, {ObbFit::vertices, "vertices"}, {ObbFit::hull, "hull"}};
 /// … and every way of building.
 inline constexpr TreeParams kParams[] = {
     {ObbFit::triangles, SplitRule::mean, TreeBuilding::topDown},
+    {ObbFit::vertices, SplitRule::mean, TreeBuilding::topDown},
     {ObbFit::vertices, SplitRule::median, TreeBuilding::topDown},
     {ObbFit::hull, SplitRule::mean, TreeBuilding::topDown},
     {ObbFit::triangles, SplitRule::mean, TreeBuilding::bottomUp},
@@ -39,6 +46,12 @@ inline std::string str(const TreeParams& p) {
                                                  : "triangles") +
          (p.split == SplitRule::mean ? ", mean" : ", median") +
          (p.building == TreeBuilding::topDown ? ", top-down" : ", bottom-up");
+}
+
+/// The default fit meets every step-th pose of a workload, the others take turns.
+inline std::vector<std::size_t> posesOfFit(const Workload& w, std::size_t step, std::size_t fit,
+                                           std::size_t turn) {
+  return fit == 0 ? posesInTurn(w, step, 0, 1) : posesInTurn(w, 2 * step, fit + turn, 2);
 }
 
 }  // namespace corridor::test

@@ -1,9 +1,7 @@
 #include "collision/queries/distance.h"
 
-#include <fstream>
 #include <iostream>
 #include <random>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +11,7 @@
 #include "collision/queries/closest_points.h"
 #include "collision/queries/interference.h"
 #include "tests/collision/hierarchy/volumes.h"
+#include "tests/collision/queries/true_distances.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/meshes.h"
 #include "tests/support/reference_distance.h"
@@ -93,44 +92,23 @@ TYPED_TEST(VolumeDistance, SharedWorkloads) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   QueryContext context;
-  int checked = 0;
+  std::size_t turn = 0;
+  int checked[std::size(kParams)] = {};
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    if (name.find("20480") != std::string::npos && !test::stressAsked()) continue;
-    std::vector<double> truth;
-    std::ifstream in(*data / "collision" / name / "truth.txt");
-    for (std::string line; std::getline(in, line);) {
-      if (line.empty() || line[0] == '#') continue;
-      truth.push_back(std::strtod(line.substr(line.find(' ')).c_str(), nullptr));
-    }
-    ASSERT_EQ(truth.size(), w.poses.size());
-    const VolumeTree<TypeParam> a(w.a, kParams[1]), b(w.b, kParams[1]);
-    const std::size_t step = test::stressAsked() ? 1 : name[0] == 'a' ? 10 : 40;
-    for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
-      if (std::isnan(truth[i])) continue;
-      const Transform& X = w.poses[i];
-      const Distance d = distance(a, {}, b, X, {}, context);
-      ASSERT_EQ(d.distance == 0, w.hit[i] == 1) << name << " " << i;
-      const double size = std::max(
-          {errorScale(corners(w.a, d.a), {}), errorScale(corners(w.b, d.b), X), a.reach()});
-      const double allowed = 1e-12 * truth[i] + 4 * kUnit * size;
-      EXPECT_NEAR(d.distance, truth[i], allowed) << name << " " << i;
-      // The witnesses are on their triangles, and as far apart as told.
-      EXPECT_LE(test::referenceDistance(d.p_WA, corners(w.a, d.a), {}), 4 * kUnit * size);
-      EXPECT_LE(test::referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
-      EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);
-      // The tolerance query, just below and just above; at 0 it is interference.
-      EXPECT_TRUE(closerThan(a, {}, b, X, d.distance + allowed, context)) << name << " " << i;
-      if (d.distance > 4 * allowed) {
-        EXPECT_FALSE(closerThan(a, {}, b, X, d.distance - 4 * allowed, context)) << name;
-      }
-      EXPECT_EQ(closerThan(a, {}, b, X, 0, context), w.hit[i] == 1);
-      ++checked;
+    if (!w.hasDistances()) continue;
+    ++turn;
+    for (std::size_t v = 0; v < std::size(kParams); ++v) {
+      const std::size_t step = name[0] == 'a' ? 10 : 40;
+      const auto poses = test::posesInTurn(w, step, v + turn, std::size(kParams));
+      if (poses.empty()) continue;
+      const VolumeTree<TypeParam> a(w.a, kParams[v]), b(w.b, kParams[v]);
+      checked[v] += test::expectTrueDistances(w, a, b, poses, test::str(kParams[v]), context);
     }
   }
-  EXPECT_GT(checked, 100 / test::kSlowdown);
-  std::cout << checked << " poses, N_v " << context.counters.boxTests << ", N_p "
-            << context.counters.triangleTests << "\n";
+  for (const int count : checked) EXPECT_GT(count, 40 / test::kSlowdown);
+  std::cout << "N_v " << context.counters.boxTests << ", N_p " << context.counters.triangleTests
+            << "\n";
 }
 
 TYPED_TEST(VolumeDistance, AgreesWithBruteForceAndIsSymmetric) {

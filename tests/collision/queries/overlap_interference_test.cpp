@@ -4,11 +4,14 @@
 #include "collision/queries/contacts.h"
 #include "collision/queries/interference.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
+#include "tests/collision/hierarchy/volumes.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
 
 namespace corridor {
 namespace {
+
+using test::kParams;
 
 template <class Overlap>
 class OverlapInterference : public testing::Test {};
@@ -28,18 +31,23 @@ TYPED_TEST_SUITE(OverlapInterference, Overlaps, OverlapNames);
 TYPED_TEST(OverlapInterference, SharedWorkloads) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  std::size_t turn = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    const ObbTree a(w.a), b(w.b);
     QueryContext context, standard;
-    int wrong = 0;
-    const std::size_t step = test::stressAsked() ? 1 : 3;
-    for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
-      const bool hit = w.hit[i] == 1;
-      wrong += interference<TypeParam>(a, {}, b, w.poses[i], context).has_value() != hit;
-      wrong += interference(a, {}, b, w.poses[i], standard).has_value() != hit;
+    ++turn;
+    for (std::size_t v = 0; v < std::size(kParams); ++v) {
+      const auto poses = test::posesInTurn(w, 3, v + turn, std::size(kParams));
+      if (poses.empty()) continue;
+      const ObbTree a(w.a, kParams[v]), b(w.b, kParams[v]);
+      int wrong = 0;
+      for (const std::size_t i : poses) {
+        const bool hit = w.hit[i] == 1;
+        wrong += interference<TypeParam>(a, {}, b, w.poses[i], context).has_value() != hit;
+        wrong += interference(a, {}, b, w.poses[i], standard).has_value() != hit;
+      }
+      EXPECT_EQ(wrong, 0) << name << ", " << test::str(kParams[v]);
     }
-    EXPECT_EQ(wrong, 0) << name;
     const auto tests = static_cast<double>(context.counters.boxTests),
                expected = static_cast<double>(standard.counters.boxTests);
     EXPECT_NEAR(tests, expected, 0.05 * expected) << name;

@@ -8,9 +8,10 @@
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/distance_wide.h"
 #include "collision/queries/interference_wide.h"
+#include "tests/collision/hierarchy/volumes.h"
+#include "tests/collision/queries/true_distances.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/meshes.h"
-#include "tests/support/reference_distance.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
@@ -27,31 +28,18 @@ TEST(WideDistance, SharedWorkloads) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   QueryContext context;
+  std::size_t turn = 0;
   int checked = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    const WideObbTree a(w.a), b(w.b);
-    const std::size_t step = test::stressAsked() || name[0] == 'a' ? 1 : 5;
-    for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
-      const double truth = w.distance[i];
-      if (std::isnan(truth)) continue;
-      const Transform& X = w.poses[i];
-      const Distance d = distance(a, {}, b, X, {}, context);
-      ASSERT_EQ(d.distance == 0, w.hit[i] == 1) << name << " " << i;
-      const double size = std::max(
-          {errorScale(corners(w.a, d.a), {}), errorScale(corners(w.b, d.b), X), a.reach()});
-      const double allowed = 1e-12 * truth + 4 * kUnit * size;
-      EXPECT_NEAR(d.distance, truth, allowed) << name << " " << i;
-      // The witnesses are on their triangles, and as far apart as told.
-      EXPECT_LE(test::referenceDistance(d.p_WA, corners(w.a, d.a), {}), 4 * kUnit * size);
-      EXPECT_LE(test::referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
-      EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);
-      EXPECT_TRUE(closerThan(a, {}, b, X, d.distance + allowed, context)) << name << " " << i;
-      if (d.distance > 4 * allowed) {
-        EXPECT_FALSE(closerThan(a, {}, b, X, d.distance - 4 * allowed, context)) << name;
-      }
-      EXPECT_EQ(closerThan(a, {}, b, X, 0, context), w.hit[i] == 1);
-      ++checked;
+    if (!w.hasDistances()) continue;
+    ++turn;
+    for (std::size_t f = 0; f < std::size(test::kFits); ++f) {
+      const auto& [fit, fitName] = test::kFits[f];
+      const auto poses = test::posesOfFit(w, name[0] == 'a' ? 1 : 5, f, turn);
+      if (poses.empty()) continue;
+      const WideObbTree a(w.a, fit), b(w.b, fit);
+      checked += test::expectTrueDistances(w, a, b, poses, fitName, context);
     }
   }
   EXPECT_GT(checked, 1'000 / test::kSlowdown);

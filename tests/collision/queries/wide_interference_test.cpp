@@ -7,6 +7,7 @@
 
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/interference_wide.h"
+#include "tests/collision/hierarchy/volumes.h"
 #include "tests/collision/queries/every_target.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/meshes.h"
@@ -28,15 +29,22 @@ TEST_P(WideInterference, SharedWorkloads) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   QueryContext context;
+  std::size_t turn = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    const WideObbTree a(w.a), b(w.b);
-    int wrong = 0;
-    for (std::size_t i = 0; i < w.poses.size(); i += test::kSlowdown) {
-      wrong += interference(a, {}, b, w.poses[i], context).has_value() != (w.hit[i] == 1);
-      wrong += interference(b, w.poses[i], a, {}, context).has_value() != (w.hit[i] == 1);
+    ++turn;
+    for (std::size_t f = 0; f < std::size(test::kFits); ++f) {
+      const auto& [fit, fitName] = test::kFits[f];
+      const auto poses = test::posesOfFit(w, 1, f, turn);
+      if (poses.empty()) continue;
+      const WideObbTree a(w.a, fit), b(w.b, fit);
+      int wrong = 0;
+      for (const std::size_t i : poses) {
+        wrong += interference(a, {}, b, w.poses[i], context).has_value() != (w.hit[i] == 1);
+        wrong += interference(b, w.poses[i], a, {}, context).has_value() != (w.hit[i] == 1);
+      }
+      EXPECT_EQ(wrong, 0) << name << ", " << fitName;
     }
-    EXPECT_EQ(wrong, 0) << name;
   }
 }
 
