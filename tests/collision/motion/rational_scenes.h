@@ -29,10 +29,10 @@ struct RationalScene {
       : random_(random), flat_(kind == coplanar) {
     do {
       RigidPose from{vector(8), Eigen::Quaterniond::Identity()};
-      if (whole(0, 1)) do {
-          const Vec3 v = kind == coplanar ? Vec3(0, 0, whole(-2, 2)) : vector(2);
-          from.q = Eigen::Quaterniond(whole(-2, 2), v.x(), v.y(), v.z());
-        } while (from.q.squaredNorm() == 0);
+      for (bool again = whole(0, 1); again; again = from.q.squaredNorm() == 0) {
+        const Vec3 v = kind == coplanar ? Vec3(0, 0, whole(-2, 2)) : vector(2);
+        from.q = Eigen::Quaterniond(whole(-2, 2), v.x(), v.y(), v.z());
+      }
       const int halvings = whole(0, 2);  // s0 = 2^-halvings
       const double s0 = std::ldexp(1, -halvings);
       if (turns) {

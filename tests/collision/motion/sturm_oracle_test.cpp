@@ -166,9 +166,16 @@ TEST(SturmContact, ToldInOtherWays) {
               first.contact)
         << n;
     if (from.q.coeffs() != Eigen::Quaterniond::Identity().coeffs()) continue;
-    ++swapped;
     Triangle fixed = scene.fixed;  // seen from where the other's reference point is at first
-    for (Vec3& p : fixed) p -= from.p;
+    bool exact = true;
+    for (Vec3& p : fixed)
+      for (int k = 0; k < 3; ++k) {
+        const long double difference = static_cast<long double>(p[k]) - from.p[k];
+        p[k] -= from.p[k];
+        exact = exact && p[k] == difference;
+      }
+    if (!exact) continue;  // pushed by 2^-40, a coordinate may have no bit left to spare
+    ++swapped;
     const FirstContact other = sturmContact(
         scene.moving, fixed,
         turns ? RationalMotion::turn({}, -motion.m()) : RationalMotion::line({}, from.p - to.p));

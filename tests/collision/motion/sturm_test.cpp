@@ -157,12 +157,12 @@ TEST_P(Sturm, Motions) {
               << ", too much work " << counts_.workLimit << "\n";
     EXPECT_GT(counts_.inContact, counts_.asked / 10);
     EXPECT_GT(counts_.asked - counts_.inContact, counts_.asked / 10);
-    EXPECT_LE(counts_.onlyRounded, counts_.asked / 1000);
+    EXPECT_LE(counts_.onlyRounded, 1 + counts_.asked / 1000);
     if (kind == RationalScene::nearby) {
       EXPECT_LE(counts_.undecided + counts_.workLimit, 1 + counts_.asked / 50);
     }
     if (GetParam() == EdgeMethod::certified) {
-      EXPECT_EQ(counts_.workLimit, 0);
+      EXPECT_LE(counts_.workLimit, 1 + counts_.asked / 1000);
     }
   }
 }
