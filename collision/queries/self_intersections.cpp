@@ -94,7 +94,7 @@ class SelfPairs {
     return qualities_[tree_.meshTriangle(item)] == TriangleQuality::degenerate;
   }
   TrianglePair numbered(std::uint32_t s, std::uint32_t t) const {
-    const auto [low, high] = std::minmax(tree_.meshTriangle(s), tree_.meshTriangle(t));
+    const auto [low, high] = std::minmax({tree_.meshTriangle(s), tree_.meshTriangle(t)});
     return {low, high};
   }
 

@@ -42,7 +42,7 @@ struct BenchmarkPeer {
 struct Variant {
   std::string name;            ///< as it was asked for: "discrete:0.01"
   std::string edges;           ///< Problem::CheckerSpec::edges
-  std::optional<double> knob;  ///< discrete and peers: the resolution; else the tolerance, metres
+  std::optional<double> knob;  ///< of one that samples, the resolution; else the tolerance, metres
   std::optional<BenchmarkPeer> peer;
 
   /// Whether the knob is a resolution (OMPL's longest_valid_segment_fraction).

@@ -47,7 +47,8 @@ class FclMotions {
   /// @pre all bodies are meshes.
   explicit FclMotions(const Scene& scene) : pairs_(scene.pairs()) {
     for (const Scene::Placed& placed : scene.bodies())
-      bodies_.push_back({placed.frame, fclMesh<fcl::RSS<double>>(placed.body.mesh()),
+      bodies_.push_back({placed.frame, placed.body.radius(),
+                         fclMesh<fcl::RSS<double>>(placed.body.mesh()),
                          fclMesh(placed.body.mesh())});
   }
 
@@ -59,21 +60,27 @@ class FclMotions {
     for (const FclBody& body : bodies_) all.push_back(fclMotion(from[body.frame], to[body.frame]));
     return all;
   }
-  /// How far the motions' poses at t are from those given, metres at the bodies' own size: 0 but
-  /// for rounding where each body moves as FCL's motions do.
-  double differenceFrom(std::span<const FclMotion> motions, double t,
-                        std::span<const Transform> X_WF) const {
-    double most = 0;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      fcl::Transform3d at;
-      motions[i].integrate(t);
-      motions[i].getCurrentTransform(at);
-      motions[i].integrate(0);
-      const Transform& X = X_WF[bodies_[i].frame];
-      most = std::max(most, (at.translation() - X.t).norm() +
-                                (at.linear() - X.m).norm() * bodies_[i].obbrss->aabb_radius);
+  /// Do bodies on frames with these poses move as FCL's motions do, to within so many metres?
+  /// (Links of arms go along arcs: they don't.) Looked at at some t.
+  /// @param poses of the frames at t: poses(t, X_WF).
+  template <class Poses>
+  bool moveAs(const Poses& poses, double tolerance) const {
+    std::vector<Transform> from, to, X_WF;
+    poses(0, from);
+    poses(1, to);
+    const std::vector<FclMotion> all = motions(from, to);
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      poses(t, X_WF);
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        fcl::Transform3d at;
+        all[i].integrate(t);
+        all[i].getCurrentTransform(at);
+        const Transform& X = X_WF[bodies_[i].frame];
+        const double turned = (at.linear() - X.m).norm() * bodies_[i].reach;
+        if (!((at.translation() - X.t).norm() + turned <= tolerance)) return false;
+      }
     }
-    return most;
+    return true;
   }
 
   /// Time of first contact in [0, 1] as fcl::continuousCollide tells it; nothing: none.
@@ -105,6 +112,7 @@ class FclMotions {
  private:
   struct FclBody {
     std::size_t frame = 0;
+    double reach = 0;  ///< of its points from the frame's origin
     std::shared_ptr<fcl::BVHModel<fcl::RSS<double>>> rss;
     std::shared_ptr<fcl::BVHModel<fcl::OBBRSS<double>>> obbrss;
 

@@ -42,9 +42,9 @@ TEST_F(Off, Faults) {
   fault("OFF BINARY\n", "1: is binary, which is not read: text is");
   fault("OFF\n3 x 0\n", "2: the number of faces is \"x\"; a whole number is needed");
   fault("OFF\n-3 1 0\n", "2: the number of vertices is \"-3\"; a whole number is needed");
-  fault("OFF\n3\n", "3: the number of faces is \"\"; a whole number is needed");
+  fault("OFF\n3\n          ", "3: the number of faces is \"\"; a whole number is needed");
   fault("OFF\n99999 1 0\n", "2: 99999 vertices are more than the file has bytes for");
-  fault("OFF\n3 1", "2: the number of edges is missing (any will do)");
+  fault("OFF\n3 1\n          ", "3: the number of edges is missing (any will do)");
   fault("OFF\n3 1 0\n0 0 0\n1 0 0\n", "5: ends after 2 of 3 vertices");
   fault("OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "3: a vertex has 3 coordinates, found 2");
   fault("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", "3: coordinate \"nan\" is not finite");
