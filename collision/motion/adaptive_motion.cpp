@@ -108,7 +108,7 @@ class Bisection {
 
 MotionResult certifyByBisection(MotionSource& motion, std::span<const MotionPair> pairs,
                                 const MotionOptions& options, QueryContext& context) {
-  return answered(motion, context, [&] {
+  return answered(motion, options.earliest, context, [&] {
     DistanceSteps steps(motion, pairs, options, context);
     return Bisection(steps).run(pairs.size());
   });

@@ -266,11 +266,12 @@ class Certifier {
       return contact(0, false);
     }
     const bool clearance = found_.kind == Descent::Kind::undecided;
-    const bool near = contactTime_ >= 0 && contactTime_ - w.t0 <= options_.timeTolerance;
-    if (clearance && !near && contactTime_ != w.t1) touchesAfter(w);
+    const auto near = [&] {
+      return contactTime_ >= 0 && contactTime_ - w.t0 <= options_.timeTolerance;
+    };
+    if (clearance && !near() && contactTime_ != w.t1) touchesAfter(w);
     if (contactTime_ == w.t1 && clearance && !found_.wide) return contact(w.t0, true);
-    if (contactTime_ >= 0 && contactTime_ - w.t0 <= options_.timeTolerance)
-      return contact(w.t0, false);
+    if (contactTime_ >= 0 && (near() || !options_.earliest)) return contact(w.t0, false);
     result_.verdict = MotionVerdict::undecided;
     result_.reason = clearance ? UndecidedReason::clearance : UndecidedReason::workLimit;
     result_.certifiedUntil = w.t0;
@@ -327,7 +328,7 @@ MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pai
                            const MotionOptions& options, QueryContext& context,
                            MotionEvidence* evidence) {
   if (evidence) *evidence = {};
-  return answered(motion, context, [&] {
+  return answered(motion, options.earliest, context, [&] {
     const MotionResult result = Certifier(motion, pairs, options, context, evidence).run();
     if (evidence && result.verdict == MotionVerdict::contact)
       evidence->point_A = contactPoint(motion, pairs, result, context.counters);

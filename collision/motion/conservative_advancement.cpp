@@ -80,7 +80,7 @@ class Advancement {
 
 MotionResult certifyByAdvancement(MotionSource& motion, std::span<const MotionPair> pairs,
                                   const MotionOptions& options, QueryContext& context) {
-  return answered(motion, context, [&] {
+  return answered(motion, options.earliest, context, [&] {
     DistanceSteps steps(motion, pairs, options, context);
     return Advancement(steps).run(pairs.size());
   });

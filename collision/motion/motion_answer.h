@@ -6,7 +6,8 @@ namespace corridor {
 
 /// Counts the query, and asks `run` for the answer but of an edge whose way is ambiguous.
 template <class Run>
-MotionResult answered(const MotionSource& motion, QueryContext& context, const Run& run) {
+MotionResult answered(const MotionSource& motion, bool earliest, QueryContext& context,
+                      const Run& run) {
   ++context.counters.edges;
   MotionResult result;
   if (motion.ambiguous()) {
@@ -16,6 +17,8 @@ MotionResult answered(const MotionSource& motion, QueryContext& context, const R
   } else {
     result = run();
   }
+  // What methods know of it besides may have gaps: windows that were to be refined later.
+  if (!earliest && result.verdict != MotionVerdict::free) result.certifiedUntil = 0;
   context.counters.undecided += result.verdict == MotionVerdict::undecided;
   return result;
 }

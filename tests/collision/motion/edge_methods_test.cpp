@@ -280,6 +280,9 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
         ask(bodyOf(g.moving), bodyOf(g.fixed), RigidMotion::spatial(g.from, g.to, {}));
     const bool limit = r.reason == UndecidedReason::workLimit;
     tooMuch += limit;
+    if (!options_.earliest && r.verdict != MotionVerdict::free) {
+      ASSERT_EQ(r.certifiedUntil, 0) << "it was not asked for";
+    }
     if (gap < 0) {
       ASSERT_NE(r.verdict, MotionVerdict::free) << n;
       contact += r.verdict == MotionVerdict::contact;
