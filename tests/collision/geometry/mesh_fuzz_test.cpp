@@ -107,8 +107,7 @@ TEST_F(MeshFuzz, BigEndianPly) {
 }
 
 TEST_F(MeshFuzz, Off) {
-  attack("a.off",
-         "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  attack("a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
 }
 
 TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
