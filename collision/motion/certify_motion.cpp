@@ -41,7 +41,6 @@ class Certifier {
     workEnd_ = work() + std::min(options_.workLimit, most);
     const Window all = {0, 1, 0, groups_.size()};
     if (options_.earliest ? walkInOrder(all) : walkByLevels(all)) return {};
-    if (!options_.earliest) result_.certifiedUntil = 0;
     return result_;
   }
 

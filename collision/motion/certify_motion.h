@@ -32,8 +32,9 @@ struct MotionResult {
   double certifiedUntil = 1;
   double contactTime =
       -1;  ///< t1 of `contact`, else −1; for `undecided` the middle of the undecided interval
-  bool grazing = false;         ///< `contact`, and over all of [certifiedUntil, contactTime] the
-                                ///< clearance stays under twice the tolerance, rounding and tube
+  bool grazing = false;  ///< `contact`, and over all of [certifiedUntil, contactTime] the clearance
+                         ///< stays under twice the tolerance, rounding and tube. Not asked for:
+                         ///< false.
   std::optional<Contact> pair;  ///< of `contact`, and of `undecided` for want of clearance
   double gap = 0;  ///< `undecided` for want of clearance: distance beyond the margin found at
                    ///< contactTime, metres

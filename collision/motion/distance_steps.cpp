@@ -89,7 +89,7 @@ MotionResult DistanceSteps::contact(std::uint32_t pair, double t0, double t1,
                                     const Look& seen) const {
   MotionResult result;
   result.verdict = MotionVerdict::contact;
-  result.certifiedUntil = options_.earliest ? t0 : 0;
+  result.certifiedUntil = t0;
   result.contactTime = t1;
   result.pair = Contact{pairs_[pair].bodyA, pairs_[pair].bodyB, seen.s, seen.t};
   return result;
@@ -99,7 +99,7 @@ MotionResult DistanceSteps::workLimit(double t0) const {
   MotionResult result;
   result.verdict = MotionVerdict::undecided;
   result.reason = UndecidedReason::workLimit;
-  result.certifiedUntil = options_.earliest ? t0 : 0;
+  result.certifiedUntil = t0;
   result.contactTime = t0;
   return result;
 }
@@ -122,7 +122,7 @@ MotionResult DistanceSteps::close(std::uint32_t pair, double t0, double time, do
   MotionResult result;
   result.verdict = MotionVerdict::undecided;
   result.reason = UndecidedReason::clearance;
-  result.certifiedUntil = options_.earliest ? t0 : 0;
+  result.certifiedUntil = t0;
   result.contactTime = time;
   result.pair = Contact{pairs_[pair].bodyA, pairs_[pair].bodyB, seen.s, seen.t};
   result.gap = seen.gap;

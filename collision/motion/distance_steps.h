@@ -50,7 +50,7 @@ class DistanceSteps {
   const MotionOptions& options() const { return options_; }
   Counters& counters() { return context_.counters; }
 
-  // Answers, with [0, t0] proved free; it is told only where `earliest` is asked for.
+  // Answers, with [0, t0] proved free where `earliest` is asked for.
 
   MotionResult contact(std::uint32_t pair, double t0, double t1, const Look& seen) const;
   MotionResult workLimit(double t0) const;

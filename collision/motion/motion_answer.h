@@ -18,7 +18,10 @@ MotionResult answered(const MotionSource& motion, bool earliest, QueryContext& c
     result = run();
   }
   // What methods know of it besides may have gaps: windows that were to be refined later.
-  if (!earliest && result.verdict != MotionVerdict::free) result.certifiedUntil = 0;
+  if (!earliest && result.verdict != MotionVerdict::free) {
+    result.certifiedUntil = 0;
+    result.grazing = false;  // which speaks of all the way from there on
+  }
   context.counters.undecided += result.verdict == MotionVerdict::undecided;
   return result;
 }

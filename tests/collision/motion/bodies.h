@@ -1,7 +1,10 @@
 #pragma once
 
 #include <random>
+#include <string>
 #include <utility>
+
+#include <gtest/gtest.h>
 
 #include "collision/motion/edge_method.h"
 #include "collision/motion/rigid_motion.h"
@@ -20,6 +23,14 @@ inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMo
   const MotionPair pair{&fixed, &moving};
   RigidEdge edge(motion);
   return certifyMotionBy(method, edge, {&pair, 1}, options, context);
+}
+
+/// What a suite that every edge method must pass is run with, and what its runs are called.
+inline auto everyEdgeMethod() {
+  return testing::Values(EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement);
+}
+inline std::string edgeMethodName(const testing::TestParamInfo<EdgeMethod>& method) {
+  return edgeMethodNames().at(static_cast<std::size_t>(method.param));
 }
 
 /// Triangles about random points within `spread` of the origin.

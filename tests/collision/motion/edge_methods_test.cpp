@@ -41,12 +41,7 @@ class EdgeMethods : public testing::TestWithParam<EdgeMethod> {
   QueryContext context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, EdgeMethods,
-                         testing::Values(EdgeMethod::certified, EdgeMethod::adaptive,
-                                         EdgeMethod::advancement),
-                         [](const auto& method) {
-                           return edgeMethodNames().at(static_cast<std::size_t>(method.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(All, EdgeMethods, test::everyEdgeMethod(), test::edgeMethodName);
 
 TEST(EdgeMethodNames, AreThoseOfTheEnumeration) {
   EXPECT_EQ(edgeMethodNames().size(), 3u);
@@ -282,6 +277,7 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
     tooMuch += limit;
     if (!options_.earliest && r.verdict != MotionVerdict::free) {
       ASSERT_EQ(r.certifiedUntil, 0) << "it was not asked for";
+      ASSERT_FALSE(r.grazing) << "nor was this";
     }
     if (gap < 0) {
       ASSERT_NE(r.verdict, MotionVerdict::free) << n;

@@ -118,12 +118,7 @@ class Sturm : public testing::TestWithParam<EdgeMethod> {
   QueryContext context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Sturm,
-                         testing::Values(EdgeMethod::certified, EdgeMethod::adaptive,
-                                         EdgeMethod::advancement),
-                         [](const auto& method) {
-                           return edgeMethodNames().at(static_cast<std::size_t>(method.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(All, Sturm, test::everyEdgeMethod(), test::edgeMethodName);
 
 TEST_P(Sturm, ClosedForms) {
   for (const ClosedForm& form : test::closedForms())
