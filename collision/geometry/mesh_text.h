@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "collision/core/transform.h"
 
 /// What the mesh readers share: the file as text, words and numbers in it, and the faults found.
 namespace corridor {
@@ -71,5 +72,24 @@ class TextCursor {
   std::string_view rest_;
   int line_;
 };
+
+/// A vertex of three coordinates, of words that `next` gives until it gives an empty one; 0 from
+/// the first that is missing or wrong on, with a fault of the line that `cursor` is in.
+template <class Next>
+Vec3 parseVertex(const Next& next, const TextCursor& cursor, MeshFaults& faults) {
+  Vec3 vertex = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const std::string_view word = next();
+    if (word.empty()) {
+      faults.add(cursor.line(), "a vertex has 3 coordinates, found " + std::to_string(i));
+      break;
+    }
+    if (const auto complaint = parseCoordinate(word, vertex[i])) {
+      faults.add(cursor.line(), *complaint);
+      break;
+    }
+  }
+  return vertex;
+}
 
 }  // namespace corridor

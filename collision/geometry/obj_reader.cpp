@@ -49,20 +49,8 @@ class ObjReader {
     return word.substr(0, word.starts_with('#') ? 0 : word.npos);
   }
 
-  void readVertex() {
-    Vec3 vertex = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) {
-      const std::string_view word = nextWord();
-      if (word.empty()) {
-        faults_.add(cursor_.line(), "a vertex has 3 coordinates, found " + std::to_string(i));
-        break;
-      }
-      if (const auto complaint = parseCoordinate(word, vertex[i])) {
-        faults_.add(cursor_.line(), *complaint);
-        break;
-      }
-    }
-    mesh_.vertices.push_back(vertex);  // a faulty one too: the numbers of the others stay right
+  void readVertex() {  // a faulty one counts, too: the numbers of the others stay right
+    mesh_.vertices.push_back(parseVertex([&] { return nextWord(); }, cursor_, faults_));
   }
 
   void readFace() {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "collision/geometry/mesh_readers.h"
 
@@ -73,20 +74,10 @@ class OffReader {
   }
 
   void readVertex(std::int64_t i, std::int64_t all) {
-    Vec3 vertex = Vec3::Zero();
-    std::string_view word = nextWord();
-    requireMore("vertices", i, all, word);
-    for (int k = 0; k < 3; ++k, word = wordInLine()) {
-      if (word.empty()) {
-        faults_.add(cursor_.line(), "a vertex has 3 coordinates, found " + std::to_string(k));
-        break;
-      }
-      if (const auto complaint = parseCoordinate(word, vertex[k])) {
-        faults_.add(cursor_.line(), *complaint);
-        break;
-      }
-    }
-    mesh_.vertices.push_back(vertex);
+    std::string_view first = nextWord();
+    requireMore("vertices", i, all, first);
+    const auto next = [&] { return first.empty() ? wordInLine() : std::exchange(first, {}); };
+    mesh_.vertices.push_back(parseVertex(next, cursor_, faults_));
     endLine();
   }
 
