@@ -40,12 +40,6 @@ class QueryCommand : public ProgramTest {
     }
     return values;
   }
-  static std::vector<std::string> lines(const std::string& text) {
-    std::vector<std::string> all;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) all.push_back(line);
-    return all;
-  }
 };
 
 TEST_F(QueryCommand, InterferenceIsOneLineAPose) {

@@ -143,12 +143,9 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   fault(kStill + "0 0 0 " + kStill + "0 0 inf", "a finite number is needed, not \"inf\"");
   fault(kStill + "0 0 0 1 0 0 0 1 0 0 0 -1 0 0 0",
         "where it ends the matrix mirrors (determinant -1); a rotation is needed");
-  const std::string one = kStill + "0 0 1 " + kStill + "0 0 2\n";
+  write("motions.txt", kStill + "0 0 1 " + kStill + "0 0 2\n");
   const auto option = [&](const std::string& more, const std::string& told) {
-    const Result result = query(one, more);
-    EXPECT_EQ(result.status, 2) << more;
-    EXPECT_EQ(result.err, told + "\n");
-    EXPECT_EQ(result.out, "");
+    expectFault("query a.obj b.obj --motions motions.txt " + more, told);
   };
   option("--grid 2x2x2", "--grid: is of poses; --motions has none");
   option("--query distance", "--query: is of poses; --motions has none");
