@@ -327,9 +327,12 @@ void refuseEmptyValues(CLI::App& program) {
             [](std::string& text) { return text.empty() ? std::string("is empty") : ""; }, ""));
 }
 
-/// CLI11's words for what a command does not take come last word first, and guess nothing.
-std::string unknownWord(const CLI::App& command) {
-  const std::vector<std::string> words = command.remaining();
+/// CLI11's words for what a command does not take come last word first, and guess nothing. What
+/// stands before the command, or after a --, is left to the program.
+std::string unknownWord(const CLI::App& program, const CLI::App& command) {
+  std::vector<std::string> words = command.remaining();
+  if (words.empty()) words = program.remaining();
+  if (words.empty()) return "";
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const std::string& word) { return word.starts_with('-'); });
   if (option == words.end()) return "unexpected word " + corridor::quotedWord(words.back());
@@ -355,7 +358,7 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
   const auto given = program.get_subcommands();
   if (!given.empty()) {
     std::string fault;
-    if (dynamic_cast<const CLI::ExtrasError*>(&error)) fault = unknownWord(*given[0]);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) fault = unknownWord(program, *given[0]);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) fault = repeatedOption(*given[0]);
     if (fault.empty()) fault = error.what();
     return fault + "; corridor " + given[0]->get_name() + " --help tells more";

@@ -366,6 +366,12 @@ TEST_F(CommandLine, WordsThatNoCommandTakesAreTold) {
   fault("solve problem.yaml --stopp first", "unknown option \"--stopp\"; did you mean \"--stop\"?");
   fault("solve problem.yaml --tme=3", "unknown option \"--tme\"; did you mean \"--time\"?");
   fault("verify problem.yaml s.yaml more.yaml", "unexpected word \"more.yaml\"");
+  fault("solve problem.yaml -- more.yaml", "unexpected word \"more.yaml\"");
+  expectFault(
+      "--tme=3 solve problem.yaml",
+      "unknown option \"--tme\"; did you mean \"--time\"?; corridor solve --help tells more");
+  expectFault("more solve problem.yaml",
+              "unexpected word \"more\"; corridor solve --help tells more");
   fault("solve problem.yaml --time 1 --time 2", "--time is given 2 times; once is enough");
   fault("solve problem.yaml -o a.yaml -o a.yaml", "--output is given 2 times; once is enough");
   fault("solve problem.yaml -o ''", "--output: is empty");
