@@ -17,7 +17,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// mesh's size, their squares neither over- nor underflow.
 struct Bounds {
   Vec3 min, max;
-  double quarter;  ///< of the diagonal, which itself may overflow
+  double scale = 1;  ///< where the diagonal itself overflows, 1/4. (A subnormal loses bits by it.)
+  double diagonal;   ///< times the scale
 
   explicit Bounds(const TriangleMesh& mesh) : min(mesh.corner(0, 0)), max(min) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -25,9 +26,12 @@ struct Bounds {
         min = min.cwiseMin(mesh.corner(i, k));
         max = max.cwiseMax(mesh.corner(i, k));
       }
-    quarter = (max / 4 - min / 4).stableNorm();
+    if (!std::isfinite((max - min).stableNorm())) scale = 0.25;
+    diagonal = (scale * max - scale * min).stableNorm();
   }
-  Vec3 share(const Vec3& from, const Vec3& to) const { return (to / 4 - from / 4) / quarter; }
+  Vec3 share(const Vec3& from, const Vec3& to) const {
+    return (scale * to - scale * from) / diagonal;
+  }
 };
 
 TriangleQuality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, const Bounds& bounds) {
@@ -118,7 +122,7 @@ double volumeOf(const std::vector<Triangle>& triangles, const std::vector<Vec3>&
                c = bounds.share(centre, points[t[2]]);
     sum += a.dot(b.cross(c));
   }
-  const double diagonal = 4 * bounds.quarter;
+  const double diagonal = bounds.diagonal / bounds.scale;
   return sum / 6 * diagonal * diagonal * diagonal;
 }
 

@@ -107,6 +107,12 @@ TEST(InspectMesh, AnyScale) {
       EXPECT_NEAR(health.volume.value_or(-1), volume, 1e-15 * volume) << scale;
     }
   }
+  TriangleMesh smallest = tetrahedron();
+  smallest.vertices.emplace_back(2, 0, 0);
+  smallest.triangles.push_back({0, 1, 4});  // on a line
+  for (Vec3& v : smallest.vertices) v *= std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(inspectMesh(smallest).degenerateTriangles, 1u);
+  EXPECT_EQ(triangleQualities(smallest)[4], TriangleQuality::degenerate);
   EXPECT_EQ(inspectMesh({}).triangles, 0u);
   const TriangleMesh point{{{1, 1, 1}}, {{0, 0, 0}}};
   EXPECT_EQ(inspectMesh(point).degenerateTriangles, 1u);
