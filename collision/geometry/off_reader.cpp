@@ -18,8 +18,12 @@ class OffReader {
   ReadMesh read() {
     readKeyword();
     const std::int64_t vertices = count("vertices"), faces = count("faces");
-    if (nextWord().empty())
+    // In the same line, and nothing after it: else a vertex would be taken for it, or be lost.
+    if (wordInLine().empty())
       faults_.fail(cursor_.line(), "the number of edges is missing (any will do)");
+    if (const std::string_view more = wordInLine(); !more.empty())
+      faults_.fail(cursor_.line(), "the numbers of vertices, faces and edges are followed by " +
+                                       inQuotes(more) + "; a new line is needed");
     endLine();
     for (std::int64_t i = 0; i < vertices; ++i) readVertex(i, vertices);
     for (std::int64_t i = 0; i < faces; ++i) readFace(i, faces);

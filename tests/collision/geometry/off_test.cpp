@@ -44,7 +44,12 @@ TEST_F(Off, Faults) {
   fault("OFF\n-3 1 0\n", "2: the number of vertices is \"-3\"; a whole number is needed");
   fault("OFF\n3\n          ", "3: the number of faces is \"\"; a whole number is needed");
   fault("OFF\n99999 1 0\n", "2: 99999 vertices are more than the file has bytes for");
-  fault("OFF\n3 1\n          ", "3: the number of edges is missing (any will do)");
+  fault("OFF\n3 1\n          ", "2: the number of edges is missing (any will do)");
+  // Else the first vertex would be taken for it, and with one face too many nobody would know.
+  fault("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n",
+        "2: the number of edges is missing (any will do)");
+  fault("OFF 3 1 0 0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n",
+        "1: the numbers of vertices, faces and edges are followed by \"0\"; a new line is needed");
   fault("OFF\n3 1 0\n0 0 0\n1 0 0\n", "5: ends after 2 of 3 vertices");
   fault("OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "3: a vertex has 3 coordinates, found 2");
   fault("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", "3: coordinate \"nan\" is not finite");
