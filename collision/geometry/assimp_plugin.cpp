@@ -69,6 +69,15 @@ double shortestDecimal(float value) {
   return written;
 }
 
+/// Collada's unit and up-axis are in the root's transform. A unit that is 0, or too small for
+/// assimp's floats, would leave nothing of the mesh, a negative one its mirror image; but that may
+/// be a node's by right, which OMPL.app's steps may have merged with the root.
+void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
+  const double volume = inDoubles(scene.mRootNode->mTransformation).linear().determinant();
+  if (!(volume > 0 || (volume < 0 && rules == AssimpRules::OmplApp)))
+    throw std::runtime_error("its <unit> is not above 0, or too small");
+}
+
 /// The unit in metres where the format has one. For Collada it is taken out of the root's
 /// transform, where assimp puts it.
 double takeFileUnit(aiScene& scene, const std::string& format) {
@@ -120,6 +129,7 @@ void read(const char* file, AssimpRules rules, AssimpImport& result) {
   if (const auto end = result.format.find(" Importer"); end != std::string::npos)
     result.format.resize(end);
   result.isCollada = result.format.starts_with("Collada");
+  if (result.isCollada) checkColladaRoot(*scene, rules);
   if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
     result.fileUnit = takeFileUnit(*own, result.format);

@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include <gmock/gmock.h>
+
 #include "collision/geometry/mesh_health.h"
 #include "tests/collision/geometry/mesh_fixture.h"
 
@@ -90,6 +92,14 @@ TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
         "<!-- <unit meter=\"0\"/> <up_axis>W</up_axis> --><unit meter=\"1e0\"/>"})
     EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
   EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
+  // What the text doesn't show, what is left of the mesh does.
+  const std::string told = ": its <unit> is not above 0, or too small";
+  for (const char* const hidden : {"<unit name=\"a>b\" meter=\"0\"/>", "<unit meter=\"1e-60\"/>"}) {
+    EXPECT_THAT(complaint("a.dae", collada(hidden)), testing::EndsWith(told)) << hidden;
+    EXPECT_THROW(readOmplAppMesh(write("z.dae", collada(hidden))), InputError) << hidden;
+  }
+  EXPECT_THAT(complaint("a.dae", collada("<unit name=\"a>b\" meter=\"-1\"/>")),
+              testing::EndsWith(told));
 }
 
 TEST_F(Collada, OmplAppTurnsToYUp) {
