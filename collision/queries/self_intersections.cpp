@@ -6,6 +6,7 @@
 #include "collision/geometry/mesh_health.h"
 #include "collision/hierarchy/traverse.h"
 #include "collision/hierarchy/volume_tree.h"
+#include "collision/predicates/orientation.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/volumes/aabb.h"
@@ -35,8 +36,18 @@ Triangle edge(const Vec3& p, const Vec3& q) {
   return {p, q, q};
 }
 
+/// Do the corners lie on a line? Exactly: then every component of the normal is 0.
+bool onALine(const Triangle& t) {
+  const Transform here;
+  for (int k = 0; k < 3; ++k) {
+    const Transform above{Mat3::Identity(), Vec3::Unit(k)};
+    if (orientationSign({here, t[0]}, {here, t[1]}, {here, t[2]}, {above, t[0]}) != 0) return false;
+  }
+  return true;
+}
+
 /// Does a triangle meet another one, of which it shares a corner or more, beyond what they share?
-/// Neither is degenerate.
+/// Neither has its corners on a line.
 bool meetBeyond(const Corners& a, const Corners& b, Counters& counters) {
   const auto& [s, count] = a;
   const Triangle& t = b.t;
@@ -58,11 +69,15 @@ class SelfPairs {
   using Tree = VolumeTree<Aabb>;
   using Node = Tree::Node;
 
+  /// @param qualities  by the mesh's numbers.
   SelfPairs(const Tree& tree, const std::vector<TriangleQuality>& qualities, Counters& counters)
-      : tree_(tree),
-        qualities_(qualities),
-        test_(pairTestOf<Aabb>(tree, {}, tree, {})),
-        counters_(counters) {}
+      : tree_(tree), test_(pairTestOf<Aabb>(tree, {}, tree, {})), counters_(counters) {
+    // What is degenerate is so for people: beside a large mesh, a small part of it. Their bound is
+    // 1e-12 of the squared diagonal, where rounding is below 1e-15 of it: all on a line are among.
+    for (std::uint32_t s = 0; s < qualities.size(); ++s)
+      onALine_.push_back(qualities[tree.meshTriangle(s)] == TriangleQuality::degenerate &&
+                         onALine(tree.triangle(s)));
+  }
 
   bool enter(const Item&, const Node& na, const Node& nb) {
     if (na.first >= nb.first + nb.count) return false;  // its mirror image is looked at
@@ -84,14 +99,11 @@ class SelfPairs {
 
  private:
   bool intersect(std::uint32_t s, std::uint32_t t) {
-    if (degenerate(s) || degenerate(t)) return false;
+    if (onALine_[s] || onALine_[t]) return false;
     const Corners a = sharedFirst(tree_.triangle(s), tree_.triangle(t)),
                   b = sharedFirst(tree_.triangle(t), tree_.triangle(s));
     if (a.shared == 3) return false;
     return a.shared == 0 ? touch(a.t, b.t, counters_) : meetBeyond(a, b, counters_);
-  }
-  bool degenerate(std::uint32_t item) const {
-    return qualities_[tree_.meshTriangle(item)] == TriangleQuality::degenerate;
   }
   TrianglePair numbered(std::uint32_t s, std::uint32_t t) const {
     const auto [low, high] = std::minmax({tree_.meshTriangle(s), tree_.meshTriangle(t)});
@@ -99,9 +111,9 @@ class SelfPairs {
   }
 
   const Tree& tree_;
-  const std::vector<TriangleQuality>& qualities_;  // by the mesh's numbers
   PairTest<Aabb, StandardOverlap> test_;
   Counters& counters_;
+  std::vector<bool> onALine_;  // by the tree's numbers
   std::vector<TrianglePair> found_;
 };
 

@@ -13,8 +13,8 @@ namespace corridor {
 /// whatever their indices. A corner that touches a triangle without being one of its corners
 /// counts.
 ///
-/// Left aside: degenerate triangles (`TriangleQuality`, mesh_health.h), and pairs with the same
-/// three corners, which `inspectMesh` counts as repeated. About a microsecond for each of the some
+/// Left aside: triangles whose corners lie on a line, and pairs with the same three corners, which
+/// `inspectMesh` counts as degenerate and repeated. About a microsecond for each of the some
 /// twelve neighbours that a triangle has.
 /// @pre `checkMesh` has nothing to complain of.
 std::vector<TrianglePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context);

@@ -87,7 +87,16 @@ TEST(SelfIntersections, BeyondASharedEdge) {
   EXPECT_EQ(with(Vec3(0, 4, 0)), 0u) << "repeated, which is counted elsewhere";
 }
 
-TEST(SelfIntersections, DegenerateTrianglesAreLeftAside) {
+TEST(SelfIntersections, SmallBesideALargeMesh) {
+  TriangleMesh mesh;
+  add(mesh, Vec3(0, 0, 0), Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0));
+  add(mesh, Vec3(2e-4, 2e-4, -1e-3), Vec3(2e-4, 2e-4, 1e-3), Vec3(1e-3, 1e-3, 0));
+  add(mesh, Vec3(2000, 0, 0), Vec3(2000, 1, 0), Vec3(2000, 0, 1));
+  EXPECT_EQ(inspectMesh(mesh).degenerateTriangles, 2u) << "for people";
+  EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
+}
+
+TEST(SelfIntersections, TrianglesOnALineAreLeftAside) {
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 0, 0));
