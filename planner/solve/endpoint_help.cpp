@@ -133,13 +133,18 @@ struct NearestFree {
   double away = 0;  ///< metres; or the largest step of a number
 };
 
-/// With as few digits as leave it free, but no fewer than four, where it is not as it was.
+/// With as few digits as leave it free, but no fewer than four, in the numbers that are told: the
+/// whole position of a pose, else those that are not as they were.
 NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
                           const Checker& checker) {
+  const CoordinateGroup* const pose = onlyPose(checker.space());
+  const auto told = [&](Eigen::Index i) {
+    return pose ? i + 1 < static_cast<Eigen::Index>(pose->coordinates.size()) : exact[i] != from[i];
+  };
   for (const int digits : {4, 6, 9, 12}) {
     Configuration q = exact;
     for (Eigen::Index i = 0; i < q.size(); ++i)
-      if (q[i] != from[i]) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
+      if (told(i)) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
     if (checker.certifiedState(q)) return {q, digits, away};
   }
   return {exact, 17, away};
