@@ -3,7 +3,9 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -139,10 +141,24 @@ std::optional<T> parsedAs(const std::string& text) {
   return value;
 }
 
-/// OMPL's range of a parameter, "0.:.05:1.": least, step, greatest.
-bool startsAtZero(const std::string& range) {
-  const std::string least = range.substr(0, range.find(':'));
-  return !least.empty() && least.find_first_not_of("0.") == least.npos;
+/// OMPL's range of a parameter, "0.:.05:1.": least, step, greatest. Many take less than their
+/// least, but where that isn't negative, no negative number makes sense.
+bool neverNegative(const std::string& range) {
+  const auto least = parsedAs<double>(range.substr(0, range.find(':')));
+  return least && *least >= 0;
+}
+
+/// What OMPL throws at only as it begins to plan: shares of something, (0, 1].
+bool isShare(const ob::GenericParam& parameter) {
+  return parameter.getRangeSuggestion().empty() &&
+         (parameter.getName() == "min_valid_path_fraction" ||
+          parameter.getName() == "failed_expansion_score_factor");
+}
+
+/// Of these OMPL takes a zero, and then a failed assertion or worse ends the program.
+bool isAtLeastOne(const std::string& name) {
+  return name == "degree" || name == "min_degree" || name == "num_planners" ||
+         name == "samples_per_batch";
 }
 
 /// What a parameter takes, where `text` isn't that. OMPL's own conversion takes "0.6abc" for a
@@ -159,8 +175,10 @@ std::optional<std::string> complaint(ob::GenericParam& parameter, const std::str
     const auto value = parsedAs<double>(text);
     if (!value) return "not a number";
     // OMPL takes negative ranges for its default, and shares above 1 for 1 or worse.
-    if (*value < 0 && startsAtZero(parameter.getRangeSuggestion())) return "below 0";
+    if (*value < 0 && neverNegative(parameter.getRangeSuggestion())) return "below 0";
     if (*value > 1 && parameter.getName() == "goal_bias") return "above 1";
+    if (isShare(parameter) && !(*value >= std::numeric_limits<double>::epsilon() && *value <= 1))
+      return "not in (0, 1]";
     return std::nullopt;
   }
   if (is(int{})) {
@@ -168,8 +186,10 @@ std::optional<std::string> complaint(ob::GenericParam& parameter, const std::str
     return "not a whole number";
   }
   if (is(0u) || is(0ul)) {
-    if (parsedAs<unsigned>(text)) return std::nullopt;
-    return "not a whole number of at least 0";
+    const unsigned least = isAtLeastOne(parameter.getName()) ? 1 : 0;
+    const auto value = parsedAs<unsigned>(text);
+    if (value && *value >= least) return std::nullopt;
+    return "not a whole number of at least " + std::to_string(least);
   }
   return std::nullopt;
 }

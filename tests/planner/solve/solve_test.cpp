@@ -179,6 +179,21 @@ TEST(Solve, BadNamesListWhatThereIs) {
   problem.planner.name = "RRT";
   problem.planner.params = {{"goal_bias", "7"}};
   EXPECT_THAT(complaintOf(problem), HasSubstr("RRT's parameter goal_bias: \"7\" is above 1"));
+  // Each of these ended the program, or was called an error of its own.
+  const char* const refused[][4] = {
+      {"SST", "range", "-1", "below 0"},
+      {"RRTstar", "rewire_factor", "-1", "below 0"},
+      {"KPIECE1", "min_valid_path_fraction", "3", "not in (0, 1]"},
+      {"BKPIECE1", "failed_expansion_score_factor", "0", "not in (0, 1]"},
+      {"STRIDE", "min_degree", "0", "not a whole number of at least 1"},
+      {"AITstar", "samples_per_batch", "0", "not a whole number of at least 1"},
+      {"AnytimePathShortening", "num_planners", "0", "not a whole number of at least 1"}};
+  for (const auto& [planner, parameter, value, why] : refused) {
+    problem.planner.name = planner;
+    problem.planner.params = {{parameter, value}};
+    EXPECT_THAT(complaintOf(problem), HasSubstr(std::string(planner) + "'s parameter " + parameter +
+                                                ": \"" + value + "\" is " + why));
+  }
   problem.planner.name = "RRTConnect";
   problem.planner.params = {{"intermediate_states", "maybe"}};
   EXPECT_EQ(complaintOf(problem),
@@ -277,6 +292,28 @@ TEST(Solve, AdviceForAStartInContactHolds) {
     problem.start.head(3) = told;
     EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << complaint;
   }
+}
+
+/// Also where the way out keeps one number, which few digits would move into a plate.
+TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
+  Problem problem = hallProblem(Rigid::SE2);
+  const double y = -2.000004321, gap = 1e-6;
+  problem.bodies.push_back(
+      {"plates",
+       0,
+       {},
+       {test::meshShape("below", test::boxMesh({10, 1, 1}, {0, y - 0.6 - gap, 0})),
+        test::meshShape("above", test::boxMesh({10, 1, 1}, {0, y + 0.6 + gap, 0}))}});
+  problem.pairs.push_back({0, 2, ""});
+  problem.start.head(2) << -0.4, y;
+  const std::string complaint = complaintOf(problem);
+  const auto at = complaint.find("away: at: [");
+  ASSERT_NE(at, complaint.npos) << complaint;
+  ASSERT_EQ(std::sscanf(complaint.c_str() + at, "away: at: [%lf, %lf]", &problem.start[0],
+                        &problem.start[1]),
+            2)
+      << complaint;
+  EXPECT_TRUE(Checker(problem).certifiedState(problem.start)) << complaint;
 }
 
 /// A validator that believes every edge that is longer than the planner's: simplified versions go
