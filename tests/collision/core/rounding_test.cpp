@@ -1,0 +1,86 @@
+// What every proof of rounding takes for granted of the compiler, and what rounding.h promises.
+#include "collision/core/rounding.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+#if defined(__GNUC__)
+#define CORRIDOR_APART __attribute__((noinline))
+#else
+#define CORRIDOR_APART
+#endif
+
+/// Two doubles rounded to float. g++ 12 made a vector of both at -O2, and then forgot to round:
+/// the build says -fno-tree-vectorize.
+CORRIDOR_APART void throughFloat(const double* from, double* to) {
+  const float x = static_cast<float>(from[0]), y = static_cast<float>(from[1]);
+  to[0] = x;
+  to[1] = y;
+}
+
+/// The same of more, and of what is kept as float, too.
+CORRIDOR_APART void throughFloats(const double* from, double* to, float* kept, int count) {
+  for (int i = 0; i < count; ++i) {
+    kept[i] = static_cast<float>(from[i] * from[i]);
+    to[i] = kept[i];
+  }
+}
+
+/// a·b + c is rounded twice: no contraction.
+CORRIDOR_APART double multiplyAdd(double a, double b, double c) {
+  return a * b + c;
+}
+
+TEST(Compiler, RoundsToFloat) {
+  volatile double third = 1.0 / 3;  // not known to the compiler
+  const double from[4] = {third, third / 5, third / 7, third / 11};
+  double to[4];
+  float kept[4];
+  throughFloat(from, to);
+  for (int i = 0; i < 2; ++i) {
+    volatile float rounded = static_cast<float>(from[i]);
+    EXPECT_NE(to[i], from[i]);
+    EXPECT_EQ(to[i], rounded);
+  }
+  throughFloats(from, to, kept, 4);
+  for (int i = 0; i < 4; ++i) {
+    volatile float rounded = static_cast<float>(from[i] * from[i]);
+    EXPECT_NE(to[i], from[i] * from[i]);
+    EXPECT_EQ(to[i], rounded);
+    EXPECT_EQ(kept[i], rounded);
+  }
+}
+
+TEST(Compiler, RoundsEveryProduct) {
+  volatile double x = 1 + 0x1p-30;
+  EXPECT_EQ(multiplyAdd(x, x, -(x * x)), 0);
+}
+
+TEST(Rounding, BoundsHoldWhatTheyBound) {
+  std::mt19937_64 random(test::testSeed(3));
+  for (int n = 0; n < 10'000; ++n) {
+    const double x = std::exp2(std::uniform_real_distribution(-1074.0, 1023.0)(random));
+    // Sixteen roundings, all the wrong way.
+    double low = x, high = x;
+    for (int i = 0; i < 16; ++i) {
+      low = std::nextafter(low, 0);
+      high = std::nextafter(high, HUGE_VAL);
+    }
+    EXPECT_GE(roundedUp(low), x);
+    EXPECT_LE(roundedDown(high), x);
+    EXPECT_LE(powerOfTwo(x), std::max(x, 0x1p-1000));
+    EXPECT_GT(2 * powerOfTwo(x), std::min(x, 0x1p1000));
+    EXPECT_LE(rootFromBelow(x) * rootFromBelow(x), x * (1 + 4 * kUnit));
+  }
+  EXPECT_TRUE(std::isnan(roundedUp(std::nan(""))));
+}
+
+}  // namespace
+}  // namespace corridor
