@@ -187,6 +187,39 @@ class Worker {
     fitAll();
   }
 
+  /// The smallest box with these axes, rounded outward: contains the triangles in real arithmetic.
+  void setBox(WideObbTree::Node& node, std::uint32_t lane, const Cluster& cluster) const {
+    const auto& u = cluster.axes;
+    alignas(32) double low[4], high[4];
+    extents(cluster, low, high);
+    double middle[3], reach[3], center[3];
+    for (int j = 0; j < 3; ++j) middle[j] = 0.5 * (low[j] + high[j]);
+    for (int k = 0; k < 3; ++k)
+      center[k] =
+          static_cast<float>(u[0][k] * middle[0] + u[1][k] * middle[1] + u[2][k] * middle[2]);
+    for (int j = 0; j < 3; ++j) {
+      const double c = u[j][0] * center[0] + u[j][1] * center[1] + u[j][2] * center[2];
+      reach[j] = std::max(high[j] - c, c - low[j]);
+    }
+    // Wanted is U⁻¹d, d = x − center; known is y = Uᵀd up to rounding. As in `enclosingObb`:
+    // |U⁻¹d − Uᵀd| ≤ η·Σ|y|/(1 − 3η) per component, η ≤ 2.1·2^-24 (obb4.h). Rounding: y and c are
+    // sums of three products of numbers ≤ 1 and ≤ √3 and x itself has two roundings, together under
+    // 16u of double; a power of two's scaling that underflows loses less than 2^-1000.
+    const double pad = 2 * 2.1 * 0x1p-24 * (reach[0] + reach[1] + reach[2]) + 32 * kUnit +
+                       0x1p-1020 * shared_.scale;
+    // Longest side first: who compares sizes of boxes reads one number.
+    int order[3] = {0, 1, 2};
+    if (reach[order[0]] < reach[order[1]]) std::swap(order[0], order[1]);
+    if (reach[order[1]] < reach[order[2]]) std::swap(order[1], order[2]);
+    if (reach[order[0]] < reach[order[1]]) std::swap(order[0], order[1]);
+    for (int j = 0; j < 3; ++j) {
+      node.vectors[j][Obb4::kCenter][lane] = static_cast<float>(center[j]);
+      // As a float not below: half an ulp is at most 2^-24 of it, and it is no denormal.
+      node.half[j][lane] = static_cast<float>((reach[order[j]] + pad) * (1 + 0x1p-23));
+      for (int k = 0; k < 3; ++k) node.vectors[k][j][lane] = u[order[j]][k];
+    }
+  }
+
  private:
   /// Parts of `wholes_`, at most four of each, with their axes: always the largest that is no leaf
   /// yet is split in two.
@@ -272,39 +305,6 @@ class Worker {
   static bool isLeaf(const Cluster& cluster, const WideObbTree::Node& node, std::uint32_t lane) {
     if (cluster.count > WideObbTree::kLeafSize) return false;
     return cluster.count == 1 || node.half[2][lane] < kFlat * node.half[1][lane];
-  }
-
-  /// The smallest box with these axes, rounded outward: contains the triangles in real arithmetic.
-  void setBox(WideObbTree::Node& node, std::uint32_t lane, const Cluster& cluster) const {
-    const auto& u = cluster.axes;
-    alignas(32) double low[4], high[4];
-    extents(cluster, low, high);
-    double middle[3], reach[3], center[3];
-    for (int j = 0; j < 3; ++j) middle[j] = 0.5 * (low[j] + high[j]);
-    for (int k = 0; k < 3; ++k)
-      center[k] =
-          static_cast<float>(u[0][k] * middle[0] + u[1][k] * middle[1] + u[2][k] * middle[2]);
-    for (int j = 0; j < 3; ++j) {
-      const double c = u[j][0] * center[0] + u[j][1] * center[1] + u[j][2] * center[2];
-      reach[j] = std::max(high[j] - c, c - low[j]);
-    }
-    // Wanted is U⁻¹d, d = x − center; known is y = Uᵀd up to rounding. As in `enclosingObb`:
-    // |U⁻¹d − Uᵀd| ≤ η·Σ|y|/(1 − 3η) per component, η ≤ 2.1·2^-24 (obb4.h). Rounding: y and c are
-    // sums of three products of numbers ≤ 1 and ≤ √3 and x itself has two roundings, together under
-    // 16u of double; a power of two's scaling that underflows loses less than 2^-1000.
-    const double pad = 2 * 2.1 * 0x1p-24 * (reach[0] + reach[1] + reach[2]) + 32 * kUnit +
-                       0x1p-1020 * shared_.scale;
-    // Longest side first: who compares sizes of boxes reads one number.
-    int order[3] = {0, 1, 2};
-    if (reach[order[0]] < reach[order[1]]) std::swap(order[0], order[1]);
-    if (reach[order[1]] < reach[order[2]]) std::swap(order[1], order[2]);
-    if (reach[order[0]] < reach[order[1]]) std::swap(order[0], order[1]);
-    for (int j = 0; j < 3; ++j) {
-      node.vectors[j][Obb4::kCenter][lane] = static_cast<float>(center[j]);
-      // As a float not below: half an ulp is at most 2^-24 of it, and it is no denormal.
-      node.half[j][lane] = static_cast<float>((reach[order[j]] + pad) * (1 + 0x1p-23));
-      for (int k = 0; k < 3; ++k) node.vectors[k][j][lane] = u[order[j]][k];
-    }
   }
 
   /// Least and largest u_j·x of a cluster's corners.
@@ -414,7 +414,11 @@ WideLayout layOut(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
   Piece root;
   {
     Cluster whole = {0, static_cast<std::uint32_t>(n)};
-    Worker(shared).fitAxes(whole);
+    Worker worker(shared);
+    worker.fitAxes(whole);
+    WideObbTree::Node box;
+    worker.setBox(box, 0, whole);
+    tree.root = boxOf(box, 0);
     const auto share = static_cast<unsigned>(std::min<std::size_t>(threads, n / kPiece + 1));
     runTasks(share, Worker::Task{whole, &root}, [&] { return Worker(shared); });
   }

@@ -6,6 +6,7 @@ namespace corridor {
 
 /// What building finds out about a mesh: all of a `WideObbTree` but the mesh itself.
 struct WideLayout {
+  Obb1 root;
   std::vector<WideObbTree::Node> nodes;
   std::vector<std::uint32_t> order;  ///< the mesh's triangles in leaf order
   Vec3 origin = Vec3::Zero();

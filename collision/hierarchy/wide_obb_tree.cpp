@@ -13,6 +13,7 @@ WideObbTree::WideObbTree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
   const std::size_t n = mesh.triangles.size();
   if (n >= (1U << 29) - 1) throw std::length_error("a tree holds less than 2^29 triangles");
   WideLayout layout = layOutWide(mesh, fit, threads);
+  root_ = layout.root;
   nodes_ = std::move(layout.nodes);
   meshTriangle_ = std::move(layout.order);
   triangles_.resize(n);

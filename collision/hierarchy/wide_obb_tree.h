@@ -33,6 +33,8 @@ class WideObbTree {
   struct alignas(64) Node : Obb4 {
     std::uint32_t child[kWidth];
   };
+  /// Holds all: what is asked first.
+  const Obb1& root() const { return root_; }
   /// What a box holds: the node of its parts, or a leaf's triangles.
   static bool isLeaf(std::uint32_t child) { return child >> 31 != 0; }
   static std::uint32_t leafFirst(std::uint32_t child) { return (child & 0x7fffffff) >> 2; }
@@ -75,6 +77,7 @@ class WideObbTree {
   std::optional<std::string> check() const;
 
  private:
+  Obb1 root_ = {};
   std::vector<Node> nodes_;
   std::vector<Vec3> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;

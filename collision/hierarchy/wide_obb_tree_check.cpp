@@ -6,14 +6,23 @@
 namespace corridor {
 namespace {
 
-Obb boxOf(const WideObbTree::Node& node, std::uint32_t lane) {
+Obb inDouble(const Obb1& floats) {
   Obb box;
   for (int j = 0; j < 3; ++j) {
-    box.center[j] = node.vectors[j][Obb4::kCenter][lane];
-    box.half[j] = node.half[j][lane];
-    for (int k = 0; k < 3; ++k) box.axes(k, j) = node.vectors[k][j][lane];
+    box.center[j] = floats.vectors[j][Obb4::kCenter];
+    box.half[j] = floats.half[j];
+    for (int k = 0; k < 3; ++k) box.axes(k, j) = floats.vectors[k][j];
   }
   return box;
+}
+
+/// What obb4.h counts on.
+std::optional<std::string> complaintOf(const Obb& box) {
+  if (box.half[0] < box.half[1] || box.half[0] < box.half[2])
+    return "the first side is not the longest";
+  if (!(orthonormalityDefect(box.axes) <= 2.2 * 0x1p-24)) return "the axes are not orthonormal";
+  if (!(box.center.norm() <= 3)) return "a box is too far off";
+  return std::nullopt;
 }
 
 std::string named(const char* what, std::size_t i) {
@@ -28,11 +37,12 @@ std::optional<std::string> WideObbTree::check() const {
   if (part_) {
     // The part is in its enclosing box, and that in the node's.
     if (auto complaint = VolumeTree<Obb>(*part_).check()) return complaint;
-    const exact::ExactVolume<Obb> around(boxOf(nodes_[0], 0));
+    const exact::ExactVolume<Obb> around(inDouble(boxOf(nodes_[0], 0))), root(inDouble(root_));
     for (Row corner : exact::ExactVolume<Obb>(enclosingObb(*part_)).corners()) {
       corner = exact::minus(corner, exact::row(origin_));
       for (Rational& x : corner) x /= Rational(length_);
-      if (!around.contains(corner, 0)) return "the box does not contain the part";
+      if (!around.contains(corner, 0) || !root.contains(corner, 0))
+        return "the box does not contain the part";
     }
     return std::nullopt;
   }
@@ -49,8 +59,9 @@ std::optional<std::string> WideObbTree::check() const {
     std::uint32_t node;
     std::vector<exact::ExactVolume<Obb>> above;
   };
+  if (auto complaint = complaintOf(inDouble(root_))) return *complaint + " (the whole)";
   std::vector<Item> stack;
-  stack.push_back({0, {}});
+  stack.push_back({0, {exact::ExactVolume<Obb>(inDouble(root_))}});
   while (!stack.empty()) {
     const Item item = std::move(stack.back());
     stack.pop_back();
@@ -60,13 +71,8 @@ std::optional<std::string> WideObbTree::check() const {
     for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
       const std::uint32_t child = node.child[lane];
       if (child == kNone) continue;
-      const Obb box = boxOf(node, lane);
-      if (box.half[0] < box.half[1] || box.half[0] < box.half[2])
-        return named("the first side is not the longest in node", item.node);
-      // obb4.h counts on both.
-      if (!(orthonormalityDefect(box.axes) <= 2.2 * 0x1p-24))
-        return named("the axes are not orthonormal in node", item.node);
-      if (!(box.center.norm() <= 3)) return named("a box is too far off in node", item.node);
+      const Obb box = inDouble(boxOf(node, lane));
+      if (auto complaint = complaintOf(box)) return *complaint + named(" in node", item.node);
       std::vector<exact::ExactVolume<Obb>> boxes = item.above;
       boxes.emplace_back(box);
       if (!isLeaf(child)) {

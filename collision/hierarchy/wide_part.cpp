@@ -49,6 +49,7 @@ WideObbTree::WideObbTree(const ConvexPart& part) : meshTriangle_{0}, part_(part)
     node.half[j][0] = static_cast<float>((reach[j] + pad) * (1 + 0x1p-23));
     node.half[0][0] = std::max(node.half[0][0], node.half[j][0]);  // equal but for rounding
   }
+  root_ = boxOf(node, 0);
 }
 
 }  // namespace corridor

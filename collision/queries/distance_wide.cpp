@@ -26,12 +26,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Metres of the world as a float of a's unit, rounded up, that distances in a's frame may have.
-inline float limitOf(const WidePose& pose, double metres) {
-  if (!(pose.shrink > 0)) return HUGE_VALF;
-  return static_cast<float>(metres / pose.shrink * pose.unitA * (1 + 0x1p-20));
-}
-
 /// Pairs of triangles are bounded in float, sixteen at a time; those that may be the closest are
 /// looked at again in double, and measured if that leaves them.
 class Nearest {
@@ -81,7 +75,7 @@ class Nearest {
 
   /// A pair to start from, in leaf order.
   void start(std::uint32_t s, std::uint32_t t, double upper) {
-    const float limit = limitOf(pose_, upper);
+    const float limit = pose_.limitOf(upper);
     if (!(limit < HUGE_VALF)) return;
     least_ = limit;
     closest_ = {s, t};
@@ -140,7 +134,7 @@ class Nearest {
   /// To what may still be of interest, where the distance is at most `metres`.
   void lowerLimit(double metres) {
     const double most = (metres - options_.absolute) / (1 + options_.relative);
-    limit_ = std::min(limit_, limitOf(pose_, std::max(0.0, most)));
+    limit_ = std::min(limit_, pose_.limitOf(std::max(0.0, most)));
   }
 
   const WideObbTree &a_, &b_;
@@ -181,7 +175,7 @@ class Closer {
         counters_(counters),
         leaves_(a, b, pose, counters),
         closer_(X_WA, a.reach(), X_WB, b.reach(), d),
-        limit_(limitOf(pose, d)) {}
+        limit_(pose.limitOf(d)) {}
 
   static constexpr bool kSorted = true;
   static bool skip(const QueryContext::WideItem&) { return false; }

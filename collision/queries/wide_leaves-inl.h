@@ -124,7 +124,7 @@ class WideLeaves {
     pairs.finish();
     if (!leavesA_) {  // most queries that the boxes decide never come here
       leavesA_.emplace(a_, Mat3::Identity() * pose_.unitA, Vec3::Zero());
-      leavesB_.emplace(b_, pose_.m * pose_.unitA, pose_.t);
+      leavesB_.emplace(b_, pose_.m() * pose_.unitA, pose_.t());
     }
     const TriangleCorners &a = leavesA_->get(pairs.a(), pairs.lanesA()),
                           &b = leavesB_->get(pairs.b(), pairs.lanesB());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 /// The overlap test of wide trees: sixteen pairs of oriented boxes at once, in float
 /// (overlap_obb4_obb4-inl.h), by the separating-axis theorem with all rounding in
 /// the margins.
@@ -31,10 +33,23 @@ struct alignas(16) Obb4 {
   float half[3][4];
 };
 
+/// One such box, laid out for four lanes: axis j is column j of `vectors`, the centre column 3.
+struct alignas(16) Obb1 {
+  float vectors[3][4];  ///< [k][j]
+  float half[4];        ///< half[3] is 0
+};
+inline Obb1 boxOf(const Obb4& four, std::uint32_t lane) {
+  Obb1 box = {};
+  for (int j = 0; j < 3; ++j) box.half[j] = four.half[j][lane];
+  for (int j = 0; j < 4; ++j)
+    for (int k = 0; k < 3; ++k) box.vectors[k][j] = four.vectors[k][j][lane];
+  return box;
+}
+
 /// How b's frame lies in a's, and the margins: what the test reads.
-struct Obb4Pose {
-  float turn[3][3];  ///< M
-  float offset[3];   ///< t
+struct alignas(16) Obb4Pose {
+  float turn[3][4];  ///< [j][k]: component k of M's column j; the last of a row is nothing
+  float offset[4];   ///< t
   float scale;       ///< s, a power of two
   float relative;    ///< times (|T|₁ + Σa + Σb)
   float ball;        ///< of a's unit

@@ -36,9 +36,9 @@ struct PosedBoxes {
       const auto of = [&](int k) { return hn::LoadU(d, &boxes.vectors[k][0][0] + at); };
       const auto u0 = of(0), u1 = of(1), u2 = of(2);
       for (int k = 0; k < 3; ++k)
-        hn::Store(hn::MulAdd(hn::Set(d, pose.turn[k][2]), u2,
-                             hn::MulAdd(hn::Set(d, pose.turn[k][1]), u1,
-                                        hn::Mul(hn::Set(d, pose.turn[k][0]), u0))),
+        hn::Store(hn::MulAdd(hn::Set(d, pose.turn[2][k]), u2,
+                             hn::MulAdd(hn::Set(d, pose.turn[1][k]), u1,
+                                        hn::Mul(hn::Set(d, pose.turn[0][k]), u0))),
                   d, &vectors[k][0][0] + at);
     }
   }

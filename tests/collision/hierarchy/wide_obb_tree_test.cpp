@@ -197,6 +197,10 @@ TEST(WideObbTree, CheckFindsWhatIsWrong) {
   EXPECT_EQ(tree.check(), std::nullopt);
   const_cast<WideObbTree::Node&>(tree.nodes()[0]).half[1][0] *= 0.99F;  // NOLINT
   EXPECT_EQ(tree.check(), "a box above does not contain triangle 0");
+
+  WideObbTree other(mesh);
+  const_cast<Obb1&>(other.root()).half[1] *= 0.99F;  // NOLINT
+  EXPECT_EQ(other.check(), "a box above does not contain triangle 0");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ struct Pairs {
     pose.ball = f(0x1p-24 * (33 * scale + 6 + 20));
     for (int k = 0; k < 3; ++k) {
       travel.angular[k] = f(angular[k]);
-      for (int l = 0; l < 3; ++l) pose.turn[k][l] = f(M(k, l));
+      for (int l = 0; l < 3; ++l) pose.turn[l][k] = f(M(k, l));
     }
     for (int i = 0; i < 4; ++i) {
       const Mat3 A = rotation(random), B = rotation(random);
