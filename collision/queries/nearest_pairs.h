@@ -17,7 +17,7 @@ class NearestPairs {
  public:
   /// Its list is the context's.
   NearestPairs(const DistanceOptions& options, QueryContext& context)
-      : options_(options), candidates_(context.candidates) {
+      : options_(options), relative_(options.relative + kGiven), candidates_(context.candidates) {
     candidates_.clear();
   }
 
@@ -27,7 +27,7 @@ class NearestPairs {
   /// Might something at least `bound` away be closer than the best by more than the options allow?
   /// What may touch always might, so that only contact is 0; and so might a NaN.
   bool canImprove(double bound) const {
-    return bound == 0 || !(bound * (1 + options_.relative) + options_.absolute >= upper_);
+    return bound == 0 || !(bound * (1 + relative_) + options_.absolute >= upper_);
   }
 
  protected:
@@ -56,7 +56,7 @@ class NearestPairs {
       return x.bound < y.bound || (x.bound == y.bound && (x.a < y.a || (x.a == y.a && x.b < y.b)));
     });
     for (const auto& [s, t, bound] : candidates_) {
-      if (bound >= best.distance) break;
+      if (bound * (1 + kGiven) >= best.distance) break;
       const auto w = measure(s, t);
       if (!(w.distance < best.distance)) continue;
       best = {w.distance, w.p_WA, w.p_WB, a.meshTriangle(s), b.meshTriangle(t)};
@@ -67,7 +67,12 @@ class NearestPairs {
   }
 
  private:
+  /// Of the 1e-12·d that distance.h grants: pairs that tie but for that, as all triangles about one
+  /// corner do, are measured once.
+  static constexpr double kGiven = 0.5e-12;
+
   const DistanceOptions& options_;
+  double relative_;
   std::vector<QueryContext::BoundedPair>& candidates_;
   double upper_ = HUGE_VAL;
   bool contact_ = false;

@@ -110,6 +110,18 @@ struct BoxPairs {
         hn::Abs(hn::NegMulAdd(T[i1], R[i2][j], hn::Mul(T[i2], R[i1][j]))),
         dotAnd(hn::Mul(a[i1], Q[i2][j]), a[i2], b[j1], b[j2], Q[i1][j], Q[i][j2], Q[i][j1]));
   }
+  /// The square of the gap along T, from centre to centre, shrunk for rounding: of boxes far apart
+  /// beside their sizes close to that of their distance. (|T|² − Σ a_i|T_i| − Σ b_j|T·R_j|)/|T|
+  /// takes no axes at right angles, and the roundings that `slack` has per unit of |T|₁.
+  V squareAlongCenters() const {
+    const V squared = dot(T[0], T[1], T[2], T[0], T[1], T[2]);
+    V apart = hn::NegMulAdd(slack, sum3(hn::Abs(T[0]), hn::Abs(T[1]), hn::Abs(T[2])), squared);
+    for (int k = 0; k < 3; ++k) {
+      const V along = dot(T[0], T[1], T[2], R[0][k], R[1][k], R[2][k]);
+      apart = hn::NegMulAdd(a[k], hn::Abs(T[k]), hn::NegMulAdd(b[k], hn::Abs(along), apart));
+    }
+    return hn::IfThenElseZero(hn::Gt(apart, hn::Zero(d)), hn::Div(hn::Mul(apart, apart), squared));
+  }
   V largestEdgeGap(V gap) const {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) gap = hn::Max(gap, edges(i, j));
@@ -157,7 +169,8 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
 /// Gaps along three axes u_i at right angles bound the distance by √Σ gap_i²: for any vector d,
 /// Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and b's (R̂) where the map is rigid, η < 2^-17: 1 − 2^-14
 /// covers that and the rounding of the sum. Of a map that is less so, `relative` took 10η·(|T|₁ +
-/// Σa + Σb) ≥ 9η·|u_i·d| off each gap, and (1 − 9η)²(1 + 3η) < 1.
+/// Σa + Σb) ≥ 9η·|u_i·d| off each gap, and (1 − 9η)²(1 + 3η) < 1. So does the gap along the
+/// centres.
 HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
                               float* HWY_RESTRICT squares) {
   const hn::CappedTag<float, 16> d;
@@ -174,7 +187,8 @@ HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose
       ofB = hn::Add(ofB, hn::Mul(y, y));
     }
     // An overflow or a NaN bounds nothing.
-    auto square = hn::Mul(hn::Max(ofA, ofB), pairs.set(1 - 0x1p-14F));
+    auto square =
+        hn::Mul(hn::Max(hn::Max(ofA, ofB), pairs.squareAlongCenters()), pairs.set(1 - 0x1p-14F));
     square = hn::IfThenElseZero(hn::Lt(square, pairs.set(0x1p120F)), square);
     hn::Store(square, d, squares + at);
     auto open = hn::Not(hn::Gt(square, pairs.set(limit * limit * (1 + 0x1p-20F))));

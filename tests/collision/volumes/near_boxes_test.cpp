@@ -1,0 +1,148 @@
+// The kernel that bounds distances of boxes (overlap_obb4_obb4-inl.h), against distances of their
+// surfaces in double.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/core/transform.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/collision/volumes/near_boxes_test.cpp"
+#include "hwy/foreach_target.h"
+// After foreach_target.h, as Highway asks.
+#include "hwy/highway.h"
+
+#include "collision/volumes/overlap_obb4_obb4-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+unsigned near(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit, float* squares) {
+  return nearBoxes(a, b, pose, limit, squares);
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "collision/hierarchy/obb_tree.h"
+#include "collision/queries/distance.h"
+#include "tests/collision/queries/every_target.h"
+#include "tests/support/soups.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+HWY_EXPORT(near);
+
+class NearBoxes : public test::EveryTarget {
+ protected:
+  double real(double low, double high) {
+    return std::uniform_real_distribution(low, high)(random_);
+  }
+
+  /// Four boxes about the frame's origin, of very different sizes; or all upright, about the
+  /// z-axis.
+  Obb4 boxes(bool upright) {
+    Obb4 four = {};
+    for (int l = 0; l < 4; ++l) {
+      Transform X = test::anyPose(random_, 0.3);
+      if (upright) X = {Mat3::Identity(), X.t[2] * Vec3::UnitZ()};
+      const double size = std::pow(10.0, real(-3, -0.3));
+      for (int k = 0; k < 3; ++k) {
+        four.half[k][l] = static_cast<float>(size * real(k ? 0 : 0.5, 1));
+        four.vectors[k][Obb4::kCenter][l] = static_cast<float>(X.t[k]);
+        for (int j = 0; j < 3; ++j) four.vectors[k][j][l] = static_cast<float>(X.m(k, j));
+      }
+    }
+    return four;
+  }
+  static TriangleMesh meshOf(const Obb4& four, int lane) {
+    TriangleMesh mesh = test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+    for (Vec3& v : mesh.vertices) {
+      Vec3 p;
+      for (int k = 0; k < 3; ++k) {
+        p[k] = four.vectors[k][Obb4::kCenter][lane];
+        for (int j = 0; j < 3; ++j) p[k] += v[j] * four.half[j][lane] * four.vectors[k][j][lane];
+      }
+      v = p;
+    }
+    return mesh;
+  }
+  static double radius(const Obb4& four, int lane) {
+    return std::hypot(four.half[0][lane], four.half[1][lane], four.half[2][lane]);
+  }
+
+  std::mt19937_64 random_{test::testSeed(52)};
+};
+
+INSTANTIATE_TEST_SUITE_P(Targets, NearBoxes, testing::ValuesIn(test::simdTargets()),
+                         test::targetName);
+
+/// Never above the distance, nor is a pair within the limit told apart; and never so far below that
+/// the line between the centres says more: the points farthest along it are no farther apart than
+/// what it says and both radii at a right angle.
+TEST_P(NearBoxes, BoundTheirDistances) {
+  QueryContext context;
+  int apart = 0, within = 0;
+  for (int n = 0; n < 300; ++n) {
+    // Upright ones, above each other, are as far apart as the line between their centres says: no
+    // rounding may be lost.
+    const bool upright = n % 3 == 0;
+    const Obb4 a = boxes(upright), b = boxes(upright);
+    Transform X = test::anyPose(random_, std::pow(10.0, real(-1, 1.5)));
+    const double scale = std::ldexp(1.0, n % 7 - 3);
+    if (upright) {  // the first two, a little apart
+      const auto middle = [](const Obb4& four) { return four.vectors[2][Obb4::kCenter][0]; };
+      const double gap = std::pow(10.0, real(-8, 1));
+      X = {Mat3::Identity(),
+           (middle(a) - scale * middle(b) + a.half[2][0] + scale * b.half[2][0] + gap) *
+               Vec3::UnitZ()};
+    }
+    Obb4Pose pose = {};
+    Transform exact;  // of what the floats say
+    for (int k = 0; k < 3; ++k) {
+      pose.offset[k] = static_cast<float>(X.t[k]);
+      exact.t[k] = pose.offset[k];
+      for (int j = 0; j < 3; ++j) {
+        pose.turn[j][k] = static_cast<float>(X.m(k, j));
+        exact.m(k, j) = scale * pose.turn[j][k];
+      }
+    }
+    pose.scale = static_cast<float>(scale);
+    // As `WidePose` has them, of a map that is off from a rotation by its floats' rounding.
+    constexpr double u = 0x1p-24;
+    pose.relative = static_cast<float>(180 * u + 20 * u);
+    pose.ball = static_cast<float>(u * (33 * scale + 3.1 * exact.t.cwiseAbs().sum() + 6) * 1.01);
+    alignas(64) float squares[16];
+    const double limit = std::pow(10.0, real(-1, 1.5));
+    const unsigned open =
+        HWY_DYNAMIC_DISPATCH(near)(a, b, pose, static_cast<float>(limit), squares);
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const double d =
+            distance(ObbTree(meshOf(a, i)), {}, ObbTree(meshOf(b, j)), exact, {}, context).distance;
+        const double least = std::sqrt(squares[4 * i + j]);
+        const double r = radius(a, i) + scale * radius(b, j), size = d + r;
+        ASSERT_LE(least, d * (1 + 1e-9)) << n;
+        if (d * (1 + 1e-9) <= static_cast<float>(limit)) {
+          ASSERT_TRUE(open >> (4 * i + j) & 1) << n << ": " << d << ", " << limit;
+          ++within;
+        }
+        // 2^-14 of it is given away, and margins of the sizes and of the ball.
+        const double margin = 4 * (static_cast<double>(pose.relative) * 3 * size + pose.ball);
+        if (d > r) {
+          ASSERT_GE(least, std::sqrt(d * d - r * r) * (1 - 0x1p-14) - margin) << n << ": " << d;
+        }
+        apart += !(open >> (4 * i + j) & 1);
+      }
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(within, 500);
+}
+
+}  // namespace
+}  // namespace corridor
+#endif
