@@ -48,7 +48,7 @@ class Nearest {
 
   unsigned boxes(const QueryContext::WideItem&, const WideObbTree::Node& a,
                  const WideObbTree::Node& b, float* squares) const {
-    return nearBoxes(a, b, pose_.floats, limit_, squares);
+    return nearBoxes<true>(a, b, pose_.floats, limit_, squares);
   }
 
   /// The nearest first, since it may rule out the others, about sixteen pairs of triangles at a
@@ -182,7 +182,7 @@ class Closer {
 
   unsigned boxes(const QueryContext::WideItem&, const WideObbTree::Node& a,
                  const WideObbTree::Node& b, float* squares) const {
-    return nearBoxes(a, b, pose_.floats, limit_, squares);
+    return nearBoxes<false>(a, b, pose_.floats, limit_, squares);
   }
 
   bool leaves(const QueryContext::WideItem&, const WideObbTree::Node& na,

@@ -18,8 +18,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
+unsigned far(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit, float* squares) {
+  return nearBoxes<true>(a, b, pose, limit, squares);
+}
 unsigned near(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit, float* squares) {
-  return nearBoxes(a, b, pose, limit, squares);
+  return nearBoxes<false>(a, b, pose, limit, squares);
 }
 
 }  // namespace corridor::HWY_NAMESPACE
@@ -35,6 +38,7 @@ HWY_AFTER_NAMESPACE();
 namespace corridor {
 namespace {
 
+HWY_EXPORT(far);
 HWY_EXPORT(near);
 
 class NearBoxes : public test::EveryTarget {
@@ -118,8 +122,12 @@ TEST_P(NearBoxes, BoundTheirDistances) {
     pose.ball = static_cast<float>(u * (33 * scale + 3.1 * exact.t.cwiseAbs().sum() + 6) * 1.01);
     alignas(64) float squares[16];
     const double limit = std::pow(10.0, real(-1, 1.5));
-    const unsigned open =
-        HWY_DYNAMIC_DISPATCH(near)(a, b, pose, static_cast<float>(limit), squares);
+    const unsigned open = HWY_DYNAMIC_DISPATCH(far)(a, b, pose, static_cast<float>(limit), squares);
+    alignas(64) float fewer[16];
+    const unsigned openByFewer =
+        HWY_DYNAMIC_DISPATCH(near)(a, b, pose, static_cast<float>(limit), fewer);
+    EXPECT_EQ(open & ~openByFewer, 0u) << n;
+    for (int i = 0; i < 16; ++i) EXPECT_LE(fewer[i], squares[i]) << n;
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const double d =
