@@ -7,17 +7,15 @@
 namespace corridor {
 namespace {
 
-/// A text without its comments; as many lines as before.
-std::string withoutComments(std::string_view text) {
-  std::string rest(text);
-  for (auto from = rest.find("<!--"); from != rest.npos; from = rest.find("<!--", from)) {
-    const auto end = rest.find("-->", from);
-    const auto to = rest.begin() + static_cast<std::ptrdiff_t>(std::min(end, rest.size()));
+/// Blanks what is between `open` and `close`; as many lines as before.
+void blank(std::string& text, std::string_view open, std::string_view close) {
+  for (auto from = text.find(open); from != text.npos; from = text.find(open, from)) {
+    const auto end = text.find(close, from);
+    const auto to = text.begin() + static_cast<std::ptrdiff_t>(std::min(end, text.size()));
     std::replace_if(
-        rest.begin() + static_cast<std::ptrdiff_t>(from), to, [](char c) { return c != '\n'; },
+        text.begin() + static_cast<std::ptrdiff_t>(from), to, [](char c) { return c != '\n'; },
         ' ');
   }
-  return rest;
 }
 
 bool isSpace(char c) {
@@ -50,7 +48,9 @@ std::optional<std::string_view> attributeOf(std::string_view tag, const std::str
 }  // namespace
 
 void checkColladaAsset(std::string_view text, MeshFaults& faults) {
-  const std::string file = withoutComments(text);
+  std::string file(text);
+  blank(file, "<!--", "-->");
+  blank(file, "<![CDATA[", "]]>");
   const std::string_view asset = std::string_view(file).substr(0, file.find("</asset>"));
   if (const auto at = asset.find("<unit"); at != asset.npos) {
     const auto meter = attributeOf(asset.substr(at, asset.find('>', at) - at), "meter");
@@ -59,8 +59,8 @@ void checkColladaAsset(std::string_view text, MeshFaults& faults) {
       faults.add(lineOf(asset, at),
                  "<unit meter=" + inQuotes(*meter) + ">: a unit is a number of metres above 0");
   }
-  if (const auto at = asset.find("<up_axis>"); at != asset.npos) {
-    const auto begin = at + 9;
+  if (const auto at = asset.find("<up_axis"); at != asset.npos) {
+    const auto begin = std::min(asset.find('>', at), asset.size() - 1) + 1;
     const std::string_view axis = trimmed(asset.substr(begin, asset.find('<', begin) - begin));
     if (axis != "X_UP" && axis != "Y_UP" && axis != "Z_UP")
       faults.add(lineOf(asset, at),

@@ -193,7 +193,8 @@ void addInspect(CLI::App& program, InspectArguments& a, int& status) {
       ->check(CLI::IsMember({"x", "y", "z"}));
   command->add_flag("--self-intersections", a.selfIntersections,
                     "of a mesh file: pairs of its triangles that intersect anywhere but in corners "
-                    "and edges that they share (seconds for a million triangles)");
+                    "and edges that they share (seconds for a million triangles; every pair of "
+                    "coincident ones is counted)");
   command->add_flag("--pairs", a.pairs,
                     "of a problem: every pair of bodies, and why it isn't tested");
   const char* cost = "What queries of two meshes cost";
@@ -406,7 +407,8 @@ int main(int argc, char** argv) {
     std::cerr << error.what() << '\n';
     return kBadInput;
   } catch (const std::bad_alloc&) {
-    std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles\n";
+    std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles, or too "
+                 "large a parameter\n";
     return kInternal;
   } catch (const std::exception& error) {
     std::cerr << "corridor: internal error: " << error.what() << '\n';

@@ -50,11 +50,11 @@ double intoCircle(double angle) {
   return std::abs(angle) <= pi ? angle : std::remainder(angle, 2 * pi);
 }
 
-/// The root of the sum of squares, not 0 for numbers whose squares underflow.
+/// The root of the sum of squares, for numbers whose squares under- or overflow, too.
 template <class Vector>
 double lengthOf(const Vector& v) {
   const double norm = v.norm();
-  return norm > 1e-150 ? norm : v.stableNorm();
+  return norm > 1e-150 && norm < HUGE_VAL ? norm : v.stableNorm();
 }
 
 /// How far b is from a in one coordinate, ≥ 0; of rotations the quaternions' angle.

@@ -67,7 +67,7 @@ void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
           campaign.variants[real.variant].knob != campaign.variants[replay.variant].knob)
         continue;
       std::vector<double> ratios;
-      for (std::size_t i = 0; i < real.runs.size(); ++i)
+      for (std::size_t i = 0; i < std::min(real.runs.size(), replay.runs.size()); ++i)
         if (real.runs[i].solved && replay.runs[i].solved)
           ratios.push_back(real.runs[i].searchProcessorTime / replay.runs[i].searchProcessorTime);
       if (ratios.empty()) continue;

@@ -86,10 +86,13 @@ TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
             "\">: a unit is a number of metres above 0");
   EXPECT_EQ(complaint("a.dae", collada("<up_axis> W_UP </up_axis>")),
             "a.dae:3: <up_axis> is \"W_UP\"; X_UP, Y_UP or Z_UP is needed");
+  EXPECT_EQ(complaint("a.dae", collada("<up_axis\n>W_UP</up_axis>")),
+            "a.dae:3: <up_axis> is \"W_UP\"; X_UP, Y_UP or Z_UP is needed");
   for (const char* const sound :
        {"<unit meter = ' 0.01 ' name=\"meter\"/><up_axis>\nZ_UP\n</up_axis>",
         "<unit name=\"meter\"/>",
-        "<!-- <unit meter=\"0\"/> <up_axis>W</up_axis> --><unit meter=\"1e0\"/>"})
+        "<!-- <unit meter=\"0\"/> <up_axis>W</up_axis> --><unit meter=\"1e0\"/>",
+        "<comments><![CDATA[<unit meter=\"0\"/>]]></comments><up_axis >Z_UP</up_axis>"})
     EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
   EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
   // What the text doesn't show, what is left of the mesh does.

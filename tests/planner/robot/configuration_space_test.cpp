@@ -185,6 +185,9 @@ TEST(ConfigurationSpace, DistanceIsZeroForEqualConfigurationsOnly) {
   EXPECT_EQ(arm.distance(values({-1e200}), values({1e200})), 2e200);
   EXPECT_EQ(arm.distance(values({0}), values({1e-170})), 1e-170);
   Configuration a(7), b(7);
+  a << -3e200, 0, 0, turned(1);
+  b << 0, 4e200, 0, turned(1);
+  EXPECT_NEAR(body.distance(a, b), 5e200, 1e186);
   a << 1, 2, 3, 3 * turned(1);
   b = a;
   body.normalise(b);
