@@ -46,7 +46,10 @@ struct MotionOptions {
   double margin = 0;      ///< metres kept from every obstacle; 0: touching is contact
   double reserve = 0;     ///< metres that `free` leaves beyond margin and tube; less is `undecided`
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
-  double timeTolerance = 1.0 / 1024;  ///< of [0, 1]; how narrow a bracket `earliest` asks for
+  /// Of [0, 1]; how narrow a bracket `earliest` asks for. In that time the bodies should come
+  /// nearer by more than a few tolerances: else the bracket's beginning is closer than can be
+  /// proved free, and a plain contact is `grazing` or `undecided`.
+  double timeTolerance = 1.0 / 1024;
   /// Box and triangle tests, soon after which (a pair of nodes: 16 and 256 at most) the answer is
   /// `undecided`.
   std::uint64_t workLimit = 20'000'000;
