@@ -128,19 +128,20 @@ void relate(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
   const Triple D = tB.plus(B.col[0], oB[0]).plus(B.col[1], oB[1]).plus(B.col[2], oB[2]) -
                    tA.plus(A.col[0], oA[0]).plus(A.col[1], oA[1]).plus(A.col[2], oA[2]);
   const double defectA = defectOf(X_WA.m, A), defectB = defectOf(X_WB.m, B);
+  constexpr double kUsable = 0x1p-6;
   // Maps of greater defect prune nothing, nor do boxes of meshes above 2^960 m, which the tree's
   // unit doesn't bring into [−1, 1] from 2^1000 on; an entry of m·unitA that is flushed would move
   // b by 2^-1022·unitA⁻¹ of itself, more than the margins have left. NaN: not usable.
   const bool usable =
-      defectA < 0x1p-6 && defectB < 0x1p-6 && a.length() <= 0x1p960 && b.length() <= 0x1p960;
+      defectA < kUsable && defectB < kUsable && a.length() <= 0x1p960 && b.length() <= 0x1p960;
   // D has at most five roundings of terms that sum up to `terms` over its coordinates; |M_ij|
   // ≤ 1.1.
   const double terms = ((Triple::load(oA.data()).abs() + Triple::load(oB.data()).abs()) * 3.4 +
                         (tA.abs() + tB.abs()))
                            .sum();
-  // |M x| ≤ √(1 + ν)|x|.
+  // |M x| ≤ √(1 + ν)|x|; for any ν that is usable, so that this needn't wait for it.
   const double spheres =
-      roundedUp(a.radius() * (1 + defectA) + b.radius() * (1 + defectB) + 6 * kUnit * terms + pad);
+      roundedUp((a.radius() + b.radius()) * (1 + kUsable) + 6 * kUnit * terms + pad);
   pose.apart =
       usable && D.squares().sum() * (1 - 0x1p-48) > spheres * spheres * (1 + 0x1p-48) + kTiny;
   if (pose.apart) return;
