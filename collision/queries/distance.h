@@ -28,9 +28,9 @@ struct Distance {
 /// X_WB apart?
 ///
 /// 0 if and only if `interference` says contact; then both points are one that the items share.
-/// Else off, beyond what the options allow, by at most 1e-12·d + 4·2^-53·S, S the largest Σ|m||v| +
-/// |t| of the corners mapped (of parts: with their radii), and never told below 2^-1022. Curved
-/// surfaces are not tessellated.
+/// Else it is off, beyond what the options allow, by at most 1e-12 of itself + 4·2^-53·S, S the
+/// largest Σ|m||v| + |t| of the corners mapped (of parts: with their radii), and never told below
+/// 2^-1022. Curved surfaces are not tessellated.
 ///
 /// Branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999); pairs
 /// of items are bounded in double, and those that may be the closest are measured again in

@@ -34,11 +34,11 @@ class NearestPairs {
   /// A pair of items, in leaf order, and a proved range of its distance.
   void keep(std::uint32_t s, std::uint32_t t, double lower, double upper) {
     if (!canImprove(lower)) return;
-    candidates_.push_back({s, t, lower});
     if (upper < upper_) {
       upper_ = upper;
       std::erase_if(candidates_, [&](const auto& c) { return c.bound >= upper_; });
     }
+    candidates_.push_back({s, t, lower});
   }
   /// A pair that touches: nothing can be closer.
   void keepContact(std::uint32_t s, std::uint32_t t) {
@@ -68,8 +68,9 @@ class NearestPairs {
 
  private:
   /// Of the 1e-12·d that distance.h grants: pairs that tie but for that, as all triangles about one
-  /// corner do, are measured once.
-  static constexpr double kGiven = 0.5e-12;
+  /// corner do, are measured once. Twice, since what ruled a pair out may be left unmeasured
+  /// itself; where it is measured, `convexDistance` takes 2^-41. Both leave room for rounding.
+  static constexpr double kGiven = 0.49e-12;
 
   const DistanceOptions& options_;
   double relative_;

@@ -120,7 +120,8 @@ struct BoxPairs {
       const V along = dot(T[0], T[1], T[2], R[0][k], R[1][k], R[2][k]);
       apart = hn::NegMulAdd(a[k], hn::Abs(T[k]), hn::NegMulAdd(b[k], hn::Abs(along), apart));
     }
-    return hn::IfThenElseZero(hn::Gt(apart, hn::Zero(d)), hn::Div(hn::Mul(apart, apart), squared));
+    // Divided first: a square of apart, which is one of lengths, would overflow from |T| = 2^32 on.
+    return hn::IfThenElseZero(hn::Gt(apart, hn::Zero(d)), hn::Mul(hn::Div(apart, squared), apart));
   }
   V largestEdgeGap(V gap) const {
     for (int i = 0; i < 3; ++i)
