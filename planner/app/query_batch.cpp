@@ -198,7 +198,7 @@ const std::vector<VolumeKind>& volumeKinds() {
   static const std::vector<VolumeKind> kinds = {
       {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runWide},
       {"obb-binary", {"triangles", "vertices", "hull"}, {"sat", "gjk", "lp", "edge-face"}, runObb},
-      {"aabb", {"plain"}, {"intervals"}, runVolume<Aabb>},
+      {"aabb", {"plain"}, {"sat"}, runVolume<Aabb>},
       {"sphere", {"plain"}, {"centers"}, runVolume<BoundingSphere>},
       {"rss", {"triangles", "vertices", "hull"}, {"rectangles"}, runVolume<Rss>},
       {"kdop14", {"plain"}, {"intervals"}, runVolume<Kdop<14>>},

@@ -29,12 +29,13 @@ constexpr int kFaultsTold = 10;
 std::string whyNoRotation(const Mat3& R) {
   const double defect = orthonormalityDefect(R);
   const double determinant = R.determinant();
-  // Six products of three, each with five roundings at most, two and a division in Eigen's order.
-  const double error = 64 * kUnit * std::pow(R.cwiseAbs().maxCoeff(), 3);
-  if (std::abs(determinant) <= error)
+  // Six products of a number from each column, with five roundings at most, two and a division in
+  // Eigen's order. Where they overflow there is no telling, but that it is no rotation.
+  const double error = 64 * kUnit * R.colwise().lpNorm<Eigen::Infinity>().prod();
+  if (std::abs(determinant) <= error && std::isfinite(error))
     return "the matrix is singular (determinant " + rounded(determinant) +
            "); a rotation is needed";
-  if (determinant < 0)
+  if (determinant < 0 && std::isfinite(determinant))
     return "the matrix mirrors (determinant " + rounded(determinant) + "); a rotation is needed";
   if (!(defect <= kRotationDefect))
     return "the matrix is no rotation: RᵀR is off the identity by " + rounded(defect) +

@@ -101,6 +101,8 @@ TEST_F(QueryCommand, AllVolumesAnswerAlike) {
           hits)
           << volume << asked;
   }
+  // An axis-aligned box of one mesh is an oriented one to the other: it is tested by the 15 axes.
+  EXPECT_EQ(summary(query("--poses poses.txt --volume aabb")).at("overlap"), "sat");
 }
 
 TEST_F(QueryCommand, AllOverlapTestsAnswerAlike) {
@@ -181,6 +183,13 @@ TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
         "rounding");
   fault("1 0.001 0 0 1 0 0 0 1 0 0 0",
         "the matrix is no rotation: RᵀR is off the identity by 0.001, at most 0.0002 is taken for "
+        "rounding");
+  // Long columns don't make a matrix singular, nor do products that overflow.
+  fault("1e9 0 0 0 1 0 0 0 1 0 0 0",
+        "the matrix is no rotation: RᵀR is off the identity by 1e+18, at most 0.0002 is taken for "
+        "rounding");
+  fault("1e200 0 0 0 1e200 0 0 0 1e200 0 0 0",
+        "the matrix is no rotation: RᵀR is off the identity by inf, at most 0.0002 is taken for "
         "rounding");
   // Four decimals are let pass.
   write("fine.txt", "0.8660 -0.5 0 0.5 0.8660 0 0 0 1 0 0 0\n");
