@@ -71,13 +71,22 @@ Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& pa
 
 Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) {
   if (part.points.empty()) throw std::invalid_argument("body " + name + " has no points");
+  if (part.flatEnds && part.points.size() != 2)
+    throw std::invalid_argument("body " + name + " is a cylinder without two ends");
+  if (!(std::isfinite(part.radius) && part.radius >= 0))
+    throw std::invalid_argument("the radius of body " + name + " is to be finite and not negative");
+  for (const Vec3& q : part.points)
+    if (!q.allFinite())
+      throw std::invalid_argument("body " + name + " has a point that is not finite");
   impl_->name = std::move(name);
   impl_->solid = true;
   impl_->part = std::move(part);
   const ConvexPart& p = *impl_->part;
   Vec3 reach = Vec3::Constant(p.radius);
-  if (p.flatEnds) {  // a disc of normal a reaches √(1 − a_i²) of its radius along axis i
-    const Vec3 a = (p.points[1] - p.points[0]).stableNormalized();
+  const Vec3 a = p.flatEnds ? (p.points[1] - p.points[0]).stableNormalized() : Vec3(Vec3::Zero());
+  // A disc of normal a reaches √(1 − a_i²) of its radius along axis i. Where rounding has left no
+  // axis, all of it (as `ConvexSet` has it).
+  if (std::abs(a.norm() - 1) < 0x1p-20) {
     for (int i = 0; i < 3; ++i)
       reach[i] *= std::min(1.0, std::hypot(a[(i + 1) % 3], a[(i + 2) % 3]) + 16 * kUnit);
   }

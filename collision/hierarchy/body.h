@@ -19,7 +19,9 @@ class Body {
   /// @throws std::invalid_argument if the mesh has no triangle, or `checkMesh` complains, or it is
   /// to be solid and has a component that isn't watertight.
   Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
-  /// A solid primitive.
+  /// A solid primitive (`checkPrimitive` says what is wrong with one).
+  /// @throws std::invalid_argument if it has no point or one that is not finite, or its radius is
+  /// negative or not finite.
   Body(std::string name, ConvexPart part);
   ~Body();
   Body(Body&&) noexcept;

@@ -1,8 +1,12 @@
 #include "collision/world/body_queries.h"
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+
+#include "collision/world/rigid_scene.h"
 
 namespace corridor {
 namespace {
@@ -107,6 +111,52 @@ TEST(BodyQueries, AllPairs) {
         EXPECT_TRUE(closerThan(bodies[i], {}, bodies[k], X, expected + 3e-15, context));
         EXPECT_EQ(closerThan(bodies[i], {}, bodies[k], X, expected / 2, context), gap < 0);
       }
+}
+
+TEST(BodyQueries, RejectsPrimitivesThatAreNone) {
+  const auto message = [](const Primitive& primitive) -> std::string {
+    try {
+      Body("x", placed(primitive, {}));
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double radius : {-1.0, -1e-300, inf, static_cast<double>(NAN)})
+    for (const Primitive& p :
+         {Primitive(Sphere{radius}), Primitive(Capsule{radius, 1}), Primitive(Cylinder{radius, 1})})
+      EXPECT_EQ(message(p), "the radius of body x is to be finite and not negative");
+  for (const Primitive& p : {Primitive(Box{Vec3(1, NAN, 1)}), Primitive(Capsule{1, inf}),
+                             Primitive(Convex{{Vec3::Zero(), Vec3(0, inf, 0)}})})
+    EXPECT_EQ(message(p), "body x has a point that is not finite");
+  EXPECT_EQ(message(Convex{}), "body x has no points");
+  EXPECT_THROW(Body("x", ConvexPart{{Vec3::Zero()}, 1, true}), std::invalid_argument);
+  EXPECT_EQ(message(Sphere{0}), "");
+}
+
+/// A cylinder so short that rounding has left it no axis: what it may be has to be in its bounds,
+/// which are what motions ask first.
+TEST(BodyQueries, CylinderWithoutAnAxisKeepsItsBounds) {
+  const Transform X{Mat3::Identity(), Vec3(0.7, 0.2, 0.1)};
+  const ConvexPart disc = placed(Cylinder{0.3, 1e-20}, X);
+  ASSERT_EQ(disc.points[0], disc.points[1]);
+  const Body body("disc", disc);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_LE(body.lower()[i], X.t[i] - 0.3);
+    EXPECT_GE(body.upper()[i], X.t[i] + 0.3);
+  }
+  std::vector<Body> fixed, moving;
+  fixed.emplace_back("disc", disc);
+  moving.emplace_back("ball", placed(Sphere{0.05}, {}));
+  const RigidScene scene(std::move(moving), std::move(fixed));
+  QueryContext context;
+  MotionOptions options;
+  options.tolerance = scene.defaultTolerance();
+  RigidPose touching;
+  touching.p = Vec3(0.42, 0.2, 0.1);
+  EXPECT_TRUE(scene.interference({Mat3::Identity(), touching.p}, context));
+  EXPECT_EQ(scene.certifyState(touching, options, context).verdict, MotionVerdict::contact);
 }
 
 TEST(BodyQueries, RejectsWhatIsNotFinite) {
