@@ -12,6 +12,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ompl/base/MotionValidator.h>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include "collision/core/error.h"
 #include "planner/solve/planner_factory.h"
@@ -143,6 +146,20 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
       hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
 }
 
+/// Solves; the memory that OMPL 1.5.2 loses by itself is no finding of the leak sanitizer. (Each of
+/// these planners, run alone, leaves states that it allocated or cloned: LazyPRM 944 in three
+/// seconds, SST 14,636; the others lose none, and are watched.)
+SolveReport solveWithOmplsLeaks(const Problem& problem) {
+#ifdef __SANITIZE_ADDRESS__
+  const std::string& name = problem.planner.name;
+  if (name == "LazyPRM" || name == "LazyPRMstar" || name == "SORRTstar" || name == "SST") {
+    const __lsan::ScopedDisabler unwatched;
+    return solveProblem(problem);
+  }
+#endif
+  return solveProblem(problem);
+}
+
 /// Every name solves an easy problem, and none ends the program. (FMT and SST may find nothing in
 /// so little time.)
 TEST(Solve, EveryPlannerSolves) {
@@ -151,7 +168,7 @@ TEST(Solve, EveryPlannerSolves) {
     problem.planner.name = info.name;
     problem.planner.time = 2 * test::kSlowdown;
     problem.planner.stopAtFirst = true;
-    const SolveReport report = solveProblem(problem);
+    const SolveReport report = solveWithOmplsLeaks(problem);
     if (report.outcome != SolveOutcome::solved && (info.name == "FMT" || info.name == "SST"))
       continue;
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << info.name << ": " << report.why;
