@@ -6,6 +6,7 @@
 
 #include "collision/core/counters.h"
 #include "collision/core/last_pairs.h"
+#include "collision/core/swept_ball.h"
 #include "collision/core/transform.h"
 
 namespace corridor {
@@ -38,6 +39,14 @@ class QueryContext {
   };
   std::vector<WideItem> pending;  ///< what motion queries hand down to shorter windows of time,
   std::vector<PairItems> groups;  ///< and whose it is
+  /// Balls around bodies, by their indices in the scene, as the world sees them in the window that
+  /// `ballStamp` counts.
+  struct StampedBall {
+    SweptBall ball;
+    std::uint64_t stamp = 0;
+  };
+  std::vector<StampedBall> balls;
+  std::uint64_t ballStamp = 0;
   /// What distance queries have left to look at, and pairs of triangles (in leaf order) that may be
   /// the closest, each with a lower bound of its distance, metres.
   struct BoundedPair {

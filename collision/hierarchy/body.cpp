@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -22,30 +21,28 @@ struct Body::Impl {
   std::optional<ConvexPart> part;
   bool solid = false;
   TreeParams params;
-  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
-       center = Vec3::Zero();
-  double radius = 0, sphereRadius = 0;
   mutable std::once_flag once, binaryOnce, componentsOnce;
   mutable std::atomic<bool> built = false;
   mutable std::optional<WideObbTree> tree;
   mutable std::optional<ObbTree> binaryTree;
   mutable MeshComponents components;
-
-  /// Bounds of balls of radius `grow` about the points that `each` goes through, whose boxes are
-  /// `reach` farther than the points along the axes.
-  template <class Each>
-  void bound(const Each& each, double grow, const Vec3& reach) {
-    each([&](const Vec3& p) {
-      lower = lower.cwiseMin(p - reach);
-      upper = upper.cwiseMax(p + reach);
-    });
-    center = lower + 0.5 * (upper - lower);
-    each([&](const Vec3& p) {
-      radius = std::max(radius, roundedUp(p.stableNorm() + grow));
-      sphereRadius = std::max(sphereRadius, roundedUp((p - center).stableNorm() + grow));
-    });
-  }
 };
+
+/// Bounds of balls of radius `grow` about the points that `each` goes through, whose boxes are
+/// `reach` farther than the points along the axes.
+template <class Each>
+void Body::Bounds::around(const Each& each, double grow, const Vec3& reach) {
+  each([&](const Vec3& p) {
+    lower = lower.cwiseMin(p - reach);
+    upper = upper.cwiseMax(p + reach);
+  });
+  center = lower + 0.5 * (upper - lower);
+  each([&](const Vec3& p) {
+    radius = std::max(radius, roundedUp(p.stableNorm() + grow));
+    sphereRadius = std::max(sphereRadius, roundedUp((p - center).stableNorm() + grow));
+  });
+  terms = lower.cwiseAbs().sum() + upper.cwiseAbs().sum();
+}
 
 Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& params)
     : impl_(std::make_unique<Impl>()) {
@@ -61,7 +58,7 @@ Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& pa
         throw std::invalid_argument("body " + impl_->name +
                                     " is not watertight: it can't be solid");
   impl_->params = params;
-  impl_->bound(
+  bounds_.around(
       [&](auto take) {
         for (std::size_t t = 0; t < impl_->mesh.triangles.size(); ++t)
           for (int i = 0; i < 3; ++i) take(impl_->mesh.corner(t, i));
@@ -93,7 +90,7 @@ Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) 
   double largest = p.radius;
   for (const Vec3& q : p.points) largest = std::max(largest, q.cwiseAbs().maxCoeff());
   if (p.radius > 0) reach.array() += 4 * kUnit * largest;  // the sums and differences round
-  impl_->bound(
+  bounds_.around(
       [&](auto take) {
         for (const Vec3& q : p.points) take(q);
       },
@@ -118,21 +115,6 @@ bool Body::solid() const {
 }
 bool Body::treeBuilt() const {
   return impl_->built;
-}
-double Body::radius() const {
-  return impl_->radius;
-}
-const Vec3& Body::sphereCenter() const {
-  return impl_->center;
-}
-double Body::sphereRadius() const {
-  return impl_->sphereRadius;
-}
-const Vec3& Body::lower() const {
-  return impl_->lower;
-}
-const Vec3& Body::upper() const {
-  return impl_->upper;
 }
 
 const MeshComponents& Body::components() const {

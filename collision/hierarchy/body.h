@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -37,15 +38,26 @@ class Body {
   const MeshComponents& components() const;  ///< of a mesh; found if nobody has
   bool treeBuilt() const;                    ///< any of them
   /// Radius about the origin of the frame of all points, rounded up.
-  double radius() const;
+  double radius() const { return bounds_.radius; }
   /// A sphere around all points: centre, and radius rounded up.
-  const Vec3& sphereCenter() const;
-  double sphereRadius() const;
-  const Vec3& lower() const;  ///< axis-aligned bounds
-  const Vec3& upper() const;
+  const Vec3& sphereCenter() const { return bounds_.center; }
+  double sphereRadius() const { return bounds_.sphereRadius; }
+  const Vec3& lower() const { return bounds_.lower; }  ///< axis-aligned bounds
+  const Vec3& upper() const { return bounds_.upper; }
+  /// The sum of the bounds' magnitudes, metres: what roundings of differences to them go by.
+  double boundTerms() const { return bounds_.terms; }
 
  private:
+  struct Bounds {
+    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
+         center = Vec3::Zero();
+    double radius = 0, sphereRadius = 0, terms = 0;
+
+    template <class Each>
+    void around(const Each& each, double grow, const Vec3& reach);
+  };
   struct Impl;
+  Bounds bounds_;
   std::unique_ptr<Impl> impl_;
 };
 

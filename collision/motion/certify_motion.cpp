@@ -33,10 +33,13 @@ class Certifier {
   MotionResult run() {
     items_.clear();
     groups_.clear();
+    std::size_t bodies = 0;
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
       items_.push_back(kWhole);
       groups_.push_back({k, k, k + std::size_t{1}, HUGE_VAL});
+      bodies = std::max({bodies, pairs_[k].bodyA + 1, pairs_[k].bodyB + 1});
     }
+    if (context_.balls.size() < bodies) context_.balls.resize(bodies);
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
     const Window all = {0, 1, 0, groups_.size()};
@@ -74,15 +77,51 @@ class Certifier {
     std::size_t begin, end;
   };
 
+  /// What is asked from now on is of the window [t − h, t + h].
+  void moveTo(double t, double h) {
+    t_ = t;
+    h_ = h;
+    posed_ = MotionPair::kNone;
+    ++context_.ballStamp;
+  }
+
+  /// The motion in the window; that of the last call is kept.
+  const MotionWindow& windowOf(std::size_t motion) {
+    if (motion == posed_) return window_;
+    posed_ = motion;
+    window_ = motion_.window(motion, t_, h_);
+    ++counters_.poses;
+    return window_;
+  }
+
+  const SweptBall& worldBall(std::size_t motion, const Body& body, std::size_t index) {
+    QueryContext::StampedBall& known = context_.balls[index];
+    if (known.stamp != context_.ballStamp)
+      known = {sweptBall(body, windowOf(motion)), context_.ballStamp};
+    return known.ball;
+  }
+
+  /// How far the bounds of two bodies stay apart in the window, metres; of what is more than
+  /// `enough` maybe less, where nobody asks for evidence.
+  double bodiesStayApart(const MotionPair& pair, double enough) {
+    if (evidence_) enough = HUGE_VAL;
+    if (pair.worldA != MotionPair::kNone) {
+      const double clearance = clearanceBound(worldBall(pair.worldA, *pair.a, pair.bodyA),
+                                              worldBall(pair.worldB, *pair.b, pair.bodyB), enough);
+      if (clearance > enough || (evidence_ && clearance > 0)) return clearance;
+    }
+    // Of a motion that isn't the world's, the ball is nobody else's.
+    if (pair.worldB == pair.motion)
+      return clearanceBound(*pair.a, worldBall(pair.motion, *pair.b, pair.bodyB), enough);
+    return clearanceBound(*pair.a, sweptBall(*pair.b, windowOf(pair.motion)), enough);
+  }
+
   /// Looks at the window's groups; what it cannot separate is appended to them.
   /// @return false: `found_` is a contact at the middle, or why the window stays undecided.
   bool look(const Window& w) {
     const double h = (w.t1 - w.t0) / 2;
     middle_ = w.t0 + h;  // dyadic: exact
-    MotionWindow window;
-    SweptBall ball;
-    const Body* swept = nullptr;  // whose ball that is, in this window of this motion
-    std::size_t posed = std::numeric_limits<std::size_t>::max();
+    moveTo(middle_, h);
     std::size_t left = 0;
     for (std::size_t g = w.begin; g < w.end; ++g) {
       Group group = groups_[g];
@@ -91,23 +130,16 @@ class Certifier {
         return true;
       }
       const MotionPair& pair = pairs_[group.bodies];
-      if (pair.motion != posed) {
-        posed = pair.motion;
-        window = motion_.window(posed, middle_, h);
-        window.fixedError +=
-            options_.reserve;  // asked of a proof, not of a contact: as the tube is
-        ++counters_.poses;
-        swept = nullptr;
-      }
       if (isWhole(group)) {
-        if (swept != pair.b) ball = sweptBall(*pair.b, window);
-        swept = pair.b;
-        const double clearance = clearanceBound(*pair.a, ball);
-        if (clearance > options_.margin) {
-          proved(w, group, clearance - options_.margin);
+        const double asked = roundedUp(options_.margin + options_.reserve);
+        const double clearance = bodiesStayApart(pair, asked);
+        if (clearance > asked) {
+          proved(w, group, clearance - asked);
           continue;
         }
       }
+      MotionWindow window = windowOf(pair.motion);
+      window.fixedError += options_.reserve;  // asked of a proof, not of a contact: as the tube is
       const std::size_t later = items_.size(), count = group.end - group.begin;
       auto& stack = context_.wideStack;
       if (stack.size() < count) stack.resize(2 * count);
@@ -194,19 +226,13 @@ class Certifier {
 
   /// Is one of the groups from `begin` on in contact at the rounded pose at t?
   bool touchesAt(double t, std::size_t begin) {
-    std::size_t posed = std::numeric_limits<std::size_t>::max();
-    MotionWindow there;
+    moveTo(t, 0);
     for (std::size_t g = begin; g < groups_.size() && work() < workEnd_; ++g) {
       if (g > begin && groups_[g].bodies == groups_[g - 1].bodies) continue;
       const MotionPair& pair = pairs_[groups_[g].bodies];
-      if (pair.motion != posed) {
-        posed = pair.motion;
-        there = motion_.window(posed, t, 0);
-        ++counters_.poses;
-      }
       // What the window has not come to may be far away, and need no tree.
-      if (isWhole(groups_[g]) && !mayMeet(*pair.a, sweptBall(*pair.b, there), 0)) continue;
-      if (touches(pair, there.X_AB, t)) return true;
+      if (isWhole(groups_[g]) && bodiesStayApart(pair, 0) > 0) continue;
+      if (touches(pair, windowOf(pair.motion).X_AB, t)) return true;
     }
     return false;
   }
@@ -292,10 +318,13 @@ class Certifier {
   std::vector<Group>& groups_;
   MotionEvidence* evidence_;
   std::uint64_t workEnd_ = 0;
-  double middle_ = 0;         // of the window that was looked at last
-  Descent found_;             // in it
-  std::uint32_t bodies_ = 0;  // whose that is
-  double contactTime_ = -1;   // of the earliest contact known
+  double t_ = 0, h_ = 0;                   // of the window that is asked about
+  MotionWindow window_;                    // in it,
+  std::size_t posed_ = MotionPair::kNone;  // of this motion
+  double middle_ = 0;                      // of the window that was looked at last
+  Descent found_;                          // in it
+  std::uint32_t bodies_ = 0;               // whose that is
+  double contactTime_ = -1;                // of the earliest contact known
   Contact contactPair_;
   MotionResult result_;
 };

@@ -76,10 +76,16 @@ class MotionSource {
 
 /// Two bodies, b moving as seen from a by `motion`, and their indices in the scene.
 struct MotionPair {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
   const Body* a;
   const Body* b;
   std::size_t motion = 0;
   std::size_t bodyA = 0, bodyB = 0;
+  /// The motions of a and of b as the world sees them, where they are numbered: pairs that are far
+  /// apart are told by them, once a body instead of once a pair. `worldA` is none where a is at
+  /// rest in the world, and `worldB` is `motion` then; both are none where nothing is known.
+  std::size_t worldA = kNone, worldB = kNone;
 };
 
 /// Proved: all through [t0, t1], and for the tube around it, pair `pair` of a query stays at least

@@ -31,21 +31,51 @@ SweptBall sweptBall(const Body& b, const MotionWindow& window) {
   return ball;
 }
 
-double clearanceBound(const Body& a, const SweptBall& ball) {
+namespace {
+
+/// What is left of `gap` metres, computed along (c_b − c_a)/gap, after `radius`, rounding and the
+/// way that `cap` and, where that isn't enough, `along(n)` bound.
+template <class Along>
+double remaining(const Vec3& apart, double gap, double radius, double cap, double rounding,
+                 double enough, const Along& along) {
+  if (!(gap < HUGE_VAL)) return 0;  // squares that overflow tell nothing
+  const auto beyond = [&](double travel) {
+    const double needed = roundedUp(radius + travel + rounding);
+    return gap > needed ? std::max(0.0, roundedDown(roundedDown(gap) - needed)) : 0;
+  };
+  const double least = beyond(cap);
+  if (least > enough || cap == 0 || !(gap > radius)) return least;
+  const double travel = along(Vec3(apart / gap));
+  return travel < cap ? beyond(travel) : least;
+}
+
+/// Beyond n·first.
+double bent(const SweptBall& ball, const Vec3& n) {
+  return n.cross(ball.angular).norm() * ball.bend + ball.curvature;
+}
+
+}  // namespace
+
+double clearanceBound(const Body& a, const SweptBall& ball, double enough) {
   const Vec3& c = ball.center;
   const Vec3 zero = Vec3::Zero();
   const Vec3 outside = (c - a.upper()).cwiseMax(zero) - (a.lower() - c).cwiseMax(zero);
-  // Squares that overflow, or underflow (to subnormals, that may be rounded up), tell nothing.
-  // Differences are off by u of both terms, √3 of it as a length.
-  const double gap = rootFromBelow(outside.squaredNorm());
-  const double terms = c.cwiseAbs().sum() + a.lower().cwiseAbs().sum() + a.upper().cwiseAbs().sum();
-  // Along n the centre is `gap` beyond the box's farthest point. Of none (gap 0): NaN, and the cap.
-  const Vec3 n = outside / gap;
-  const double along =
-      std::abs(n.dot(ball.first)) + n.cross(ball.angular).norm() * ball.bend + ball.curvature;
-  const double travel = along < ball.cap ? along : ball.cap;
-  const double needed = roundedUp(ball.radius + travel + 4 * kUnit * terms);
-  return gap < HUGE_VAL && gap > needed ? std::max(0.0, roundedDown(roundedDown(gap) - needed)) : 0;
+  // Underflow (to subnormals, that may be rounded up) tells nothing. Differences are off by u of
+  // both terms, √3 of it as a length. Along n the centre is `gap` beyond the box's farthest point.
+  return remaining(outside, rootFromBelow(outside.squaredNorm()), ball.radius, ball.cap,
+                   4 * kUnit * (c.cwiseAbs().sum() + a.boundTerms()), enough,
+                   [&](const Vec3& n) { return std::abs(n.dot(ball.first)) + bent(ball, n); });
+}
+
+/// Along the line between the two centres at the middle: one goes against the other by the
+/// difference of what they go to first order, and what each may bend. (The difference rounds by u
+/// of both; of the 48u of its speeds in each ball's curvature 40u are used up in `sweptBall`.)
+double clearanceBound(const SweptBall& a, const SweptBall& b, double enough) {
+  const Vec3 apart = b.center - a.center;
+  return remaining(
+      apart, rootFromBelow(apart.squaredNorm()), a.radius + b.radius, a.cap + b.cap,
+      4 * kUnit * (a.center.cwiseAbs().sum() + b.center.cwiseAbs().sum()), enough,
+      [&](const Vec3& n) { return std::abs(n.dot(b.first - a.first)) + bent(a, n) + bent(b, n); });
 }
 
 }  // namespace corridor

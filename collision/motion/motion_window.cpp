@@ -60,6 +60,9 @@ PointTravel travelOf(const MotionWindow& window, const Vec3& x_A, double radius)
   const double error = window.fixedError + window.reachError * (lever + radius + loose);
   const double grown = radius + error + loose;
 
+  const double scale = 1 + kUnit * static_cast<double>(64 + 8 * window.screws.size());
+  if (window.screws.empty()) return {0, 0, 0, scale * error};  // at rest, or as good as
+
   double displaced = 0, rate = 0, second = 0, pad = error, stray = 0;
   double sole = 0;  // r δ of a turn that is alone so far
   int turns = 0;
@@ -85,7 +88,6 @@ PointTravel travelOf(const MotionWindow& window, const Vec3& x_A, double radius)
     displaced += r * chord(screw.amount);
   }
 
-  const double scale = 1 + kUnit * static_cast<double>(64 + 8 * window.screws.size());
   const double firstOrder = (window.linear + window.angular.cross(y)).norm() +
                             window.angle * (radius + error + loose) +
                             16 * kUnit * (window.speed + window.angle * lever) + 0.5 * second;

@@ -17,9 +17,19 @@
 namespace corridor {
 namespace {
 
-/// Two frames at rest under any two maps, as a window for `sweptBall`.
-MotionWindow atRest(const Transform& X_WA, const Transform& X_WB) {
+/// A frame at rest under any map, as the world sees it, and as another does under any map of its
+/// own: windows for `sweptBall`.
+MotionWindow atRest(const Transform& X_WB) {
   // No matrix of doubles is a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|.
+  const double defect = orthonormalityDefect(X_WB.m);
+  MotionWindow still;
+  still.X_AB = X_WB;
+  still.reachError = 3 * defect;
+  // Far from rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
+  if (!(defect < 0x1p-10)) still.fixedError = HUGE_VAL;
+  return still;
+}
+MotionWindow atRest(const Transform& X_WA, const Transform& X_WB) {
   const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
   MotionWindow still;
   still.X_AB = rigidInverse(X_WA) * X_WB;
@@ -29,11 +39,6 @@ MotionWindow atRest(const Transform& X_WA, const Transform& X_WB) {
   still.reachError = 5 * (defectA + defectB) + 32 * kUnit;
   still.fixedError =
       (4 * defectA + 32 * kUnit) * (X_WA.t.cwiseAbs().sum() + X_WB.t.cwiseAbs().sum());
-  if (X_WA == Transform()) {  // exact: x ↦ 1·x + 0·y + …
-    still.reachError = 3 * defectB;
-    still.fixedError = 0;
-  }
-  // Far from rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
   if (!(defectA < 0x1p-10 && defectB < 0x1p-10)) still.fixedError = HUGE_VAL;
   return still;
 }
@@ -79,9 +84,19 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
   solidMeshes_ = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
     return isSolidMesh(bodies_[pair.a].body) || isSolidMesh(bodies_[pair.b].body);
   });
-  for (const std::size_t i : order_)
-    motionPairs_.push_back({&bodies_[pairs_[i].a].body, &bodies_[pairs_[i].b].body, motionOf[i],
-                            pairs_[i].a, pairs_[i].b});
+  const auto motionFromWorld = [&](std::size_t frame) {
+    const auto [found, added] = motions.try_emplace({0, frame}, framePairs_.size());
+    if (added) framePairs_.push_back({0, frame});
+    return found->second;
+  };
+  for (const std::size_t i : order_) {
+    MotionPair pair{&bodies_[pairs_[i].a].body, &bodies_[pairs_[i].b].body, motionOf[i],
+                    pairs_[i].a, pairs_[i].b};
+    const std::size_t a = bodies_[pair.bodyA].frame, b = bodies_[pair.bodyB].frame;
+    if (b != 0) pair.worldB = motionFromWorld(b);
+    if (a != 0) pair.worldA = motionFromWorld(a);
+    motionPairs_.push_back(pair);
+  }
 }
 
 double Scene::defaultTolerance() const {
@@ -89,7 +104,7 @@ double Scene::defaultTolerance() const {
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   };
   std::map<std::size_t, Bounds> sides;
-  for (const FramePair& pair : framePairs_) sides[pair.a], sides[pair.b];
+  for (const Pair& pair : pairs_) sides[bodies_[pair.a].frame], sides[bodies_[pair.b].frame];
   for (const Placed& placed : bodies_)
     if (const auto side = sides.find(placed.frame); side != sides.end()) {
       side->second.lower = side->second.lower.cwiseMin(placed.body.lower());
@@ -106,46 +121,58 @@ double Scene::defaultTolerance() const {
 /// Visits the pairs of bodies whose bounds don't keep them farther apart than `within` metres,
 /// which may fall on the way, until the visitor returns true.
 template <class Visit>
-void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within, Visit visit) const {
+void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
+                         QueryContext& context, Visit visit) const {
   for (const FramePair& pair : framePairs_)
     for (const std::size_t frame : {pair.a, pair.b})
       if (frame >= X_WF.size() || !X_WF[frame].isFinite())
         throw std::invalid_argument("every frame is to have a finite pose");
-  MotionWindow still;
-  SweptBall ball;
-  const MotionPair* last = nullptr;
+  if (context.balls.size() < bodies_.size()) context.balls.resize(bodies_.size());
+  ++context.ballStamp;
+  const auto worldBall = [&](std::size_t body) -> const SweptBall& {
+    QueryContext::StampedBall& known = context.balls[body];
+    if (known.stamp != context.ballStamp) {
+      const Placed& placed = bodies_[body];
+      known = {sweptBall(placed.body, atRest(X_WF[placed.frame])), context.ballStamp};
+    }
+    return known.ball;
+  };
   for (const MotionPair& pair : motionPairs_) {
     const FramePair& frames = framePairs_[pair.motion];
     const Transform &X_WA = X_WF[frames.a], &X_WB = X_WF[frames.b];
-    const bool same = last && last->motion == pair.motion;
-    if (!same) still = atRest(X_WA, X_WB);
-    if (!same || last->b != pair.b) ball = sweptBall(*pair.b, still);
-    last = &pair;
-    // The ball and the box are told in A's frame, whose map need not keep lengths.
-    const double inA =
-        within > 0 ? roundedUp(within * (1 + 4 * orthonormalityDefect(X_WA.m))) : within;
-    if (mayMeet(*pair.a, ball, inA) && visit(pair, X_WA, X_WB)) return;
+    if (X_WA == Transform()) {
+      if (!mayMeet(*pair.a, worldBall(pair.bodyB), within)) continue;
+    } else {
+      if (clearanceBound(worldBall(pair.bodyA), worldBall(pair.bodyB), within) > within) continue;
+      // The ball and the box are told in A's frame, whose map need not keep lengths.
+      const double inA =
+          within > 0 ? roundedUp(within * (1 + 4 * orthonormalityDefect(X_WA.m))) : within;
+      if (!mayMeet(*pair.a, sweptBall(*pair.b, atRest(X_WA, X_WB)), inA)) continue;
+    }
+    if (visit(pair, X_WA, X_WB)) return;
   }
 }
 
 std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
                                            QueryContext& context) const {
   std::optional<Contact> contact;
-  forNearPairs(X_WF, 0, [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
-    if (const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context))
-      contact = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
-    return contact.has_value();
-  });
+  forNearPairs(X_WF, 0, context,
+               [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
+                 if (const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context))
+                   contact = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
+                 return contact.has_value();
+               });
   return contact;
 }
 
 double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context) const {
   double least = std::numeric_limits<double>::infinity();
-  forNearPairs(
-      X_WF, least, [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
-        least = std::min(least, distance(*pair.a, X_WA, *pair.b, X_WB, {}, context).distance);
-        return least == 0;
-      });
+  forNearPairs(X_WF, least, context,
+               [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
+                 least =
+                     std::min(least, distance(*pair.a, X_WA, *pair.b, X_WB, {}, context).distance);
+                 return least == 0;
+               });
   return least;
 }
 

@@ -37,7 +37,8 @@ class Scene {
 
   const std::vector<Placed>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
-  /// The distinct pairs of frames among `pairs()`: what a MotionSource has to tell the motion of.
+  /// What a MotionSource has to tell the motion of: the distinct pairs of frames among `pairs()`,
+  /// and where both of one move, each of the two as the world sees it.
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
   /// 1e-7 of the smallest of the frames' radii (each frame's bodies in one sphere; frames in no
   /// pair don't count).
@@ -67,7 +68,8 @@ class Scene {
                             const MotionOptions& options, QueryContext& context,
                             EdgeMethod method) const;
   template <class Visit>
-  void forNearPairs(std::span<const Transform> X_WF, const double& within, Visit visit) const;
+  void forNearPairs(std::span<const Transform> X_WF, const double& within, QueryContext& context,
+                    Visit visit) const;
 
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;

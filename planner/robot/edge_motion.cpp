@@ -269,7 +269,9 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
   for (const Impl::Step& step : path.steps) {
     const Impl::View& view = m.views[step.view];
     const MovingJoint& joint = m.places[view.place].joint;
-    if (joint.joint() == Frame::Joint::none) continue;
+    const double rate = std::abs(joint.rate()) + joint.rateError();
+    const bool rests = rate == 0 || h == 0;
+    if (joint.joint() == Frame::Joint::none || (rests && joint.tube() == 0)) continue;
     ScrewTravel screw;
     screw.axis = view.axis;
     screw.point = view.X.t;
@@ -278,8 +280,7 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
       screw.point = X_LA.m.transpose() * (screw.point - X_LA.t);
     }
     const Vec3 motion = (h * (step.up ? -joint.rate() : joint.rate())) * screw.axis;
-    const double rate = std::abs(joint.rate()) + joint.rateError();
-    screw.amount = rate == 0 || h == 0 ? 0 : roundedUp(h * rate);
+    screw.amount = rests ? 0 : roundedUp(h * rate);
     screw.tube = joint.tube();
     if (turns(joint.joint())) {
       w.angular += motion;
