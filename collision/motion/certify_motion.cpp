@@ -31,12 +31,11 @@ class Certifier {
         evidence_(evidence) {}
 
   MotionResult run() {
-    items_.clear();
-    groups_.clear();
+    items_.assign(pairs_.size(), kWhole);
+    groups_.resize(pairs_.size());
     std::size_t bodies = 0;
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
-      items_.push_back(kWhole);
-      groups_.push_back({k, k, k + std::size_t{1}, HUGE_VAL});
+      groups_[k] = {k, k, k + std::size_t{1}, HUGE_VAL};
       bodies = std::max({bodies, pairs_[k].bodyA + 1, pairs_[k].bodyB + 1});
     }
     if (context_.balls.size() < bodies) context_.balls.resize(bodies);

@@ -48,6 +48,15 @@ double taxicab(const Vec3& v) {
   return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
 }
 
+double length(double x, double y, double z) {
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+/// |a × b|, without a vector in between.
+double lengthOfCross(const Vec3& a, const Vec3& b) {
+  return length(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
+
 /// Metres: squares under 2^-1022 vanish, and lengths under 2^-511 with them.
 constexpr double kLeastLength = 0x1p-500;
 
@@ -56,13 +65,11 @@ constexpr double kLeastLength = 0x1p-500;
 PointTravel travelOf(const MotionWindow& window, const Vec3& x_A, double radius) {
   const Vec3 y = x_A - window.X_AB.t;
   const double loose = 16 * kUnit * (taxicab(y) + taxicab(window.X_AB.t) + radius) + kLeastLength;
-  const double lever = y.norm();
+  const double lever = length(y[0], y[1], y[2]);
   const double error = window.fixedError + window.reachError * (lever + radius + loose);
   const double grown = radius + error + loose;
 
   const double scale = 1 + kUnit * static_cast<double>(64 + 8 * window.screws.size());
-  if (window.screws.empty()) return {0, 0, 0, scale * error};  // at rest, or as good as
-
   double displaced = 0, rate = 0, second = 0, pad = error, stray = 0;
   double sole = 0;  // r δ of a turn that is alone so far
   int turns = 0;
@@ -75,7 +82,8 @@ PointTravel travelOf(const MotionWindow& window, const Vec3& x_A, double radius)
       continue;
     }
     const Vec3 d = x_A - screw.point;
-    const double r = (screw.kind == ScrewTravel::Kind::turn ? screw.axis.cross(d) : d).norm() +
+    const double r = (screw.kind == ScrewTravel::Kind::turn ? lengthOfCross(screw.axis, d)
+                                                            : length(d[0], d[1], d[2])) +
                      grown + 16 * kUnit * taxicab(d);
     pad += r * screw.tube;
     stray += displaced * screw.tube;
@@ -88,16 +96,20 @@ PointTravel travelOf(const MotionWindow& window, const Vec3& x_A, double radius)
     displaced += r * chord(screw.amount);
   }
 
-  const double firstOrder = (window.linear + window.angular.cross(y)).norm() +
-                            window.angle * (radius + error + loose) +
-                            16 * kUnit * (window.speed + window.angle * lever) + 0.5 * second;
   PointTravel travel;
+  travel.pad = scale * pad;
+  if (displaced == 0) return travel;  // only a tube is left, all of it at the middle
+  const Vec3& l = window.linear;
+  const Vec3& w = window.angular;
+  const double firstOrder =
+      length(l[0] + (w[1] * y[2] - w[2] * y[1]), l[1] + (w[2] * y[0] - w[0] * y[2]),
+             l[2] + (w[0] * y[1] - w[1] * y[0])) +
+      window.angle * grown + 16 * kUnit * (window.speed + window.angle * lever) + 0.5 * second;
   travel.cap = scale * (std::min(displaced, firstOrder) + stray);
   // The directions of `angular` and of the axis may differ by rounding.
   const double tilt = sole > 0 && turns == 1 ? window.reachError + 8 * kUnit : 0.5;
   travel.bend = sole > 0 && turns == 1 ? scale * 0.5 * sole : 0;
   travel.curvature = scale * (tilt * second + stray);
-  travel.pad = scale * pad;
   return travel;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 
+#include "collision/core/rounding.h"
 #include "collision/core/transform.h"
 
 namespace corridor {
@@ -58,6 +60,13 @@ struct MotionWindow {
 struct PointTravel {
   double cap = 0, bend = 0, curvature = 0, pad = 0;
 };
+
+/// |v| rounded up; of nothing nothing: what `roundedUp` adds would be lost in every sum, and
+/// subnormal in products, which are slow.
+inline double lengthFromAbove(const Vec3& v) {
+  const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  return square > 0 ? roundedUp(std::sqrt(square)) : v.isZero(0) ? 0 : kTiny;
+}
 
 /// At least 2 sin(min(δ, π)/2), the chord of a turn by δ ≥ 0 at radius 1, and at most 0.5 % more:
 /// Taylor's polynomial of degree 5 is above the sine, and grows up to δ = 3, where it is 2.002.

@@ -105,8 +105,8 @@ MotionWindow RigidMotion::window(double t, double h, std::span<ScrewTravel, 2> s
   w.X_AB = at(t);
   w.linear = h * delta_;
   w.angular = (h * angle_) * axis_;
-  w.speed = roundedUp(w.linear.norm());
-  w.angle = roundedUp(h * angle_);
+  w.speed = lengthFromAbove(w.linear);
+  w.angle = h * angle_ == 0 ? 0 : roundedUp(h * angle_);
   std::size_t count = 0;
   if (w.speed > kTiny)
     screws[count++] = {ScrewTravel::Kind::slide, direction_, Vec3::Zero(), w.speed, 0};

@@ -42,6 +42,7 @@ struct EdgeMotion::Impl {
     Vec3 axis = Vec3::UnitX();  // of its joint, in the ancestor's frame
     std::uint64_t stamp = 0;
     // Of the edge: errors of X as operator norm and in metres.
+    std::uint64_t edge = 0;
     double rotationError = 0, shiftError = 0, reach = 0;  // reach: no less than |X.t|
   };
   struct Step {
@@ -52,7 +53,9 @@ struct EdgeMotion::Impl {
     std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
     std::vector<Step> steps;               // from a's side to b's
     std::vector<ScrewTravel> screws;
-    // Of the edge: the error of the pose and of the axes, and that of the twist per unit of h.
+    // Of the edge, where somebody has asked for the motion: the error of the pose and of the axes,
+    // and that of the twist per unit of h.
+    std::uint64_t edge = 0;
     LeverError still, rate;
   };
 
@@ -62,13 +65,15 @@ struct EdgeMotion::Impl {
   std::vector<Path> paths;
   std::uint64_t stamp = 0;
   double t = 0;  // of the stamp
+  std::uint64_t edge = 0;
   bool ambiguous = false, still = false;
 
   Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
        std::span<const Scene::FramePair> pairs, const Configuration& tube);
 
   const View& viewAt(std::size_t index);
-  void setErrors(Path& path) const;
+  const View& viewWithErrors(std::size_t index);
+  void setErrors(Path& path);
 };
 
 namespace {
@@ -165,6 +170,23 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewAt(std::size_t index) {
   return view;
 }
 
+const EdgeMotion::Impl::View& EdgeMotion::Impl::viewWithErrors(std::size_t index) {
+  View& view = views[index];
+  if (view.edge == edge) return view;
+  view.edge = edge;
+  const MovingJoint& joint = places[view.place].joint;
+  view.rotationError = joint.rotationError();
+  view.shiftError = joint.shiftError();
+  view.reach = joint.length();
+  if (view.parent == kItself) return view;
+  const View& parent = viewWithErrors(view.parent);
+  view.rotationError += parent.rotationError + 10 * kUnit;
+  view.reach += parent.reach;
+  view.shiftError += parent.shiftError + parent.rotationError * joint.length() +
+                     kUnit * (7 * joint.length() + 4 * view.reach);
+  return view;
+}
+
 /// With u the unit roundoff, ρ an error of a rotation (operator norm), τ of a position, and every
 /// computed matrix within 2^-20 of norm 1 (products of errors are left out here, `window` adds
 /// them):
@@ -178,14 +200,19 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewAt(std::size_t index) {
 /// which its distance from the axis in `travelOf` is off by, too. The joint moves it by at most
 /// w = h·rate, so that the twist is off by Σ w·e(y), by the rate's own error, and by some (16 +
 /// steps)·u of w(|y| + L) for its arithmetic. `window` states the largest e(y) and the twist's.
-void EdgeMotion::Impl::setErrors(Path& path) const {
+void EdgeMotion::Impl::setErrors(Path& path) {
+  if (path.edge == edge) return;
+  path.edge = edge;
   double length = 0;
   for (const Step& step : path.steps) length += places[views[step.view].place].joint.length();
   LeverError turned;  // of what is seen from A when that is not the ancestor
   LeverError pose, axes;
-  if (path.b != kItself) pose = {views[path.b].shiftError, views[path.b].rotationError};
+  if (path.b != kItself) {
+    const View& b = viewWithErrors(path.b);
+    pose = {b.shiftError, b.rotationError};
+  }
   if (path.a != kItself) {
-    const View& a = views[path.a];
+    const View& a = viewWithErrors(path.a);
     turned = {a.shiftError + (a.rotationError + 8 * kUnit) * length, a.rotationError + 10 * kUnit};
     pose.fixed += turned.fixed;
     pose.reach += turned.reach;
@@ -194,7 +221,7 @@ void EdgeMotion::Impl::setErrors(Path& path) const {
   const double arithmetic = (16 + static_cast<double>(path.steps.size())) * kUnit;
   double lever = 0;  // L, no less than the distance from a joint's origin to b's
   for (auto step = path.steps.rbegin(); step != path.steps.rend(); ++step) {
-    const View& view = views[step->view];
+    const View& view = viewWithErrors(step->view);
     const MovingJoint& joint = places[view.place].joint;
     if (step->up) lever += joint.length();
     if (joint.joint() != Frame::Joint::none) {
@@ -235,19 +262,7 @@ void EdgeMotion::set(const Configuration& from, const Configuration& to) {
       m.still = false;
     m.ambiguous = m.ambiguous || place.joint.ambiguous();
   }
-  for (Impl::View& view : m.views) {
-    const MovingJoint& joint = m.places[view.place].joint;
-    view.rotationError = joint.rotationError();
-    view.shiftError = joint.shiftError();
-    view.reach = joint.length();
-    if (view.parent == kItself) continue;
-    const Impl::View& parent = m.views[view.parent];
-    view.rotationError += parent.rotationError + 10 * kUnit;
-    view.reach += parent.reach;
-    view.shiftError += parent.shiftError + parent.rotationError * joint.length() +
-                       kUnit * (7 * joint.length() + 4 * view.reach);
-  }
-  for (Impl::Path& path : m.paths) m.setErrors(path);
+  ++m.edge;
 }
 
 MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
@@ -257,6 +272,7 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
     ++m.stamp;
   }
   Impl::Path& path = m.paths[pair];
+  m.setErrors(path);
   MotionWindow w;
   if (path.b != kItself) w.X_AB = m.viewAt(path.b).X;
   Transform X_LA;
@@ -297,8 +313,8 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
     if (screw.amount != 0 || screw.tube != 0) path.screws.push_back(screw);
   }
   w.screws = path.screws;
-  w.speed = roundedUp(w.linear.norm());
-  w.angle = roundedUp(w.angular.norm());
+  w.speed = lengthFromAbove(w.linear);
+  w.angle = lengthFromAbove(w.angular);
   // Products of errors, which are below 2^-20 of the errors.
   constexpr double more = 1 + 0x1p-20;
   w.fixedError = roundedUp(more * (path.still.fixed + h * path.rate.fixed)) + kLeastError;
