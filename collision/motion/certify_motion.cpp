@@ -52,12 +52,21 @@ class Certifier {
 
   static constexpr Item kWhole = {0, 0, -HUGE_VALF, 0xffff};
 
-  /// What one window may leave of a pair to its halves before it gives up: a window far too wide to
-  /// decide anything should not look at everything.
-  static constexpr unsigned kLeftovers = 8;
-  /// And of how many pairs of bodies one may leave something, if that is nearly all that it has
-  /// looked at, before it leaves all the others too.
-  static constexpr std::size_t kLeftBodies = 12;
+  /// How soon a window gives up, for one far too wide to decide anything should not look at
+  /// everything: once it has left so much of a pair of bodies to its halves, or something of so
+  /// many pairs of bodies, if that is nearly all that it has looked at. The whole motion, which
+  /// mostly is too wide, leaves all the rest at once, where b turns: of what goes straight any
+  /// window is told to first order, exactly.
+  struct Patience {
+    unsigned pairsOfNodes;
+    std::size_t pairsOfBodies;
+  };
+  static constexpr Patience kFirst = {1, 1}, kLater = {8, 4};
+  /// Radians of half a window, from where on b turns.
+  static constexpr double kTurns = 0.02;
+  /// A body that turns, and goes so many times its own radius in a window, is left to the halves if
+  /// its ball isn't told apart.
+  static constexpr double kFar = 2;
   /// The first levels of halving: walked level by level for a verdict alone, so that a contact
   /// anywhere is found soon.
   static constexpr int kFirstLevels = 4;
@@ -101,7 +110,7 @@ class Certifier {
   }
 
   /// How far the bounds of two bodies stay apart in the window, metres; of what is more than
-  /// `enough` maybe less, where nobody asks for evidence.
+  /// `enough` maybe less, where nobody asks for evidence. Sets `far_` where that isn't enough.
   double bodiesStayApart(const MotionPair& pair, double enough) {
     if (evidence_) enough = HUGE_VAL;
     if (pair.worldA != MotionPair::kNone) {
@@ -110,9 +119,18 @@ class Certifier {
       if (clearance > enough || (evidence_ && clearance > 0)) return clearance;
     }
     // Of a motion that isn't the world's, the ball is nobody else's.
-    if (pair.worldB == pair.motion)
-      return clearanceBound(*pair.a, worldBall(pair.motion, *pair.b, pair.bodyB), enough);
-    return clearanceBound(*pair.a, sweptBall(*pair.b, windowOf(pair.motion)), enough);
+    const SweptBall ball = pair.worldB == pair.motion ? worldBall(pair.motion, *pair.b, pair.bodyB)
+                                                      : sweptBall(*pair.b, windowOf(pair.motion));
+    far_ = ball.cap > kFar * pair.b->sphereRadius() && ball.angular.squaredNorm() > kTurns * kTurns;
+    return clearanceBound(*pair.a, ball, enough);
+  }
+
+  bool provedByBodies(const Window& w, const Group& group) {
+    const double asked = roundedUp(options_.margin + options_.reserve);
+    const double clearance = bodiesStayApart(pairs_[group.bodies], asked);
+    if (!(clearance > asked)) return false;
+    proved(w, group, clearance - asked);
+    return true;
   }
 
   /// Looks at the window's groups; what it cannot separate is appended to them.
@@ -121,30 +139,29 @@ class Certifier {
     const double h = (w.t1 - w.t0) / 2;
     middle_ = w.t0 + h;  // dyadic: exact
     moveTo(middle_, h);
-    std::size_t left = 0;
+    std::size_t looked = 0, left = 0;
     for (std::size_t g = w.begin; g < w.end; ++g) {
       Group group = groups_[g];
-      if (left >= kLeftBodies && 4 * left > 3 * (g - w.begin) && h > kShortest) {
-        for (; g < w.end; ++g) groups_.push_back(Group(groups_[g]));
-        return true;
-      }
+      const bool whole = isWhole(group);
+      if (whole && provedByBodies(w, group)) continue;
       const MotionPair& pair = pairs_[group.bodies];
-      if (isWhole(group)) {
-        const double asked = roundedUp(options_.margin + options_.reserve);
-        const double clearance = bodiesStayApart(pair, asked);
-        if (clearance > asked) {
-          proved(w, group, clearance - asked);
-          continue;
-        }
+      const bool first = h == 0.5 && windowOf(pair.motion).angle > kTurns;
+      const Patience patience = first ? kFirst : kLater;
+      const bool tooMuch = left >= patience.pairsOfBodies && 4 * left > 3 * looked;
+      if (h > kShortest && (tooMuch || (whole && far_))) {
+        groups_.push_back(group);
+        ++left, ++looked;
+        continue;
       }
+      ++looked;
       MotionWindow window = windowOf(pair.motion);
       window.fixedError += options_.reserve;  // asked of a proof, not of a contact: as the tube is
       const std::size_t later = items_.size(), count = group.end - group.begin;
       auto& stack = context_.wideStack;
       if (stack.size() < count) stack.resize(2 * count);
       std::copy_n(items_.begin() + static_cast<std::ptrdiff_t>(group.begin), count, stack.begin());
-      const DescentOptions asked = {options_.margin, options_.tolerance, h <= kShortest,
-                                    workEnd_,        kLeftovers,         evidence_ != nullptr};
+      const DescentOptions asked = {options_.margin, options_.tolerance,    h <= kShortest,
+                                    workEnd_,        patience.pairsOfNodes, evidence_ != nullptr};
       found_ = descend(pair.a->tree(), pair.b->tree(), window, asked, count, items_, context_);
       group.clearance = std::min(group.clearance, found_.clearance);
       if (items_.size() > later) {
@@ -320,6 +337,7 @@ class Certifier {
   double t_ = 0, h_ = 0;                   // of the window that is asked about
   MotionWindow window_;                    // in it,
   std::size_t posed_ = MotionPair::kNone;  // of this motion
+  bool far_ = false;                       // the last body that was asked about goes far in it
   double middle_ = 0;                      // of the window that was looked at last
   Descent found_;                          // in it
   std::uint32_t bodies_ = 0;               // whose that is

@@ -94,5 +94,64 @@ TEST(MayMeet, RandomMotions) {
   std::cout << proved << " proved, " << sideways << " of them by the direction\n";
 }
 
+/// Both go far, one like the other: what they have in common doesn't count.
+TEST(MayMeet, WhatGoesAlongKeepsItsGap) {
+  const Body bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
+  std::array<ScrewTravel, 2> screwsA, screwsB;
+  for (const double nearer : {0.0, 0.1}) {
+    const RigidMotion one = RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(3, 5, 0)), {}),
+                      other =
+                          RigidMotion::spatial(at(Vec3(0, -3, 0)), at(Vec3(3, 7 - nearer, 0)), {});
+    const SweptBall a = sweptBall(bar, one.window(0.5, 0.5, screwsA)),
+                    b = sweptBall(bar, other.window(0.5, 0.5, screwsB));
+    const double bound = clearanceBound(a, b);
+    EXPECT_NEAR(bound, 1 - nearer, 1e-12) << "the balls' radii are 0.5";
+    EXPECT_LE(bound, 1 - nearer);
+    EXPECT_EQ(clearanceBound(b, a), bound);
+  }
+}
+
+/// As above, of two bodies that both move.
+TEST(MayMeet, RandomMotionsOfBoth) {
+  std::mt19937_64 random(test::testSeed(67));
+  const auto real = [&](double low = -1, double high = 1) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  QueryContext context;
+  std::array<ScrewTravel, 2> screwsA, screwsB;
+  int proved = 0, sideways = 0;
+  for (int n = 0; n < 6'000 / test::kSlowdown; ++n) {
+    const Body a = bodyOf(test::blob(random, 4, 0.3, 0.3)),
+               b = bodyOf(test::blob(random, 4, 0.3, 0.3));
+    const auto [fromA, toA] = test::randomEdge(random);
+    auto [fromB, toB] = test::randomEdge(random);
+    if (n % 2) toB.p = fromB.p + (toA.p - fromA.p) + 0.1 * Vec3(real(), real(), real());
+    const RigidMotion goesA = RigidMotion::spatial(fromA, toA, {}),
+                      goesB = RigidMotion::spatial(fromB, toB, {});
+    const double h = std::ldexp(0.5, -static_cast<int>(real(0, 4)));
+    SweptBall ballA = sweptBall(a, goesA.window(0.5, h, screwsA)),
+              ballB = sweptBall(b, goesB.window(0.5, h, screwsB));
+    const double bound = clearanceBound(ballA, ballB);
+    if (!(bound > 0)) continue;
+    ++proved;
+    for (const double enough : {0.0, 0.3 * bound, 2 * bound}) {
+      const double told = clearanceBound(ballA, ballB, enough);
+      EXPECT_LE(told, bound);
+      EXPECT_EQ(told > enough, bound > enough);
+    }
+    for (int k = -8; k <= 8; ++k) {
+      const double t = 0.5 + h * k / 8;
+      const double d =
+          distance(a.binaryTree(), goesA.at(t), b.binaryTree(), goesB.at(t), {}, context).distance;
+      ASSERT_GE(d, bound * (1 - 1e-12) - 1e-14) << n << " at " << k;
+    }
+    ballA.curvature = HUGE_VAL;
+    sideways += clearanceBound(ballA, ballB) == 0;
+  }
+  EXPECT_GT(proved, 1'000 / test::kSlowdown);
+  EXPECT_GT(sideways, 100 / test::kSlowdown);
+  std::cout << proved << " proved, " << sideways << " of them by the direction\n";
+}
+
 }  // namespace
 }  // namespace corridor

@@ -1,0 +1,160 @@
+// Scenes of many frames that move: what the scene skips, against every pair asked by itself.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "collision/world/body_queries.h"
+#include "planner/robot/edge_motion.h"
+#include "tests/planner/robot/random_trees.h"
+#include "tests/support/meshes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::RandomTrees;
+
+/// A body on every frame that moves and some on the world; all pairs but those of one frame.
+Scene randomScene(RandomTrees& random) {
+  std::vector<Scene::Placed> bodies;
+  const auto box = [&](double size) {
+    const Vec3 half = size * Vec3(random.real(0.2, 1), random.real(0.2, 1), random.real(0.2, 1));
+    const Vec3 center = random.vector(0.3);
+    return Body("", test::box(center - half, center + half));
+  };
+  const std::size_t obstacles = 1 + random.index(4);
+  for (std::size_t i = 0; i < obstacles; ++i) {
+    const Vec3 center = random.vector(2);
+    const Vec3 half(random.real(0.1, 1), random.real(0.1, 1), random.real(0.1, 1));
+    bodies.push_back({Body("", test::box(center - half, center + half)), 0});
+  }
+  for (std::size_t frame = 1; frame < random.tree.frames.size(); ++frame)
+    if (!random.oneIn(3)) bodies.push_back({box(0.15), frame});
+  std::vector<Scene::Pair> pairs;
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b)
+      if (bodies[a].frame != bodies[b].frame && random.oneIn(3)) pairs.push_back({a, b});
+  return {std::move(bodies), std::move(pairs)};
+}
+
+std::optional<Contact> firstTouching(const Scene& scene, std::span<const Transform> X_WF,
+                                     QueryContext& context) {
+  for (const Scene::Pair& pair : scene.pairs()) {
+    const Scene::Placed &a = scene.bodies()[pair.a], &b = scene.bodies()[pair.b];
+    if (const auto hit = interference(a.body, X_WF[a.frame], b.body, X_WF[b.frame], context))
+      return Contact{pair.a, pair.b, hit->a, hit->b};
+  }
+  return std::nullopt;
+}
+
+/// The scene's pairs as they are asked where nobody knows how bodies move in the world.
+std::vector<MotionPair> pairsAlone(const Scene& scene) {
+  std::vector<MotionPair> pairs;
+  const std::vector<Scene::FramePair>& frames = scene.framePairs();
+  for (const Scene::Pair& pair : scene.pairs()) {
+    const Scene::Placed &a = scene.bodies()[pair.a], &b = scene.bodies()[pair.b];
+    const auto motion = std::find_if(frames.begin(), frames.end(), [&](const Scene::FramePair& f) {
+      return f.a == a.frame && f.b == b.frame;
+    });
+    pairs.push_back(
+        {&a.body, &b.body, static_cast<std::size_t>(motion - frames.begin()), pair.a, pair.b});
+  }
+  return pairs;
+}
+
+TEST(SceneMotion, EdgesOfRandomTrees) {
+  RandomTrees random(test::testSeed(81));
+  QueryContext context, other;
+  int free = 0, contact = 0, undecided = 0;
+  std::uint64_t poses = 0, posesAlone = 0;
+  const int count = (test::stressAsked() ? 30'000 : 3'000) / test::kSlowdown;
+  for (int n = 0; n < count; ++n) {
+    random.makeTree(2 + random.index(7));
+    const Scene scene = randomScene(random);
+    if (scene.pairs().empty()) continue;
+    EdgeMotion motion(random.tree, random.space, scene.framePairs(), random.noTube());
+    const std::vector<MotionPair> alone = pairsAlone(scene);
+    MotionOptions options;
+    options.tolerance = 1e-8;
+    options.margin = n % 3 ? 0 : random.real(0, 0.1);
+    options.earliest = n % 5 == 0;
+    for (int k = 0; k < 4; ++k) {
+      random.makeEdge(std::pow(10.0, random.real(-2, 0.7)));
+      motion.set(random.from, random.to);
+      const std::uint64_t before = context.counters.poses, beforeAlone = other.counters.poses;
+      const MotionResult told = scene.certify(motion, options, context);
+      const MotionResult byPairs = certifyMotion(motion, alone, options, other);
+      poses += context.counters.poses - before;
+      posesAlone += other.counters.poses - beforeAlone;
+      undecided += told.verdict == MotionVerdict::undecided;
+      if (told.verdict == MotionVerdict::undecided || byPairs.verdict == MotionVerdict::undecided)
+        continue;
+      ASSERT_EQ(told.verdict, byPairs.verdict) << n << ", edge " << k;
+      free += told.verdict == MotionVerdict::free;
+      contact += told.verdict == MotionVerdict::contact;
+      if (told.verdict == MotionVerdict::contact && options.earliest) {
+        // Both brackets hold the first contact.
+        EXPECT_LE(told.certifiedUntil, byPairs.contactTime) << n;
+        EXPECT_LE(byPairs.certifiedUntil, told.contactTime) << n;
+      }
+      if (told.verdict != MotionVerdict::free || motion.ambiguous()) continue;
+      for (const double t : {0.0, 0.17, 0.5, 0.83, 1.0}) {
+        for (const MotionPair& pair : alone)
+          ASSERT_FALSE(
+              interference(*pair.a, {}, *pair.b, motion.window(pair.motion, t, 0).X_AB, other))
+              << n << ", edge " << k << " at " << t;
+      }
+    }
+  }
+  std::cout << "free " << free << ", contact " << contact << ", undecided " << undecided
+            << "; windows of motions " << poses << ", asked pair by pair " << posesAlone << "\n";
+  EXPECT_GT(free, count / 10);
+  EXPECT_GT(contact, count / 10);
+  EXPECT_LE(undecided, 1 + count / 100);
+  EXPECT_LT(poses, posesAlone);
+}
+
+TEST(SceneMotion, StatesOfRandomTrees) {
+  RandomTrees random(test::testSeed(82));
+  QueryContext context;
+  int touching = 0, apart = 0;
+  const int count = (test::stressAsked() ? 30'000 : 3'000) / test::kSlowdown;
+  for (int n = 0; n < count; ++n) {
+    random.makeTree(2 + random.index(7));
+    const Scene scene = randomScene(random);
+    random.makeEdge(1);
+    std::vector<Transform> X_WF = framePoses(random.tree, random.from);
+    // Maps that are rigid to four digits only, and a world that is anywhere.
+    if (n % 3 == 0)
+      for (Transform& X : X_WF) X.m *= 1 + 1e-4 * random.real();
+    if (n % 4 == 0)
+      for (Transform& X : X_WF) X.t += Vec3(5, -3, 2);
+    const auto hit = scene.interference(X_WF, context);
+    const auto expected = firstTouching(scene, X_WF, context);
+    ASSERT_EQ(hit.has_value(), expected.has_value()) << n;
+    (hit ? touching : apart) += 1;
+    double least = HUGE_VAL;
+    for (const Scene::Pair& pair : scene.pairs()) {
+      const Scene::Placed &a = scene.bodies()[pair.a], &b = scene.bodies()[pair.b];
+      least = std::min(
+          least, distance(a.body, X_WF[a.frame], b.body, X_WF[b.frame], {}, context).distance);
+    }
+    const double clearance = scene.clearance(X_WF, context);
+    if (least < HUGE_VAL) {
+      // Each of the two within the 1e-12·d + 4·2^-53·S that queries/distance.h promises; S < 100.
+      EXPECT_NEAR(clearance, least, 2e-12 * least + 1e-13) << n;
+    } else {
+      EXPECT_EQ(clearance, least);
+    }
+  }
+  std::cout << touching << " touching, " << apart << " apart\n";
+  EXPECT_GT(touching, count / 10);
+  EXPECT_GT(apart, count / 10);
+}
+
+}  // namespace
+}  // namespace corridor
