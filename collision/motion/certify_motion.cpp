@@ -35,7 +35,7 @@ class Certifier {
     groups_.resize(pairs_.size());
     std::size_t bodies = 0;
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
-      groups_[k] = {k, k, k + std::size_t{1}, HUGE_VAL};
+      groups_[k] = whole(k);
       bodies = std::max({bodies, pairs_[k].bodyA + 1, pairs_[k].bodyB + 1});
     }
     if (context_.balls.size() < bodies) context_.balls.resize(bodies);
@@ -70,9 +70,11 @@ class Certifier {
   /// The first levels of halving: walked level by level for a verdict alone, so that a contact
   /// anywhere is found soon.
   static constexpr int kFirstLevels = 4;
-  /// Where a motion is sampled for a verdict, once the whole window has left something open.
-  /// Measured: more samples find contacts no sooner, and are most of what a free motion costs.
+  /// Where a motion is sampled for a verdict, once the whole window has left something open; and at
+  /// the middles of the windows of so many levels below, where these have something left. Measured
+  /// on the edges of plans, not on random ones, where one more level costs more than it finds.
   static constexpr double kSamples[] = {1, 0.5};
+  static constexpr int kSampledLevels = 2;
   /// Half windows are not halved below 2^-48 of the motion: much below, their middles would no
   /// longer be exact.
   static constexpr double kShortest = 0x1p-48;
@@ -156,10 +158,7 @@ class Certifier {
       ++looked;
       MotionWindow window = windowOf(pair.motion);
       window.fixedError += options_.reserve;  // asked of a proof, not of a contact: as the tube is
-      const std::size_t later = items_.size(), count = group.end - group.begin;
-      auto& stack = context_.wideStack;
-      if (stack.size() < count) stack.resize(2 * count);
-      std::copy_n(items_.begin() + static_cast<std::ptrdiff_t>(group.begin), count, stack.begin());
+      const std::size_t later = items_.size(), count = stacked(group);
       const DescentOptions asked = {options_.margin, options_.tolerance,    h <= kShortest,
                                     workEnd_,        patience.pairsOfNodes, evidence_ != nullptr};
       found_ = descend(pair.a->tree(), pair.b->tree(), window, asked, count, items_, context_);
@@ -187,6 +186,10 @@ class Certifier {
         {group.bodies, w.t0, w.t1, roundedDown(options_.margin + options_.reserve + beyond)});
   }
 
+  /// The first items are all pairs of bodies.
+  static Group whole(std::uint32_t bodies) {
+    return {bodies, bodies, bodies + std::size_t{1}, HUGE_VAL};
+  }
   bool isWhole(const Group& group) const {
     const Item& item = items_[group.begin];
     return group.end - group.begin == 1 && item.a == 0 && item.b == 0 && item.pairs == kWhole.pairs;
@@ -200,6 +203,9 @@ class Certifier {
     for (int level = 0; level < kFirstLevels && count; ++level) {
       std::size_t halves = 0;
       for (const Window& w : std::span(windows).first(count)) {
+        const bool sampled = 0 < level && level <= kSampledLevels && !motion_.still();
+        if (sampled && touchesAt(w.t0 + (w.t1 - w.t0) / 2, w.begin, w.end))
+          return contact(0, false);
         const std::size_t later = groups_.size();
         if (!look(w)) return stopped(w);
         if (groups_.size() == later) continue;
@@ -240,27 +246,37 @@ class Certifier {
     return free;
   }
 
-  /// Is one of the groups from `begin` on in contact at the rounded pose at t?
-  bool touchesAt(double t, std::size_t begin) {
+  /// Is one of the groups of this range in contact at the rounded pose at t?
+  bool touchesAt(double t, std::size_t begin, std::size_t end) {
     moveTo(t, 0);
-    for (std::size_t g = begin; g < groups_.size() && work() < workEnd_; ++g) {
-      if (g > begin && groups_[g].bodies == groups_[g - 1].bodies) continue;
+    for (std::size_t g = begin; g < end && work() < workEnd_; ++g) {
       const MotionPair& pair = pairs_[groups_[g].bodies];
       // What the window has not come to may be far away, and need no tree.
       if (isWhole(groups_[g]) && bodiesStayApart(pair, 0) > 0) continue;
-      if (touches(pair, windowOf(pair.motion).X_AB, t)) return true;
+      if (touches(pair, windowOf(pair.motion).X_AB, t, stacked(groups_[g]))) return true;
     }
     return false;
   }
 
-  /// Are the two in contact at the rounded pose, that of t?
-  bool touches(const MotionPair& pair, const Transform& X_AB, double t) {
-    const auto hit = interference(pair.a->tree(), {}, pair.b->tree(), X_AB, context_, workEnd_);
+  /// Are two nodes of the first `count` of the stack's items in contact at the rounded pose, that
+  /// of t?
+  bool touches(const MotionPair& pair, const Transform& X_AB, double t, std::size_t count) {
+    const auto hit =
+        interferenceBelow(pair.a->tree(), {}, pair.b->tree(), X_AB, count, context_, workEnd_);
     --counters_.states;  // part of an edge
     if (!hit) return false;
     contactTime_ = t;
     contactPair_ = {pair.bodyA, pair.bodyB, hit->a, hit->b};
     return true;
+  }
+
+  /// Puts the group's items on the stack that walks begin with. @return how many.
+  std::size_t stacked(const Group& group) {
+    const std::size_t count = group.end - group.begin;
+    auto& stack = context_.wideStack;
+    if (stack.size() < count) stack.resize(2 * count);
+    std::copy_n(items_.begin() + static_cast<std::ptrdiff_t>(group.begin), count, stack.begin());
+    return count;
   }
 
   /// A window that ends where a contact begins is never proved: is there one at its end, or after
@@ -270,15 +286,17 @@ class Certifier {
     for (double after = 0; !motion_.still(); after = std::max(2 * after, 0x1p-40)) {
       const double t = std::min(w.t1 + after, 1.0);
       if (after > 0 && t - w.t0 > options_.timeTolerance) return false;
-      if (touches(pair, motion_.window(pair.motion, t, 0).X_AB, t)) return true;
+      const Transform X_AB = motion_.window(pair.motion, t, 0).X_AB;
+      if (touches(pair, X_AB, t, stacked(whole(bodies_)))) return true;
       if (t == 1) return false;
     }
     return false;
   }
 
   bool touchesAtSamples(std::size_t begin) {
-    return !motion_.still() && std::any_of(std::begin(kSamples), std::end(kSamples),
-                                           [&](double t) { return touchesAt(t, begin); });
+    return !motion_.still() && std::any_of(std::begin(kSamples), std::end(kSamples), [&](double t) {
+      return touchesAt(t, begin, groups_.size());
+    });
   }
 
   /// What `look` has found touches, at the middle.

@@ -1,5 +1,6 @@
 #include "collision/queries/interference_wide.h"
 
+#include <cmath>
 #include <vector>
 
 #include "collision/convex/convex_contact.h"
@@ -86,15 +87,15 @@ class Touching {
 
 std::optional<TrianglePair> firstTouching(const WideObbTree& a, const Transform& X_WA,
                                           const WideObbTree& b, const Transform& X_WB,
-                                          const WidePose& pose, QueryContext& context,
-                                          std::uint64_t workEnd) {
+                                          const WidePose& pose, std::size_t count,
+                                          QueryContext& context, std::uint64_t workEnd) {
   std::optional<TrianglePair> hit;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
     hit = TrianglePair{s, t};
     return true;
   };
   Touching query(a, X_WA, b, X_WB, pose, context.counters, found, workEnd);
-  walkWide(a, b, pose.floats.scale, context, query);
+  walkWide(a, b, pose.floats.scale, context, query, count);
   return hit;
 }
 
@@ -120,16 +121,51 @@ namespace corridor {
 HWY_EXPORT(firstTouching);
 HWY_EXPORT(allTouching);
 
+namespace {
+
+void startAtRoots(QueryContext& context) {
+  if (context.wideStack.empty()) context.wideStack.resize(1);
+  context.wideStack[0] = {0, 0, -HUGE_VALF, 0xffff};
+}
+
+/// Of the first `count` items of the stack, in leaf order.
+std::optional<TrianglePair> touchingBelow(const WideObbTree& a, const Transform& X_WA,
+                                          const WideObbTree& b, const Transform& X_WB,
+                                          const WidePose& pose, std::size_t count,
+                                          QueryContext& context, std::uint64_t workEnd) {
+  LastPair& last = context.lastPairs.of(&a, &b);
+  if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
+    const bool touch =
+        trianglesTouch(a.triangle(last.a), X_WA, b.triangle(last.b), X_WB, context.counters);
+    last.tested(touch);
+    if (touch) return TrianglePair{last.a, last.b};
+  }
+  const auto hit =
+      HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, count, context, workEnd);
+  if (hit) last.found(hit->a, hit->b);
+  return hit;
+}
+
+}  // namespace
+
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
                                          QueryContext& context, std::uint64_t workEnd) {
+  startAtRoots(context);
+  return interferenceBelow(a, X_WA, b, X_WB, 1, context, workEnd);
+}
+
+std::optional<TrianglePair> interferenceBelow(const WideObbTree& a, const Transform& X_WA,
+                                              const WideObbTree& b, const Transform& X_WB,
+                                              std::size_t count, QueryContext& context,
+                                              std::uint64_t workEnd) {
   ++context.counters.states;
   const WidePose pose(a, X_WA, b, X_WB, 0);
   if (pose.apart) {
     ++context.counters.boxTests;
     return std::nullopt;
   }
-  const auto hit = touchingLeafTriangles(a, X_WA, b, X_WB, pose, context, workEnd);
+  const auto hit = touchingBelow(a, X_WA, b, X_WB, pose, count, context, workEnd);
   if (!hit) return hit;
   return TrianglePair{a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
 }
@@ -138,16 +174,8 @@ std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Tr
                                                   const WideObbTree& b, const Transform& X_WB,
                                                   const WidePose& pose, QueryContext& context,
                                                   std::uint64_t workEnd) {
-  LastPair& last = context.lastPairs.of(&a, &b);
-  if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
-    const bool touch =
-        trianglesTouch(a.triangle(last.a), X_WA, b.triangle(last.b), X_WB, context.counters);
-    last.tested(touch);
-    if (touch) return TrianglePair{last.a, last.b};
-  }
-  const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, context, workEnd);
-  if (hit) last.found(hit->a, hit->b);
-  return hit;
+  startAtRoots(context);
+  return touchingBelow(a, X_WA, b, X_WB, pose, 1, context, workEnd);
 }
 
 std::vector<TriangleContact> contacts(const WideObbTree& a, const Transform& X_WA,

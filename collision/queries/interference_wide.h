@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -30,6 +31,13 @@ std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& 
                                          const WideObbTree& b, const Transform& X_WB,
                                          QueryContext& context,
                                          std::uint64_t workEnd = kNoWorkLimit);
+
+/// The same of what is below the first `count` items of `context.wideStack` only (and of the pair
+/// that touched last).
+std::optional<TrianglePair> interferenceBelow(const WideObbTree& a, const Transform& X_WA,
+                                              const WideObbTree& b, const Transform& X_WB,
+                                              std::size_t count, QueryContext& context,
+                                              std::uint64_t workEnd = kNoWorkLimit);
 
 /// The same by triangles in leaf order, for queries that have the pose. @pre not `pose.apart`.
 std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Transform& X_WA,
