@@ -41,8 +41,7 @@ class Certifier {
     if (context_.balls.size() < bodies) context_.balls.resize(bodies);
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
-    const Window all = {0, 1, 0, groups_.size()};
-    if (options_.earliest ? walkInOrder(all) : walkByLevels(all)) return {};
+    if (options_.earliest ? walkInOrder({0, 1, 0, groups_.size()}) : walkByLevels()) return {};
     return result_;
   }
 
@@ -70,10 +69,8 @@ class Certifier {
   /// The first levels of halving: walked level by level for a verdict alone, so that a contact
   /// anywhere is found soon.
   static constexpr int kFirstLevels = 4;
-  /// Where a motion is sampled for a verdict, once the whole window has left something open; and at
-  /// the middles of the windows of so many levels below, where these have something left. Measured
-  /// on the edges of plans, not on random ones, where one more level costs more than it finds.
-  static constexpr double kSamples[] = {1, 0.5};
+  /// Of so many levels below the whole motion the middles are sampled, where something is left.
+  /// Measured on the edges that plans ask about: one more costs more than it finds.
   static constexpr int kSampledLevels = 2;
   /// Half windows are not halved below 2^-48 of the motion: much below, their middles would no
   /// longer be exact.
@@ -85,6 +82,7 @@ class Certifier {
   struct Window {
     double t0, t1;
     std::size_t begin, end;
+    bool near = false;  // all bodies' bounds were looked at in it
   };
 
   /// What is asked from now on is of the window [t − h, t + h].
@@ -145,12 +143,12 @@ class Certifier {
     for (std::size_t g = w.begin; g < w.end; ++g) {
       Group group = groups_[g];
       const bool whole = isWhole(group);
-      if (whole && provedByBodies(w, group)) continue;
+      if (whole && !w.near && provedByBodies(w, group)) continue;
       const MotionPair& pair = pairs_[group.bodies];
       const bool first = h == 0.5 && windowOf(pair.motion).angle > kTurns;
       const Patience patience = first ? kFirst : kLater;
       const bool tooMuch = left >= patience.pairsOfBodies && 4 * left > 3 * looked;
-      if (h > kShortest && (tooMuch || (whole && far_))) {
+      if (h > kShortest && (tooMuch || (whole && !w.near && far_))) {
         groups_.push_back(group);
         ++left, ++looked;
         continue;
@@ -195,27 +193,50 @@ class Certifier {
     return group.end - group.begin == 1 && item.a == 0 && item.b == 0 && item.pairs == kWhole.pairs;
   }
 
+  /// The pairs of bodies whose bounds don't stay apart in the whole motion; and does any of them go
+  /// far in it?
+  Window nearBodies(bool& far) {
+    moveTo(0.5, 0.5);
+    const std::size_t later = groups_.size();
+    for (std::size_t g = 0; g < later; ++g) {
+      const Group group = groups_[g];
+      if (provedByBodies({0, 1, 0, 0}, group)) continue;
+      groups_.push_back(group);
+      far = far || far_;
+    }
+    return {0, 1, later, groups_.size(), true};
+  }
+
   /// For the verdict alone: false: `result_` says why.
-  bool walkByLevels(const Window& all) {
+  bool walkByLevels() {
+    const auto touchesInMiddle = [&](const Window& w) {
+      return !motion_.still() && touchesAt(w.t0 + (w.t1 - w.t0) / 2, w.begin, w.end);
+    };
+    bool far = false;
     std::array<Window, 1 << kFirstLevels> windows, below;
-    windows[0] = all;
-    std::size_t count = 1;
+    windows[0] = nearBodies(far);
+    std::size_t count = windows[0].begin < windows[0].end;
+    // Many motions that touch anything do so at their end.
+    if (!motion_.still() && touchesAt(1, windows[0].begin, windows[0].end))
+      return contact(0, false);
     for (int level = 0; level < kFirstLevels && count; ++level) {
       std::size_t halves = 0;
-      for (const Window& w : std::span(windows).first(count)) {
-        const bool sampled = 0 < level && level <= kSampledLevels && !motion_.still();
-        if (sampled && touchesAt(w.t0 + (w.t1 - w.t0) / 2, w.begin, w.end))
-          return contact(0, false);
-        const std::size_t later = groups_.size();
-        if (!look(w)) return stopped(w);
-        if (groups_.size() == later) continue;
+      for (Window w : std::span(windows).first(count)) {
+        if (0 < level && level <= kSampledLevels && touchesInMiddle(w)) return contact(0, false);
+        if (level > 0 || !far) {
+          const std::size_t later = groups_.size();
+          if (!look(w)) return stopped(w);
+          if (groups_.size() == later) continue;
+          w.begin = later, w.end = groups_.size();
+        }
+        if (level == 0 && touchesInMiddle(w)) return contact(0, false);
         ++counters_.splits;
-        below[halves++] = {w.t0, middle_, later, groups_.size()};
-        below[halves++] = {middle_, w.t1, later, groups_.size()};
+        const double t = w.t0 + (w.t1 - w.t0) / 2;
+        below[halves++] = {w.t0, t, w.begin, w.end};
+        below[halves++] = {t, w.t1, w.begin, w.end};
       }
       std::swap(windows, below);
       count = halves;
-      if (level == 0 && count && touchesAtSamples(windows[0].begin)) return contact(0, false);
     }
     // Depth first, so that a place that can't be decided is found before everything else is
     // refined.
@@ -291,12 +312,6 @@ class Certifier {
       if (t == 1) return false;
     }
     return false;
-  }
-
-  bool touchesAtSamples(std::size_t begin) {
-    return !motion_.still() && std::any_of(std::begin(kSamples), std::end(kSamples), [&](double t) {
-      return touchesAt(t, begin, groups_.size());
-    });
   }
 
   /// What `look` has found touches, at the middle.

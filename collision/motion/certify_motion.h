@@ -114,8 +114,9 @@ struct MotionEvidence {
 /// Method (design: «The certified edge»): a window of time is halved where boxes or leaves can't
 /// be told apart (`descend`); each window hands the undecided pairs of nodes down to its halves.
 /// Bodies whose bounds stay apart are never descended, nor do they get a tree. Where only the
-/// verdict is asked for, what the whole motion leaves open is tested for contact at the end and in
-/// the middle before it is walked: most motions that touch anything do so for long.
+/// verdict is asked for, those whose bounds don't are tested for contact at the end before any
+/// window is walked, and what the first windows leave, in their middles: most motions that touch
+/// anything are done there.
 /// @param evidence  where not null, gets why: `checkEvidence` (check_evidence.h) proves it anew. No
 /// verdict depends on it; it takes half again the time.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
