@@ -31,6 +31,9 @@ struct ConvexSet {
 /// |t|). The ball's share |Mᵀn|: 3.1uF and 4uF. The disc's |Mᵀn × axis|: 3.1uF; the axis is off by
 /// 1u (difference of the points) + 5u (norm and quotient), 6uF; cross product and norm: 2√2·1.1uF +
 /// 4uF: together < 17uF. Points and discs share ρ: all in all below u(20Fρ + 6|t|).
+///
+/// Sizes and coordinates are taken to be within 2^±440 m, or 0. Beyond, squares overflow or vanish:
+/// contact queries and distances may then tell contact, or less than there is, never more.
 class PosedSet {
  public:
   PosedSet(const ConvexSet& set, const Transform& X);

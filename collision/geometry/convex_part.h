@@ -45,7 +45,8 @@ struct ConvexPart {
 };
 
 /// The primitive in the frame of a body, local pose applied once (rounded: the result is the
-/// model).
+/// model). Points are mapped, radii stay: a pose that isn't rigid makes no other curved shape of
+/// it. Whoever isn't sure of the primitive asks `checkPrimitive` first: nobody does here.
 ConvexPart placed(const Primitive& primitive, const Transform& X_BodyPrimitive);
 
 }  // namespace corridor

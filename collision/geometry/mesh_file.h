@@ -11,10 +11,10 @@ namespace corridor {
 /// What a caller may say about a mesh file.
 struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit where its format has one, else 1.
-  std::optional<double> metresPerUnit;
+  std::optional<double> metresPerUnit = {};
   /// The file's up-axis ('x', 'y' or 'z'), turned to z by a rotation: 'y' takes (x, y, z) to
   /// (x, -z, y), 'x' to (-y, -z, x), as Collada's axes do. Unset: coordinates as stored.
-  std::optional<char> up;
+  std::optional<char> up = {};
 };
 
 /// A mesh and how it was read.

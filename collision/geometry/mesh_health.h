@@ -43,7 +43,8 @@ enum class TriangleQuality { fair, sliver, degenerate };
 std::vector<TriangleQuality> triangleQualities(const TriangleMesh& mesh);
 
 /// For meshes made in memory: the first thing that makes the mesh illegal (a vertex that is not
-/// finite, an index out of range), as a sentence; nullopt if it is sound.
+/// finite, an index out of range), as a sentence; nullopt if it is sound. One without triangles is;
+/// no tree can be made of it.
 std::optional<std::string> checkMesh(const TriangleMesh& mesh);
 
 }  // namespace corridor

@@ -1,13 +1,16 @@
 #include "collision/hierarchy/tree_items.h"
 
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
+#include "collision/geometry/mesh_health.h"
 #include "collision/volumes/part_obb.h"
 
 namespace corridor {
 
 TreeItems::TreeItems(const TriangleMesh& mesh) : numbers(mesh.triangles.size()) {
+  if (const auto complaint = checkMesh(mesh)) throw std::invalid_argument(*complaint);
   triangles.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     triangles.push_back({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)});

@@ -1,6 +1,7 @@
 #include "collision/hierarchy/volume_tree.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "collision/core/rounding.h"
@@ -26,6 +27,7 @@ VolumeTree<Volume>::VolumeTree(std::vector<ConvexPart> parts, const TreeParams& 
 
 template <BoundingVolume Volume>
 void VolumeTree<Volume>::build(const TreeParams& params) {
+  if (items_.numbers.empty()) throw std::invalid_argument("a tree needs a triangle or a part");
   const Skeleton skeleton = buildSkeleton(items_, Volume::kOriented, params);
   nodes_.reserve(skeleton.size());
   for (const SkeletonNode& bone : skeleton)

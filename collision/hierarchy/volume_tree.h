@@ -37,11 +37,11 @@ class VolumeTree {
     bool isLeaf() const { return right == 0; }
   };
 
-  /// @pre the mesh has a triangle, finite coordinates, and indices in range (`checkMesh`).
+  /// @throws std::invalid_argument for no triangle and for a mesh that `checkMesh` complains about.
   explicit VolumeTree(const TriangleMesh& mesh, const TreeParams& params = {});
   /// One leaf, which holds a convex part. @pre a sound part (`checkPrimitive`).
   explicit VolumeTree(const ConvexPart& part);
-  /// Over many parts, which may overlap. @pre at least one, all sound.
+  /// Over many parts, which may overlap. @pre all sound. @throws std::invalid_argument for none.
   explicit VolumeTree(std::vector<ConvexPart> parts, const TreeParams& params = {});
 
   /// The i-th part, or null: the leaves hold triangles.

@@ -4,6 +4,7 @@
 
 #include "collision/core/parallel.h"
 #include "collision/core/rounding.h"
+#include "collision/geometry/mesh_health.h"
 #include "collision/hierarchy/wide_build.h"
 
 namespace corridor {
@@ -11,6 +12,8 @@ namespace corridor {
 WideObbTree::WideObbTree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
     : vertices_(mesh.vertices) {
   const std::size_t n = mesh.triangles.size();
+  if (n == 0) throw std::invalid_argument("a tree needs a triangle");
+  if (const auto complaint = checkMesh(mesh)) throw std::invalid_argument(*complaint);
   if (n >= (1U << 29) - 1) throw std::length_error("a tree holds less than 2^29 triangles");
   WideLayout layout = layOutWide(mesh, fit, threads);
   root_ = layout.root;

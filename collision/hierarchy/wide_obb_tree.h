@@ -40,10 +40,10 @@ class WideObbTree {
   static std::uint32_t leafFirst(std::uint32_t child) { return (child & 0x7fffffff) >> 2; }
   static std::uint32_t leafCount(std::uint32_t child) { return (child & 3) + 1; }
 
-  /// @pre the mesh has a triangle, finite coordinates, and indices in range (`checkMesh`).
   /// The tree is bit for bit the same for any number of threads and on any instruction set; threads
   /// pay from some ten thousand triangles on. None is left when this returns.
-  /// @throws std::length_error for 2^29 − 1 triangles or more.
+  /// @throws std::invalid_argument for no triangle and for a mesh that `checkMesh` complains about,
+  /// std::length_error for 2^29 − 1 triangles or more.
   explicit WideObbTree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles,
                        unsigned threads = 1);
   /// One box, which holds a convex solid: its only item, number 0. @pre a sound part

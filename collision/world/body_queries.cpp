@@ -40,6 +40,7 @@ Vec3 pointOf(const Body& inner, std::uint32_t number, const Transform& X_WI) {
 
 std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
                                             const Transform& X_WB, QueryContext& context) {
+  require(X_WA, X_WB);
   if (const auto hit = inside(a, X_WA, b, X_WB, context)) return hit;
   if (const auto hit = inside(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
   return std::nullopt;

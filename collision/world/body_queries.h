@@ -11,6 +11,9 @@ namespace corridor {
 /// Queries of two bodies, whatever they are: surfaces of meshes, `solid` meshes with all that they
 /// enclose, and primitives, solid and never tessellated; in all pairs, each under its own map.
 ///
+/// With a primitive, sizes and coordinates are to be within 2^±440 m, or 0: beyond, bodies may be
+/// called closer than they are, or in contact, never farther apart.
+///
 /// They build the trees that they need, throw std::invalid_argument for maps that are not finite
 /// and numbers that are not finite or negative, and may be called in parallel, with one context a
 /// thread.

@@ -35,6 +35,17 @@ TYPED_TEST(VolumeTrees, ContainWhatTheyHold) {
       }
 }
 
+TYPED_TEST(VolumeTrees, NeedATriangleOrAPart) {
+  for (const TreeParams& params : kParams) {
+    EXPECT_THROW(VolumeTree<TypeParam>(TriangleMesh{}, params), std::invalid_argument);
+    EXPECT_THROW(VolumeTree<TypeParam>(TriangleMesh{{Vec3::Zero()}, {{0, 0, 1}}}, params),
+                 std::invalid_argument);
+    EXPECT_THROW(VolumeTree<TypeParam>(TriangleMesh{{Vec3(0, NAN, 0)}, {{0, 0, 0}}}, params),
+                 std::invalid_argument);
+    EXPECT_THROW(VolumeTree<TypeParam>(std::vector<ConvexPart>{}, params), std::invalid_argument);
+  }
+}
+
 TYPED_TEST(VolumeTrees, ContainPointsSegmentsAndExtremes) {
   std::mt19937_64 random(test::testSeed(2));
   TriangleMesh point{{Vec3(1, 2, 3)}, {{0, 0, 0}}};

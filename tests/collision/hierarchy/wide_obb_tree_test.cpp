@@ -189,6 +189,13 @@ TEST(WideObbTree, TheSameForAnyInstructionSet) {
   }
 }
 
+TEST(WideObbTree, NeedsATriangle) {
+  EXPECT_THROW(WideObbTree(TriangleMesh{}), std::invalid_argument);
+  EXPECT_THROW(WideObbTree(TriangleMesh{{Vec3::Zero()}, {}}), std::invalid_argument);
+  EXPECT_THROW(WideObbTree(TriangleMesh{{Vec3::Zero()}, {{0, 0, 1}}}), std::invalid_argument);
+  EXPECT_THROW(WideObbTree(TriangleMesh{{Vec3(0, NAN, 0)}, {{0, 0, 0}}}), std::invalid_argument);
+}
+
 TEST(WideObbTree, CheckFindsWhatIsWrong) {
   // A box that is smaller than what it holds can't be made from outside: the copy is.
   TriangleMesh mesh;

@@ -176,6 +176,15 @@ TEST(BodyQueries, RejectsWhatIsNotFinite) {
             "the pose of a body is to be finite");
   EXPECT_EQ(message([&] { distance(a, {}, b, bad, {}, context); }),
             "the pose of a body is to be finite");
+  EXPECT_EQ(message([&] { closerThan(a, {}, b, bad, 1, context); }),
+            "the pose of a body is to be finite");
+  const Body solid("solid", cube(), true);
+  for (const Body* other : {&a, &b, &solid}) {
+    EXPECT_EQ(message([&] { insideEachOther(solid, {}, *other, bad, context); }),
+              "the pose of a body is to be finite");
+    EXPECT_EQ(message([&] { insideEachOther(*other, bad, solid, {}, context); }),
+              "the pose of a body is to be finite");
+  }
   EXPECT_EQ(message([&] {
               distance(a, {}, b, {}, {-1, 0}, context);
             }),
