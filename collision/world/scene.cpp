@@ -178,8 +178,9 @@ double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context) 
 
 MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
                                  const MotionOptions& options, QueryContext& context,
-                                 EdgeMethod method) const {
-  MotionResult result = certifyMotionBy(method, motion, pairs, options, context);
+                                 EdgeMethod method, MotionEvidence* evidence) const {
+  MotionResult result = evidence ? certifyMotion(motion, pairs, options, context, evidence)
+                                 : certifyMotionBy(method, motion, pairs, options, context);
   if (!solidMeshes_) return result;
   if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
   // Surfaces that stay apart at t = 0 by more than all rounding: the rounded pose decides for the
@@ -192,6 +193,7 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
     const auto hit = insideEachOther(*pair.a, {}, *pair.b, start.X_AB, context);
     if (!hit) continue;
     context.counters.undecided -= result.verdict == MotionVerdict::undecided;
+    if (evidence) *evidence = {};
     result = {};
     result.verdict = MotionVerdict::contact;
     result.certifiedUntil = result.contactTime = 0;
@@ -205,6 +207,12 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, EdgeMethod method) const {
   require(options);
   return certifyPairs(motionPairs_, motion, options, context, method);
+}
+
+MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
+                            QueryContext& context, MotionEvidence& evidence) const {
+  require(options);
+  return certifyPairs(motionPairs_, motion, options, context, EdgeMethod::certified, &evidence);
 }
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,

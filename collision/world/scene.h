@@ -59,14 +59,22 @@ class Scene {
   /// contact at t = 0.) `motion` numbers its motions as `framePairs()`.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        EdgeMethod method = EdgeMethod::certified) const;
+  /// The same by the method `certified`, and why: `checkEvidence` (motion/check_evidence.h) proves
+  /// it anew with `motionPairs()`. Of surfaces: a solid that has another body inside needs no
+  /// evidence.
+  MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
+                       MotionEvidence& evidence) const;
+  /// `pairs()` as motion queries take them, in another order; evidence numbers its pairs by it.
+  /// Good as long as the scene, and as long as that is not moved.
+  std::span<const MotionPair> motionPairs() const { return motionPairs_; }
   /// What `certify` says of each pair of bodies on its own, in the order of `pairs()`.
   std::vector<MotionResult> certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                             QueryContext& context) const;
 
  private:
   MotionResult certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
-                            const MotionOptions& options, QueryContext& context,
-                            EdgeMethod method) const;
+                            const MotionOptions& options, QueryContext& context, EdgeMethod method,
+                            MotionEvidence* evidence = nullptr) const;
   template <class Visit>
   void forNearPairs(std::span<const Transform> X_WF, const double& within, QueryContext& context,
                     Visit visit) const;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/motion/check_evidence.h"
 #include "collision/world/body_queries.h"
 #include "planner/robot/edge_motion.h"
 #include "tests/planner/robot/random_trees.h"
@@ -116,6 +117,55 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
   EXPECT_GT(contact, count / 10);
   EXPECT_LE(undecided, 1 + count / 100);
   EXPECT_LT(poses, posesAlone);
+}
+
+/// Evidence of scenes holds by other means, whoever told bodies apart.
+TEST(SceneMotion, EvidenceHolds) {
+  RandomTrees random(test::testSeed(83));
+  QueryContext context;
+  int free = 0, contact = 0, unproved = 0;
+  std::size_t intervals = 0;
+  const int count = (test::stressAsked() ? 3'000 : 300) / test::kSlowdown;
+  for (int n = 0; n < count; ++n) {
+    random.makeTree(2 + random.index(5));
+    const Scene scene = randomScene(random);
+    if (scene.pairs().empty()) continue;
+    EdgeMotion motion(random.tree, random.space, scene.framePairs(), random.noTube());
+    MotionOptions options;
+    options.tolerance = 1e-6;
+    options.reserve = 1e-6;
+    options.margin = n % 3 ? 0 : random.real(0, 0.05);
+    options.earliest = n % 2 == 0;
+    random.makeEdge(std::pow(10.0, random.real(-2, 0.3)));
+    motion.set(random.from, random.to);
+    MotionEvidence evidence;
+    const MotionResult told = scene.certify(motion, options, context, evidence);
+    ASSERT_EQ(told.verdict, scene.certify(motion, options, context).verdict);
+    if (told.verdict == MotionVerdict::undecided) continue;
+    const double until = told.verdict == MotionVerdict::free ? 1 : told.certifiedUntil;
+    free += told.verdict == MotionVerdict::free;
+    contact += told.verdict == MotionVerdict::contact;
+    EXPECT_EQ(evidence.point_A.has_value(), told.verdict == MotionVerdict::contact);
+    intervals += evidence.free.size();
+    const auto fault =
+        checkEvidence(motion, scene.motionPairs(), options, until, evidence, context);
+    // Of long chains the isotropic bound of the audit may not suffice.
+    unproved += fault && fault->kind == EvidenceFault::Kind::unproved;
+    ASSERT_TRUE(!fault || fault->kind == EvidenceFault::Kind::unproved)
+        << n << ": " << static_cast<int>(fault->kind) << " of pair " << fault->pair << " at "
+        << fault->t;
+    // What isn't there is missed.
+    if (until == 0 || evidence.free.empty()) continue;
+    evidence.free.erase(evidence.free.begin() +
+                        static_cast<std::ptrdiff_t>(random.index(evidence.free.size())));
+    const auto missed = checkEvidence(motion, scene.motionPairs(), options, 1, evidence, context);
+    EXPECT_TRUE(missed) << n;
+  }
+  std::cout << free << " free and " << contact << " contacts proved anew by " << intervals
+            << " intervals, " << unproved << " not for rounding alone\n";
+  EXPECT_GT(free, count / 10);
+  EXPECT_GT(contact, count / 20);
+  EXPECT_LE(unproved, count / 50);
 }
 
 TEST(SceneMotion, StatesOfRandomTrees) {
