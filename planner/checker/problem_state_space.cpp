@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <new>
 #include <numbers>
 
 #include <ompl/base/ProjectionEvaluator.h>
@@ -17,6 +19,12 @@ namespace ob = ompl::base;
 namespace {
 
 using Kind = Coordinate::Kind;
+using Lines = ob::RealVectorStateSpace::StateType;
+using Circle = ob::SO2StateSpace::StateType;
+using Rotation = ob::SO3StateSpace::StateType;
+static_assert(alignof(Lines) <= alignof(double) && alignof(Circle) <= alignof(double) &&
+              alignof(Rotation) <= alignof(double) && sizeof(Lines) % alignof(double) == 0 &&
+              sizeof(Circle) % alignof(double) == 0 && sizeof(Rotation) % alignof(double) == 0);
 using Group = CoordinateGroup::Kind;
 
 /// The group that a coordinate belongs to, by index.
@@ -104,6 +112,39 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
   if (alone && space.groups()[0].kind == Group::planar) type_ = ob::STATE_SPACE_SE2;
   if (alone && space.groups()[0].kind == Group::floating) type_ = ob::STATE_SPACE_SE3;
   lock();
+  // The compound state, where its parts are, the parts, and the numbers of those that keep them
+  // apart. All are as aligned as a pointer is.
+  bytes_ = sizeof(StateType) + parts_.size() * sizeof(ob::State*);
+  for (Part& part : parts_) {
+    part.offset = bytes_;
+    bytes_ += part.kind == Kind::line     ? sizeof(Lines) + part.count * sizeof(double)
+              : part.kind == Kind::circle ? sizeof(Circle)
+                                          : sizeof(Rotation);
+  }
+}
+
+ob::State* ProblemStateSpace::allocState() const {
+  auto* const memory = static_cast<std::byte*>(::operator new(bytes_));
+  auto* const state = new (memory) StateType;
+  state->components = new (memory + sizeof(StateType)) ob::State*[parts_.size()];
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    std::byte* const at = memory + part.offset;
+    if (part.kind == Kind::line) {
+      auto* const lines = new (at) Lines;
+      lines->values = new (at + sizeof(Lines)) double[part.count];
+      state->components[i] = lines;
+    } else if (part.kind == Kind::circle) {
+      state->components[i] = new (at) Circle;
+    } else {
+      state->components[i] = new (at) Rotation;
+    }
+  }
+  return state;
+}
+
+void ProblemStateSpace::freeState(ob::State* state) const {
+  ::operator delete(state->as<StateType>());  // none of its parts' destructors does anything
 }
 
 void ProblemStateSpace::read(const ob::State* state, double* q) const {
@@ -112,14 +153,18 @@ void ProblemStateSpace::read(const ob::State* state, double* q) const {
     const Part& part = parts_[i];
     double* numbers = q + part.first;
     if (part.kind == Kind::line) {
-      const double* values = compound->as<ob::RealVectorStateSpace::StateType>(i)->values;
-      std::copy(values, values + part.count, numbers);
+      const double* values = compound->as<Lines>(i)->values;
+      // Mostly two or three: a call that copies would cost more.
+      if (part.count == 3) {
+        numbers[0] = values[0], numbers[1] = values[1], numbers[2] = values[2];
+      } else {
+        std::copy(values, values + part.count, numbers);
+      }
     } else if (part.kind == Kind::circle) {
-      *numbers = compound->as<ob::SO2StateSpace::StateType>(i)->value;
+      *numbers = compound->as<Circle>(i)->value;
     } else {
-      const auto& r = *compound->as<ob::SO3StateSpace::StateType>(i);
-      const double values[] = {r.x, r.y, r.z, r.w};
-      std::copy(values, values + 4, numbers);
+      const auto& r = *compound->as<Rotation>(i);
+      numbers[0] = r.x, numbers[1] = r.y, numbers[2] = r.z, numbers[3] = r.w;
     }
   }
 }
@@ -136,12 +181,11 @@ void ProblemStateSpace::write(const Configuration& q, ob::State* state) const {
     const Part& part = parts_[i];
     const double* numbers = q.data() + part.first;
     if (part.kind == Kind::line) {
-      std::copy(numbers, numbers + part.count,
-                compound->as<ob::RealVectorStateSpace::StateType>(i)->values);
+      std::copy(numbers, numbers + part.count, compound->as<Lines>(i)->values);
     } else if (part.kind == Kind::circle) {
-      compound->as<ob::SO2StateSpace::StateType>(i)->value = *numbers;
+      compound->as<Circle>(i)->value = *numbers;
     } else {
-      auto& r = *compound->as<ob::SO3StateSpace::StateType>(i);
+      auto& r = *compound->as<Rotation>(i);
       r.x = numbers[0];
       r.y = numbers[1];
       r.z = numbers[2];
@@ -162,9 +206,7 @@ double ProblemStateSpace::distance(const ob::State* a, const ob::State* b) const
   double numbersA[kFew], numbersB[kFew];
   read(a, numbersA);
   read(b, numbersB);
-  const auto size = static_cast<Eigen::Index>(space_.size());
-  return space_.distance(Eigen::Map<const Configuration>(numbersA, size),
-                         Eigen::Map<const Configuration>(numbersB, size));
+  return space_.distance(numbersA, numbersB);
 }
 
 bool ProblemStateSpace::equalStates(const ob::State* a, const ob::State* b) const {

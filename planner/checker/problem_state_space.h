@@ -30,6 +30,9 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
+  /// A state is one piece of memory: planners look at very many for a moment each.
+  ompl::base::State* allocState() const override;
+  void freeState(ompl::base::State* state) const override;
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
   /// Of that distance.
   double getMaximumExtent() const override;
@@ -41,6 +44,7 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   struct Part {
     Coordinate::Kind kind;
     std::size_t first, count;  ///< numbers of a Configuration
+    std::size_t offset = 0;    ///< of its state from the compound one's beginning, bytes
   };
 
   /// @param q gets as many numbers as a Configuration has.
@@ -48,6 +52,7 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
 
   const ConfigurationSpace& space_;
   std::vector<Part> parts_;  // of each subspace
+  std::size_t bytes_ = 0;    // of a state
 };
 
 /// @pre the space of `si` is a ProblemStateSpace.

@@ -11,8 +11,6 @@ namespace corridor {
 /// A state of everything that moves: the variables of a ConfigurationSpace, in its order. Metres,
 /// radians; quaternions as (x, y, z, w).
 using Configuration = Eigen::VectorXd;
-/// To read one that may lie in other memory.
-using ConfigurationRef = Eigen::Ref<const Configuration>;
 
 /// One variable, or the four of a quaternion.
 struct Coordinate {
@@ -69,7 +67,11 @@ class ConfigurationSpace {
   /// Sum over the groups: joints, the root of Σ (weight·difference)²; planar and floating,
   /// weight·|Δp| + weight·(angle; a rotation's is the quaternion angle, half the rotation's). 0
   /// only for equal configurations.
-  double distance(const ConfigurationRef& a, const ConfigurationRef& b) const;
+  double distance(const Configuration& a, const Configuration& b) const {
+    return distance(a.data(), b.data());
+  }
+  /// Of configurations in other memory, `size()` numbers each.
+  double distance(const double* a, const double* b) const;
   /// The same configuration, but for the rounding of normalised quaternions.
   bool equal(const Configuration& a, const Configuration& b) const;
   /// Some circle or rotation turns by a half turn within 1e-9 rad: no edge.
