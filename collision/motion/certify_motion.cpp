@@ -87,6 +87,7 @@ class Certifier {
 
   /// What is asked from now on is of the window [t − h, t + h].
   void moveTo(double t, double h) {
+    if (t == t_ && h == h_) return;
     t_ = t;
     h_ = h;
     posed_ = MotionPair::kNone;
@@ -367,7 +368,7 @@ class Certifier {
   std::vector<Group>& groups_;
   MotionEvidence* evidence_;
   std::uint64_t workEnd_ = 0;
-  double t_ = 0, h_ = 0;                   // of the window that is asked about
+  double t_ = -1, h_ = 0;                  // of the window that is asked about
   MotionWindow window_;                    // in it,
   std::size_t posed_ = MotionPair::kNone;  // of this motion
   bool far_ = false;                       // the last body that was asked about goes far in it
