@@ -36,7 +36,8 @@ class Certifier {
     std::size_t bodies = 0;
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
       groups_[k] = whole(k);
-      bodies = std::max({bodies, pairs_[k].bodyA + 1, pairs_[k].bodyB + 1});
+      if (pairs_[k].worldB != MotionPair::kNone)  // others have no balls in the world
+        bodies = std::max({bodies, pairs_[k].bodyA + 1, pairs_[k].bodyB + 1});
     }
     if (context_.balls.size() < bodies) context_.balls.resize(bodies);
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
@@ -64,8 +65,9 @@ class Certifier {
   /// Radians of half a window, from where on b turns.
   static constexpr double kTurns = 0.02;
   /// A body that turns, and goes so many times its own radius in a window, is left to the halves if
-  /// its ball isn't told apart.
-  static constexpr double kFar = 2;
+  /// its ball isn't told apart; not of half windows under `kShortestFar`, for no work is counted of
+  /// what isn't looked at, and a joint may turn as often as it likes.
+  static constexpr double kFar = 2, kShortestFar = 0x1p-8;
   /// The first levels of halving: walked level by level for a verdict alone, so that a contact
   /// anywhere is found soon.
   static constexpr int kFirstLevels = 4;
@@ -111,13 +113,13 @@ class Certifier {
   }
 
   /// How far the bounds of two bodies stay apart in the window, metres; of what is more than
-  /// `enough` maybe less, where nobody asks for evidence. Sets `far_` where that isn't enough.
-  double bodiesStayApart(const MotionPair& pair, double enough) {
-    if (evidence_) enough = HUGE_VAL;
+  /// `asked` maybe less, where nobody asks for evidence. Sets `far_` where it isn't more than that.
+  double bodiesStayApart(const MotionPair& pair, double asked) {
+    const double enough = evidence_ ? HUGE_VAL : asked;
     if (pair.worldA != MotionPair::kNone) {
       const double clearance = clearanceBound(worldBall(pair.worldA, *pair.a, pair.bodyA),
                                               worldBall(pair.worldB, *pair.b, pair.bodyB), enough);
-      if (clearance > enough || (evidence_ && clearance > 0)) return clearance;
+      if (clearance > asked) return clearance;
     }
     // Of a motion that isn't the world's, the ball is nobody else's.
     const SweptBall ball = pair.worldB == pair.motion ? worldBall(pair.motion, *pair.b, pair.bodyB)
@@ -149,7 +151,8 @@ class Certifier {
       const bool first = h == 0.5 && windowOf(pair.motion).angle > kTurns;
       const Patience patience = first ? kFirst : kLater;
       const bool tooMuch = left >= patience.pairsOfBodies && 4 * left > 3 * looked;
-      if (h > kShortest && (tooMuch || (whole && !w.near && far_))) {
+      const bool tooFar = whole && !w.near && far_ && h >= kShortestFar;
+      if (h > kShortest && (tooMuch || tooFar)) {
         groups_.push_back(group);
         ++left, ++looked;
         continue;

@@ -61,11 +61,12 @@ struct PointTravel {
   double cap = 0, bend = 0, curvature = 0, pad = 0;
 };
 
-/// |v| rounded up; of nothing nothing: what `roundedUp` adds would be lost in every sum, and
-/// subnormal in products, which are slow.
+/// |v| rounded up, but for squares that vanish: below 2^-480 m or rad it may be less, by what the
+/// windows' least errors stand for. Of nothing nothing: what `roundedUp` adds would be lost in
+/// every sum, and subnormal in products, which are slow. NaN stays NaN.
 inline double lengthFromAbove(const Vec3& v) {
   const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  return square > 0 ? roundedUp(std::sqrt(square)) : v.isZero(0) ? 0 : kTiny;
+  return square == 0 && v.isZero(0) ? 0 : roundedUp(std::sqrt(square));
 }
 
 /// At least 2 sin(min(δ, π)/2), the chord of a turn by δ ≥ 0 at radius 1, and at most 0.5 % more:
