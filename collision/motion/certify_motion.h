@@ -84,7 +84,8 @@ struct MotionPair {
   std::size_t bodyA = 0, bodyB = 0;
   /// The motions of a and of b as the world sees them, where they are numbered: pairs that are far
   /// apart are told by them, once a body instead of once a pair. `worldA` is none where a is at
-  /// rest in the world, and `worldB` is `motion` then; both are none where nothing is known.
+  /// rest in the world, and `worldB` is `motion` then; both are none where nothing is known. Where
+  /// they are given, a body's index and its motion are the same in all pairs of a query.
   std::size_t worldA = kNone, worldB = kNone;
 };
 

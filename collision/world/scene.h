@@ -44,8 +44,9 @@ class Scene {
   /// pair don't count).
   double defaultTolerance() const;
 
-  /// All queries throw std::invalid_argument for transforms that are not finite and options that
-  /// are not finite or out of range; they build the trees that they need.
+  /// All queries throw std::invalid_argument for transforms that are not finite (the world's, frame
+  /// 0's, and those of frames in pairs) and options that are not finite or out of range; they build
+  /// the trees that they need.
 
   /// Exact for meshes under the maps X_WF of the frames (contract 1), in the band of 2^-44 for
   /// primitives; solids included. First contact found.
