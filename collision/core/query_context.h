@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,7 +31,13 @@ class QueryContext {
     float key;
     std::uint32_t pairs;
   };
-  std::vector<WideItem> wideStack;
+  /// All of two trees.
+  static constexpr WideItem kWholeTrees = {0, 0, -HUGE_VALF, 0xffff};
+  std::vector<WideItem> wideStack;  ///< what a walk begins with, and what it has left
+  void startAtRoots() {
+    if (wideStack.empty()) wideStack.resize(1);
+    wideStack[0] = kWholeTrees;
+  }
   /// Pairs of nodes of one pair of bodies: a range of `pending`.
   struct PairItems {
     std::uint32_t bodies;
@@ -39,14 +46,31 @@ class QueryContext {
   };
   std::vector<WideItem> pending;  ///< what motion queries hand down to shorter windows of time,
   std::vector<PairItems> groups;  ///< and whose it is
-  /// Balls around bodies, by their indices in the scene, as the world sees them in the window that
-  /// `ballStamp` counts.
-  struct StampedBall {
-    SweptBall ball;
-    std::uint64_t stamp = 0;
+  /// Balls around the bodies of a scene, as the world sees them in one window of time; each is made
+  /// where it is first asked for.
+  class Balls {
+   public:
+    void makeRoom(std::size_t bodies) {
+      if (balls_.size() < bodies) balls_.resize(bodies);
+    }
+    void forget() { ++stamp_; }
+    /// @pre room for it. `make` asks for no ball.
+    template <class Make>
+    const SweptBall& of(std::size_t body, const Make& make) {
+      Stamped& known = balls_[body];
+      if (known.stamp != stamp_) known = {make(), stamp_};
+      return known.ball;
+    }
+
+   private:
+    struct Stamped {
+      SweptBall ball;
+      std::uint64_t stamp = 0;
+    };
+    std::vector<Stamped> balls_;
+    std::uint64_t stamp_ = 0;
   };
-  std::vector<StampedBall> balls;
-  std::uint64_t ballStamp = 0;
+  Balls balls;
   /// What distance queries have left to look at, and pairs of triangles (in leaf order) that may be
   /// the closest, each with a lower bound of its distance, metres.
   struct BoundedPair {

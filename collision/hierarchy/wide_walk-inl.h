@@ -149,8 +149,7 @@ std::size_t walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB,
 template <class Query>
 void walkWide(const WideObbTree& a, const WideObbTree& b, float scaleB, QueryContext& context,
               Query& query) {
-  if (context.wideStack.empty()) context.wideStack.resize(1);
-  context.wideStack[0] = {0, 0, -HUGE_VALF, 0xffff};
+  context.startAtRoots();
   walkWide(a, b, scaleB, context, query, 1);
 }
 

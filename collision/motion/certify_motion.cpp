@@ -31,7 +31,7 @@ class Certifier {
         evidence_(evidence) {}
 
   MotionResult run() {
-    items_.assign(pairs_.size(), kWhole);
+    items_.assign(pairs_.size(), QueryContext::kWholeTrees);
     groups_.resize(pairs_.size());
     std::size_t bodies = 0;
     for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
@@ -39,7 +39,7 @@ class Certifier {
       if (pairs_[k].worldB != MotionPair::kNone)  // others have no balls in the world
         bodies = std::max({bodies, pairs_[k].bodyA + 1, pairs_[k].bodyB + 1});
     }
-    if (context_.balls.size() < bodies) context_.balls.resize(bodies);
+    context_.balls.makeRoom(bodies);
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() - work();
     workEnd_ = work() + std::min(options_.workLimit, most);
     if (options_.earliest ? walkInOrder({0, 1, 0, groups_.size()}) : walkByLevels()) return {};
@@ -49,8 +49,6 @@ class Certifier {
  private:
   using Item = QueryContext::WideItem;
   using Group = QueryContext::PairItems;
-
-  static constexpr Item kWhole = {0, 0, -HUGE_VALF, 0xffff};
 
   /// How soon a window gives up, for one far too wide to decide anything should not look at
   /// everything: once it has left so much of a pair of bodies to its halves, or something of so
@@ -84,7 +82,9 @@ class Certifier {
   struct Window {
     double t0, t1;
     std::size_t begin, end;
-    bool near = false;  // all bodies' bounds were looked at in it
+    double half() const { return (t1 - t0) / 2; }
+    double middle() const { return t0 + half(); }  // dyadic: exact
+    bool near = false;                             // all bodies' bounds were looked at in it
   };
 
   /// What is asked from now on is of the window [t − h, t + h].
@@ -93,7 +93,7 @@ class Certifier {
     t_ = t;
     h_ = h;
     posed_ = MotionPair::kNone;
-    ++context_.ballStamp;
+    context_.balls.forget();
   }
 
   /// The motion in the window; that of the last call is kept.
@@ -106,10 +106,7 @@ class Certifier {
   }
 
   const SweptBall& worldBall(std::size_t motion, const Body& body, std::size_t index) {
-    QueryContext::StampedBall& known = context_.balls[index];
-    if (known.stamp != context_.ballStamp)
-      known = {sweptBall(body, windowOf(motion)), context_.ballStamp};
-    return known.ball;
+    return context_.balls.of(index, [&] { return sweptBall(body, windowOf(motion)); });
   }
 
   /// How far the bounds of two bodies stay apart in the window, metres; of what is more than
@@ -139,9 +136,8 @@ class Certifier {
   /// Looks at the window's groups; what it cannot separate is appended to them.
   /// @return false: `found_` is a contact at the middle, or why the window stays undecided.
   bool look(const Window& w) {
-    const double h = (w.t1 - w.t0) / 2;
-    middle_ = w.t0 + h;  // dyadic: exact
-    moveTo(middle_, h);
+    const double h = w.half();
+    moveTo(w.middle(), h);
     std::size_t looked = 0, left = 0;
     for (std::size_t g = w.begin; g < w.end; ++g) {
       Group group = groups_[g];
@@ -194,7 +190,8 @@ class Certifier {
   }
   bool isWhole(const Group& group) const {
     const Item& item = items_[group.begin];
-    return group.end - group.begin == 1 && item.a == 0 && item.b == 0 && item.pairs == kWhole.pairs;
+    return group.end - group.begin == 1 && item.a == 0 && item.b == 0 &&
+           item.pairs == QueryContext::kWholeTrees.pairs;
   }
 
   /// The pairs of bodies whose bounds don't stay apart in the whole motion; and does any of them go
@@ -214,7 +211,7 @@ class Certifier {
   /// For the verdict alone: false: `result_` says why.
   bool walkByLevels() {
     const auto touchesInMiddle = [&](const Window& w) {
-      return !motion_.still() && touchesAt(w.t0 + (w.t1 - w.t0) / 2, w.begin, w.end);
+      return !motion_.still() && touchesAt(w.middle(), w.begin, w.end);
     };
     bool far = false;
     std::array<Window, 1 << kFirstLevels> windows, below;
@@ -235,7 +232,7 @@ class Certifier {
         }
         if (level == 0 && touchesInMiddle(w)) return contact(0, false);
         ++counters_.splits;
-        const double t = w.t0 + (w.t1 - w.t0) / 2;
+        const double t = w.middle();
         below[halves++] = {w.t0, t, w.begin, w.end};
         below[halves++] = {t, w.t1, w.begin, w.end};
       }
@@ -253,11 +250,11 @@ class Certifier {
   bool walkInOrder(const Window& w) {
     const std::size_t items = items_.size(), later = groups_.size();
     const bool done = look(w);
-    const double t = middle_;
+    const double t = w.middle();
     const std::size_t count = groups_.size();
     if (!done && found_.kind != Descent::Kind::contact) return stopped(w);
     if (!done) {
-      touched();
+      touched(w);
       // Only the first half matters now.
       if (!options_.earliest || t - w.t0 <= options_.timeTolerance) return contact(w.t0, false);
       ++counters_.splits;
@@ -318,10 +315,10 @@ class Certifier {
     return false;
   }
 
-  /// What `look` has found touches, at the middle.
-  void touched() {
+  /// What `look` has found touches, at the window's middle.
+  void touched(const Window& w) {
     const MotionPair& pair = pairs_[bodies_];
-    contactTime_ = middle_;
+    contactTime_ = w.middle();
     contactPair_ = {pair.bodyA, pair.bodyB, found_.s, found_.t};
   }
 
@@ -340,7 +337,7 @@ class Certifier {
   /// beginning, an undecided one is that contact's bracket all the same.
   bool stopped(const Window& w) {
     if (found_.kind == Descent::Kind::contact) {
-      touched();
+      touched(w);
       return contact(0, false);
     }
     const bool clearance = found_.kind == Descent::Kind::undecided;
@@ -353,7 +350,7 @@ class Certifier {
     result_.verdict = MotionVerdict::undecided;
     result_.reason = clearance ? UndecidedReason::clearance : UndecidedReason::workLimit;
     result_.certifiedUntil = w.t0;
-    result_.contactTime = middle_;
+    result_.contactTime = w.middle();
     if (clearance) {
       const MotionPair& pair = pairs_[bodies_];
       result_.pair = Contact{pair.bodyA, pair.bodyB, found_.s, found_.t};
@@ -375,8 +372,7 @@ class Certifier {
   MotionWindow window_;                    // in it,
   std::size_t posed_ = MotionPair::kNone;  // of this motion
   bool far_ = false;                       // the last body that was asked about goes far in it
-  double middle_ = 0;                      // of the window that was looked at last
-  Descent found_;                          // in it
+  Descent found_;                          // in the window that was looked at last
   std::uint32_t bodies_ = 0;               // whose that is
   double contactTime_ = -1;                // of the earliest contact known
   Contact contactPair_;

@@ -1,6 +1,5 @@
 #include "collision/queries/interference_wide.h"
 
-#include <cmath>
 #include <vector>
 
 #include "collision/convex/convex_contact.h"
@@ -123,11 +122,6 @@ HWY_EXPORT(allTouching);
 
 namespace {
 
-void startAtRoots(QueryContext& context) {
-  if (context.wideStack.empty()) context.wideStack.resize(1);
-  context.wideStack[0] = {0, 0, -HUGE_VALF, 0xffff};
-}
-
 /// Of the first `count` items of the stack, in leaf order.
 std::optional<TrianglePair> touchingBelow(const WideObbTree& a, const Transform& X_WA,
                                           const WideObbTree& b, const Transform& X_WB,
@@ -151,7 +145,7 @@ std::optional<TrianglePair> touchingBelow(const WideObbTree& a, const Transform&
 std::optional<TrianglePair> interference(const WideObbTree& a, const Transform& X_WA,
                                          const WideObbTree& b, const Transform& X_WB,
                                          QueryContext& context, std::uint64_t workEnd) {
-  startAtRoots(context);
+  context.startAtRoots();
   return interferenceBelow(a, X_WA, b, X_WB, 1, context, workEnd);
 }
 
@@ -174,7 +168,7 @@ std::optional<TrianglePair> touchingLeafTriangles(const WideObbTree& a, const Tr
                                                   const WideObbTree& b, const Transform& X_WB,
                                                   const WidePose& pose, QueryContext& context,
                                                   std::uint64_t workEnd) {
-  startAtRoots(context);
+  context.startAtRoots();
   return touchingBelow(a, X_WA, b, X_WB, pose, 1, context, workEnd);
 }
 

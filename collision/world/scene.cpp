@@ -127,15 +127,12 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
     for (const std::size_t frame : {pair.a, pair.b})
       if (frame >= X_WF.size() || !X_WF[frame].isFinite())
         throw std::invalid_argument("every frame is to have a finite pose");
-  if (context.balls.size() < bodies_.size()) context.balls.resize(bodies_.size());
-  ++context.ballStamp;
+  context.balls.makeRoom(bodies_.size());
+  context.balls.forget();
   const auto worldBall = [&](std::size_t body) -> const SweptBall& {
-    QueryContext::StampedBall& known = context.balls[body];
-    if (known.stamp != context.ballStamp) {
-      const Placed& placed = bodies_[body];
-      known = {sweptBall(placed.body, atRest(X_WF[placed.frame])), context.ballStamp};
-    }
-    return known.ball;
+    const Placed& placed = bodies_[body];
+    return context.balls.of(body,
+                            [&] { return sweptBall(placed.body, atRest(X_WF[placed.frame])); });
   };
   for (const MotionPair& pair : motionPairs_) {
     const FramePair& frames = framePairs_[pair.motion];

@@ -1,20 +1,17 @@
 #include "planner/checker/group_difference.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
 #include "collision/core/transform.h"
+#include "planner/robot/turns.h"
 
 namespace corridor {
 
 double differenceOf(const Coordinate& c, const Configuration& a, const Configuration& b) {
   const auto i = static_cast<Eigen::Index>(c.first);
-  const double off = b[i] - a[i];
-  return std::abs(c.kind == Coordinate::Kind::circle ? std::remainder(off, 2 * std::numbers::pi)
-                                                     : off);
+  return std::abs(c.kind == Coordinate::Kind::circle ? circleTurn(a[i], b[i]).angle : b[i] - a[i]);
 }
 
 double positionDifference(const ConfigurationSpace& space, const CoordinateGroup& group,
@@ -30,11 +27,8 @@ double rotationDifference(const ConfigurationSpace& space, const CoordinateGroup
                           const Configuration& a, const Configuration& b) {
   const Coordinate& c = space.coordinates()[group.coordinates.back()];
   if (c.kind == Coordinate::Kind::circle) return differenceOf(c, a, b);
-  const auto i = static_cast<Eigen::Index>(c.first);
-  const Eigen::Vector4d p = a.segment<4>(i).normalized(), q = b.segment<4>(i).normalized();
-  // Well conditioned at every angle, as an arc cosine isn't; q and −q are one rotation.
-  const double minus = (p - q).norm(), plus = (p + q).norm();
-  return 4 * std::atan2(std::min(minus, plus), std::max(minus, plus));
+  return 2 * quaternionAngle(Eigen::Quaterniond(a.data() + c.first),
+                             Eigen::Quaterniond(b.data() + c.first));
 }
 
 }  // namespace corridor

@@ -19,41 +19,13 @@ Quaterniond quaternionAt(const Configuration& q, std::size_t first) {
   return Quaterniond(q.data() + first);
 }
 
-/// Angle between unit quaternions taken as rotations, in [0, π/2], well conditioned everywhere: the
-/// arc cosine that OMPL takes loses half of the digits near 0. `b` is to be negated where the dot
-/// product is negative, which the caller does.
-double halfAngle(const Quaterniond& a, const Quaterniond& b) {
-  return 2 * std::atan2((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
-}
-
 Quaterniond nearer(const Quaterniond& a, const Quaterniond& b) {
   return a.dot(b) < 0 ? Quaterniond(-b.coeffs()) : b;
 }
 
-/// Half the angle of the rotation from a to b, in [0, π/2], whatever their norms. Planners spend
-/// half of their own time on it: of the relative quaternion (vector, scalar) the smaller part is
-/// taken by its arc sine or cosine, which is well conditioned there and costs half of an arc
-/// tangent. Within 4u·√3 for the vector's sums of four products, and some ulp; 0 for equal
-/// quaternions.
-double quaternionAngle(const Quaterniond& a, const Quaterniond& b) {
-  const double squares = a.squaredNorm() * b.squaredNorm();
-  if (!(squares > 1e-200 && squares < 1e200)) {
-    const Quaterniond p = unitQuaternion(a);
-    return halfAngle(p, nearer(p, unitQuaternion(b)));
-  }
-  const double x = a.w() * b.x() - b.w() * a.x() + (a.z() * b.y() - a.y() * b.z()),
-               y = a.w() * b.y() - b.w() * a.y() + (a.x() * b.z() - a.z() * b.x()),
-               z = a.w() * b.z() - b.w() * a.z() + (a.y() * b.x() - a.x() * b.y());
-  const double scale = 1 / std::sqrt(squares);
-  const double sine = std::sqrt(x * x + y * y + z * z) * scale,
-               cosine =
-                   std::abs(a.x() * b.x() + a.y() * b.y() + a.z() * b.z() + a.w() * b.w()) * scale;
-  return sine < cosine ? std::asin(sine) : std::acos(std::min(cosine, 1.0));
-}
-
 Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
   const Quaterniond a = unitQuaternion(from), b = nearer(a, unitQuaternion(to));
-  const double angle = halfAngle(a, b);
+  const double angle = quaternionAngle(a, b);
   // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): under 2^-27 it is t to half an ulp.
   const bool tiny = angle < 0x1p-27;
   const double wa = tiny ? 1 - t : std::sin((1 - t) * angle) / std::sin(angle);
