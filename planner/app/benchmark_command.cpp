@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -11,8 +13,11 @@
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
-#include "planner/benchmark/campaign.h"
+#include "planner/benchmark/campaign_database.h"
+#include "planner/benchmark/campaign_yaml.h"
+#include "planner/benchmark/peers.h"
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/write_reports.h"
 
 namespace corridor::app {
@@ -20,20 +25,45 @@ namespace {
 
 using nlohmann::ordered_json;
 
+[[noreturn]] void refuse(const std::string& option, const std::string& why) {
+  throw InputError(Fault{option, 0, why});
+}
+
 /// Reads problems and words; all faults at once.
-Campaign campaignOf(const BenchmarkArguments& a) {
+Campaign campaignOfProblems(const BenchmarkArguments& a) {
   Campaign campaign;
   FaultList faults;
-  for (const std::string& word : a.variants)
-    faults.collect([&] { campaign.variants.push_back(readVariant(word)); });
-  for (const std::string& file : a.problems)
-    faults.collect([&] { campaign.problems.push_back(readProblem(file)); });
+  const std::vector<BenchmarkPeer> peers = peersHere();
+  std::vector<std::string> variants = a.variants;
+  if (variants.empty()) variants = {"certified", "discrete:0.01"};
+  for (const std::string& word : variants)
+    faults.collect([&] { campaign.variants.push_back(readVariant(word, peers)); });
+  for (const std::string& file : a.files) {
+    faults.collect([&] {
+      for (const std::string& problem : problemsOf(file))
+        faults.collect([&] { campaign.problems.push_back(readProblem(problem)); });
+    });
+  }
   faults.throwIfAny();
-  campaign.planners = a.planners;
-  campaign.runs = a.runs;
-  campaign.seed = a.seed;
-  campaign.time = a.time;
-  campaign.limits.memory = a.memory;
+  for (const std::string& name : a.planners) campaign.planners.push_back({name, name, {}});
+  nameProblems(campaign);
+  return campaign;
+}
+
+/// What there is to run: a campaign's file, or problems; and what the options say over it.
+Campaign campaignOf(const BenchmarkArguments& a) {
+  const auto file = std::find_if(a.files.begin(), a.files.end(),
+                                 [](const std::string& name) { return isCampaignFile(name); });
+  if (file != a.files.end()) {
+    if (a.files.size() > 1) refuse(*file, "is a campaign, which names its problems itself");
+    if (!a.variants.empty()) refuse("--variants", "a campaign names its checkers itself");
+    if (!a.planners.empty()) refuse("--planners", "a campaign names its planners itself");
+  }
+  Campaign campaign = file != a.files.end() ? readCampaign(*file) : campaignOfProblems(a);
+  campaign.runs = a.runs.value_or(campaign.runs);
+  campaign.seed = a.seed.value_or(campaign.seed);
+  if (a.time) campaign.time = a.time;
+  campaign.limits.memory = a.memory.value_or(campaign.limits.memory);
   return campaign;
 }
 
@@ -52,44 +82,84 @@ ordered_json jsonOf(const Row& row) {
 }
 
 ordered_json jsonOf(const Campaign& campaign, const CampaignResult& result) {
-  ordered_json j = {{"format", "corridor-benchmark-report-1"},
+  ordered_json j = {{"format", "corridor-benchmark-report-2"},
+                    {"campaign", campaign.name},
                     {"seed", campaign.seed},
                     {"runs", campaign.runs},
                     {"interrupted", result.interrupted},
+                    {"notes", campaign.notes},
                     {"results", ordered_json::array()}};
   for (const CampaignCell& cell : result.cells) {
-    ordered_json of = jsonOf(summaryRow(campaign, result, cell));
+    ordered_json of = jsonOf(summaryRow(campaign, cell));
     of["rows"] = ordered_json::array();
     for (const BenchmarkRun& run : cell.runs)
-      of["rows"].push_back(jsonOf(runRow(campaign, result, cell, run)));
+      of["rows"].push_back(jsonOf(runRow(campaign, cell, run)));
     j["results"].push_back(std::move(of));
   }
   return j;
 }
 
+/// "1:02:03", "4:05"
+std::string clockText(double seconds) {
+  const auto all = static_cast<std::uint64_t>(std::lround(std::min(seconds, 1e9)));
+  char text[32];
+  if (all >= 3600)
+    std::snprintf(text, sizeof text, "%d:%02d:%02d", static_cast<int>(all / 3600),
+                  static_cast<int>(all / 60 % 60), static_cast<int>(all % 60));
+  else
+    std::snprintf(text, sizeof text, "%d:%02d", static_cast<int>(all / 60),
+                  static_cast<int>(all % 60));
+  return text;
+}
+
+/// A line that is written over: "[####······] 41 of 240, 2:10 left: piano, certified, RRT, seed 2".
+void showProgress(const Campaign& campaign, const CampaignProgress& p) {
+  constexpr std::uint64_t kWidth = 20;
+  const std::uint64_t full = p.done * kWidth / p.total;
+  std::string bar;
+  for (std::uint64_t i = 0; i < kWidth; ++i) bar += i < full ? "#" : "·";
+  const std::string left = p.secondsLeft < 0 ? "" : ", " + clockText(p.secondsLeft) + " left";
+  std::fprintf(stderr, "\r[%s] %s of %s%s: %s, %s, %s, seed %s\033[K", bar.c_str(),
+               grouped(p.done).c_str(), counted(p.total, "run").c_str(), left.c_str(),
+               campaign.problemNames[p.cell.problem].c_str(),
+               campaign.variants[p.cell.variant].name.c_str(), p.cell.planner.label.c_str(),
+               std::to_string(p.seed).c_str());
+}
+
+bool anyRun(const std::vector<CampaignCell>& cells) {
+  return std::any_of(cells.begin(), cells.end(),
+                     [](const CampaignCell& cell) { return !cell.runs.empty(); });
+}
+
 }  // namespace
 
 int benchmarkCommand(const BenchmarkArguments& a) {
+  if (a.resume && !a.output) refuse("--resume", "say by -o which folder the campaign is in");
   const Campaign campaign = campaignOf(a);
+  for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
   const bool made = a.output && makeReportFolder(*a.output);
+  std::vector<CampaignCell> cells = cellsOf(campaign);
+  std::optional<CampaignDatabase> database;
+  const std::filesystem::path file = std::filesystem::path(a.output.value_or("")) / "campaign.db";
+  if (a.output)
+    database.emplace(file,
+                     a.resume ? CampaignDatabase::Mode::resume : CampaignDatabase::Mode::fresh,
+                     campaign, cells);
   CampaignOptions options;
   options.interrupted = &listenForInterrupts();
+  options.jobs = a.jobs;
+  if (database)
+    options.done = [&](std::size_t cell, const BenchmarkRun& run) { database->add(cell, run); };
   const bool show = ::isatty(STDERR_FILENO) != 0;
-  if (show) {
-    options.progress = [](const CampaignProgress& p) {
-      std::fprintf(stderr, "\r%s of %s: %s, %s, %s, seed %s\033[K", grouped(p.done + 1).c_str(),
-                   counted(p.total, "run").c_str(), p.problem.c_str(), p.variant.c_str(),
-                   p.planner.c_str(), std::to_string(p.seed).c_str());
-    };
-  }
-  const CampaignResult result = runCampaign(campaign, options);
+  if (show) options.progress = [&](const CampaignProgress& p) { showProgress(campaign, p); };
+  const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
-  const bool any = std::any_of(result.cells.begin(), result.cells.end(),
-                               [](const CampaignCell& cell) { return !cell.runs.empty(); });
+  const bool any = anyRun(result.cells);
   if (result.interrupted)
-    warn(any ? "interrupted: what follows is of the runs that were done"
-             : "interrupted before the first run was done; nothing is written");
+    warn(!any       ? "interrupted before the first run was done; nothing is written"
+         : a.output ? "interrupted: what follows is of the runs that were done; --resume goes on"
+                    : "interrupted: what follows is of the runs that were done");
   // Neither the files nor the table are lost where the other can't be written: a folder that is
   // gone, a pipe that is closed.
   std::exception_ptr unwritten;
@@ -98,12 +168,16 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   } catch (const InputError&) {
     unwritten = std::current_exception();
   }
-  std::error_code notEmpty;
-  if (made && !any) std::filesystem::remove(*a.output, notEmpty);
+  if (!any && !a.resume) {
+    std::error_code ignored;
+    database.reset();
+    if (a.output) std::filesystem::remove(file, ignored);
+    if (made) std::filesystem::remove(*a.output, ignored);
+  }
   if (a.json)
     std::cout << jsonOf(campaign, result).dump(2) << '\n';
   else if (any)
-    std::cout << tableOf(summaryRows(campaign, result));
+    std::cout << tableOf(summaryRows(campaign, result.cells));
   if (unwritten) std::rethrow_exception(unwritten);
   return result.interrupted ? kInterrupted : kDone;
 }

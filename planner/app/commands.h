@@ -22,14 +22,14 @@ struct SolveArguments {
 int solveCommand(const SolveArguments& arguments);
 
 struct BenchmarkArguments {
-  std::vector<std::string> problems;
-  std::vector<std::string> variants = {"certified", "discrete:0.01"};
-  std::vector<std::string> planners;  ///< none: each problem's own
-  std::uint64_t runs = 10, seed = 1;
-  std::optional<double> time;  ///< seconds a run
-  double memory = 4096;        ///< MB a run
+  std::vector<std::string> files;               ///< a campaign, or problems
+  std::vector<std::string> variants, planners;  ///< of problems; none: the defaults
+  std::optional<std::uint64_t> runs, seed;
+  std::optional<double> time;    ///< seconds a run
+  std::optional<double> memory;  ///< MB a run
+  std::uint64_t jobs = 1;
   std::optional<std::string> output;
-  bool json = false;
+  bool resume = false, json = false;
 };
 int benchmarkCommand(const BenchmarkArguments& arguments);
 

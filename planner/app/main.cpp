@@ -109,14 +109,16 @@ void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
 
 void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
   CLI::App* command = program.add_subcommand(
-      "benchmark", "Compare ways to check edges: run time, and how many paths are refuted");
-  command->add_option("PROBLEM", a.problems, "one or more, as of corridor solve")->required();
-  const char* compared = "What is compared";
+      "benchmark", "Compare checkers and planners: run time, and how many paths are refuted");
+  command->add_option("CAMPAIGN|PROBLEM", a.files, "a campaign's file, or problems (as of solve)")
+      ->required();
+  const char* compared = "What is compared, where problems are named";
   command
       ->add_option("--variants", a.variants,
                    "comma separated: what `checker: {edges: …}` takes, each with its knob or "
                    "without: certified:TOLERANCE (m), discrete:RESOLUTION (OMPL's "
-                   "longest_valid_segment_fraction) (default: certified,discrete:0.01)")
+                   "longest_valid_segment_fraction), fcl:RESOLUTION (default: "
+                   "certified,discrete:0.01)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group(compared);
@@ -126,40 +128,50 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group(compared);
+  const char* runs = "Runs (over what the campaign or the problems say)";
   command
       ->add_option("--runs", a.runs,
                    "of each problem, variant and planner (default 10); the seeds are the same "
                    "for all")
       ->check(from<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
-      ->group(compared);
+      ->group(runs);
   command->add_option("--seed", a.seed, "the first; one more each run (default 1)")
       ->check(from<std::uint64_t>(1, std::numeric_limits<std::uint32_t>::max(),
                                   "a whole number from 1 to 2^32 - 1"))
-      ->group(compared);
-  const char* limits = "Limits of a run (over what the problem says)";
-  command->add_option("--time", a.time, "seconds")
+      ->group(runs);
+  command->add_option("--time", a.time, "limit of a run, seconds")
       ->check(from(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
                    "a number of seconds above 0"))
-      ->group(limits);
-  command->add_option("--memory", a.memory, "MB (default 4096)")
+      ->group(runs);
+  command->add_option("--memory", a.memory, "limit of a run, MB (default 4096)")
       ->check(from(1.0, 1e9, "a number of MB from 1 to 1e9"))
-      ->group(limits);
+      ->group(runs);
+  command
+      ->add_option("--jobs", a.jobs,
+                   "runs at a time (default 1); times are those of a busy machine then")
+      ->check(from<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
+      ->group(runs);
   const char* results = "Results";
   command
       ->add_option("-o,--output", a.output,
-                   "a folder for runs.csv, summary.csv and the logs of OMPL's Benchmark")
+                   "a folder for campaign.db, runs.csv, summary.csv and the logs of OMPL's "
+                   "Benchmark")
+      ->group(results);
+  command
+      ->add_flag("--resume", a.resume, "goes on with the campaign in the folder, where it stopped")
       ->group(results);
   command->add_flag("--json", a.json, "results as JSON")->group(results);
   command->footer(
       std::string(
-          "Example: corridor benchmark problems/thin_plate problems/piano --variants "
+          "Examples: corridor benchmark problems/campaigns/variants.yaml -o results\n"
+          "          corridor benchmark problems/thin_plate problems/piano --variants "
           "certified,discrete:0.01,discrete:0.001 -o results\n"
           "Each run is a process of its own, under OMPL's Benchmark; each path is judged by the "
           "independent verifier: `refuted` of those that were returned do collide, or break what "
           "the problem asks for. Times and counts are medians over the runs that were solved.\n"
           "Columns: *_s are seconds (time_s: all but reading files; time_p95_s: its 95 % quantile; "
           "processor_s: of all threads), length_m metres, rotation_rad radians, checking_share the "
-          "part of time_s; all of them: planner/benchmark/README.md.\n") +
+          "part of time_s; all of them, and campaigns' keys: planner/benchmark/README.md.\n") +
       kExitStatus);
   command->callback([&] { status = benchmarkCommand(a); });
 }

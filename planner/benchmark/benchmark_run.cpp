@@ -1,5 +1,7 @@
 #include "planner/benchmark/benchmark_run.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
@@ -22,10 +24,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathLength, metres, radians)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OmplRecord, planner, setup, host, cpu, settings, properties,
                                    progressNames, progress)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, solved, certified,
-                                   verdict, finding, time, processorTime, setUpTime, plannerTime,
-                                   simplificationTime, certificationTime, checkingTime,
-                                   searchProcessorTime, verificationTime, states, edges, counters,
-                                   pathStates, length, ompl)
+                                   verdict, finding, provenClearance, leastDistance, time,
+                                   processorTime, setUpTime, plannerTime, simplificationTime,
+                                   certificationTime, checkingTime, searchProcessorTime,
+                                   verificationTime, states, edges, counters, rawStates, pathStates,
+                                   rawLength, length, ompl)
 
 namespace {
 
@@ -117,6 +120,8 @@ void take(const SolveReport& report, BenchmarkRun& run) {
   run.certificationTime = report.certificationTime;
   run.simplificationTime = report.time - report.planningTime - report.certificationTime;
   run.counters = report.counters;
+  run.rawStates = report.rawStates;
+  run.rawLength = report.rawLength;
   run.pathStates = report.path.size();
   run.length = report.length;
 }
@@ -138,10 +143,6 @@ OmplRecord recordOf(const ompl::tools::Benchmark::CompleteExperiment& experiment
   return record;
 }
 
-std::string text(const BenchmarkRun& run) {
-  return nlohmann::json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string firstFinding(const VerifyReport& report) {
   if (!report.violations.empty()) return report.violations.front();
   if (report.motion.findings.empty()) return "";
@@ -152,6 +153,14 @@ std::string firstFinding(const VerifyReport& report) {
 }
 
 }  // namespace
+
+std::string text(const BenchmarkRun& run) {
+  return nlohmann::json(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+BenchmarkRun readRun(const std::string& text) {
+  return nlohmann::json::parse(text).get<BenchmarkRun>();
+}
 
 void checkRun(const Problem& planned, const std::map<std::string, std::string>& setElsewhere) {
   SolveOptions options;
@@ -211,26 +220,33 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
                 : report.verdict == PathVerdict::refuted ? "refuted"
                                                          : "undecided";
   if (report.verdict != PathVerdict::proved) run.finding = firstFinding(report);
+  if (std::isfinite(report.motion.smallestDistanceMet)) {
+    run.provenClearance = report.motion.provenClearance;
+    run.leastDistance = report.motion.smallestDistanceMet;
+  }
 }
 
-BenchmarkRun runInChild(const Problem& problem, const Problem& planned,
-                        const std::optional<BenchmarkPeer>& peer, const BenchmarkLimits& limits,
-                        const std::atomic<bool>* interrupted) {
-  const auto work = [&](const auto& send) {
-    Path path;
-    BenchmarkRun run = peer && peer->run ? peer->run(planned, limits.memory, path)
-                                         : runUnderOmpl(planned, peer, limits.memory, path);
-    send(text(run));
-    if (run.solved) verifyRun(problem, path, run);
-    send(text(run));
-  };
-  // OMPL stops the planner at limits.memory, if it asks; this is for all else.
-  const auto bytes = static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024);
-  const ChildEnd end =
-      inChild(work, {{2 * planned.planner.time + kPatience, limits.patience}, bytes}, interrupted);
+RunProcess::RunProcess(const Problem* problem, const Problem& planned,
+                       const std::optional<BenchmarkPeer>& peer, const BenchmarkLimits& limits)
+    : seed_(planned.seed),
+      process_(
+          [&](const auto& send) {
+            Path path;
+            BenchmarkRun run = peer && peer->run ? peer->run(planned, limits.memory, path)
+                                                 : runUnderOmpl(planned, peer, limits.memory, path);
+            send(text(run));
+            if (run.solved && problem) verifyRun(*problem, path, run);
+            send(text(run));
+          },
+          // OMPL stops the planner at limits.memory, if it asks; this is for all else.
+          {{2 * planned.planner.time + kPatience, limits.patience},
+           static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)}) {}
+
+BenchmarkRun RunProcess::run() const {
+  const ChildEnd& end = process_.end();
   BenchmarkRun run;
-  if (!end.messages.empty()) run = nlohmann::json::parse(end.messages.back()).get<BenchmarkRun>();
-  run.seed = planned.seed;
+  if (!end.messages.empty()) run = readRun(end.messages.back());
+  run.seed = seed_;
   if (end.messages.empty()) {
     run.result = "failed";
     run.failure = end.failure;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "collision/core/counters.h"
+#include "planner/benchmark/child_process.h"
 #include "planner/benchmark/variant.h"
 #include "planner/solve/finish_path.h"
 
@@ -35,6 +35,10 @@ struct BenchmarkRun {
   /// The verifier's, where solved: "proved", "refuted", "undecided"; else "".
   std::string verdict;
   std::string finding;  ///< where not proved: the first, one line
+  /// The verifier's, metres, margin not taken off: all of the path, tube included, is proved to
+  /// keep at least the former; the latter is the least distance that it met. −1: there is none
+  /// (nothing in the way, or no verdict).
+  double provenClearance = -1, leastDistance = -1;
 
   /// All that `corridor solve` does but reading files; see SolveReport. `time` is the sum of
   /// setUpTime, plannerTime, simplificationTime and certificationTime.
@@ -46,8 +50,8 @@ struct BenchmarkRun {
   /// What planner and simplifier asked for: states tested, samples of edges included, and edges.
   std::uint64_t states = 0, edges = 0;
   Counters counters;  ///< of Corridor's checker; a peer's own tests aren't counted
-  std::size_t pathStates = 0;
-  PathLength length;
+  std::size_t rawStates = 0, pathStates = 0;  ///< of the planner's path, and of the one returned
+  PathLength rawLength, length;
   OmplRecord ompl;
 };
 
@@ -55,6 +59,10 @@ struct BenchmarkLimits {
   double memory = 4096;   ///< MB a run, beyond what reading the problems took
   double patience = 600;  ///< seconds, for verifying a path
 };
+
+/// A run as one line of JSON, and back.
+std::string text(const BenchmarkRun& run);
+BenchmarkRun readRun(const std::string& text);
 
 /// Sets a run up, and no more. @throws InputError as solveProblem.
 /// @param setElsewhere as SolveOptions::setElsewhere.
@@ -76,8 +84,18 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 /// Both, in a process of its own: a crash, endless work or a lack of memory there is told as the
 /// run's failure. Planning may take twice planner.time and a minute.
 /// @pre the caller has one thread.
-BenchmarkRun runInChild(const Problem& problem, const Problem& planned,
-                        const std::optional<BenchmarkPeer>& peer, const BenchmarkLimits& limits,
-                        const std::atomic<bool>* interrupted);
+class RunProcess {
+ public:
+  /// Begins it. @param problem as its file has it, which judges; null: nobody does.
+  RunProcess(const Problem* problem, const Problem& planned,
+             const std::optional<BenchmarkPeer>& peer, const BenchmarkLimits& limits);
+  ChildProcess& process() { return process_; }
+  /// @pre the process is over.
+  BenchmarkRun run() const;
+
+ private:
+  std::uint64_t seed_;
+  ChildProcess process_;
+};
 
 }  // namespace corridor

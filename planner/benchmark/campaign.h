@@ -1,9 +1,8 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,45 +11,50 @@
 
 namespace corridor {
 
+/// A planner with its parameters, as a campaign compares it with others.
+struct CampaignPlanner {
+  std::string label;  ///< what results call it: its name, where nobody said another
+  std::string name;   ///< OMPL's
+  /// Unset: the problem's, if it is the problem's own planner, else OMPL's defaults.
+  std::optional<std::map<std::string, std::string>> params;
+};
+
 /// Every problem with every variant and every planner, with the same seeds.
 struct Campaign {
+  std::string name;  ///< of its file; "" where it came from the command line
   std::vector<Problem> problems;
+  std::vector<std::string> problemNames;  ///< what results call them: `nameProblems`
   std::vector<Variant> variants;
-  /// OMPL's names; empty: each problem's own. Where it is not the problem's own, its parameters are
-  /// OMPL's defaults.
-  std::vector<std::string> planners;
-  std::uint64_t runs = 10, seed = 1;  ///< seeds: seed … seed + runs − 1
-  std::optional<double> time;         ///< seconds a run; unset: what the problem says
+  std::vector<CampaignPlanner> planners;  ///< empty: each problem's own
+  std::uint64_t runs = 10, seed = 1;      ///< seeds: seed … seed + runs − 1
+  std::optional<double> time;             ///< seconds a run; unset: what the problem says
+  std::optional<bool> simplify;           ///< unset: what the problem says
+  bool verify = true;  ///< has every path judged; else nobody knows which are in collision
   BenchmarkLimits limits;
+  /// For messages: what names variants, planners and runs ("--planners", "lecture.yaml:4:
+  /// planners").
+  std::map<std::string, std::string> places;
+  std::vector<std::string> notes;  ///< what was left out, and why
 };
+
+/// The problems' names, those of one name told apart: "plate", "plate-2".
+void nameProblems(Campaign& campaign);
 
 /// A problem with a variant and a planner.
 struct CampaignCell {
   std::size_t problem = 0, variant = 0;  ///< indices
-  std::string planner;
-  std::vector<BenchmarkRun> runs;  ///< by seed; fewer where interrupted
+  CampaignPlanner planner;
+  std::vector<BenchmarkRun> runs;  ///< by seed; fewer where it isn't finished
 };
 
+/// All cells, without a run: by problem, planner, variant.
+std::vector<CampaignCell> cellsOf(const Campaign& campaign);
+
 struct CampaignResult {
-  std::vector<std::string> names;   ///< of the problems, made different
-  std::vector<CampaignCell> cells;  ///< by problem, planner, variant
+  std::vector<CampaignCell> cells;
   bool interrupted = false;
   std::chrono::system_clock::time_point start;
   double seconds = 0;
-};
-
-struct CampaignProgress {
-  std::uint64_t done = 0, total = 0;  ///< runs
-  const std::string& problem;         ///< of the one that begins
-  const std::string& variant;
-  const std::string& planner;
-  std::uint64_t seed;
-};
-
-struct CampaignOptions {
-  std::function<void(const CampaignProgress&)> progress;
-  /// Where it becomes true, the run under way is given up, and the result is what there is.
-  const std::atomic<bool>* interrupted = nullptr;
 };
 
 /// The problem as one run of a cell has it: variant, planner, time and seed set.
@@ -60,10 +64,5 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
 /// for every variant. @throws InputError with all faults.
 /// @pre the caller has one thread.
 void checkCampaign(const Campaign& campaign);
-
-/// Runs it, one run after the other, each in a process of its own. Variants take turns seed by
-/// seed, so that what else the machine does meets all of them.
-/// @pre checkCampaign passed; the caller has one thread.
-CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& options = {});
 
 }  // namespace corridor

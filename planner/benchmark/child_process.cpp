@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace corridor {
 namespace {
@@ -62,9 +63,7 @@ void limitMemory(std::size_t bytes) {
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-[[noreturn]] void child(
-    int pipe, const std::function<void(const std::function<void(const std::string&)>&)>& work,
-    std::size_t bytes) {
+[[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // The parent decides what an interrupt from the terminal means.
   ::signal(SIGINT, SIG_IGN);
@@ -91,91 +90,111 @@ std::string endOf(int status) {
   return "ended early, with exit status " + std::to_string(WEXITSTATUS(status));
 }
 
-/// The child's lines, as they come.
-class Lines {
- public:
-  Lines(int pipe, ChildEnd& end) : pipe_(pipe), end_(end) {}
-
-  enum class Got { nothing, message, failure, theEnd };
-  /// Waits for kLookMs at most.
-  Got next() {
-    for (;;) {
-      if (const auto at = text_.find('\n'); at != std::string::npos) {
-        const char kind = text_[0];
-        const std::string line = text_.substr(1, at - 1);
-        text_.erase(0, at + 1);
-        if (kind == kFailure) {
-          end_.failure = line;
-          return Got::failure;
-        }
-        end_.messages.push_back(line);
-        return Got::message;
-      }
-      pollfd waiting{pipe_, POLLIN, 0};
-      if (::poll(&waiting, 1, kLookMs) <= 0) return Got::nothing;
-      char part[65536];
-      const ssize_t n = ::read(pipe_, part, sizeof part);
-      if (n == 0) return Got::theEnd;
-      if (n > 0) text_.append(part, static_cast<std::size_t>(n));
-    }
-  }
-
- private:
-  int pipe_;
-  ChildEnd& end_;
-  std::string text_;
-};
-
 }  // namespace
 
-ChildEnd inChild(const std::function<void(const std::function<void(const std::string&)>&)>& work,
-                 const ChildLimits& limits, const std::atomic<bool>* interrupted) {
+ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
+    : patience_(limits.patience), since_(std::chrono::steady_clock::now()) {
   int pipe[2];
   // Programs that the child starts shall not keep it open.
-  if (::pipe2(pipe, O_CLOEXEC) != 0) throw systemError("pipe");
+  if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw systemError("pipe");
   std::cout.flush();
   std::fflush(nullptr);  // what is buffered would be written twice
-  const pid_t id = ::fork();
-  if (id < 0) {
+  id_ = ::fork();
+  if (id_ < 0) {
     const auto error = systemError("fork");
     ::close(pipe[0]);
     ::close(pipe[1]);
     throw error;
   }
-  if (id == 0) {
+  if (id_ == 0) {
     ::close(pipe[0]);
+    ::fcntl(pipe[1], F_SETFL, 0);  // the child may wait until its parent has read
     child(pipe[1], work, limits.bytes);
   }
   ::close(pipe[1]);
+  pipe_ = pipe[0];
+}
 
-  ChildEnd end;
-  Lines lines(pipe[0], end);
-  bool over = false;  // it said why, or nothing more
-  auto since = std::chrono::steady_clock::now();
-  while (!over && end.messages.size() < limits.patience.size()) {
-    const double patience = limits.patience[end.messages.size()];
-    const Lines::Got got = lines.next();
-    if (got == Lines::Got::message) {
-      since = std::chrono::steady_clock::now();
-    } else if (got != Lines::Got::nothing) {
-      over = true;
-    } else if (interrupted && interrupted->load()) {
-      end.failure = "interrupted";
-    } else if (Seconds(std::chrono::steady_clock::now() - since).count() > patience) {
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept
+    : patience_(std::move(other.patience_)),
+      since_(other.since_),
+      pipe_(std::exchange(other.pipe_, -1)),
+      id_(std::exchange(other.id_, -1)),
+      text_(std::move(other.text_)),
+      end_(std::move(other.end_)) {}
+
+ChildProcess::~ChildProcess() {
+  if (!over()) finish(true);
+}
+
+void ChildProcess::stop(const std::string& reason) {
+  if (over()) return;
+  end_.failure = reason;
+  finish(true);
+}
+
+/// A line of those read; all was said with it, or it says why not all: then the child is over.
+bool ChildProcess::takeLine() {
+  const auto at = text_.find('\n');
+  if (at == std::string::npos) return false;
+  const std::string line = text_.substr(1, at - 1);
+  const bool failed = text_[0] == kFailure;
+  text_.erase(0, at + 1);
+  since_ = std::chrono::steady_clock::now();
+  if (failed)
+    end_.failure = line;
+  else
+    end_.messages.push_back(line);
+  if (failed || end_.messages.size() == patience_.size()) finish(!failed);
+  return true;
+}
+
+bool ChildProcess::advance() {
+  while (!over()) {
+    if (takeLine()) continue;
+    char part[65536];
+    const ssize_t n = ::read(pipe_, part, sizeof part);
+    if (n > 0) {
+      text_.append(part, static_cast<std::size_t>(n));
+    } else if (n == 0) {
+      finish(false);
+    } else if (errno != EINTR) {
+      const double patience = patience_[end_.messages.size()];
+      if (Seconds(std::chrono::steady_clock::now() - since_).count() <= patience) break;
       std::ostringstream text;
       text << "stopped after " << patience << " s";
-      end.failure = text.str();
+      stop(text.str());
     }
-    if (!end.failure.empty()) break;
   }
-  ::close(pipe[0]);
-  if (!over) ::kill(id, SIGKILL);  // all was said, or the patience is at its end
+  return over();
+}
+
+void ChildProcess::finish(bool kill) {
+  ::close(pipe_);
+  if (kill) ::kill(id_, SIGKILL);
   int status = 0;
-  while (::waitpid(id, &status, 0) < 0 && errno == EINTR) {
+  while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
   }
-  if (end.failure.empty() && end.messages.size() < limits.patience.size())
-    end.failure = endOf(status);
-  return end;
+  pipe_ = id_ = -1;
+  if (end_.failure.empty() && end_.messages.size() < patience_.size()) end_.failure = endOf(status);
+}
+
+void ChildProcess::waitForAny(const std::vector<ChildProcess*>& children, int milliseconds) {
+  std::vector<pollfd> waiting;
+  for (const ChildProcess* child : children) waiting.push_back({child->pipe_, POLLIN, 0});
+  ::poll(waiting.data(), waiting.size(), milliseconds);
+}
+
+ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
+                 const std::atomic<bool>* interrupted) {
+  ChildProcess child(work, limits);
+  while (!child.advance()) {
+    if (interrupted && interrupted->load())
+      child.stop("interrupted");
+    else
+      ChildProcess::waitForAny({&child}, kLookMs);
+  }
+  return child.end();
 }
 
 }  // namespace corridor

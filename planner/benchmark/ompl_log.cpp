@@ -31,48 +31,15 @@ class Log final : public Benchmark {
   CompleteExperiment& experiment() { return exp_; }
 };
 
-std::string versionOfOmpl() {
-  return std::to_string(OMPL_MAJOR_VERSION) + "." + std::to_string(OMPL_MINOR_VERSION) + "." +
-         std::to_string(OMPL_PATCH_VERSION);
-}
-
-/// OMPL's readers take the last word of the line.
-std::string oneWord(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); }, '_');
-  return text;
-}
-
-std::map<std::string, std::string> propertiesOf(const Row& row, const BenchmarkRun& run) {
-  std::map<std::string, std::string> properties = run.ompl.properties;
-  for (const auto& [name, value] : row) {
-    if (const auto* yes = std::get_if<bool>(&value))
-      properties.emplace(name + " BOOLEAN", *yes ? "1" : "0");
-    if (const auto* count = std::get_if<std::uint64_t>(&value))
-      properties.emplace(name + " INTEGER", std::to_string(*count));
-    if (const auto* number = std::get_if<double>(&value))
-      properties.emplace(name + " REAL", shortest(*number));
-  }
-  for (const char* verdict : {"proved", "refuted", "undecided"})
-    if (run.solved)
-      properties[verdict + std::string(" BOOLEAN")] = run.verdict == verdict ? "1" : "0";
-  if (run.result == "failed") {
-    properties["status ENUM"] = std::to_string(ob::PlannerStatus::CRASH);
-    properties["solved BOOLEAN"] = "0";
-  }
-  return properties;
-}
-
 /// OMPL's list of a planner's runs. A planner that reports progress has a list of it for each run.
-Benchmark::PlannerExperiment plannerOf(const Campaign& campaign, const CampaignResult& result,
-                                       const CampaignCell& cell) {
+Benchmark::PlannerExperiment plannerOf(const Campaign& campaign, const CampaignCell& cell) {
   Benchmark::PlannerExperiment planner;
-  planner.name = "geometric_" + cell.planner;
+  planner.name = omplPlannerName(cell, {});
   for (const BenchmarkRun& run : cell.runs) {
-    planner.runs.push_back(propertiesOf(runRow(campaign, result, cell, run), run));
+    planner.runs.push_back(omplProperties(campaign, cell, run));
     planner.runsProgressData.push_back(run.ompl.progress);
     if (run.ompl.planner.empty()) continue;
-    planner.name = run.ompl.planner;
+    planner.name = omplPlannerName(cell, run.ompl);
     planner.common = run.ompl.settings;
     if (!run.ompl.progressNames.empty()) planner.progressPropertyNames = run.ompl.progressNames;
   }
@@ -82,38 +49,104 @@ Benchmark::PlannerExperiment plannerOf(const Campaign& campaign, const CampaignR
 
 }  // namespace
 
+std::vector<std::string> omplStatusNames() {
+  std::vector<std::string> names;
+  for (int i = 0; i < ob::PlannerStatus::TYPE_COUNT; ++i)
+    names.push_back(ob::PlannerStatus(static_cast<ob::PlannerStatus::StatusType>(i)).asString());
+  return names;
+}
+
+std::string versionOfOmpl() {
+  return std::to_string(OMPL_MAJOR_VERSION) + "." + std::to_string(OMPL_MINOR_VERSION) + "." +
+         std::to_string(OMPL_PATCH_VERSION);
+}
+
+std::string oneWord(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); }, '_');
+  return text;
+}
+
+std::map<std::string, std::string> omplProperties(const Campaign& campaign,
+                                                  const CampaignCell& cell,
+                                                  const BenchmarkRun& run) {
+  std::map<std::string, std::string> properties = run.ompl.properties;
+  for (const auto& [name, value] : runRow(campaign, cell, run)) {
+    if (const auto* yes = std::get_if<bool>(&value))
+      properties.emplace(name + " BOOLEAN", *yes ? "1" : "0");
+    if (const auto* count = std::get_if<std::uint64_t>(&value))
+      properties.emplace(name + " INTEGER", std::to_string(*count));
+    if (const auto* number = std::get_if<double>(&value))
+      properties.emplace(name + " REAL", shortest(*number));
+  }
+  for (const char* verdict : {"proved", "refuted", "undecided"})
+    if (!run.verdict.empty())
+      properties[verdict + std::string(" BOOLEAN")] = run.verdict == verdict ? "1" : "0";
+  if (run.result == "failed") {
+    properties["status ENUM"] = std::to_string(ob::PlannerStatus::CRASH);
+    properties["solved BOOLEAN"] = "0";
+  }
+  return properties;
+}
+
+std::string omplExperimentName(const Campaign& campaign, const CampaignCell& cell) {
+  return oneWord(campaign.problemNames[cell.problem] + "/" + campaign.variants[cell.variant].name);
+}
+
+std::map<std::string, std::string> omplParameters(const Campaign& campaign,
+                                                  const CampaignCell& cell) {
+  const Variant& variant = campaign.variants[cell.variant];
+  Problem::CheckerSpec checker = campaign.problems[cell.problem].checker;
+  variant.apply(checker);
+  std::map<std::string, std::string> parameters;
+  parameters["edges TEXT"] = variant.peer ? variant.peer->name : checker.edges;
+  if (checker.edges == "discrete")
+    parameters["resolution REAL"] = shortest(checker.resolution);
+  else if (checker.tolerance)
+    parameters["tolerance REAL"] = shortest(*checker.tolerance);
+  for (const YamlValue::Entry& entry : variant.checker.entries)
+    if (entry.key != "edges" && entry.key != "resolution" && entry.key != "tolerance")
+      parameters[entry.key + " TEXT"] = entry.value.text;
+  return parameters;
+}
+
+std::string omplPlannerName(const CampaignCell& cell, const OmplRecord& record) {
+  if (cell.planner.label != cell.planner.name) return oneWord(cell.planner.label);
+  return record.planner.empty() ? "geometric_" + cell.planner.name : record.planner;
+}
+
+std::pair<std::string, std::string> omplSetup(const std::string& setup) {
+  const auto planners = setup.find(kPlannersBegin);
+  if (planners == std::string::npos) return {setup, ""};
+  const auto first = planners + std::string(kPlannersBegin).size();
+  return {setup.substr(0, first), setup.substr(first)};
+}
+
 std::string omplLog(const Campaign& campaign, const CampaignResult& result, std::size_t problem,
                     std::size_t variant) {
-  const Variant& v = campaign.variants[variant];
+  const CampaignCell any{problem, variant, {}, {}};
   const Problem& p = campaign.problems[problem];
   og::SimpleSetup none(std::make_shared<ob::RealVectorStateSpace>(1));
   Log log(none);
   Benchmark::CompleteExperiment& experiment = log.experiment();
-  experiment.name = oneWord(result.names[problem] + "/" + v.name);
+  experiment.name = omplExperimentName(campaign, any);
   experiment.maxTime = campaign.time.value_or(p.planner.time);
   experiment.maxMem = campaign.limits.memory;
   experiment.runCount = static_cast<unsigned>(campaign.runs);
   experiment.startTime = result.start;
   experiment.totalDuration = result.seconds;
   experiment.seed = static_cast<std::uint_fast32_t>(campaign.seed);
-  Problem::CheckerSpec checker = p.checker;
-  v.apply(checker);
-  log.addExperimentParameter("edges", "TEXT", v.peer ? v.peer->name : v.edges);
-  if (v.samples())
-    log.addExperimentParameter("resolution", "REAL", shortest(checker.resolution));
-  else if (checker.tolerance)
-    log.addExperimentParameter("tolerance", "REAL", shortest(*checker.tolerance));
+  for (const auto& [nameAndType, value] : omplParameters(campaign, any)) {
+    const auto blank = nameAndType.rfind(' ');
+    log.addExperimentParameter(nameAndType.substr(0, blank), nameAndType.substr(blank + 1), value);
+  }
   for (const CampaignCell& cell : result.cells) {
     if (cell.problem != problem || cell.variant != variant || cell.runs.empty()) continue;
-    experiment.planners.push_back(plannerOf(campaign, result, cell));
+    experiment.planners.push_back(plannerOf(campaign, cell));
     for (const BenchmarkRun& run : cell.runs) {
       if (run.ompl.planner.empty()) continue;
-      const std::string& setup = run.ompl.setup;
-      const auto planner = setup.find(kPlannersBegin);
-      if (experiment.setupInfo.empty())
-        experiment.setupInfo = setup;
-      else if (planner != std::string::npos)
-        experiment.setupInfo += setup.substr(planner + std::string(kPlannersBegin).size());
+      const auto [ofProblem, ofPlanner] = omplSetup(run.ompl.setup);
+      experiment.setupInfo += experiment.setupInfo.empty() ? ofProblem + ofPlanner : ofPlanner;
       experiment.host = oneWord(run.ompl.host);
       experiment.cpuInfo = run.ompl.cpu;
       break;

@@ -19,10 +19,14 @@ RowValue numberOrNothing(double value) {
   return std::isnan(value) ? RowValue{} : RowValue{value};
 }
 
-Row namesOf(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell) {
-  return {{"problem", result.names[cell.problem]},
+RowValue lengthOrNothing(double metres) {
+  return metres < 0 ? RowValue{} : RowValue{metres};
+}
+
+Row namesOf(const Campaign& campaign, const CampaignCell& cell) {
+  return {{"problem", campaign.problemNames[cell.problem]},
           {"variant", campaign.variants[cell.variant].name},
-          {"planner", cell.planner}};
+          {"planner", cell.planner.label}};
 }
 
 std::string quoted(const std::string& text) {
@@ -61,9 +65,8 @@ std::size_t widthOf(const std::string& text) {
 
 }  // namespace
 
-Row runRow(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell,
-           const BenchmarkRun& run) {
-  Row row = namesOf(campaign, result, cell);
+Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRun& run) {
+  Row row = namesOf(campaign, cell);
   const bool ended = run.result != "failed";
   const auto measure = [&](const char* name, double value) {
     row.emplace_back(name, ended ? RowValue{value} : RowValue{});
@@ -77,7 +80,7 @@ Row runRow(const Campaign& campaign, const CampaignResult& result, const Campaig
   row.emplace_back("seed", run.seed);
   row.emplace_back("result", run.result);
   ofPath("certified", run.certified);
-  ofPath("verdict", run.verdict);
+  ofPath("verdict", textOrNothing(run.verdict));
   measure("time_s", run.time);
   measure("processor_s", run.processorTime);
   measure("search_processor_s", run.searchProcessorTime);
@@ -86,13 +89,18 @@ Row runRow(const Campaign& campaign, const CampaignResult& result, const Campaig
   measure("simplification_s", run.simplificationTime);
   measure("certification_s", run.certificationTime);
   measure("checking_s", run.checkingTime);
-  ofPath("verification_s", run.verificationTime);
+  ofPath("verification_s", run.verdict.empty() ? RowValue{} : RowValue{run.verificationTime});
   count("states", run.states);
   count("edges", run.edges);
   const bool counts = !campaign.variants[cell.variant].peer;
   count("edges_undecided", counts ? RowValue{run.counters.undecided} : RowValue{});
   count("box_tests", counts ? RowValue{run.counters.boxTests} : RowValue{});
   count("triangle_tests", counts ? RowValue{run.counters.triangleTests} : RowValue{});
+  ofPath("proven_clearance_m", lengthOrNothing(run.provenClearance));
+  ofPath("least_distance_m", lengthOrNothing(run.leastDistance));
+  ofPath("raw_states", std::uint64_t{run.rawStates});
+  ofPath("raw_length_m", run.rawLength.metres);
+  ofPath("raw_rotation_rad", run.rawLength.radians);
   ofPath("path_states", std::uint64_t{run.pathStates});
   ofPath("length_m", run.length.metres);
   ofPath("rotation_rad", run.length.radians);
@@ -102,8 +110,8 @@ Row runRow(const Campaign& campaign, const CampaignResult& result, const Campaig
   return row;
 }
 
-Row summaryRow(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell) {
-  Row row = namesOf(campaign, result, cell);
+Row summaryRow(const Campaign& campaign, const CampaignCell& cell) {
+  Row row = namesOf(campaign, cell);
   const auto number = [&](const char* name, const std::function<bool(const BenchmarkRun&)>& is) {
     row.emplace_back(
         name, static_cast<std::uint64_t>(std::count_if(cell.runs.begin(), cell.runs.end(), is)));
@@ -146,21 +154,27 @@ Row summaryRow(const Campaign& campaign, const CampaignResult& result, const Cam
   median("triangle_tests", [&](const Run& r) {
     return counts ? static_cast<double>(r.counters.triangleTests) : none;
   });
+  std::vector<double> distances;
+  for (const Run& run : cell.runs)
+    if (run.solved && run.leastDistance >= 0) distances.push_back(run.leastDistance);
+  row.emplace_back("least_distance_m", numberOrNothing(medianOf(distances)));
+  median("raw_length_m", [](const Run& r) { return r.rawLength.metres; });
+  median("raw_rotation_rad", [](const Run& r) { return r.rawLength.radians; });
   median("length_m", [](const Run& r) { return r.length.metres; });
   median("rotation_rad", [](const Run& r) { return r.length.radians; });
   return row;
 }
 
-std::vector<Row> runRows(const Campaign& campaign, const CampaignResult& result) {
+std::vector<Row> runRows(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
   std::vector<Row> rows;
-  for (const CampaignCell& cell : result.cells)
-    for (const BenchmarkRun& run : cell.runs) rows.push_back(runRow(campaign, result, cell, run));
+  for (const CampaignCell& cell : cells)
+    for (const BenchmarkRun& run : cell.runs) rows.push_back(runRow(campaign, cell, run));
   return rows;
 }
 
-std::vector<Row> summaryRows(const Campaign& campaign, const CampaignResult& result) {
+std::vector<Row> summaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
   std::vector<Row> rows;
-  for (const CampaignCell& cell : result.cells) rows.push_back(summaryRow(campaign, result, cell));
+  for (const CampaignCell& cell : cells) rows.push_back(summaryRow(campaign, cell));
   return rows;
 }
 

@@ -17,14 +17,13 @@ using RowValue = std::variant<std::monostate, std::string, bool, std::uint64_t, 
 using Row = std::vector<std::pair<std::string, RowValue>>;
 
 /// One run.
-Row runRow(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell,
-           const BenchmarkRun& run);
+Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRun& run);
 
 /// All runs of a cell: how many ended how, and medians over those that were solved.
-Row summaryRow(const Campaign& campaign, const CampaignResult& result, const CampaignCell& cell);
+Row summaryRow(const Campaign& campaign, const CampaignCell& cell);
 
-std::vector<Row> runRows(const Campaign& campaign, const CampaignResult& result);
-std::vector<Row> summaryRows(const Campaign& campaign, const CampaignResult& result);
+std::vector<Row> runRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
+std::vector<Row> summaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 
 /// A line of names, then a line a row; numbers with all their digits, yes is 1. @pre all rows have
 /// the same columns.

@@ -1,9 +1,11 @@
 #include "planner/benchmark/variant.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
+#include "planner/problem/checker_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/yaml_reader.h"
 
@@ -19,42 +21,52 @@ constexpr double kFinestResolution = 1e-9;
 
 }  // namespace
 
-void Variant::apply(Problem::CheckerSpec& checker) const {
-  checker.edges = edges;
-  if (!knob) return;
-  if (samples())
-    checker.resolution = *knob;
-  else
-    checker.tolerance = *knob;
+void Variant::apply(Problem::CheckerSpec& spec) const {
+  FaultList faults;
+  YamlSource source{name, faults, {}};
+  readCheckerKeys(YamlMap(checker, "checker", &problemKeys().at("checker"), source), spec);
+  if (faults.size() > 0) throw std::logic_error("a variant with faults: " + name);
+}
+
+YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& keys) {
+  YamlValue map;
+  map.kind = YamlValue::Kind::Map;
+  for (const auto& [key, text] : keys)
+    map.entries.push_back({key, 0, {YamlValue::Kind::Scalar, 0, text, true, {}, {}}});
+  return map;
 }
 
 Variant readVariant(const std::string& text, const std::vector<BenchmarkPeer>& peers) {
   const auto colon = text.find(':');
   const std::string name = text.substr(0, colon);
   std::vector<std::string> names = problemChoices().at("checker.edges");
-  Variant variant{text, name, {}, {}};
+  Variant variant{text, {}, {}};
+  std::string edges = name;
   bool known = std::find(names.begin(), names.end(), name) != names.end();
   for (const BenchmarkPeer& peer : peers) {
     names.push_back(peer.name);
     if (peer.name != name) continue;
     known = true;
-    variant.edges = peer.edges;
+    edges = peer.edges;
     variant.peer = peer;
   }
   if (!known)
     refuse("unknown variant " + quotedWord(name) + didYouMean(name, names) +
            "; there are: " + joined(names) + "; each may have a knob: discrete:0.01");
-  if (colon == std::string::npos) return variant;
+  if (colon == std::string::npos) {
+    variant.checker = checkerMap({{"edges", edges}});
+    return variant;
+  }
   const std::string knob = text.substr(colon + 1);
   double value = 0;
-  const bool number = parseNumber(knob, Range::Any, value).empty();
-  if (variant.samples() && !(number && value >= kFinestResolution && value < 1))
+  const bool number = parseNumber(knob, Range::Any, value).empty(), samples = edges == "discrete";
+  if (samples && !(number && value >= kFinestResolution && value < 1))
     refuse(quotedWord(text) + ": a resolution from " + shortest(kFinestResolution) +
            " to below 1 is needed, not " + quotedWord(knob));
-  if (!variant.samples() && !(number && value > 0))
+  if (!samples && !(number && value > 0))
     refuse(quotedWord(text) + ": a tolerance above 0, in metres, is needed, not " +
            quotedWord(knob));
-  variant.knob = value;
+  variant.checker = checkerMap({{"edges", edges}, {samples ? "resolution" : "tolerance", knob}});
   return variant;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/checker/checker.h"
+#include "planner/problem/yaml_value.h"
 
 namespace ompl::base {
 class MotionValidator;
@@ -18,8 +19,7 @@ namespace corridor {
 
 struct BenchmarkRun;
 
-/// Another test of states, of edges, or of both, to compare with. The program knows none, so as to
-/// depend on none: tests/benchmark/plan_benchmark brings FCL, and answers that were recorded.
+/// Another test of states, of edges, or of both, to compare with.
 struct BenchmarkPeer {
   template <class Made>
   using Make = std::function<std::shared_ptr<Made>(
@@ -38,22 +38,24 @@ struct BenchmarkPeer {
       run = nullptr;
 };
 
-/// A way to check edges, with its knob: what a benchmark compares.
+/// A checker, as a benchmark compares it with others.
 struct Variant {
-  std::string name;            ///< as it was asked for: "discrete:0.01"
-  std::string edges;           ///< Problem::CheckerSpec::edges
-  std::optional<double> knob;  ///< of one that samples, the resolution; else the tolerance, metres
+  std::string name;
+  /// A map: what it sets of a problem's `checker:`, read without a fault (`readCheckerKeys`).
+  YamlValue checker;
   std::optional<BenchmarkPeer> peer;
 
-  /// Whether the knob is a resolution (OMPL's longest_valid_segment_fraction).
-  bool samples() const { return edges == "discrete"; }
-  /// A problem's checker, changed to this one. Without a knob, the problem's own stays.
+  /// A problem's checker, changed to this one: what it doesn't set stays the problem's.
   void apply(Problem::CheckerSpec& checker) const;
 };
 
-/// NAME or NAME:KNOB, where NAME is a value of `checker: {edges: …}` or a peer's.
-/// @throws InputError: unknown name (lists what there is), a knob that is no number or out of range
-/// (a resolution from 1e-9 to below 1, a tolerance above 0).
+/// A map for `Variant::checker`. @pre the values are legal ones of these keys.
+YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& keys);
+
+/// NAME or NAME:KNOB, where NAME is a value of `checker: {edges: …}` or a peer's; the knob is, of
+/// one that samples, its resolution (OMPL's longest_valid_segment_fraction), else the tolerance in
+/// metres. @throws InputError: unknown name (lists what there is), a knob that is no number or out
+/// of range (a resolution from 1e-9 to below 1, a tolerance above 0).
 Variant readVariant(const std::string& text, const std::vector<BenchmarkPeer>& peers = {});
 
 }  // namespace corridor

@@ -43,15 +43,15 @@ bool makeReportFolder(const fs::path& folder) {
 std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResult& result,
                                    const fs::path& folder) {
   std::vector<fs::path> files{folder / "runs.csv", folder / "summary.csv"};
-  writeWhole(files[0], csvOf(runRows(campaign, result)));
-  writeWhole(files[1], csvOf(summaryRows(campaign, result)));
+  writeWhole(files[0], csvOf(runRows(campaign, result.cells)));
+  writeWhole(files[1], csvOf(summaryRows(campaign, result.cells)));
   for (std::size_t p = 0; p < campaign.problems.size(); ++p)
     for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
       const auto isRun = [&](const CampaignCell& cell) {
         return cell.problem == p && cell.variant == v && !cell.runs.empty();
       };
       if (std::none_of(result.cells.begin(), result.cells.end(), isRun)) continue;
-      const std::string name = fileName(result.names[p] + "." + campaign.variants[v].name);
+      const std::string name = fileName(campaign.problemNames[p] + "." + campaign.variants[v].name);
       fs::path file = folder / (name + ".log");
       for (int i = 2; std::find(files.begin(), files.end(), file) != files.end(); ++i)
         file = folder / (name + "-" + std::to_string(i) + ".log");

@@ -4,6 +4,7 @@
 
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds_yaml.h"
+#include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/goal_yaml.h"
 #include "planner/problem/keys.h"
@@ -130,17 +131,6 @@ void readPlanner(const YamlMap& file, Problem& problem) {
     if (const auto text = paramMap.text(entry->key)) planner.params[entry->key] = *text;
 }
 
-void readChecker(const YamlMap& file, Problem& problem) {
-  const YamlValue* value = file.find("checker");
-  if (!value) return;
-  const YamlMap map(*value, "checker", keysOf("checker"), file.source());
-  Problem::CheckerSpec& checker = problem.checker;
-  checker.edges = map.choice("edges", wordsOf("checker.edges")).value_or(checker.edges);
-  checker.resolution = map.number("resolution", Range::Fraction).value_or(checker.resolution);
-  checker.tolerance = map.number("tolerance", Range::Positive);
-  checker.fit = map.choice("fit", wordsOf("checker.fit")).value_or(checker.fit);
-}
-
 }  // namespace
 
 Problem readProblemYaml(const std::filesystem::path& file) {
@@ -168,7 +158,8 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   readPlanner(map, problem);
   problem.sampler = map.text("sampler").value_or(problem.sampler);
   problem.simplify = map.boolean("simplify").value_or(problem.simplify);
-  readChecker(map, problem);
+  if (const YamlValue* checker = map.find("checker"))
+    readCheckerKeys(YamlMap(*checker, "checker", keysOf("checker"), source), problem.checker);
   problem.seed = map.wholeNumber("seed").value_or(problem.seed);
   if (known) {  // what states and bounds look like depends on it
     readBounds(map, robots, problem);

@@ -277,6 +277,7 @@ void Solve::finish() {
        definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())
     path.append(state);
   report_.rawStates = path.getStateCount();
+  report_.rawLength = lengthOf(problem_.space, readPath(path));
   std::vector<Path> versions;
   if (problem_.simplify && !keepsClear()) {  // shortcuts would cut the corners
     const double until =

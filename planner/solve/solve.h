@@ -60,7 +60,8 @@ struct SolveReport {
   double searchProcessorTime = 0;     ///< of that: planner and simplifier
   Counters counters;                  ///< of everything: states, edges, undecided, N_v, N_p
   PathLength length;
-  std::size_t rawStates = 0;  ///< of the planner's own path
+  std::size_t rawStates = 0;  ///< of the planner's own path, before simplifying
+  PathLength rawLength;       ///< of that
   int version = 0;            ///< which simplified version is returned; 0: the planner's own
   MotionOptions motion;       ///< tolerance and margin of the proof; its tube is the problem's
 };

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "planner/benchmark/fcl_scene.h"
 #include "planner/checker/checker.h"
 #include "planner/robot/edge_motion.h"
 #include "planner/solve/verify_solution.h"
-#include "tests/benchmark/fcl_scene.h"
 #include "tests/benchmark/random_edges.h"
 #include "tests/collision/motion/grazing.h"
 

@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/benchmark/fcl_scene.h"
 #include "planner/checker/checker.h"
-#include "tests/benchmark/fcl_scene.h"
 #include "tests/benchmark/random_edges.h"
 
 namespace corridor {

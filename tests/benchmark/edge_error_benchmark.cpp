@@ -19,10 +19,10 @@
 #include <map>
 #include <optional>
 
+#include "planner/benchmark/fcl_scene.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/edge_cases.h"
 #include "tests/benchmark/fcl_motion.h"
-#include "tests/benchmark/fcl_scene.h"
 #include "tests/benchmark/plot.h"
 
 namespace corridor::bench {

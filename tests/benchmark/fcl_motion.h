@@ -12,7 +12,7 @@
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/narrowphase/continuous_collision.h>
 
-#include "tests/benchmark/fcl_scene.h"
+#include "planner/benchmark/fcl_scene.h"
 
 /// FCL's tests of whole motions, of rigid meshes. Each body moves as an fcl::InterpMotion; what it
 /// touches first counts, the earliest of the pairs.

@@ -7,64 +7,41 @@
 /// its replay certified takes.
 #include <algorithm>
 #include <iostream>
-#include <memory>
-#include <mutex>
 #include <vector>
 
-#include <ompl/base/StateValidityChecker.h>
-
-#include "planner/benchmark/campaign.h"
+#include "planner/benchmark/peers.h"
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/write_reports.h"
-#include "planner/checker/problem_state_space.h"
 #include "tests/benchmark/arguments.h"
-#include "tests/benchmark/fcl_scene.h"
 #include "tests/benchmark/replay.h"
 
 namespace corridor::bench {
 namespace {
 
-#ifdef CORRIDOR_WITH_FCL
-class FclStateValidityChecker final : public ompl::base::StateValidityChecker {
- public:
-  FclStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)
-      : StateValidityChecker(si), checker_(checker), scene_(checker) {}
-  bool isValid(const ompl::base::State* state) const override {
-    const Configuration q = configurationOf(*si_, state);
-    if (!checker_.inBounds(q)) return false;
-    const std::lock_guard lock(mutex_);  // some planners have threads
-    return !scene_.touches(framePoses(checker_.problem().tree, q));
-  }
-
- private:
-  const Checker& checker_;
-  mutable std::mutex mutex_;
-  mutable FclScene scene_;
-};
-#endif
-
 std::vector<BenchmarkPeer> peers() {
-  return {replayPeer(),
-#ifdef CORRIDOR_WITH_FCL
-          {"fcl",
-           [](const auto& si, const Checker& checker) {
-             return std::make_shared<FclStateValidityChecker>(si, checker);
-           }}
-#endif
-  };
+  std::vector<BenchmarkPeer> peers = peersHere();
+  peers.insert(peers.begin(), replayPeer());
+  return peers;
 }
 
 /// By seed, where both were solved.
 void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
+  const auto specOf = [&](const CampaignCell& cell) {
+    Problem::CheckerSpec checker = campaign.problems[cell.problem].checker;
+    campaign.variants[cell.variant].apply(checker);
+    return checker;
+  };
   const auto is = [&](const CampaignCell& cell, const char* edges, bool replay) {
     const Variant& variant = campaign.variants[cell.variant];
-    return variant.edges == edges && (variant.peer && variant.peer->name == "replay") == replay;
+    return specOf(cell).edges == edges &&
+           (variant.peer && variant.peer->name == "replay") == replay;
   };
   for (const CampaignCell& real : result.cells)
     for (const CampaignCell& replay : result.cells) {
       if (!is(real, "certified", false) || !is(replay, "certified", true) ||
-          real.problem != replay.problem || real.planner != replay.planner ||
-          campaign.variants[real.variant].knob != campaign.variants[replay.variant].knob)
+          real.problem != replay.problem || real.planner.label != replay.planner.label ||
+          specOf(real).tolerance != specOf(replay).tolerance)
         continue;
       std::vector<double> ratios;
       for (std::size_t i = 0; i < std::min(real.runs.size(), replay.runs.size()); ++i)
@@ -72,8 +49,9 @@ void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
           ratios.push_back(real.runs[i].searchProcessorTime / replay.runs[i].searchProcessorTime);
       if (ratios.empty()) continue;
       const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-      std::cout << result.names[real.problem] << ", " << real.planner << ": certified takes "
-                << medianOf(ratios) << " times as long as its replay (processor, planner and "
+      std::cout << campaign.problemNames[real.problem] << ", " << real.planner.label
+                << ": certified takes " << medianOf(ratios)
+                << " times as long as its replay (processor, planner and "
                 << "simplifier; " << *least << " to " << *most << ", " << ratios.size()
                 << " seeds)\n";
     }
@@ -91,7 +69,9 @@ void run(const Arguments& arguments) {
   }
   for (const std::string& variant : variants)
     campaign.variants.push_back(readVariant(variant, peers()));
-  campaign.planners = arguments.texts("--planner");
+  for (const std::string& name : arguments.texts("--planner"))
+    campaign.planners.push_back({name, name, {}});
+  nameProblems(campaign);
   campaign.runs = static_cast<std::uint64_t>(arguments.number("--runs", 10));
   campaign.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1));
   if (arguments.has("--time")) campaign.time = arguments.number("--time", 20);
@@ -100,7 +80,7 @@ void run(const Arguments& arguments) {
   if (!folder.empty()) makeReportFolder(folder);
   const CampaignResult result = runCampaign(campaign);
   if (!folder.empty()) writeReports(campaign, result, folder);
-  std::cout << tableOf(summaryRows(campaign, result));
+  std::cout << tableOf(summaryRows(campaign, result.cells));
   for (const CampaignCell& cell : result.cells)
     for (const BenchmarkRun& run : cell.runs)
       if (!run.failure.empty())

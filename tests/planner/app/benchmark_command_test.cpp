@@ -55,7 +55,7 @@ TEST_F(BenchmarkCommand, FilesTableAndVerdicts) {
   EXPECT_THAT(table[0], testing::MatchesRegex(
                             "problem +variant +planner +runs +solved .* refuted .*time_s +.*"));
   EXPECT_THAT(files("results"),
-              UnorderedElementsAre("runs.csv", "summary.csv", "hall.certified.log",
+              UnorderedElementsAre("campaign.db", "runs.csv", "summary.csv", "hall.certified.log",
                                    "hall.discrete-0.2.log"));
   const std::vector<std::string> rows = lines(read("results/runs.csv"));
   ASSERT_EQ(rows.size(), 1u + 2 * 2 * 3);
@@ -87,7 +87,7 @@ TEST_F(BenchmarkCommand, JsonAgreesWithItself) {
       run("benchmark hall.yaml --variants certified,discrete:0.2 --runs 2 --json");
   ASSERT_EQ(result.status, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
-  EXPECT_EQ(json["format"], "corridor-benchmark-report-1");
+  EXPECT_EQ(json["format"], "corridor-benchmark-report-2");
   EXPECT_EQ(json["interrupted"], false);
   ASSERT_EQ(json["results"].size(), 2u);
   for (const auto& cell : json["results"]) {
@@ -127,7 +127,9 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
          "--variants: \"discrete:2\": a resolution from 1e-09 to below 1 is needed");
   refuse("hall.yaml --variants certified:0",
          "--variants: \"certified:0\": a tolerance above 0, in metres, is needed");
-  refuse("hall.yaml --variants fcl:0.01", "--variants: unknown variant \"fcl\"");
+  refuse("hall.yaml --variants fle:0.01", "--variants: unknown variant \"fle\"");
+  refuse("hall.yaml --jobs 0", "--jobs: a whole number from 1 to 1024 is needed");
+  refuse("set.json#5-3", "set.json: \"#5-3\" is no range of 1 to 1000 problems, such as #1-10");
   refuse("hall.yaml --variants certified,certified", "--variants: \"certified\" is named twice");
   refuse("hall.yaml --planners RRTConect",
          "--planners: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?");
@@ -138,7 +140,7 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml --seed 0", "--seed: a whole number from 1 to 2^32 - 1 is needed");
   refuse("hall.yaml --memory 0", "--memory: a number of MB from 1 to 1e9 is needed");
   refuse("nothing.yaml", "nothing.yaml: ");
-  refuse("", "PROBLEM is required");
+  refuse("", "CAMPAIGN|PROBLEM is required");
   write("touching.yaml", problem("0, 0"));
   refuse("hall.yaml touching.yaml", "touching.yaml:5: start is in contact");
 }
@@ -160,8 +162,8 @@ TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
   ASSERT_EQ(run("benchmark hall.yaml --variants discrete:0.05 --runs 1 -o results").status, 0);
   EXPECT_EQ(read("results/notes.txt"), "mine");
   EXPECT_EQ(lines(read("results/runs.csv")).size(), 2u);
-  EXPECT_THAT(files("results"), UnorderedElementsAre("notes.txt", "runs.csv", "summary.csv",
-                                                     "hall.discrete-0.05.log"));
+  EXPECT_THAT(files("results"), UnorderedElementsAre("notes.txt", "campaign.db", "runs.csv",
+                                                     "summary.csv", "hall.discrete-0.05.log"));
 }
 
 TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
@@ -172,7 +174,8 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_EQ(read("err.txt"),
-            "corridor: warning: interrupted: what follows is of the runs that were done\n");
+            "corridor: warning: interrupted: what follows is of the runs that were done; --resume "
+            "goes on\n");
   const std::size_t rows = lines(read("results/runs.csv")).size();
   EXPECT_GT(rows, 1u);
   EXPECT_LT(rows, 100'000u);
@@ -188,7 +191,7 @@ TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
   EXPECT_THAT(result.err, StartsWith("results/runs.csv: can't be written"));
   EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
   EXPECT_EQ(lines(result.out).size(), 2u) << result.out;
-  EXPECT_THAT(files("results"), UnorderedElementsAre("runs.csv"));
+  EXPECT_THAT(files("results"), UnorderedElementsAre("campaign.db", "runs.csv"));
 }
 
 /// No empty files, no logs without planners, and no table of nothing.

@@ -1,7 +1,5 @@
 // Campaigns as a whole: figures are those of solve, seeds repeat, a crash costs its run only,
 // OMPL's log is OMPL's, and the verifier's verdicts on the thin plate.
-#include "planner/benchmark/campaign.h"
-
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include "collision/core/error.h"
 #include "planner/benchmark/ompl_log.h"
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/run_campaign.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/solve/solve.h"
 #include "tests/planner/benchmark/ompl_log_reader.h"
@@ -39,7 +38,14 @@ Campaign campaignOf(const std::vector<std::string>& variants, std::uint64_t runs
   for (const std::string& variant : variants)
     campaign.variants.push_back(readVariant(variant, peers));
   campaign.runs = runs;
+  nameProblems(campaign);
   return campaign;
+}
+
+std::vector<CampaignPlanner> named(const std::vector<std::string>& names) {
+  std::vector<CampaignPlanner> planners;
+  for (const std::string& name : names) planners.push_back({name, name, {}});
+  return planners;
 }
 
 std::string complaintOf(const Campaign& campaign) {
@@ -59,7 +65,7 @@ int countOf(const CampaignCell& cell, const std::string& verdict) {
 
 /// All but times.
 std::vector<Row> repeatable(const Campaign& campaign, const CampaignResult& result) {
-  std::vector<Row> rows = runRows(campaign, result);
+  std::vector<Row> rows = runRows(campaign, result.cells);
   for (Row& row : rows)
     std::erase_if(row, [](const auto& column) { return column.first.ends_with("_s"); });
   return rows;
@@ -69,6 +75,7 @@ TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
   Campaign campaign = campaignOf({"certified", "discrete:0.01"}, 3);
   campaign.problems = {
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / "thin_plate")};
+  nameProblems(campaign);
   campaign.time = 20.0 * test::kSlowdown;
   checkCampaign(campaign);
   const CampaignResult result = runCampaign(campaign);
@@ -93,7 +100,7 @@ TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
 /// A row is what `solve` does with that seed, to the last test of two boxes.
 TEST(Campaign, ARunIsASolve) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 2);
-  campaign.planners = {"RRTConnect", "KPIECE1"};
+  campaign.planners = named({"RRTConnect", "KPIECE1"});
   campaign.seed = 5;
   campaign.time = 20.0 * test::kSlowdown;
   const CampaignResult result = runCampaign(campaign);
@@ -194,8 +201,9 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 2);
   Problem& problem = campaign.problems[0];
   problem.name = "a hall";
+  nameProblems(campaign);
   problem.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
-  campaign.planners = {"RRTConnect", "RRTstar"};  // the second tells its progress
+  campaign.planners = named({"RRTConnect", "RRTstar"});  // the second tells its progress
   campaign.time = 2.0 * test::kSlowdown;
   const CampaignResult result = runCampaign(campaign);
   for (std::size_t v = 0; v < 2; ++v) {
@@ -269,7 +277,7 @@ TEST(Campaign, AllThatIsWrongIsToldBeforeAnythingRuns) {
             "--variants: \"certified\" is named twice\n--runs: 1 or more are needed, not 0");
   EXPECT_EQ(complaintOf(campaignOf({}, 1)), "--variants: a variant is needed");
   Campaign campaign = campaignOf({"certified", "discrete:0.1"}, 1);
-  campaign.planners = {"RRTConnect", "RTT"};
+  campaign.planners = named({"RRTConnect", "RTT"});
   EXPECT_THAT(complaintOf(campaign),
               StartsWith("--planners: unknown planner \"RTT\"; did you mean \"RRT\"?; there are: "
                          "RRTConnect, "));
@@ -280,7 +288,7 @@ TEST(Campaign, AllThatIsWrongIsToldBeforeAnythingRuns) {
   campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].planner.params = {{"rnge", "1"}};
   EXPECT_THAT(complaintOf(campaign), HasSubstr("RRTConnect has no parameter \"rnge\""));
-  campaign.planners = {"RRT"};  // they were another planner's
+  campaign.planners = named({"RRT"});  // they were another planner's
   EXPECT_EQ(complaintOf(campaign), "");
 }
 
@@ -288,7 +296,82 @@ TEST(Campaign, ProblemsOfOneNameAreToldApart) {
   Campaign campaign = campaignOf({"discrete:0.02"}, 1);
   campaign.problems.push_back(campaign.problems[0]);
   campaign.problems.push_back(campaign.problems[0]);
-  EXPECT_THAT(runCampaign(campaign).names, ElementsAre("hall", "hall-2", "hall-3"));
+  nameProblems(campaign);
+  EXPECT_THAT(campaign.problemNames, ElementsAre("hall", "hall-2", "hall-3"));
+}
+
+/// A planner by another name, with parameters of its own, is another planner.
+TEST(Campaign, PlannersHaveLabelsAndParameters) {
+  Campaign campaign = campaignOf({"certified"}, 1);
+  campaign.problems[0].planner.params = {{"range", "0.5"}};
+  campaign.planners = {{"RRTConnect", "RRTConnect", {}},
+                       {"short", "RRTConnect", {{{"range", "0.05"}}}},
+                       {"default", "RRTConnect", std::map<std::string, std::string>{}}};
+  campaign.time = 20.0 * test::kSlowdown;
+  EXPECT_EQ(complaintOf(campaign), "");
+  const CampaignResult result = runCampaign(campaign);
+  ASSERT_EQ(result.cells.size(), 3u);
+  const auto range = [&](std::size_t i) {
+    return result.cells[i].runs.at(0).ompl.settings.at("range");
+  };
+  EXPECT_EQ(range(0), "0.5");
+  EXPECT_EQ(range(1), "0.05");
+  EXPECT_NE(range(2), "0.5");
+  EXPECT_GT(result.cells[1].runs[0].edges, result.cells[0].runs[0].edges);
+  const OmplLog log = OmplLogReader::read(omplLog(campaign, result, 0, 0));
+  ASSERT_EQ(log.planners.size(), 3u);
+  EXPECT_EQ(log.planners[1].name, "short");
+  campaign.planners[2].label = "short";
+  EXPECT_EQ(complaintOf(campaign), "--planners: \"short\" is named twice");
+}
+
+/// Several at a time: the same rows in the same order.
+TEST(Campaign, JobsChangeNothingButTimes) {
+  Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 5);
+  campaign.time = 20.0 * test::kSlowdown;
+  CampaignOptions options;
+  options.jobs = 3;
+  std::size_t done = 0;
+  options.done = [&](std::size_t cell, const BenchmarkRun& run) {
+    EXPECT_LT(cell, 2u);
+    EXPECT_TRUE(run.solved) << run.why << run.failure;
+    ++done;
+  };
+  const CampaignResult many = runCampaign(campaign, options);
+  EXPECT_EQ(done, 10u);
+  EXPECT_FALSE(many.interrupted);
+  EXPECT_EQ(csvOf(repeatable(campaign, many)), csvOf(repeatable(campaign, runCampaign(campaign))));
+}
+
+TEST(Campaign, WhatIsThereIsNotRunAgain) {
+  Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 3);
+  campaign.time = 20.0 * test::kSlowdown;
+  std::vector<CampaignCell> cells = cellsOf(campaign);
+  BenchmarkRun known;
+  known.seed = 2;
+  known.why = "it was there";
+  cells[1].runs = {known};
+  CampaignOptions options;
+  std::vector<std::pair<std::size_t, std::uint64_t>> ran;
+  options.done = [&](std::size_t cell, const BenchmarkRun& run) {
+    ran.emplace_back(cell, run.seed);
+  };
+  const CampaignResult result = runCampaign(campaign, options, cells);
+  EXPECT_THAT(ran, ElementsAre(std::pair(0, 1), std::pair(1, 1), std::pair(0, 2), std::pair(0, 3),
+                               std::pair(1, 3)));
+  ASSERT_EQ(result.cells[1].runs.size(), 3u);
+  EXPECT_EQ(result.cells[1].runs[1].why, "it was there");
+}
+
+TEST(Campaign, WithoutAJudgeNobodySaysWhatCollides) {
+  Campaign campaign = campaignOf({"discrete:0.2"}, 2);
+  campaign.verify = false;
+  const CampaignResult result = runCampaign(campaign);
+  for (const BenchmarkRun& run : result.cells[0].runs) {
+    EXPECT_TRUE(run.solved);
+    EXPECT_EQ(run.verdict, "");
+  }
+  EXPECT_THAT(csvOf(summaryRows(campaign, result.cells)), HasSubstr(",2,0,2,0,0,0,0,"));
 }
 
 }  // namespace

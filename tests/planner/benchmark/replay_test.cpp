@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <ompl/base/ScopedState.h>
 
-#include "planner/benchmark/campaign.h"
+#include "planner/benchmark/run_campaign.h"
 #include "planner/checker/problem_goal.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
@@ -21,7 +21,8 @@ CampaignResult resultOf(const std::string& planner, const std::vector<std::strin
   campaign.problems = {test::hallProblem(test::Rigid::SE3)};
   for (const std::string& variant : variants)
     campaign.variants.push_back(readVariant(variant, {replayPeer()}));
-  campaign.planners = {planner};
+  campaign.planners = {{planner, planner, {}}};
+  nameProblems(campaign);
   campaign.runs = 2;
   campaign.time = 20.0 * test::kSlowdown;
   return runCampaign(campaign);

@@ -50,10 +50,9 @@ TEST(Rows, TableLinesUpAndLeavesOutWhatSaysNothing) {
 TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
   Campaign campaign;
   campaign.problems.resize(1);
-  campaign.variants = {{"certified", "certified", {}, {}}};
-  CampaignResult result;
-  result.names = {"p"};
-  CampaignCell cell{0, 0, "RRT", std::vector<BenchmarkRun>(6)};
+  campaign.variants = {readVariant("certified")};
+  campaign.problemNames = {"p"};
+  CampaignCell cell{0, 0, {"RRT", "RRT", {}}, std::vector<BenchmarkRun>(6)};
   for (std::size_t i = 0; i < 6; ++i) {
     BenchmarkRun& run = cell.runs[i];
     run.seed = i + 1;
@@ -67,25 +66,30 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
     run.edges = i + 1;
     run.counters.boxTests = 10 * (i + 1);
     run.counters.undecided = 1;
+    run.leastDistance = i == 1 ? -1 : 0.1 * static_cast<double>(i);  // -1: nothing in the way
+    run.rawLength = {2.0 * static_cast<double>(i), 1};
   }
   cell.runs[0].verdict = cell.runs[1].verdict = "proved";
   cell.runs[2].verdict = "undecided";
   cell.runs[3].verdict = "refuted";
-  const Row row = summaryRow(campaign, result, cell);
+  const Row row = summaryRow(campaign, cell);
   EXPECT_EQ(csvOf({row}),
             "problem,variant,planner,runs,failed,solved,certified,proved,refuted,undecided,time_s,"
             "time_p95_s,processor_s,search_processor_s,checking_share,states,edges,edges_undecided,"
             "box_tests,"
-            "triangle_tests,length_m,rotation_rad\n"
-            "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.25,0.5,250,2.5,6,25,0,0,0\n");
+            "triangle_tests,least_distance_m,raw_length_m,raw_rotation_rad,length_m,rotation_rad\n"
+            "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.25,0.5,250,2.5,6,25,0,0.2,3,1,0,0\n");
   // What a run doesn't have is left empty.
   const auto value = [&](std::size_t run, const std::string& name) {
-    for (const auto& [column, held] : runRow(campaign, result, cell, cell.runs[run]))
+    for (const auto& [column, held] : runRow(campaign, cell, cell.runs[run]))
       if (column == name) return held;
     return RowValue{"no such column"};
   };
   EXPECT_EQ(value(3, "verdict"), RowValue{"refuted"});
   EXPECT_EQ(value(4, "verdict"), RowValue{});
+  EXPECT_EQ(value(1, "least_distance_m"), RowValue{});
+  EXPECT_EQ(value(3, "raw_length_m"), RowValue{6.0});
+  EXPECT_EQ(value(4, "raw_length_m"), RowValue{});
   EXPECT_EQ(value(4, "time_s"), RowValue{100.0});
   EXPECT_EQ(value(5, "time_s"), RowValue{});
   EXPECT_EQ(value(5, "result"), RowValue{"failed"});

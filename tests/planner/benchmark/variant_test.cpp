@@ -20,6 +20,12 @@ std::string complaintOf(const std::string& text, const std::vector<BenchmarkPeer
   return "";
 }
 
+Problem::CheckerSpec specOf(const Variant& variant) {
+  Problem::CheckerSpec checker;
+  variant.apply(checker);
+  return checker;
+}
+
 TEST(Variant, SetsTheKnobOfItsKind) {
   Problem::CheckerSpec checker;
   readVariant("discrete:0.005").apply(checker);
@@ -47,16 +53,17 @@ TEST(Variant, WithoutAKnobTheProblemsOwnStays) {
 
 TEST(Variant, EveryEdgesOfAProblemIsOne) {
   for (const std::string& edges : problemChoices().at("checker.edges")) {
-    EXPECT_EQ(readVariant(edges).edges, edges);
-    EXPECT_EQ(readVariant(edges + ":0.001").knob, 0.001);
+    EXPECT_EQ(specOf(readVariant(edges)).edges, edges);
+    const Problem::CheckerSpec checker = specOf(readVariant(edges + ":0.001"));
+    EXPECT_EQ(edges == "discrete" ? checker.resolution : checker.tolerance.value_or(0), 0.001);
   }
 }
 
 TEST(Variant, APeerSamples) {
   const std::vector<BenchmarkPeer> peers{{"other", {}}};
   const Variant variant = readVariant("other:0.1", peers);
-  EXPECT_EQ(variant.edges, "discrete");
-  EXPECT_EQ(variant.knob, 0.1);
+  EXPECT_EQ(specOf(variant).edges, "discrete");
+  EXPECT_EQ(specOf(variant).resolution, 0.1);
   ASSERT_TRUE(variant.peer);
   EXPECT_EQ(variant.peer->name, "other");
   EXPECT_FALSE(readVariant("discrete:0.1", peers).peer);

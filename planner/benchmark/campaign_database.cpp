@@ -1,0 +1,363 @@
+#include "planner/benchmark/campaign_database.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
+#include <algorithm>
+#include <set>
+#include <sqlite3.h>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/core/error.h"
+#include "collision/core/nearest.h"
+#include "planner/benchmark/build_commit.h"
+#include "planner/benchmark/ompl_log.h"
+
+namespace corridor {
+namespace {
+
+/// "corr": marks files of ours (PRAGMA application_id), and the version of our tables.
+constexpr int kApplication = 0x636f7272, kVersion = 1;
+
+/// OMPL's tables, word for word those of `ompl_benchmark_statistics` 1.5.2 (its columns of runs are
+/// added as they come), and ours.
+constexpr const char* kTables = R"(
+CREATE TABLE experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
+  totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER, version VARCHAR(128),
+  hostname VARCHAR(1024), cpuinfo TEXT, date DATETIME, seed VARCHAR(24), setup TEXT);
+CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512) NOT NULL,
+  settings TEXT);
+CREATE TABLE enums (name VARCHAR(512), value INTEGER, description TEXT, PRIMARY KEY (name, value));
+CREATE TABLE runs (id INTEGER PRIMARY KEY AUTOINCREMENT, experimentid INTEGER, plannerid INTEGER,
+  FOREIGN KEY (experimentid) REFERENCES experiments(id) ON DELETE CASCADE,
+  FOREIGN KEY (plannerid) REFERENCES plannerConfigs(id) ON DELETE CASCADE);
+CREATE TABLE progress (runid INTEGER, time REAL, PRIMARY KEY (runid, time),
+  FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
+
+CREATE TABLE corridor_cells (id INTEGER PRIMARY KEY, problem TEXT, variant TEXT, planner TEXT,
+  spec TEXT, experimentid INTEGER, UNIQUE (problem, variant, planner));
+CREATE TABLE corridor_runs (cellid INTEGER, seed INTEGER, runid INTEGER UNIQUE, sessionid INTEGER,
+  record TEXT, PRIMARY KEY (cellid, seed));
+CREATE TABLE corridor_sessions (id INTEGER PRIMARY KEY, started DATETIME, version TEXT,
+  "commit" TEXT);
+)";
+
+std::string quotedName(const std::string& name) {
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// "graph states INTEGER": a column graph_states, of type INTEGER.
+struct ColumnName {
+  std::string name, type;
+  explicit ColumnName(const std::string& words) {
+    const auto blank = words.rfind(' ');
+    name = words.substr(0, blank);
+    type = blank == std::string::npos ? "TEXT" : words.substr(blank + 1);
+    std::replace(name.begin(), name.end(), ' ', '_');
+  }
+};
+
+bool isNothing(const std::string& value) {
+  return value.empty() || value == "nan" || value == "inf" || value == "-nan" || value == "-inf";
+}
+
+}  // namespace
+
+class CampaignDatabase::Tables {
+ public:
+  Tables(const std::filesystem::path& file, Mode mode, const Campaign& campaign,
+         std::vector<CampaignCell>& cells)
+      : file_(file), campaign_(campaign), cells_(cellsOf(campaign)) {
+    told([&] {
+      std::error_code ignored;
+      const bool there = std::filesystem::exists(file, ignored);
+      base_ = std::make_unique<SQLite::Database>(file.string(),
+                                                 SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+      base_->exec("PRAGMA locking_mode = EXCLUSIVE");
+      base_->exec("PRAGMA foreign_keys = ON");
+      // Nobody else reads or writes from here on.
+      base_->exec("BEGIN EXCLUSIVE");
+      if (!there || isEmpty())
+        makeTables();
+      else
+        checkTables(mode);
+      matchCells(cells);
+      beginSession();
+      base_->exec("COMMIT");
+    });
+  }
+
+  void add(std::size_t cell, const BenchmarkRun& run) {
+    told([&] {
+      columns_.clear();  // an earlier run's may have been taken back
+      SQLite::Transaction transaction(*base_);
+      const CampaignCell& of = cells_[cell];
+      SQLite::Statement known(*base_,
+                              "SELECT id, experimentid FROM corridor_cells WHERE problem = ? "
+                              "AND variant = ? AND planner = ?");
+      bindNames(known, of);
+      known.executeStep();
+      const std::int64_t cellId = known.getColumn(0).getInt64();
+      const std::int64_t experiment =
+          known.getColumn(1).isNull() ? addExperiment(of, run) : known.getColumn(1).getInt64();
+      known.reset();
+      const std::int64_t runId = addRun(of, run, experiment, plannerOf(of, run));
+      addProgress(run, runId);
+      execute("UPDATE corridor_cells SET experimentid = ? WHERE id = ?", experiment, cellId);
+      execute("UPDATE experiments SET totaltime = totaltime + ? WHERE id = ?",
+              run.time + run.verificationTime, experiment);
+      execute("INSERT INTO corridor_runs VALUES (?, ?, ?, ?, ?)", cellId,
+              static_cast<std::int64_t>(run.seed), runId, session_, text(run));
+      transaction.commit();
+    });
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw InputError(Fault{file_.string(), 0, why});
+  }
+
+  /// Faults of SQLite as the user's: a disk that is full, a file that is none of its.
+  template <class Step>
+  void told(const Step& step) const {
+    try {
+      step();
+    } catch (const SQLite::Exception& error) {
+      switch (error.getErrorCode()) {
+        case SQLITE_NOTADB:
+          refuse("is no database of a campaign");
+        case SQLITE_BUSY:
+        case SQLITE_LOCKED:
+          refuse("is in use by another process");
+        case SQLITE_CANTOPEN:
+          refuse("can't be made or opened");
+        case SQLITE_READONLY:
+          refuse("can't be written to");
+        case SQLITE_FULL:
+          refuse(
+              "can't be written: the disk is full; what was measured before is kept, --resume "
+              "goes on");
+        case SQLITE_CORRUPT:
+          refuse("is damaged: " + std::string(error.what()));
+        default:
+          refuse("can't be read or written: " + std::string(error.what()));
+      }
+    }
+  }
+
+  template <class... Values>
+  std::int64_t execute(const std::string& sql, const Values&... values) {
+    SQLite::Statement statement(*base_, sql);
+    SQLite::bind(statement, values...);
+    statement.exec();
+    return base_->getLastInsertRowid();
+  }
+  void bindNames(SQLite::Statement& statement, const CampaignCell& cell) const {
+    SQLite::bind(statement, campaign_.problemNames[cell.problem],
+                 campaign_.variants[cell.variant].name, cell.planner.label);
+  }
+  bool isEmpty() { return base_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0; }
+
+  void makeTables() {
+    base_->exec(kTables);
+    base_->exec("PRAGMA application_id = " + std::to_string(kApplication));
+    base_->exec("PRAGMA user_version = " + std::to_string(kVersion));
+    int value = 0;
+    for (const std::string& status : omplStatusNames())
+      execute("INSERT INTO enums VALUES ('status', ?, ?)", value++, status);
+  }
+
+  void checkTables(Mode mode) {
+    if (base_->execAndGet("PRAGMA application_id").getInt() != kApplication)
+      refuse("is a database, but none of a campaign");
+    if (const int version = base_->execAndGet("PRAGMA user_version").getInt(); version != kVersion)
+      refuse("is of version " + std::to_string(version) + " of campaigns' databases; this is " +
+             std::to_string(kVersion));
+    const int runs = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt();
+    if (mode == Mode::fresh)
+      refuse("holds " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
+             " already: go on with it by --resume, or name another folder");
+  }
+
+  /// The cells of the file are those of the campaign, and hand over their runs.
+  void matchCells(std::vector<CampaignCell>& cells) {
+    std::set<std::int64_t> ids;
+    for (CampaignCell& cell : cells) {
+      SQLite::Statement known(*base_,
+                              "SELECT id, spec FROM corridor_cells WHERE problem = ? AND "
+                              "variant = ? AND planner = ?");
+      bindNames(known, cell);
+      const std::string spec = specOf(campaign_, cell);
+      if (!known.executeStep()) {
+        ids.insert(execute(
+            "INSERT INTO corridor_cells (problem, variant, planner, spec) VALUES (?, ?, ?, ?)",
+            campaign_.problemNames[cell.problem], campaign_.variants[cell.variant].name,
+            cell.planner.label, spec));
+        continue;
+      }
+      const std::int64_t id = known.getColumn(0).getInt64();
+      if (const std::string was = known.getColumn(1).getString(); was != spec)
+        refuse(cellName(cell) + " was another one: " + difference(was, spec) +
+               "; name another folder");
+      ids.insert(id);
+      readRuns(id, cell);
+    }
+    SQLite::Statement others(*base_,
+                             "SELECT id, problem, variant, planner FROM corridor_cells c "
+                             "WHERE EXISTS (SELECT 1 FROM corridor_runs WHERE cellid = c.id)");
+    while (others.executeStep())
+      if (!ids.count(others.getColumn(0).getInt64()))
+        refuse("holds runs of " + others.getColumn(1).getString() + ", " +
+               others.getColumn(2).getString() + ", " + others.getColumn(3).getString() +
+               ", which the campaign doesn't have; name another folder");
+  }
+  void readRuns(std::int64_t id, CampaignCell& cell) {
+    SQLite::Statement runs(*base_,
+                           "SELECT record FROM corridor_runs WHERE cellid = ? ORDER BY seed");
+    runs.bind(1, id);
+    while (runs.executeStep()) {
+      BenchmarkRun run = readRun(runs.getColumn(0).getString());
+      if (run.seed < campaign_.seed || run.seed >= campaign_.seed + campaign_.runs)
+        refuse("holds a run of seed " + std::to_string(run.seed) + " of " + cellName(cell) +
+               ", which the campaign doesn't ask for; name another folder");
+      cell.runs.push_back(std::move(run));
+    }
+  }
+  std::string cellName(const CampaignCell& cell) const {
+    return campaign_.problemNames[cell.problem] + ", " + campaign_.variants[cell.variant].name +
+           ", " + cell.planner.label;
+  }
+  /// The first key whose values differ.
+  static std::string difference(const std::string& was, const std::string& is) {
+    const auto a = nlohmann::json::parse(was), b = nlohmann::json::parse(is);
+    for (const auto& [key, value] : b.items())
+      if (!a.contains(key) || a[key] != value)
+        return key + " " + (a.contains(key) ? a[key].dump() : "nothing") + ", and is " +
+               value.dump() + " now";
+    return was;
+  }
+
+  void beginSession() {
+    execute("UPDATE experiments SET runcount = ?", static_cast<std::int64_t>(campaign_.runs));
+    session_ = execute(
+        "INSERT INTO corridor_sessions (started, version, \"commit\") VALUES (datetime('now'), ?, "
+        "?)",
+        std::string(CORRIDOR_VERSION), std::string(buildCommit()));
+  }
+
+  std::int64_t addExperiment(const CampaignCell& cell, const BenchmarkRun& run) {
+    const std::string name = omplExperimentName(campaign_, cell);
+    SQLite::Statement known(*base_, "SELECT id FROM experiments WHERE name = ?");
+    known.bind(1, name);
+    const auto [ofProblem, ofPlanner] = omplSetup(run.ompl.setup);
+    if (known.executeStep()) {
+      const std::int64_t id = known.getColumn(0).getInt64();
+      execute("UPDATE experiments SET setup = setup || ? WHERE id = ?", ofPlanner, id);
+      return id;
+    }
+    const Problem& problem = campaign_.problems[cell.problem];
+    const std::int64_t id = execute(
+        "INSERT INTO experiments (name, totaltime, timelimit, memorylimit, runcount, version, "
+        "hostname, cpuinfo, date, seed, setup) VALUES (?, 0, ?, ?, ?, ?, ?, ?, datetime('now'), ?, "
+        "?)",
+        name, campaign_.time.value_or(problem.planner.time), campaign_.limits.memory,
+        static_cast<std::int64_t>(campaign_.runs), "OMPL " + versionOfOmpl(), run.ompl.host,
+        run.ompl.cpu, std::to_string(campaign_.seed), ofProblem + ofPlanner);
+    for (const auto& [words, value] : omplParameters(campaign_, cell)) {
+      const ColumnName column(words);
+      addColumn("experiments", column);
+      execute("UPDATE experiments SET " + quotedName(column.name) + " = ? WHERE id = ?", value, id);
+    }
+    return id;
+  }
+
+  std::int64_t plannerOf(const CampaignCell& cell, const BenchmarkRun& run) {
+    const std::string name = omplPlannerName(cell, run.ompl);
+    std::string settings;
+    for (const auto& [key, value] : run.ompl.settings) settings += key + " = " + value + "\n;";
+    SQLite::Statement known(*base_,
+                            "SELECT id FROM plannerConfigs WHERE name = ? AND settings = ?");
+    SQLite::bind(known, name, settings);
+    if (known.executeStep()) return known.getColumn(0).getInt64();
+    return execute("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)", name, settings);
+  }
+
+  std::int64_t addRun(const CampaignCell& cell, const BenchmarkRun& run, std::int64_t experiment,
+                      std::int64_t planner) {
+    return addRow("runs", omplProperties(campaign_, cell, run),
+                  {{"experimentid", experiment}, {"plannerid", planner}});
+  }
+  void addProgress(const BenchmarkRun& run, std::int64_t runId) {
+    std::set<std::string> times;  // the first of each, as OMPL's script does it
+    for (const auto& sample : run.ompl.progress)
+      if (const auto time = sample.find("time REAL");
+          time == sample.end() || times.insert(time->second).second)
+        addRow("progress", sample, {{"runid", runId}});
+  }
+
+  std::int64_t addRow(const std::string& table,
+                      const std::map<std::string, std::string>& properties,
+                      const std::vector<std::pair<std::string, std::int64_t>>& ids) {
+    std::string names, marks;
+    for (const auto& [name, id] : ids) names += "," + name, marks += ",?";
+    for (const auto& [words, value] : properties) {
+      const ColumnName column(words);
+      addColumn(table, column);
+      names += "," + quotedName(column.name), marks += ",?";
+    }
+    SQLite::Statement row(*base_, "INSERT INTO " + table + " (" + names.substr(1) + ") VALUES (" +
+                                      marks.substr(1) + ")");
+    int at = 0;
+    for (const auto& [name, id] : ids) row.bind(++at, id);
+    for (const auto& [words, value] : properties) {
+      ++at;
+      if (!isNothing(value)) row.bind(at, value);  // the column's type makes a number of it
+    }
+    row.exec();
+    return base_->getLastInsertRowid();
+  }
+  void addColumn(const std::string& table, const ColumnName& column) {
+    if (columns_.empty())
+      for (const char* of : {"experiments", "runs", "progress"}) {
+        SQLite::Statement known(*base_, std::string("PRAGMA table_info(") + of + ")");
+        while (known.executeStep()) columns_.insert({of, known.getColumn(1).getString()});
+      }
+    if (!columns_.insert({table, column.name}).second) return;
+    base_->exec("ALTER TABLE " + table + " ADD " + quotedName(column.name) + " " + column.type);
+  }
+
+  std::filesystem::path file_;
+  const Campaign& campaign_;
+  const std::vector<CampaignCell> cells_;  // without runs
+  std::unique_ptr<SQLite::Database> base_;
+  std::int64_t session_ = 0;
+  std::set<std::pair<std::string, std::string>> columns_;  // known to be there
+};
+
+CampaignDatabase::CampaignDatabase(const std::filesystem::path& file, Mode mode,
+                                   const Campaign& campaign, std::vector<CampaignCell>& cells)
+    : tables_(std::make_unique<Tables>(file, mode, campaign, cells)) {}
+CampaignDatabase::~CampaignDatabase() = default;
+
+void CampaignDatabase::add(std::size_t cell, const BenchmarkRun& run) {
+  tables_->add(cell, run);
+}
+
+std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
+  const Problem planned = plannedProblem(campaign, cell, 0);
+  nlohmann::ordered_json checker = nlohmann::ordered_json::object();
+  for (const YamlValue::Entry& entry : campaign.variants[cell.variant].checker.entries)
+    checker[entry.key] = entry.value.text;
+  if (campaign.variants[cell.variant].peer)
+    checker["peer"] = campaign.variants[cell.variant].peer->name;
+  return nlohmann::ordered_json{
+      {"problem", planned.digest},       {"checker", checker},
+      {"planner", planned.planner.name}, {"params", planned.planner.params},
+      {"time", planned.planner.time},    {"memory_mb", campaign.limits.memory},
+      {"simplify", planned.simplify},    {"verify", campaign.verify}}
+      .dump();
+}
+
+}  // namespace corridor

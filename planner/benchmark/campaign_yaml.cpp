@@ -1,0 +1,282 @@
+#include "planner/benchmark/campaign_yaml.h"
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "collision/core/nearest.h"
+#include "planner/benchmark/peers.h"
+#include "planner/problem/checker_yaml.h"
+#include "planner/problem/format_key.h"
+#include "planner/problem/keys.h"
+
+namespace corridor {
+namespace {
+
+constexpr const char* kFormat = "corridor-campaign-1";
+constexpr std::size_t kMostOfARange = 1000;
+
+/// A checker of the file, and what of its lists a variant has.
+struct Expanded {
+  std::string suffix;  ///< " 0.01"; "" where the file's has no list
+  YamlValue map;
+};
+
+/// One for each combination of what its lists hold, in the order in which they stand there.
+std::vector<Expanded> expanded(const YamlValue& checker) {
+  std::vector<Expanded> all{{"", checker}};
+  for (std::size_t i = 0; i < checker.entries.size(); ++i) {
+    const YamlValue& value = checker.entries[i].value;
+    if (value.kind != YamlValue::Kind::List) continue;
+    std::vector<Expanded> next;
+    for (const Expanded& one : all)
+      for (const YamlValue& item : value.items) {
+        next.push_back(one);
+        next.back().suffix += " " + item.text;
+        next.back().map.entries[i].value = item;
+      }
+    all = std::move(next);
+  }
+  return all;
+}
+
+/// Without the keys that are not a problem's.
+YamlValue withoutPeer(YamlValue map) {
+  std::erase_if(map.entries, [](const YamlValue::Entry& entry) { return entry.key == "peer"; });
+  return map;
+}
+
+class CampaignReader {
+ public:
+  explicit CampaignReader(const std::filesystem::path& path)
+      : path_(path), faults_(path.string()), source_{path.string(), faults_, {}} {}
+
+  Campaign read() {
+    const YamlValue document = parseYaml(
+        path_.string(), readTextFile(path_, std::string("a campaign (format: ") + kFormat + ")"));
+    if (!hasFormat(document, kFormat, source_)) faults_.throwIfAny();
+    const YamlMap map(document, "", &campaignKeys().at(""), source_);
+    campaign_.name = nameOfFile(path_, "campaign");
+    readProblems(map);
+    readPlanners(map);
+    readCheckers(map);
+    if (const auto runs = map.wholeNumber("runs")) {
+      if (*runs == 0 || *runs > 1'000'000) map.fault("runs", "1 to 1,000,000 are needed");
+      campaign_.runs = *runs;
+    }
+    if (const auto seed = map.wholeNumber("seed")) {
+      if (*seed == 0 || *seed > 0xffffffff) map.fault("seed", "1 to 2^32 - 1 is needed");
+      campaign_.seed = *seed;
+    }
+    readLimits(map);
+    campaign_.simplify = map.boolean("simplify");
+    campaign_.verify = map.boolean("verify").value_or(true);
+    faults_.throwIfAny();
+    nameProblems(campaign_);
+    for (const char* key : {"planners", "runs"}) place(key, key);
+    place("variants", "checkers");
+    return std::move(campaign_);
+  }
+
+ private:
+  void place(const std::string& what, const std::string& key) {
+    const auto line = source_.lines.find(key);
+    const std::string at = line == source_.lines.end() ? "" : ":" + std::to_string(line->second);
+    campaign_.places[what] = path_.string() + at + ": " + key;
+  }
+
+  void readProblems(const YamlMap& file) {
+    const YamlValue* value = file.require("problems", "a list, such as [../thin_plate, ../piano]");
+    if (!value) return;
+    const auto words = readWords(*value, "[../thin_plate, ../piano]", "problems", source_);
+    if (!words) return;
+    if (words->empty()) file.fault("problems", "at least one is needed");
+    for (const std::string& word : *words)
+      faults_.collect([&] {
+        for (const std::string& name : problemsOf(word)) {
+          // Its line here, and what is wrong there.
+          const std::filesystem::path at = path_.parent_path() / name.substr(0, name.find('#'));
+          std::error_code ignored;
+          if (!std::filesystem::exists(at, ignored))
+            file.fault("problems", "no such file or folder: " + at.string());
+          else
+            campaign_.problems.push_back(readProblem(path_.parent_path() / name));
+        }
+      });
+  }
+
+  void readPlanners(const YamlMap& file) {
+    const YamlValue* value = file.find("planners");
+    if (!value) return;
+    if (value->kind != YamlValue::Kind::List || value->items.empty()) {
+      file.fault("planners",
+                 "a list is needed, such as [RRTConnect, {name: RRT, label: short "
+                 "RRT, params: {range: 0.2}}], not " +
+                     described(*value));
+      return;
+    }
+    for (const YamlValue& item : value->items) {
+      if (item.kind == YamlValue::Kind::Scalar) {
+        campaign_.planners.push_back({item.text, item.text, {}});
+        continue;
+      }
+      const YamlMap map(item, "planners[]", &campaignKeys().at("planners[]"), source_);
+      const auto name = map.text("name");
+      map.require("name", "OMPL's, such as RRTConnect");
+      if (!name) continue;
+      CampaignPlanner planner{map.text("label").value_or(*name), *name, {}};
+      if (const YamlValue* params = map.find("params")) {
+        planner.params.emplace();
+        const YamlMap of(*params, "planners[].params", nullptr, source_);
+        for (const YamlValue::Entry* entry : of.entries())
+          if (const auto text = of.text(entry->key)) (*planner.params)[entry->key] = *text;
+      }
+      campaign_.planners.push_back(std::move(planner));
+    }
+  }
+
+  void readCheckers(const YamlMap& file) {
+    const YamlValue* value =
+        file.require("checkers",
+                     "named checkers, such as {certified: {edges: certified}, one pct: "
+                     "{edges: discrete, resolution: 0.01}}");
+    if (!value) return;
+    const YamlMap map(*value, "checkers", nullptr, source_);
+    if (map.entries().empty() && value->kind == YamlValue::Kind::Map)
+      file.fault("checkers", "at least one is needed");
+    for (const YamlValue::Entry* entry : map.entries()) {
+      if (entry->value.kind != YamlValue::Kind::Map) {
+        map.fault(entry->key,
+                  "a map is needed, such as {edges: certified}, not " + described(entry->value));
+        continue;
+      }
+      readChecker(*entry);
+    }
+  }
+
+  void readChecker(const YamlValue::Entry& entry) {
+    const std::string path = "checkers." + entry.key;
+    const MapKeys& keys = campaignKeys().at("checkers.*");
+    for (const YamlValue::Entry& key : entry.value.entries)
+      if (key.value.kind == YamlValue::Kind::List && !listOfWords(key.value)) {
+        source_.fault(key.line,
+                      path + "." + key.key + ": of a list, one or more single values are needed");
+        return;
+      }
+    std::set<std::string> told;  // what is wrong with several of its variants
+    for (const Expanded& one : expanded(entry.value)) {
+      FaultList faults;
+      YamlSource source{path_.string(), faults, {}};
+      const YamlMap map(one.map, path, &keys, source);
+      Variant variant{entry.key + one.suffix, withoutPeer(one.map), {}};
+      Problem::CheckerSpec checker;
+      readCheckerKeys(map, checker);
+      const auto peer = map.text("peer");
+      const bool part = !peer || takesPart(*peer, variant, map, checker);
+      if (faults.size() == 0) {
+        if (part) campaign_.variants.push_back(std::move(variant));
+        continue;
+      }
+      try {
+        faults.throwIfAny();
+      } catch (const InputError& error) {
+        for (const Fault& fault : error.faults())
+          if (told.insert(fault.str()).second) faults_.add(fault.file, fault.line, fault.text);
+      }
+    }
+  }
+
+  static bool listOfWords(const YamlValue& value) {
+    return !value.items.empty() &&
+           std::all_of(value.items.begin(), value.items.end(),
+                       [](const YamlValue& item) { return item.kind == YamlValue::Kind::Scalar; });
+  }
+
+  bool takesPart(const std::string& name, Variant& variant, const YamlMap& map,
+                 const Problem::CheckerSpec& checker) {
+    if (std::find(peerNames().begin(), peerNames().end(), name) == peerNames().end()) {
+      map.fault("peer", "unknown peer " + quotedWord(name) + didYouMean(name, peerNames()) +
+                            "; there are: " + joined(peerNames()));
+      return false;
+    }
+    if (checker.edges != "discrete") {
+      map.fault("peer", name + " tests states: say edges: discrete");
+      return false;
+    }
+    if (const std::string why = whyNoPeer(name); !why.empty()) {
+      campaign_.notes.push_back(variant.name + " is left out: no " + name + ": " + why);
+      return false;
+    }
+    variant.peer = peerNamed(name);
+    return true;
+  }
+
+  void readLimits(const YamlMap& file) {
+    const YamlValue* value = file.find("limits");
+    if (!value) return;
+    const YamlMap map(*value, "limits", &campaignKeys().at("limits"), source_);
+    campaign_.time = map.number("time", Range::Positive);
+    const auto memory = map.number("memory_mb", Range::Positive);
+    campaign_.limits.memory = memory.value_or(campaign_.limits.memory);
+  }
+
+  std::filesystem::path path_;
+  FaultList faults_;
+  YamlSource source_;
+  Campaign campaign_;
+};
+
+}  // namespace
+
+bool isCampaignFile(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored) ||
+      (file.extension() != ".yaml" && file.extension() != ".yml"))
+    return false;
+  try {
+    const YamlValue document = parseYaml(file.string(), readTextFile(file, "a campaign"));
+    return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
+      return entry.key == "format" && entry.value.text.rfind("corridor-campaign", 0) == 0;
+    });
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+Campaign readCampaign(const std::filesystem::path& file) {
+  return CampaignReader(file).read();
+}
+
+const std::map<std::string, MapKeys>& campaignKeys() {
+  static const std::map<std::string, MapKeys> keys = [] {
+    std::vector<std::string> checker = problemKeys().at("checker").legal;
+    checker.push_back("peer");
+    return std::map<std::string, MapKeys>{
+        {"",
+         {{"format", "problems", "planners", "checkers", "runs", "seed", "limits", "simplify",
+           "verify"},
+          {}}},
+        {"planners[]", {{"name", "label", "params"}, {}}},
+        {"checkers.*", {checker, {}}},
+        {"limits", {{"time", "memory_mb"}, {}}},
+    };
+  }();
+  return keys;
+}
+
+std::vector<std::string> problemsOf(const std::string& text) {
+  std::smatch range;
+  if (!std::regex_match(text, range, std::regex("(.*)#([0-9]{1,9})-([0-9]{1,9})"))) return {text};
+  const std::size_t first = std::stoul(range[2]), last = std::stoul(range[3]);
+  if (last < first || last - first >= kMostOfARange)
+    throw InputError(Fault{range[1].str(), 0,
+                           quotedWord("#" + range[2].str() + "-" + range[3].str()) +
+                               " is no range of 1 to " + std::to_string(kMostOfARange) +
+                               " problems, such as #1-10"});
+  std::vector<std::string> problems;
+  for (std::size_t i = first; i <= last; ++i)
+    problems.push_back(range[1].str() + "#" + std::to_string(i));
+  return problems;
+}
+
+}  // namespace corridor

@@ -1,0 +1,22 @@
+// A module of its own: see peers.h. It uses nothing of Corridor's that isn't in headers.
+#include "planner/benchmark/fcl_scene.h"
+#include "planner/benchmark/peers.h"
+
+namespace {
+
+class FclPeer final : public corridor::PeerScene {
+ public:
+  explicit FclPeer(const corridor::Checker& checker) : scene_(checker) {}
+  bool touches(const std::vector<corridor::Transform>& X_WF) override {
+    return scene_.touches(X_WF);
+  }
+
+ private:
+  corridor::bench::FclScene scene_;
+};
+
+}  // namespace
+
+corridor::PeerScene* corridor::corridorFclScene(const Checker& checker) {
+  return std::make_unique<FclPeer>(checker).release();
+}

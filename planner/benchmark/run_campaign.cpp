@@ -1,0 +1,128 @@
+#include "planner/benchmark/run_campaign.h"
+
+#include <algorithm>
+#include <deque>
+#include <list>
+
+namespace corridor {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How often the parent looks whether it was interrupted.
+constexpr int kLookMs = 200;
+
+struct Task {
+  std::size_t cell = 0;
+  std::uint64_t seed = 0;
+};
+
+/// Runs in the order in which they are to begin.
+std::deque<Task> tasksOf(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  std::deque<Task> tasks;
+  const std::size_t variants = campaign.variants.size();
+  const auto has = [&](std::size_t cell, std::uint64_t seed) {
+    return std::any_of(cells[cell].runs.begin(), cells[cell].runs.end(),
+                       [&](const BenchmarkRun& run) { return run.seed == seed; });
+  };
+  // A problem's and a planner's variants are neighbours.
+  for (std::size_t first = 0; first < cells.size(); first += variants)
+    for (std::uint64_t i = 0; i < campaign.runs; ++i)
+      for (std::size_t v = 0; v < variants; ++v)
+        if (!has(first + v, campaign.seed + i)) tasks.push_back({first + v, campaign.seed + i});
+  return tasks;
+}
+
+/// What runs take, as far as it is known, to tell how long is left.
+class Durations {
+ public:
+  explicit Durations(std::size_t cells) : cells_(cells) {}
+  void add(std::size_t cell, double seconds) {
+    cells_[cell].seconds += seconds, ++cells_[cell].runs;
+    all_.seconds += seconds, ++all_.runs;
+  }
+  /// Of these tasks, one after the other; a cell's own mean, or that of all. Negative: unknown.
+  double of(const std::deque<Task>& tasks) const {
+    if (all_.runs == 0) return -1;
+    double sum = 0;
+    for (const Task& task : tasks)
+      sum += cells_[task.cell].runs > 0 ? cells_[task.cell].mean() : all_.mean();
+    return sum;
+  }
+
+ private:
+  struct Sum {
+    double seconds = 0;
+    std::size_t runs = 0;
+    double mean() const { return seconds / static_cast<double>(runs); }
+  };
+  std::vector<Sum> cells_;
+  Sum all_;
+};
+
+struct Running {
+  Task task;
+  Clock::time_point since;
+  RunProcess run;
+};
+
+}  // namespace
+
+CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& options,
+                           std::vector<CampaignCell> cells) {
+  CampaignResult result;
+  result.start = std::chrono::system_clock::now();
+  std::deque<Task> tasks = tasksOf(campaign, cells);
+  const std::uint64_t total = cells.size() * campaign.runs;
+  std::uint64_t done = total - tasks.size();
+  Durations durations(cells.size());
+  std::list<Running> running;  // given up where something is thrown
+
+  const auto begin = [&] {
+    const Task task = tasks.front();
+    const CampaignCell& cell = cells[task.cell];
+    if (options.progress) {
+      const double left = durations.of(tasks);
+      options.progress({done, total, left < 0 ? left : left / static_cast<double>(options.jobs),
+                        cell, task.seed});
+    }
+    tasks.pop_front();
+    running.push_back({task, Clock::now(),
+                       RunProcess(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
+                                  plannedProblem(campaign, cell, task.seed),
+                                  campaign.variants[cell.variant].peer, campaign.limits)});
+  };
+  const auto end = [&](Running& one) {
+    durations.add(one.task.cell, std::chrono::duration<double>(Clock::now() - one.since).count());
+    BenchmarkRun run = one.run.run();
+    if (options.done) options.done(one.task.cell, run);
+    ++done;
+    auto& runs = cells[one.task.cell].runs;
+    runs.insert(std::upper_bound(runs.begin(), runs.end(), run,
+                                 [](const auto& a, const auto& b) { return a.seed < b.seed; }),
+                std::move(run));
+  };
+  const auto interrupted = [&] { return options.interrupted && options.interrupted->load(); };
+  while (!interrupted() && !(tasks.empty() && running.empty())) {
+    while (!tasks.empty() && running.size() < options.jobs && !interrupted()) begin();
+    std::vector<ChildProcess*> children;
+    for (Running& one : running) children.push_back(&one.run.process());
+    ChildProcess::waitForAny(children, kLookMs);
+    std::erase_if(running, [&](Running& one) {
+      const bool over = one.run.process().advance();
+      if (over) end(one);
+      return over;
+    });
+  }
+  result.interrupted = !(tasks.empty() && running.empty());
+  result.cells = std::move(cells);
+  result.seconds =
+      std::chrono::duration<double>(std::chrono::system_clock::now() - result.start).count();
+  return result;
+}
+
+CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& options) {
+  return runCampaign(campaign, options, cellsOf(campaign));
+}
+
+}  // namespace corridor

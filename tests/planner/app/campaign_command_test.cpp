@@ -1,0 +1,149 @@
+// `corridor benchmark CAMPAIGN` as its users meet it: killed at any moment it goes on and ends with
+// the same rows, and what it can't go on with it says.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/planner/app/program_test.h"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class CampaignCommand : public corridor::test::ProgramTest {
+ protected:
+  CampaignCommand() {
+    write("robot.yaml",
+          "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+    write("hall.yaml",
+          "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 6, 1], at: "
+          "[0, -1, 0]}\nstart: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, "
+          "4]]}\n");
+    write("campaign.yaml",
+          "format: corridor-campaign-1\nproblems: [hall.yaml]\n"
+          "planners: [RRTConnect, {name: RRT, label: short, params: {range: 0.3}}]\n"
+          "checkers:\n  certified: {edges: certified}\n  sampled: {edges: discrete, resolution: "
+          "[0.2, 0.01]}\nruns: 12\n");
+  }
+
+  /// What of runs.csv repeats: all but times.
+  std::vector<std::string> repeatable(const std::string& folder) const {
+    std::vector<std::string> rows;
+    std::vector<bool> keep;
+    for (const std::string& line : lines(read(folder + "/runs.csv"))) {
+      std::vector<std::string> cells;
+      std::istringstream in(line);
+      for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+      if (keep.empty())
+        for (const std::string& name : cells) keep.push_back(!name.ends_with("_s"));
+      std::string row;
+      for (std::size_t i = 0; i < cells.size() && i < keep.size(); ++i)
+        if (keep[i]) row += cells[i] + ",";
+      rows.push_back(row);
+    }
+    return rows;
+  }
+};
+
+/// Ten times at a random moment, by SIGKILL.
+TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
+  ASSERT_EQ(run("benchmark campaign.yaml -o whole").status, 0);
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::size_t last = 0, grown = 0;
+  for (int kill = 0; kill < 10; ++kill) {
+    const pid_t id = ::fork();
+    if (id == 0) {
+      if (::chdir(folder_.c_str()) != 0) ::_exit(1);
+      if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr))
+        ::_exit(1);
+      ::execl(CORRIDOR_PROGRAM, CORRIDOR_PROGRAM, "benchmark", "campaign.yaml", "-o", "killed",
+              "--resume", "--jobs", kill % 2 ? "2" : "1", static_cast<char*>(nullptr));
+      ::_exit(1);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(
+        std::uniform_int_distribution(0, 700 * corridor::test::kSlowdown)(random)));
+    ::kill(id, SIGKILL);
+    ::waitpid(id, nullptr, 0);
+    if (!std::filesystem::exists(folder_ / "killed/campaign.db")) continue;
+    // Whatever is there is whole. (Reading it rolls back what was under way.)
+    SQLite::Database base((folder_ / "killed/campaign.db").string(), SQLite::OPEN_READWRITE);
+    EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
+    if (base.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) continue;
+    const auto count = [&](const char* of) {
+      return static_cast<std::size_t>(
+          base.execAndGet(std::string("SELECT count(*) FROM ") + of).getInt());
+    };
+    EXPECT_EQ(count("runs"), count("corridor_runs"));
+    EXPECT_EQ(count("(SELECT DISTINCT runid FROM corridor_runs)"), count("runs"));
+    EXPECT_GE(count("runs"), last);
+    grown += count("runs") > last;
+    last = count("runs");
+  }
+  const Result result = run("benchmark campaign.yaml -o killed --resume");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(repeatable("killed"), repeatable("whole"));
+  EXPECT_EQ(repeatable("killed").size(), 1u + 2 * 3 * 12);
+  // It would be no test, had each been killed before its first run, or none at all.
+  EXPECT_GT(grown, 0u);
+  SQLite::Database base((folder_ / "killed/campaign.db").string());
+  EXPECT_EQ(base.execAndGet("SELECT count(*) FROM runs").getInt(), 2 * 3 * 12);
+  EXPECT_EQ(base.execAndGet("SELECT count(*) FROM (SELECT DISTINCT experimentid, plannerid, seed "
+                            "FROM runs)")
+                .getInt(),
+            2 * 3 * 12);
+  EXPECT_GT(base.execAndGet("SELECT count(*) FROM corridor_sessions").getInt(), 1);
+}
+
+TEST_F(CampaignCommand, OptionsSayMoreThanTheFile) {
+  const Result result =
+      run("benchmark campaign.yaml --runs 2 --seed 5 --time 30 --memory 2000 --jobs 2 --json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["format"], "corridor-benchmark-report-2");
+  EXPECT_EQ(json["campaign"], folder_.filename().string());  // as of problem.yaml
+  ASSERT_EQ(json["results"].size(), 6u);
+  EXPECT_EQ(json["results"][3]["planner"], "short");
+  EXPECT_EQ(json["results"][3]["rows"][1]["seed"], 6);
+}
+
+TEST_F(CampaignCommand, BadInputIsOneLine) {
+  expectFault("benchmark campaign.yaml hall.yaml",
+              "campaign.yaml: is a campaign, which names its problems itself");
+  expectFault("benchmark campaign.yaml --variants certified",
+              "--variants: a campaign names its checkers itself");
+  expectFault("benchmark campaign.yaml --planners RRT",
+              "--planners: a campaign names its planners itself");
+  expectFault("benchmark campaign.yaml --resume",
+              "--resume: say by -o which folder the campaign is in");
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);
+  const std::string before = read("results/campaign.db");
+  expectFault("benchmark campaign.yaml --runs 1 -o results",
+              "results/campaign.db: holds 6 runs already: go on with it by --resume, or name "
+              "another folder");
+  write("campaign.yaml",
+        "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConect]\n"
+        "checkers:\n  certified: {edges: certified}\n");
+  const Result result = run("benchmark campaign.yaml -o other");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("campaign.yaml:3: planners: unknown planner \"RRTConect\"; "
+                                     "did you mean \"RRTConnect\"?"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "other"));
+  write("results/campaign.db",
+        "not a database, but long enough to be looked at as if it were one, "
+        "which takes a hundred bytes at least");
+  write("campaign.yaml", "format: corridor-campaign-1\nproblems: [hall.yaml]\ncheckers: {a: {}}\n");
+  expectFault("benchmark campaign.yaml -o results --resume",
+              "results/campaign.db: is no database of a campaign");
+}
+
+}  // namespace

@@ -1,0 +1,251 @@
+// The database of a campaign: what goes in comes back, it holds what OMPL's own script makes of
+// OMPL's logs, and what it can't take it says.
+#include "planner/benchmark/campaign_database.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sys/resource.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "collision/core/error.h"
+#include "planner/benchmark/child_process.h"
+#include "planner/benchmark/rows.h"
+#include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/write_reports.h"
+#include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using Mode = CampaignDatabase::Mode;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Campaign hallCampaign(const std::vector<std::string>& variants) {
+  Campaign campaign;
+  campaign.problems = {test::hallProblem(test::Rigid::SE3)};
+  campaign.problems[0].bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  for (const std::string& variant : variants) campaign.variants.push_back(readVariant(variant));
+  campaign.runs = 2;
+  campaign.time = 2.0 * test::kSlowdown;
+  nameProblems(campaign);
+  return campaign;
+}
+
+class Database : public testing::Test {
+ protected:
+  ~Database() override { std::filesystem::remove_all(folder_); }
+
+  CampaignResult runInto(const Campaign& campaign) const {
+    std::vector<CampaignCell> cells = cellsOf(campaign);
+    CampaignDatabase database(file_, Mode::resume, campaign, cells);
+    CampaignOptions options;
+    options.done = [&](std::size_t cell, const BenchmarkRun& run) { database.add(cell, run); };
+    return runCampaign(campaign, options, cells);
+  }
+  std::string complaint(Mode mode, const Campaign& campaign) const {
+    std::vector<CampaignCell> cells = cellsOf(campaign);
+    try {
+      CampaignDatabase(file_, mode, campaign, cells);
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_EQ(text.rfind(file_.string() + ": ", 0), 0u) << text;
+      return text.substr(file_.string().size() + 2);
+    }
+    return "";
+  }
+
+  std::filesystem::path folder_ = test::newFolder(), file_ = folder_ / "campaign.db";
+};
+
+/// All rows of a query, as text.
+std::vector<std::string> rowsOf(const std::filesystem::path& file, const std::string& sql) {
+  SQLite::Database base(file.string());
+  SQLite::Statement query(base, sql);
+  std::vector<std::string> rows;
+  while (query.executeStep()) {
+    std::string row;
+    for (int i = 0; i < query.getColumnCount(); ++i)
+      row += (i ? "|" : "") + std::string(query.getColumn(i).getText());
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST_F(Database, WhatWentInComesBack) {
+  const Campaign campaign = hallCampaign({"certified", "discrete:0.2"});
+  const CampaignResult result = runInto(campaign);
+  std::vector<CampaignCell> cells = cellsOf(campaign);
+  const CampaignDatabase again(file_, Mode::resume, campaign, cells);
+  EXPECT_EQ(csvOf(runRows(campaign, cells)), csvOf(runRows(campaign, result.cells)));
+  EXPECT_EQ(csvOf(runRows(campaign, cells)).size() > 500, true);
+  EXPECT_EQ(cells[0].runs[1].ompl.properties, result.cells[0].runs[1].ompl.properties);
+}
+
+/// The same tables with the same rows, but for times and dates of whole experiments.
+TEST_F(Database, IsWhatOmplsScriptMakesOfTheLogs) {
+  if (std::system("command -v ompl_benchmark_statistics >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "ompl_benchmark_statistics is needed (Debian's ompl-demos)";
+  Campaign campaign = hallCampaign({"certified", "discrete:0.2"});
+  campaign.planners = {{"RRTConnect", "RRTConnect", {}}, {"star", "RRTstar", {}}};
+  const CampaignResult result = runInto(campaign);
+  std::string logs;
+  for (const auto& path : writeReports(campaign, result, folder_))
+    if (path.extension() == ".log") logs += " '" + path.string() + "'";
+  const std::filesystem::path theirs = folder_ / "theirs.db";
+  ASSERT_EQ(std::system(("ompl_benchmark_statistics" + logs + " -d '" + theirs.string() +
+                         "' >/dev/null 2>&1")
+                            .c_str()),
+            0);
+  const auto expectSame = [&](const std::string& sql) {
+    const std::vector<std::string> rows = rowsOf(file_, sql);
+    EXPECT_FALSE(rows.empty()) << sql;
+    EXPECT_EQ(rows, rowsOf(theirs, sql)) << sql;
+  };
+  for (const char* table : {"experiments", "plannerConfigs", "enums", "runs", "progress"})
+    expectSame(std::string("SELECT name, type FROM pragma_table_info('") + table +
+               "') ORDER BY name");
+  expectSame(
+      "SELECT name, timelimit, memorylimit, runcount, version, hostname, cpuinfo, seed, setup, "
+      "edges, resolution FROM experiments ORDER BY name");
+  expectSame("SELECT name, settings FROM plannerConfigs ORDER BY name, settings");
+  expectSame("SELECT * FROM enums ORDER BY name, value");
+  std::string columns;
+  for (const std::string& column :
+       rowsOf(theirs, "SELECT name FROM pragma_table_info('runs') ORDER BY name"))
+    if (column != "id" && column != "experimentid" && column != "plannerid")
+      columns += ", r.\"" + column + "\", typeof(r.\"" + column + "\")";
+  const std::string joined =
+      " FROM runs r JOIN experiments e ON e.id = r.experimentid JOIN plannerConfigs p ON p.id = "
+      "r.plannerid ";
+  expectSame("SELECT e.name, p.name, r.seed" + columns + joined + "ORDER BY 1, 2, 3");
+  expectSame("SELECT e.name, p.name, r.seed, g.time, g.best_cost, typeof(g.best_cost)" + joined +
+             "JOIN progress g ON g.runid = r.id ORDER BY 1, 2, 3, 4");
+}
+
+TEST_F(Database, GoesOnWithMoreRunsAndMoreVariants) {
+  Campaign campaign = hallCampaign({"discrete:0.2"});
+  runInto(campaign);
+  campaign.runs = 3;
+  campaign.variants.push_back(readVariant("certified"));
+  const CampaignResult result = runInto(campaign);
+  EXPECT_EQ(result.cells[0].runs.size() + result.cells[1].runs.size(), 6u);
+  EXPECT_THAT(rowsOf(file_, "SELECT count(*), count(DISTINCT runid) FROM corridor_runs"),
+              ElementsAre("6|6"));
+  EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM runs"), ElementsAre("6"));
+  EXPECT_THAT(rowsOf(file_, "SELECT name, runcount FROM experiments ORDER BY name"),
+              ElementsAre("hall/certified|3", "hall/discrete:0.2|3"));
+  EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM corridor_sessions"), ElementsAre("2"));
+}
+
+TEST_F(Database, WhatItRefuses) {
+  const Campaign campaign = hallCampaign({"discrete:0.2"});
+  runInto(campaign);
+  EXPECT_EQ(complaint(Mode::fresh, campaign),
+            "holds 2 runs already: go on with it by --resume, or name another folder");
+  EXPECT_EQ(complaint(Mode::resume, campaign), "");
+
+  Campaign other = campaign;
+  other.variants = {readVariant("certified")};
+  EXPECT_THAT(complaint(Mode::resume, other),
+              HasSubstr("holds runs of hall, discrete:0.2, RRTConnect, which the campaign doesn't "
+                        "have"));
+  other = campaign;
+  other.variants = {readVariant("discrete:0.3")};
+  other.variants[0].name = "discrete:0.2";
+  EXPECT_THAT(complaint(Mode::resume, other),
+              HasSubstr("hall, discrete:0.2, RRTConnect was another one: checker "
+                        R"({"edges":"discrete","resolution":"0.2"}, and is )"
+                        R"({"edges":"discrete","resolution":"0.3"} now)"));
+  other = campaign;
+  other.problems[0].digest = "another";
+  EXPECT_THAT(complaint(Mode::resume, other), HasSubstr("was another one: problem "));
+  other = campaign;
+  other.time = 77;
+  EXPECT_THAT(complaint(Mode::resume, other), HasSubstr(", and is 77.0 now"));
+  other = campaign;
+  other.runs = 1;
+  EXPECT_THAT(complaint(Mode::resume, other),
+              HasSubstr("holds a run of seed 2 of hall, discrete:0.2, RRTConnect, which the "
+                        "campaign doesn't ask for"));
+  // Nothing of that has changed it.
+  EXPECT_EQ(complaint(Mode::resume, campaign), "");
+  EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM corridor_cells"), ElementsAre("1"));
+}
+
+TEST_F(Database, ForeignAndDamagedFiles) {
+  const Campaign campaign = hallCampaign({"discrete:0.2"});
+  std::ofstream(file_) << "This is no database, but a text that is long enough to be taken for one "
+                          "by its size, which is more than a hundred bytes.\n";
+  EXPECT_EQ(complaint(Mode::resume, campaign), "is no database of a campaign");
+  std::filesystem::remove(file_);
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE runs (id INTEGER)");
+  EXPECT_EQ(complaint(Mode::resume, campaign), "is a database, but none of a campaign");
+  EXPECT_EQ(complaint(Mode::fresh, campaign), "is a database, but none of a campaign");
+  std::filesystem::remove(file_);
+  runInto(campaign);
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+  EXPECT_EQ(complaint(Mode::resume, campaign),
+            "is of version 99 of campaigns' databases; this is 1");
+  std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
+  EXPECT_THAT(complaint(Mode::resume, campaign),
+              testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is of version 99")));
+  std::filesystem::remove(file_);
+  std::filesystem::create_directory(file_);
+  EXPECT_EQ(complaint(Mode::fresh, campaign), "can't be made or opened");
+}
+
+TEST_F(Database, OnlyOneProcessAtATime) {
+  const Campaign campaign = hallCampaign({"discrete:0.2"});
+  std::vector<CampaignCell> cells = cellsOf(campaign);
+  const CampaignDatabase mine(file_, Mode::fresh, campaign, cells);
+  EXPECT_EQ(complaint(Mode::resume, campaign), "is in use by another process");
+}
+
+/// A disk that is full while a campaign runs: said, and what was there before stays.
+TEST_F(Database, AFullDisk) {
+  Campaign campaign = hallCampaign({"discrete:0.2"});
+  campaign.runs = 1'000'000;
+  std::vector<CampaignCell> cells = cellsOf(campaign);
+  BenchmarkRun run;
+  run.result = "solved";
+  run.why = std::string(2000, 'x');
+  std::uint64_t added = 0;
+  const auto child = [&] {  // of a size that files may not pass: as if the disk were full
+    rlimit limit{200'000, 200'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    signal(SIGXFSZ, SIG_IGN);
+    CampaignDatabase database(file_, Mode::fresh, campaign, cells);
+    for (;;) {
+      run.seed = added + 1;
+      database.add(0, run);
+      ++added;
+    }
+  };
+  const ChildEnd end = inChild(
+      [&](const auto& send) {
+        try {
+          child();
+        } catch (const InputError& error) {
+          send(std::to_string(added));
+          send(error.what());
+        }
+      },
+      {{600, 600}, 0});
+  ASSERT_EQ(end.messages.size(), 2u) << end.failure;
+  EXPECT_GT(std::stoul(end.messages[0]), 5u);
+  EXPECT_THAT(end.messages[1], HasSubstr("campaign.db: can't be "));
+  CampaignDatabase(file_, Mode::resume, campaign, cells);
+  EXPECT_EQ(cells[0].runs.size(), std::stoul(end.messages[0]));
+}
+
+}  // namespace
+}  // namespace corridor

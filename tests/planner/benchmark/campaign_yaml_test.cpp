@@ -1,0 +1,206 @@
+// Campaign files: what they say is read, and all that is wrong with them is told, with its line.
+#include "planner/benchmark/campaign_yaml.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "collision/core/error.h"
+#include "planner/benchmark/peers.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class CampaignYaml : public testing::Test {
+ protected:
+  CampaignYaml() {
+    write("robot.yaml",
+          "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+    for (const char* name : {"hall", "room"})
+      write(name + std::string(".yaml"),
+            "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 6, 1], "
+            "at: [0, -1, 0]}\nstart: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], "
+            "[4, 4]]}\n");
+  }
+  ~CampaignYaml() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  Campaign read(const std::string& text) const {
+    write("c.yaml", text);
+    return readCampaign(folder_ / "c.yaml");
+  }
+  /// The faults, without the folder's name.
+  std::vector<std::string> faults(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      std::vector<std::string> all;
+      for (const Fault& fault : error.faults()) {
+        std::string one = fault.str();
+        for (auto at = one.find(folder_.string() + "/"); at != std::string::npos;
+             at = one.find(folder_.string() + "/"))
+          one.erase(at, folder_.string().size() + 1);
+        all.push_back(one);
+      }
+      return all;
+    }
+    return {};
+  }
+  static std::vector<std::string> variants(const Campaign& campaign) {
+    std::vector<std::string> names;
+    for (const Variant& variant : campaign.variants) names.push_back(variant.name);
+    return names;
+  }
+
+  std::filesystem::path folder_ = test::newFolder();
+};
+
+const char* const kStart = "format: corridor-campaign-1\nproblems: [hall.yaml]\n";
+
+TEST_F(CampaignYaml, EveryKey) {
+  const Campaign c = read(
+      "format: corridor-campaign-1\n"
+      "problems: [hall.yaml, room.yaml, hall.yaml]\n"
+      "planners: [RRTConnect, {name: RRT, label: short, params: {range: 0.2}}, {name: PRM}]\n"
+      "checkers:\n"
+      "  certified: {edges: certified, tolerance: 1e-6}\n"
+      "  sampled: {edges: discrete, resolution: [0.1, 0.01], fit: [hull, vertices]}\n"
+      "runs: 7\nseed: 3\nlimits: {time: 2.5, memory_mb: 512}\nsimplify: false\nverify: false\n");
+  EXPECT_EQ(c.name, "c");
+  EXPECT_THAT(c.problemNames, ElementsAre("hall", "room", "hall-2"));
+  ASSERT_EQ(c.planners.size(), 3u);
+  EXPECT_EQ(c.planners[0].label, "RRTConnect");
+  EXPECT_FALSE(c.planners[0].params);
+  EXPECT_EQ(c.planners[1].label, "short");
+  EXPECT_EQ(c.planners[1].name, "RRT");
+  EXPECT_EQ(c.planners[1].params->at("range"), "0.2");
+  EXPECT_EQ(c.planners[2].label, "PRM");
+  EXPECT_THAT(variants(c), ElementsAre("certified", "sampled 0.1 hull", "sampled 0.1 vertices",
+                                       "sampled 0.01 hull", "sampled 0.01 vertices"));
+  Problem::CheckerSpec checker;
+  c.variants[0].apply(checker);
+  EXPECT_EQ(checker.tolerance, 1e-6);
+  checker = {};
+  c.variants[4].apply(checker);
+  EXPECT_EQ(checker.edges, "discrete");
+  EXPECT_EQ(checker.resolution, 0.01);
+  EXPECT_EQ(checker.fit, "vertices");
+  EXPECT_EQ(c.runs, 7u);
+  EXPECT_EQ(c.seed, 3u);
+  EXPECT_EQ(c.time, 2.5);
+  EXPECT_EQ(c.limits.memory, 512);
+  EXPECT_EQ(c.simplify, false);
+  EXPECT_FALSE(c.verify);
+  const Problem planned = plannedProblem(c, cellsOf(c)[0], 9);
+  EXPECT_FALSE(planned.simplify);
+  EXPECT_EQ(planned.planner.time, 2.5);
+  EXPECT_EQ(planned.seed, 9u);
+}
+
+TEST_F(CampaignYaml, Defaults) {
+  const Campaign c = read(std::string(kStart) + "checkers: {mine: {}}\n");
+  EXPECT_THAT(c.planners, IsEmpty());
+  EXPECT_EQ(c.runs, 10u);
+  EXPECT_EQ(c.seed, 1u);
+  EXPECT_FALSE(c.time);
+  EXPECT_FALSE(c.simplify);
+  EXPECT_TRUE(c.verify);
+  EXPECT_EQ(cellsOf(c).size(), 1u);
+  EXPECT_EQ(cellsOf(c)[0].planner.name, "RRTConnect");
+}
+
+/// FCL takes part where it is, and is left out with a word where it isn't.
+TEST_F(CampaignYaml, Peers) {
+  const Campaign c = read(std::string(kStart) +
+                          "checkers: {fcl: {peer: fcl, edges: discrete, resolution: [0.1, 0.2]}, "
+                          "ours: {edges: discrete}}\n");
+  if (whyNoPeer("fcl").empty()) {
+    EXPECT_THAT(variants(c), ElementsAre("fcl 0.1", "fcl 0.2", "ours"));
+    EXPECT_TRUE(c.variants[0].peer.has_value());
+    EXPECT_THAT(c.notes, IsEmpty());
+  } else {
+    EXPECT_THAT(variants(c), ElementsAre("ours"));
+    ASSERT_EQ(c.notes.size(), 2u);
+    EXPECT_THAT(c.notes[0], HasSubstr("fcl 0.1 is left out: no fcl: "));
+  }
+  EXPECT_THAT(
+      faults(std::string(kStart) + "checkers: {x: {peer: fclo}}\n"),
+      ElementsAre("c.yaml:3: checkers.x.peer: unknown peer \"fclo\"; did you mean \"fcl\"?; "
+                  "there are: fcl"));
+  EXPECT_THAT(faults(std::string(kStart) + "checkers: {x: {peer: fcl}}\n"),
+              ElementsAre("c.yaml:3: checkers.x.peer: fcl tests states: say edges: discrete"));
+}
+
+TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
+  EXPECT_THAT(
+      faults("format: corridor-campaign-1\n"
+             "problems: [hall.yaml, nothing.yaml]\n"
+             "planer: [RRT]\n"
+             "planners: [{label: x}]\n"
+             "checkers:\n"
+             "  a: {edges: certifed, resolution: [0.1, 2]}\n"
+             "  b: certified\n"
+             "  c: {resolution: []}\n"
+             "  d: {knob: 1}\n"
+             "runs: 0\n"
+             "limits: {time: -1, memory: 5}\n"),
+      ElementsAre(
+          "c.yaml:2: problems: no such file or folder: nothing.yaml",
+          HasSubstr("c.yaml:3: unknown key \"planer\"; did you mean \"planners\"?"),
+          "c.yaml:4: missing key \"name\" in planners[]: OMPL's, such as RRTConnect",
+          HasSubstr("c.yaml:6: checkers.a.edges: "), HasSubstr("c.yaml:6: checkers.a.resolution: "),
+          "c.yaml:7: checkers.b: a map is needed, such as {edges: certified}, not \"certified\"",
+          "c.yaml:8: checkers.c.resolution: of a list, one or more single values are needed",
+          HasSubstr("c.yaml:9: unknown key \"knob\" in checkers.d"),
+          "c.yaml:10: runs: 1 to 1,000,000 are needed",
+          HasSubstr("c.yaml:11: unknown key \"memory\" in limits; did you mean \"memory_mb\"?"),
+          HasSubstr("c.yaml:11: limits.time: ")));
+  EXPECT_THAT(
+      faults("format: corridor-campaign-1\n"),
+      ElementsAre(HasSubstr("missing key \"problems\""), HasSubstr("missing key \"checkers\"")));
+  EXPECT_THAT(faults("format: corridor-problem-1\n"),
+              ElementsAre("c.yaml:1: format: corridor-campaign-1 is needed here, not "
+                          "\"corridor-problem-1\""));
+  EXPECT_THAT(faults(std::string(kStart) + "checkers: {}\n"),
+              ElementsAre("c.yaml:3: checkers: at least one is needed"));
+  EXPECT_THAT(faults("format: corridor-campaign-1\nproblems: []\ncheckers: {a: {}}\n"),
+              ElementsAre("c.yaml:2: problems: at least one is needed"));
+}
+
+TEST_F(CampaignYaml, FaultsOfProblemsAreTold) {
+  write("hall.yaml", "format: corridor-problem-1\nrobbot: robot.yaml\n");
+  EXPECT_THAT(faults(std::string(kStart) + "checkers: {a: {}}\n"),
+              testing::Contains(HasSubstr("hall.yaml:2: unknown key \"robbot\"")));
+}
+
+TEST_F(CampaignYaml, WhatIsACampaign) {
+  write("c.yaml", kStart);
+  write("newer.yaml", "format: corridor-campaign-2\n");
+  write("broken.yaml", "format: [corridor-campaign-1\n");
+  EXPECT_TRUE(isCampaignFile(folder_ / "c.yaml"));
+  EXPECT_TRUE(isCampaignFile(folder_ / "newer.yaml"));  // to be told so
+  for (const char* name : {"hall.yaml", "broken.yaml", "nothing.yaml", "."})
+    EXPECT_FALSE(isCampaignFile(folder_ / name)) << name;
+}
+
+TEST(ProblemsOf, Ranges) {
+  EXPECT_THAT(problemsOf("set.json#3-5"), ElementsAre("set.json#3", "set.json#4", "set.json#5"));
+  EXPECT_THAT(problemsOf("a-b/set.json#3-3"), ElementsAre("a-b/set.json#3"));
+  for (const char* text : {"set.json#3", "set.json", "problems/piano", "a#b-c", "#", "set#1-"})
+    EXPECT_THAT(problemsOf(text), ElementsAre(text));
+  EXPECT_THROW(problemsOf("set.json#5-3"), InputError);
+  EXPECT_THROW(problemsOf("set.json#1-1001"), InputError);
+  EXPECT_EQ(problemsOf("set.json#1-1000").size(), 1000u);
+}
+
+}  // namespace
+}  // namespace corridor
