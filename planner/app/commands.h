@@ -39,6 +39,14 @@ struct VerifyArguments {
 };
 int verifyCommand(const VerifyArguments& arguments);
 
+struct ViewArguments {
+  std::string problem;
+  std::optional<std::string> solution;
+  std::optional<std::string> output, image, size;
+  bool quiet = false;
+};
+int viewCommand(const ViewArguments& arguments);
+
 struct CheckArguments {
   std::string problem;
   std::optional<std::string> states;  ///< a file of states, one a line

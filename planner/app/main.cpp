@@ -107,6 +107,37 @@ void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
   command->callback([&] { status = verifyCommand(a); });
 }
 
+void addView(CLI::App& program, ViewArguments& a, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "view", "Show a problem and a path of it in 3D: a page for any browser, or a picture");
+  command->add_option("PROBLEM", a.problem, "the problem")->required();
+  command->add_option("SOLUTION", a.solution,
+                      "a path: a solution file, or an OMPL.app .path; none: start and goal alone");
+  const char* results = "Results";
+  command
+      ->add_option("-o,--output", a.output,
+                   "the page (HTML, in one piece that loads nothing; default, where there is no "
+                   "--image: the problem's name and .html)")
+      ->group(results);
+  command
+      ->add_option("--image", a.image,
+                   "a PNG of the scene with the path's poses; by Chromium, without a display")
+      ->group(results);
+  command->add_option("--size", a.size, "of the image: WIDTHxHEIGHT in pixels (default 1366x768)")
+      ->group(results);
+  command->add_flag("--quiet", a.quiet, "no results on stdout")->group(results);
+  command->footer(
+      std::string(
+          "Example: corridor solve problems/two_arms -o arms.yaml && corridor view "
+          "problems/two_arms arms.yaml -o arms.html\n"
+          "The page plays the path, and shows on demand the OBB trees, the closest pair with its "
+          "distance along the path, what is skipped and why, and the contact where `corridor "
+          "verify` refutes the path. Whether the path is proved is asked anew, and makes no "
+          "difference to the exit status.\n") +
+      kExitStatus);
+  command->callback([&] { status = viewCommand(a); });
+}
+
 void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
   CLI::App* command = program.add_subcommand(
       "benchmark", "Compare checkers and planners: run time, and how many paths are refuted");
@@ -378,7 +409,7 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
   }
   if (firstWord.empty() || firstWord[0] == '-')
     return error.what() + std::string("; corridor --help tells more");
-  const std::vector<std::string> commands{"solve", "verify",  "benchmark",
+  const std::vector<std::string> commands{"solve", "verify",  "view", "benchmark",
                                           "check", "inspect", "query"};
   return "unknown command " + corridor::quotedWord(firstWord) +
          corridor::didYouMean(firstWord, commands) + "; there are: " + corridor::joined(commands);
@@ -394,12 +425,14 @@ int main(int argc, char** argv) {
   int status = kDone;
   SolveArguments solve;
   VerifyArguments verify;
+  ViewArguments view;
   BenchmarkArguments benchmark;
   CheckArguments check;
   InspectArguments inspect;
   QueryArguments query;
   addSolve(program, solve, status);
   addVerify(program, verify, status);
+  addView(program, view, status);
   addBenchmark(program, benchmark, status);
   addCheck(program, check, status);
   addInspect(program, inspect, status);

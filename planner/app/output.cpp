@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <unistd.h>
+
+#include "collision/core/error.h"
 
 namespace corridor::app {
 
@@ -90,6 +93,23 @@ std::string stateText(const ConfigurationSpace& space, const Configuration& q) {
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i ? ", " : "") + names[i] + " = " + rounded(q[static_cast<Eigen::Index>(i)]);
   return text;
+}
+
+const char* nameOf(PathVerdict verdict) {
+  return verdict == PathVerdict::proved    ? "proved"
+         : verdict == PathVerdict::refuted ? "refuted"
+                                           : "undecided";
+}
+
+void requireFolderFor(const std::optional<std::string>& file, const char* option) {
+  if (!file) return;
+  const std::filesystem::path path(*file);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none))
+    throw InputError(Fault{option, 0, *file + " is a folder; a file's name is needed"});
+  if (!std::filesystem::is_directory(folder, none))
+    throw InputError(Fault{option, 0, "there is no folder " + folder.string()});
 }
 
 nlohmann::ordered_json numbersJson(const Configuration& q) {

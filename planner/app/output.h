@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,7 @@
 
 #include "collision/core/transform.h"
 #include "planner/robot/configuration_space.h"
+#include "planner/verify/verify_path.h"
 
 namespace corridor::app {
 
@@ -27,6 +29,10 @@ class Lines {
 /// To stderr, in front of results that go to stdout.
 void warn(const std::string& text);
 
+/// Before any time is spent on what is to be written: is there a folder for the file?
+/// @throws InputError that names the option.
+void requireFolderFor(const std::optional<std::string>& file, const char* option);
+
 /// For people: four significant digits.
 std::string rounded(double value);
 std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"
@@ -38,6 +44,7 @@ std::string tubeText(const ConfigurationSpace& space, const Configuration& tube)
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
 /// "x = 1, y = 2, yaw = 0.5"
 std::string stateText(const ConfigurationSpace& space, const Configuration& q);
+const char* nameOf(PathVerdict verdict);
 nlohmann::ordered_json numbersJson(const Configuration& q);
 
 /// Digits in groups of three: 12,345.

@@ -164,18 +164,6 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   return {std::move(problem), std::move(report)};
 }
 
-/// Before any time is spent on planning: is there a folder for the file?
-void requireFolderFor(const std::optional<std::string>& file, const char* option) {
-  if (!file) return;
-  const std::filesystem::path path(*file);
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code none;
-  if (std::filesystem::is_directory(path, none))
-    throw InputError(Fault{option, 0, *file + " is a folder; a file's name is needed"});
-  if (!std::filesystem::is_directory(folder, none))
-    throw InputError(Fault{option, 0, "there is no folder " + folder.string()});
-}
-
 }  // namespace
 
 int solveCommand(const SolveArguments& a) {

@@ -13,12 +13,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const char* nameOf(PathVerdict verdict) {
-  return verdict == PathVerdict::proved    ? "proved"
-         : verdict == PathVerdict::refuted ? "refuted"
-                                           : "undecided";
-}
-
 /// "shelf" (triangle 3); parts have no triangles.
 std::string sideText(const std::string& name, std::uint32_t triangle, const Problem& problem) {
   bool meshes = false;

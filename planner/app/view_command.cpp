@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iostream>
+
+#include "collision/core/error.h"
+#include "planner/app/commands.h"
+#include "planner/app/output.h"
+#include "planner/problem/problem.h"
+#include "planner/solve/verify_solution.h"
+#include "planner/view/browser_picture.h"
+#include "planner/view/view_page.h"
+
+namespace corridor::app {
+namespace {
+
+/// "bookshelf_1.html": a name of a problem may have any characters.
+std::string pageName(const Problem& problem) {
+  std::string name = problem.name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.') c = '_';
+  return (name.empty() || name[0] == '.' ? "view" + name : name) + ".html";
+}
+
+}  // namespace
+
+int viewCommand(const ViewArguments& a) {
+  requireFolderFor(a.output, "--output");
+  requireFolderFor(a.image, "--image");
+  if (a.size && !a.image) throw InputError(Fault{"--size", 0, "is of --image, and there is none"});
+  const PictureSize size = a.size ? pictureSize(*a.size, "--size") : PictureSize();
+  const std::optional<std::filesystem::path> browser =
+      a.image ? std::optional(requireBrowser("--image")) : std::nullopt;
+
+  const Problem problem = readProblem(a.problem);
+  std::optional<ViewedPath> path;
+  if (a.solution) {
+    path.emplace();
+    path->solution = readSolution(*a.solution, problem.space);
+    if (!path->solution.digest.empty() && path->solution.digest != problem.digest)
+      warn(*a.solution + ": made for other files than those of " + a.problem +
+           " (the digests differ)");
+    path->report = verifySolution(problem, path->solution);
+  }
+  const std::string page = viewPage(problem, path);
+  const Lines out(a.quiet);
+  out.line("problem", a.problem);
+  if (path) {
+    const PathVerdict verdict = path->report.verdict;
+    out.line("verdict", nameOf(verdict), verdict == PathVerdict::proved ? Tone::good : Tone::bad);
+  }
+  if (a.output || !a.image) {
+    const std::string file = a.output.value_or(pageName(problem));
+    writeWhole(file, page);
+    out.line("page", file);
+  }
+  if (a.image) {
+    writePicture(page, *browser, size, *a.image);
+    out.line("image", *a.image);
+  }
+  return kDone;
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,157 @@
+#include "planner/view/browser_picture.h"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <spawn.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "collision/core/error.h"
+#include "collision/core/nearest.h"
+#include "planner/solve/solution.h"
+
+extern char** environ;
+
+namespace corridor {
+namespace {
+
+/// Seconds: a million triangles take some ten by a processor alone.
+constexpr int kPatience = 180;
+
+/// A folder for one picture, removed with all that the browser leaves in it.
+class WorkFolder {
+ public:
+  WorkFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "corridor-view-XXXXXX").string();
+    if (!::mkdtemp(name.data()))
+      throw std::system_error(errno, std::generic_category(), "a folder for the picture");
+    path_ = name;
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  ~WorkFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Runs a program, all that it says into a file. @returns whether it ended well and in time.
+bool run(const std::vector<std::string>& words, const std::filesystem::path& log) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0600);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawnattr_t attributes;  // a group of its own: its own children end with it
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  pid_t child = 0;
+  const int failure =
+      ::posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  if (failure != 0) throw std::system_error(failure, std::generic_category(), words[0]);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(kPatience);
+  int status = 0;
+  while (::waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      ::kill(-child, SIGKILL);
+      ::waitpid(child, &status, 0);
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ::kill(-child, SIGKILL);  // what it may have left
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+PictureSize pictureSize(const std::string& text, const std::string& option) {
+  PictureSize size;
+  const char *at = text.data(), *end = at + text.size();
+  const auto number = [&](int& value) {
+    const auto [stop, error] = std::from_chars(at, end, value);
+    at = stop;
+    return error == std::errc{} && value >= 100 && value <= 8000;
+  };
+  bool sound = number(size.width) && at != end && *at == 'x';
+  if (sound) ++at;
+  sound = sound && number(size.height) && at == end;
+  if (!sound)
+    throw InputError(Fault{
+        option, 0,
+        "WIDTHxHEIGHT is needed, 100 to 8000 pixels each, as 1366x768, not " + quotedWord(text)});
+  return size;
+}
+
+std::filesystem::path requireBrowser(const std::string& option) {
+  constexpr std::array names = {"chromium", "chromium-browser", "google-chrome", "chrome"};
+  const char* variable = std::getenv("PATH");
+  for (const char* name : names) {
+    std::istringstream folders(variable ? variable : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      const std::filesystem::path program = std::filesystem::path(folder) / name;
+      if (!folder.empty() && ::access(program.c_str(), X_OK) == 0) return program;
+    }
+  }
+  throw InputError(Fault{option, 0,
+                         "needs Chromium, and there is no chromium in PATH (Debian: apt-get "
+                         "install chromium); -o writes the page without it"});
+}
+
+void writePicture(const std::string& page, const std::filesystem::path& browser,
+                  const PictureSize& size, const std::filesystem::path& file) {
+  const WorkFolder folder;
+  const std::filesystem::path html = folder.path() / "page.html", log = folder.path() / "log",
+                              picture = folder.path() / "picture.png";
+  writeWhole(html, page);
+  std::vector<std::string> words = {
+      browser.string(), "--headless", "--hide-scrollbars", "--no-first-run",
+      // WebGL by the processor: the same picture with any graphics card, or none.
+      "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-device-scale-factor=1",
+      "--disable-dev-shm-usage", "--enable-logging=stderr",
+      "--user-data-dir=" + (folder.path() / "profile").string(),
+      "--window-size=" + std::to_string(size.width) + "," + std::to_string(size.height),
+      "--screenshot=" + picture.string()};
+  if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // it refuses to run as root with it
+  words.push_back("file://" + html.string() + "#image");
+  const bool ended = run(words, log);
+  const std::string said = contents(log), png = contents(picture);
+  if (said.find("corridor: the picture is drawn") == std::string::npos || png.empty())
+    throw InputError(
+        Fault{browser.string(), 0,
+              said.find("corridor: no picture") != std::string::npos
+                  ? "can't draw the picture: it has no WebGL"
+              : ended ? "has not drawn the picture"
+                      : "has not drawn the picture in " + std::to_string(kPatience) + " s"});
+  writeWhole(file, png);
+}
+
+}  // namespace corridor

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace corridor {
+
+/// Pictures of pages, by a browser without a display.
+
+struct PictureSize {
+  int width = 1366, height = 768;  ///< pixels
+};
+/// Of "1200x800", each from 100 to 8000. @param option for the fault. @throws InputError.
+PictureSize pictureSize(const std::string& text, const std::string& option);
+
+/// Chromium, by the names that it has in PATH.
+/// @throws InputError, which names the option, where there is none.
+std::filesystem::path requireBrowser(const std::string& option);
+
+/// A PNG of a page of `viewPage`, without its panel and controls. The file appears whole or not at
+/// all.
+/// @throws InputError where the browser can't draw it, or the file can't be written.
+void writePicture(const std::string& page, const std::filesystem::path& browser,
+                  const PictureSize& size, const std::filesystem::path& file);
+
+}  // namespace corridor

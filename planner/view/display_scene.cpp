@@ -1,0 +1,139 @@
+#include "planner/view/display_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+#include "planner/view/tessellate.h"
+
+namespace corridor::view {
+namespace {
+
+struct Bounds {
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+
+  void include(const Vec3& p) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  Vec3 middle() const { return lower + (upper - lower) / 2; }
+};
+
+DisplayMesh displayMesh(const ProblemBody& body) {
+  std::vector<TriangleMesh> parts;
+  std::vector<const TriangleMesh*> all;
+  parts.reserve(body.shapes.size());
+  for (const PlacedShape& shape : body.shapes)
+    all.push_back(shape.part ? &parts.emplace_back(tessellated(*shape.part)) : &shape.mesh->mesh);
+  Bounds bounds;
+  for (const TriangleMesh* mesh : all)
+    for (const Vec3& p : mesh->vertices) bounds.include(p);
+  DisplayMesh display;
+  display.origin = bounds.middle();
+  for (const TriangleMesh* mesh : all) {
+    const auto first = static_cast<std::uint32_t>(display.positions.size() / 3);
+    for (const Vec3& p : mesh->vertices)
+      for (int i = 0; i < 3; ++i)
+        display.positions.push_back(static_cast<float>(p[i] - display.origin[i]));
+    for (const auto& triangle : mesh->triangles)
+      for (const std::uint32_t vertex : triangle) display.indices.push_back(first + vertex);
+  }
+  return display;
+}
+
+/// Of equal meshes, as of two arms of one kind, one is kept.
+class MeshList {
+ public:
+  std::size_t add(DisplayMesh mesh) {
+    const auto bytes = [](const auto& values) {
+      return std::string_view(reinterpret_cast<const char*>(values.data()),
+                              values.size() * sizeof values[0]);
+    };
+    const std::hash<std::string_view> hash;
+    const std::size_t key = hash(bytes(mesh.positions)) ^ 31 * hash(bytes(mesh.indices));
+    const auto [begin, end] = known_.equal_range(key);
+    for (auto at = begin; at != end; ++at)
+      if (meshes_[at->second] == mesh) return at->second;
+    known_.emplace(key, meshes_.size());
+    meshes_.push_back(std::move(mesh));
+    return meshes_.size() - 1;
+  }
+  std::vector<DisplayMesh> take() { return std::move(meshes_); }
+
+ private:
+  std::vector<DisplayMesh> meshes_;
+  std::multimap<std::size_t, std::size_t> known_;
+};
+
+/// Does every joint turn about a vertical axis or go level, at the start and so always?
+bool isPlanar(const Problem& problem) {
+  constexpr double kUpright = 1e-9;  // of a unit vector: rounding of poses, far below what is seen
+  const std::vector<Transform> poses = framePoses(problem.tree, problem.start);
+  bool moves = false;
+  for (std::size_t i = 1; i < problem.tree.frames.size(); ++i) {
+    const Frame& frame = problem.tree.frames[i];
+    if (frame.joint == Frame::Joint::none || frame.variable == Frame::noVariable) continue;
+    moves = true;
+    const Mat3& m = poses[i].m;  // a joint does not turn its own axis
+    const Vec3 axis = frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide
+                          ? Vec3(m * frame.axis.normalized())
+                          : Vec3(m.col(2));
+    const bool upright = axis.head<2>().norm() < kUpright, level = std::abs(axis.z()) < kUpright;
+    switch (frame.joint) {
+      case Frame::Joint::turn:
+        if (!upright) return false;
+        break;
+      case Frame::Joint::slide:
+        if (!level) return false;
+        break;
+      case Frame::Joint::shift:
+        if (frame.count != 2 || !upright) return false;
+        break;
+      default:
+        return false;
+    }
+  }
+  return moves;
+}
+
+}  // namespace
+
+DisplayScene displayScene(const Problem& problem) {
+  DisplayScene scene;
+  MeshList meshes;
+  const std::vector<Transform> poses = framePoses(problem.tree, problem.start);
+  Bounds bounds;
+  std::vector<std::size_t> lastFrames(problem.robots.size(), 0);
+  for (const ProblemBody& body : problem.bodies) {
+    DisplayMesh mesh = displayMesh(body);
+    bounds.include(poses[body.frame] * mesh.origin);
+    if (body.frame != 0) scene.frames.push_back(body.frame);
+    if (body.robot) lastFrames[*body.robot] = std::max(lastFrames[*body.robot], body.frame);
+    scene.bodies.push_back({body.name, body.frame, body.robot, meshes.add(std::move(mesh))});
+  }
+  scene.meshes = meshes.take();
+  if (!scene.bodies.empty()) scene.origin = bounds.middle();
+  std::sort(scene.frames.begin(), scene.frames.end());
+  scene.frames.erase(std::unique(scene.frames.begin(), scene.frames.end()), scene.frames.end());
+  for (const std::size_t frame : lastFrames)
+    if (frame != 0) scene.lastFrames.push_back(frame);
+  scene.planar = isPlanar(problem);
+  return scene;
+}
+
+std::vector<float> displayPoses(const DisplayScene& scene, const std::vector<Transform>& X_WF) {
+  std::vector<float> numbers;
+  for (const std::size_t frame : scene.frames) {
+    const Vec3 t = X_WF[frame].t - scene.origin;
+    const Eigen::Quaterniond q(X_WF[frame].m);
+    for (const double x : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
+      numbers.push_back(static_cast<float>(x));
+  }
+  return numbers;
+}
+
+}  // namespace corridor::view

@@ -1,0 +1,55 @@
+'use strict';
+
+/** The page's data: what the program wrote, and `array`, which gives the typed arrays that it names. */
+const data = (() => {
+  const json = JSON.parse(document.getElementById('data').textContent);
+  const element = document.getElementById('buffers');
+  const binary = atob(element.textContent);
+  element.remove();
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  const types = {f4: Float32Array, u4: Uint32Array, u2: Uint16Array, u1: Uint8Array};
+  json.array = ([type, offset, count]) => new types[type](bytes.buffer, offset, count);
+  return json;
+})();
+
+/** Colours as they look (sRGB); three.js computes with light. */
+const palette = {
+  paper: '#f8f7f4', grid: '#dcd9d1', ink: '#1f2730', floor: '#eceae4', edge: '#6f6c66',
+  obstacles: ['#d3cfc6', '#c5cad0', '#d6ccba', '#c3cdc7'], wall: '#9a9892',
+  robots: ['#2f6db5', '#7a5bb0', '#2a8a8c', '#9a6a2f', '#5a6b7c'],
+  start: '#2e9e5b', way: '#d9a441', goal: '#d04a3f', alarm: '#b0127e', witness: '#b0127e',
+  levels: ['#1f2730', '#6b3fa0', '#2f6db5', '#2a8a8c', '#2e9e5b', '#a98a1c', '#d07a2f', '#c0392b'],
+};
+const light = (hex) => new THREE.Color(hex).convertSRGBToLinear();
+/** From the start's colour over the way's to the goal's; `at` in [0, 1]. */
+const wayColour = (at) => at < 0.5 ? new THREE.Color(palette.start).lerp(new THREE.Color(palette.way), 2 * at)
+  : new THREE.Color(palette.way).lerp(new THREE.Color(palette.goal), 2 * at - 1);
+
+const byId = (id) => document.getElementById(id);
+/** An element with text (never HTML) and children. */
+function make(tag, text = '', ...children) {
+  const element = document.createElement(tag);
+  element.textContent = text;
+  element.append(...children);
+  return element;
+}
+
+/** Four significant digits, with a unit that keeps them short. */
+function metres(x) {
+  const size = Math.abs(x);
+  const [factor, unit] = size === 0 || size >= 1 ? [1, 'm'] : size >= 1e-3 ? [1e3, 'mm'] : size >= 1e-6 ? [1e6, 'µm'] : [1e9, 'nm'];
+  return `${digits(x * factor)} ${unit}`;
+}
+const digits = (x) => String(Number(x.toPrecision(4)));
+const counted = (n, noun) => `${n.toLocaleString('en')} ${noun}${n === 1 ? '' : 's'}`;
+
+/** The index of the last of the ascending `values` that is at most `x`, or 0. */
+function lastNotAbove(values, x) {
+  let low = 0;
+  for (let high = values.length; high - low > 1;) {
+    const middle = (low + high) >> 1;
+    if (values[middle] <= x) low = middle; else high = middle;
+  }
+  return low;
+}

@@ -1,0 +1,148 @@
+'use strict';
+
+/** The closest pair's points at the place on the path that is nearest to one where they were computed. */
+class ClosestPair {
+  constructor(scene) {
+    this.sample = data.array(data.distances.sample);
+    this.metres = data.array(data.distances.metres);
+    this.bodies = data.array(data.distances.bodies);
+    this.points = data.array(data.distances.points);
+    this.at = Float32Array.from(this.sample, (i) => path.at[i]);
+    this.root = new THREE.Group();
+    const material = new THREE.MeshBasicMaterial({color: light(palette.witness), depthTest: false, transparent: true});
+    const ball = new THREE.SphereBufferGeometry(1, 16, 12), rod = new THREE.CylinderBufferGeometry(1, 1, 1, 8);
+    this.balls = [new THREE.Mesh(ball, material), new THREE.Mesh(ball, material)];
+    this.rod = new THREE.Mesh(rod, material);
+    for (const mesh of [...this.balls, this.rod]) { mesh.renderOrder = 20; this.root.add(mesh); }
+    this.root.visible = false;
+    scene.add(this.root);
+  }
+
+  indexAt(at) {
+    const i = lastNotAbove(this.at, at), k = Math.min(i + 1, this.at.length - 1);
+    return at - this.at[i] <= this.at[k] - at ? i : k;
+  }
+
+  place(at, stage) {
+    const i = this.indexAt(at);
+    const [a, b] = [0, 3].map((k) => new THREE.Vector3().fromArray(this.points, 6 * i + k));
+    const between = b.clone().sub(a), length = between.length(), pixel = stage.pixelAt(a);
+    this.balls[0].position.copy(a);
+    this.balls[1].position.copy(b);
+    for (const mesh of this.balls) mesh.scale.setScalar(4.5 * pixel);
+    this.rod.visible = length > 0;
+    this.rod.position.copy(a).addScaledVector(between, 0.5);
+    this.rod.scale.set(1.4 * pixel, length || 1, 1.4 * pixel);
+    if (length > 0) this.rod.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), between.divideScalar(length));
+  }
+}
+
+/** The boxes of the OBB trees, a level at a time: lines, made when they are first asked for. */
+class Trees {
+  constructor() {
+    this.byMesh = new Map(data.trees.map((tree) => [tree.mesh, tree.shapes.map((shape) => (
+      {counts: shape.counts, boxes: data.array(shape.boxes), leaves: data.array(shape.leaves), whole: shape.whole}))]));
+    this.levels = Math.max(1, ...data.trees.map((tree) => Math.max(...tree.shapes.map((shape) => shape.counts.length))));
+    this.made = new Map();
+    this.shown = [];
+  }
+
+  /** Of a mesh: the boxes of a level, and those leaves above it that have none below. */
+  geometry(mesh, level) {
+    const key = `${mesh}/${level}`;
+    if (this.made.has(key)) return this.made.get(key);
+    const positions = [];
+    let count = 0;
+    for (const {counts, boxes, leaves} of this.byMesh.get(mesh) || []) {
+      let box = 0;
+      counts.forEach((boxCount, at) => {
+        for (let i = 0; i < boxCount; ++i, ++box) {
+          if (at > level || at < level && !leaves[box]) continue;
+          addBox(boxes, 10 * box, positions);
+          ++count;
+        }
+      });
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+    const made = {geometry, count};
+    this.made.set(key, made);
+    return made;
+  }
+
+  /** @param level -1: none. @param parentOf of a body: what its boxes move with. @returns how many boxes there are. */
+  show(level, parentOf) {
+    for (const object of this.shown) object.parent.remove(object);
+    this.shown = [];
+    if (level < 0) return 0;
+    const material = new THREE.LineBasicMaterial({color: light(palette.levels[level % palette.levels.length]), transparent: true, opacity: 0.75});
+    let sum = 0;
+    data.bodies.forEach((body) => {
+      const {geometry, count} = this.geometry(body.mesh, level);
+      const object = new THREE.LineSegments(geometry, material);
+      object.position.copy(shapes[body.mesh].origin);
+      if (body.frame < 0) object.position.sub(origin);
+      object.renderOrder = 6;
+      parentOf(body).add(object);
+      this.shown.push(object);
+      sum += count;
+    });
+    return sum;
+  }
+
+  /** Does some tree go on below the levels that the page has? */
+  cut(level) {
+    return [...this.byMesh.values()].some((trees) => trees.some((tree) => tree.counts.length - 1 < level && !finished(tree)));
+  }
+}
+
+/** Is every box of the lowest level that is told a leaf? */
+function finished({counts, leaves}) {
+  const last = counts[counts.length - 1];
+  return leaves.subarray(leaves.length - last).every((leaf) => leaf);
+}
+
+/** The twelve edges of a box: its centre, quaternion and half extents are ten numbers from `first` on. */
+function addBox(boxes, first, positions) {
+  const centre = new THREE.Vector3().fromArray(boxes, first), q = new THREE.Quaternion().fromArray(boxes, first + 3);
+  const axes = [0, 1, 2].map((k) => new THREE.Vector3().setComponent(k, boxes[first + 7 + k]).applyQuaternion(q));
+  const corners = Array.from({length: 8}, (_, i) => axes.reduce((p, axis, k) => p.addScaledVector(axis, i >> k & 1 ? 1 : -1), centre.clone()));
+  for (let i = 0; i < 8; ++i) {
+    for (let k = 0; k < 3; ++k) if (!(i >> k & 1)) positions.push(...corners[i].toArray(), ...corners[i | 1 << k].toArray());
+  }
+}
+
+/** A finding in the scene: the two bodies in the alarm's colour, and a ring where they meet. */
+class Contact {
+  constructor(scene) {
+    this.ring = new THREE.Mesh(new THREE.RingBufferGeometry(11, 14, 40), new THREE.MeshBasicMaterial(
+      {color: light(palette.alarm), depthTest: false, transparent: true, side: THREE.DoubleSide}));
+    this.dot = new THREE.Mesh(new THREE.CircleBufferGeometry(3.5, 20), this.ring.material);
+    for (const mesh of [this.ring, this.dot]) { mesh.renderOrder = 21; mesh.visible = false; scene.add(mesh); }
+    this.lit = [];
+  }
+
+  /** @param materialsOf of a body's index. @param finding null: none. */
+  show(finding, materialsOf) {
+    for (const material of this.lit) material.emissive.setHex(0);
+    this.lit = [];
+    this.ring.visible = this.dot.visible = Boolean(finding) && finding.a !== null;
+    if (!finding) return;
+    for (const body of [finding.a, finding.b]) {
+      if (body === null) continue;
+      for (const material of materialsOf(body)) {
+        material.emissive.copy(light(palette.alarm)).multiplyScalar(0.55);
+        this.lit.push(material);
+      }
+    }
+    for (const mesh of [this.ring, this.dot]) mesh.position.fromArray(finding.point);
+  }
+
+  place(stage) {
+    if (!this.ring.visible) return;
+    for (const mesh of [this.ring, this.dot]) {
+      mesh.quaternion.copy(stage.camera.quaternion);
+      mesh.scale.setScalar(stage.pixelAt(mesh.position));
+    }
+  }
+}

@@ -1,0 +1,102 @@
+'use strict';
+
+const kHides = 0.08, kNoLonger = 0.03;  // of the robots' pixels: from here on glass, below that solid again
+
+/** What does not move, solid or like glass. */
+class Obstacles {
+  constructor(scene, lowest) {
+    this.bodies = [];
+    this.mode = 'auto';
+    let number = 0;
+    data.bodies.forEach((body, index) => {
+      if (body.frame >= 0) return;
+      const shape = shapes[body.mesh];
+      const base = shape.origin.clone().sub(origin);
+      const bounds = shape.geometry.boundingBox.clone().translate(base), size = bounds.getSize(new THREE.Vector3());
+      const floor = bounds.max.z < lowest + 0.02 * Math.max(size.x, size.y) && size.z < 0.12 * Math.max(size.x, size.y);
+      const colour = floor ? palette.floor : data.planar ? palette.wall : palette.obstacles[number++ % palette.obstacles.length];
+      const solid = surface(colour, shape);
+      const glass = surface(colour, shape, {transparent: true, opacity: 0.16, depthWrite: false});
+      const mesh = new THREE.Mesh(shape.geometry, solid);
+      const edges = shape.edges && lines(shape, palette.edge, 0.55);
+      mesh.receiveShadow = true;
+      for (const object of edges ? [mesh, edges] : [mesh]) {
+        object.position.copy(base);
+        scene.add(object);
+      }
+      this.bodies.push({index, mesh, solid, glass, edges, bounds, floor, hides: 0, isGlass: false});
+    });
+  }
+
+  setGlass(body, glass) {
+    body.isGlass = glass;
+    body.mesh.material = glass ? body.glass : body.solid;
+    body.mesh.castShadow = !glass && !body.floor;
+    body.mesh.renderOrder = glass ? 5 : 0;
+    if (body.edges) body.edges.material.opacity = glass ? 0.3 : 0.55;
+  }
+
+  /** @returns whether anything changed. */
+  apply(mode, motion, stage) {
+    this.mode = mode;
+    if (mode === 'auto') this.look(motion, stage);
+    let changed = false;
+    for (const body of this.bodies) {
+      const glass = mode === 'glass' ? !body.floor : mode === 'auto' && body.hides > (body.isGlass ? kNoLonger : kHides);
+      changed = changed || glass !== body.isGlass;
+      this.setGlass(body, glass);
+    }
+    return changed;
+  }
+
+  /**
+   * Measures how much of the robots each body hides: a small picture of the robots alone, then of what stands before them;
+   * as often as bodies are found that hide others.
+   */
+  look(motion, stage) {
+    const width = 256, height = Math.max(16, Math.round(width / stage.aspect)), pixels = new Uint8Array(4 * width * height);
+    const target = new THREE.WebGLRenderTarget(width, height), scene = new THREE.Scene(), {renderer} = stage;
+    const flat = (number) => new THREE.MeshBasicMaterial({color: number, side: THREE.DoubleSide});
+    const white = flat(0xffffff);
+    const copies = [motion.start, ...motion.goals, ...motion.ghosts].map((shown) => {
+      const copy = new Copy((body, shape) => [new THREE.Mesh(shape.geometry, white)]);
+      shown.frames.forEach((frame, i) => copy.frames[i].matrix.copy(frame.matrix));
+      copy.frames.forEach((frame) => { frame.matrixWorldNeedsUpdate = true; });
+      return copy.root;
+    });
+    const walls = this.bodies.map((body, i) => {
+      const mesh = new THREE.Mesh(body.mesh.geometry, flat(i + 1));
+      mesh.position.copy(body.mesh.position);
+      return mesh;
+    });
+    const picture = () => {
+      renderer.render(scene, stage.camera);
+      renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
+    };
+    const numberAt = (i) => pixels[4 * i] << 16 | pixels[4 * i + 1] << 8 | pixels[4 * i + 2];
+    renderer.gammaOutput = false;
+    renderer.setRenderTarget(target);
+    renderer.setClearColor(0);
+    scene.add(...copies);
+    picture();
+    const mask = Array.from({length: width * height}, (_, i) => numberAt(i) !== 0);
+    const all = mask.reduce((sum, seen) => sum + seen, 0) || 1;
+    for (const body of this.bodies) body.hides = 0;
+    if (walls.length) scene.add(...walls);
+    for (let pass = 0; pass < 4 && walls.length; ++pass) {
+      picture();
+      const counts = new Array(walls.length).fill(0);
+      mask.forEach((seen, i) => { if (seen && numberAt(i) !== 0xffffff && numberAt(i) > 0) ++counts[numberAt(i) - 1]; });
+      let found = false;
+      counts.forEach((count, i) => {
+        this.bodies[i].hides = Math.max(this.bodies[i].hides, count / all);
+        if (count / all > kHides) { found = true; scene.remove(walls[i]); }
+      });
+      if (!found) break;
+    }
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(palette.paper);
+    renderer.gammaOutput = true;
+    target.dispose();
+  }
+}

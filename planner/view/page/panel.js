@@ -1,0 +1,104 @@
+'use strict';
+
+/** Text of the side panel; whatever comes from files is set as text, never as HTML. */
+const Panel = {
+  fill() {
+    byId('name').textContent = data.name;
+    const facts = [];
+    const models = data.robots.map((robot) => robot.name ? `${robot.name} (${robot.model})` : robot.model);
+    facts.push([models.length > 1 ? 'Robots' : 'Robot', models.join(', ')]);
+    const s = data.solution, v = data.verdict;
+    if (s) {
+      const badge = byId('badge');
+      badge.textContent = {proved: 'Proved free of contact', refuted: 'Refuted', undecided: 'Undecided'}[v.verdict];
+      badge.className = v.verdict;
+      badge.hidden = false;
+      if (s.planner) facts.push(['Planner', s.planner + (s.seed === undefined ? '' : `, seed ${s.seed}`)]);
+      if (s.checker) facts.push(['Certified', s.certified ? 'yes' : `no (${s.checker})`]);
+      const length = [s.length_m === null ? '' : metres(s.length_m), s.rotation_rad === null ? '' : `${digits(s.rotation_rad)} rad`];
+      facts.push(['Path length', length.filter(Boolean).join(', ')]);
+      facts.push(['States', s.states.toLocaleString('en')]);
+      facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
+      if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);
+    }
+    if (s && s.margin_m > 0) facts.push(['Margin', metres(s.margin_m)]);
+    facts.push(['Triangles', data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0).toLocaleString('en')]);
+    for (const [key, value] of facts) byId('facts').append(make('dt', key), make('dd', value));
+    const notes = [...(s && s.other_files ? ['The path was made for other files than those of this problem.'] : []), ...data.notes];
+    byId('notes').hidden = notes.length === 0;
+    for (const note of notes) byId('notes').querySelector('ul').append(make('li', note));
+    this.pairs();
+  },
+
+  bodyName: (index) => index === null ? '' : data.bodies[index].name,
+
+  /** @param show called with a finding's index, or -1 for none. */
+  findings(show) {
+    const v = data.verdict, list = byId('findings').querySelector('ol');
+    if (!v || (!v.findings.length && !v.violations.length)) return;
+    byId('findings').hidden = false;
+    for (const violation of v.violations) list.append(make('li', violation));
+    v.findings.forEach((f, index) => {
+      const pair = f.a === null ? '' : `${this.bodyName(f.a)} and ${this.bodyName(f.b)}`;
+      const text = make('div', pair ? `${pair}: ${f.reason}` : f.reason,
+        make('small', `${f.verdict === 'undecided' ? 'undecided, ' : ''}edge ${f.edge}, t = ${digits(f.t)}${f.gap_m > 0 ? `, ${metres(f.gap_m)} apart` : ''}`));
+      const button = make('button', 'Show');
+      button.setAttribute('aria-pressed', 'false');
+      button.addEventListener('click', () => show(button.getAttribute('aria-pressed') === 'true' ? -1 : index));
+      list.append(make('li', '', text, button));
+    });
+  },
+
+  pressFinding(index) {
+    byId('findings').querySelectorAll('button').forEach((button, i) => button.setAttribute('aria-pressed', String(i === index)));
+  },
+
+  pairs() {
+    const body = byId('pairs-body'), {tested, skipped} = data.pairs, far = data.array(data.pairs.far);
+    const numberOf = (array) => array.length / 2;
+    const sum = skipped.reduce((total, group) => total + group.pairs[2] / 2, 0);
+    body.append(make('p', `${counted(tested, 'pair')} of bodies tested, ${sum.toLocaleString('en')} not. The world is not tested with itself, nor a body.`));
+    const group = (title, array) => {
+      const details = make('details', '', make('summary', `${title}: ${numberOf(array).toLocaleString('en')}`)), list = make('ul');
+      details.append(list);
+      details.addEventListener('toggle', () => {  // thousands of pairs are listed only when they are asked for
+        if (list.children.length) return;
+        for (let i = 0; i < array.length && i < 1000; i += 2) list.append(make('li', `${this.bodyName(array[i])} ~ ${this.bodyName(array[i + 1])}`));
+        if (array.length > 1000) list.append(make('li', `and ${(numberOf(array) - 500).toLocaleString('en')} more`));
+      });
+      body.append(details);
+    };
+    for (const {reason, pairs} of skipped) group(reason, data.array(pairs));
+    if (far.length) group('tested, but out of reach', far);
+  },
+
+  legend(stage) {
+    const item = (className, colour, text) => {
+      const swatch = make('i');
+      swatch.className = className;
+      if (colour) swatch.style.background = colour;
+      return make('span', '', swatch, document.createTextNode(text));
+    };
+    const legend = byId('legend');
+    const image = document.body.classList.contains('image');
+    legend.replaceChildren(item('', palette.start, 'start'),
+      item('', palette.goal, path ? 'goal' : data.goal_count > 1 ? `goals (${data.goals.length} of ${data.goal_count})` : 'goal'));
+    if (path) legend.append(item('way', '', 'on the way'));
+    if (path && !image) legend.append(item('', palette.robots[0], 'now'));
+    legend.append(item('scale', '', `grid ${metres(stage.step)}`));
+  },
+
+  place(at, closest) {
+    const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
+    const u = path.at[k] > path.at[i] ? (at - path.at[i]) / (path.at[k] - path.at[i]) : 0;
+    const from = path.edge[k] === path.edge[i] && i > 0 ? path.t[i] : 0, t = k > i ? from + u * (path.t[k] - from) : path.t[i];
+    const edges = path.states.length - 1;
+    let text = `edge ${path.edge[k] + 1} of ${edges}, t = ${t.toFixed(3)}`;
+    if (!edges) text = 'a single state';
+    byId('place').textContent = text;
+    if (!closest) return;
+    const n = closest.indexAt(at), d = closest.metres[n];
+    byId('closest-text').replaceChildren(make('b', d > 0 ? metres(d) : 'contact'),
+      document.createTextNode(`: ${this.bodyName(closest.bodies[2 * n])} and ${this.bodyName(closest.bodies[2 * n + 1])}`));
+  },
+};

@@ -1,0 +1,227 @@
+'use strict';
+
+const origin = new THREE.Vector3(...data.origin);
+const kGhostTriangles = 1.5e6;  // of all poses along the path together
+const kPose = 7;                // numbers of a frame's pose
+
+/** Poses of the frames: x y z and a quaternion each, at `first`; between two of them by `u`. */
+function poseOf(array, first, next, u, position, quaternion) {
+  position.set(array[first], array[first + 1], array[first + 2]);
+  quaternion.set(array[first + 3], array[first + 4], array[first + 5], array[first + 6]);
+  if (u > 0) {
+    const to = new THREE.Vector3(array[next], array[next + 1], array[next + 2]);
+    position.lerp(to, u);
+    quaternion.slerp(new THREE.Quaternion(array[next + 3], array[next + 4], array[next + 5], array[next + 6]), u);
+  }
+}
+
+/** The path's samples (null: there is none). */
+const path = data.path && {
+  at: data.array(data.path.at), t: data.array(data.path.t), edge: data.array(data.path.edge), poses: data.array(data.path.poses),
+  states: data.path.states, findings: data.path.findings, trace: data.path.trace,
+};
+const frameCount = data.array(data.start).length / kPose;
+
+/** Where frame `frame` is at `at` in [0, 1] of the path. */
+function framePose(at, frame, position, quaternion) {
+  const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
+  const u = k > i && path.at[k] > path.at[i] ? Math.min(1, (at - path.at[i]) / (path.at[k] - path.at[i])) : 0;
+  poseOf(path.poses, (i * frameCount + frame) * kPose, (k * frameCount + frame) * kPose, u, position, quaternion);
+}
+
+/** A copy of all robots: a group a frame, and whatever `meshOf(body, shape)` gives for each body. */
+class Copy {
+  constructor(meshOf) {
+    this.root = new THREE.Group();
+    this.frames = Array.from({length: frameCount}, () => new THREE.Group());
+    this.frames.forEach((frame) => { frame.matrixAutoUpdate = false; this.root.add(frame); });
+    data.bodies.forEach((body, index) => {
+      if (body.frame < 0) return;
+      const shape = shapes[body.mesh];
+      for (const mesh of meshOf(body, shape, index)) {
+        mesh.position.copy(shape.origin);
+        this.frames[body.frame].add(mesh);
+      }
+    });
+  }
+
+  /** Poses of an end of the path. */
+  stand(poses) { this.set((frame, position, quaternion) => poseOf(poses, frame * kPose, 0, 0, position, quaternion)); }
+  goTo(at) { this.set((frame, position, quaternion) => framePose(at, frame, position, quaternion)); }
+
+  set(pose) {
+    const position = new THREE.Vector3(), quaternion = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
+    this.frames.forEach((frame, i) => {
+      pose(i, position, quaternion);
+      frame.matrix.compose(position, quaternion.normalize(), one);
+      frame.matrixWorldNeedsUpdate = true;
+    });
+  }
+}
+
+/** A surface's material; behind glass, or seen through things, where `opacity` is below 1. */
+function surface(colour, shape, more = {}) {
+  return new THREE.MeshPhongMaterial({color: light(colour), specular: 0x111111, shininess: 24, side: THREE.DoubleSide,
+    flatShading: shape.flat, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, ...more});
+}
+/** Blended, and yet drawn among what is opaque, in the order that `renderOrder` says. */
+const blended = {blending: THREE.CustomBlending, blendSrc: THREE.SrcAlphaFactor, blendDst: THREE.OneMinusSrcAlphaFactor};
+
+function lines(shape, colour, opacity) {
+  return new THREE.LineSegments(shape.edges, new THREE.LineBasicMaterial({color: light(colour), transparent: true, opacity, depthWrite: false}));
+}
+
+/** The robots as they are now: solid, and dimly seen through what hides them. */
+class Robots extends Copy {
+  constructor(hex) {
+    const materials = new Map();
+    super((body, shape, index) => {
+      const colour = '#' + new THREE.Color(hex ?? palette.robots[body.robot % palette.robots.length])
+        .lerp(new THREE.Color('#ffffff'), index % 2 ? 0.14 : 0).getHexString();
+      const solid = new THREE.Mesh(shape.geometry, surface(colour, shape));
+      solid.castShadow = true;
+      solid.receiveShadow = !shape.flat;
+      solid.renderOrder = 2;
+      materials.set(index, solid.material);
+      const hidden = new THREE.Mesh(shape.geometry, surface(colour, shape, {...blended, opacity: 0.22, depthFunc: THREE.GreaterDepth, depthWrite: false}));
+      hidden.renderOrder = 1;
+      return shape.edges ? [solid, hidden, lines(shape, '#10233d', 0.35)] : [solid, hidden];
+    });
+    this.materials = materials;
+  }
+}
+
+/**
+ * Another pose of the robots. All of them are one layer of glass: first their depths, behind what stands there in earnest,
+ * then their colours; so the nearest is seen, and the order does not matter.
+ */
+class Ghost extends Copy {
+  constructor(colour, opacity) {
+    const offset = {polygonOffsetFactor: 2, polygonOffsetUnits: 4};
+    const depth = new THREE.MeshBasicMaterial({colorWrite: false, side: THREE.DoubleSide, polygonOffset: true, ...offset});
+    const smooth = surface('#000000', {flat: false}, {...blended, opacity, depthWrite: false, ...offset});
+    const flat = surface('#000000', {flat: true}, {...blended, opacity, depthWrite: false, ...offset});
+    for (const material of [smooth, flat]) material.color.copy(colour).convertSRGBToLinear();
+    super((body, shape) => {
+      const first = new THREE.Mesh(shape.geometry, depth), second = new THREE.Mesh(shape.geometry, shape.flat ? flat : smooth);
+      first.renderOrder = 3;
+      second.renderOrder = 4;
+      return [first, second];
+    });
+  }
+}
+
+/** Everything that moves: the robots now, start and goals, poses along the path, and the way of a point. */
+class Motion {
+  constructor(scene) {
+    this.scene = scene;
+    this.at = 0;
+    this.triangles = data.bodies.reduce((sum, body) => sum + (body.frame < 0 ? 0 : shapes[body.mesh].triangles), 0);
+    this.ends = [data.array(data.start), ...data.goals.map((goal) => data.array(goal))];
+    this.now = path ? new Robots() : null;
+    const strong = path ? 0.62 : 1;
+    const solid = (hex) => path ? new Ghost(new THREE.Color(hex), strong) : new Robots(hex);
+    this.start = solid(palette.start);
+    this.start.stand(this.ends[0]);
+    this.goals = (path ? [null] : data.goals).map((_, i) => {
+      const goal = solid(palette.goal);
+      if (path) goal.goTo(1); else goal.stand(this.ends[i + 1]);
+      return goal;
+    });
+    for (const copy of [this.now, this.start, ...this.goals]) if (copy) scene.add(copy.root);
+    this.ghosts = [];
+    this.mostGhosts = path ? Math.min(24, Math.floor(kGhostTriangles / Math.max(1, this.triangles))) : 0;
+    this.setGhosts(Math.min(7, this.mostGhosts));
+    if (path) this.addTrace();
+    if (path) this.goTo(0);
+  }
+
+  setGhosts(count) {
+    for (const ghost of this.ghosts) this.scene.remove(ghost.root);
+    this.ghosts = Array.from({length: count}, (_, i) => {
+      const at = (i + 1) / (count + 1), ghost = new Ghost(wayColour(at), 0.3);
+      ghost.goTo(at);
+      this.scene.add(ghost.root);
+      return ghost;
+    });
+  }
+
+  goTo(at) {
+    this.at = at;
+    this.now.goTo(at);
+  }
+
+  /** Points that the robots come to: corners of their bodies' bounds, at the ends and along the path. */
+  points() {
+    const points = [], position = new THREE.Vector3(), quaternion = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
+    const matrix = new THREE.Matrix4();
+    const add = (pose) => data.bodies.forEach((body) => {
+      if (body.frame < 0) return;
+      pose(body.frame);
+      matrix.compose(position, quaternion, one);
+      const {min, max} = shapes[body.mesh].geometry.boundingBox;
+      for (let corner = 0; corner < 8; ++corner) {
+        const p = new THREE.Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z);
+        points.push(p.add(shapes[body.mesh].origin).applyMatrix4(matrix));
+      }
+    });
+    for (const end of path ? this.ends.slice(0, 1) : this.ends) add((frame) => poseOf(end, frame * kPose, 0, 0, position, quaternion));
+    if (path) for (let k = 0; k <= 24; ++k) add((frame) => framePose(k / 24, frame, position, quaternion));
+    return points;
+  }
+
+  /** A thin tube along the way of each robot's last frame. */
+  addTrace() {
+    this.trace = new THREE.Group();
+    for (const frame of path.trace) {
+      const points = [];
+      const size = new THREE.Box3();
+      for (let i = 0; i < path.at.length; ++i) {
+        const p = new THREE.Vector3().fromArray(path.poses, (i * frameCount + frame) * kPose);
+        points.push({p, at: path.at[i]});
+        size.expandByPoint(p);
+      }
+      this.trace.add(tube(points));
+    }
+    this.scene.add(this.trace);
+  }
+}
+
+/** A tube about points, from the start's colour to the goal's; its radius is `scaleTube`'s to set. */
+function tube(points) {
+  const sides = 6, kept = points.filter((point, i) => i === 0 || point.p.distanceTo(points[i - 1].p) > 0);
+  const positions = [], directions = [], colours = [], indices = [];
+  const tangent = new THREE.Vector3(), u = new THREE.Vector3(1, 0, 0), v = new THREE.Vector3();
+  kept.forEach(({p, at}, i) => {
+    tangent.subVectors(kept[Math.min(i + 1, kept.length - 1)].p, kept[Math.max(i - 1, 0)].p).normalize();
+    u.addScaledVector(tangent, -u.dot(tangent));
+    if (u.lengthSq() < 1e-6) u.set(-tangent.y, tangent.x, 0).lengthSq() > 1e-6 || u.set(0, -tangent.z, tangent.y);
+    u.normalize();
+    v.crossVectors(tangent, u);
+    const colour = wayColour(at).convertSRGBToLinear();
+    for (let k = 0; k < sides; ++k) {
+      const angle = 2 * Math.PI * k / sides;
+      positions.push(p.x, p.y, p.z);
+      directions.push(...new THREE.Vector3().addScaledVector(u, Math.cos(angle)).addScaledVector(v, Math.sin(angle)).toArray());
+      colours.push(colour.r, colour.g, colour.b);
+      if (i === 0) continue;
+      const a = i * sides + k, b = i * sides + (k + 1) % sides;
+      indices.push(a - sides, a, b, a - sides, b, b - sides);
+    }
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+  geometry.setAttribute('color', new THREE.Float32BufferAttribute(colours, 3));
+  geometry.setIndex(indices);
+  const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({vertexColors: THREE.VertexColors, side: THREE.DoubleSide}));
+  mesh.renderOrder = 2;
+  mesh.frustumCulled = false;
+  mesh.userData = {centres: Float32Array.from(positions), directions: Float32Array.from(directions)};
+  return mesh;
+}
+
+function scaleTube(mesh, radius) {
+  const {centres, directions} = mesh.userData, attribute = mesh.geometry.attributes.position;
+  for (let i = 0; i < centres.length; ++i) attribute.array[i] = centres[i] + radius * directions[i];
+  attribute.needsUpdate = true;
+}

@@ -1,0 +1,203 @@
+'use strict';
+
+/** Where the viewer stands at first: azimuth about z and elevation, as in `corridor solve --picture`. */
+const kAzimuth = -60 * Math.PI / 180, kElevation = 32 * Math.PI / 180;
+const kFieldOfView = 30;  // degrees, upright: little perspective, so that sizes compare
+
+/** Canvas, cameras, lights and ground; draws when something has changed. */
+class Stage {
+  constructor(canvas, options) {
+    this.canvas = canvas;
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});  // kept: for printing
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setClearColor(palette.paper);
+    this.renderer.gammaOutput = true;
+    this.renderer.gammaFactor = 2.2;
+    this.scene = new THREE.Scene();
+    this.beforeDraw = [];
+    this.onView = () => {};
+    this.moved = false;  // by the user: then nothing moves the camera but the user
+    this.top = options.top;
+    this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.1, 10);
+    this.perspective.up.set(0, 0, 1);
+    this.flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+    this.scene.add(this.perspective, this.flat);
+    this.controls = [this.perspective, this.flat].map((camera) => {
+      const controls = new THREE.OrbitControls(camera, canvas);
+      controls.enableKeys = false;  // arrows step along the path
+      controls.screenSpacePanning = true;
+      controls.addEventListener('change', () => this.draw());
+      controls.addEventListener('start', () => { this.moved = true; });
+      controls.addEventListener('end', () => this.onView());
+      return controls;
+    });
+    this.controls[1].enableRotate = false;
+    this.controls[1].mouseButtons.LEFT = THREE.MOUSE.PAN;
+    this.controls[1].touches.ONE = THREE.TOUCH.PAN;
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  get camera() { return this.top ? this.flat : this.perspective; }
+  get target() { return this.controls[this.top ? 1 : 0].target; }
+
+  /** What is to be seen (points that robots come to and what stands near them), and the bounds of all. */
+  show(points, bounds) {
+    this.points = points;
+    this.bounds = bounds;
+    this.box = new THREE.Box3().setFromPoints(points);
+    this.radius = Math.max(bounds.getSize(new THREE.Vector3()).length() / 2, 1e-9);
+    this.addLights();
+    this.addGround();
+    this.setTop(this.top);
+  }
+
+  addLights() {
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b2a6, 0.62));
+    const centre = this.box.getCenter(new THREE.Vector3()), size = this.box.getSize(new THREE.Vector3()).length() / 2 || 1;
+    this.key = new THREE.DirectionalLight(0xfffaf2, 0.62);
+    this.key.position.copy(centre).addScaledVector(new THREE.Vector3(-0.25, -0.55, 0.95), 3 * size);
+    this.key.target.position.copy(centre);
+    this.fill = new THREE.DirectionalLight(0xeaf1ff, 0.2);
+    this.fill.position.copy(centre).addScaledVector(new THREE.Vector3(0.9, 0.2, 0.35), 3 * size);
+    this.fill.target.position.copy(centre);
+    this.scene.add(this.key, this.key.target, this.fill, this.fill.target);
+    const shadow = this.key.shadow;
+    shadow.mapSize.set(2048, 2048);
+    Object.assign(shadow.camera, {left: -size, right: size, top: size, bottom: -size, near: size, far: 5 * size});
+    shadow.bias = -0.0015;
+    shadow.radius = 2.5;
+  }
+
+  /** Shadows cost as much as drawing everything once more: not for large meshes, nor where seen from above. */
+  castShadows() {
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.shadowMap.autoUpdate = false;
+    this.renderer.shadowMap.needsUpdate = true;
+    this.key.castShadow = true;
+  }
+
+  /** A grid of round metres under everything, which fades out. */
+  addGround() {
+    const centre = this.box.getCenter(new THREE.Vector3()), size = this.box.getSize(new THREE.Vector3());
+    const extent = Math.max(size.x, size.y, 0.4 * size.z) || 1, step = roundDown(extent / 8);
+    this.step = step;
+    const reach = Math.ceil(1.1 * extent / step) + 1;
+    // Lines stand at whole steps of the world's own coordinates.
+    const shift = (x, origin) => Math.round((x + origin) / step) * step - origin;
+    const x0 = shift(centre.x, data.origin[0]), y0 = shift(centre.y, data.origin[1]), z = this.bounds.min.z - 0.002 * extent;
+    const positions = [], colours = [], line = light(palette.grid), paper = light(palette.paper);
+    const add = (x, y) => {
+      positions.push(x0 + x * step, y0 + y * step, z);
+      const fade = Math.min(1, Math.max(0, 1.15 - Math.hypot(x, y) / reach) / 0.6);
+      const c = paper.clone().lerp(line, fade);
+      colours.push(c.r, c.g, c.b);
+    };
+    for (let i = -reach; i <= reach; ++i) {
+      for (let k = -reach; k < reach; ++k) {
+        add(i, k); add(i, k + 1);
+        add(k, i); add(k + 1, i);
+      }
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+    geometry.setAttribute('color', new THREE.Float32BufferAttribute(colours, 3));
+    this.scene.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors})));
+    const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(20 * extent, 20 * extent), new THREE.ShadowMaterial({opacity: 0.13}));
+    ground.position.set(centre.x, centre.y, z - 0.001 * extent);
+    ground.receiveShadow = true;
+    this.ground = ground;
+    this.scene.add(ground);
+  }
+
+  setTop(top) {
+    this.top = top;
+    this.controls[0].enabled = !top;
+    this.controls[1].enabled = top;
+    this.moved = false;
+    this.resize();
+    this.onView();
+  }
+
+  resize() {
+    const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
+    if (!width || !height || !this.points) return;
+    this.renderer.setSize(width, height, false);
+    this.aspect = width / height;
+    if (!this.moved) this.fit();
+    this.perspective.aspect = this.aspect;
+    this.flat.left = -this.half * this.aspect;
+    this.flat.right = this.half * this.aspect;
+    this.flat.top = this.half;
+    this.flat.bottom = -this.half;
+    this.draw();
+    this.drawNow();  // not a frame later: a canvas whose size was set is blank
+  }
+
+  /** All points within the picture, but for a border and the legend's line. */
+  fit() {
+    const border = 0.93, lift = 0.03;
+    const toViewer = this.top ? new THREE.Vector3(0, 0, 1)
+      : new THREE.Vector3(Math.cos(kElevation) * Math.cos(kAzimuth), Math.cos(kElevation) * Math.sin(kAzimuth), Math.sin(kElevation));
+    const up = this.top ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);
+    const right = up.clone().cross(toViewer).normalize();
+    up.copy(toViewer).cross(right);
+    const seen = this.points.map((p) => [p.dot(right), p.dot(up), p.dot(toViewer)]);
+    const range = (values) => [Math.min(...values), Math.max(...values)];
+    const [zLow, zHigh] = range(seen.map((s) => s[2]));
+    const tangent = Math.tan(kFieldOfView * Math.PI / 360) * border;
+    let [x, y, distance] = [0, 0, 0];
+    const around = (i, scale) => range(seen.map((s) => s[i] * scale(s[2])));
+    const middle = ([low, high]) => (low + high) / 2;
+    x = middle(around(0, () => 1));
+    y = middle(around(1, () => 1));
+    for (let pass = 0; pass < 8; ++pass) {
+      distance = Math.max(...seen.map((s) => s[2] + Math.max(Math.abs(s[0] - x) / (tangent * this.aspect), Math.abs(s[1] - y) / tangent)));
+      if (this.top) break;
+      // The middle of what is seen, moved to the picture's.
+      const inPicture = (i, o) => middle(range(seen.map((s) => (s[i] - o) / (distance - s[2]))));
+      x += inPicture(0, x) * (distance - zHigh);
+      y += inPicture(1, y) * (distance - zHigh);
+    }
+    this.half = Math.max(...seen.map((s) => Math.max(Math.abs(s[0] - x) / this.aspect, Math.abs(s[1] - y)))) / border * 1.04;
+    const visible = this.top ? this.half : tangent * (distance - middle([zLow, zHigh]));
+    const target = new THREE.Vector3().addScaledVector(right, x).addScaledVector(up, y - lift * visible).addScaledVector(toViewer, middle([zLow, zHigh]));
+    this.controls[this.top ? 1 : 0].target.copy(target);
+    const camera = this.camera;
+    camera.zoom = 1;
+    camera.position.copy(target).addScaledVector(toViewer, this.top ? 3 * this.radius : Math.max(distance - middle([zLow, zHigh]), 1e-9));
+    camera.lookAt(target);
+    this.controls[this.top ? 1 : 0].update();
+  }
+
+  /** The length in the world that is a pixel at a point. */
+  pixelAt(point) {
+    const height = this.canvas.clientHeight || 1;
+    if (this.top) return 2 * this.half / this.flat.zoom / height;
+    return 2 * Math.tan(kFieldOfView * Math.PI / 360) * this.perspective.position.distanceTo(point) / height;
+  }
+
+  draw() {
+    if (this.asked) return;
+    this.asked = requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow() {
+    cancelAnimationFrame(this.asked);
+    this.asked = 0;
+    const started = performance.now(), camera = this.camera;
+    const away = camera.position.distanceTo(this.bounds.getCenter(new THREE.Vector3()));
+    camera.near = this.top ? 0.01 * this.radius : Math.max(away - 2.5 * this.radius, camera.position.distanceTo(this.target) / 60);
+    camera.far = away + 12 * this.radius;
+    camera.updateProjectionMatrix();
+    for (const prepare of this.beforeDraw) prepare();
+    this.renderer.render(this.scene, camera);
+    this.drawMs = performance.now() - started;
+  }
+}
+
+/** 1, 2 or 5 times a power of ten. */
+function roundDown(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return power * (x / power >= 5 ? 5 : x / power >= 2 ? 2 : 1);
+}

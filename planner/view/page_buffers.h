@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace corridor::view {
+
+/// The arrays of a page, end to end: little-endian, each begins at a multiple of 4 bytes.
+class PageBuffers {
+ public:
+  /// Where an array is: how JavaScript's typed arrays see it.
+  struct View {
+    const char* type;    ///< "f4", "u4", "u2", "u1"
+    std::size_t offset;  ///< bytes
+    std::size_t count;
+  };
+
+  template <class Number>
+  View add(const std::vector<Number>& numbers) {
+    static_assert(sizeof(Number) == 1 || sizeof(Number) == 2 || sizeof(Number) == 4);
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    const View view{typeOf(Number()), bytes_.size(), numbers.size()};
+    bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+    return view;
+  }
+  /// Of indices below `limit`: in two bytes each, where that is enough.
+  View addIndices(const std::vector<std::uint32_t>& indices, std::size_t limit) {
+    if (limit > 0x10000) return add(indices);
+    return add(std::vector<std::uint16_t>(indices.begin(), indices.end()));
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  static const char* typeOf(float) { return "f4"; }
+  static const char* typeOf(std::uint32_t) { return "u4"; }
+  static const char* typeOf(std::uint16_t) { return "u2"; }
+  static const char* typeOf(std::uint8_t) { return "u1"; }
+
+  std::string bytes_;
+};
+
+}  // namespace corridor::view

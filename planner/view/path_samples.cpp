@@ -1,0 +1,140 @@
+#include "planner/view/path_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace corridor::view {
+namespace {
+
+constexpr double kTurn = std::numbers::pi / 90;  // rad from sample to sample
+constexpr double kShare = 1.0 / 400;             // of the path
+constexpr double kMostSamples = 1500;
+constexpr int kLook = 8;  // pieces of an edge that tell how far it goes
+
+/// How far bodies go from pose to pose.
+class Travel {
+ public:
+  explicit Travel(const Problem& problem) {
+    for (const ProblemBody& body : problem.bodies) {
+      if (body.frame == 0) continue;
+      Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+      for (const PlacedShape& shape : body.shapes) {
+        const double radius = shape.part ? shape.part->radius : 0;
+        for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
+          lower = lower.cwiseMin(Vec3(p.array() - radius));
+          upper = upper.cwiseMax(Vec3(p.array() + radius));
+        }
+      }
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p(corner & 1 ? upper.x() : lower.x(), corner & 2 ? upper.y() : lower.y(),
+                     corner & 4 ? upper.z() : lower.z());
+        corners_.push_back({body.frame, p});
+      }
+    }
+  }
+
+  /// Metres: what the farthest corner goes.
+  double between(const std::vector<Transform>& from, const std::vector<Transform>& to) const {
+    double farthest = 0;
+    for (const auto& [frame, p] : corners_)
+      farthest = std::max(farthest, (to[frame] * p - from[frame] * p).norm());
+    return farthest;
+  }
+
+ private:
+  struct Corner {
+    std::size_t frame;
+    Vec3 p;
+  };
+  std::vector<Corner> corners_;
+};
+
+/// Radians, of the frame that turns most.
+double turnBetween(const std::vector<Transform>& from, const std::vector<Transform>& to) {
+  double largest = 0;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    largest = std::max(largest,
+                       Eigen::Quaterniond(from[i].m).angularDistance(Eigen::Quaterniond(to[i].m)));
+  return largest;
+}
+
+/// The values of t in an edge: even steps, and those of its findings.
+std::vector<double> timesOf(std::size_t edge, double steps,
+                            const std::vector<PathFinding>& findings) {
+  std::vector<double> times;
+  const auto count = static_cast<int>(std::max(1.0, std::ceil(steps)));
+  for (int k = 0; k <= count; ++k) times.push_back(static_cast<double>(k) / count);
+  for (const PathFinding& finding : findings)
+    if (static_cast<std::size_t>(finding.edge) == edge)
+      times.push_back(std::clamp(finding.t, 0.0, 1.0));
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace
+
+PathSamples samplePath(const Problem& problem, const Path& path,
+                       const std::vector<PathFinding>& findings) {
+  const Travel travel(problem);
+  const auto poses = [&](std::size_t edge, double t) {
+    if (edge + 1 >= path.size()) return framePoses(problem.tree, path[edge]);
+    return framePoses(problem.tree, problem.space.interpolate(path[edge], path[edge + 1], t));
+  };
+  const std::size_t edges = path.size() - 1;
+  std::vector<double> ways(edges), turns(edges);
+  double way = 0;
+  for (std::size_t edge = 0; edge < edges; ++edge) {
+    std::vector<Transform> from = poses(edge, 0);
+    for (int k = 1; k <= kLook; ++k) {
+      std::vector<Transform> to = poses(edge, static_cast<double>(k) / kLook);
+      ways[edge] += travel.between(from, to);
+      turns[edge] += turnBetween(from, to);
+      from = std::move(to);
+    }
+    way += ways[edge];
+  }
+  std::vector<double> steps(edges);
+  double sum = 0;
+  for (std::size_t edge = 0; edge < edges; ++edge) {
+    const double share = way > 0 ? ways[edge] / way : 0;
+    sum += steps[edge] = std::max({4.0, share / kShare, turns[edge] / kTurn});
+  }
+
+  PathSamples result;
+  result.samples.push_back({0, 0, 0, poses(0, 0)});
+  result.states.push_back(0);
+  for (std::size_t edge = 0; edge < edges; ++edge) {
+    const double fewer = std::min(1.0, kMostSamples / sum);
+    for (const double t : timesOf(edge, fewer * steps[edge], findings)) {
+      if (t == 0) continue;  // the last of the edge before
+      PathSample sample{edge, t, 0, poses(edge, t)};
+      const PathSample& before = result.samples.back();
+      sample.at = before.at + travel.between(before.X_WF, sample.X_WF);
+      result.samples.push_back(std::move(sample));
+    }
+    result.states.push_back(result.samples.size() - 1);
+  }
+  // Where nothing goes anywhere, states are evenly spaced.
+  const double length = result.samples.back().at;
+  for (std::size_t i = 1; i < result.samples.size(); ++i)
+    result.samples[i].at =
+        length > 0 ? result.samples[i].at / length
+                   : static_cast<double>(i) / static_cast<double>(result.samples.size() - 1);
+  for (const PathFinding& finding : findings) {
+    const auto edge = std::min(static_cast<std::size_t>(finding.edge), edges);
+    std::size_t at = result.states[edge];
+    if (finding.t > 0 && edge < edges) {
+      ++at;
+      while (at < result.states[edge + 1] && result.samples[at].t < finding.t) ++at;
+    }
+    result.findings.push_back(at);
+  }
+  return result;
+}
+
+}  // namespace corridor::view

@@ -1,0 +1,290 @@
+#include "planner/view/view_page.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "planner/checker/checker.h"
+#include "planner/checker/problem_goal.h"
+#include "planner/checker/reach.h"
+#include "planner/view/closest_pairs.h"
+#include "planner/view/display_scene.h"
+#include "planner/view/page_buffers.h"
+#include "planner/view/page_files.h"
+#include "planner/view/page_text.h"
+#include "planner/view/path_samples.h"
+#include "planner/view/tree_boxes.h"
+
+namespace corridor {
+
+// What the page's typed arrays are read as.
+static_assert(std::endian::native == std::endian::little);
+
+namespace view {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kMostDistances = 500;  // samples whose closest pair is told
+constexpr std::size_t kMostBoxes = 16'000;   // of all trees together: 640 KB
+constexpr std::size_t kMostGoals = 8;        // shown
+
+ordered_json jsonOf(const PageBuffers::View& view) {
+  return {view.type, view.offset, view.count};
+}
+
+ordered_json jsonOf(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// The data of a page: JSON, and the arrays that it names.
+class PageData {
+ public:
+  PageData(const Problem& problem, const std::optional<ViewedPath>& path)
+      : problem_(problem), path_(path), scene_(displayScene(problem)), checker_(problem) {}
+
+  ordered_json make() {
+    json_ = {{"format", "corridor-view-1"},
+             {"name", problem_.name},
+             {"file", problem_.file.filename().string()},
+             {"origin", jsonOf(scene_.origin)},
+             {"planar", scene_.planar}};
+    addScene();
+    addEnds();
+    addPairs();
+    addTrees();
+    json_["notes"] = problem_.notes;
+    if (path_) {
+      addSolution();
+      addPath();
+    }
+    return json_;
+  }
+
+  const PageBuffers& buffers() const { return buffers_; }
+
+ private:
+  void addScene() {
+    ordered_json& robots = json_["robots"] = ordered_json::array();
+    for (const ProblemRobot& robot : problem_.robots)
+      robots.push_back({{"name", robot.name}, {"model", robot.model.name}});
+    ordered_json& meshes = json_["meshes"] = ordered_json::array();
+    for (const DisplayMesh& mesh : scene_.meshes)
+      meshes.push_back(
+          {{"origin", jsonOf(mesh.origin)},
+           {"positions", jsonOf(buffers_.add(mesh.positions))},
+           {"indices", jsonOf(buffers_.addIndices(mesh.indices, mesh.positions.size() / 3))}});
+    ordered_json& bodies = json_["bodies"] = ordered_json::array();
+    for (const DisplayBody& body : scene_.bodies)
+      bodies.push_back({{"name", body.name},
+                        {"mesh", body.mesh},
+                        {"frame", frameNumber(body.frame)},
+                        {"robot", body.robot ? ordered_json(*body.robot) : ordered_json()}});
+  }
+
+  /// -1: the world's; else the index in the page's poses.
+  int frameNumber(std::size_t frame) const {
+    if (frame == 0) return -1;
+    return static_cast<int>(std::lower_bound(scene_.frames.begin(), scene_.frames.end(), frame) -
+                            scene_.frames.begin());
+  }
+
+  ordered_json poses(const Configuration& q) {
+    return jsonOf(buffers_.add(displayPoses(scene_, framePoses(problem_.tree, q))));
+  }
+
+  void addEnds() {
+    json_["start"] = poses(problem_.start);
+    ordered_json& goals = json_["goals"] = ordered_json::array();
+    for (const Configuration& goal : problem_.goals)
+      if (goals.size() < kMostGoals) goals.push_back(poses(goal));
+    json_["goal_count"] = problem_.goals.size();
+  }
+
+  /// What is tested, what isn't and why.
+  void addPairs() {
+    std::size_t tested = 0;
+    std::map<std::string, std::vector<std::uint32_t>> skipped;
+    std::vector<std::uint32_t> far;
+    const std::vector<ReachBox> reach = reachOf(problem_);
+    for (const ProblemPair& pair : problem_.pairs) {
+      tested += pair.skipped.empty();
+      if (pair.skipped.empty() && !outOfReach(problem_, reach[pair.a], reach[pair.b])) continue;
+      std::vector<std::uint32_t>& list = pair.skipped.empty() ? far : skipped[pair.skipped];
+      list.push_back(static_cast<std::uint32_t>(pair.a));
+      list.push_back(static_cast<std::uint32_t>(pair.b));
+    }
+    const std::size_t bodies = problem_.bodies.size();
+    ordered_json& pairs = json_["pairs"] = {{"tested", tested}, {"skipped", ordered_json::array()}};
+    for (const auto& [reason, list] : skipped)
+      pairs["skipped"].push_back(
+          {{"reason", reason}, {"pairs", jsonOf(buffers_.addIndices(list, bodies))}});
+    pairs["far"] = jsonOf(buffers_.addIndices(far, bodies));
+  }
+
+  /// Of each mesh the boxes of its bodies' shapes, level by level.
+  void addTrees() {
+    ordered_json& trees = json_["trees"] = ordered_json::array();
+    std::vector<bool> done(scene_.meshes.size(), false);
+    const std::size_t most =
+        kMostBoxes / std::max<std::size_t>(1, checker_.scene().bodies().size());
+    for (std::size_t body = 0, shape = 0; body < problem_.bodies.size(); ++body) {
+      const std::size_t first = shape;
+      shape += problem_.bodies[body].shapes.size();
+      const std::size_t mesh = scene_.bodies[body].mesh;
+      if (done[mesh]) continue;
+      done[mesh] = true;
+      ordered_json all = ordered_json::array();
+      for (std::size_t i = first; i < shape; ++i) {
+        const WideObbTree& tree = checker_.scene().bodies()[i].body.tree();
+        const TreeBoxes boxes =
+            treeBoxes(tree, scene_.meshes[mesh].origin, std::max<std::size_t>(most, 85));
+        all.push_back({{"counts", boxes.counts},
+                       {"boxes", jsonOf(buffers_.add(boxes.numbers))},
+                       {"leaves", jsonOf(buffers_.add(boxes.leaves))},
+                       {"whole", boxes.counts.size() > 1 || tree.part()}});
+      }
+      trees.push_back({{"mesh", mesh}, {"shapes", all}});
+    }
+  }
+
+  void addSolution() {
+    const Solution& s = path_->solution;
+    const VerifyReport& r = path_->report;
+    const PathLength length = lengthOf(problem_.space, s.path);
+    bool lengths = false, angles = false;
+    for (const Coordinate& c : problem_.space.coordinates())
+      (c.kind == Coordinate::Kind::line && !c.angular ? lengths : angles) = true;
+    ordered_json& solution = json_["solution"] = {
+        {"planner", s.planner},
+        {"certified", s.certified},
+        {"checker", s.checker},
+        {"states", s.path.size()},
+        {"length_m", lengths ? ordered_json(length.metres) : ordered_json()},
+        {"rotation_rad", angles ? ordered_json(length.radians) : ordered_json()},
+        {"other_files", !s.digest.empty() && s.digest != problem_.digest},
+        {"margin_m", r.margin}};
+    if (!s.digest.empty()) solution["seed"] = s.seed;
+    const auto name = [](PathVerdict verdict) {
+      return verdict == PathVerdict::proved    ? "proved"
+             : verdict == PathVerdict::refuted ? "refuted"
+                                               : "undecided";
+    };
+    ordered_json& verdict = json_["verdict"] = {{"verdict", name(r.verdict)},
+                                                {"edges", r.motion.edges},
+                                                {"edges_proved", r.motion.edgesProved},
+                                                {"violations", r.violations},
+                                                {"findings", ordered_json::array()}};
+    if (r.motion.verdict == PathVerdict::proved) {
+      verdict["clearance_m"] = r.motion.provenClearance;
+      verdict["distance_met_m"] = r.motion.smallestDistanceMet;
+    }
+    for (const PathFinding& f : r.motion.findings)
+      verdict["findings"].push_back({{"verdict", name(f.verdict)},
+                                     {"reason", f.reason},
+                                     {"edge", f.edge},
+                                     {"t", f.t},
+                                     {"a", bodyNamed(f.a)},
+                                     {"b", bodyNamed(f.b)},
+                                     {"point", jsonOf(Vec3(f.point - scene_.origin))},
+                                     {"gap_m", f.gap}});
+  }
+
+  ordered_json bodyNamed(const std::string& name) const {
+    for (std::size_t i = 0; i < problem_.bodies.size(); ++i)
+      if (problem_.bodies[i].name == name) return i;
+    return {};
+  }
+
+  void addPath() {
+    const std::vector<PathFinding>& findings = path_->report.motion.findings;
+    const PathSamples samples = samplePath(problem_, path_->solution.path, findings);
+    std::vector<float> at, t, poses;
+    std::vector<std::uint32_t> edges;
+    for (const PathSample& sample : samples.samples) {
+      at.push_back(static_cast<float>(sample.at));
+      t.push_back(static_cast<float>(sample.t));
+      edges.push_back(static_cast<std::uint32_t>(sample.edge));
+      const std::vector<float> pose = displayPoses(scene_, sample.X_WF);
+      poses.insert(poses.end(), pose.begin(), pose.end());
+    }
+    std::vector<int> trace;
+    for (const std::size_t frame : scene_.lastFrames) trace.push_back(frameNumber(frame));
+    json_["path"] = {{"at", jsonOf(buffers_.add(at))},
+                     {"edge", jsonOf(buffers_.add(edges))},
+                     {"t", jsonOf(buffers_.add(t))},
+                     {"poses", jsonOf(buffers_.add(poses))},
+                     {"states", samples.states},
+                     {"findings", samples.findings},
+                     {"trace", trace}};
+    addDistances(samples);
+  }
+
+  /// Of all states and findings, and of samples evenly between.
+  void addDistances(const PathSamples& samples) {
+    const std::size_t count = samples.samples.size();
+    const std::size_t stride = (count + kMostDistances - 1) / kMostDistances;
+    std::vector<bool> chosen(count, false);
+    for (std::size_t i = 0; i < count; i += stride) chosen[i] = true;
+    for (const std::size_t i : samples.findings) chosen[i] = true;
+    if (samples.states.size() <= 2 * kMostDistances)
+      for (const std::size_t i : samples.states) chosen[i] = true;
+    std::vector<std::uint32_t> sample, bodies;
+    std::vector<float> metres, points;
+    QueryContext context;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!chosen[i]) continue;
+      const std::optional<ClosestPair> pair =
+          closestPair(checker_, samples.samples[i].X_WF, context);
+      if (!pair) return;
+      sample.push_back(static_cast<std::uint32_t>(i));
+      metres.push_back(static_cast<float>(pair->distance));
+      bodies.push_back(static_cast<std::uint32_t>(pair->a));
+      bodies.push_back(static_cast<std::uint32_t>(pair->b));
+      for (const Vec3& p : {pair->p_WA, pair->p_WB})
+        for (int k = 0; k < 3; ++k) points.push_back(static_cast<float>(p[k] - scene_.origin[k]));
+    }
+    json_["distances"] = {{"sample", jsonOf(buffers_.add(sample))},
+                          {"metres", jsonOf(buffers_.add(metres))},
+                          {"bodies", jsonOf(buffers_.addIndices(bodies, problem_.bodies.size()))},
+                          {"points", jsonOf(buffers_.add(points))}};
+  }
+
+  const Problem& problem_;
+  const std::optional<ViewedPath>& path_;
+  DisplayScene scene_;
+  Checker checker_;
+  PageBuffers buffers_;
+  ordered_json json_;
+};
+
+/// The page's own scripts, in the order in which they need each other.
+constexpr std::array kScripts = {"data.js",   "shapes.js", "stage.js", "robots.js", "glass.js",
+                                 "extras.js", "chart.js",  "panel.js", "main.js"};
+
+}  // namespace
+}  // namespace view
+
+std::string viewPage(const Problem& problem, const std::optional<ViewedPath>& path) {
+  using namespace view;
+  PageData data(problem, path);
+  // Names are of files that need not be UTF-8: what is not is shown as such.
+  const std::string json =
+      data.make().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  std::string scripts;
+  for (const char* name : kScripts)
+    scripts += "<script>\n" + std::string(pageFile(name)) + "</script>\n";
+  return filled(pageFile("view.html"), {{"title", escapedHtml(problem.name)},
+                                        {"style", std::string(pageFile("view.css"))},
+                                        {"three", std::string(pageFile("three.min.js"))},
+                                        {"orbit", std::string(pageFile("OrbitControls.js"))},
+                                        {"data", scriptJson(json)},
+                                        {"buffers", base64(data.buffers().bytes())},
+                                        {"scripts", scripts}});
+}
+
+}  // namespace corridor
