@@ -16,6 +16,7 @@
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_yaml.h"
 #include "planner/benchmark/peers.h"
+#include "planner/benchmark/report.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/write_reports.h"
@@ -164,7 +165,10 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   // gone, a pipe that is closed.
   std::exception_ptr unwritten;
   try {
-    if (a.output && any) writeReports(campaign, result, *a.output);
+    if (a.output && any) {
+      writeReports(campaign, result, *a.output);
+      writeReport(campaign, result.cells, *a.output);
+    }
   } catch (const InputError&) {
     unwritten = std::current_exception();
   }

@@ -8,7 +8,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/simd_target.h"
-#include "planner/app/cost_model.h"
+#include "planner/benchmark/cost_model.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"

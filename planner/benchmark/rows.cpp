@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "planner/benchmark/statistics.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -211,20 +212,6 @@ std::string tableOf(const std::vector<Row>& rows) {
   }
   for (const std::string& line : lines) text += line + '\n';
   return text;
-}
-
-double medianOf(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-double quantileOf(std::vector<double> values, double p) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(p * static_cast<double>(values.size()));
-  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
 }  // namespace corridor

@@ -33,9 +33,4 @@ std::string csvOf(const std::vector<Row>& rows);
 /// nothing) is left out, unless it is `refuted`.
 std::string tableOf(const std::vector<Row>& rows);
 
-/// The middle one, or the mean of the two in the middle; of a share p of the values none is larger
-/// than the quantile (the nearest rank: of ten values, 0.95 is the largest). NaN of no values.
-double medianOf(std::vector<double> values);
-double quantileOf(std::vector<double> values, double p);
-
 }  // namespace corridor

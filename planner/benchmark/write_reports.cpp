@@ -13,15 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file's name that every system takes: "thin_plate.discrete-0.01.log".
+}  // namespace
+
 std::string fileName(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
       [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; }, '-');
   return text;
 }
-
-}  // namespace
 
 bool makeReportFolder(const fs::path& folder) {
   std::error_code failure, ignored;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "planner/benchmark/campaign.h"
@@ -17,5 +18,8 @@ bool makeReportFolder(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> writeReports(const Campaign& campaign,
                                                 const CampaignResult& result,
                                                 const std::filesystem::path& folder);
+
+/// A file's name that every system takes: "thin_plate.discrete-0.01".
+std::string fileName(std::string text);
 
 }  // namespace corridor

@@ -12,7 +12,7 @@
 ///
 /// *Posing* is what all of ours begin with, to tell where one box is seen from the other. Peers:
 /// FCL's overlap of OBBs, which promises nothing about rounding; and our wide tree's kernel, by
-/// least squares over whole queries (planner/app/cost_model.h): C_v, a pair's share of walking
+/// least squares over whole queries (planner/benchmark/cost_model.h): C_v, a pair's share of walking
 /// included.
 #include <algorithm>
 #include <chrono>
@@ -36,7 +36,7 @@
 #include "collision/queries/interference_wide.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
-#include "planner/app/cost_model.h"
+#include "planner/benchmark/cost_model.h"
 #include "planner/app/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/support/support.h"
@@ -188,7 +188,7 @@ class Fcl {
 class Wide {
  public:
   explicit Wide(const Recorded& r) : r_(r), a_(r.w.a), b_(r.w.b), costs_(r.w.poses.size()) {
-    for (app::QueryCost& c : costs_) c.ns = HUGE_VAL;
+    for (QueryCost& c : costs_) c.ns = HUGE_VAL;
   }
   void pass() {
     for (std::size_t i = 0; i < costs_.size(); ++i) {
@@ -201,17 +201,17 @@ class Wide {
     }
   }
   double boxTestNs() const {
-    std::vector<app::QueryCost> walked;  // what the first node decides is a call's cost
+    std::vector<QueryCost> walked;  // what the first node decides is a call's cost
     std::ranges::copy_if(costs_, std::back_inserter(walked),
-                         [](const app::QueryCost& c) { return c.boxTests > 32; });
-    return walked.empty() ? 0 : app::fittedCosts(walked).box;
+                         [](const QueryCost& c) { return c.boxTests > 32; });
+    return walked.empty() ? 0 : fittedCosts(walked).box;
   }
 
  private:
   const Recorded& r_;
   WideObbTree a_, b_;
   QueryContext context_;
-  std::vector<app::QueryCost> costs_;
+  std::vector<QueryCost> costs_;
 };
 
 /// What every test of ours begins with, and nothing else.

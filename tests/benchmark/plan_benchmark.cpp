@@ -11,6 +11,7 @@
 
 #include "planner/benchmark/peers.h"
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/statistics.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/write_reports.h"
 #include "tests/benchmark/arguments.h"

@@ -1,5 +1,6 @@
 // Figures of several runs, and how they are written.
 #include "planner/benchmark/rows.h"
+#include "planner/benchmark/statistics.h"
 
 #include <cmath>
 

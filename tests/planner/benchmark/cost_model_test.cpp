@@ -1,8 +1,8 @@
-#include "planner/app/cost_model.h"
+#include "planner/benchmark/cost_model.h"
 
 #include <gtest/gtest.h>
 
-namespace corridor::app {
+namespace corridor {
 namespace {
 
 TEST(CostModel, FindsTheCostsOfQueriesThatFollowIt) {
@@ -57,4 +57,4 @@ TEST(CostModel, Quantiles) {
 }
 
 }  // namespace
-}  // namespace corridor::app
+}  // namespace corridor

@@ -7,7 +7,7 @@
 
 /// T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1): what queries cost, told from
 /// counts.
-namespace corridor::app {
+namespace corridor {
 
 /// What a query did and how long it took.
 struct QueryCost {
@@ -56,4 +56,4 @@ inline double quantile(std::vector<double> numbers, double share) {
   return numbers[static_cast<std::size_t>(rank)];
 }
 
-}  // namespace corridor::app
+}  // namespace corridor

@@ -1,0 +1,97 @@
+#include "planner/benchmark/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace corridor {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Metres, or where nothing moves as a whole radians, before and after simplifying.
+double lengthShare(const BenchmarkRun& run) {
+  return run.rawLength.metres > 0    ? run.length.metres / run.rawLength.metres
+         : run.rawLength.radians > 0 ? run.length.radians / run.rawLength.radians
+                                     : kNone;
+}
+
+VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
+  VariantScore::Cost cost{fittedCosts(queries), kNone, kNone, kNone};
+  std::vector<double> ratios;
+  for (const QueryCost& query : queries)
+    if (const double predicted = cost.model.predicted(query); predicted > 0)
+      ratios.push_back(query.ns / predicted);
+  if (ratios.empty()) return cost;
+  cost.ratioP5 = quantile(ratios, 0.05);
+  cost.ratioMedian = quantile(ratios, 0.5);
+  cost.ratioP95 = quantile(ratios, 0.95);
+  return cost;
+}
+
+/// What `runs` solved, in the time of the first variant's run of the same seed.
+void addRatios(const CampaignCell& cell, const CampaignCell& first, std::vector<double>& ratios) {
+  for (const BenchmarkRun& run : cell.runs)
+    for (const BenchmarkRun& other : first.runs)
+      if (run.seed == other.seed && run.solved && other.solved && other.processorTime > 0)
+        ratios.push_back(run.processorTime / other.processorTime);
+}
+
+}  // namespace
+
+std::optional<QueryCost> checkingCost(const BenchmarkRun& run) {
+  const QueryCost cost{static_cast<double>(run.counters.boxTests),
+                       static_cast<double>(run.counters.triangleTests), 1e9 * run.checkingTime};
+  if (!(cost.ns > 0) || cost.boxTests + cost.triangleTests == 0) return std::nullopt;
+  return cost;
+}
+
+std::vector<VariantScore> scoresOf(const Campaign& campaign,
+                                   const std::vector<CampaignCell>& cells) {
+  std::vector<VariantScore> scores;
+  for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
+    VariantScore score;
+    score.variant = v;
+    std::vector<double> ratios, shares, lengths;
+    std::vector<QueryCost> costs;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const CampaignCell& cell = cells[c];
+      if (cell.variant != v) continue;
+      addRatios(cell, cells[c - v], ratios);  // a problem's and planner's variants are neighbours
+      for (const BenchmarkRun& run : cell.runs) {
+        ++score.runs;
+        score.failed += run.result == "failed";
+        score.solved += run.solved;
+        score.certified += run.certified;
+        score.proved += run.verdict == "proved";
+        score.refuted += run.verdict == "refuted";
+        score.undecided += run.verdict == "undecided";
+        if (const auto cost = checkingCost(run); cost && !campaign.variants[v].peer)
+          costs.push_back(*cost);
+        if (!run.solved) continue;
+        shares.push_back(run.checkingTime / run.time);
+        if (const double share = lengthShare(run); !std::isnan(share)) lengths.push_back(share);
+      }
+    }
+    score.solvedShare = shareInterval(score.solved, score.runs);
+    score.refutedShare = shareInterval(score.refuted, score.judged());
+    score.pairs = ratios.size();
+    score.timeRatio = medianOf(ratios);
+    score.timeRatioInterval = medianInterval(ratios);
+    if (!costs.empty()) score.cost = costOf(costs);
+    score.checkingShare = medianOf(shares);
+    score.lengthShare = medianOf(lengths);
+    scores.push_back(score);
+  }
+  const auto rank = [](const VariantScore& s) {
+    const double share =
+        s.judged() > 0 ? static_cast<double>(s.refuted) / static_cast<double>(s.judged()) : 0;
+    return std::tuple(s.solved == 0, share, std::isnan(s.timeRatio) ? HUGE_VAL : s.timeRatio);
+  };
+  std::stable_sort(scores.begin(), scores.end(),
+                   [&](const VariantScore& a, const VariantScore& b) { return rank(a) < rank(b); });
+  return scores;
+}
+
+}  // namespace corridor

@@ -1,0 +1,182 @@
+#include "planner/benchmark/plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+namespace {
+
+/// What gnuplot would take for syntax, in the shape of what it was: names are users' own.
+std::string plain(std::string text) {
+  for (char& c : text)
+    if (c == '"' || c == '\'' || c == '\\' || c == '<' || c == '>' || c == '&' || c == '`')
+      c = c == '<' || c == '>' || c == '&' ? '-' : ' ';
+  std::replace(text.begin(), text.end(), '\r', ' ');
+  return text;
+}
+/// In double quotes, line breaks as gnuplot reads them.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : plain(text)) out += c == '\n' ? std::string("\\n") : std::string(1, c);
+  return out + "\"";
+}
+std::string number(double value) {
+  return std::isfinite(value) ? shortest(value) : "NaN";
+}
+
+class Script {
+ public:
+  explicit Script(const Plot& plot, int width, int height) : plot_(plot) {
+    out_ << "set terminal svg size " << width << "," << height
+         << " dynamic noenhanced font \"sans-serif,13\" linewidth 1.2\n"
+         << "set encoding utf8\nset border 3 lc rgb \"#94a3b8\"\n"
+         << "set tics nomirror out textcolor rgb \"#334155\"\n"
+         << "set grid lt 1 lc rgb \"#e2e8f0\" lw 0.6\n"
+         << "set key outside top left horizontal Left reverse samplen 1.5 width 1 textcolor rgb "
+            "\"#334155\"\n"
+         << "set title " << quoted(plot.title) << " font \",14\" offset 0,-0.4\n"
+         << "set xlabel " << quoted(plot.xLabel) << "\nset ylabel " << quoted(plot.yLabel) << "\n"
+         << "set bars 0.4\n";
+    axis('x', plot.logX, plot.rangeX);
+    axis('y', plot.logY, plot.rangeY);
+    std::string drawn;
+    for (std::size_t i = 0; i < plot.series.size(); ++i) drawn += series(i);
+    // gnuplot has no picture of nothing.
+    out_ << (drawn.empty() ? "set xrange [1:2]\nset yrange [1:2]\nset label \"no data\" at graph "
+                             "0.5,0.5 center\nplot NaN notitle\n"
+                           : "plot " + drawn.substr(2) + "\n");
+  }
+  std::string text() const { return out_.str(); }
+
+ private:
+  void axis(char name, bool log, const std::optional<std::pair<double, double>>& range) {
+    if (log)
+      out_ << "set logscale " << name << "\nset format " << name << " \"%g\"\nset m" << name
+           << "tics 10\n";
+    if (range)
+      out_ << "set " << name << "range [" << number(range->first) << ":" << number(range->second)
+           << "]\n";
+  }
+  bool shown(const PlotPoint& p) const {
+    return std::isfinite(p.x) && std::isfinite(p.y) && (!plot_.logX || p.x > 0) &&
+           (!plot_.logY || p.y > 0);
+  }
+  /// Its data, and how it is drawn.
+  std::string series(std::size_t i) {
+    const PlotSeries& s = plot_.series[i];
+    std::ostringstream data;
+    bool barsX = false, barsY = false;
+    for (const PlotPoint& p : s.points) {
+      if (!shown(p)) continue;
+      const bool x = std::isfinite(p.fromX) && std::isfinite(p.toX);
+      const bool y = std::isfinite(p.fromY) && std::isfinite(p.toY);
+      barsX |= x, barsY |= y;
+      data << number(p.x) << ' ' << number(p.y) << ' ' << number(x ? p.fromX : p.x) << ' '
+           << number(x ? p.toX : p.x) << ' ' << number(y ? p.fromY : p.y) << ' '
+           << number(y ? p.toY : p.y) << ' ' << quoted(p.text) << '\n';
+    }
+    if (data.str().empty()) return "";
+    const std::string block = "$data" + std::to_string(i);
+    out_ << block << " << CORRIDOR_END\n" << data.str() << "CORRIDOR_END\n";
+    const std::string color = " lc rgb \"" + plotColor(s.color) + "\"";
+    const std::string title = s.name.empty() ? std::string(" notitle") : " title " + quoted(s.name);
+    if (s.style != PlotSeries::Style::points)
+      return ", " + block + " using 1:2 with lines lw 1.8" +
+             (s.style == PlotSeries::Style::dashes ? " dt (6,4)" : "") + color + title;
+    std::string drawn;
+    if (barsX)
+      drawn += ", " + block + " using 1:2:3:4 with xerrorbars pt -1 lw 1" + color + " notitle";
+    if (barsY)
+      drawn += ", " + block + " using 1:2:5:6 with yerrorbars pt -1 lw 1" + color + " notitle";
+    drawn +=
+        ", " + block + " using 1:2:7 with labels hypertext point pt 7 ps 0.7" + color + " notitle";
+    if (!s.name.empty()) drawn += ", NaN with points pt 7 ps 0.9" + color + title;
+    return drawn;
+  }
+
+  const Plot& plot_;
+  std::ostringstream out_;
+};
+
+std::string runGnuplot(const std::string& script) {
+  std::string file = (std::filesystem::temp_directory_path() / "corridor_plot_XXXXXX").string();
+  const int made = ::mkstemp(file.data());
+  if (made < 0) throw std::runtime_error("no file for a plot can be made: " + file);
+  ::close(made);
+  std::ofstream(file) << script;
+  std::string out;
+  int status = -1;
+  if (FILE* const pipe = ::popen(("gnuplot '" + file + "' 2>&1").c_str(), "r")) {
+    std::array<char, 65536> part;
+    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe))
+      out.append(part.data(), n);
+    status = ::pclose(pipe);
+  }
+  std::filesystem::remove(file);
+  const auto begin = out.find("<?xml");
+  if (status != 0 || begin == std::string::npos) throw std::runtime_error("gnuplot: " + out);
+  return out.substr(begin);
+}
+
+void replaceAll(std::string& text, const std::string& what, const std::string& by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+std::string plotColor(std::size_t number) {
+  static constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
+                                      "#e69f00", "#6b7280", "#7c3aed", "#84cc16", "#991b1b"};
+  return kColors[number % kColors.size()];
+}
+
+bool canPlot() {
+  static const bool there = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  return there;
+}
+
+std::string svgOf(const Plot& plot, int width, int height) {
+  std::string svg = runGnuplot(Script(plot, width, height).text());
+  std::string prefix;
+  for (const char c : plot.name) prefix += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  for (const char* id : {"gpDot", "gpPt", "textbox", "greybox", "gnuplot_canvas"}) {
+    replaceAll(svg, "id='" + std::string(id), "id='" + prefix + "_" + id);
+    replaceAll(svg, "id=\"" + std::string(id), "id=\"" + prefix + "_" + id);
+    replaceAll(svg, "href='#" + std::string(id), "href='#" + prefix + "_" + id);
+    replaceAll(svg, "url(#" + std::string(id), "url(#" + prefix + "_" + id);
+  }
+  replaceAll(svg, "id=\"gnuplot_plot_", "id=\"" + prefix + "_plot_");
+  replaceAll(svg, "<title>Gnuplot</title>", "<title>" + plain(plot.title) + "</title>");
+  return svg;
+}
+
+std::string csvOf(const Plot& plot) {
+  std::ostringstream out;
+  out << "series,x,y,from_x,to_x,from_y,to_y,text\n";
+  const auto cell = [](double value) { return std::isnan(value) ? "" : shortest(value); };
+  const auto text = [](const std::string& words) {
+    std::string all = "\"";
+    for (const char c : words) all += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return all + "\"";
+  };
+  for (const PlotSeries& s : plot.series)
+    for (const PlotPoint& p : s.points)
+      out << text(s.name) << ',' << cell(p.x) << ',' << cell(p.y) << ',' << cell(p.fromX) << ','
+          << cell(p.toX) << ',' << cell(p.fromY) << ',' << cell(p.toY) << ',' << text(p.text)
+          << '\n';
+  return out.str();
+}
+
+}  // namespace corridor

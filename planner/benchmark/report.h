@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/benchmark/campaign.h"
+
+namespace corridor {
+
+/// Writes a campaign's report into a folder: `report.html`, which loads nothing, and its plots as
+/// `plots/NAME.svg` and their data as `plots/NAME.csv`; what is there of these names is replaced.
+/// Without gnuplot there are no plots, and the page says so.
+/// @returns the files, the page first. @throws InputError where one can't be written.
+std::vector<std::filesystem::path> writeReport(const Campaign& campaign,
+                                               const std::vector<CampaignCell>& cells,
+                                               const std::filesystem::path& folder);
+
+/// The text of a file of planner/benchmark/page/, by its name: embedded by CMakeLists.txt.
+std::string_view reportFile(std::string_view name);
+
+}  // namespace corridor

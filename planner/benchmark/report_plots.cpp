@@ -1,0 +1,185 @@
+#include "planner/benchmark/report_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+namespace corridor {
+namespace {
+
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// Of a problem and a variant: f(cell) for each planner.
+void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::size_t variant,
+              const std::function<void(const CampaignCell&)>& f) {
+  for (const CampaignCell& cell : cells)
+    if (cell.problem == problem && cell.variant == variant) f(cell);
+}
+
+/// Steps up by 1/of at each value, from the lower to the upper end of the plot.
+std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double first,
+                             double last) {
+  std::sort(values.begin(), values.end());
+  std::vector<PlotPoint> points{{first, 0}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double x = std::max(values[i], first);
+    points.push_back({x, static_cast<double>(i) / static_cast<double>(of)});
+    points.push_back({x, static_cast<double>(i + 1) / static_cast<double>(of)});
+  }
+  points.push_back({std::max(last, points.back().x), points.back().y});
+  return points;
+}
+
+/// The decades around values above 0.
+std::pair<double, double> decades(const std::vector<double>& values) {
+  double least = HUGE_VAL, most = 0;
+  for (const double v : values)
+    if (v > 0) least = std::min(least, v), most = std::max(most, v);
+  if (!(most > 0)) return {1e-3, 1};
+  return {std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
+}
+
+}  // namespace
+
+Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                    std::size_t problem) {
+  const std::string& name = campaign.problemNames[problem];
+  Plot plot{"solved." + name, name, "time, s", "share of runs", true, false, {}, {}, {}};
+  plot.rangeY = {0, 1.02};
+  struct Times {
+    std::vector<double> solved, held;
+    std::size_t runs = 0;
+  };
+  std::vector<Times> all(campaign.variants.size());
+  std::vector<double> times;
+  for (std::size_t v = 0; v < all.size(); ++v)
+    forCells(cells, problem, v, [&](const CampaignCell& cell) {
+      all[v].runs += cell.runs.size();
+      for (const BenchmarkRun& run : cell.runs) {
+        if (!run.solved) continue;
+        times.push_back(run.time);
+        all[v].solved.push_back(run.time);
+        if (run.verdict != "refuted") all[v].held.push_back(run.time);
+      }
+    });
+  plot.rangeX = decades(times);
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    if (all[v].runs == 0) continue;
+    const auto [first, last] = *plot.rangeX;
+    if (all[v].held.size() < all[v].solved.size())
+      plot.series.push_back(
+          {"", v, PlotSeries::Style::dashes, steps(all[v].solved, all[v].runs, first, last)});
+    plot.series.push_back({campaign.variants[v].name, v, PlotSeries::Style::line,
+                           steps(all[v].held, all[v].runs, first, last)});
+  }
+  return plot;
+}
+
+Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                      std::size_t problem) {
+  const std::string& name = campaign.problemNames[problem];
+  Plot plot{
+      "error." + name, name, "median time, s", "share of paths refuted", true, false, {}, {}, {}};
+  plot.rangeY = {-0.03, 1.03};
+  for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
+    PlotSeries series{campaign.variants[v].name, v, PlotSeries::Style::points, {}};
+    forCells(cells, problem, v, [&](const CampaignCell& cell) {
+      std::vector<double> times;
+      std::size_t judged = 0, refuted = 0;
+      for (const BenchmarkRun& run : cell.runs) {
+        if (run.solved) times.push_back(run.time);
+        judged += !run.verdict.empty();
+        refuted += run.verdict == "refuted";
+      }
+      if (judged == 0) return;
+      const Interval time = medianInterval(times), share = shareInterval(refuted, judged);
+      const double y = static_cast<double>(refuted) / static_cast<double>(judged);
+      series.points.push_back({medianOf(times), y, time.from, time.to, share.from, share.to,
+                               campaign.variants[v].name + ", " + cell.planner.label + "\n" +
+                                   std::to_string(refuted) + " of " + std::to_string(judged) +
+                                   " paths refuted\n" + digits(medianOf(times)) + " s (median)"});
+    });
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                std::size_t problem) {
+  const std::string& name = campaign.problemNames[problem];
+  Plot plot{"clearance." + name,
+            name,
+            "least distance of the path, m",
+            "share of paths",
+            true,
+            false,
+            {},
+            {},
+            {}};
+  plot.rangeY = {0, 1.02};
+  std::vector<std::vector<double>> all(campaign.variants.size());
+  std::vector<double> distances;
+  for (std::size_t v = 0; v < all.size(); ++v)
+    forCells(cells, problem, v, [&](const CampaignCell& cell) {
+      for (const BenchmarkRun& run : cell.runs)
+        if (run.leastDistance >= 0) {
+          all[v].push_back(run.leastDistance);
+          distances.push_back(run.leastDistance);
+        }
+    });
+  plot.rangeX = decades(distances);
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (!all[v].empty())
+      plot.series.push_back(
+          {campaign.variants[v].name, v, PlotSeries::Style::line,
+           steps(all[v], all[v].size(), plot.rangeX->first, plot.rangeX->second)});
+  return plot;
+}
+
+Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                   const std::vector<VariantScore>& scores) {
+  Plot plot{"cost",
+            "All problems, a point a run",
+            "N_v C_v + N_p C_p, s",
+            "time in checking, s",
+            true,
+            true,
+            {},
+            {},
+            {}};
+  std::vector<double> both;
+  std::vector<PlotSeries> series;
+  for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
+    const auto score = std::find_if(scores.begin(), scores.end(),
+                                    [&](const VariantScore& s) { return s.variant == v; });
+    if (!score->cost) continue;
+    PlotSeries of{campaign.variants[v].name, v, PlotSeries::Style::points, {}};
+    for (const CampaignCell& cell : cells) {
+      if (cell.variant != v) continue;
+      for (const BenchmarkRun& run : cell.runs)
+        if (const auto cost = checkingCost(run)) {
+          const double predicted = 1e-9 * score->cost->model.predicted(*cost);
+          both.push_back(predicted), both.push_back(1e-9 * cost->ns);
+          PlotPoint point{predicted, 1e-9 * cost->ns};
+          point.text = campaign.problemNames[cell.problem] + ", " + cell.planner.label + ", seed " +
+                       std::to_string(run.seed) + "\n" + of.name + "\nN_v " +
+                       digits(cost->boxTests) + ", N_p " + digits(cost->triangleTests);
+          of.points.push_back(std::move(point));
+        }
+    }
+    series.push_back(std::move(of));
+  }
+  plot.rangeX = plot.rangeY = decades(both);
+  const auto [least, most] = *plot.rangeX;
+  plot.series.push_back(
+      {"as predicted", 6, PlotSeries::Style::dashes, {{least, least}, {most, most}}});
+  plot.series.insert(plot.series.end(), series.begin(), series.end());
+  return plot;
+}
+
+}  // namespace corridor

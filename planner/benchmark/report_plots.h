@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/benchmark/comparison.h"
+#include "planner/benchmark/plot.h"
+
+/// The plots of a campaign's report. Variants have the colour of their number.
+namespace corridor {
+
+/// Runs of a problem, all planners together: the share that is solved by a time, and with that of
+/// the returned paths that hold (dashed: those that were refuted count, too).
+Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                    std::size_t problem);
+/// Of a problem, a point a planner and variant: median time against the share of returned paths
+/// that are refuted, with what both are sure to.
+Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                      std::size_t problem);
+/// Of a problem, the share of returned paths whose least distance is at most x; those in collision
+/// have 0, and where the lines begin.
+Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                std::size_t problem);
+/// A point a run, of all problems: what N_v·C_v + N_p·C_p tells against what was measured.
+Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                   const std::vector<VariantScore>& scores);
+
+}  // namespace corridor

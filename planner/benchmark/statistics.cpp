@@ -1,0 +1,49 @@
+#include "planner/benchmark/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
+
+namespace corridor {
+
+double medianOf(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double quantileOf(std::vector<double> values, double p) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(p * static_cast<double>(values.size()));
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+Interval medianInterval(std::vector<double> values) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  if (n == 0) return {-infinity, infinity};
+  // How many values are below the median is binomial; the largest k with P(fewer than k) small
+  // enough gives the k-th value from below, and from above.
+  const boost::math::binomial_distribution<double> below(static_cast<double>(n), 0.5);
+  std::size_t k = 0;
+  while (k < n / 2 && cdf(below, static_cast<double>(k)) <= (1 - kConfidence) / 2) ++k;
+  return k == 0 ? Interval{-infinity, infinity} : Interval{values[k - 1], values[n - k]};
+}
+
+Interval shareInterval(std::size_t hits, std::size_t of) {
+  if (of == 0) return {0, 1};
+  const double n = static_cast<double>(of), p = static_cast<double>(hits) / n;
+  const double z = quantile(boost::math::normal_distribution<double>(), (1 + kConfidence) / 2);
+  const double scale = 1 / (1 + z * z / n), middle = scale * (p + z * z / (2 * n));
+  const double half = scale * z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  // None seen: the bound is 0 but for rounding, as of all it is 1.
+  return {hits == 0 ? 0 : middle - half, hits == of ? 1 : middle + half};
+}
+
+}  // namespace corridor
