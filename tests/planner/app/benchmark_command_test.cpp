@@ -55,8 +55,8 @@ TEST_F(BenchmarkCommand, FilesTableAndVerdicts) {
   EXPECT_THAT(table[0], testing::MatchesRegex(
                             "problem +variant +planner +runs +solved .* refuted .*time_s +.*"));
   EXPECT_THAT(files("results"),
-              UnorderedElementsAre("campaign.db", "runs.csv", "summary.csv", "hall.certified.log",
-                                   "hall.discrete-0.2.log"));
+              UnorderedElementsAre("campaign.db", "runs.csv", "summary.csv", "report.html", "plots",
+                                   "hall.certified.log", "hall.discrete-0.2.log"));
   const std::vector<std::string> rows = lines(read("results/runs.csv"));
   ASSERT_EQ(rows.size(), 1u + 2 * 2 * 3);
   EXPECT_THAT(rows[0], StartsWith("problem,variant,planner,seed,result,certified,verdict,time_s,"));
@@ -162,8 +162,9 @@ TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
   ASSERT_EQ(run("benchmark hall.yaml --variants discrete:0.05 --runs 1 -o results").status, 0);
   EXPECT_EQ(read("results/notes.txt"), "mine");
   EXPECT_EQ(lines(read("results/runs.csv")).size(), 2u);
-  EXPECT_THAT(files("results"), UnorderedElementsAre("notes.txt", "campaign.db", "runs.csv",
-                                                     "summary.csv", "hall.discrete-0.05.log"));
+  EXPECT_THAT(files("results"),
+              UnorderedElementsAre("notes.txt", "campaign.db", "runs.csv", "summary.csv",
+                                   "report.html", "plots", "hall.discrete-0.05.log"));
 }
 
 TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {

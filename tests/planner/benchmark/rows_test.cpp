@@ -1,11 +1,12 @@
 // Figures of several runs, and how they are written.
 #include "planner/benchmark/rows.h"
-#include "planner/benchmark/statistics.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "planner/benchmark/statistics.h"
 
 namespace corridor {
 namespace {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "planner/benchmark/campaign_yaml.h"
 #include "planner/problem/keys.h"
 
 namespace corridor::test {
@@ -76,6 +77,10 @@ TEST(Schema, ProblemIsInStepWithTheReader) {
 
 TEST(Schema, RobotIsInStepWithTheReader) {
   expectInStep("robots/robot.schema.json", robotKeys(), robotChoices());
+}
+
+TEST(Schema, CampaignIsInStepWithTheReader) {
+  expectInStep("planner/benchmark/campaign.schema.json", campaignKeys(), {});
 }
 
 }  // namespace

@@ -1,0 +1,187 @@
+// The report of a campaign: its ranking, its plots and their data, and names that would be HTML.
+#include "planner/benchmark/report.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/benchmark/comparison.h"
+#include "planner/benchmark/report_plots.h"
+#include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two problems, three variants, one planner, ten runs; figures by rule, without running anything.
+class Report : public testing::Test {
+ protected:
+  Report() {
+    campaign_.name = "made";
+    campaign_.problems = {test::hallProblem(test::Rigid::SE3), test::hallProblem(test::Rigid::SE3)};
+    for (const char* name : {"certified", "discrete:0.1", "discrete:0.01"})
+      campaign_.variants.push_back(readVariant(name));
+    nameProblems(campaign_);
+    cells_ = cellsOf(campaign_);
+    for (CampaignCell& cell : cells_)
+      for (std::uint64_t seed = 1; seed <= 10; ++seed) cell.runs.push_back(run(cell, seed));
+  }
+  ~Report() override { std::filesystem::remove_all(folder_); }
+
+  /// Twice as fast at 0.1, half refuted; ten times as slow at 0.01, a tenth refuted.
+  static BenchmarkRun run(const CampaignCell& cell, std::uint64_t seed) {
+    BenchmarkRun run;
+    const double factor = cell.variant == 0 ? 1 : cell.variant == 1 ? 0.5 : 10;
+    run.seed = seed;
+    run.result = "solved";
+    run.solved = true;
+    run.certified = cell.variant == 0;
+    run.processorTime = run.time = 0.1 * static_cast<double>(seed) * factor;
+    const bool refuted = cell.variant == 1 ? seed > 5 : cell.variant == 2 && seed == 10;
+    run.verdict = refuted ? "refuted" : "proved";
+    run.leastDistance = refuted ? 0 : 0.01 * static_cast<double>(seed);
+    run.counters.boxTests = 1000 * seed;
+    run.counters.triangleTests = 10 * seed * seed;
+    // 100 ns a box test, 1000 ns a pair of triangles.
+    run.checkingTime = 1e-9 * (100.0 * static_cast<double>(run.counters.boxTests) +
+                               1000.0 * static_cast<double>(run.counters.triangleTests));
+    run.rawLength.metres = 4;
+    run.length.metres = 3;
+    return run;
+  }
+  std::string page() const {
+    writeReport(campaign_, cells_, folder_);
+    std::ifstream in(folder_ / "report.html");
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  Campaign campaign_;
+  std::vector<CampaignCell> cells_;
+  std::filesystem::path folder_ = test::newFolder();
+};
+
+TEST_F(Report, Ranking) {
+  const std::vector<VariantScore> scores = scoresOf(campaign_, cells_);
+  ASSERT_EQ(scores.size(), 3u);
+  EXPECT_EQ(scores[0].variant, 0u);  // none refuted
+  EXPECT_EQ(scores[1].variant, 2u);  // few
+  EXPECT_EQ(scores[2].variant, 1u);
+  EXPECT_EQ(scores[2].refuted, 10u);
+  EXPECT_EQ(scores[2].judged(), 20u);
+  EXPECT_EQ(scores[2].pairs, 20u);
+  EXPECT_DOUBLE_EQ(scores[0].timeRatio, 1);
+  EXPECT_DOUBLE_EQ(scores[1].timeRatio, 10);
+  EXPECT_DOUBLE_EQ(scores[2].timeRatio, 0.5);
+  EXPECT_DOUBLE_EQ(scores[0].lengthShare, 0.75);
+  ASSERT_TRUE(scores[0].cost);
+  EXPECT_NEAR(scores[0].cost->model.box, 100, 1e-6);
+  EXPECT_NEAR(scores[0].cost->model.triangle, 1000, 1e-6);
+  EXPECT_NEAR(scores[0].cost->ratioMedian, 1, 1e-9);
+}
+
+TEST_F(Report, AVariantThatSolvesNothingIsLast) {
+  for (CampaignCell& cell : cells_)
+    if (cell.variant == 0)
+      for (BenchmarkRun& run : cell.runs) {
+        run.solved = false;
+        run.verdict.clear();
+        run.result = "not found";
+      }
+  const std::vector<VariantScore> scores = scoresOf(campaign_, cells_);
+  EXPECT_EQ(scores.back().variant, 0u);
+  EXPECT_EQ(scores[0].pairs, 0u);
+  EXPECT_TRUE(std::isnan(scores[0].timeRatio));
+  EXPECT_THAT(page(), HasSubstr("0 of 20"));
+}
+
+TEST_F(Report, PlotsHaveTheirData) {
+  const Plot solved = solvedOverTime(campaign_, cells_, 1);
+  EXPECT_EQ(solved.name, "solved.hall-2");
+  // Dashed besides for the two that were refuted.
+  ASSERT_EQ(solved.series.size(), 5u);
+  EXPECT_EQ(solved.series[0].name, "certified");
+  EXPECT_DOUBLE_EQ(solved.series[0].points.back().y, 1);
+  EXPECT_EQ(solved.series[1].style, PlotSeries::Style::dashes);
+  EXPECT_DOUBLE_EQ(solved.series[1].points.back().y, 1);
+  EXPECT_DOUBLE_EQ(solved.series[2].points.back().y, 0.5);
+  for (const PlotSeries& s : solved.series)
+    for (std::size_t i = 1; i < s.points.size(); ++i) {
+      EXPECT_GE(s.points[i].x, s.points[i - 1].x);
+      EXPECT_GE(s.points[i].y, s.points[i - 1].y);
+    }
+  const Plot error = timeAgainstError(campaign_, cells_, 0);
+  ASSERT_EQ(error.series.size(), 3u);
+  ASSERT_EQ(error.series[1].points.size(), 1u);
+  EXPECT_DOUBLE_EQ(error.series[1].points[0].y, 0.5);
+  EXPECT_NEAR(error.series[1].points[0].x, 0.275, 1e-12);
+  EXPECT_LT(error.series[1].points[0].fromY, 0.5);
+  EXPECT_THAT(error.series[1].points[0].text, HasSubstr("5 of 10 paths refuted"));
+  const Plot clear = clearances(campaign_, cells_, 0);
+  ASSERT_EQ(clear.series.size(), 3u);
+  EXPECT_DOUBLE_EQ(clear.rangeX->first, 0.01);
+  // Half of the paths are at 0: the line begins there.
+  double first = 0;
+  for (const PlotPoint& p : clear.series[1].points)
+    if (p.x <= clear.rangeX->first) first = p.y;
+  EXPECT_GE(first, 0.5);
+  const Plot cost = predictedCost(campaign_, cells_, scoresOf(campaign_, cells_));
+  ASSERT_EQ(cost.series.size(), 4u);
+  EXPECT_EQ(cost.series[1].points.size(), 20u);
+  for (const PlotPoint& p : cost.series[1].points) EXPECT_NEAR(p.x / p.y, 1, 1e-9);
+}
+
+TEST_F(Report, ThePageAndItsFiles) {
+  const auto files = writeReport(campaign_, cells_, folder_);
+  for (const auto& file : files) {
+    EXPECT_TRUE(std::filesystem::exists(file)) << file;
+    EXPECT_GT(std::filesystem::file_size(file), 50u) << file;
+  }
+  EXPECT_EQ(files.size(), 1 + (canPlot() ? 2u : 1u) * (3 * 2 + 1));
+  const std::string text = page();
+  EXPECT_THAT(text, HasSubstr("60 runs: 60 returned a path; of 60 paths that were judged 12 are "
+                              "refuted."));
+  EXPECT_THAT(text, Not(HasSubstr("{{")));
+  for (const char* outside : {"src=", "http://www.w3.org/1999/xhtml", "https://", "@import"})
+    EXPECT_THAT(text, Not(HasSubstr(outside)));
+  if (canPlot()) {
+    EXPECT_THAT(text, HasSubstr("data-plot=\"error.hall-2\""));
+  } else {
+    EXPECT_THAT(text, HasSubstr("gnuplot is not installed"));
+  }
+  // Unfinished is said.
+  cells_[0].runs.resize(3);
+  EXPECT_THAT(page(), HasSubstr("53 runs of 60 (not finished)"));
+}
+
+/// Names are users' own: none of them is HTML, nor gnuplot's.
+TEST_F(Report, HostileNames) {
+  const std::string evil = "<script>alert('1')</script> \"x\" `id` $0 {/x} \\n & %s";
+  campaign_.name = evil;
+  campaign_.problemNames[0] = evil;
+  campaign_.variants[1].name = evil;
+  for (CampaignCell& cell : cells_) cell.planner.label = evil;
+  campaign_.notes = {evil};
+  const std::string text = page();
+  EXPECT_THAT(text, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(text, HasSubstr("&lt;script&gt;alert"));
+  EXPECT_THAT(text, Not(HasSubstr("showHypertext(evt,'<")));
+  std::size_t scripts = 0;
+  for (auto at = text.find("<script"); at != std::string::npos; at = text.find("<script", at + 1))
+    ++scripts;
+  EXPECT_EQ(scripts, 1u);
+}
+
+TEST_F(Report, OfNothing) {
+  for (CampaignCell& cell : cells_) cell.runs.clear();
+  EXPECT_THAT(page(), HasSubstr("0 runs of 60 (not finished)"));
+}
+
+}  // namespace
+}  // namespace corridor
