@@ -1,11 +1,15 @@
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "collision/core/fault_list.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/obb_tree.h"
+#include "collision/hierarchy/wide_obb_tree.h"
 #include "collision/queries/self_intersections.h"
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
@@ -58,6 +62,19 @@ ordered_json meshJson(const MeshFile& file) {
 
 namespace {
 
+/// Of the tree that queries of the mesh use, built here.
+struct TreeFigures {
+  std::size_t nodes = 0, bytes = 0, depth = 0;
+  double buildMs = 0;
+};
+std::optional<TreeFigures> treeOf(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return std::nullopt;
+  const auto start = std::chrono::steady_clock::now();
+  const WideObbTree tree(mesh);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  return TreeFigures{tree.nodes().size(), tree.bytes(), ObbTree(mesh).depth(), took.count()};
+}
+
 std::vector<TrianglePair> selfIntersectionsOf(const MeshFile& file) {
   QueryContext context;
   return selfIntersections(file.mesh, context);
@@ -68,6 +85,11 @@ int inspectMeshFile(const InspectArguments& a) {
   if (a.json) {
     ordered_json j = {{"format", "corridor-inspect-mesh-1"}, {"file", a.file}};
     j["mesh"] = meshJson(file);
+    if (const auto tree = treeOf(file.mesh))
+      j["tree"] = {{"nodes", tree->nodes},
+                   {"bytes", tree->bytes},
+                   {"build_ms", tree->buildMs},
+                   {"binary_depth", tree->depth}};
     if (a.selfIntersections) {
       ordered_json& all = j["mesh"]["self_intersections"] = ordered_json::array();
       for (const TrianglePair& pair : selfIntersectionsOf(file)) all.push_back({pair.a, pair.b});
@@ -93,6 +115,12 @@ int inspectMeshFile(const InspectArguments& a) {
   out.line("slivers", grouped(health.sliverTriangles));
   out.line("boundary edges", grouped(health.boundaryEdges));
   out.line("non-manifold edges", grouped(health.nonManifoldEdges));
+  if (const auto tree = treeOf(file.mesh))
+    out.line("tree",
+             counted(tree->nodes, "node") + " of four boxes, " +
+                 rounded(static_cast<double>(tree->bytes) / static_cast<double>(health.triangles)) +
+                 " bytes a triangle, built in " + rounded(tree->buildMs) + " ms; a binary one is " +
+                 grouped(tree->depth) + " deep");
   if (a.selfIntersections) {
     const std::vector<TrianglePair> pairs = selfIntersectionsOf(file);
     std::string text = grouped(pairs.size());

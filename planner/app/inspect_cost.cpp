@@ -8,12 +8,12 @@
 
 #include "collision/core/error.h"
 #include "collision/core/simd_target.h"
-#include "planner/benchmark/cost_model.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"
 #include "planner/app/query_poses.h"
 #include "planner/app/query_timing.h"
+#include "planner/benchmark/cost_model.h"
 
 namespace corridor::app {
 namespace {

@@ -1,8 +1,10 @@
+#include <cmath>
 #include <iostream>
 #include <map>
 
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
+#include "planner/checker/edge_costs.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/reach.h"
 #include "planner/solve/endpoint_help.h"
@@ -20,7 +22,7 @@ class ProblemReport {
       : problem_(problem), a_(a), checker_(problem), out_(a.json) {}
 
   int run() {
-    json_ = {{"format", "corridor-inspect-problem-2"},
+    json_ = {{"format", "corridor-inspect-problem-3"},
              {"file", a_.file},
              {"name", problem_.name},
              {"digest", problem_.digest}};
@@ -34,6 +36,7 @@ class ProblemReport {
     for (const std::string& note : problem_.notes) out_.line("note", note);
     const bool free = tellEnds();
     tellTrees();
+    tellCosts();
     if (a_.json) std::cout << json_.dump(2) << '\n';
     return free ? kDone : kNo;
   }
@@ -152,6 +155,36 @@ class ProblemReport {
     json_["trees_built"] = built;
     out_.line("trees built", std::to_string(built) + " of " + std::to_string(meshes) +
                                  ", for start and goal; the others at first need");
+  }
+
+  /// Where time will go, by some random edges.
+  void tellCosts() {
+    constexpr std::size_t kEdges = 200, kShown = 5;
+    const EdgeCosts costs = sampleEdgeCosts(problem_, checker_, kEdges, problem_.seed);
+    json_["random_edges"] = {{"edges", costs.edges},
+                             {"free", costs.free},
+                             {"free_us", 1e6 * costs.freeSeconds},
+                             {"other_us", 1e6 * costs.otherSeconds},
+                             {"pairs", ordered_json::array()}};
+    std::string text = grouped(costs.free) + " of " + grouped(costs.edges) + " free";
+    if (costs.free > 0) text += ", " + rounded(1e6 * costs.freeSeconds) + " µs each";
+    if (costs.free < costs.edges)
+      text += "; the others " + rounded(1e6 * costs.otherSeconds) + " µs each (medians)";
+    out_.line("random edges", text);
+    for (std::size_t i = 0; i < costs.pairs.size(); ++i) {
+      const EdgeCosts::OfPair& pair = costs.pairs[i];
+      const std::string &a = problem_.bodies[pair.a].name, &b = problem_.bodies[pair.b].name;
+      json_["random_edges"]["pairs"].push_back({{"a", a},
+                                                {"b", b},
+                                                {"share", pair.share},
+                                                {"box_tests", pair.boxTests},
+                                                {"triangle_tests", pair.triangleTests}});
+      if (i < kShown)
+        out_.line("time goes to",
+                  a + "~" + b + ": " + std::to_string(std::lround(100 * pair.share)) + " %, " +
+                      grouped(pair.boxTests / costs.edges) + " box and " +
+                      grouped(pair.triangleTests / costs.edges) + " triangle tests an edge");
+    }
   }
 
   const Problem& problem_;

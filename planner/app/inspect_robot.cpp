@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "collision/core/fault_list.h"
 #include "planner/app/inspect.h"
@@ -46,6 +48,32 @@ std::string shapesText(const LinkModel& link) {
   return text;
 }
 
+/// Metres, from the link's origin.
+double radiusOf(const LinkModel& link) {
+  double radius = 0;
+  for (const PlacedShape& shape : link.shapes)
+    for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
+      radius = std::max(radius, p.norm() + (shape.part ? shape.part->radius : 0));
+  return radius;
+}
+
+/// How far from the root's origin each link's points can be at most: with the chain stretched out,
+/// sliding joints at their farther ends. Infinite behind joints without limits of where they go.
+std::vector<double> reachOfLinks(const RobotModel& model) {
+  std::vector<double> origin(model.links.size(), 0), reach;
+  for (const JointModel& joint : model.joints) {  // parents before children
+    double slide = 0;
+    if (joint.type == JointType::prismatic)
+      slide = std::max(std::abs(joint.lower), std::abs(joint.upper));
+    if (joint.type == JointType::planar || joint.type == JointType::floating)
+      slide = std::numeric_limits<double>::infinity();
+    origin[joint.child] = origin[joint.parent] + joint.X_PJ.p.norm() + slide;
+  }
+  for (std::size_t i = 0; i < model.links.size(); ++i)
+    reach.push_back(origin[i] + radiusOf(model.links[i]));
+  return reach;
+}
+
 }  // namespace
 
 std::string shapeText(const PlacedShape& shape) {
@@ -88,12 +116,22 @@ int inspectRobot(const InspectArguments& a) {
     j["joints"].push_back(jointJson(model, joint));
     out.line("joint", jointText(model, joint));
   }
-  for (const LinkModel& link : model.links) {
+  const std::vector<double> reach = reachOfLinks(model);
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const LinkModel& link = model.links[i];
     ordered_json l = {{"name", link.name}, {"shapes", ordered_json::array()}};
     for (const PlacedShape& shape : link.shapes) l["shapes"].push_back(shapeJson(shape));
+    if (std::isfinite(reach[i])) l["reach_m"] = reach[i];
     j["links"].push_back(l);
     out.line("link", shapesText(link));
   }
+  const auto farthest = std::max_element(reach.begin(), reach.end());
+  if (!std::isfinite(*farthest))
+    out.line("reach", "no limit: some joint goes as far as a problem's bounds let it");
+  else if (!model.joints.empty())
+    out.line("reach", "at most " + rounded(*farthest) + " m from the origin of " +
+                          model.links[model.root].name + ": of " +
+                          model.links[static_cast<std::size_t>(farthest - reach.begin())].name);
   for (const AllowedPair& pair : model.allowed)
     j["allowed"].push_back({{"a", pair.a}, {"b", pair.b}, {"reason", pair.reason}});
   out.line("pairs allowed to touch", grouped(model.allowed.size()));

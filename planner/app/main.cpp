@@ -185,8 +185,8 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
   const char* results = "Results";
   command
       ->add_option("-o,--output", a.output,
-                   "a folder for campaign.db, runs.csv, summary.csv and the logs of OMPL's "
-                   "Benchmark")
+                   "a folder for report.html with its plots, campaign.db (SQLite), runs.csv, "
+                   "summary.csv and the logs of OMPL's Benchmark")
       ->group(results);
   command
       ->add_flag("--resume", a.resume, "goes on with the campaign in the folder, where it stopped")
@@ -194,8 +194,8 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
   command->add_flag("--json", a.json, "results as JSON")->group(results);
   command->footer(
       std::string(
-          "Examples: corridor benchmark problems/campaigns/variants.yaml -o results\n"
-          "          corridor benchmark problems/thin_plate problems/piano --variants "
+          "Example: corridor benchmark problems/campaigns/error.yaml -o results --jobs 2\n"
+          "Or without a file: corridor benchmark problems/thin_plate problems/piano --variants "
           "certified,discrete:0.01,discrete:0.001 -o results\n"
           "Each run is a process of its own, under OMPL's Benchmark; each path is judged by the "
           "independent verifier: `refuted` of those that were returned do collide, or break what "

@@ -98,6 +98,8 @@ TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   EXPECT_EQ(mesh["mesh"]["self_intersections"], nlohmann::json::array());
   EXPECT_EQ(mesh["mesh"]["triangles"], 12);
   EXPECT_EQ(mesh["mesh"]["watertight"], true);
+  EXPECT_GT(mesh["tree"]["nodes"], 1);
+  EXPECT_GE(mesh["tree"]["binary_depth"], 4);  // of twelve leaves
   EXPECT_EQ(nlohmann::json::parse(run("inspect problem.yaml --json").out)["pairs"]["tested"], 1);
 }
 
@@ -194,6 +196,9 @@ TEST_F(ArmCommandLine, AnArmOfJointsCalledXYAndYawIsNoRigidBody) {
       "format: corridor-problem-1\nrobot: arm.urdf\nworld: {post: {sphere: 0.1, at: [0, 1.5, 0]}}\n"
       "start: {x: 0, y: 0, yaw: 0}\ngoal: {x: 1, y: 0, yaw: 0}\n");
   EXPECT_EQ(nlohmann::json::parse(run("inspect arm.yaml --json").out)["space"], "joints");
+  // Three links of 0.5 m, and a ball of 0.1.
+  EXPECT_THAT(run("inspect arm.urdf").out,
+              HasSubstr("reach: at most 1.6 m from the origin of l0: of yaw\n"));
   EXPECT_EQ(run("solve arm.yaml -o s.yaml").status, 0);
   EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"x\", \"y\", \"yaw\"]\n"));
   EXPECT_EQ(run("verify arm.yaml s.yaml").status, 0);
@@ -260,6 +265,13 @@ TEST_F(ArmCommandLine, InspectTellsPairsAndRobots) {
   const auto json = nlohmann::json::parse(run("inspect arm.yaml --json").out);
   EXPECT_EQ(json["pairs"]["tested"], 2);
   EXPECT_EQ(json["pair_list"].size(), 3u);
+  double share = 0;
+  for (const auto& pair : json["random_edges"]["pairs"]) share += pair["share"].get<double>();
+  EXPECT_NEAR(share, 1, 1e-9);
+  EXPECT_EQ(json["random_edges"]["pairs"].size(), 2u);
+  EXPECT_GT(json["random_edges"]["free"], 0);
+  EXPECT_LE(json["random_edges"]["free"], json["random_edges"]["edges"]);
+  EXPECT_THAT(problem.out, HasSubstr("time goes to: "));
   write("alone.yaml",
         "format: corridor-problem-1\nrobot: arm.urdf\nworld: {}\n"
         "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
@@ -341,7 +353,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   const auto said = [&](const std::string& arguments) { return run(arguments).err; };
   EXPECT_EQ(said(""), "A subcommand is required; corridor --help tells more\n");
   EXPECT_EQ(said("slove problem.yaml"),
-            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, "
+            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, view, "
             "benchmark, check, "
             "inspect, query\n");
   EXPECT_EQ(said("verify problem.yaml"),

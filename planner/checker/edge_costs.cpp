@@ -1,0 +1,99 @@
+#include "planner/checker/edge_costs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "planner/robot/edge_motion.h"
+
+namespace corridor {
+namespace {
+
+constexpr double kShareOfTheWay = 0.2;
+
+double secondsOf(const auto& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Configuration randomState(const ConfigurationSpace& space, std::mt19937_64& random) {
+  Configuration q(static_cast<Eigen::Index>(space.size()));
+  std::normal_distribution<double> normal;
+  for (const Coordinate& c : space.coordinates()) {
+    const auto first = static_cast<Eigen::Index>(c.first);
+    if (c.kind == Coordinate::Kind::rotation)
+      for (Eigen::Index i = 0; i < 4; ++i) q[first + i] = normal(random);
+    else if (c.kind == Coordinate::Kind::circle)
+      q[first] = std::uniform_real_distribution(-std::numbers::pi, std::numbers::pi)(random);
+    else
+      q[first] = std::uniform_real_distribution(c.lower, c.upper)(random);
+  }
+  space.normalise(q);
+  return q;
+}
+
+}  // namespace
+
+EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::size_t edges,
+                          std::uint64_t seed) {
+  const Scene& scene = checker.scene();
+  EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+  QueryContext context;
+  std::mt19937_64 random(seed);
+  EdgeCosts costs;
+  std::vector<double> free, other;
+  std::map<std::pair<std::size_t, std::size_t>, EdgeCosts::OfPair> pairs;
+  double all = 0;
+  std::vector<std::pair<Configuration, Configuration>> ways;
+  for (std::size_t i = 0; i < edges; ++i) {
+    const Configuration from = randomState(problem.space, random);
+    ways.emplace_back(
+        from, problem.space.interpolate(from, randomState(problem.space, random), kShareOfTheWay));
+    // The first to need a tree builds it, which is no edge's time.
+    motion.set(from, ways.back().second);
+    scene.certify(motion, checker.options(), context);
+  }
+  for (const auto& [from, to] : ways) {
+    motion.set(from, to);
+    MotionResult result;
+    const double seconds =
+        secondsOf([&] { result = scene.certify(motion, checker.options(), context); });
+    (result.verdict == MotionVerdict::free ? free : other).push_back(seconds);
+    for (const MotionPair& pair : scene.motionPairs()) {
+      const Counters before = context.counters;
+      const double took = secondsOf([&] {
+        certifyMotion(motion, {&pair, 1}, checker.options(), context);
+      });
+      std::size_t a = checker.bodyOf(pair.bodyA), b = checker.bodyOf(pair.bodyB);
+      if (b < a) std::swap(a, b);
+      EdgeCosts::OfPair& of = pairs[{a, b}];
+      of.a = a, of.b = b, of.share += took, all += took;
+      of.boxTests += context.counters.boxTests - before.boxTests;
+      of.triangleTests += context.counters.triangleTests - before.triangleTests;
+    }
+  }
+  costs.edges = edges;
+  costs.free = free.size();
+  costs.freeSeconds = median(free);
+  costs.otherSeconds = median(other);
+  for (auto& [bodies, of] : pairs) {
+    of.share = all > 0 ? of.share / all : 0;
+    costs.pairs.push_back(of);
+  }
+  std::stable_sort(costs.pairs.begin(), costs.pairs.end(),
+                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  return costs;
+}
+
+}  // namespace corridor
