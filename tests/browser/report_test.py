@@ -1,0 +1,81 @@
+"""A campaign's report in a browser: no error, nothing loaded, plots that have their data, and words where a pointer rests."""
+
+import csv
+import os
+
+from browser import SIZES, ActionChains, By, corridor, main, source
+
+CAMPAIGN = """format: corridor-campaign-1
+problems: [%s, %s]
+planners: [RRTConnect, {name: RRTConnect, label: <b>short</b>, params: {range: 0.5}}]
+checkers:
+  certified: {edges: certified}
+  sampled: {edges: discrete, resolution: [0.1, 0.01]}
+runs: 3
+limits: {time: 60}
+"""
+
+
+def report(folder):
+    campaign = os.path.join(folder, "pages.yaml")
+    with open(campaign, "w") as file:
+        file.write(CAMPAIGN % (source("problems", "thin_plate"), source("problems", "gantry_bins")))
+    out = os.path.join(folder, "results")
+    corridor("benchmark", campaign, "-o", out)
+    return out
+
+
+def pages(browser, folder):
+    out = report(folder)
+    for size in SIZES:
+        browser.size(size)
+        browser.open(os.path.join(out, "report.html"))
+        browser.check_page()
+    assert browser.js("document.title") == "pages"
+    assert browser.js("document.querySelectorAll('figure svg').length") == 7  # three of each problem, and the cost
+    names = browser.js("[...document.querySelectorAll('figure')].map((figure) => figure.dataset.plot)")
+    assert sorted(names) == sorted(
+        [f"{kind}.{problem}" for kind in ("error", "solved", "clearance") for problem in ("thin_plate", "gantry_bins")] + ["cost"]
+    ), names
+    assert browser.js("document.querySelectorAll('#ranking tbody tr').length") == 3
+    # Certified comes first, and none of its paths is refuted.
+    first = browser.find("#ranking tbody tr").text
+    assert first.startswith("certified") and "0 of 12" in first, first
+    # A label that looks like HTML is text.
+    assert browser.js("document.querySelectorAll('#cells b').length") == 0
+    assert "<b>short</b>" in browser.find("#cells").text
+    points_have_words(browser, out)
+
+
+def points_have_words(browser, out):
+    """Each point of a plot is in its data, and tells what it is."""
+    browser.size("desktop")
+    browser.open(os.path.join(out, "report.html"))
+    with open(os.path.join(out, "plots", "error.thin_plate.csv"), newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 6, rows  # two planners, three variants
+    points = browser.driver.find_elements(By.CSS_SELECTOR, "figure[data-plot='error.thin_plate'] g[onmousemove]")
+    assert len(points) == len(rows), len(points)
+    said = set()
+    for point in points:  # some lie under others: the event by itself
+        browser.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", point)
+        browser.driver.execute_script(
+            "const box = arguments[0].getBoundingClientRect();"
+            "arguments[0].dispatchEvent(new MouseEvent('mousemove', {clientX: box.x, clientY: box.y}))", point)
+        words = browser.js("document.getElementById('tip').textContent")
+        assert "paths refuted" in words and "s (median)" in words, words
+        said.add(words.split("\n")[0])
+        tip = browser.js("document.getElementById('tip').getBoundingClientRect().toJSON()")
+        assert tip["width"] > 50 and 0 <= tip["left"] and tip["right"] <= SIZES["desktop"][0] and tip["top"] >= 0, tip
+    assert len(said) == len(points), said
+    # And by a pointer, on the topmost.
+    ActionChains(browser.driver).move_by_offset(1, 1).pause(0.3).move_to_element(
+        points[-1].find_element(By.TAG_NAME, "use")).pause(0.2).move_by_offset(1, 0).perform()
+    browser.wait("!document.getElementById('tip').hidden")
+    # A line of each variant, that reaches the top where all were solved.
+    lines = browser.js("document.querySelectorAll(\"figure[data-plot='solved.thin_plate'] g[id*=plot] path\").length")
+    assert lines >= 3, lines
+    browser.check_page()
+
+
+main([pages])
