@@ -70,13 +70,7 @@ function start() {
   let chart = null, treeLevel = -1;
   stage.beforeDraw.push(() => contact.place(stage));
   if (closest) stage.beforeDraw.push(() => closest.root.visible && closest.place(motion.at, stage));
-  if (motion.trace) {
-    let radius = 0;
-    stage.beforeDraw.push(() => {
-      const pixel = 1.2 * stage.pixelAt(stage.target);
-      if (Math.abs(pixel / radius - 1) > 0.05) motion.trace.children.forEach((mesh) => scaleTube(mesh, radius = pixel));
-    });
-  }
+  stage.beforeDraw.push(() => motion.placeTrace(stage));
 
   // The place on the path.
   const seek = (at, keepFinding = false) => {
@@ -142,7 +136,7 @@ function start() {
   view(data.planar);
   glass('auto');
   if (path) seek(0);
-  if (image && path) motion.now.root.visible = false;
+  if (image && path) motion.hideNow();
   stage.drawNow();
   window.corridorView = {stage, motion, closest, trees, contact, player, seek, showFinding};
   if (image) console.info('corridor: the picture is drawn');

@@ -84,7 +84,8 @@ const Panel = {
     legend.replaceChildren(item('', palette.start, 'start'),
       item('', palette.goal, path ? 'goal' : data.goal_count > 1 ? `goals (${data.goals.length} of ${data.goal_count})` : 'goal'));
     if (path) legend.append(item('way', '', 'on the way'));
-    if (path && !image) legend.append(item('', palette.robots[0], 'now'));
+    const names = data.robots.length > 1 ? data.robots.map((robot) => `${robot.name}, now`) : ['now'];
+    if (path && !image) names.forEach((text, i) => legend.append(item('', palette.robots[i % palette.robots.length], text)));
     legend.append(item('scale', '', `grid ${metres(stage.step)}`));
   },
 

@@ -52,12 +52,12 @@ class Stage {
   }
 
   addLights() {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b2a6, 0.62));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb3aca0, 0.52));
     const centre = this.box.getCenter(new THREE.Vector3()), size = this.box.getSize(new THREE.Vector3()).length() / 2 || 1;
-    this.key = new THREE.DirectionalLight(0xfffaf2, 0.62);
+    this.key = new THREE.DirectionalLight(0xfffaf2, 0.47);
     this.key.position.copy(centre).addScaledVector(new THREE.Vector3(-0.25, -0.55, 0.95), 3 * size);
     this.key.target.position.copy(centre);
-    this.fill = new THREE.DirectionalLight(0xeaf1ff, 0.2);
+    this.fill = new THREE.DirectionalLight(0xeaf1ff, 0.16);
     this.fill.position.copy(centre).addScaledVector(new THREE.Vector3(0.9, 0.2, 0.35), 3 * size);
     this.fill.target.position.copy(centre);
     this.scene.add(this.key, this.key.target, this.fill, this.fill.target);
@@ -115,15 +115,21 @@ class Stage {
     this.controls[0].enabled = !top;
     this.controls[1].enabled = top;
     this.moved = false;
-    this.resize();
+    this.frame();
     this.onView();
   }
 
   resize() {
+    if (this.frame()) this.drawNow();  // not a frame later: a canvas whose size was set is blank
+  }
+
+  /** Canvas and cameras as large as the page has room. @returns whether there is any, of another size than before. */
+  frame() {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
-    if (!width || !height || !this.points) return;
-    this.renderer.setSize(width, height, false);
-    this.aspect = width / height;
+    if (!width || !height || !this.points) return false;
+    const changed = width !== this.width || height !== this.height;
+    if (changed) this.renderer.setSize(width, height, false);
+    Object.assign(this, {width, height, aspect: width / height});
     if (!this.moved) this.fit();
     this.perspective.aspect = this.aspect;
     this.flat.left = -this.half * this.aspect;
@@ -131,7 +137,7 @@ class Stage {
     this.flat.top = this.half;
     this.flat.bottom = -this.half;
     this.draw();
-    this.drawNow();  // not a frame later: a canvas whose size was set is blank
+    return changed;
   }
 
   /** All points within the picture, but for a border and the legend's line. */
