@@ -5,7 +5,7 @@ class Chart {
   constructor(parent, closest, margin, seek) {
     this.closest = closest;
     const width = 284, height = 132;
-    Object.assign(this, {left: 44, right: width - 8, top: 10, bottom: height - 20});
+    Object.assign(this, {left: 52, right: width - 8, top: 10, bottom: height - 20});
     const most = Math.max(...closest.metres, 2 * margin) || 1;
     this.x = (at) => this.left + at * (this.right - this.left);
     this.y = (d) => this.bottom - d / most * (this.bottom - this.top);

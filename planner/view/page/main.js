@@ -36,7 +36,7 @@ function start() {
     return;
   }
   const stage = new Stage(byId('canvas'), {top: data.planar}), {scene} = stage;
-  const motion = new Motion(scene);
+  const motion = new Motion(scene, image);
   const robotPoints = motion.points();
   const robotBox = new THREE.Box3().setFromPoints(robotPoints);
   const obstacles = new Obstacles(scene, robotBox.min.z);
@@ -78,7 +78,7 @@ function start() {
     byId('slider').value = at;
     Panel.place(at, closest);
     if (chart) chart.goTo(at);
-    if (!keepFinding) showFinding(-1, false);
+    if (!keepFinding && contact.finding) showFinding(-1, false);
     stage.renderer.shadowMap.needsUpdate = true;
     stage.draw();
   };
@@ -86,10 +86,13 @@ function start() {
     ? obstacles.bodies.filter((body) => body.index === index).flatMap((body) => [body.solid, body.glass]) : [motion.now.materials.get(index)];
   const showFinding = (index, move = true) => {
     Panel.pressFinding(index);
-    contact.show(index < 0 ? null : data.verdict.findings[index], materialsOf);
-    if (index >= 0 && move) {
+    const finding = index < 0 ? null : data.verdict.findings[index];
+    contact.show(finding, materialsOf);
+    motion.showPoses(!finding);
+    if (finding && move) {
       player.pause();
       seek(path.at[path.findings[index]], true);
+      if (finding.a !== null) stage.approach(new THREE.Vector3(...finding.point), 2 * motion.reach(finding));
     }
     stage.draw();
   };

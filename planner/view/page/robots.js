@@ -79,14 +79,19 @@ function lines(shape, colour, opacity) {
   return new THREE.LineSegments(shape.edges, new THREE.LineBasicMaterial({color: light(colour), transparent: true, opacity, depthWrite: false}));
 }
 
-/** The robots as they are now: solid, and dimly seen through what hides them. */
+/** What a surface is moved back by where copies coincide, as about a joint: the copy of least rank is seen. */
+const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
+
+/** Robots in earnest: solid, and dimly seen through what hides them. */
 class Robots extends Copy {
-  constructor(hex) {
+  /** @param hex none: a colour a robot. @param rank 0: also those of its frames that never move. */
+  constructor(hex, rank = 0) {
     const materials = new Map();
     super((body, shape, index) => {
-      const colour = '#' + new THREE.Color(hex ?? palette.robots[body.robot % palette.robots.length])
-        .lerp(new THREE.Color('#ffffff'), index % 2 ? 0.14 : 0).lerp(new THREE.Color('#b9bcc0'), isStill[body.frame] && path ? 0.55 : 0).getHexString();
-      const solid = new THREE.Mesh(shape.geometry, surface(colour, shape));
+      if (rank > 0 && isStill[body.frame]) return [];
+      const colour = '#' + new THREE.Color(hex && !isStill[body.frame] ? hex : palette.robots[body.robot % palette.robots.length])
+        .lerp(new THREE.Color('#ffffff'), index % 2 ? 0.14 : 0).lerp(new THREE.Color('#b9bcc0'), isStill[body.frame] ? 0.55 : 0).getHexString();
+      const solid = new THREE.Mesh(shape.geometry, surface(colour, shape, behind(rank)));
       solid.castShadow = true;
       solid.receiveShadow = !shape.flat;
       solid.renderOrder = 2;
@@ -104,9 +109,8 @@ class Robots extends Copy {
  * then their colours; so the nearest is seen, and the order does not matter.
  */
 class Ghost extends Copy {
-  /** @param rank from 1: where copies coincide, as about a joint, the one of least rank is seen. */
   constructor(colour, opacity, rank) {
-    const offset = {polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 300 * rank};
+    const offset = behind(rank);
     const depth = new THREE.MeshBasicMaterial({colorWrite: false, side: THREE.DoubleSide, polygonOffset: true, ...offset});
     const smooth = surface('#000000', {flat: false}, {...blended, opacity, depthWrite: false, ...offset});
     const flat = surface('#000000', {flat: true}, {...blended, opacity, depthWrite: false, ...offset});
@@ -123,18 +127,19 @@ class Ghost extends Copy {
 
 /** Everything that moves: the robots now, start and goals, poses along the path, and the way of a point. */
 class Motion {
-  constructor(scene) {
+  /** @param picture the poses are all that is seen: there is no robot among them. */
+  constructor(scene, picture) {
     this.scene = scene;
     this.at = 0;
+    this.opacity = picture ? {end: 0.75, way: 0.42} : data.planar ? {end: 0.6, way: 0.42} : {end: 0.42, way: 0.22};
     this.triangles = data.bodies.reduce((sum, body) => sum + (body.frame < 0 ? 0 : shapes[body.mesh].triangles), 0);
     this.ends = [data.array(data.start), ...data.goals.map((goal) => data.array(goal))];
     this.now = path ? new Robots() : null;
-    const strong = path ? 0.62 : 1;
-    const solid = (hex, rank) => path ? new Ghost(new THREE.Color(hex), strong, rank) : new Robots(hex);
-    this.start = solid(palette.start, 1);
+    const end = (hex, rank) => path ? new Ghost(new THREE.Color(hex), this.opacity.end, rank) : new Robots(hex, rank);
+    this.start = end(palette.start, path ? 1 : 0);
     this.start.stand(this.ends[0]);
     this.goals = (path ? [null] : data.goals).map((_, i) => {
-      const goal = solid(palette.goal, 2);
+      const goal = end(palette.goal, path ? 2 : i + 1);
       if (path) goal.goTo(1); else goal.stand(this.ends[i + 1]);
       return goal;
     });
@@ -149,7 +154,8 @@ class Motion {
   setGhosts(count) {
     for (const ghost of this.ghosts) this.scene.remove(ghost.root);
     this.ghosts = Array.from({length: count}, (_, i) => {
-      const at = (i + 1) / (count + 1), ghost = new Ghost(wayColour(at), data.planar ? 0.5 : 0.38, i + 3);
+      const at = (i + 1) / (count + 1), ghost = new Ghost(wayColour(at), this.opacity.way, i + 3);
+      ghost.root.visible = this.start.root.visible;
       ghost.goTo(at);
       this.scene.add(ghost.root);
       return ghost;
@@ -159,6 +165,11 @@ class Motion {
   goTo(at) {
     this.at = at;
     this.now.goTo(at);
+  }
+
+  /** Start, goal and what is between, or the robots alone as they are now. */
+  showPoses(shown) {
+    for (const copy of [this.start, ...this.goals, ...this.ghosts]) copy.root.visible = shown;
   }
 
   /** For pictures: the poses alone. */
@@ -183,6 +194,12 @@ class Motion {
     for (const end of path ? this.ends.slice(0, 1) : this.ends) add((frame) => poseOf(end, frame * kPose, 0, 0, position, quaternion));
     if (path) for (let k = 0; k <= 24; ++k) add((frame) => framePose(k / 24, frame, position, quaternion));
     return points;
+  }
+
+  /** The size of what moves in a finding: the larger of its bodies that do. */
+  reach(finding) {
+    return Math.max(0, ...[finding.a, finding.b].map((index) => data.bodies[index]).filter((body) => body.frame >= 0)
+      .map((body) => 2 * shapes[body.mesh].geometry.boundingSphere.radius));
   }
 
   /** A thin tube along the way of each robot's last frame, with dots at its ends: small robots are hard to find. */

@@ -176,6 +176,21 @@ class Stage {
     this.controls[this.top ? 1 : 0].update();
   }
 
+  /** Looks at a point, from where it looked, and from so near that `size` fills a third of the picture, but not farther. */
+  approach(point, size) {
+    const camera = this.camera, away = camera.position.clone().sub(this.target);
+    if (this.top) {
+      camera.zoom = Math.max(camera.zoom, this.half / Math.max(1.5 * size, 1e-9));
+    } else if (size > 0) {
+      away.setLength(Math.min(away.length(), 1.5 * size / Math.tan(kFieldOfView * Math.PI / 360)));
+    }
+    this.target.copy(point);
+    camera.position.copy(point).add(away);
+    this.moved = true;
+    this.controls[this.top ? 1 : 0].update();
+    this.draw();
+  }
+
   /** The length in the world that is a pixel at a point. */
   pixelAt(point) {
     const height = this.canvas.clientHeight || 1;
