@@ -96,9 +96,10 @@ class Robots extends Copy {
       solid.receiveShadow = !shape.flat;
       solid.renderOrder = 2;
       materials.set(index, solid.material);
+      if (shape.flat) return [solid];  // large: once is enough
       const hidden = new THREE.Mesh(shape.geometry, surface(colour, shape, {...blended, opacity: 0.22, depthFunc: THREE.GreaterDepth, depthWrite: false}));
       hidden.renderOrder = 1;
-      return shape.edges ? [solid, hidden, lines(shape, '#10233d', 0.35)] : [solid, hidden];
+      return [solid, hidden, lines(shape, '#10233d', 0.35)];
     });
     this.materials = materials;
   }
@@ -113,14 +114,14 @@ class Ghost extends Copy {
     const offset = behind(rank);
     const depth = new THREE.MeshBasicMaterial({colorWrite: false, side: THREE.DoubleSide, polygonOffset: true, ...offset});
     const smooth = surface('#000000', {flat: false}, {...blended, opacity, depthWrite: false, ...offset});
-    const flat = surface('#000000', {flat: true}, {...blended, opacity, depthWrite: false, ...offset});
+    const flat = surface('#000000', {flat: true}, {...blended, opacity, ...offset});  // of large meshes: colours at once
     for (const material of [smooth, flat]) material.color.copy(colour).convertSRGBToLinear();
     super((body, shape) => {
       if (isStill[body.frame]) return [];
       const first = new THREE.Mesh(shape.geometry, depth), second = new THREE.Mesh(shape.geometry, shape.flat ? flat : smooth);
       first.renderOrder = 3;
       second.renderOrder = 4;
-      return [first, second];
+      return shape.flat ? [second] : [first, second];
     });
   }
 }
@@ -146,7 +147,7 @@ class Motion {
     for (const copy of [this.now, this.start, ...this.goals]) if (copy) scene.add(copy.root);
     this.ghosts = [];
     this.mostGhosts = path ? Math.min(24, Math.floor(kGhostTriangles / Math.max(1, this.triangles))) : 0;
-    this.setGhosts(Math.min(data.planar ? 11 : 7, this.mostGhosts));
+    this.setGhosts(Math.min(data.planar ? 11 : 7, this.mostGhosts, Math.floor((picture ? 1e6 : 2e5) / Math.max(1, this.triangles))));
     if (path) this.addTrace();
     if (path) this.goTo(0);
   }
