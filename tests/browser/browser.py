@@ -1,10 +1,9 @@
 """What tests of pages share: the program, a browser without a display, and what is to hold of every page.
 
-A test is a script that imports this file, opens pages and ends with `done()`. Without Chromium, its driver or Selenium it
-prints why and ends with status 77, which ctest shows as skipped."""
+A test is a script that imports this file and ends with `main([test, …])`, functions of a browser and a folder. Without
+Chromium, its driver or Selenium it prints why and ends with status 77, which ctest shows as skipped."""
 
 import contextlib
-import io
 import os
 import shutil
 import subprocess
@@ -19,14 +18,16 @@ SIZES = {"desktop": (1366, 768), "phone": (390, 844)}
 
 
 def skip(why):
-    print(f"skipped: {why}")
+    print(f"browser: Skipped\n{why}")  # as GoogleTest says it: ./corridor test lists the reasons
     sys.exit(SKIPPED)
 
 
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
     skip("needs Debian's python3-selenium")
@@ -52,14 +53,15 @@ def folder():
 class Browser:
     """Chromium with one page."""
 
-    def __init__(self):
+    def __init__(self, *flags):
+        """flags: of Chromium, besides those that draw without a graphics card."""
         browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not browser or not driver:
             skip("needs Debian's chromium and chromium-driver")
         options = webdriver.ChromeOptions()
         options.binary_location = browser
         for word in ("--headless", "--hide-scrollbars", "--disable-dev-shm-usage", "--force-device-scale-factor=1",
-                     "--use-angle=swiftshader", "--enable-unsafe-swiftshader"):
+                     "--use-angle=swiftshader", "--enable-unsafe-swiftshader", *flags):
             options.add_argument(word)
         if os.geteuid() == 0:
             options.add_argument("--no-sandbox")
@@ -116,47 +118,35 @@ class Browser:
         assert width <= inner, f"the page is {width} pixels wide, the window {inner}"
 
 
-def colours(png):
-    """How many colours a picture has (PNG, as screenshots are)."""
-    return len(set(pixels(png)))
+    def press(self, key, shift=False):
+        """To the page as a whole."""
+        chain = ActionChains(self.driver)
+        if shift:
+            chain.key_down(Keys.SHIFT)
+        chain.send_keys(key)
+        if shift:
+            chain.key_up(Keys.SHIFT)
+        chain.perform()
+
+    def canvas(self, selector):
+        """What a canvas shows: how many colours, and a number that changes with its pixels."""
+        return self.driver.execute_script("""
+            const canvas = document.querySelector(arguments[0]), copy = document.createElement('canvas');
+            Object.assign(copy, {width: canvas.width, height: canvas.height});
+            const context = copy.getContext('2d');
+            context.drawImage(canvas, 0, 0);
+            const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+            let sum = 0;
+            for (const pixel of pixels) sum = Math.imul(sum, 31) + pixel | 0;
+            return [new Set(pixels).size, sum];""", selector)
 
 
-def pixels(png):
-    """The pixels of an 8-bit PNG without interlacing, as bytes objects. (So that the tests need no further package.)"""
-    import struct
-    import zlib
-    stream = io.BytesIO(png[8:])
-    data, channels, width = b"", 0, 0
-    while header := stream.read(8):
-        length, kind = struct.unpack(">I4s", header)
-        body = stream.read(length)
-        stream.read(4)
-        if kind == b"IHDR":
-            width, _, depth, colour, _, _, interlaced = struct.unpack(">IIBBBBB", body)
-            assert depth == 8 and not interlaced and colour in (2, 6), "another kind of PNG"
-            channels = {2: 3, 6: 4}[colour]
-        elif kind == b"IDAT":
-            data += body
-    raw, stride, result = zlib.decompress(data), width * channels, []
-    above = bytearray(stride)
-    for start in range(0, len(raw), stride + 1):
-        kind, row = raw[start], bytearray(raw[start + 1:start + 1 + stride])
-        for i in range(stride):
-            a = row[i - channels] if i >= channels else 0
-            b = above[i]
-            c = above[i - channels] if i >= channels else 0
-            if kind == 1:
-                row[i] = (row[i] + a) & 255
-            elif kind == 2:
-                row[i] = (row[i] + b) & 255
-            elif kind == 3:
-                row[i] = (row[i] + (a + b) // 2) & 255
-            elif kind == 4:
-                near = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))
-                row[i] = (row[i] + near[2]) & 255
-        result += [bytes(row[i:i + channels]) for i in range(0, stride, channels)]
-        above = row
-    return result
+def png_size(file):
+    """Width and height of a PNG."""
+    with open(file, "rb") as png:
+        start = png.read(24)
+    assert start[:8] == b"\x89PNG\r\n\x1a\n", "not a PNG"
+    return int.from_bytes(start[16:20], "big"), int.from_bytes(start[20:24], "big")
 
 
 def main(tests):
