@@ -119,7 +119,7 @@ std::filesystem::path requireBrowser(const std::string& option) {
   for (const char* name : names) {
     std::istringstream folders(variable ? variable : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
-      const std::filesystem::path program = std::filesystem::path(folder) / name;
+      std::filesystem::path program = std::filesystem::path(folder) / name;
       if (!folder.empty() && std::filesystem::is_regular_file(program, none) &&
           ::access(program.c_str(), X_OK) == 0)
         return program;

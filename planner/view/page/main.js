@@ -150,7 +150,7 @@ function interest(robotPoints, robotBox, obstacles) {
   const bounds = robotBox.clone(), near = robotBox.clone();
   for (const body of obstacles.bodies) bounds.union(body.bounds);
   if (near.isEmpty()) near.copy(bounds);
-  near.expandByScalar(0.3 * near.getSize(new THREE.Vector3()).length());
+  near.expandByScalar((data.planar ? 0.6 : 0.3) * near.getSize(new THREE.Vector3()).length());
   const points = [...robotPoints];
   for (const body of obstacles.bodies) {
     const box = body.bounds.clone().intersect(near);
