@@ -155,6 +155,8 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
     if (end == End::late) why += " in " + std::to_string(kPatience) + " s";
     if (said.find("corridor: no picture") != std::string::npos)
       why = "can't draw the picture: it has no WebGL";
+    if (said.find("No usable sandbox") != std::string::npos)
+      why = "does not start: it finds no usable sandbox here";
     throw InputError(Fault{browser.string(), 0, why});
   }
   writeWhole(file, png);

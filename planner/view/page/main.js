@@ -52,11 +52,6 @@ function start() {
     stage.draw();
   };
   byId('glass').addEventListener('click', (event) => { if (event.target.dataset.glass) glass(event.target.dataset.glass); });
-  let looking = 0;
-  stage.onView = () => {
-    clearTimeout(looking);
-    if (obstacles.mode === 'auto' && triangles <= 1e5) looking = setTimeout(() => glass('auto'), 250);
-  };
   const view = (top) => {
     stage.setTop(top);
     byId('view-3d').setAttribute('aria-pressed', String(!top));
@@ -141,6 +136,11 @@ function start() {
   if (path) seek(0);
   if (image && path) motion.hideNow();
   stage.drawNow();
+  let looking = 0;
+  stage.onView = () => {
+    clearTimeout(looking);
+    if (obstacles.mode === 'auto' && triangles <= 1e5 && !image) looking = setTimeout(() => glass('auto'), 250);
+  };
   window.corridorView = {stage, motion, closest, trees, contact, player, seek, showFinding};
   if (image) console.info('corridor: the picture is drawn');
 }

@@ -38,6 +38,7 @@ const Panel = {
     const v = data.verdict, list = byId('findings').querySelector('ol');
     if (!v || (!v.findings.length && !v.violations.length)) return;
     byId('findings').hidden = false;
+    if (v.verdict === 'undecided') byId('findings').querySelector('h2').textContent = 'What could not be proved';
     for (const violation of v.violations) list.append(make('li', violation));
     v.findings.forEach((f, index) => {
       const pair = f.a === null ? '' : `${this.bodyName(f.a)} and ${this.bodyName(f.b)}`;

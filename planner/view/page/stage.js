@@ -149,7 +149,8 @@ class Stage {
     const right = up.clone().cross(toViewer).normalize();
     up.copy(toViewer).cross(right);
     const seen = this.points.map((p) => [p.dot(right), p.dot(up), p.dot(toViewer)]);
-    const range = (values) => [Math.min(...values), Math.max(...values)];
+    const range = (values) => values.reduce(([low, high], x) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);
+    const largest = (values) => range(values)[1];
     const [zLow, zHigh] = range(seen.map((s) => s[2]));
     const tangent = Math.tan(kFieldOfView * Math.PI / 360) * border;
     let [x, y, distance] = [0, 0, 0];
@@ -158,14 +159,14 @@ class Stage {
     x = middle(around(0, () => 1));
     y = middle(around(1, () => 1));
     for (let pass = 0; pass < 8; ++pass) {
-      distance = Math.max(...seen.map((s) => s[2] + Math.max(Math.abs(s[0] - x) / (tangent * this.aspect), Math.abs(s[1] - y) / tangent)));
+      distance = largest(seen.map((s) => s[2] + Math.max(Math.abs(s[0] - x) / (tangent * this.aspect), Math.abs(s[1] - y) / tangent)));
       if (this.top) break;
       // The middle of what is seen, moved to the picture's.
       const inPicture = (i, o) => middle(range(seen.map((s) => (s[i] - o) / (distance - s[2]))));
       x += inPicture(0, x) * (distance - zHigh);
       y += inPicture(1, y) * (distance - zHigh);
     }
-    this.half = Math.max(...seen.map((s) => Math.max(Math.abs(s[0] - x) / this.aspect, Math.abs(s[1] - y)))) / border * 1.04;
+    this.half = largest(seen.map((s) => Math.max(Math.abs(s[0] - x) / this.aspect, Math.abs(s[1] - y)))) / border * 1.04;
     const visible = this.top ? this.half : tangent * (distance - middle([zLow, zHigh]));
     const target = new THREE.Vector3().addScaledVector(right, x).addScaledVector(up, y - lift * visible).addScaledVector(toViewer, middle([zLow, zHigh]));
     this.controls[this.top ? 1 : 0].target.copy(target);
