@@ -79,6 +79,10 @@ def two_arms(browser, path):
     assert samples > 50
     assert len(browser.find("#chart polyline").get_attribute("points").split()) == samples
     assert browser.js("corridorView.closest.root.visible")
+    linear = browser.find("#chart polyline").get_attribute("points")
+    browser.click("#decades")
+    assert len(browser.find("#chart polyline").get_attribute("points").split()) == samples
+    assert browser.find("#chart polyline").get_attribute("points") != linear
     chart, at = browser.find("#chart svg"), browser.js("corridorView.motion.at")
     chart.click()  # its middle
     assert browser.js("corridorView.motion.at") != at
@@ -117,6 +121,12 @@ def without_solution(browser, path):
         assert canvas(browser)[0] > 50
         assert not browser.find("#bar").is_displayed()
         browser.check_page()
+    glass = "corridorView.obstacles.bodies.filter((body) => body.isGlass).map((body) => data.bodies[body.index].name)"
+    shown(browser, page, "desktop")
+    assert browser.js(glass) == ["shelf"], "what hides the arm is seen through"
+    before = canvas(browser)[1]
+    browser.click("[data-glass=solid]")
+    assert browser.js(glass) == [] and canvas(browser)[1] != before
 
 
 def refuted(browser, path):

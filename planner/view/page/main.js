@@ -115,6 +115,7 @@ function start() {
     chart.goTo(motion.at);
     stage.draw();
   });
+  byId('decades').addEventListener('change', (event) => chart.draw(event.target.checked));
   const showTrees = () => {
     treeLevel = byId('trees').checked ? Number(byId('level').value) : -1;
     byId('trees-body').hidden = treeLevel < 0;
@@ -141,7 +142,7 @@ function start() {
     clearTimeout(looking);
     if (obstacles.mode === 'auto' && triangles <= 1e5 && !image) looking = setTimeout(() => glass('auto'), 250);
   };
-  window.corridorView = {stage, motion, closest, trees, contact, player, seek, showFinding};
+  window.corridorView = {stage, motion, obstacles, closest, trees, contact, player, seek, showFinding};
   if (image) console.info('corridor: the picture is drawn');
 }
 

@@ -199,6 +199,15 @@ class Stage {
     return 2 * Math.tan(kFieldOfView * Math.PI / 360) * this.perspective.position.distanceTo(point) / height;
   }
 
+  /** The camera as its place and the scene's size have it. */
+  aim() {
+    const {camera} = this, away = camera.position.distanceTo(this.bounds.getCenter(new THREE.Vector3()));
+    camera.near = this.top ? 0.01 * this.radius : Math.max(away - 2.5 * this.radius, camera.position.distanceTo(this.target) / 60);
+    camera.far = away + 12 * this.radius;
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+  }
+
   draw() {
     if (this.asked) return;
     this.asked = requestAnimationFrame(() => this.drawNow());
@@ -207,13 +216,10 @@ class Stage {
   drawNow() {
     cancelAnimationFrame(this.asked);
     this.asked = 0;
-    const started = performance.now(), camera = this.camera;
-    const away = camera.position.distanceTo(this.bounds.getCenter(new THREE.Vector3()));
-    camera.near = this.top ? 0.01 * this.radius : Math.max(away - 2.5 * this.radius, camera.position.distanceTo(this.target) / 60);
-    camera.far = away + 12 * this.radius;
-    camera.updateProjectionMatrix();
+    const started = performance.now();
+    this.aim();
     for (const prepare of this.beforeDraw) prepare();
-    this.renderer.render(this.scene, camera);
+    this.renderer.render(this.scene, this.camera);
     this.drawMs = performance.now() - started;
   }
 }
