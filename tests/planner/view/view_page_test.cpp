@@ -312,7 +312,7 @@ TEST(ViewPage, TheSameBytesAgain) {
 TEST(ViewPage, OneStateIsAPath) {
   const Problem problem = ownProblem("piano");
   const PageReader page(viewPage(problem, viewed(problem, {problem.start})));
-  EXPECT_EQ(page.json["path"]["states"], nlohmann::json({0}));
+  EXPECT_EQ(page.json["path"]["states"], nlohmann::json::array({0}));
 }
 
 using HostileNames = test::ProblemTest;
