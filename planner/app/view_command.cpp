@@ -5,6 +5,7 @@
 
 #include "collision/core/error.h"
 #include "planner/app/commands.h"
+#include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/verify_solution.h"
@@ -55,7 +56,7 @@ int viewCommand(const ViewArguments& a) {
     out.line("page", file);
   }
   if (a.image) {
-    writePicture(page, *browser, size, *a.image);
+    if (!writePicture(page, *browser, size, *a.image, listenForInterrupts())) return kInterrupted;
     out.line("image", *a.image);
   }
   return kDone;

@@ -56,8 +56,11 @@ std::string contents(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Runs a program, all that it says into a file. @returns whether it ended well and in time.
-bool run(const std::vector<std::string>& words, const std::filesystem::path& log) {
+enum class End { itself, late, interrupted };
+
+/// Runs a program, all that it says into a file.
+End run(const std::vector<std::string>& words, const std::filesystem::path& log,
+        const std::atomic<bool>& interrupted) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -77,18 +80,16 @@ bool run(const std::vector<std::string>& words, const std::filesystem::path& log
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   if (failure != 0) throw std::system_error(failure, std::generic_category(), words[0]);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(kPatience);
-  int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > end) {
-      ::kill(-child, SIGKILL);
-      ::waitpid(child, &status, 0);
-      return false;
-    }
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(kPatience);
+  End end = End::itself;
+  while (end == End::itself && ::waitpid(child, nullptr, WNOHANG) == 0) {
+    if (interrupted) end = End::interrupted;
+    if (std::chrono::steady_clock::now() > latest) end = End::late;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  ::kill(-child, SIGKILL);  // what it may have left
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  ::kill(-child, SIGKILL);  // or what it has left
+  if (end != End::itself) ::waitpid(child, nullptr, 0);
+  return end;
 }
 
 }  // namespace
@@ -114,11 +115,14 @@ PictureSize pictureSize(const std::string& text, const std::string& option) {
 std::filesystem::path requireBrowser(const std::string& option) {
   constexpr std::array names = {"chromium", "chromium-browser", "google-chrome", "chrome"};
   const char* variable = std::getenv("PATH");
+  std::error_code none;
   for (const char* name : names) {
     std::istringstream folders(variable ? variable : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
-      const std::filesystem::path program = std::filesystem::path(folder) / name;
-      if (!folder.empty() && ::access(program.c_str(), X_OK) == 0) return program;
+      std::filesystem::path program = std::filesystem::path(folder) / name;
+      if (!folder.empty() && std::filesystem::is_regular_file(program, none) &&
+          ::access(program.c_str(), X_OK) == 0)
+        return program;
     }
   }
   throw InputError(Fault{option, 0,
@@ -126,8 +130,9 @@ std::filesystem::path requireBrowser(const std::string& option) {
                          "install chromium); -o writes the page without it"});
 }
 
-void writePicture(const std::string& page, const std::filesystem::path& browser,
-                  const PictureSize& size, const std::filesystem::path& file) {
+bool writePicture(const std::string& page, const std::filesystem::path& browser,
+                  const PictureSize& size, const std::filesystem::path& file,
+                  const std::atomic<bool>& interrupted) {
   const WorkFolder folder;
   const std::filesystem::path html = folder.path() / "page.html", log = folder.path() / "log",
                               picture = folder.path() / "picture.png";
@@ -142,16 +147,20 @@ void writePicture(const std::string& page, const std::filesystem::path& browser,
       "--screenshot=" + picture.string()};
   if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // it refuses to run as root with it
   words.push_back("file://" + html.string() + "#image");
-  const bool ended = run(words, log);
+  const End end = run(words, log, interrupted);
+  if (end == End::interrupted) return false;
   const std::string said = contents(log), png = contents(picture);
-  if (said.find("corridor: the picture is drawn") == std::string::npos || png.empty())
-    throw InputError(
-        Fault{browser.string(), 0,
-              said.find("corridor: no picture") != std::string::npos
-                  ? "can't draw the picture: it has no WebGL"
-              : ended ? "has not drawn the picture"
-                      : "has not drawn the picture in " + std::to_string(kPatience) + " s"});
+  if (said.find("corridor: the picture is drawn") == std::string::npos || png.empty()) {
+    std::string why = "has not drawn the picture";
+    if (end == End::late) why += " in " + std::to_string(kPatience) + " s";
+    if (said.find("corridor: no picture") != std::string::npos)
+      why = "can't draw the picture: it has no WebGL";
+    if (said.find("No usable sandbox") != std::string::npos)
+      why = "does not start: it finds no usable sandbox here";
+    throw InputError(Fault{browser.string(), 0, why});
+  }
   writeWhole(file, png);
+  return true;
 }
 
 }  // namespace corridor

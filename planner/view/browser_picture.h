@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 
@@ -19,8 +20,10 @@ std::filesystem::path requireBrowser(const std::string& option);
 
 /// A PNG of a page of `viewPage`, without its panel and controls. The file appears whole or not at
 /// all.
+/// @param interrupted where it becomes true, the browser is ended. @returns false then.
 /// @throws InputError where the browser can't draw it, or the file can't be written.
-void writePicture(const std::string& page, const std::filesystem::path& browser,
-                  const PictureSize& size, const std::filesystem::path& file);
+bool writePicture(const std::string& page, const std::filesystem::path& browser,
+                  const PictureSize& size, const std::filesystem::path& file,
+                  const std::atomic<bool>& interrupted);
 
 }  // namespace corridor

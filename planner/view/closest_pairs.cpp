@@ -1,6 +1,7 @@
 #include "planner/view/closest_pairs.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "collision/world/body_queries.h"
 
@@ -9,12 +10,7 @@ namespace corridor::view {
 std::optional<ClosestPair> closestPair(const Checker& checker, const std::vector<Transform>& X_WF,
                                        QueryContext& context) {
   const Scene& scene = checker.scene();
-  struct Bounded {
-    double bound;
-    std::size_t pair;
-    auto operator<=>(const Bounded&) const = default;
-  };
-  std::vector<Bounded> order;
+  std::vector<std::pair<double, std::size_t>> order;  // lower bounds, and of which pairs
   for (std::size_t i = 0; i < scene.pairs().size(); ++i) {
     const Scene::Placed &a = scene.bodies()[scene.pairs()[i].a],
                         &b = scene.bodies()[scene.pairs()[i].b];

@@ -19,7 +19,7 @@ const palette = {
   obstacles: ['#d3cfc6', '#c5cad0', '#d6ccba', '#c3cdc7'], wall: '#9a9892',
   robots: ['#2f6db5', '#7a5bb0', '#2a8a8c', '#9a6a2f', '#5a6b7c'],
   start: '#2e9e5b', way: '#d9a441', goal: '#d04a3f', alarm: '#b0127e', witness: '#b0127e',
-  levels: ['#1f2730', '#6b3fa0', '#2f6db5', '#2a8a8c', '#2e9e5b', '#a98a1c', '#d07a2f', '#c0392b'],
+  levels: ['#1f2730', '#5b2a86', '#a0307a', '#c8414f', '#dd6b2f', '#c9951a', '#8a8f1c', '#3f8f4f'],
 };
 const light = (hex) => new THREE.Color(hex).convertSRGBToLinear();
 /** From the start's colour over the way's to the goal's; `at` in [0, 1]. */

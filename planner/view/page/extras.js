@@ -124,6 +124,7 @@ class Contact {
 
   /** @param materialsOf of a body's index. @param finding null: none. */
   show(finding, materialsOf) {
+    this.finding = finding;
     for (const material of this.lit) material.emissive.setHex(0);
     this.lit = [];
     this.ring.visible = this.dot.visible = Boolean(finding) && finding.a !== null;

@@ -2,6 +2,12 @@
 
 const kHides = 0.08, kNoLonger = 0.03;  // of the robots' pixels: from here on glass, below that solid again
 
+/** Glass is seen at its rims, where one looks along it. */
+function thickenedRims(shader) {
+  shader.fragmentShader = shader.fragmentShader.replace('#include <tonemapping_fragment>',
+    'gl_FragColor.a *= mix(0.6, 4.0, pow(1.0 - abs(dot(normal, normalize(vViewPosition))), 3.0));\n#include <tonemapping_fragment>');
+}
+
 /** What does not move, solid or like glass. */
 class Obstacles {
   constructor(scene, lowest) {
@@ -16,7 +22,8 @@ class Obstacles {
       const floor = bounds.max.z < lowest + 0.02 * Math.max(size.x, size.y) && size.z < 0.12 * Math.max(size.x, size.y);
       const colour = floor ? palette.floor : data.planar ? palette.wall : palette.obstacles[number++ % palette.obstacles.length];
       const solid = surface(colour, shape);
-      const glass = surface(colour, shape, {transparent: true, opacity: 0.16, depthWrite: false});
+      const glass = surface(colour, shape, {transparent: true, opacity: 0.13, depthWrite: false});
+      glass.onBeforeCompile = thickenedRims;
       const mesh = new THREE.Mesh(shape.geometry, solid);
       const edges = shape.edges && lines(shape, palette.edge, 0.55);
       mesh.receiveShadow = true;
@@ -33,7 +40,7 @@ class Obstacles {
     body.mesh.material = glass ? body.glass : body.solid;
     body.mesh.castShadow = !glass && !body.floor;
     body.mesh.renderOrder = glass ? 5 : 0;
-    if (body.edges) body.edges.material.opacity = glass ? 0.3 : 0.55;
+    if (body.edges) body.edges.material.opacity = glass ? 0.42 : 0.55;
   }
 
   /** @returns whether anything changed. */
@@ -74,6 +81,7 @@ class Obstacles {
       renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
     };
     const numberAt = (i) => pixels[4 * i] << 16 | pixels[4 * i + 1] << 8 | pixels[4 * i + 2];
+    stage.aim();
     renderer.gammaOutput = false;
     renderer.setRenderTarget(target);
     renderer.setClearColor(0);

@@ -36,7 +36,7 @@ function start() {
     return;
   }
   const stage = new Stage(byId('canvas'), {top: data.planar}), {scene} = stage;
-  const motion = new Motion(scene);
+  const motion = new Motion(scene, image);
   const robotPoints = motion.points();
   const robotBox = new THREE.Box3().setFromPoints(robotPoints);
   const obstacles = new Obstacles(scene, robotBox.min.z);
@@ -52,11 +52,6 @@ function start() {
     stage.draw();
   };
   byId('glass').addEventListener('click', (event) => { if (event.target.dataset.glass) glass(event.target.dataset.glass); });
-  let looking = 0;
-  stage.onView = () => {
-    clearTimeout(looking);
-    if (obstacles.mode === 'auto' && triangles <= 1e5) looking = setTimeout(() => glass('auto'), 250);
-  };
   const view = (top) => {
     stage.setTop(top);
     byId('view-3d').setAttribute('aria-pressed', String(!top));
@@ -70,13 +65,7 @@ function start() {
   let chart = null, treeLevel = -1;
   stage.beforeDraw.push(() => contact.place(stage));
   if (closest) stage.beforeDraw.push(() => closest.root.visible && closest.place(motion.at, stage));
-  if (motion.trace) {
-    let radius = 0;
-    stage.beforeDraw.push(() => {
-      const pixel = 1.2 * stage.pixelAt(stage.target);
-      if (Math.abs(pixel / radius - 1) > 0.05) motion.trace.children.forEach((mesh) => scaleTube(mesh, radius = pixel));
-    });
-  }
+  stage.beforeDraw.push(() => motion.placeTrace(stage));
 
   // The place on the path.
   const seek = (at, keepFinding = false) => {
@@ -84,7 +73,7 @@ function start() {
     byId('slider').value = at;
     Panel.place(at, closest);
     if (chart) chart.goTo(at);
-    if (!keepFinding) showFinding(-1, false);
+    if (!keepFinding && contact.finding) showFinding(-1, false);
     stage.renderer.shadowMap.needsUpdate = true;
     stage.draw();
   };
@@ -92,10 +81,13 @@ function start() {
     ? obstacles.bodies.filter((body) => body.index === index).flatMap((body) => [body.solid, body.glass]) : [motion.now.materials.get(index)];
   const showFinding = (index, move = true) => {
     Panel.pressFinding(index);
-    contact.show(index < 0 ? null : data.verdict.findings[index], materialsOf);
-    if (index >= 0 && move) {
+    const finding = index < 0 ? null : data.verdict.findings[index];
+    contact.show(finding, materialsOf);
+    motion.showPoses(!finding);
+    if (finding && move) {
       player.pause();
       seek(path.at[path.findings[index]], true);
+      if (finding.a !== null) stage.approach(new THREE.Vector3(...finding.point), 2 * motion.reach(finding));
     }
     stage.draw();
   };
@@ -123,6 +115,7 @@ function start() {
     chart.goTo(motion.at);
     stage.draw();
   });
+  byId('decades').addEventListener('change', (event) => chart.draw(event.target.checked));
   const showTrees = () => {
     treeLevel = byId('trees').checked ? Number(byId('level').value) : -1;
     byId('trees-body').hidden = treeLevel < 0;
@@ -142,9 +135,14 @@ function start() {
   view(data.planar);
   glass('auto');
   if (path) seek(0);
-  if (image && path) motion.now.root.visible = false;
+  if (image && path) motion.hideNow();
   stage.drawNow();
-  window.corridorView = {stage, motion, closest, trees, contact, player, seek, showFinding};
+  let looking = 0;
+  stage.onView = () => {
+    clearTimeout(looking);
+    if (obstacles.mode === 'auto' && triangles <= 1e5 && !image) looking = setTimeout(() => glass('auto'), 250);
+  };
+  window.corridorView = {stage, motion, obstacles, closest, trees, contact, player, seek, showFinding};
   if (image) console.info('corridor: the picture is drawn');
 }
 
@@ -153,7 +151,7 @@ function interest(robotPoints, robotBox, obstacles) {
   const bounds = robotBox.clone(), near = robotBox.clone();
   for (const body of obstacles.bodies) bounds.union(body.bounds);
   if (near.isEmpty()) near.copy(bounds);
-  near.expandByScalar(0.3 * near.getSize(new THREE.Vector3()).length());
+  near.expandByScalar((data.planar ? 0.6 : 0.3) * near.getSize(new THREE.Vector3()).length());
   const points = [...robotPoints];
   for (const body of obstacles.bodies) {
     const box = body.bounds.clone().intersect(near);

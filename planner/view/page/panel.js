@@ -22,6 +22,7 @@ const Panel = {
       if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);
     }
     if (s && s.margin_m > 0) facts.push(['Margin', metres(s.margin_m)]);
+    facts.push(['Bodies', data.bodies.length.toLocaleString('en')]);
     facts.push(['Triangles', data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0).toLocaleString('en')]);
     for (const [key, value] of facts) byId('facts').append(make('dt', key), make('dd', value));
     const notes = [...(s && s.other_files ? ['The path was made for other files than those of this problem.'] : []), ...data.notes];
@@ -37,6 +38,7 @@ const Panel = {
     const v = data.verdict, list = byId('findings').querySelector('ol');
     if (!v || (!v.findings.length && !v.violations.length)) return;
     byId('findings').hidden = false;
+    if (v.verdict === 'undecided') byId('findings').querySelector('h2').textContent = 'What could not be proved';
     for (const violation of v.violations) list.append(make('li', violation));
     v.findings.forEach((f, index) => {
       const pair = f.a === null ? '' : `${this.bodyName(f.a)} and ${this.bodyName(f.b)}`;
@@ -84,7 +86,8 @@ const Panel = {
     legend.replaceChildren(item('', palette.start, 'start'),
       item('', palette.goal, path ? 'goal' : data.goal_count > 1 ? `goals (${data.goals.length} of ${data.goal_count})` : 'goal'));
     if (path) legend.append(item('way', '', 'on the way'));
-    if (path && !image) legend.append(item('', palette.robots[0], 'now'));
+    const names = data.robots.length > 1 ? data.robots.map((robot) => `${robot.name}, now`) : ['now'];
+    if (path && !image) names.forEach((text, i) => legend.append(item('', palette.robots[i % palette.robots.length], text)));
     legend.append(item('scale', '', `grid ${metres(stage.step)}`));
   },
 
@@ -92,10 +95,7 @@ const Panel = {
     const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
     const u = path.at[k] > path.at[i] ? (at - path.at[i]) / (path.at[k] - path.at[i]) : 0;
     const from = path.edge[k] === path.edge[i] && i > 0 ? path.t[i] : 0, t = k > i ? from + u * (path.t[k] - from) : path.t[i];
-    const edges = path.states.length - 1;
-    let text = `edge ${path.edge[k] + 1} of ${edges}, t = ${t.toFixed(3)}`;
-    if (!edges) text = 'a single state';
-    byId('place').textContent = text;
+    byId('place').textContent = path.states.length > 1 ? `edge ${path.edge[k]}, t = ${t.toFixed(3)}` : 'a single state';
     if (!closest) return;
     const n = closest.indexAt(at), d = closest.metres[n];
     byId('closest-text').replaceChildren(make('b', d > 0 ? metres(d) : 'contact'),

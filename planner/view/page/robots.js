@@ -21,6 +21,14 @@ const path = data.path && {
   states: data.path.states, findings: data.path.findings, trace: data.path.trace,
 };
 const frameCount = data.array(data.start).length / kPose;
+/** Frames that never move on the path, as an arm's base. */
+const isStill = Array.from({length: frameCount}, (_, frame) => {
+  const samples = path ? path.poses : Float32Array.from([data.start, ...data.goals].flatMap((end) => [...data.array(end)]));
+  for (let i = frame * kPose; i < samples.length; i += frameCount * kPose) {
+    for (let k = 0; k < kPose; ++k) if (samples[i + k] !== samples[frame * kPose + k]) return false;
+  }
+  return true;
+});
 
 /** Where frame `frame` is at `at` in [0, 1] of the path. */
 function framePose(at, frame, position, quaternion) {
@@ -71,21 +79,27 @@ function lines(shape, colour, opacity) {
   return new THREE.LineSegments(shape.edges, new THREE.LineBasicMaterial({color: light(colour), transparent: true, opacity, depthWrite: false}));
 }
 
-/** The robots as they are now: solid, and dimly seen through what hides them. */
+/** What a surface is moved back by where copies coincide, as about a joint: the copy of least rank is seen. */
+const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
+
+/** Robots in earnest: solid, and dimly seen through what hides them. */
 class Robots extends Copy {
-  constructor(hex) {
+  /** @param hex none: a colour a robot. @param rank 0: also those of its frames that never move. */
+  constructor(hex, rank = 0) {
     const materials = new Map();
     super((body, shape, index) => {
-      const colour = '#' + new THREE.Color(hex ?? palette.robots[body.robot % palette.robots.length])
-        .lerp(new THREE.Color('#ffffff'), index % 2 ? 0.14 : 0).getHexString();
-      const solid = new THREE.Mesh(shape.geometry, surface(colour, shape));
+      if (rank > 0 && isStill[body.frame]) return [];
+      const colour = '#' + new THREE.Color(hex && !isStill[body.frame] ? hex : palette.robots[body.robot % palette.robots.length])
+        .lerp(new THREE.Color('#ffffff'), index % 2 ? 0.14 : 0).lerp(new THREE.Color('#b9bcc0'), isStill[body.frame] ? 0.55 : 0).getHexString();
+      const solid = new THREE.Mesh(shape.geometry, surface(colour, shape, behind(rank)));
       solid.castShadow = true;
       solid.receiveShadow = !shape.flat;
       solid.renderOrder = 2;
       materials.set(index, solid.material);
+      if (shape.flat) return [solid];  // large: once is enough
       const hidden = new THREE.Mesh(shape.geometry, surface(colour, shape, {...blended, opacity: 0.22, depthFunc: THREE.GreaterDepth, depthWrite: false}));
       hidden.renderOrder = 1;
-      return shape.edges ? [solid, hidden, lines(shape, '#10233d', 0.35)] : [solid, hidden];
+      return [solid, hidden, lines(shape, '#10233d', 0.35)];
     });
     this.materials = materials;
   }
@@ -96,42 +110,44 @@ class Robots extends Copy {
  * then their colours; so the nearest is seen, and the order does not matter.
  */
 class Ghost extends Copy {
-  constructor(colour, opacity) {
-    const offset = {polygonOffsetFactor: 2, polygonOffsetUnits: 4};
+  constructor(colour, opacity, rank) {
+    const offset = behind(rank);
     const depth = new THREE.MeshBasicMaterial({colorWrite: false, side: THREE.DoubleSide, polygonOffset: true, ...offset});
     const smooth = surface('#000000', {flat: false}, {...blended, opacity, depthWrite: false, ...offset});
-    const flat = surface('#000000', {flat: true}, {...blended, opacity, depthWrite: false, ...offset});
+    const flat = surface('#000000', {flat: true}, {...blended, opacity, ...offset});  // of large meshes: colours at once
     for (const material of [smooth, flat]) material.color.copy(colour).convertSRGBToLinear();
     super((body, shape) => {
+      if (isStill[body.frame]) return [];
       const first = new THREE.Mesh(shape.geometry, depth), second = new THREE.Mesh(shape.geometry, shape.flat ? flat : smooth);
       first.renderOrder = 3;
       second.renderOrder = 4;
-      return [first, second];
+      return shape.flat ? [second] : [first, second];
     });
   }
 }
 
 /** Everything that moves: the robots now, start and goals, poses along the path, and the way of a point. */
 class Motion {
-  constructor(scene) {
+  /** @param picture the poses are all that is seen: there is no robot among them. */
+  constructor(scene, picture) {
     this.scene = scene;
     this.at = 0;
+    this.opacity = picture ? {end: 0.75, way: 0.42} : data.planar ? {end: 0.6, way: 0.42} : {end: 0.42, way: 0.22};
     this.triangles = data.bodies.reduce((sum, body) => sum + (body.frame < 0 ? 0 : shapes[body.mesh].triangles), 0);
     this.ends = [data.array(data.start), ...data.goals.map((goal) => data.array(goal))];
     this.now = path ? new Robots() : null;
-    const strong = path ? 0.62 : 1;
-    const solid = (hex) => path ? new Ghost(new THREE.Color(hex), strong) : new Robots(hex);
-    this.start = solid(palette.start);
+    const end = (hex, rank) => path ? new Ghost(new THREE.Color(hex), this.opacity.end, rank) : new Robots(hex, rank);
+    this.start = end(palette.start, path ? 1 : 0);
     this.start.stand(this.ends[0]);
     this.goals = (path ? [null] : data.goals).map((_, i) => {
-      const goal = solid(palette.goal);
+      const goal = end(palette.goal, path ? 2 : i + 1);
       if (path) goal.goTo(1); else goal.stand(this.ends[i + 1]);
       return goal;
     });
     for (const copy of [this.now, this.start, ...this.goals]) if (copy) scene.add(copy.root);
     this.ghosts = [];
     this.mostGhosts = path ? Math.min(24, Math.floor(kGhostTriangles / Math.max(1, this.triangles))) : 0;
-    this.setGhosts(Math.min(7, this.mostGhosts));
+    this.setGhosts(Math.min(data.planar ? 11 : 7, this.mostGhosts, Math.floor((picture ? 1e6 : 2e5) / Math.max(1, this.triangles))));
     if (path) this.addTrace();
     if (path) this.goTo(0);
   }
@@ -139,7 +155,8 @@ class Motion {
   setGhosts(count) {
     for (const ghost of this.ghosts) this.scene.remove(ghost.root);
     this.ghosts = Array.from({length: count}, (_, i) => {
-      const at = (i + 1) / (count + 1), ghost = new Ghost(wayColour(at), 0.3);
+      const at = (i + 1) / (count + 1), ghost = new Ghost(wayColour(at), this.opacity.way, i + 3);
+      ghost.root.visible = this.start.root.visible;
       ghost.goTo(at);
       this.scene.add(ghost.root);
       return ghost;
@@ -149,6 +166,16 @@ class Motion {
   goTo(at) {
     this.at = at;
     this.now.goTo(at);
+  }
+
+  /** Start, goal and what is between, or the robots alone as they are now. */
+  showPoses(shown) {
+    for (const copy of [this.start, ...this.goals, ...this.ghosts]) copy.root.visible = shown;
+  }
+
+  /** For pictures: the poses alone. */
+  hideNow() {
+    this.now.frames.forEach((frame, i) => { frame.visible = isStill[i]; });
   }
 
   /** Points that the robots come to: corners of their bodies' bounds, at the ends and along the path. */
@@ -170,20 +197,42 @@ class Motion {
     return points;
   }
 
-  /** A thin tube along the way of each robot's last frame. */
+  /** The size of what moves in a finding: the larger of its bodies that do. */
+  reach(finding) {
+    return Math.max(0, ...[finding.a, finding.b].map((index) => data.bodies[index]).filter((body) => body.frame >= 0)
+      .map((body) => 2 * shapes[body.mesh].geometry.boundingSphere.radius));
+  }
+
+  /** A thin tube along the way of each robot's last frame, with dots at its ends: small robots are hard to find. */
   addTrace() {
     this.trace = new THREE.Group();
+    this.tubes = [];
+    this.dots = [];
+    const ball = new THREE.SphereBufferGeometry(1, 16, 12);
     for (const frame of path.trace) {
       const points = [];
-      const size = new THREE.Box3();
       for (let i = 0; i < path.at.length; ++i) {
         const p = new THREE.Vector3().fromArray(path.poses, (i * frameCount + frame) * kPose);
         points.push({p, at: path.at[i]});
-        size.expandByPoint(p);
       }
-      this.trace.add(tube(points));
+      this.tubes.push(tube(points));
+      for (const [{p}, colour] of [[points[0], palette.start], [points[points.length - 1], palette.goal]]) {
+        const dot = new THREE.Mesh(ball, new THREE.MeshBasicMaterial({color: light(colour)}));
+        dot.position.copy(p);
+        dot.renderOrder = 2;
+        this.dots.push(dot);
+      }
     }
+    this.trace.add(...this.tubes, ...this.dots);
     this.scene.add(this.trace);
+  }
+
+  /** Before drawing: lines and dots of so many pixels, however near. */
+  placeTrace(stage) {
+    if (!this.trace) return;
+    const radius = 1.2 * stage.pixelAt(stage.target);
+    if (Math.abs(radius / this.radius - 1) > 0.05 || !this.radius) for (const mesh of this.tubes) scaleTube(mesh, this.radius = radius);
+    for (const dot of this.dots) dot.scale.setScalar(4 * stage.pixelAt(dot.position));
   }
 }
 

@@ -50,7 +50,7 @@ function faceNormals(positions, indices) {
   return normals;
 }
 
-/** Surfaces: positions and normals of all corners; edges: positions of the ends of creases and rims. */
+/** A surface with normals; edges: positions of the ends of creases and rims. */
 function creased(positions, indices) {
   const {number, distinct} = welded(positions);
   const vertices = new Uint32Array(indices.length);
@@ -73,7 +73,19 @@ function creased(positions, indices) {
     if (!repeated) faces.push(f);
     else lengths[f] = 0;
   }
-  const out = new Float32Array(9 * faces.length), outNormals = new Float32Array(9 * faces.length);
+  // Corners of one vertex with one normal are one vertex for the graphics card.
+  const out = [], outNormals = [], outIndices = new Uint32Array(3 * faces.length);
+  const latest = new Int32Array(distinct).fill(-1), before = [];
+  const vertexOf = (v, p, x, y, z) => {
+    for (let i = latest[v]; i >= 0; i = before[i]) {
+      if (Math.abs(outNormals[3 * i] - x) + Math.abs(outNormals[3 * i + 1] - y) + Math.abs(outNormals[3 * i + 2] - z) < 1e-3) return i;
+    }
+    before.push(latest[v]);
+    latest[v] = before.length - 1;
+    out.push(positions[p], positions[p + 1], positions[p + 2]);
+    outNormals.push(x, y, z);
+    return latest[v];
+  };
   faces.forEach((f, at) => {
     for (let k = 0; k < 3; ++k) {
       const v = vertices[3 * f + k], w = vertices[3 * f + (k + 1) % 3], p = 3 * indices[3 * f + k], q = 3 * indices[3 * f + (k + 1) % 3];
@@ -85,15 +97,14 @@ function creased(positions, indices) {
         if (cos > kCrease) { x += normals[3 * g]; y += normals[3 * g + 1]; z += normals[3 * g + 2]; }
         if (g !== f && has(g, w)) { ++others; sharp = sharp || cos < kCrease; earliest = earliest && f < g; }
       }
-      const length = Math.hypot(x, y, z) || 1, o = 9 * at + 3 * k;
-      outNormals.set([x / length, y / length, z / length], o);
-      out.set([positions[p], positions[p + 1], positions[p + 2]], o);
+      const length = Math.hypot(x, y, z) || 1;
+      outIndices[3 * at + k] = vertexOf(v, p, x / length, y / length, z / length);
       if (earliest && (others === 0 || sharp)) {
         edges.push(positions[p], positions[p + 1], positions[p + 2], positions[q], positions[q + 1], positions[q + 2]);
       }
     }
   });
-  return {positions: out, normals: outNormals, edges: new Float32Array(edges)};
+  return {positions: new Float32Array(out), normals: new Float32Array(outNormals), indices: outIndices, edges: new Float32Array(edges)};
 }
 
 /** The geometry of each mesh of the page, shared by all bodies and poses that have it. */
@@ -109,6 +120,7 @@ const shapes = data.meshes.map((mesh) => {
     const smooth = creased(positions, indices);
     geometry.setAttribute('position', new THREE.BufferAttribute(smooth.positions, 3));
     geometry.setAttribute('normal', new THREE.BufferAttribute(smooth.normals, 3));
+    geometry.setIndex(new THREE.BufferAttribute(smooth.indices, 1));
     shape.edges = new THREE.BufferGeometry();
     shape.edges.setAttribute('position', new THREE.BufferAttribute(smooth.edges, 3));
   }

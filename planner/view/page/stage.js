@@ -52,12 +52,12 @@ class Stage {
   }
 
   addLights() {
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b2a6, 0.62));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb3aca0, 0.52));
     const centre = this.box.getCenter(new THREE.Vector3()), size = this.box.getSize(new THREE.Vector3()).length() / 2 || 1;
-    this.key = new THREE.DirectionalLight(0xfffaf2, 0.62);
+    this.key = new THREE.DirectionalLight(0xfffaf2, 0.47);
     this.key.position.copy(centre).addScaledVector(new THREE.Vector3(-0.25, -0.55, 0.95), 3 * size);
     this.key.target.position.copy(centre);
-    this.fill = new THREE.DirectionalLight(0xeaf1ff, 0.2);
+    this.fill = new THREE.DirectionalLight(0xeaf1ff, 0.16);
     this.fill.position.copy(centre).addScaledVector(new THREE.Vector3(0.9, 0.2, 0.35), 3 * size);
     this.fill.target.position.copy(centre);
     this.scene.add(this.key, this.key.target, this.fill, this.fill.target);
@@ -115,15 +115,21 @@ class Stage {
     this.controls[0].enabled = !top;
     this.controls[1].enabled = top;
     this.moved = false;
-    this.resize();
+    this.frame();
     this.onView();
   }
 
   resize() {
+    if (this.frame()) this.drawNow();  // not a frame later: a canvas whose size was set is blank
+  }
+
+  /** Canvas and cameras as large as the page has room. @returns whether there is any, of another size than before. */
+  frame() {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
-    if (!width || !height || !this.points) return;
-    this.renderer.setSize(width, height, false);
-    this.aspect = width / height;
+    if (!width || !height || !this.points) return false;
+    const changed = width !== this.width || height !== this.height;
+    if (changed) this.renderer.setSize(width, height, false);
+    Object.assign(this, {width, height, aspect: width / height});
     if (!this.moved) this.fit();
     this.perspective.aspect = this.aspect;
     this.flat.left = -this.half * this.aspect;
@@ -131,7 +137,7 @@ class Stage {
     this.flat.top = this.half;
     this.flat.bottom = -this.half;
     this.draw();
-    this.drawNow();  // not a frame later: a canvas whose size was set is blank
+    return changed;
   }
 
   /** All points within the picture, but for a border and the legend's line. */
@@ -143,7 +149,8 @@ class Stage {
     const right = up.clone().cross(toViewer).normalize();
     up.copy(toViewer).cross(right);
     const seen = this.points.map((p) => [p.dot(right), p.dot(up), p.dot(toViewer)]);
-    const range = (values) => [Math.min(...values), Math.max(...values)];
+    const range = (values) => values.reduce(([low, high], x) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);
+    const largest = (values) => range(values)[1];
     const [zLow, zHigh] = range(seen.map((s) => s[2]));
     const tangent = Math.tan(kFieldOfView * Math.PI / 360) * border;
     let [x, y, distance] = [0, 0, 0];
@@ -152,14 +159,14 @@ class Stage {
     x = middle(around(0, () => 1));
     y = middle(around(1, () => 1));
     for (let pass = 0; pass < 8; ++pass) {
-      distance = Math.max(...seen.map((s) => s[2] + Math.max(Math.abs(s[0] - x) / (tangent * this.aspect), Math.abs(s[1] - y) / tangent)));
+      distance = largest(seen.map((s) => s[2] + Math.max(Math.abs(s[0] - x) / (tangent * this.aspect), Math.abs(s[1] - y) / tangent)));
       if (this.top) break;
       // The middle of what is seen, moved to the picture's.
       const inPicture = (i, o) => middle(range(seen.map((s) => (s[i] - o) / (distance - s[2]))));
       x += inPicture(0, x) * (distance - zHigh);
       y += inPicture(1, y) * (distance - zHigh);
     }
-    this.half = Math.max(...seen.map((s) => Math.max(Math.abs(s[0] - x) / this.aspect, Math.abs(s[1] - y)))) / border * 1.04;
+    this.half = largest(seen.map((s) => Math.max(Math.abs(s[0] - x) / this.aspect, Math.abs(s[1] - y)))) / border * 1.04;
     const visible = this.top ? this.half : tangent * (distance - middle([zLow, zHigh]));
     const target = new THREE.Vector3().addScaledVector(right, x).addScaledVector(up, y - lift * visible).addScaledVector(toViewer, middle([zLow, zHigh]));
     this.controls[this.top ? 1 : 0].target.copy(target);
@@ -170,11 +177,35 @@ class Stage {
     this.controls[this.top ? 1 : 0].update();
   }
 
+  /** Looks at a point, from where it looked, and from so near that `size` fills a third of the picture, but not farther. */
+  approach(point, size) {
+    const camera = this.camera, away = camera.position.clone().sub(this.target);
+    if (this.top) {
+      camera.zoom = Math.max(camera.zoom, this.half / Math.max(1.5 * size, 1e-9));
+    } else if (size > 0) {
+      away.setLength(Math.min(away.length(), 1.5 * size / Math.tan(kFieldOfView * Math.PI / 360)));
+    }
+    this.target.copy(point);
+    camera.position.copy(point).add(away);
+    this.moved = true;
+    this.controls[this.top ? 1 : 0].update();
+    this.draw();
+  }
+
   /** The length in the world that is a pixel at a point. */
   pixelAt(point) {
     const height = this.canvas.clientHeight || 1;
     if (this.top) return 2 * this.half / this.flat.zoom / height;
     return 2 * Math.tan(kFieldOfView * Math.PI / 360) * this.perspective.position.distanceTo(point) / height;
+  }
+
+  /** The camera as its place and the scene's size have it. */
+  aim() {
+    const {camera} = this, away = camera.position.distanceTo(this.bounds.getCenter(new THREE.Vector3()));
+    camera.near = this.top ? 0.01 * this.radius : Math.max(away - 2.5 * this.radius, camera.position.distanceTo(this.target) / 60);
+    camera.far = away + 12 * this.radius;
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
   }
 
   draw() {
@@ -185,13 +216,10 @@ class Stage {
   drawNow() {
     cancelAnimationFrame(this.asked);
     this.asked = 0;
-    const started = performance.now(), camera = this.camera;
-    const away = camera.position.distanceTo(this.bounds.getCenter(new THREE.Vector3()));
-    camera.near = this.top ? 0.01 * this.radius : Math.max(away - 2.5 * this.radius, camera.position.distanceTo(this.target) / 60);
-    camera.far = away + 12 * this.radius;
-    camera.updateProjectionMatrix();
+    const started = performance.now();
+    this.aim();
     for (const prepare of this.beforeDraw) prepare();
-    this.renderer.render(this.scene, camera);
+    this.renderer.render(this.scene, this.camera);
     this.drawMs = performance.now() - started;
   }
 }

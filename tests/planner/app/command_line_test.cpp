@@ -353,9 +353,8 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   const auto said = [&](const std::string& arguments) { return run(arguments).err; };
   EXPECT_EQ(said(""), "A subcommand is required; corridor --help tells more\n");
   EXPECT_EQ(said("slove problem.yaml"),
-            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, view, "
-            "benchmark, check, "
-            "inspect, query\n");
+            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, "
+            "view, benchmark, check, inspect, query\n");
   EXPECT_EQ(said("verify problem.yaml"),
             "SOLUTION is required; corridor verify --help tells more\n");
   for (const char* time : {"0", "-1", "nan", "inf", "20s"})

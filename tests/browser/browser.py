@@ -1,0 +1,159 @@
+"""What tests of pages share: the program, a browser without a display, and what is to hold of every page.
+
+A test is a script that imports this file and ends with `main([test, …])`, functions of a browser and a folder. Without
+Chromium, its driver or Selenium it prints why and ends with status 77, which ctest shows as skipped."""
+
+import contextlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+SKIPPED = 77
+WAIT = 120  # seconds: a busy machine of two cores draws by its processor
+
+SIZES = {"desktop": (1366, 768), "phone": (390, 844)}
+
+
+def skip(why):
+    print(f"browser: Skipped\n{why}")  # as GoogleTest says it: ./corridor test lists the reasons
+    sys.exit(SKIPPED)
+
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    skip("needs Debian's python3-selenium")
+
+
+def corridor(*words, status=0):
+    """Runs the program (CORRIDOR_PROGRAM) and returns what it printed."""
+    result = subprocess.run([os.environ["CORRIDOR_PROGRAM"], *map(str, words)], capture_output=True, text=True)
+    assert result.returncode == status, f"corridor {words}: {result.returncode}\n{result.stdout}{result.stderr}"
+    return result.stdout
+
+
+def source(*parts):
+    return os.path.join(os.environ["CORRIDOR_SOURCE_DIR"], *parts)
+
+
+@contextlib.contextmanager
+def folder():
+    with tempfile.TemporaryDirectory(prefix="corridor-browser-") as path:
+        yield path
+
+
+class Browser:
+    """Chromium with one page."""
+
+    def __init__(self, *flags):
+        """flags: of Chromium, besides those that draw without a graphics card."""
+        browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
+        if not browser or not driver:
+            skip("needs Debian's chromium and chromium-driver")
+        options = webdriver.ChromeOptions()
+        options.binary_location = browser
+        for word in ("--headless", "--hide-scrollbars", "--disable-dev-shm-usage", "--force-device-scale-factor=1",
+                     "--use-angle=swiftshader", "--enable-unsafe-swiftshader", *flags):
+            options.add_argument(word)
+        if os.geteuid() == 0:
+            options.add_argument("--no-sandbox")
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(service=Service(driver), options=options)
+        self.driver.set_page_load_timeout(WAIT)
+        self.driver.set_script_timeout(WAIT)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.driver.quit()
+
+    def size(self, name):
+        """The inside of the window, exactly: Chromium makes no window narrower than 500 pixels by itself."""
+        width, height = SIZES[name]
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+
+    def open(self, file, fragment=""):
+        self.driver.get("about:blank")
+        self.driver.get(f"file://{os.path.abspath(file)}{fragment}")
+
+    def js(self, expression):
+        return self.driver.execute_script(f"return {expression};")
+
+    def wait(self, expression):
+        """Until the expression holds."""
+        WebDriverWait(self.driver, WAIT, 0.1).until(lambda _: self.js(expression), f"in {WAIT} s not true: {expression}")
+
+    def find(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def click(self, selector):
+        """As a user does who scrolls there."""
+        element = self.find(selector)
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        element.click()
+
+    def screenshot(self, selector=None):
+        return (self.find(selector).screenshot_as_png if selector else self.driver.get_screenshot_as_png())
+
+    def complaints(self):
+        """What the console has of errors."""
+        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+    def check_page(self):
+        """What holds of every page, of any size: no error, nothing loaded, nothing wider than the window."""
+        assert not (found := self.complaints()), found
+        loaded = self.js("performance.getEntriesByType('resource').map((entry) => entry.name)")
+        assert not loaded, f"the page loads {loaded}"
+        width, inner = self.js("[document.documentElement.scrollWidth, window.innerWidth]")
+        assert width <= inner, f"the page is {width} pixels wide, the window {inner}"
+
+
+    def press(self, key, shift=False):
+        """To the page as a whole."""
+        chain = ActionChains(self.driver)
+        if shift:
+            chain.key_down(Keys.SHIFT)
+        chain.send_keys(key)
+        if shift:
+            chain.key_up(Keys.SHIFT)
+        chain.perform()
+
+    def canvas(self, selector):
+        """What a canvas shows: how many colours, and a number that changes with its pixels."""
+        return self.driver.execute_script("""
+            const canvas = document.querySelector(arguments[0]), copy = document.createElement('canvas');
+            Object.assign(copy, {width: canvas.width, height: canvas.height});
+            const context = copy.getContext('2d');
+            context.drawImage(canvas, 0, 0);
+            const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+            let sum = 0;
+            for (const pixel of pixels) sum = Math.imul(sum, 31) + pixel | 0;
+            return [new Set(pixels).size, sum];""", selector)
+
+
+def png_size(file):
+    """Width and height of a PNG."""
+    with open(file, "rb") as png:
+        start = png.read(24)
+    assert start[:8] == b"\x89PNG\r\n\x1a\n", "not a PNG"
+    return int.from_bytes(start[16:20], "big"), int.from_bytes(start[20:24], "big")
+
+
+def main(tests):
+    """Runs functions of one browser each by name; the first failure ends with status 1."""
+    for test in tests:
+        began = time.monotonic()
+        with Browser() as browser, folder() as path:
+            test(browser, path)
+        print(f"{test.__name__}: passed in {time.monotonic() - began:.1f} s", flush=True)
+    print(f"{len(tests)} passed, 0 failed")

@@ -1,0 +1,188 @@
+"""Pages of `corridor view` in a browser: they draw, move, fit and complain of nothing, on a desktop and on a phone."""
+
+import json
+import os
+
+from browser import Browser, Keys, SIZES, corridor, main, png_size, source
+
+READY = "window.corridorView !== undefined"
+# Of the robot that moves: where all its bodies are.
+POSES = "corridorView.motion.now.frames.map((frame) => frame.matrix.elements.join()).join()"
+
+
+def page_of(path, problem, *solve):
+    """A page of a problem, with a path where the words of `corridor solve` are given."""
+    words = [source("problems", problem)]
+    if solve:
+        words.append(os.path.join(path, "path.yaml"))
+        corridor("solve", words[0], "-o", words[1], *solve)
+    page = os.path.join(path, "page.html")
+    corridor("view", *words, "-o", page)
+    return page
+
+
+def shown(browser, page, size):
+    browser.size(size)
+    browser.open(page)
+    browser.wait(READY)
+    browser.js("corridorView.stage.drawNow()")
+
+
+def canvas(browser):
+    browser.js("corridorView.stage.drawNow()")
+    return browser.canvas("#canvas")
+
+
+def check_slider(browser):
+    """The slider moves the robot, in numbers and in pixels; so do keys."""
+    before, (colours, pixels) = browser.js(POSES), canvas(browser)
+    assert colours > 50, f"only {colours} colours: the scene is not there"
+    browser.driver.execute_script("""const slider = document.getElementById('slider');
+        slider.value = 0.5;
+        slider.dispatchEvent(new Event('input'));""")
+    middle = browser.js(POSES)
+    assert middle != before, "the slider moves nothing"
+    assert canvas(browser)[1] != pixels, "the slider changes no pixel"
+    browser.press(Keys.ARROW_RIGHT)
+    assert browser.js(POSES) != middle
+    assert abs(browser.js("Number(document.getElementById('slider').value)") - 0.51) < 1e-9
+    browser.press(Keys.ARROW_LEFT)
+    assert browser.js(POSES) == middle
+    browser.press(Keys.END)
+    assert browser.js("corridorView.motion.at") == 1
+    browser.press(Keys.ARROW_LEFT, shift=True)
+    states = browser.js("data.path.states.map((i) => data.array(data.path.at)[i])")
+    assert browser.js("corridorView.motion.at") == states[-2]
+    browser.press(Keys.HOME)
+    assert browser.js(POSES) == before
+
+
+def two_arms(browser, path):
+    page = page_of(path, "two_arms", "--seed", 1)
+    for size in SIZES:
+        shown(browser, page, size)
+        browser.check_page()
+        assert browser.js("document.getElementById('badge').textContent") == "Proved free of contact"
+        check_slider(browser)
+        browser.check_page()
+    browser.press(Keys.SPACE)
+    browser.wait("corridorView.motion.at > 0.02")
+    browser.press(Keys.SPACE)
+    assert browser.js("corridorView.player.playing") == 0
+    # All that is on demand is off at first.
+    if browser.js("document.body.classList.contains('closed')"):
+        browser.click("#toggle")
+    for body in ("closest-body", "trees-body", "pairs-body"):
+        assert browser.js(f"document.getElementById('{body}').hidden")
+    browser.click("#closest")
+    samples = browser.js("corridorView.closest.metres.length")
+    assert samples > 50
+    assert len(browser.find("#chart polyline").get_attribute("points").split()) == samples
+    assert browser.js("corridorView.closest.root.visible")
+    linear = browser.find("#chart polyline").get_attribute("points")
+    browser.click("#decades")
+    assert len(browser.find("#chart polyline").get_attribute("points").split()) == samples
+    assert browser.find("#chart polyline").get_attribute("points") != linear
+    chart, at = browser.find("#chart svg"), browser.js("corridorView.motion.at")
+    chart.click()  # its middle
+    assert browser.js("corridorView.motion.at") != at
+    assert abs(browser.js("corridorView.motion.at") - 0.5) < 0.1
+    browser.click("#trees")
+    assert browser.js("corridorView.trees.shown.length") == browser.js("data.bodies.length")
+    counts = []
+    for level in range(3):
+        browser.driver.execute_script("""const level = document.getElementById('level');
+            level.value = arguments[0];
+            level.dispatchEvent(new Event('input'));""", level)
+        counts.append(browser.js("corridorView.trees.shown.reduce((sum, box) => sum + box.geometry.attributes.position.count / 24, 0)"))
+    assert counts[0] == browser.js("data.bodies.length") and counts[0] < counts[1] < counts[2], counts
+    browser.click("#pairs")
+    browser.click("#pairs-body summary")
+    browser.wait("document.querySelectorAll('#pairs-body li').length > 0")
+    browser.check_page()
+
+
+def hook_maze(browser, path):
+    page = page_of(path, "hook_maze", "--seed", 1)
+    for size in SIZES:
+        shown(browser, page, size)
+        assert browser.js("corridorView.stage.camera.isOrthographicCamera"), "a plan is seen from above"
+        check_slider(browser)
+        browser.click("#view-3d")
+        assert not browser.js("corridorView.stage.camera.isOrthographicCamera")
+        assert canvas(browser)[0] > 50
+        browser.check_page()
+
+
+def without_solution(browser, path):
+    page = page_of(path, "arm_at_shelf")
+    for size in SIZES:
+        shown(browser, page, size)
+        assert canvas(browser)[0] > 50
+        assert not browser.find("#bar").is_displayed()
+        browser.check_page()
+    glass = "corridorView.obstacles.bodies.filter((body) => body.isGlass).map((body) => data.bodies[body.index].name)"
+    shown(browser, page, "desktop")
+    assert browser.js(glass) == ["shelf"], "what hides the arm is seen through"
+    before = canvas(browser)[1]
+    browser.click("[data-glass=solid]")
+    assert browser.js(glass) == [] and canvas(browser)[1] != before
+
+
+def refuted(browser, path):
+    page = page_of(path, "thin_plate", "--edges", "discrete", "--seed", 1)
+    for size in SIZES:
+        shown(browser, page, size)
+        assert browser.js("document.getElementById('badge').textContent") == "Refuted"
+        if browser.js("document.body.classList.contains('closed')"):
+            browser.click("#toggle")
+        assert browser.js("corridorView.motion.at") == 0
+        before = canvas(browser)[1]
+        browser.click("#findings button")
+        at = browser.js("data.array(data.path.at)[data.path.findings[0]]")
+        assert at > 0 and browser.js("corridorView.motion.at") == at
+        assert browser.js("corridorView.contact.lit.length") >= 2, "both bodies are lit"
+        assert canvas(browser)[1] != before
+        browser.click("#findings button")
+        assert browser.js("corridorView.contact.lit.length") == 0
+        browser.check_page()
+
+
+def hostile_names(browser, path):
+    name = "<img src=x onerror=alert(1)></script>'\""
+    for file, text in {
+            "cube.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+            "robot.yaml": f"format: corridor-robot-1\nname: {json.dumps(name)}\nrigid: SE3\nshapes: [{{mesh: cube.obj, unit: m}}]\n",
+            "problem.yaml": f"format: corridor-problem-1\nrobot: robot.yaml\nworld: {{{json.dumps(name)}: {{box: [1, 1, 1]}}}}\n"
+                            "start: {at: [-3, 0, 0]}\ngoal: {at: [3, 0, 0]}\nbounds: {at: [[-4, -4, -4], [4, 4, 4]]}\n",
+            "path.yaml": "format: corridor-solution-1\nspace: SE3\npath: [[-3, 0, 0, 0, 0, 0, 1], [3, 0, 0, 0, 0, 0, 1]]\n"}.items():
+        with open(os.path.join(path, file), "w", encoding="utf-8") as out:
+            out.write(text)
+    page = os.path.join(path, "page.html")
+    corridor("view", os.path.join(path, "problem.yaml"), os.path.join(path, "path.yaml"), "-o", page)
+    shown(browser, page, "desktop")
+    assert name in browser.js("document.getElementById('facts').textContent")
+    assert name in browser.js("document.getElementById('findings').textContent")
+    assert browser.js("document.querySelectorAll('img').length") == 0
+    browser.check_page()
+
+
+def without_webgl(_, path):
+    page = page_of(path, "hook_maze", "--seed", 1)
+    with Browser("--disable-3d-apis") as browser:
+        browser.size("desktop")
+        browser.open(page)
+        assert "WebGL" in browser.find("#trouble").text
+        assert browser.js("document.getElementById('name').textContent") == "hook_maze", "what needs no scene is there"
+        browser.check_page()
+
+
+def picture(browser, path):
+    page_of(path, "hook_maze", "--seed", 1)
+    image = os.path.join(path, "page.png")
+    corridor("view", source("problems", "hook_maze"), os.path.join(path, "path.yaml"), "--image", image, "--size", "640x400")
+    assert png_size(image) == (640, 400)
+    assert os.path.getsize(image) > 10000, "hardly anything is on it"
+
+
+main([two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture])

@@ -1,0 +1,105 @@
+// `corridor view` as its users meet it: a page or a picture, whole or not at all, and a line for
+// each fault.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/app/program_test.h"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kProblems = CORRIDOR_SOURCE_DIR "/problems/";
+
+class ViewCommand : public corridor::test::ProgramTest {
+ protected:
+  ViewCommand() {
+    write("path.yaml",
+          "format: corridor-solution-1\nspace: SE3\npath:\n  - [-3, -2, 0, 0, 0, 0, 1]\n"
+          "  - [3, -2, 0, 0, 0, 0, 1]\n");
+    write("other.yaml", "format: corridor-solution-1\nspace: SE2\npath:\n  - [0, 0, 0]\n");
+  }
+  const std::string plate = kProblems + "thin_plate";
+};
+
+TEST_F(ViewCommand, WritesAPage) {
+  const Result result = run("view " + plate + " path.yaml -o page.html");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, "problem: " + plate + "\nverdict: refuted\npage: page.html\n");
+  const std::string page = read("page.html");
+  EXPECT_THAT(page, StartsWith("<!DOCTYPE html>"));
+  EXPECT_THAT(page, HasSubstr("\"verdict\":\"refuted\""));
+  // The notice that three.js asks for, and nothing that is loaded.
+  EXPECT_THAT(page, HasSubstr("Permission is hereby granted, free of charge"));
+  for (const char* loads : {"<link", "src=\"", "@import", "url("})
+    EXPECT_EQ(page.substr(0, page.find("id=\"data\"")).find(loads), std::string::npos) << loads;
+}
+
+TEST_F(ViewCommand, NamesThePageByTheProblem) {
+  const Result result = run("view " + plate);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("page: thin_plate.html\n"));
+  EXPECT_THAT(read("thin_plate.html"), StartsWith("<!DOCTYPE html>"));
+  const Result quiet = run("view " + plate + " -o quiet.html --quiet");
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  EXPECT_EQ(read("quiet.html"), read("thin_plate.html"));
+}
+
+TEST_F(ViewCommand, APathOfOtherFilesIsToldOnThePage) {
+  write("path.yaml", "format: corridor-solution-1\nspace: SE3\ndigest: " + std::string(64, 'a') +
+                         "\npath:\n  - [-3, -2, 0, 0, 0, 0, 1]\n  - [3, -2, 0, 0, 0, 0, 1]\n");
+  const Result result = run("view " + plate + " path.yaml -o page.html");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "corridor: warning: path.yaml: made for other files than those of " +
+                            plate + " (the digests differ)\n");
+  EXPECT_THAT(read("page.html"), HasSubstr("\"other_files\":true"));
+}
+
+TEST_F(ViewCommand, Faults) {
+  expectFault("view none.yaml", "none.yaml: no such file");
+  const Result missing = run("view " + plate + " none.yaml -o page.html");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, StartsWith("none.yaml"));
+  const Result other = run("view " + plate + " other.yaml -o page.html");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, StartsWith("other.yaml"));
+  expectFault("view " + plate + " -o none/page.html", "--output: there is no folder none");
+  expectFault("view " + plate + " --image none/a.png", "--image: there is no folder none");
+  expectFault("view " + plate + " -o .", "--output: . is a folder; a file's name is needed");
+  expectFault("view " + plate + " --size 100x100", "--size: is of --image, and there is none");
+  for (const char* size :
+       {"100", "100x", "x100", "99x100", "100x8001", "100x100x", "1e3x100", "-100x100"})
+    expectFault("view " + plate + " --image a.png --size=" + size,
+                std::string("--size: WIDTHxHEIGHT is needed, 100 to 8000 pixels each, as 1366x768, "
+                            "not \"") +
+                    size + "\"");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "page.html"));
+}
+
+TEST_F(ViewCommand, WithoutChromiumThereIsNoPicture) {
+  const std::string command = "cd '" + folder_.string() +
+                              "' && PATH=/nowhere '" CORRIDOR_PROGRAM "' view " + plate +
+                              " -o page.html --image a.png >out.txt 2>err.txt";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_EQ(read("err.txt"),
+            "--image: needs Chromium, and there is no chromium in PATH (Debian: apt-get install "
+            "chromium); -o writes the page without it\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "page.html"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
+}
+
+/// A browser that draws nothing leaves no file.
+TEST_F(ViewCommand, ABrowserThatFailsIsTold) {
+  write("chromium", "#!/bin/sh\nexit 1\n");
+  std::filesystem::permissions(folder_ / "chromium", std::filesystem::perms::owner_all);
+  write("a.png", "before");
+  const std::string command = "cd '" + folder_.string() + "' && PATH='" + folder_.string() +
+                              "' '" CORRIDOR_PROGRAM "' view " + plate +
+                              " --image a.png >out.txt 2>err.txt";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_EQ(read("err.txt"), (folder_ / "chromium").string() + ": has not drawn the picture\n");
+  EXPECT_EQ(read("a.png"), "before");
+}
+
+}  // namespace
