@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <mutex>
+#include <stdexcept>
 
 #include <ompl/base/StateValidityChecker.h>
 
@@ -69,9 +70,11 @@ std::string whyNoPeer(const std::string&) {
 }
 
 BenchmarkPeer peerNamed(const std::string& name) {
-  return {name, [](const auto& si, const Checker& checker) {
-            return std::make_shared<PeerStates>(
-                si, checker, std::unique_ptr<PeerScene>(fclModule().scene(checker)));
+  const auto makeScene = fclModule().scene;
+  if (!makeScene) throw std::logic_error(name + " can't take part: " + fclModule().why);
+  return {name, [makeScene](const auto& si, const Checker& checker) {
+            return std::make_shared<PeerStates>(si, checker,
+                                                std::unique_ptr<PeerScene>(makeScene(checker)));
           }};
 }
 

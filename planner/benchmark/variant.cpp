@@ -1,7 +1,6 @@
 #include "planner/benchmark/variant.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
@@ -23,9 +22,9 @@ constexpr double kFinestResolution = 1e-9;
 
 void Variant::apply(Problem::CheckerSpec& spec) const {
   FaultList faults;
-  YamlSource source{name, faults, {}};
+  YamlSource source{"variant " + name, faults, {}};
   readCheckerKeys(YamlMap(checker, "checker", &problemKeys().at("checker"), source), spec);
-  if (faults.size() > 0) throw std::logic_error("a variant with faults: " + name);
+  faults.throwIfAny();
 }
 
 YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& keys) {

@@ -46,6 +46,7 @@ struct Variant {
   std::optional<BenchmarkPeer> peer;
 
   /// A problem's checker, changed to this one: what it doesn't set stays the problem's.
+  /// @throws InputError where the two don't go together (an overlap test of another volume).
   void apply(Problem::CheckerSpec& checker) const;
 };
 
