@@ -138,7 +138,12 @@ void readChecker(const YamlMap& file, Problem& problem) {
   checker.edges = map.choice("edges", wordsOf("checker.edges")).value_or(checker.edges);
   checker.resolution = map.number("resolution", Range::Fraction).value_or(checker.resolution);
   checker.tolerance = map.number("tolerance", Range::Positive);
+  const std::size_t faults = file.source().faults.size();
+  checker.volume = map.choice("volume", wordsOf("checker.volume")).value_or(checker.volume);
   checker.fit = map.choice("fit", wordsOf("checker.fit")).value_or(checker.fit);
+  checker.overlap = map.choice("overlap", wordsOf("checker.overlap")).value_or(checker.overlap);
+  if (file.source().faults.size() > faults) return;
+  if (const auto wrong = wrongWordIn(checker)) map.fault(wrong->key, wrong->text);
 }
 
 }  // namespace

@@ -241,6 +241,33 @@ TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
   }
 }
 
+TEST_P(Spaces, PathsAreFoundAndProvedOnTreesOfAnyVolume) {
+  Problem problem = hallProblem(GetParam());
+  const SolveReport usual = solveProblem(problem);
+  const auto solved = [&](const Problem::CheckerSpec& checker, const std::string& told) {
+    problem.checker = checker;
+    const SolveReport report = solveProblem(problem);
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << told << ": " << report.why;
+    EXPECT_TRUE(report.certified) << told;
+    EXPECT_EQ(report.checker, told);
+    EXPECT_NE(report.counters.boxTests, usual.counters.boxTests) << told;
+    const Solution solution = makeSolution(problem, report);
+    EXPECT_EQ(solution.checker, told);
+    EXPECT_EQ(verifySolution(problem, solution).verdict, PathVerdict::proved) << told;
+    // No verdict depends on the volume, and so no path does.
+    if (checker.edges == "certified") {
+      EXPECT_EQ(report.path, usual.path) << told;
+    }
+  };
+  solved({.volume = "sphere"}, "certified, sphere");
+  solved({.volume = "kdop26"}, "certified, kdop26");
+  solved({.volume = "obb-binary"}, "certified, obb-binary");
+  solved({.volume = "obb-binary", .fit = "hull", .overlap = "gjk"}, "certified, obb-binary, gjk");
+  solved({.edges = "adaptive", .volume = "rss"}, "adaptive, rss");
+  solved({.edges = "discrete", .resolution = 0.001, .volume = "aabb"},
+         "discrete, resolution 0.001, aabb");
+}
+
 /// The gap in the wall is 3 m wide, the bar 0.2 m: short paths cut its corner, clear ones don't.
 TEST(Solve, MaximisesTheLeastClearance) {
   Problem problem = hallProblem(Rigid::SE2);
