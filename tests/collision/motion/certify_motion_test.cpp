@@ -216,13 +216,16 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   options.tolerance = 1e-7;
   const RigidMotion motion =
       RigidMotion::spatial(at(Vec3(0, 0, 0.3)), turned(Vec3(0, 0, 0.4), 0.3, Vec3(1, 2, 3)), {});
-  for (const std::uint64_t limit : {std::uint64_t{10}, std::uint64_t{1000}}) {
-    QueryContext context;
-    options.workLimit = limit;
-    const MotionResult r = certify(moving, fixed, motion, options, context);
-    EXPECT_LE(context.counters.boxTests + context.counters.triangleTests, limit + 16 + 256);
-    EXPECT_EQ(r.reason, UndecidedReason::workLimit);
-  }
+  for (const TreeKind trees : {TreeKind::wideObb, TreeKind::obb, TreeKind::sphere})
+    for (const std::uint64_t limit : {std::uint64_t{10}, std::uint64_t{1000}}) {
+      SCOPED_TRACE(test::treeName(trees));
+      QueryContext context;
+      options.workLimit = limit;
+      const MotionResult r =
+          certify(moving, fixed, motion, options, context, {EdgeMethod::certified, trees});
+      EXPECT_LE(context.counters.work(), limit + 16 + 256);
+      EXPECT_EQ(r.reason, UndecidedReason::workLimit);
+    }
   QueryContext used;
   used.counters.boxTests = 5;
   options.workLimit = ~std::uint64_t{0};

@@ -163,14 +163,16 @@ TEST_P(EdgeMethods, MarginTubeReserveAndWorkLimit) {
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_EQ(r.reason, UndecidedReason::clearance);
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
+  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance) << "nothing moves but in the tube";
   tube = {};
   options_.reserve = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
   options_.reserve = 0.1001;
   EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
       << "too near to be called free, but no contact";
+  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance);
   options_.reserve = 0;
-  EXPECT_EQ(context_.counters.undecided, 2u);
+  EXPECT_EQ(context_.counters.undecided, 4u);
   for (const std::uint64_t limit : {3, 100'000}) {
     options_.workLimit = limit;
     context_.counters = {};
@@ -199,6 +201,29 @@ TEST_P(EdgeMethods, FarBodiesGetNoTree) {
   EXPECT_EQ(ask(cube, far, RigidMotion::spatial({}, at(Vec3(5, 0, 0)), {})).verdict,
             MotionVerdict::free);
   EXPECT_FALSE(far.treeBuilt());
+}
+
+/// Triangles about one centroid, which no split separates: a leaf of many on either side.
+TEST_P(EdgeMethods, LeavesOfManyTriangles) {
+  TriangleMesh nested, needle;
+  for (const double s : {1.0, 2.0, 4.0, 8.0})
+    add(nested, s * Vec3(-1, -1, 0), s * Vec3(2, -1, 0), s * Vec3(-1, 2, 0));
+  for (const double s : {0.01, 0.02, 0.5})  // downwards, and longer and longer
+    add(needle, s * Vec3(0, 0, -2), s * Vec3(0.1, 0, 1), s * Vec3(-0.1, 0, 1));
+  const Body plate = bodyOf(nested), tip = bodyOf(needle);
+  for (const double x : {0.0, 3.0, 10.0, 13.0}) {  // above the first, …, the last one; beside all
+    const bool hits = x < 12;
+    const auto through = [&](double sign) {  // the tips are 1 below, at −1.5 in the end
+      return RigidMotion::spatial(at(sign * Vec3(x, -4 + x / 64, 2)),
+                                  at(sign * Vec3(x, -4 + x / 64, -0.5)), {});
+    };
+    const MotionVerdict expected = hits ? MotionVerdict::contact : MotionVerdict::free;
+    for (const bool earliest : {false, true}) {
+      options_.earliest = earliest;
+      EXPECT_EQ(ask(tip, plate, through(1)).verdict, expected) << x;
+      EXPECT_EQ(ask(plate, tip, through(-1)).verdict, expected) << x;
+    }
+  }
 }
 
 /// Points have no size to compare a travel with: windows end at 2^-48 of the motion, not in a stack
