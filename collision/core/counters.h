@@ -4,6 +4,8 @@
 
 namespace corridor {
 
+constexpr std::uint64_t kNoWorkLimit = ~std::uint64_t{0};
+
 /// What queries cost, in the terms of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1):
 /// counts, one set a thread.
 struct Counters {
@@ -16,6 +18,9 @@ struct Counters {
   std::uint64_t edges = 0;   ///< motion queries
   std::uint64_t states = 0;  ///< static queries
   std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`
+
+  /// Box and triangle tests: what limits of work are about.
+  std::uint64_t work() const { return boxTests + triangleTests; }
 
   Counters& operator+=(const Counters& other);
 };

@@ -38,6 +38,11 @@ class QueryContext {
     if (wideStack.empty()) wideStack.resize(1);
     wideStack[0] = kWholeTrees;
   }
+  /// The pairs of nodes of its first `count` items on `stack`, for binary trees.
+  void stackFrom(std::size_t count) {
+    stack.clear();
+    for (std::size_t i = 0; i < count; ++i) stack.push_back({wideStack[i].a, wideStack[i].b, 0});
+  }
   /// Pairs of nodes of one pair of bodies: a range of `pending`.
   struct PairItems {
     std::uint32_t bodies;

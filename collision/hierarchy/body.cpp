@@ -6,14 +6,23 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/volumes/pair_tests.h"
 
 namespace corridor {
+
+/// A tree that is built when it is first asked for.
+template <class Tree>
+struct LazyTree {
+  std::once_flag once;
+  std::unique_ptr<const Tree> tree;
+};
 
 struct Body::Impl {
   std::string name;
@@ -21,10 +30,14 @@ struct Body::Impl {
   std::optional<ConvexPart> part;
   bool solid = false;
   TreeParams params;
-  mutable std::once_flag once, binaryOnce, componentsOnce;
+  mutable std::once_flag once, componentsOnce;
   mutable std::atomic<bool> built = false;
   mutable std::optional<WideObbTree> tree;
-  mutable std::optional<ObbTree> binaryTree;
+  mutable std::tuple<LazyTree<VolumeTree<Obb>>, LazyTree<VolumeTree<Aabb>>,
+                     LazyTree<VolumeTree<BoundingSphere>>, LazyTree<VolumeTree<Rss>>,
+                     LazyTree<VolumeTree<Kdop<14>>>, LazyTree<VolumeTree<Kdop<18>>>,
+                     LazyTree<VolumeTree<Kdop<26>>>>
+      volumeTrees;
   mutable MeshComponents components;
 };
 
@@ -135,16 +148,21 @@ const WideObbTree& Body::tree() const {
   return *impl_->tree;
 }
 
-const ObbTree& Body::binaryTree() const {
-  std::call_once(impl_->binaryOnce, [this] {
-    if (impl_->part) {
-      impl_->binaryTree.emplace(*impl_->part);
-    } else {
-      impl_->binaryTree.emplace(impl_->mesh, impl_->params);
-    }
+template <BoundingVolume Volume>
+const VolumeTree<Volume>& Body::volumeTree() const {
+  using Tree = VolumeTree<Volume>;
+  auto& lazy = std::get<LazyTree<Tree>>(impl_->volumeTrees);
+  std::call_once(lazy.once, [&] {
+    lazy.tree = impl_->part ? std::make_unique<const Tree>(*impl_->part)
+                            : std::make_unique<const Tree>(impl_->mesh, impl_->params);
     impl_->built = true;
   });
-  return *impl_->binaryTree;
+  return *lazy.tree;
 }
+
+#define CORRIDOR_VOLUME_TREE(Volume) \
+  template const VolumeTree<Volume>& Body::volumeTree<Volume>() const;
+CORRIDOR_EACH_VOLUME(CORRIDOR_VOLUME_TREE)
+#undef CORRIDOR_VOLUME_TREE
 
 }  // namespace corridor

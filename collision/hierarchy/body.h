@@ -33,8 +33,11 @@ class Body {
   const ConvexPart* part() const;    ///< null for a mesh
   bool solid() const;                ///< true for primitives
   const WideObbTree& tree() const;   ///< builds it if nobody has
-  /// For the queries that have no wide variant; builds it if nobody has.
-  const ObbTree& binaryTree() const;
+  /// The binary tree of any kind of volume; builds it if nobody has.
+  template <BoundingVolume Volume>
+  const VolumeTree<Volume>& volumeTree() const;
+  /// For the queries that have no wide variant.
+  const ObbTree& binaryTree() const { return volumeTree<Obb>(); }
   const MeshComponents& components() const;  ///< of a mesh; found if nobody has
   bool treeBuilt() const;                    ///< any of them
   /// Radius about the origin of the frame of all points, rounded up.

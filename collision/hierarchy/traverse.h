@@ -5,9 +5,10 @@
 
 namespace corridor {
 
-/// The one traversal of two trees that every query uses, with its own stack (`stack`, of
-/// Query::Item, which has the nodes' numbers as `a` and `b`): no call stack, no allocation once the
-/// stack has grown. The larger of two inner nodes is opened.
+/// The one traversal of two trees that every query uses, from the pairs of nodes on its own stack
+/// (of Query::Item, which has the nodes' numbers as `a` and `b`): no call stack, no allocation once
+/// the stack has grown. The larger of two inner nodes is opened. What is on the stack in the end
+/// was not looked at.
 ///
 /// A query says what is looked at and in which order:
 /// * `bool enter(const Item&, const NodeA&, const NodeB&)`: go on with this pair? The overlap
@@ -18,10 +19,7 @@ namespace corridor {
 ///   were pushed, the last one first: those from `first` on may be reordered; the top is looked
 ///   at first.
 template <class TreeA, class TreeB, class Item, class Query>
-void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item>& stack,
-              Query& query) {
-  stack.clear();
-  stack.push_back(root);
+void traverseFrom(const TreeA& a, const TreeB& b, std::vector<Item>& stack, Query& query) {
   while (!stack.empty()) {
     const Item item = stack.back();
     stack.pop_back();
@@ -41,6 +39,15 @@ void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item
                               [&](std::uint32_t child) { query.push(stack, item.a, child); });
     query.opened(stack, first);
   }
+}
+
+/// The same from one pair.
+template <class TreeA, class TreeB, class Item, class Query>
+void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item>& stack,
+              Query& query) {
+  stack.clear();
+  stack.push_back(root);
+  traverseFrom(a, b, stack, query);
 }
 
 }  // namespace corridor

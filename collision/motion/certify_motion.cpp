@@ -8,9 +8,12 @@
 
 #include "collision/convex/convex_distance.h"
 #include "collision/core/rounding.h"
+#include "collision/hierarchy/with_volume.h"
 #include "collision/motion/descend.h"
+#include "collision/motion/descend_volumes.h"
 #include "collision/motion/may_meet.h"
 #include "collision/motion/motion_answer.h"
+#include "collision/queries/interference.h"
 #include "collision/queries/interference_wide.h"
 
 namespace corridor {
@@ -76,7 +79,7 @@ class Certifier {
   /// longer be exact.
   static constexpr double kShortest = 0x1p-48;
 
-  std::uint64_t work() const { return counters_.boxTests + counters_.triangleTests; }
+  std::uint64_t work() const { return counters_.work(); }
 
   /// A window of time and what is not separated in it yet: a range of the groups.
   struct Window {
@@ -159,7 +162,7 @@ class Certifier {
       const std::size_t later = items_.size(), count = stacked(group);
       const DescentOptions asked = {options_.margin, options_.tolerance,    h <= kShortest,
                                     workEnd_,        patience.pairsOfNodes, evidence_ != nullptr};
-      found_ = descend(pair.a->tree(), pair.b->tree(), window, asked, count, items_, context_);
+      found_ = walkTrees(pair, window, asked, count);
       group.clearance = std::min(group.clearance, found_.clearance);
       if (items_.size() > later) {
         groups_.push_back({group.bodies, later, items_.size(), group.clearance});
@@ -283,13 +286,34 @@ class Certifier {
   /// Are two nodes of the first `count` of the stack's items in contact at the rounded pose, that
   /// of t?
   bool touches(const MotionPair& pair, const Transform& X_AB, double t, std::size_t count) {
-    const auto hit =
-        interferenceBelow(pair.a->tree(), {}, pair.b->tree(), X_AB, count, context_, workEnd_);
+    const auto hit = touchBelow(pair, X_AB, count);
     --counters_.states;  // part of an edge
     if (!hit) return false;
     contactTime_ = t;
     contactPair_ = {pair.bodyA, pair.bodyB, hit->a, hit->b};
     return true;
+  }
+
+  // Here the kind of trees is looked at, once a pair of bodies and window.
+
+  Descent walkTrees(const MotionPair& pair, const MotionWindow& window, const DescentOptions& asked,
+                    std::size_t count) {
+    if (options_.trees == TreeKind::wideObb)
+      return descend(pair.a->tree(), pair.b->tree(), window, asked, count, items_, context_);
+    return onVolumeTrees(
+        options_.trees, *pair.a, *pair.b, [&](auto overlap, const auto& a, const auto& b) {
+          return descend<decltype(overlap)>(a, b, window, asked, count, items_, context_);
+        });
+  }
+
+  std::optional<TrianglePair> touchBelow(const MotionPair& pair, const Transform& X_AB,
+                                         std::size_t count) {
+    if (options_.trees == TreeKind::wideObb)
+      return interferenceBelow(pair.a->tree(), {}, pair.b->tree(), X_AB, count, context_, workEnd_);
+    return onVolumeTrees(
+        options_.trees, *pair.a, *pair.b, [&](auto overlap, const auto& a, const auto& b) {
+          return interferenceBelow<decltype(overlap)>(a, {}, b, X_AB, count, context_, workEnd_);
+        });
   }
 
   /// Puts the group's items on the stack that walks begin with. @return how many.

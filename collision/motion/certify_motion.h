@@ -7,6 +7,7 @@
 
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/body.h"
+#include "collision/hierarchy/tree_kinds.h"
 #include "collision/motion/motion_window.h"
 
 namespace corridor {
@@ -53,6 +54,8 @@ struct MotionOptions {
   /// Box and triangle tests, soon after which (a pair of nodes: 16 and 256 at most) the answer is
   /// `undecided`.
   std::uint64_t workLimit = 20'000'000;
+  /// What is walked. Bodies' own bounds, looked at before any tree, are the same for all kinds.
+  TreeKind trees = TreeKind::wideObb;
 };
 
 /// The relative motions along an edge, numbered by whoever owns it: as many as there are pairs of
@@ -113,11 +116,11 @@ struct MotionEvidence {
 /// the ones of one b, are best put side by side.
 ///
 /// Method (design: «The certified edge»): a window of time is halved where boxes or leaves can't
-/// be told apart (`descend`); each window hands the undecided pairs of nodes down to its halves.
-/// Bodies whose bounds stay apart are never descended, nor do they get a tree. Where only the
-/// verdict is asked for, those whose bounds don't are tested for contact at the end before any
-/// window is walked, and what the first windows leave, in their middles: most motions that touch
-/// anything are done there.
+/// be told apart (`descend`: descend.h, and, for any volume, descend_volumes.h); each window hands
+/// the undecided pairs of nodes down to its halves. Bodies whose bounds stay apart are never
+/// descended, nor do they get a tree. Where only the verdict is asked for, those whose bounds don't
+/// are tested for contact at the end before any window is walked, and what the first windows leave,
+/// in their middles: most motions that touch anything are done there.
 /// @param evidence  where not null, gets why: `checkEvidence` (check_evidence.h) proves it anew. No
 /// verdict depends on it; it takes half again the time.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,

@@ -47,7 +47,7 @@ class Moving {
 
   bool skip(const Item& item) {
     if (result_.kind == Descent::Kind::workLimit) return true;
-    if (counters_.boxTests + counters_.triangleTests >= options_.workEnd) {
+    if (counters_.work() >= options_.workEnd) {
       result_.kind = Descent::Kind::workLimit;
       return true;
     }
@@ -148,25 +148,9 @@ class Moving {
   /// True: enough.
   bool take(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t, unsigned leaves,
             unsigned& open) {
-    if (answer.separated) {
-      result_.clearance = std::min(result_.clearance, answer.clearance);
-      return false;
-    }
-    result_.s = a_.meshTriangle(s);
-    result_.t = b_.meshTriangle(t);
-    if (answer.contact) {
-      result_.kind = Descent::Kind::contact;
-      return true;
-    }
-    // Refining does not help, or need not.
-    if (answer.stuck || !(answer.travel > options_.tolerance) || options_.shortest) {
-      result_.kind = Descent::Kind::undecided;
-      result_.gap = answer.gap;
-      result_.wide = answer.travel > options_.tolerance;
-      return true;
-    }
-    open |= leaves;
-    return false;
+    const LeafPair pair = judged(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
+    if (pair == LeafPair::left) open |= leaves;
+    return pair == LeafPair::last;
   }
 
   const WideObbTree &a_, &b_;

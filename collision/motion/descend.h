@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/wide_obb_tree.h"
 #include "collision/motion/motion_window.h"
+#include "collision/motion/moving_triangles.h"
 
 namespace corridor {
 
@@ -34,6 +36,33 @@ struct DescentOptions {
   unsigned mostLeft = 0;             ///< pairs that may be left to halves before all the rest is
   bool clearance = false;            ///< asked for: costs time
 };
+
+/// What a pair of leaves' items says: they are apart all along the window, left to shorter ones, or
+/// the last that has to be looked at (`Descent::kind` says why).
+enum class LeafPair { apart, left, last };
+
+/// Takes the answer for the items `s` and `t`, by their numbers in their meshes, into the window's.
+inline LeafPair judged(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t,
+                       const DescentOptions& options, Descent& descent) {
+  if (answer.separated) {
+    descent.clearance = std::min(descent.clearance, answer.clearance);
+    return LeafPair::apart;
+  }
+  descent.s = s;
+  descent.t = t;
+  if (answer.contact) {
+    descent.kind = Descent::Kind::contact;
+    return LeafPair::last;
+  }
+  // Refining does not help, or need not.
+  if (answer.stuck || !(answer.travel > options.tolerance) || options.shortest) {
+    descent.kind = Descent::Kind::undecided;
+    descent.gap = answer.gap;
+    descent.wide = answer.travel > options.tolerance;
+    return LeafPair::last;
+  }
+  return LeafPair::left;
+}
 
 /// Walks the trees below pairs of nodes, b moving as the window says; what the window can't tell
 /// apart goes to `later`, after what that holds.

@@ -33,7 +33,7 @@ DistanceSteps::DistanceSteps(MotionSource& motion, std::span<const MotionPair> p
 }
 
 std::uint64_t DistanceSteps::work() const {
-  return context_.counters.boxTests + context_.counters.triangleTests + kLookWork * looks_;
+  return context_.counters.work() + kLookWork * looks_;
 }
 
 bool DistanceSteps::outOfWork() const {
@@ -73,14 +73,14 @@ DistanceSteps::Look DistanceSteps::look(std::uint32_t pair, double t, double h, 
   if (!exact) measure.relative = needed < HUGE_VAL ? travel / (4 * needed) : 0.25;
 
   const std::uint64_t states = context_.counters.states;
-  const Distance told = surfaceDistance(a, {}, b, w.X_AB, measure, context_);
+  const Distance told = surfaceDistance(a, {}, b, w.X_AB, measure, context_, options_.trees);
   look.s = told.a;
   look.t = told.b;
   look.gap = std::max(0.0, told.distance - options_.margin);
   look.contact = told.distance == 0 || distanceFromAbove(a, {}, b, w.X_AB, told) <= options_.margin;
   look.hopeless = !(told.distance > needed - travel);
   if (told.distance > needed)
-    look.lower = provedDistance(a, {}, b, w.X_AB, told, measure, context_);
+    look.lower = provedDistance(a, {}, b, w.X_AB, told, measure, context_, options_.trees);
   context_.counters.states = states;  // part of an edge
   return look;
 }

@@ -6,9 +6,11 @@
 namespace corridor {
 namespace {
 
+/// Below the pairs of nodes that `context.stack` holds.
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
-std::optional<TrianglePair> firstContact(const TreeA& a, const Transform& X_WA, const TreeB& b,
-                                         const Transform& X_WB, QueryContext& context) {
+std::optional<TrianglePair> firstContactBelow(const TreeA& a, const Transform& X_WA, const TreeB& b,
+                                              const Transform& X_WB, QueryContext& context,
+                                              std::uint64_t workEnd = kNoWorkLimit) {
   ++context.counters.states;
   const auto test = pairTestOf<Volume, Overlap>(a, X_WA, b, X_WB);
   std::optional<TrianglePair> found;
@@ -16,9 +18,16 @@ std::optional<TrianglePair> firstContact(const TreeA& a, const Transform& X_WA, 
     found = TrianglePair{a.meshTriangle(s), b.meshTriangle(t)};
     return true;
   };
-  TouchingPairs query(a, X_WA, b, X_WB, test, context.counters, first);
-  traverse(a, b, {0, 0, 0}, context.stack, query);
+  TouchingPairs query(a, X_WA, b, X_WB, test, context.counters, first, workEnd);
+  traverseFrom(a, b, context.stack, query);
   return found;
+}
+
+template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
+std::optional<TrianglePair> firstContact(const TreeA& a, const Transform& X_WA, const TreeB& b,
+                                         const Transform& X_WB, QueryContext& context) {
+  context.stack.assign(1, {0, 0, 0});
+  return firstContactBelow<Volume, Overlap>(a, X_WA, b, X_WB, context);
 }
 
 }  // namespace
@@ -30,10 +39,22 @@ std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Tran
   return firstContact<Volume, Overlap>(a, X_WA, b, X_WB, context);
 }
 
+template <class Overlap, BoundingVolume Volume>
+std::optional<TrianglePair> interferenceBelow(const VolumeTree<Volume>& a, const Transform& X_WA,
+                                              const VolumeTree<Volume>& b, const Transform& X_WB,
+                                              std::size_t count, QueryContext& context,
+                                              std::uint64_t workEnd) {
+  context.stackFrom(count);
+  return firstContactBelow<Volume, Overlap>(a, X_WA, b, X_WB, context, workEnd);
+}
+
 #define CORRIDOR_INTERFERENCE(Volume, Overlap)                                                  \
   template std::optional<TrianglePair> interference<Overlap>(                                   \
       const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
-      QueryContext&);
+      QueryContext&);                                                                           \
+  template std::optional<TrianglePair> interferenceBelow<Overlap>(                              \
+      const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
+      std::size_t, QueryContext&, std::uint64_t);
 CORRIDOR_EACH_OVERLAP(CORRIDOR_INTERFERENCE)
 #undef CORRIDOR_INTERFERENCE
 

@@ -26,6 +26,15 @@ std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Tran
                                          const VolumeTree<Volume>& b, const Transform& X_WB,
                                          QueryContext& context);
 
+/// The same of what is below the first `count` items of `context.wideStack` only (pairs of nodes:
+/// what else is in them is of wide trees). Gives up, as if nothing touched, soon after the counted
+/// box and triangle tests reach `workEnd`.
+template <class Overlap = StandardOverlap, BoundingVolume Volume>
+std::optional<TrianglePair> interferenceBelow(const VolumeTree<Volume>& a, const Transform& X_WA,
+                                              const VolumeTree<Volume>& b, const Transform& X_WB,
+                                              std::size_t count, QueryContext& context,
+                                              std::uint64_t workEnd = kNoWorkLimit);
+
 /// The same for trees over space, and for one over space and one over objects.
 std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA, const Octree& b,
                                          const Transform& X_WB, QueryContext& context);

@@ -48,9 +48,7 @@ class Touching {
         workEnd_(workEnd) {}
 
   static constexpr bool kSorted = false;
-  bool skip(const QueryContext::WideItem&) const {
-    return counters_.boxTests + counters_.triangleTests >= workEnd_;
-  }
+  bool skip(const QueryContext::WideItem&) const { return counters_.work() >= workEnd_; }
 
   unsigned boxes(const QueryContext::WideItem&, const WideObbTree::Node& a,
                  const WideObbTree::Node& b, float* gaps) const {

@@ -14,8 +14,6 @@
 
 namespace corridor {
 
-constexpr std::uint64_t kNoWorkLimit = ~std::uint64_t{0};
-
 /// `interference` (interference.h) for wide trees: the same verdicts, several times faster. First
 /// contact found, or none; solids as `convexSetsTouch` says, exact for the twelve doubles of each
 /// map in real arithmetic, for any finite maps; near-rigid ones are fast. @pre finite maps.

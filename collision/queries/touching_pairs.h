@@ -28,17 +28,27 @@ ConvexSet convexSetOf(const Tree& tree, std::uint32_t item) {
 
 /// What `traverse` (hierarchy/traverse.h) asks, for items of two trees that touch: a pair whose
 /// volumes are apart is dropped, and `Found(s, t)`, in leaf order, is told each pair of items in
-/// contact, until it returns true.
+/// contact, until it returns true. Ends, as if there were no more, once the counted tests reach
+/// `workEnd`.
 template <class TreeA, class TreeB, class Test, class Found>
 class TouchingPairs {
  public:
   using Item = QueryContext::NodePair;
 
   TouchingPairs(const TreeA& a, const Transform& X_WA, const TreeB& b, const Transform& X_WB,
-                const Test& test, Counters& counters, const Found& found)
-      : a_(a), b_(b), X_WA_(X_WA), X_WB_(X_WB), test_(test), counters_(counters), found_(found) {}
+                const Test& test, Counters& counters, const Found& found,
+                std::uint64_t workEnd = kNoWorkLimit)
+      : a_(a),
+        b_(b),
+        X_WA_(X_WA),
+        X_WB_(X_WB),
+        test_(test),
+        counters_(counters),
+        found_(found),
+        workEnd_(workEnd) {}
 
   bool enter(const Item&, const typename TreeA::Node& na, const typename TreeB::Node& nb) {
+    if (counters_.work() >= workEnd_) return false;
     ++counters_.boxTests;
     return !test_.separated(na.box, nb.box, 0);
   }
@@ -46,7 +56,7 @@ class TouchingPairs {
   bool leaves(const typename TreeA::Node& na, const typename TreeB::Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t)
-        if (touch(s, t) && found_(s, t)) return true;
+        if (counters_.work() >= workEnd_ || (touch(s, t) && found_(s, t))) return true;
     return false;
   }
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
@@ -69,6 +79,7 @@ class TouchingPairs {
   const Test& test_;
   Counters& counters_;
   const Found& found_;
+  const std::uint64_t workEnd_;
 };
 
 }  // namespace corridor

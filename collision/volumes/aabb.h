@@ -29,6 +29,7 @@ struct Aabb {
   double axisDefect() const { return 0; }
   double centerReach() const { return roundedUp(center.stableNorm()); }
   double radius() const { return roundedUp(half.stableNorm()); }
+  const Vec3& ballCenter() const { return center; }
 };
 
 }  // namespace corridor

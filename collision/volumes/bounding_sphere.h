@@ -18,6 +18,7 @@ struct BoundingSphere {
   double axisDefect() const { return 0; }
   double centerReach() const { return roundedUp(center.stableNorm()); }
   double radius() const { return size; }
+  const Vec3& ballCenter() const { return center; }
 };
 
 }  // namespace corridor

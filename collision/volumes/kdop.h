@@ -38,6 +38,11 @@ struct Kdop {
   double axisDefect() const { return 0; }
   double centerReach() const;
   double radius() const;
+  /// Of the slabs along the axes.
+  Vec3 ballCenter() const {
+    const Vec3 from(low[0], low[1], low[2]), to(high[0], high[1], high[2]);
+    return from + 0.5 * (to - from);
+  }
 };
 
 }  // namespace corridor

@@ -24,6 +24,7 @@ struct Obb {
   double axisDefect() const;
   double centerReach() const;
   double radius() const;
+  const Vec3& ballCenter() const { return center; }
 };
 
 /// Which points' covariance gives a box its axes (Gottschalk, Lin, Manocha 1996, section 4).

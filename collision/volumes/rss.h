@@ -16,6 +16,7 @@ struct Rss {
   double axisDefect() const { return core.axisDefect(); }
   double centerReach() const { return core.centerReach(); }
   double radius() const;
+  const Vec3& ballCenter() const { return core.center; }
 };
 
 }  // namespace corridor

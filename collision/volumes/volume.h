@@ -25,6 +25,8 @@ concept BoundingVolume = requires(const V v, const Obb& box, const Content& cont
   { v.centerReach() } -> std::same_as<double>;
   /// Of a sphere about its centre that holds it, rounded up: its size.
   { v.radius() } -> std::same_as<double>;
+  /// That centre, off by at most 2u of it and of the radius.
+  { v.ballCenter() } -> std::convertible_to<Vec3>;
 };
 
 /// Bounds that hold for all volumes of a tree.

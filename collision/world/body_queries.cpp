@@ -3,7 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "collision/hierarchy/with_volume.h"
 #include "collision/queries/containment.h"
+#include "collision/queries/interference.h"
 #include "collision/queries/interference_wide.h"
 #include "collision/queries/surface_distance.h"
 
@@ -47,18 +49,25 @@ std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA
 }
 
 std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
-                                         const Transform& X_WB, QueryContext& context) {
+                                         const Transform& X_WB, QueryContext& context,
+                                         TreeKind trees) {
   require(X_WA, X_WB);
-  if (const auto hit = interference(a.tree(), X_WA, b.tree(), X_WB, context)) return hit;
+  const auto hit =
+      trees == TreeKind::wideObb
+          ? interference(a.tree(), X_WA, b.tree(), X_WB, context)
+          : onVolumeTrees(trees, a, b, [&](auto overlap, const auto& ta, const auto& tb) {
+              return interference<decltype(overlap)>(ta, X_WA, tb, X_WB, context);
+            });
+  if (hit) return hit;
   return insideEachOther(a, X_WA, b, X_WB, context);
 }
 
 Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                  const DistanceOptions& options, QueryContext& context) {
+                  const DistanceOptions& options, QueryContext& context, TreeKind trees) {
   require(X_WA, X_WB);
   require(options.relative, "a distance's relative error");
   require(options.absolute, "a distance's absolute error");
-  Distance d = surfaceDistance(a, X_WA, b, X_WB, options, context);
+  Distance d = surfaceDistance(a, X_WA, b, X_WB, options, context, trees);
   if (d.distance == 0) return d;
   if (const auto hit = inside(a, X_WA, b, X_WB, context)) {
     const Vec3 p_W = pointOf(b, hit->b, X_WB);
@@ -71,10 +80,10 @@ Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Tra
 }
 
 bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                double d, QueryContext& context) {
+                double d, QueryContext& context, TreeKind trees) {
   require(X_WA, X_WB);
   require(d, "a tolerance");
-  return surfacesCloserThan(a, X_WA, b, X_WB, d, context) ||
+  return surfacesCloserThan(a, X_WA, b, X_WB, d, context, trees) ||
          insideEachOther(a, X_WA, b, X_WB, context).has_value();
 }
 

@@ -150,24 +150,25 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
   }
 }
 
-std::optional<Contact> Scene::interference(std::span<const Transform> X_WF,
-                                           QueryContext& context) const {
+std::optional<Contact> Scene::interference(std::span<const Transform> X_WF, QueryContext& context,
+                                           TreeKind trees) const {
   std::optional<Contact> contact;
-  forNearPairs(X_WF, 0, context,
-               [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
-                 if (const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context))
-                   contact = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
-                 return contact.has_value();
-               });
+  forNearPairs(
+      X_WF, 0, context, [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
+        const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context, trees);
+        if (hit) contact = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
+        return contact.has_value();
+      });
   return contact;
 }
 
-double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context) const {
+double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context,
+                        TreeKind trees) const {
   double least = std::numeric_limits<double>::infinity();
   forNearPairs(X_WF, least, context,
                [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
-                 least =
-                     std::min(least, distance(*pair.a, X_WA, *pair.b, X_WB, {}, context).distance);
+                 const Distance d = distance(*pair.a, X_WA, *pair.b, X_WB, {}, context, trees);
+                 least = std::min(least, d.distance);
                  return least == 0;
                });
   return least;

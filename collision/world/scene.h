@@ -50,11 +50,15 @@ class Scene {
 
   /// Exact for meshes under the maps X_WF of the frames (contract 1), in the band of 2^-44 for
   /// primitives; solids included. First contact found.
-  std::optional<Contact> interference(std::span<const Transform> X_WF, QueryContext& context) const;
+  /// @param trees  which are walked; of motions, `MotionOptions::trees`. Bodies whose bounds are
+  /// apart have none walked, whatever the kind.
+  std::optional<Contact> interference(std::span<const Transform> X_WF, QueryContext& context,
+                                      TreeKind trees = TreeKind::wideObb) const;
 
   /// The least distance of all pairs, metres: 0 if and only if `interference` says contact; else
   /// with the errors of `queries/distance.h`. Infinite without pairs.
-  double clearance(std::span<const Transform> X_WF, QueryContext& context) const;
+  double clearance(std::span<const Transform> X_WF, QueryContext& context,
+                   TreeKind trees = TreeKind::wideObb) const;
 
   /// Is the motion free? (`certifyMotion`, by any method; a solid that has another body inside is a
   /// contact at t = 0.) `motion` numbers its motions as `framePairs()`.

@@ -133,8 +133,8 @@ int inspectCost(const InspectArguments& a) {
   const std::vector<Transform> asked = withFarPoses(poses, meshA.mesh, meshB.mesh);
   std::vector<BatchResult> results;
   for (const VolumeKind& volume : volumeKinds())
-    results.push_back(volume.run({meshA.mesh, meshB.mesh, asked, Asked::interference,
-                                  volume.fits.front(), volume.overlaps.front(), 0, kPasses}));
+    results.push_back(runPoses({meshA.mesh, meshB.mesh, asked, Asked::interference,
+                                treesNamed({volume.name, "", ""}), 0, kPasses}));
   // What the first test decides tells what a call costs, not what a test does. All volumes are
   // compared on the same poses: those that the roots of oriented boxes let pass.
   std::size_t reference = 0;

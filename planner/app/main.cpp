@@ -18,6 +18,8 @@
 namespace {
 
 using namespace corridor::app;
+using corridor::VolumeKind;
+using corridor::volumeKinds;
 
 constexpr const char* kExitStatus =
     "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input; 3 internal "
@@ -306,7 +308,7 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
                    "how motions are proved, the first is the default: " +
                        corridor::joined(corridor::edgeMethodNames()))
       ->group("Motions of B");
-  const char* asked = "What is asked (of motions --fit, --tolerance and --repeat only)";
+  const char* asked = "What is asked (of motions all but --query)";
   const auto named = [](const auto& kinds) {
     std::vector<std::string> names;
     for (const auto& kind : kinds) names.push_back(kind.name);
@@ -327,7 +329,8 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
   command->add_option("--fit", a.fit, variants(&VolumeKind::fits))->group(asked);
   command
       ->add_option("--overlap", a.overlap,
-                   "how two volumes are tested; " + variants(&VolumeKind::overlaps))
+                   "how two volumes are tested, where it is asked whether they overlap; " +
+                       variants(&VolumeKind::overlaps))
       ->group(asked);
   command
       ->add_option(

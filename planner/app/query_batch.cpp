@@ -6,21 +6,16 @@
 #include <type_traits>
 #include <utility>
 
+#include "collision/hierarchy/with_volume.h"
 #include "collision/motion/rigid_motion.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/distance_wide.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_wide.h"
-#include "collision/volumes/pair_tests.h"
 #include "planner/app/query_timing.h"
 
 namespace corridor::app {
 namespace {
-
-/// `batch.fit` is one of its volume's names (`volumeKinds`).
-ObbFit fitOf(const Batch& batch) {
-  return obbFitNamed(batch.fit).value_or(ObbFit::triangles);
-}
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
@@ -29,16 +24,16 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 /// All poses of a batch in memory, asked one after the other, `passes` times over: passes over all
 /// poses rather than repeats of each, so that a query finds the caches that other poses left.
-/// `ask(pose number, context)` of these two trees is all that is timed. What is told of a pose is
-/// its own: nothing is remembered of the answers to others.
-template <class Tree, class Ask>
-std::vector<Answer> timed(std::size_t count, int passes, const Tree& a, const Tree& b,
+/// `ask(pose number, context)` of the two trees at these addresses is all that is timed. What is
+/// told of a pose is its own: nothing is remembered of the answers to others.
+template <class Ask>
+std::vector<Answer> timed(std::size_t count, int passes, const void* a, const void* b,
                           const Ask& ask) {
   std::vector<Answer> answers(count);
   const auto repeat = static_cast<std::size_t>(passes);
   std::vector<double> ns(answers.size() * repeat);
   QueryContext context;
-  LastPair& last = context.lastPairs.of(&a, &b);
+  LastPair& last = context.lastPairs.of(a, b);
   for (std::size_t pass = 0; pass < repeat; ++pass)
     for (std::size_t i = 0; i < answers.size(); ++i) {
       Answer& answer = answers[i];
@@ -61,25 +56,25 @@ std::vector<Answer> timed(std::size_t count, int passes, const Tree& a, const Tr
   return answers;
 }
 
-/// The first contact and all of them, by an overlap test where the tree has a choice.
+/// The first contact and all of them. The wide tree has one overlap test, its own.
 template <class Overlap, class Tree>
 bool touching(const Tree& a, const Tree& b, const Transform& X, QueryContext& context) {
-  if constexpr (std::is_same_v<Tree, ObbTree>)
-    return interference<Overlap>(a, {}, b, X, context).has_value();
-  else
+  if constexpr (std::is_same_v<Tree, WideObbTree>)
     return interference(a, {}, b, X, context).has_value();
+  else
+    return interference<Overlap>(a, {}, b, X, context).has_value();
 }
 template <class Overlap, class Tree>
 std::vector<TriangleContact> allContacts(const Tree& a, const Tree& b, const Transform& X,
                                          QueryContext& context) {
-  if constexpr (std::is_same_v<Tree, ObbTree>)
-    return contacts<Overlap>(a, {}, b, X, context);
-  else
+  if constexpr (std::is_same_v<Tree, WideObbTree>)
     return contacts(a, {}, b, X, context);
+  else
+    return contacts<Overlap>(a, {}, b, X, context);
 }
 
 /// Builds both trees (`make(mesh)`) and asks them.
-template <class Overlap = StandardOverlap, class Make>
+template <class Overlap, class Make>
 BatchResult runOn(const Batch& batch, const Make& make) {
   BatchResult result;
   auto start = std::chrono::steady_clock::now();
@@ -93,32 +88,32 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   const Transform X_WA;
   switch (batch.asked) {
     case Asked::interference:
-      result.answers =
-          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
-            return touching<Overlap>(a, b, batch.poses[i], context);
-          });
+      result.answers = timed(batch.poses.size(), batch.repeat, &a, &b,
+                             [&](std::size_t i, QueryContext& context) {
+                               return touching<Overlap>(a, b, batch.poses[i], context);
+                             });
       break;
     case Asked::distance:
       result.distances.resize(batch.poses.size());
-      result.answers =
-          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
+      result.answers = timed(
+          batch.poses.size(), batch.repeat, &a, &b, [&](std::size_t i, QueryContext& context) {
             result.distances[i] = distance(a, X_WA, b, batch.poses[i], {}, context);
             return result.distances[i].distance == 0;
           });
       break;
     case Asked::tolerance:
-      result.answers =
-          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
+      result.answers = timed(
+          batch.poses.size(), batch.repeat, &a, &b, [&](std::size_t i, QueryContext& context) {
             return closerThan(a, X_WA, b, batch.poses[i], batch.tolerance, context);
           });
       break;
     case Asked::contacts: {
       std::vector<std::vector<TriangleContact>> found(batch.poses.size());
-      result.answers =
-          timed(batch.poses.size(), batch.repeat, a, b, [&](std::size_t i, QueryContext& context) {
-            found[i] = allContacts<Overlap>(a, b, batch.poses[i], context);
-            return !found[i].empty();
-          });
+      result.answers = timed(batch.poses.size(), batch.repeat, &a, &b,
+                             [&](std::size_t i, QueryContext& context) {
+                               found[i] = allContacts<Overlap>(a, b, batch.poses[i], context);
+                               return !found[i].empty();
+                             });
       for (std::size_t i = 0; i < found.size(); ++i)
         for (const TriangleContact& c : found[i])
           result.contacts.push_back({i, c.a, c.b, c.p_W, c.q_W});
@@ -128,42 +123,52 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   return result;
 }
 
-/// Volumes without axes of their own have one fit, `plain`.
-template <class Volume, class Overlap = StandardOverlap>
-BatchResult runVolume(const Batch& batch) {
-  return runOn<Overlap>(
-      batch, [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, {fitOf(batch)}); });
-}
-
-BatchResult runObb(const Batch& batch) {
-  return batch.overlap == "gjk"         ? runVolume<Obb, Gjk>(batch)
-         : batch.overlap == "lp"        ? runVolume<Obb, LinearProgram>(batch)
-         : batch.overlap == "edge-face" ? runVolume<Obb, EdgeFace>(batch)
-                                        : runVolume<Obb>(batch);
-}
-
-BatchResult runWide(const Batch& batch) {
-  return runOn(batch, [&](const TriangleMesh& mesh) { return WideObbTree(mesh, fitOf(batch)); });
+/// A body's tree, built here.
+struct BuiltTree {
+  const void* at = nullptr;
+  std::size_t bytes = 0;
+  double ms = 0;  ///< that it took
+};
+BuiltTree builtTree(const Body& body, TreeKind trees) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto told = [&](const auto& tree) {
+    return BuiltTree{&tree, tree.bytes(), millisecondsSince(start)};
+  };
+  if (trees == TreeKind::wideObb) return told(body.tree());
+  return withVolume(trees,
+                    [&]<class Volume, class Overlap>() { return told(body.volumeTree<Volume>()); });
 }
 
 }  // namespace
 
+BatchResult runPoses(const Batch& batch) {
+  const auto [trees, fit] = batch.trees;
+  const TreeParams params{fit};
+  if (trees == TreeKind::wideObb)
+    return runOn<StandardOverlap>(
+        batch, [&](const TriangleMesh& mesh) { return WideObbTree(mesh, params.fit); });
+  return withVolume(trees, [&]<class Volume, class Overlap>() {
+    return runOn<Overlap>(
+        batch, [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, params); });
+  });
+}
+
 BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
-                       const std::vector<PoseMotion>& motions, const std::string& fit,
+                       const std::vector<PoseMotion>& motions, const TreeChoice& trees,
                        std::optional<double> tolerance, int repeat, EdgeMethod method) {
   BatchResult result;
-  const TreeParams params{obbFitNamed(fit).value_or(ObbFit::triangles)};
+  const TreeParams params{trees.fit};
   const Body a("A", std::move(meshA), false, params), b("B", std::move(meshB), false, params);
-  auto start = std::chrono::steady_clock::now();
-  result.bytesA = a.tree().bytes();
-  result.buildMsA = millisecondsSince(start);
-  start = std::chrono::steady_clock::now();
-  result.bytesB = b.tree().bytes();
-  result.buildMsB = millisecondsSince(start);
+  const BuiltTree treeA = builtTree(a, trees.trees), treeB = builtTree(b, trees.trees);
+  result.bytesA = treeA.bytes;
+  result.buildMsA = treeA.ms;
+  result.bytesB = treeB.bytes;
+  result.buildMsB = treeB.ms;
   MotionOptions options;
   options.tolerance = tolerance.value_or(1e-7 * std::min(a.sphereRadius(), b.sphereRadius()));
   if (!(options.tolerance > 0)) options.tolerance = 1e-300;  // a single point; any will do
   options.earliest = true;
+  options.trees = trees.trees;
   result.tolerance = options.tolerance;
   std::vector<RigidEdge> edges;
   for (const PoseMotion& motion : motions)
@@ -171,7 +176,7 @@ BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
   const MotionPair pair{&a, &b, 0, 0, 1};
   result.motions.resize(motions.size());
   result.answers =
-      timed(motions.size(), repeat, a.tree(), b.tree(), [&](std::size_t i, QueryContext& context) {
+      timed(motions.size(), repeat, treeA.at, treeB.at, [&](std::size_t i, QueryContext& context) {
         MotionAnswer& answer = result.motions[i];
         const std::uint64_t splits = context.counters.splits;
         answer.result = certifyMotionBy(method, edges[i], {&pair, 1}, options, context);
@@ -191,19 +196,6 @@ const std::vector<QueryKind>& queryKinds() {
       {"contacts", Asked::contacts, "pose,a,b,px,py,pz,qx,qy,qz"},
       {"distance", Asked::distance, "pose,distance,ax,ay,az,bx,by,bz"},
       {"tolerance", Asked::tolerance, "pose,closer"}};
-  return kinds;
-}
-
-const std::vector<VolumeKind>& volumeKinds() {
-  static const std::vector<VolumeKind> kinds = {
-      {"obb", {"triangles", "vertices", "hull"}, {"sat"}, runWide},
-      {"obb-binary", {"triangles", "vertices", "hull"}, {"sat", "gjk", "lp", "edge-face"}, runObb},
-      {"aabb", {"plain"}, {"sat"}, runVolume<Aabb>},
-      {"sphere", {"plain"}, {"centers"}, runVolume<BoundingSphere>},
-      {"rss", {"triangles", "vertices", "hull"}, {"rectangles"}, runVolume<Rss>},
-      {"kdop14", {"plain"}, {"intervals"}, runVolume<Kdop<14>>},
-      {"kdop18", {"plain"}, {"intervals"}, runVolume<Kdop<18>>},
-      {"kdop26", {"plain"}, {"intervals"}, runVolume<Kdop<26>>}};
   return kinds;
 }
 

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "collision/geometry/triangle_mesh.h"
+#include "collision/hierarchy/tree_kinds.h"
 #include "collision/motion/edge_method.h"
 #include "collision/queries/distance.h"
 #include "planner/app/query_poses.h"
 
-/// What `corridor query` can ask, and of which trees: two tables, and the batch that is timed.
+/// What `corridor query` can ask (of which trees: hierarchy/tree_kinds.h), and the batch that is
+/// timed.
 namespace corridor::app {
 
 /// What is asked of every pose.
@@ -26,13 +28,12 @@ struct QueryKind {
 };
 const std::vector<QueryKind>& queryKinds();
 
-/// What a batch is: two meshes, poses of b with a at the identity, and the words that chose a
-/// variant.
+/// What a batch is: two meshes, poses of b with a at the identity, and the trees that are asked.
 struct Batch {
   const TriangleMesh &a, &b;
   const std::vector<Transform>& poses;
   Asked asked = Asked::interference;
-  std::string fit, overlap;
+  TreeChoice trees;
   double tolerance = 0;  ///< metres, of `Asked::tolerance`
   int repeat = 1;
 };
@@ -64,20 +65,13 @@ struct BatchResult {
   std::size_t bytesA = 0, bytesB = 0;
 };
 
-/// A bounding volume: its fits and overlap tests by name, the default first, and what runs a batch
-/// on its trees. Adding a volume is adding a line of the table.
-struct VolumeKind {
-  std::string name;
-  std::vector<std::string> fits;
-  std::vector<std::string> overlaps;  ///< but for the first, only where `testsOverlap`
-  BatchResult (*run)(const Batch& batch);
-};
-const std::vector<VolumeKind>& volumeKinds();
+/// Builds the trees and asks them.
+BatchResult runPoses(const Batch& batch);
 
-/// The first contact of motions of b, a at rest, on the trees that the method works with.
+/// The first contact of motions of b, a at rest.
 /// @param tolerance metres; unset: 1e-7 of the smaller one's radius.
 BatchResult runMotions(TriangleMesh a, TriangleMesh b, const std::vector<PoseMotion>& motions,
-                       const std::string& fit, std::optional<double> tolerance, int repeat,
+                       const TreeChoice& trees, std::optional<double> tolerance, int repeat,
                        EdgeMethod method);
 
 }  // namespace corridor::app

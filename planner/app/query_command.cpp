@@ -19,44 +19,35 @@ namespace {
 /// A time is kept of each: 8 bytes.
 constexpr std::uint64_t kMostQueries = 1'000'000'000;
 
-/// The row of a table whose name was given, the first where none was. @throws InputError with
-/// those that there are.
-template <class Kind>
-const Kind& kindNamed(const std::string& option, const std::optional<std::string>& name,
-                      const std::vector<Kind>& kinds) {
-  if (!name) return kinds.front();
+/// The query whose name was given, the first where none was. @throws InputError with those that
+/// there are.
+const QueryKind& queryNamed(const std::optional<std::string>& name) {
+  if (!name) return queryKinds().front();
   std::vector<std::string> names;
-  for (const Kind& kind : kinds) {
+  for (const QueryKind& kind : queryKinds()) {
     if (kind.name == *name) return kind;
     names.push_back(kind.name);
   }
-  throw InputError(Fault{option, 0,
-                         "unknown " + option.substr(2) + " " + quotedWord(*name) +
-                             didYouMean(*name, names) + "; there are: " + joined(names)});
+  throw InputError(Fault{"--query", 0,
+                         "unknown query " + quotedWord(*name) + didYouMean(*name, names) +
+                             "; there are: " + joined(names)});
 }
 
-/// One of a volume's variants, the first where none is named. @throws InputError, which tells the
-/// volumes that have it where this one doesn't.
-std::string variantNamed(const std::string& option, const std::optional<std::string>& name,
-                         const VolumeKind& volume, std::vector<std::string> VolumeKind::*variants) {
-  const std::vector<std::string>& names = volume.*variants;
-  if (!name) return names.front();
-  const auto has = [&](const VolumeKind& kind) {
-    return std::find((kind.*variants).begin(), (kind.*variants).end(), *name) !=
-           (kind.*variants).end();
-  };
-  if (has(volume)) return *name;
-  std::vector<std::string> others;
-  for (const VolumeKind& kind : volumeKinds())
-    if (has(kind)) others.push_back(kind.name);
-  if (!others.empty())
-    throw InputError(Fault{option, 0,
-                           quotedWord(*name) + " is of --volume " + joined(others) + "; of " +
-                               volume.name + " there are: " + joined(names)});
-  throw InputError(Fault{option, 0,
-                         "unknown " + option.substr(2) + " " + quotedWord(*name) + " of " +
-                             volume.name + didYouMean(*name, names) +
-                             "; there are: " + joined(names)});
+/// The trees that were asked for by name. @throws InputError, which tells what there is.
+TreeWords treesAsked(const QueryArguments& a) {
+  const TreeWords words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or("")};
+  if (const auto wrong = wrongWordIn(words))
+    throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
+  return spelledOut(words);
+}
+
+/// The overlap test of these trees isn't the only one, and what is asked has no use for it.
+/// @throws InputError
+void requireUsualOverlap(const TreeWords& trees, const std::string& of, const std::string& asked) {
+  if (trees.overlap == spelledOut({trees.volume, "", ""}).overlap) return;
+  throw InputError(Fault{"--overlap", 0,
+                         quotedWord(trees.overlap) + " is of " + of + "; " + asked +
+                             " asks how far volumes are apart"});
 }
 
 std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& meshA,
@@ -80,8 +71,6 @@ void checkOptions(const QueryArguments& a) {
     ofPoses("--poses", a.poses.has_value());
     ofPoses("--grid", a.grid.has_value());
     ofPoses("--query", a.query.has_value());
-    ofPoses("--volume", a.volume.has_value());
-    ofPoses("--overlap", a.overlap.has_value());
     if (a.tolerance && !(*a.tolerance > 0))
       throw InputError(Fault{"--tolerance", 0, "of --motions it is to be above 0"});
   }
@@ -206,12 +195,14 @@ EdgeMethod methodNamed(const std::string& name) {
 int queryMotions(const QueryArguments& a) {
   const std::string edges = a.edges.value_or(edgeMethodNames().front());
   const EdgeMethod method = methodNamed(edges);
-  const std::string fit = variantNamed("--fit", a.fit, volumeKinds().front(), &VolumeKind::fits);
+  const TreeWords trees = treesAsked(a);
+  if (method != EdgeMethod::certified) requireUsualOverlap(trees, "--edges certified", edges);
   MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<PoseMotion> motions = readMotions(*a.motions);
   checkRepeats(a, motions.size(), "motion");
-  const BatchResult result = runMotions(std::move(meshA.mesh), std::move(meshB.mesh), motions, fit,
-                                        a.tolerance, static_cast<int>(a.repeat), method);
+  const BatchResult result =
+      runMotions(std::move(meshA.mesh), std::move(meshB.mesh), motions, treesNamed(trees),
+                 a.tolerance, static_cast<int>(a.repeat), method);
   printMotions(result);
   const auto number = [&](MotionVerdict verdict) {
     return std::to_string(std::count_if(
@@ -220,9 +211,10 @@ int queryMotions(const QueryArguments& a) {
   };
   printSummary(
       result,
-      {"edges=" + edges, "fit=" + fit, "tolerance=" + rounded(result.tolerance),
-       "motions=" + std::to_string(motions.size()), "free=" + number(MotionVerdict::free),
-       "hits=" + number(MotionVerdict::contact), "undecided=" + number(MotionVerdict::undecided)});
+      {"edges=" + edges, "volume=" + trees.volume, "fit=" + trees.fit, "overlap=" + trees.overlap,
+       "tolerance=" + rounded(result.tolerance), "motions=" + std::to_string(motions.size()),
+       "free=" + number(MotionVerdict::free), "hits=" + number(MotionVerdict::contact),
+       "undecided=" + number(MotionVerdict::undecided)});
   return kDone;
 }
 
@@ -231,30 +223,27 @@ int queryMotions(const QueryArguments& a) {
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
   if (a.motions) return queryMotions(a);
-  const QueryKind& query = kindNamed("--query", a.query, queryKinds());
-  const VolumeKind& volume = kindNamed("--volume", a.volume, volumeKinds());
-  const std::string fit = variantNamed("--fit", a.fit, volume, &VolumeKind::fits);
-  const std::string overlap = variantNamed("--overlap", a.overlap, volume, &VolumeKind::overlaps);
+  const QueryKind& query = queryNamed(a.query);
+  const TreeWords trees = treesAsked(a);
   if (query.asked == Asked::tolerance && !a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "the tolerance query needs a distance in metres"});
   if (query.asked != Asked::tolerance && a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "is of --query tolerance, which is not asked"});
-  if (overlap != volume.overlaps.front() && !testsOverlap(query.asked))
-    throw InputError(Fault{"--overlap", 0,
-                           quotedWord(overlap) + " is of --query interference and contacts; " +
-                               query.name + " asks how far volumes are apart"});
+  if (!testsOverlap(query.asked))
+    requireUsualOverlap(trees, "--query interference and contacts", query.name);
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
   checkRepeats(a, poses.size(), "pose");
   if (a.savePoses) writePoses(*a.savePoses, poses);
-  const BatchResult result = volume.run({meshA.mesh, meshB.mesh, poses, query.asked, fit, overlap,
-                                         a.tolerance.value_or(0), static_cast<int>(a.repeat)});
+  const BatchResult result =
+      runPoses({meshA.mesh, meshB.mesh, poses, query.asked, treesNamed(trees),
+                a.tolerance.value_or(0), static_cast<int>(a.repeat)});
   printCsv(query, result);
   const auto hits = std::count_if(result.answers.begin(), result.answers.end(),
                                   [](const Answer& answer) { return answer.hit; });
-  printSummary(result,
-               {"query=" + query.name, "volume=" + volume.name, "fit=" + fit, "overlap=" + overlap,
-                "poses=" + std::to_string(poses.size()), "hits=" + std::to_string(hits)});
+  printSummary(result, {"query=" + query.name, "volume=" + trees.volume, "fit=" + trees.fit,
+                        "overlap=" + trees.overlap, "poses=" + std::to_string(poses.size()),
+                        "hits=" + std::to_string(hits)});
   return kDone;
 }
 

@@ -49,6 +49,9 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   if (a.stop) problem.planner.stopAtFirst = *a.stop == "first";
   if (a.seed) problem.seed = *a.seed;
   if (a.edges) problem.checker.edges = *a.edges;
+  if (const auto wrong = wrongWordIn(problem.checker))
+    throw InputError(
+        Fault{"--edges", 0, "the problem's checker." + wrong->key + ": " + wrong->text});
   if (a.resolution) {
     if (problem.checker.edges != "discrete")
       throw InputError(Fault{"--resolution", 0,

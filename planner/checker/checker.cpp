@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <unordered_map>
 
@@ -22,7 +23,7 @@ std::vector<std::size_t> bodiesOfShapes(const Problem& problem) {
 
 Scene makeScene(const Problem& problem) {
   TreeParams params;
-  params.fit = obbFitNamed(problem.checker.fit).value_or(params.fit);
+  params.fit = treesNamed(problem.checker.trees()).fit;
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
   for (const ProblemBody& body : problem.bodies) {
@@ -81,9 +82,12 @@ Checker::Checker(const Problem& problem)
       bodyOf_(bodiesOfShapes(problem)),
       method_(edgeMethodNamed(problem.checker.edges).value_or(EdgeMethod::certified)),
       pool_(std::make_unique<Pool>()) {
+  if (const auto wrong = wrongWordIn(problem.checker))
+    throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
   options_.tolerance = problem.checker.tolerance.value_or(scene_.defaultTolerance());
   options_.reserve = options_.tolerance;
   options_.margin = problem.margin;
+  options_.trees = treesNamed(problem.checker.trees()).trees;
 }
 
 Checker::~Checker() = default;
@@ -126,7 +130,8 @@ MotionResult Checker::edge(const Configuration& from, const Configuration& to, b
 std::optional<Contact> Checker::interference(const Configuration& q) const {
   QueryContext& context = mine().context;
   const std::uint64_t before = context.counters.states;
-  const std::optional<Contact> contact = scene_.interference(framePoses(problem_.tree, q), context);
+  const std::optional<Contact> contact =
+      scene_.interference(framePoses(problem_.tree, q), context, options_.trees);
   context.counters.states = before + 1;  // the scene counts pairs of bodies
   return contact;
 }
@@ -134,7 +139,7 @@ std::optional<Contact> Checker::interference(const Configuration& q) const {
 double Checker::clearance(const Configuration& q) const {
   QueryContext& context = mine().context;
   const std::uint64_t before = context.counters.states;
-  const double least = scene_.clearance(framePoses(problem_.tree, q), context);
+  const double least = scene_.clearance(framePoses(problem_.tree, q), context, options_.trees);
   context.counters.states = before + 1;  // the scene counts pairs of bodies
   return least - options_.margin;
 }

@@ -17,7 +17,9 @@ Scene makeScene(const Problem& problem);
 /// Safe to call from many threads at once: each has a QueryContext and an EdgeMotion of its own.
 class Checker {
  public:
-  /// The problem must outlive the checker. Its bodies are copied.
+  /// The problem must outlive the checker. Its bodies are copied. All that the checker asks walks
+  /// the trees that `checker: {volume: …}` names.
+  /// @throws std::invalid_argument where its words don't go together (`wrongWordIn`).
   explicit Checker(const Problem& problem);
   ~Checker();
 

@@ -1,5 +1,8 @@
 #include "planner/problem/keys.h"
 
+#include <algorithm>
+
+#include "collision/hierarchy/tree_kinds.h"
 #include "collision/motion/edge_method.h"
 
 namespace corridor {
@@ -44,9 +47,8 @@ Keys makeProblemKeys() {
       {"tube", {{"joints_deg", "joints", "position", "rotation_deg", "rotation"}, {}}},
       {"planner", {{"name", "time", "stop", "params"}, {}}},
       {"checker",
-       {{"edges", "resolution", "tolerance", "fit"},
-        {{"volume", "trees are of oriented boxes; leave it out"},
-         {"peer", "Corridor's own checker is used; leave it out"}}}},
+       {{"edges", "resolution", "tolerance", "volume", "fit", "overlap"},
+        {{"peer", "Corridor's own checker is used; leave it out"}}}},
   };
   addShape(keys, "world.*", {"shapes"});
   addShape(keys, "world.*.shapes[]", {"name"});
@@ -63,6 +65,21 @@ Keys makeRobotKeys() {
   };
   addShape(keys, "shapes[]", {"name"});
   return keys;
+}
+
+Words volumeNames() {
+  Words names;
+  for (const VolumeKind& kind : volumeKinds()) names.push_back(kind.name);
+  return names;
+}
+
+/// The fits, or the overlap tests, that some volume has, each once.
+Words ofAnyVolume(Words VolumeKind::*variants) {
+  Words all;
+  for (const VolumeKind& kind : volumeKinds())
+    for (const std::string& word : kind.*variants)
+      if (std::find(all.begin(), all.end(), word) == all.end()) all.push_back(word);
+  return all;
 }
 
 }  // namespace
@@ -83,7 +100,9 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
       {"world.*.up", {"x", "y", "z"}},
       {"planner.stop", {"first", "time"}},
       {"checker.edges", edgeMethodNames() + Words{"discrete"}},
-      {"checker.fit", {"vertices", "triangles", "hull"}},
+      {"checker.volume", volumeNames()},
+      {"checker.fit", ofAnyVolume(&VolumeKind::fits)},
+      {"checker.overlap", ofAnyVolume(&VolumeKind::overlaps)},
   };
   return choices;
 }

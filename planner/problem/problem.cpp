@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "collision/core/fault_list.h"
+#include "collision/core/nearest.h"
 #include "planner/problem/mbm_json.h"
 #include "planner/problem/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
@@ -30,6 +31,16 @@ Fault Problem::faultAt(std::string_view key, std::string text) const {
     if (found != lines.end()) return {file.string(), found->second, std::move(text)};
     if (around.find('.') == around.npos) return {file.string(), 0, std::move(text)};
   }
+}
+
+std::optional<WrongWord> wrongWordIn(const Problem::CheckerSpec& checker) {
+  if (auto wrong = wrongWordIn(checker.trees())) return wrong;
+  const bool measures = checker.edges == "adaptive" || checker.edges == "advancement";
+  const std::string first = spelledOut({checker.volume, "", ""}).overlap;
+  if (!measures || checker.overlap.empty() || checker.overlap == first) return std::nullopt;
+  return WrongWord{"overlap", quotedWord(checker.overlap) +
+                                  " is of edges certified and discrete; " + checker.edges +
+                                  " asks how far volumes are apart"};
 }
 
 std::string digestOfFiles(const std::vector<std::filesystem::path>& files) {

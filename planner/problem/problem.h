@@ -11,6 +11,7 @@
 
 #include "collision/core/error.h"
 #include "collision/geometry/mesh_file.h"
+#include "collision/hierarchy/tree_kinds.h"
 #include "planner/robot/kinematic_tree.h"
 #include "planner/robot/robot_model.h"
 
@@ -94,7 +95,10 @@ struct Problem {
     std::string edges = "certified";  ///< a name of `EdgeMethod`, or "discrete"
     double resolution = 0.01;         ///< discrete: OMPL's longest_valid_segment_fraction
     std::optional<double> tolerance;  ///< metres; unset: Scene::defaultTolerance
-    std::string fit = "triangles";    ///< of the OBBs: vertices, triangles, hull
+    std::string volume = "obb";       ///< of the trees: a name of `volumeKinds`
+    std::string fit, overlap;         ///< of the volume's own; empty: its first
+
+    TreeWords trees() const { return {volume, fit, overlap}; }
   } checker;
   std::uint64_t seed = 1;
 
@@ -106,6 +110,10 @@ struct Problem {
   /// "planner"), or at no line.
   Fault faultAt(std::string_view key, std::string text) const;
 };
+
+/// What in it is unknown or doesn't go together: of the volume, its fits and its overlap tests; and
+/// of the latter what edges have no use for. (Its edges aren't looked at otherwise.)
+std::optional<WrongWord> wrongWordIn(const Problem::CheckerSpec& checker);
 
 /// Reads a problem: a `problem.yaml`, a folder that holds one, an OMPL.app `.cfg`, or one problem
 /// of a MotionBenchMaker set as `FILE.json#INDEX`.

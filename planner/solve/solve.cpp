@@ -65,6 +65,13 @@ std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
   return 0.7 * weight;
 }
 
+/// What is to be told of the trees: nothing of the default ones.
+std::string treesTold(const TreeWords& words) {
+  const TreeWords trees = spelledOut(words), usual = spelledOut({trees.volume, "", ""});
+  return (trees.volume == spelledOut({}).volume ? "" : ", " + trees.volume) +
+         (trees.overlap == usual.overlap ? "" : ", " + trees.overlap);
+}
+
 }  // namespace
 
 Solve::Solve(const Problem& problem, const SolveOptions& options)
@@ -78,7 +85,8 @@ Solve::Solve(const Problem& problem, const SolveOptions& options)
   report_.seed = problem.seed;
   report_.planner = problem.planner.name;
   report_.checker = problem.checker.edges +
-                    (discrete() ? ", resolution " + shortest(problem.checker.resolution) : "");
+                    (discrete() ? ", resolution " + shortest(problem.checker.resolution) : "") +
+                    treesTold(problem.checker.trees());
 }
 
 PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key,

@@ -48,7 +48,7 @@ struct SolveReport {
 
   Path path;               ///< where solved: nothing turns more than 90° in a step
   bool certified = false;  ///< every edge of `path` was proved in the last step
-  std::string checker;     ///< "certified", "adaptive", …, or "discrete, resolution 0.01"
+  std::string checker;     ///< "certified", "adaptive, sphere", "discrete, resolution 0.01", …
   std::string planner;
   bool repeats =
       true;  ///< the planner gives the same path for the same seed, if time doesn't run out

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -17,20 +19,52 @@ inline Body bodyOf(TriangleMesh mesh) {
   return Body("", std::move(mesh));
 }
 
+/// How a motion is proved: by a method, and on trees of a kind.
+struct Proof {
+  EdgeMethod method = EdgeMethod::certified;
+  TreeKind trees = TreeKind::wideObb;
+
+  Proof() = default;
+  Proof(EdgeMethod method_, TreeKind trees_ = TreeKind::wideObb) : method(method_), trees(trees_) {}
+
+  MotionResult operator()(MotionSource& motion, std::span<const MotionPair> pairs,
+                          MotionOptions options, QueryContext& context) const {
+    options.trees = trees;
+    return certifyMotionBy(method, motion, pairs, options, context);
+  }
+};
+
 inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMotion& motion,
                             const MotionOptions& options, QueryContext& context,
-                            EdgeMethod method = EdgeMethod::certified) {
+                            const Proof& proof = {}) {
   const MotionPair pair{&fixed, &moving};
   RigidEdge edge(motion);
-  return certifyMotionBy(method, edge, {&pair, 1}, options, context);
+  return proof(edge, {&pair, 1}, options, context);
 }
 
-/// What a suite that every edge method must pass is run with, and what its runs are called.
-inline auto everyEdgeMethod() {
-  return testing::Values(EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement);
+/// What a suite that every way to prove motions must pass is run with: all methods, and the default
+/// one on trees of every sort.
+inline auto everyProof() {
+  using enum EdgeMethod;
+  return testing::Values(Proof(certified), Proof(adaptive), Proof(advancement),
+                         Proof(certified, TreeKind::obb), Proof(certified, TreeKind::obbGjk),
+                         Proof(certified, TreeKind::aabb), Proof(certified, TreeKind::sphere),
+                         Proof(certified, TreeKind::rss), Proof(certified, TreeKind::kdop18),
+                         Proof(adaptive, TreeKind::sphere));
 }
-inline std::string edgeMethodName(const testing::TestParamInfo<EdgeMethod>& method) {
-  return edgeMethodNames().at(static_cast<std::size_t>(method.param));
+/// "obb_binary_gjk": for names of tests.
+inline std::string treeName(TreeKind trees) {
+  std::string name;
+  for (const VolumeKind& kind : volumeKinds())
+    for (const std::string& overlap : kind.overlaps)
+      if (treesNamed({kind.name, "", overlap}).trees == trees)
+        name = kind.name + (overlap == kind.overlaps.front() ? "" : "_" + overlap);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+inline std::string proofName(const testing::TestParamInfo<Proof>& proof) {
+  return edgeMethodNames().at(static_cast<std::size_t>(proof.param.method)) + "_" +
+         treeName(proof.param.trees);
 }
 
 /// Triangles about random points within `spread` of the origin.

@@ -216,12 +216,34 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   options.tolerance = 1e-7;
   const RigidMotion motion =
       RigidMotion::spatial(at(Vec3(0, 0, 0.3)), turned(Vec3(0, 0, 0.4), 0.3, Vec3(1, 2, 3)), {});
-  for (const std::uint64_t limit : {std::uint64_t{10}, std::uint64_t{1000}}) {
+  for (const TreeKind trees : {TreeKind::wideObb, TreeKind::obb, TreeKind::sphere})
+    for (const std::uint64_t limit : {std::uint64_t{10}, std::uint64_t{1000}}) {
+      SCOPED_TRACE(test::treeName(trees));
+      QueryContext context;
+      options.workLimit = limit;
+      const MotionResult r =
+          certify(moving, fixed, motion, options, context, {EdgeMethod::certified, trees});
+      EXPECT_LE(context.counters.work(), limit + 16 + 256);
+      EXPECT_EQ(r.reason, UndecidedReason::workLimit);
+    }
+  // Nothing is sampled of what rests: here the walk itself has to end. A small star in the corner
+  // of a large one, 300 triangles about one centroid each.
+  TriangleMesh star, small;
+  for (int i = 0; i < 150; ++i)
+    for (const auto& [mesh, s] : {std::pair{&star, 1.0}, std::pair{&small, 0.0625}}) {
+      add(*mesh, s * Vec3(-1, -1, 0), s * Vec3(2, -1, 0), s * Vec3(-1, 2, 0));
+      add(*mesh, s * Vec3(-1, 0, -1), s * Vec3(2, 0, -1), s * Vec3(-1, 0, 2));
+    }
+  const Body large = bodyOf(star), tiny = bodyOf(small);
+  const RigidMotion rest =
+      RigidMotion::spatial(at(Vec3(0, 0.25, 0.25)), at(Vec3(0, 0.25, 0.25)), {});
+  options.workLimit = 1000;
+  for (const TreeKind trees : {TreeKind::obb, TreeKind::sphere}) {
     QueryContext context;
-    options.workLimit = limit;
-    const MotionResult r = certify(moving, fixed, motion, options, context);
-    EXPECT_LE(context.counters.boxTests + context.counters.triangleTests, limit + 16 + 256);
+    const MotionResult r =
+        certify(tiny, large, rest, options, context, {EdgeMethod::certified, trees});
     EXPECT_EQ(r.reason, UndecidedReason::workLimit);
+    EXPECT_LE(context.counters.work(), options.workLimit + 16);
   }
   QueryContext used;
   used.counters.boxTests = 5;

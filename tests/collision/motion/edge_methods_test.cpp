@@ -1,5 +1,5 @@
-// One suite for all methods that prove motions: closed forms, motions that graze by construction,
-// and random ones against static samples and against each other.
+// One suite for all methods that prove motions, on trees of every sort: closed forms, motions that
+// graze by construction, and random ones against static samples and against each other.
 #include <array>
 #include <numbers>
 #include <random>
@@ -23,10 +23,11 @@ using test::bodyOf;
 using test::box;
 using test::ChainMotion;
 using test::Grazing;
+using test::Proof;
 using test::randomEdge;
 using test::turned;
 
-class EdgeMethods : public testing::TestWithParam<EdgeMethod> {
+class EdgeMethods : public testing::TestWithParam<Proof> {
  protected:
   EdgeMethods() { options_.tolerance = 1e-7; }
   MotionResult ask(const Body& moving, const Body& fixed, const RigidMotion& motion) {
@@ -41,7 +42,7 @@ class EdgeMethods : public testing::TestWithParam<EdgeMethod> {
   QueryContext context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, EdgeMethods, test::everyEdgeMethod(), test::edgeMethodName);
+INSTANTIATE_TEST_SUITE_P(All, EdgeMethods, test::everyProof(), test::proofName);
 
 TEST(EdgeMethodNames, AreThoseOfTheEnumeration) {
   EXPECT_EQ(edgeMethodNames().size(), 3u);
@@ -76,7 +77,8 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   options_.earliest = true;
   for (const double reserve : {0.0, 1e-3, 1e-2}) {
-    if (reserve > 0 && GetParam() == EdgeMethod::certified) continue;  // it stops at whole windows
+    if (reserve > 0 && GetParam().method == EdgeMethod::certified)
+      continue;  // it stops at whole windows
     options_.reserve = reserve;
     const MotionResult r =
         ask(cube, wall, RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(0, 5, 0)), {}));
@@ -141,7 +143,7 @@ TEST_P(EdgeMethods, MarginTubeReserveAndWorkLimit) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   // Clearance 0.1. The others would take small steps, beside a margin that is nearly that.
-  const double way = GetParam() == EdgeMethod::certified ? 5 : 0.01;
+  const double way = GetParam().method == EdgeMethod::certified ? 5 : 0.01;
   const RigidPose a = at(Vec3(-way, 0.4, 0)), b = at(Vec3(way, 0.4, 0));
   Tube tube;
   const auto verdict = [&](const RigidPose& from, const RigidPose& to) {
@@ -161,18 +163,20 @@ TEST_P(EdgeMethods, MarginTubeReserveAndWorkLimit) {
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_EQ(r.reason, UndecidedReason::clearance);
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
+  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance) << "nothing moves but in the tube";
   tube = {};
   options_.reserve = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
   options_.reserve = 0.1001;
   EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
       << "too near to be called free, but no contact";
+  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance);
   options_.reserve = 0;
-  EXPECT_EQ(context_.counters.undecided, 2u);
+  EXPECT_EQ(context_.counters.undecided, 4u);
   for (const std::uint64_t limit : {3, 100'000}) {
     options_.workLimit = limit;
     context_.counters = {};
-    if (limit > 3 && GetParam() == EdgeMethod::certified) continue;  // it is enough for that
+    if (limit > 3 && GetParam().method == EdgeMethod::certified) continue;  // it is enough for that
     const MotionResult beside = verdict(at(Vec3(-5, 0.5 - 1e-6, 0)), at(Vec3(5, 0.5 - 1e-6, 0)));
     EXPECT_EQ(beside.reason, UndecidedReason::workLimit) << limit;
     EXPECT_LT(context_.counters.poses, limit / 10 + 10) << "it ends soon after";
@@ -197,6 +201,29 @@ TEST_P(EdgeMethods, FarBodiesGetNoTree) {
   EXPECT_EQ(ask(cube, far, RigidMotion::spatial({}, at(Vec3(5, 0, 0)), {})).verdict,
             MotionVerdict::free);
   EXPECT_FALSE(far.treeBuilt());
+}
+
+/// Triangles about one centroid, which no split separates: a leaf of many on either side.
+TEST_P(EdgeMethods, LeavesOfManyTriangles) {
+  TriangleMesh nested, needle;
+  for (const double s : {1.0, 2.0, 4.0, 8.0})
+    add(nested, s * Vec3(-1, -1, 0), s * Vec3(2, -1, 0), s * Vec3(-1, 2, 0));
+  for (const double s : {0.01, 0.02, 0.5})  // downwards, and longer and longer
+    add(needle, s * Vec3(0, 0, -2), s * Vec3(0.1, 0, 1), s * Vec3(-0.1, 0, 1));
+  const Body plate = bodyOf(nested), tip = bodyOf(needle);
+  for (const double x : {0.0, 3.0, 10.0, 13.0}) {  // above the first, …, the last one; beside all
+    const bool hits = x < 12;
+    const auto through = [&](double sign) {  // the tips are 1 below, at −1.5 in the end
+      return RigidMotion::spatial(at(sign * Vec3(x, -4 + x / 64, 2)),
+                                  at(sign * Vec3(x, -4 + x / 64, -0.5)), {});
+    };
+    const MotionVerdict expected = hits ? MotionVerdict::contact : MotionVerdict::free;
+    for (const bool earliest : {false, true}) {
+      options_.earliest = earliest;
+      EXPECT_EQ(ask(tip, plate, through(1)).verdict, expected) << x;
+      EXPECT_EQ(ask(plate, tip, through(-1)).verdict, expected) << x;
+    }
+  }
 }
 
 /// Points have no size to compare a travel with: windows end at 2^-48 of the motion, not in a stack
@@ -230,11 +257,11 @@ TEST_P(EdgeMethods, GrazingIsSaidOnlyOfNarrowGaps) {
   options_.tolerance = 1e-12;
   options_.earliest = true;
   RigidEdge edge(RigidMotion::spatial(at(Vec3::Zero()), at(Vec3::UnitX()), {1e-8, 0}));
-  const MotionResult r = certifyMotionBy(GetParam(), edge, pairs, options_, context_);
+  const MotionResult r = GetParam()(edge, pairs, options_, context_);
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_FALSE(r.grazing);
   EXPECT_LE(r.certifiedUntil, 0.25);
-  if (GetParam() != EdgeMethod::certified) {  // which stops where a window can't be proved
+  if (GetParam().method != EdgeMethod::certified) {  // which stops where a window can't be proved
     EXPECT_GT(r.certifiedUntil, 0.2);
     EXPECT_EQ(r.pair->bodyA, 0u);
   }
@@ -300,13 +327,13 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
             << " in contact, " << tooMuch << " took too much work\n";
   EXPECT_GT(free, apart / 5);
   EXPECT_GT(contact, together / 4);
-  if (GetParam() == EdgeMethod::certified) {
+  if (GetParam().method == EdgeMethod::certified) {
     EXPECT_EQ(tooMuch, 0);
   }
 }
 
 /// What is called free has no contact at any sampled pose, what is called contact has one; and no
-/// method contradicts the default one.
+/// method contradicts the default one, on whatever trees.
 TEST_P(EdgeMethods, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
   const int count = test::stressAsked() ? 5'000 : 400;
@@ -392,7 +419,7 @@ TEST_P(EdgeMethods, RandomChainsAgainstSamples) {
     ChainMotion motion(joints);
     const MotionPair pair{&a, &b};
     options_.earliest = n % 2;
-    const MotionResult r = certifyMotionBy(GetParam(), motion, {&pair, 1}, options_, context_);
+    const MotionResult r = GetParam()(motion, {&pair, 1}, options_, context_);
     ++verdicts.at(static_cast<std::size_t>(r.verdict));
     const auto touches = [&](double t) {
       const auto X = motion.pose(t);

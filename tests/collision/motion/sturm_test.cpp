@@ -19,6 +19,7 @@ using test::add;
 using test::bodyOf;
 using test::ClosedForm;
 using test::FirstContact;
+using test::Proof;
 using test::RationalMotion;
 using test::RationalScene;
 using test::ReferenceMotion;
@@ -44,7 +45,7 @@ double poseError(const Triangle& moving, const RigidPose& from, const RigidPose&
          0x1p-49 * std::max(from.p.cwiseAbs().maxCoeff(), to.p.cwiseAbs().maxCoeff());
 }
 
-class Sturm : public testing::TestWithParam<EdgeMethod> {
+class Sturm : public testing::TestWithParam<Proof> {
  protected:
   /// One motion, held against what the oracle says.
   void check(const Triangle& fixed, const Triangle& moving, const RationalMotion& path,
@@ -118,7 +119,7 @@ class Sturm : public testing::TestWithParam<EdgeMethod> {
   QueryContext context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Sturm, test::everyEdgeMethod(), test::edgeMethodName);
+INSTANTIATE_TEST_SUITE_P(All, Sturm, test::everyProof(), test::proofName);
 
 TEST_P(Sturm, ClosedForms) {
   for (const ClosedForm& form : test::closedForms())
@@ -156,7 +157,7 @@ TEST_P(Sturm, Motions) {
     if (kind == RationalScene::nearby) {
       EXPECT_LE(counts_.undecided + counts_.workLimit, 1 + counts_.asked / 50);
     }
-    if (GetParam() == EdgeMethod::certified) {
+    if (GetParam().method == EdgeMethod::certified) {
       EXPECT_LE(counts_.workLimit, 1 + counts_.asked / 1000);
     }
   }

@@ -248,9 +248,9 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --poses poses.txt --fit moments",
         "--fit: unknown fit \"moments\" of obb; there are: triangles, vertices, hull");
   fault("a.obj b.obj --poses poses.txt --overlap gjk",
-        "--overlap: \"gjk\" is of --volume obb-binary; of obb there are: sat");
+        "--overlap: \"gjk\" is of volume obb-binary; of obb there is: sat");
   fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
-        "--fit: \"hull\" is of --volume obb, obb-binary, rss; of aabb there are: plain");
+        "--fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there is: plain");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
         "--overlap: unknown overlap \"gkj\" of obb-binary; did you mean \"gjk\"?; there are: sat, "
         "gjk, lp, edge-face");

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -88,8 +89,9 @@ TEST_F(QueryMotions, ClosedForms) {
   EXPECT_LE(std::stod(rows[2].at("t0")), t);
   EXPECT_GE(std::stod(rows[2].at("t1")), t);
   EXPECT_THAT(result.err, testing::HasSubstr("motions=3\nfree=1\nhits=2\nundecided=0\n"));
-  for (const char* key : {"edges=certified", "median_ns=", "mean_ns=", "p95_ns=", "bv_tests=",
-                          "triangle_tests=", "build_ms_a=", "bytes_b=", "simd=", "tolerance="})
+  for (const char* key : {"edges=certified", "volume=obb\n", "fit=triangles", "overlap=sat",
+                          "median_ns=", "mean_ns=", "p95_ns=", "bv_tests=", "triangle_tests=",
+                          "build_ms_a=", "bytes_b=", "simd=", "tolerance="})
     EXPECT_THAT(result.err, testing::HasSubstr(key));
 }
 
@@ -109,6 +111,31 @@ TEST_F(QueryMotions, EveryMethodFindsTheFirstContact) {
     EXPECT_LE(std::stod(rows[0].at("t1")) - std::stod(rows[0].at("t0")), 1.0 / 1024);
     EXPECT_EQ(rows[1].at("verdict"), "free") << edges;
   }
+}
+
+TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
+  const std::string motions =
+      kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 0.1 " + kStill + "1 0 0.1\n";
+  std::set<std::string> tests;
+  for (const std::string trees :
+       {"obb", "obb-binary", "obb-binary --overlap gjk", "obb-binary --overlap lp --fit hull",
+        "obb-binary --overlap edge-face", "aabb", "sphere", "rss --fit vertices", "kdop14",
+        "kdop18", "kdop26", "sphere --edges adaptive", "kdop18 --edges advancement"}) {
+    SCOPED_TRACE(trees);
+    const Result result = query(motions, "--volume " + trees);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err,
+                testing::HasSubstr("volume=" + trees.substr(0, trees.find(' ')) + "\n"));
+    const std::vector<Row> rows = rowsOf(result.out);
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].at("verdict"), "contact");
+    EXPECT_LE(std::stod(rows[0].at("t0")), 1.0 / 3);
+    EXPECT_GE(std::stod(rows[0].at("t1")), 1.0 / 3);
+    EXPECT_LE(std::stod(rows[0].at("t1")) - std::stod(rows[0].at("t0")), 1.0 / 1024);
+    EXPECT_EQ(rows[1].at("verdict"), "free");
+    tests.insert(result.out);
+  }
+  EXPECT_GT(tests.size(), 4u) << "they walk trees of their own, and make other tests";
 }
 
 /// As documented: it has no shorter way; and no time, gap or triangles are told of it.
@@ -149,11 +176,14 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   };
   option("--grid 2x2x2", "--grid: is of poses; --motions has none");
   option("--query distance", "--query: is of poses; --motions has none");
-  option("--volume aabb", "--volume: is of poses; --motions has none");
-  // Nor do they have the defaults of poses.
+  // Nor do they have the default of poses.
   option("--query interference", "--query: is of poses; --motions has none");
-  option("--volume obb", "--volume: is of poses; --motions has none");
-  option("--overlap sat", "--overlap: is of poses; --motions has none");
+  option("--volume aabb --overlap gjk",
+         "--overlap: \"gjk\" is of volume obb-binary; of aabb there is: sat");
+  option("--volume aabb --fit hull",
+         "--fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there is: plain");
+  option("--volume obb-binary --overlap gjk --edges adaptive",
+         "--overlap: \"gjk\" is of --edges certified; adaptive asks how far volumes are apart");
   for (const std::string given :
        {"--lower 0,0,0", "--upper 0,0,0", "--rotations 2", "--seed 1", "--save-poses p.txt"})
     option(given, given.substr(0, given.find(' ')) + ": is of --grid, which is not given");
@@ -226,6 +256,14 @@ TEST_F(SharedMotions, FirstContactsAreTheTruth) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   EXPECT_EQ(expectTruth("certified", 1'000'000), 0u);
+}
+
+TEST_F(SharedMotions, OtherVolumesFindThemToo) {
+  if (!corridor::test::dataFolder())
+    GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  for (const std::string volume :
+       {"obb-binary", "obb-binary --overlap lp", "aabb", "sphere", "rss", "kdop14", "kdop26"})
+    EXPECT_EQ(expectTruth("certified --volume " + volume, 60), 0u);
 }
 
 TEST_F(SharedMotions, MethodsByDistancesFindThemToo) {

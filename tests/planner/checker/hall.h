@@ -94,10 +94,12 @@ inline Configuration poseOf(Rigid kind, double x, double y, double yaw = 0) {
 
 /// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³ with a wall of 0.001 at x = 0 that has a gap above
 /// y = 2: from one side of the wall to the other.
-/// @param edges as in `checker: {edges: …}`.
-inline Problem hallProblem(Rigid kind, const std::string& edges = "certified") {
+/// @param edges, volume as in `checker: {edges: …, volume: …}`.
+inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
+                           const std::string& volume = "obb") {
   Problem problem = rigidProblem(kind);
   problem.checker.edges = edges;
+  problem.checker.volume = volume;
   problem.file = "hall.yaml";
   problem.name = "hall";
   problem.digest = "0123456789abcdef";
@@ -119,9 +121,10 @@ inline Problem hallProblem(Rigid kind, const std::string& edges = "certified") {
 
 /// The hall as OMPL sees it.
 struct Hall {
-  explicit Hall(Rigid rigid, const std::string& edges = "certified")
+  explicit Hall(Rigid rigid, const std::string& edges = "certified",
+                const std::string& volume = "obb")
       : kind(rigid),
-        problem(hallProblem(rigid, edges)),
+        problem(hallProblem(rigid, edges, volume)),
         checker(problem),
         space(std::make_shared<ProblemStateSpace>(problem.space)),
         si(std::make_shared<ompl::base::SpaceInformation>(space)) {}

@@ -1,4 +1,5 @@
 // One suite for every motion validator: OMPL's contract of checkMotion and lastValid, held exactly.
+#include <algorithm>
 #include <cstring>
 #include <random>
 #include <thread>
@@ -20,26 +21,35 @@ using test::Rigid;
 
 struct Kind {
   Rigid space;
-  std::string edges;  ///< as in `checker: {edges: …}`
+  std::string edges, volume;  ///< as in `checker: {edges: …, volume: …}`
 
   bool proves() const { return edges != "discrete"; }
 };
 
-/// Every name that a problem may give, in both spaces.
+/// Every name that a problem may give: methods in both spaces, and volumes with methods in turn.
 std::vector<Kind> kinds() {
+  const auto& methods = problemChoices().at("checker.edges");
+  const auto& volumes = problemChoices().at("checker.volume");
   std::vector<Kind> all;
-  for (const std::string& edges : problemChoices().at("checker.edges"))
-    for (const Rigid space : {Rigid::SE3, Rigid::SE2}) all.push_back({space, edges});
+  for (const std::string& edges : methods)
+    for (const Rigid space : {Rigid::SE3, Rigid::SE2})
+      all.push_back({space, edges, volumes.front()});
+  for (std::size_t v = 1; v < volumes.size(); ++v) {
+    all.push_back({Rigid::SE3, methods.front(), volumes[v]});
+    all.push_back({Rigid::SE2, methods[1 + v % (methods.size() - 1)], volumes[v]});
+  }
   return all;
 }
 
 std::string nameOf(const testing::TestParamInfo<Kind>& info) {
-  return info.param.edges + (info.param.space == Rigid::SE3 ? "SE3" : "SE2");
+  std::string volume = info.param.volume;
+  std::replace(volume.begin(), volume.end(), '-', '_');
+  return info.param.edges + (info.param.space == Rigid::SE3 ? "SE3" : "SE2") + "_" + volume;
 }
 
 class MotionValidators : public testing::TestWithParam<Kind> {
  protected:
-  MotionValidators() : hall_(GetParam().space, GetParam().edges) {
+  MotionValidators() : hall_(GetParam().space, GetParam().edges, GetParam().volume) {
     if (GetParam().proves()) {
       hall_.si->setStateValidityChecker(
           std::make_shared<CertifiedStateValidityChecker>(hall_.si, hall_.checker));

@@ -53,7 +53,7 @@ TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
   EXPECT_EQ(with("colour: red\n"), std::string("problem.yaml:8: unknown key \"colour\"") + topKeys);
   EXPECT_EQ(with("checker: {edges: discrete, rezolution: 0.1}\n"),
             "problem.yaml:8: unknown key \"rezolution\" in checker; did you mean \"resolution\"? "
-            "(known: edges, resolution, tolerance, fit)");
+            "(known: edges, resolution, tolerance, volume, fit, overlap)");
   EXPECT_EQ(with("seed: 1\nmargin: 0\nseed: 2\n"),
             "problem.yaml:10: duplicate key \"seed\", first on line 8");
   EXPECT_EQ(with("planner:\n  params:\n    range: 1\n    range: 2\n"),
@@ -125,13 +125,37 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:8: checker.edges: one of certified, adaptive, advancement, discrete is "
             "needed, not \"advancment\"; did you mean \"advancement\"?");
   EXPECT_EQ(with("checker: {fit: triangle}\n"),
-            "problem.yaml:8: checker.fit: one of vertices, triangles, hull is needed, not "
+            "problem.yaml:8: checker.fit: one of triangles, vertices, hull, plain is needed, not "
             "\"triangle\"; did you mean \"triangles\"?");
+  EXPECT_EQ(with("checker: {volume: spheres}\n"),
+            "problem.yaml:8: checker.volume: one of obb, obb-binary, aabb, sphere, rss, kdop14, "
+            "kdop18, kdop26 is needed, not \"spheres\"; did you mean \"sphere\"?");
+  EXPECT_EQ(with("checker: {overlap: gkj}\n"),
+            "problem.yaml:8: checker.overlap: one of sat, gjk, lp, edge-face, centers, rectangles, "
+            "intervals is needed, not \"gkj\"; did you mean \"gjk\"?");
   EXPECT_EQ(with("planner: {stop: never}\n"),
             "problem.yaml:8: planner.stop: one of first, time is needed, not \"never\"");
   EXPECT_EQ(complaintOf(head + "start: {at: [1, 2, 3, 4]}\ngoal: {at: [1, x, 3]}\n"),
             "problem.yaml:5: start.at: a list of 3 numbers is needed, not a list of 4\n"
             "problem.yaml:6: goal.at: a number is needed, not \"x\"");
+}
+
+/// Words that are known, but not together.
+TEST_F(ProblemFaults, VolumesAndWhatTheyHave) {
+  EXPECT_EQ(
+      with("checker:\n  volume: sphere\n  overlap: gjk\n"),
+      "problem.yaml:10: checker.overlap: \"gjk\" is of volume obb-binary; of sphere there is: "
+      "centers");
+  EXPECT_EQ(
+      with("checker: {overlap: lp}\n"),
+      "problem.yaml:8: checker.overlap: \"lp\" is of volume obb-binary; of obb there is: sat");
+  EXPECT_EQ(
+      with("checker: {volume: aabb, fit: hull}\n"),
+      "problem.yaml:8: checker.fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there "
+      "is: plain");
+  EXPECT_EQ(with("checker: {edges: adaptive, volume: obb-binary, overlap: gjk}\n"),
+            "problem.yaml:8: checker.overlap: \"gjk\" is of edges certified and discrete; adaptive "
+            "asks how far volumes are apart");
 }
 
 TEST_F(ProblemFaults, Ranges) {
@@ -235,9 +259,9 @@ TEST_F(ProblemFaults, Bounds) {
 }
 
 TEST_F(ProblemFaults, WhatIsNotSupportedYetSaysWhatIs) {
-  EXPECT_EQ(with("checker: {volume: sphere}\n"),
-            "problem.yaml:8: \"volume\" in checker is not supported yet; trees are of oriented "
-            "boxes; leave it out");
+  EXPECT_EQ(with("checker: {peer: fcl}\n"),
+            "problem.yaml:8: \"peer\" in checker is not supported yet; Corridor's own checker is "
+            "used; leave it out");
 }
 
 TEST_F(ProblemFaults, KeysThatAreNotForRigidRobots) {

@@ -36,7 +36,7 @@ planner:
     goal_bias: "0.1"
 sampler: gaussian
 simplify: false
-checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, fit: hull}
+checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, volume: obb-binary, fit: hull, overlap: gjk}
 allow: [[wedge, stone]]
 seed: 18446744073709551615
 )";
@@ -81,7 +81,9 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.checker.edges, "discrete");
   EXPECT_EQ(p.checker.resolution, 0.02);
   EXPECT_EQ(p.checker.tolerance, 1e-5);
+  EXPECT_EQ(p.checker.volume, "obb-binary");
   EXPECT_EQ(p.checker.fit, "hull");
+  EXPECT_EQ(p.checker.overlap, "gjk");
   EXPECT_EQ(p.seed, 18446744073709551615u);
   for (const std::string& key : problemKeys().at("").legal)
     if (key != "robots" && key != "base") {
@@ -97,6 +99,8 @@ TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
   EXPECT_FALSE(p.planner.stopAtFirst);
   EXPECT_EQ(p.sampler, "uniform");
   EXPECT_EQ(p.checker.edges, "certified");
+  EXPECT_EQ(p.checker.volume, "obb");
+  EXPECT_EQ(treesNamed(p.checker.trees()).trees, TreeKind::wideObb);
   EXPECT_EQ(p.margin, 0);
   EXPECT_EQ(p.tube.head(3), Vec3::Constant(0x1p-40 * 5)) << "of the longest range";
   EXPECT_EQ(p.tube[3], 0x1p-40 * 2 * std::numbers::pi);

@@ -1,0 +1,115 @@
+#include "collision/hierarchy/tree_kinds.h"
+
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "collision/hierarchy/with_volume.h"
+#include "tests/support/soups.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+std::string complaint(const TreeWords& words) {
+  const auto wrong = wrongWordIn(words);
+  return wrong ? wrong->key + ": " + wrong->text : "";
+}
+
+TEST(TreeKinds, EveryNameHasAKindOfItsOwn) {
+  std::set<TreeKind> kinds;
+  for (const VolumeKind& volume : volumeKinds())
+    for (const std::string& overlap : volume.overlaps)
+      for (const std::string& fit : volume.fits) {
+        EXPECT_EQ(complaint({volume.name, fit, overlap}), "");
+        kinds.insert(treesNamed({volume.name, fit, overlap}).trees);
+      }
+  EXPECT_EQ(kinds.size(), 11u);
+  EXPECT_EQ(*kinds.begin(), TreeKind::wideObb);
+  EXPECT_EQ(*kinds.rbegin(), TreeKind::kdop26);
+
+  const auto is = [](TreeKind trees, const TreeWords& words) {
+    return treesNamed(words).trees == trees;
+  };
+  EXPECT_TRUE(is(TreeKind::wideObb, {}));
+  EXPECT_TRUE(is(TreeKind::wideObb, {"obb", "hull", "sat"}));
+  EXPECT_TRUE(is(TreeKind::obb, {"obb-binary", "", ""}));
+  EXPECT_TRUE(is(TreeKind::obbGjk, {"obb-binary", "", "gjk"}));
+  EXPECT_TRUE(is(TreeKind::obbLinearProgram, {"obb-binary", "", "lp"}));
+  EXPECT_TRUE(is(TreeKind::obbEdgeFace, {"obb-binary", "", "edge-face"}));
+  EXPECT_TRUE(is(TreeKind::aabb, {"aabb", "plain", "sat"}));
+  EXPECT_TRUE(is(TreeKind::sphere, {"sphere", "", "centers"}));
+  EXPECT_TRUE(is(TreeKind::rss, {"rss", "vertices", "rectangles"}));
+  EXPECT_TRUE(is(TreeKind::kdop14, {"kdop14", "", ""}));
+  EXPECT_TRUE(is(TreeKind::kdop18, {"kdop18", "", "intervals"}));
+  EXPECT_TRUE(is(TreeKind::kdop26, {"kdop26", "", ""}));
+  EXPECT_EQ(treesNamed({"rss", "hull", ""}).fit, ObbFit::hull);
+  EXPECT_EQ(treesNamed({"rss", "vertices", ""}).fit, ObbFit::vertices);
+  EXPECT_EQ(treesNamed({"rss", "", ""}).fit, ObbFit::triangles);
+  EXPECT_EQ(treesNamed({"aabb", "plain", ""}).fit, ObbFit::triangles);
+}
+
+TEST(TreeKinds, SpelledOut) {
+  const TreeWords usual = spelledOut({}), ball = spelledOut({"sphere", "", ""}),
+                  said = spelledOut({"obb-binary", "hull", "lp"});
+  EXPECT_EQ(usual.volume + " " + usual.fit + " " + usual.overlap, "obb triangles sat");
+  EXPECT_EQ(ball.volume + " " + ball.fit + " " + ball.overlap, "sphere plain centers");
+  EXPECT_EQ(said.volume + " " + said.fit + " " + said.overlap, "obb-binary hull lp");
+}
+
+TEST(TreeKinds, WrongWordsAreToldWithWhatThereIs) {
+  EXPECT_EQ(complaint({"spheres", "", ""}),
+            "volume: unknown volume \"spheres\"; did you mean \"sphere\"?; there are: obb, "
+            "obb-binary, aabb, sphere, rss, kdop14, kdop18, kdop26");
+  EXPECT_EQ(complaint({"sphere", "", "gjk"}),
+            "overlap: \"gjk\" is of volume obb-binary; of sphere there is: centers");
+  EXPECT_EQ(complaint({"", "", "gjk"}),
+            "overlap: \"gjk\" is of volume obb-binary; of obb there is: sat");
+  EXPECT_EQ(complaint({"aabb", "hull", ""}),
+            "fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there is: plain");
+  EXPECT_EQ(complaint({"obb-binary", "", "gkj"}),
+            "overlap: unknown overlap \"gkj\" of obb-binary; did you mean \"gjk\"?; there are: "
+            "sat, gjk, lp, edge-face");
+  EXPECT_EQ(complaint({"rss", "hul", ""}),
+            "fit: unknown fit \"hul\" of rss; did you mean \"hull\"?; there are: triangles, "
+            "vertices, hull");
+  EXPECT_THROW(treesNamed({"aabb", "hull", ""}), std::invalid_argument);
+  EXPECT_THROW(spelledOut({"cone", "", ""}), std::invalid_argument);
+}
+
+/// A body's trees are built at first need, each once, by whoever comes first.
+TEST(TreeKinds, BodiesBuildTheTreesThatAreAskedFor) {
+  std::mt19937_64 random(test::testSeed(51));
+  const Body mesh("mesh", test::soup(random, 500, 0.2)), part("part", placed(Sphere{1}, {}));
+  EXPECT_FALSE(mesh.treeBuilt() || part.treeBuilt());
+  std::vector<const void*> seen(8);
+  std::vector<std::thread> threads;
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    threads.emplace_back([&, k] {
+      // Half of them begin with one kind, the others with another.
+      for (const TreeKind trees :
+           {k % 2 ? TreeKind::rss : TreeKind::sphere, k % 2 ? TreeKind::sphere : TreeKind::rss})
+        withVolume(trees, [&]<class Volume, class Overlap>() {
+          const auto& tree = mesh.volumeTree<Volume>();
+          EXPECT_EQ(tree.triangles().size(), mesh.mesh().triangles.size());
+          if (trees == TreeKind::rss) seen[k] = &tree;
+        });
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(std::set<const void*>(seen.begin(), seen.end()).size(), 1u);
+  EXPECT_TRUE(mesh.treeBuilt());
+  EXPECT_FALSE(part.treeBuilt());
+  for (const TreeKind trees : {TreeKind::obb, TreeKind::aabb, TreeKind::kdop14, TreeKind::kdop26})
+    withVolume(trees, [&]<class Volume, class Overlap>() {
+      EXPECT_FALSE(mesh.volumeTree<Volume>().check());
+      EXPECT_FALSE(part.volumeTree<Volume>().check());
+      EXPECT_NE(part.volumeTree<Volume>().part(), nullptr);
+    });
+  EXPECT_TRUE(part.treeBuilt());
+}
+
+}  // namespace
+}  // namespace corridor

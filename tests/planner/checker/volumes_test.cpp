@@ -1,0 +1,99 @@
+// A problem's checker on the trees of every volume: one answer, and nothing that is not asked of
+// them.
+#include <map>
+#include <random>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "planner/checker/checker.h"
+#include "tests/planner/checker/hall.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::Rigid;
+
+/// Every volume with every overlap test.
+std::vector<TreeWords> everyVolume() {
+  std::vector<TreeWords> all;
+  for (const VolumeKind& kind : volumeKinds())
+    for (const std::string& overlap : kind.overlaps)
+      all.push_back({kind.name, kind.fits.back(), overlap});
+  return all;
+}
+
+Problem with(Problem problem, const TreeWords& words) {
+  problem.checker.volume = words.volume;
+  problem.checker.fit = words.fit;
+  problem.checker.overlap = words.overlap;
+  return problem;
+}
+
+/// Meshes, and primitives on a chain; states and edges, certified and exact.
+TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
+  std::mt19937_64 random(test::testSeed(71));
+  const auto real = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const int count = (test::stressAsked() ? 2'000 : 150) / test::kSlowdown;
+  for (const Problem& problem : {test::hallProblem(Rigid::SE3), test::armProblem()}) {
+    const bool rigid = problem.space.size() == 7;
+    const auto anywhere = [&] {
+      if (rigid) return test::poseOf(Rigid::SE3, real(-1, 1), real(-3, 3), real(-3, 3));
+      return Configuration(Vec3(real(-3, 3), real(-2.5, 2.5), real(-2.5, 2.5)));
+    };
+    std::vector<Configuration> from, to;
+    for (int n = 0; n < count; ++n) {
+      from.push_back(anywhere());
+      to.push_back(rigid || n % 2 ? anywhere() : Configuration(0.9 * from.back()));
+    }
+    std::vector<int> usual;
+    std::map<std::uint64_t, int> tests;
+    for (const TreeWords& words : everyVolume()) {
+      SCOPED_TRACE(problem.name + ", " + words.volume + ", " + words.overlap);
+      const Problem asked = with(problem, words);
+      const Checker checker(asked);
+      std::vector<int> verdicts;
+      for (std::size_t n = 0; n < from.size(); ++n) {
+        verdicts.push_back(static_cast<int>(checker.state(from[n]).verdict));
+        verdicts.push_back(checker.interference(from[n]).has_value());
+        verdicts.push_back(checker.clearance(from[n]) > 0);
+        verdicts.push_back(static_cast<int>(checker.edge(from[n], to[n], n % 2).verdict));
+        verdicts.push_back(checker.certifiedEdge(from[n], to[n]));
+      }
+      if (usual.empty()) usual = verdicts;
+      EXPECT_EQ(verdicts, usual);
+      EXPECT_EQ(checker.counters().undecided, 0u);
+      ++tests[checker.counters().boxTests];
+    }
+    EXPECT_GT(std::count(usual.begin(), usual.end(), 1), count / 4);
+    EXPECT_GT(std::count(usual.begin(), usual.end(), 0), count / 4);
+    EXPECT_GT(tests.size(), 6u) << "all walked other trees";
+  }
+}
+
+TEST(CheckerVolumes, WrongWordsThrow) {
+  const auto message = [](const TreeWords& words, const std::string& edges) -> std::string {
+    Problem problem = with(test::hallProblem(Rigid::SE2), words);
+    problem.checker.edges = edges;
+    try {
+      const Checker checker(problem);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message({"rss", "hull", "rectangles"}, "certified"), "");
+  EXPECT_NE(message({"cone", "", ""}, "certified"), "");
+  EXPECT_NE(message({"rss", "", "gjk"}, "discrete"), "");
+  EXPECT_EQ(message({"obb-binary", "", "gjk"}, "discrete"), "");
+  EXPECT_EQ(message({"obb-binary", "", "sat"}, "adaptive"), "");
+  EXPECT_EQ(message({"obb-binary", "", "gjk"}, "advancement"),
+            "checker.overlap: \"gjk\" is of edges certified and discrete; advancement asks how far "
+            "volumes are apart");
+}
+
+}  // namespace
+}  // namespace corridor
