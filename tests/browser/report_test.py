@@ -57,21 +57,24 @@ def points_have_words(browser, out):
     points = browser.driver.find_elements(By.CSS_SELECTOR, "figure[data-plot='error.thin_plate'] g[onmousemove]")
     assert len(points) == len(rows), len(points)
     said = set()
-    for point in points:  # some lie under others: the event by itself
+    for point in points:  # some lie under others: the event by itself, and at once what it does, for scrolling hides it
         browser.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", point)
-        browser.driver.execute_script(
-            "const box = arguments[0].getBoundingClientRect();"
-            "arguments[0].dispatchEvent(new MouseEvent('mousemove', {clientX: box.x, clientY: box.y}))", point)
-        words = browser.js("document.getElementById('tip').textContent")
+        words, tip = browser.driver.execute_script("""
+            const box = arguments[0].getBoundingClientRect(), tip = document.getElementById('tip');
+            arguments[0].dispatchEvent(new MouseEvent('mousemove', {clientX: box.x, clientY: box.y}));
+            return [tip.textContent, tip.getBoundingClientRect().toJSON()];""", point)
         assert "paths refuted" in words and "s (median)" in words, words
         said.add(words.split("\n")[0])
-        tip = browser.js("document.getElementById('tip').getBoundingClientRect().toJSON()")
         assert tip["width"] > 50 and 0 <= tip["left"] and tip["right"] <= SIZES["desktop"][0] and tip["top"] >= 0, tip
     assert len(said) == len(points), said
-    # And by a pointer, on the topmost.
-    ActionChains(browser.driver).move_by_offset(1, 1).pause(0.3).move_to_element(
-        points[-1].find_element(By.TAG_NAME, "use")).pause(0.2).move_by_offset(1, 0).perform()
-    browser.wait("!document.getElementById('tip').hidden")
+    # And by a pointer, on the topmost, once the page stands still.
+    use = points[-1].find_element(By.TAG_NAME, "use")
+    for step in range(20):
+        ActionChains(browser.driver).move_to_element_with_offset(use, step % 2, 0).pause(0.1).perform()
+        if not browser.js("document.getElementById('tip').hidden"):
+            break
+    else:
+        raise AssertionError("a pointer on a point says nothing")
     # A line of each variant, that reaches the top where all were solved.
     lines = browser.js("document.querySelectorAll(\"figure[data-plot='solved.thin_plate'] g[id*=plot] path\").length")
     assert lines >= 3, lines
