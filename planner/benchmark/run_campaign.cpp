@@ -103,8 +103,9 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
                 std::move(run));
   };
   const auto interrupted = [&] { return options.interrupted && options.interrupted->load(); };
-  while (!interrupted() && !(tasks.empty() && running.empty())) {
+  while (!(tasks.empty() && running.empty())) {
     while (!tasks.empty() && running.size() < options.jobs && !interrupted()) begin();
+    if (interrupted()) break;  // what is under way is given up, however near its end
     std::vector<ChildProcess*> children;
     for (Running& one : running) children.push_back(&one.run.process());
     ChildProcess::waitForAny(children, kLookMs);
