@@ -43,7 +43,7 @@ class Script {
          << "set encoding utf8\nset border 3 lc rgb \"#94a3b8\"\n"
          << "set tics nomirror out textcolor rgb \"#334155\"\n"
          << "set grid lt 1 lc rgb \"#e2e8f0\" lw 0.6\n"
-         << "set key outside top left horizontal Left reverse samplen 1.5 width 1 textcolor rgb "
+         << "set key outside top left horizontal Left reverse samplen 1.5 width 3 textcolor rgb "
             "\"#334155\"\n"
          << "set title " << quoted(plot.title) << " font \",14\" offset 0,-0.4\n"
          << "set xlabel " << quoted(plot.xLabel) << "\nset ylabel " << quoted(plot.yLabel) << "\n"
