@@ -12,8 +12,8 @@
 ///
 /// *Posing* is what all of ours begin with, to tell where one box is seen from the other. Peers:
 /// FCL's overlap of OBBs, which promises nothing about rounding; and our wide tree's kernel, by
-/// least squares over whole queries (planner/benchmark/cost_model.h): C_v, a pair's share of walking
-/// included.
+/// least squares over whole queries (planner/benchmark/cost_model.h): C_v, a pair's share of
+/// walking included.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -36,8 +36,8 @@
 #include "collision/queries/interference_wide.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
-#include "planner/benchmark/cost_model.h"
 #include "planner/app/query_timing.h"
+#include "planner/benchmark/cost_model.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"

@@ -11,8 +11,8 @@
 
 #include "planner/benchmark/peers.h"
 #include "planner/benchmark/rows.h"
-#include "planner/benchmark/statistics.h"
 #include "planner/benchmark/run_campaign.h"
+#include "planner/benchmark/statistics.h"
 #include "planner/benchmark/write_reports.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/replay.h"

@@ -241,36 +241,6 @@ TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
   }
 }
 
-TEST_P(Spaces, PathsAreFoundAndProvedOnTreesOfAnyVolume) {
-  Problem problem = hallProblem(GetParam());
-  const SolveReport usual = solveProblem(problem);
-  const auto solved = [&](const std::string& edges, const TreeWords& words,
-                          const std::string& told) {
-    problem.checker.edges = edges;
-    problem.checker.resolution = 0.001;
-    problem.checker.volume = words.volume;
-    problem.checker.fit = words.fit;
-    problem.checker.overlap = words.overlap;
-    const SolveReport report = solveProblem(problem);
-    ASSERT_EQ(report.outcome, SolveOutcome::solved) << told << ": " << report.why;
-    EXPECT_EQ(report.checker, told);
-    EXPECT_NE(report.counters.boxTests, usual.counters.boxTests) << told;
-    const Solution solution = makeSolution(problem, report);
-    EXPECT_EQ(solution.checker, told);
-    if (edges == "discrete") return;  // which may step over the wall
-    EXPECT_TRUE(report.certified) << told;
-    EXPECT_EQ(verifySolution(problem, solution).verdict, PathVerdict::proved) << told;
-    if (edges != "certified") return;
-    EXPECT_EQ(report.path, usual.path) << told << ": no verdict depends on it, so no path does";
-  };
-  solved("certified", {"sphere", "", ""}, "certified, sphere");
-  solved("certified", {"kdop26", "", ""}, "certified, kdop26");
-  solved("certified", {"obb-binary", "", ""}, "certified, obb-binary");
-  solved("certified", {"obb-binary", "hull", "gjk"}, "certified, obb-binary, gjk");
-  solved("adaptive", {"rss", "", ""}, "adaptive, rss");
-  solved("discrete", {"aabb", "", ""}, "discrete, resolution 0.001, aabb");
-}
-
 /// The gap in the wall is 3 m wide, the bar 0.2 m: short paths cut its corner, clear ones don't.
 TEST(Solve, MaximisesTheLeastClearance) {
   Problem problem = hallProblem(Rigid::SE2);

@@ -1,0 +1,48 @@
+// Solving with trees of any bounding volume: the same paths, at another cost.
+#include <gtest/gtest.h>
+
+#include "planner/solve/solution.h"
+#include "planner/solve/verify_solution.h"
+#include "tests/planner/checker/hall.h"
+
+namespace corridor {
+namespace {
+
+using test::hallProblem;
+using test::Rigid;
+
+class SolveOnVolumes : public testing::TestWithParam<Rigid> {};
+INSTANTIATE_TEST_SUITE_P(Both, SolveOnVolumes, testing::Values(Rigid::SE2, Rigid::SE3));
+
+TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
+  Problem problem = hallProblem(GetParam());
+  const SolveReport usual = solveProblem(problem);
+  const auto solved = [&](const std::string& edges, const TreeWords& words,
+                          const std::string& told) {
+    problem.checker.edges = edges;
+    problem.checker.resolution = 0.001;
+    problem.checker.volume = words.volume;
+    problem.checker.fit = words.fit;
+    problem.checker.overlap = words.overlap;
+    const SolveReport report = solveProblem(problem);
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << told << ": " << report.why;
+    EXPECT_EQ(report.checker, told);
+    EXPECT_NE(report.counters.boxTests, usual.counters.boxTests) << told;
+    const Solution solution = makeSolution(problem, report);
+    EXPECT_EQ(solution.checker, told);
+    if (edges == "discrete") return;  // which may step over the wall
+    EXPECT_TRUE(report.certified) << told;
+    EXPECT_EQ(verifySolution(problem, solution).verdict, PathVerdict::proved) << told;
+    if (edges != "certified") return;
+    EXPECT_EQ(report.path, usual.path) << told << ": no verdict depends on it, so no path does";
+  };
+  solved("certified", {"sphere", "", ""}, "certified, sphere");
+  solved("certified", {"kdop26", "", ""}, "certified, kdop26");
+  solved("certified", {"obb-binary", "", ""}, "certified, obb-binary");
+  solved("certified", {"obb-binary", "hull", "gjk"}, "certified, obb-binary, gjk");
+  solved("adaptive", {"rss", "", ""}, "adaptive, rss");
+  solved("discrete", {"aabb", "", ""}, "discrete, resolution 0.001, aabb");
+}
+
+}  // namespace
+}  // namespace corridor
