@@ -22,7 +22,10 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
   const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), c = d1.dot(r),
                b = d1.dot(d2);
   const double denominator = a * e - b * b;
-  double s = denominator > 0 ? clamped((b * f - c * e) / denominator) : 0;
+  // Parallel edges: any s will do. The second one a point: the s next to it.
+  double s = denominator > 0     ? clamped((b * f - c * e) / denominator)
+             : !(e > 0) && a > 0 ? clamped(-c / a)
+                                 : 0;
   double t = e > 0 ? (b * s + f) / e : 0;
   if (!(t >= 0 && t <= 1)) {
     t = clamped(t);

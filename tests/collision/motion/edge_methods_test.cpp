@@ -226,6 +226,24 @@ TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   }
 }
 
+/// A triangle that is a point, beside the middle of an edge: neither a corner nor the face is near.
+TEST_P(EdgeMethods, PointBesideAnEdge) {
+  TriangleMesh large, point;
+  add(large, Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0));
+  add(point, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
+  const Body plate = bodyOf(large), dot = bodyOf(point);
+  for (const double margin : {0.0, 0.0999, 0.1001})
+    for (const RigidPose& to :
+         {at(Vec3(0.1, -0.1, 0)), turned(Vec3(0.1, -0.1, 0), 1, Vec3(1, 2, 3))}) {
+      options_.margin = margin;
+      const RigidPose from = at(Vec3(-0.1, -0.1, 0));
+      const MotionVerdict expected = margin > 0.1 ? MotionVerdict::contact : MotionVerdict::free;
+      EXPECT_EQ(ask(dot, plate, RigidMotion::spatial(from, to, {})).verdict, expected) << margin;
+      const RigidPose back = at(Vec3(0.1, 0.1, 0)), fro = at(Vec3(-0.1, 0.1, 0));
+      EXPECT_EQ(ask(plate, dot, RigidMotion::spatial(back, fro, {})).verdict, expected) << margin;
+    }
+}
+
 /// Points have no size to compare a travel with: windows end at 2^-48 of the motion, not in a stack
 /// overflow.
 TEST_P(EdgeMethods, PointThroughAPointEnds) {
