@@ -13,6 +13,9 @@ namespace {
 
 /// Seconds for setting up one run while checking: goals are sampled, trees are built.
 constexpr double kCheckPatience = 120;
+/// All results are kept in memory, some kilobytes a run.
+constexpr std::uint64_t kMostRuns = 1'000'000;
+constexpr std::uint64_t kLastSeed = 0xffffffff;  // OMPL takes 32 bits
 
 std::string placeOf(const Campaign& campaign, const std::string& what) {
   const auto place = campaign.places.find(what);
@@ -110,6 +113,15 @@ void checkCampaign(const Campaign& campaign) {
   if (variants.empty()) faults.push_back({placeOf(campaign, "variants"), 0, "a variant is needed"});
   if (campaign.runs == 0)
     faults.push_back({placeOf(campaign, "runs"), 0, "1 or more are needed, not 0"});
+  const std::uint64_t cells = campaign.problems.size() * variants.size() *
+                              std::max<std::uint64_t>(campaign.planners.size(), 1);
+  if (cells > 0 && campaign.runs > kMostRuns / cells)
+    faults.push_back({placeOf(campaign, "runs"), 0,
+                      "more than " + std::to_string(kMostRuns) +
+                          " runs in all: " + std::to_string(campaign.runs) + " of each of " +
+                          std::to_string(cells) + " combinations of problem, checker and planner"});
+  if (campaign.runs > kLastSeed - campaign.seed + 1)
+    faults.push_back({placeOf(campaign, "runs"), 0, "the last seed would be above 2^32 - 1"});
   if (faults.empty()) faults = faultsInChild(campaign);
   if (!faults.empty()) throw InputError(std::move(faults));
 }

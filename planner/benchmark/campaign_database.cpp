@@ -188,6 +188,9 @@ class CampaignDatabase::Tables {
     if (const int version = base_->execAndGet("PRAGMA user_version").getInt(); version != kVersion)
       refuse("is of version " + std::to_string(version) + " of campaigns' databases; this is " +
              std::to_string(kVersion));
+    if (const std::string check = base_->execAndGet("PRAGMA quick_check(1)").getString();
+        check != "ok")
+      refuse("is damaged: " + check);
     const int runs = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt();
     if (mode == Mode::fresh)
       refuse("holds " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
@@ -216,7 +219,7 @@ class CampaignDatabase::Tables {
       readRuns(id, cell);
       if (was == spec) continue;
       if (!cell.runs.empty())
-        refuse(cellName(cell) + " was another one: " + difference(was, spec) +
+        refuse(cellName(cell) + " was measured as something else: " + difference(was, spec) +
                "; name another folder");
       known.reset();
       execute("UPDATE corridor_cells SET spec = ? WHERE id = ?", spec, id);

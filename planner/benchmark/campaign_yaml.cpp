@@ -265,7 +265,8 @@ bool isCampaignFile(const std::filesystem::path& file) {
   try {
     const YamlValue document = parseYaml(file.string(), readTextFile(file, "a campaign"));
     return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
-      return entry.key == "format" && entry.value.text.rfind("corridor-campaign", 0) == 0;
+      return (entry.key == "format" && entry.value.text.rfind("corridor-campaign", 0) == 0) ||
+             entry.key == "checkers";  // without its format, to be told so
     });
   } catch (const InputError&) {
     return false;

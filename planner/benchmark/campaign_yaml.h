@@ -9,7 +9,8 @@
 
 namespace corridor {
 
-/// Is this file a campaign (`format: corridor-campaign-1`)? False for what can't be read as YAML.
+/// Is this file a campaign (`format: corridor-campaign-1`, or one that has lost that line)? False
+/// for what can't be read as YAML.
 bool isCampaignFile(const std::filesystem::path& file);
 
 /// Reads a campaign file, and the problems that it names, relative to its folder. Every key:

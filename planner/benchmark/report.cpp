@@ -144,8 +144,10 @@ class Report {
                        std::to_string(campaign_.variants.size()) + " variants, " +
                        std::to_string(runs()) + " runs";
     if (runs() < all) text += " of " + std::to_string(all) + " (not finished)";
-    return text + ": " + std::to_string(solved) + " returned a path; of " + std::to_string(judged) +
-           " paths that were judged " + std::to_string(refuted) + " are refuted.";
+    text += ": " + std::to_string(solved) + " returned a path";
+    return judged == 0 ? text + "."
+                       : text + "; of " + std::to_string(judged) + " that were judged " +
+                             std::to_string(refuted) + " are refuted.";
   }
   std::string notes() const {
     std::vector<std::string> notes = campaign_.notes;
@@ -202,7 +204,7 @@ class Report {
       judged += !run.verdict.empty();
       refutedPaths += run.verdict == "refuted";
       if (!run.solved) continue;
-      times.push_back(run.time);
+      times.push_back(run.processorTime);
       states.push_back(static_cast<double>(run.states));
       edges.push_back(static_cast<double>(run.edges));
       boxes.push_back(static_cast<double>(run.counters.boxTests));

@@ -50,7 +50,7 @@ std::pair<double, double> decades(const std::vector<double>& values) {
 Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                     std::size_t problem) {
   const std::string& name = campaign.problemNames[problem];
-  Plot plot{"solved." + name, name, "time, s", "share of runs", true, false, {}, {}, {}};
+  Plot plot{"solved." + name, name, "processor time, s", "share of runs", true, false, {}, {}, {}};
   plot.rangeY = {0, 1.02};
   struct Times {
     std::vector<double> solved, held;
@@ -63,9 +63,9 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
       all[v].runs += cell.runs.size();
       for (const BenchmarkRun& run : cell.runs) {
         if (!run.solved) continue;
-        times.push_back(run.time);
-        all[v].solved.push_back(run.time);
-        if (run.verdict != "refuted") all[v].held.push_back(run.time);
+        times.push_back(run.processorTime);
+        all[v].solved.push_back(run.processorTime);
+        if (run.verdict != "refuted") all[v].held.push_back(run.processorTime);
       }
     });
   plot.rangeX = decades(times);
@@ -84,8 +84,15 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
 Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem) {
   const std::string& name = campaign.problemNames[problem];
-  Plot plot{
-      "error." + name, name, "median time, s", "share of paths refuted", true, false, {}, {}, {}};
+  Plot plot{"error." + name,
+            name,
+            "median processor time, s",
+            "share of paths refuted",
+            true,
+            false,
+            {},
+            {},
+            {}};
   plot.rangeY = {-0.03, 1.03};
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
     PlotSeries series{campaign.variants[v].name, v, PlotSeries::Style::points, {}};
@@ -93,7 +100,7 @@ Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>&
       std::vector<double> times;
       std::size_t judged = 0, refuted = 0;
       for (const BenchmarkRun& run : cell.runs) {
-        if (run.solved) times.push_back(run.time);
+        if (run.solved) times.push_back(run.processorTime);
         judged += !run.verdict.empty();
         refuted += run.verdict == "refuted";
       }

@@ -201,7 +201,7 @@ std::string tableOf(const std::vector<Row>& rows) {
     const bool says = std::any_of(cells.begin() + 1, cells.end(), [](const std::string& cell) {
       return cell != "0" && cell != "-";
     });
-    if (!says && name != "runs" && name != "refuted") continue;
+    if (!says && name != "runs" && name != "solved" && name != "refuted") continue;
     std::size_t width = 0;
     for (const std::string& cell : cells) width = std::max(width, widthOf(cell));
     const bool left = std::holds_alternative<std::string>(rows[0][c].second);

@@ -30,7 +30,7 @@ std::vector<Row> summaryRows(const Campaign& campaign, const std::vector<Campaig
 std::string csvOf(const std::vector<Row>& rows);
 
 /// For people: columns side by side, four digits. A column that says nothing in any row (0, or
-/// nothing) is left out, unless it is `refuted`.
+/// nothing) is left out, unless it is `runs`, `solved` or `refuted`.
 std::string tableOf(const std::vector<Row>& rows);
 
 }  // namespace corridor

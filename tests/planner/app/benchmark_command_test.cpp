@@ -134,6 +134,9 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml --planners RRTConect",
          "--planners: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?");
   refuse("hall.yaml --runs 0", "--runs: a whole number from 1 to 1000000 is needed");
+  refuse("hall.yaml --runs 500001",
+         "--runs: more than 1000000 runs in all: 500001 of each of 2 combinations");
+  refuse("hall.yaml --runs 2 --seed 4294967295", "--runs: the last seed would be above 2^32 - 1");
   refuse("hall.yaml --runs few", "--runs: a whole number from 1 to 1000000 is needed");
   refuse("hall.yaml --time 0", "--time: a number of seconds above 0 is needed");
   refuse("hall.yaml --time nan", "--time: a number of seconds above 0 is needed");
@@ -170,7 +173,7 @@ TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
 TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
   const std::string command = "cd '" + folder_.string() +
                               "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
-                              "' benchmark hall.yaml --runs 1000000 -o results >out.txt 2>err.txt";
+                              "' benchmark hall.yaml --runs 500000 -o results >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);

@@ -114,7 +114,7 @@ TEST_F(Database, WithoutRunsACampaignMayChange) {
   EXPECT_EQ(complaint(Mode::resume, campaign), "");
   runInto(campaign);
   campaign.time = 4.0 * test::kSlowdown;
-  EXPECT_THAT(complaint(Mode::resume, campaign), HasSubstr("was another one: time"));
+  EXPECT_THAT(complaint(Mode::resume, campaign), HasSubstr("was measured as something else: time"));
 }
 
 TEST_F(Database, TellsTheBuildsOfItsRuns) {
@@ -216,12 +216,13 @@ TEST_F(Database, WhatItRefuses) {
   other.variants = {readVariant("discrete:0.3")};
   other.variants[0].name = "discrete:0.2";
   EXPECT_THAT(complaint(Mode::resume, other),
-              HasSubstr("hall, discrete:0.2, RRTConnect was another one: checker "
+              HasSubstr("hall, discrete:0.2, RRTConnect was measured as something else: checker "
                         R"({"edges":"discrete","resolution":"0.2"}, and is )"
                         R"({"edges":"discrete","resolution":"0.3"} now)"));
   other = campaign;
   other.problems[0].digest = "another";
-  EXPECT_THAT(complaint(Mode::resume, other), HasSubstr("was another one: problem "));
+  EXPECT_THAT(complaint(Mode::resume, other),
+              HasSubstr("was measured as something else: problem "));
   other = campaign;
   other.time = 77;
   EXPECT_THAT(complaint(Mode::resume, other), HasSubstr(", and is 77.0 now"));

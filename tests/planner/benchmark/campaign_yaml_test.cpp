@@ -227,6 +227,8 @@ TEST_F(CampaignYaml, WhatIsACampaign) {
   write("broken.yaml", "format: [corridor-campaign-1\n");
   EXPECT_TRUE(isCampaignFile(folder_ / "c.yaml"));
   EXPECT_TRUE(isCampaignFile(folder_ / "newer.yaml"));  // to be told so
+  write("bare.yaml", "problems: [hall.yaml]\ncheckers: {a: {}}\n");
+  EXPECT_TRUE(isCampaignFile(folder_ / "bare.yaml"));
   for (const char* name : {"hall.yaml", "broken.yaml", "nothing.yaml", "."})
     EXPECT_FALSE(isCampaignFile(folder_ / name)) << name;
 }

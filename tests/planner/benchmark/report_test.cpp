@@ -147,8 +147,8 @@ TEST_F(Report, ThePageAndItsFiles) {
   }
   EXPECT_EQ(files.size(), 1 + (canPlot() ? 2u : 1u) * (3 * 2 + 1));
   const std::string text = page();
-  EXPECT_THAT(text, HasSubstr("60 runs: 60 returned a path; of 60 paths that were judged 12 are "
-                              "refuted."));
+  EXPECT_THAT(text,
+              HasSubstr("60 runs: 60 returned a path; of 60 that were judged 12 are refuted."));
   EXPECT_THAT(text, Not(HasSubstr("{{")));
   for (const char* outside : {"src=", "http://www.w3.org/1999/xhtml", "https://", "@import"})
     EXPECT_THAT(text, Not(HasSubstr(outside)));
