@@ -109,6 +109,11 @@ class Script {
   std::ostringstream out_;
 };
 
+void replaceAll(std::string& text, const std::string& what, const std::string& by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
 std::string runGnuplot(const std::string& script) {
   std::string file = (std::filesystem::temp_directory_path() / "corridor_plot_XXXXXX").string();
   const int made = ::mkstemp(file.data());
@@ -117,7 +122,9 @@ std::string runGnuplot(const std::string& script) {
   std::ofstream(file) << script;
   std::string out;
   int status = -1;
-  if (FILE* const pipe = ::popen(("gnuplot '" + file + "' 2>&1").c_str(), "r")) {
+  std::string word = file;  // of a shell's: TMPDIR is the user's
+  replaceAll(word, "'", "'\\''");
+  if (FILE* const pipe = ::popen(("gnuplot '" + word + "' 2>&1").c_str(), "r")) {
     std::array<char, 65536> part;
     while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe))
       out.append(part.data(), n);
@@ -127,11 +134,6 @@ std::string runGnuplot(const std::string& script) {
   const auto begin = out.find("<?xml");
   if (status != 0 || begin == std::string::npos) throw std::runtime_error("gnuplot: " + out);
   return out.substr(begin);
-}
-
-void replaceAll(std::string& text, const std::string& what, const std::string& by) {
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
 }
 
 }  // namespace
@@ -150,7 +152,8 @@ bool canPlot() {
 std::string svgOf(const Plot& plot, int width, int height) {
   std::string svg = runGnuplot(Script(plot, width, height).text());
   std::string prefix;
-  for (const char c : plot.name) prefix += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  for (const char c : plot.name)
+    prefix += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.' ? c : '_';
   for (const char* id : {"gpDot", "gpPt", "textbox", "greybox", "gnuplot_canvas"}) {
     replaceAll(svg, "id='" + std::string(id), "id='" + prefix + "_" + id);
     replaceAll(svg, "id=\"" + std::string(id), "id=\"" + prefix + "_" + id);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <set>
+#include <stdexcept>
 
 #include "collision/core/error.h"
 #include "planner/benchmark/build_commit.h"
@@ -267,13 +269,28 @@ class Report {
     return cpu.substr(begin, cpu.find('\n', begin) - begin);
   }
 
-  /// Files of the plot, and the figure for the page.
-  std::string figure(const Plot& plot) {
-    const fs::path base = folder_ / "plots" / fileName(plot.name);
+  /// Files of the plot, and the figure for the page. Without a picture there is the data all the
+  /// same: what was measured isn't lost to a gnuplot that fails.
+  std::string figure(Plot plot) {
+    const std::string name = fileName(plot.name);
+    plot.name = name;
+    for (int i = 2; !plots_.insert(plot.name).second; ++i)  // "a b" and "a-b"
+      plot.name = name + "-" + std::to_string(i);
+    const fs::path base = folder_ / "plots" / plot.name;
     writeWhole(base.string() + ".csv", csvOf(plot));
     files_.push_back(base.string() + ".csv");
-    if (!canPlot()) return "<figure><p>" + escapedHtml(plot.title) + ": no plot</p></figure>";
-    std::string svg = svgOf(plot);
+    const auto none = [&](const std::string& why) {
+      std::error_code ignored;
+      fs::remove(base.string() + ".svg", ignored);  // an earlier report's
+      return "<figure><p>" + escapedHtml(plot.title + ": no plot" + why) + "</p></figure>\n";
+    };
+    if (!canPlot()) return none("");
+    std::string svg;
+    try {
+      svg = svgOf(plot);
+    } catch (const std::runtime_error& error) {
+      return none(": " + std::string(error.what()));
+    }
     writeWhole(base.string() + ".svg", svg);
     files_.push_back(base.string() + ".svg");
     svg.erase(0, svg.find("<svg"));
@@ -285,6 +302,7 @@ class Report {
   fs::path folder_;
   std::vector<VariantScore> scores_;
   std::vector<fs::path> files_;
+  std::set<std::string> plots_;  // names
 };
 
 }  // namespace

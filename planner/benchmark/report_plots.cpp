@@ -35,13 +35,14 @@ std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double 
   return points;
 }
 
-/// The decades around values above 0.
+/// The decades around values above 0, one at least: gnuplot has no picture of an empty range.
 std::pair<double, double> decades(const std::vector<double>& values) {
   double least = HUGE_VAL, most = 0;
   for (const double v : values)
     if (v > 0) least = std::min(least, v), most = std::max(most, v);
   if (!(most > 0)) return {1e-3, 1};
-  return {std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
+  const double from = std::floor(std::log10(least)), to = std::ceil(std::log10(most));
+  return {std::pow(10, from), std::pow(10, std::max(to, from + 1))};
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #include "planner/benchmark/report.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -176,6 +178,61 @@ TEST_F(Report, HostileNames) {
   for (auto at = text.find("<script"); at != std::string::npos; at = text.find("<script", at + 1))
     ++scripts;
   EXPECT_EQ(scripts, 1u);
+}
+
+/// Every path a metre from the nearest obstacle, where it begins: a range of no decade.
+TEST_F(Report, OneValueOnADecade) {
+  for (CampaignCell& cell : cells_)
+    for (BenchmarkRun& run : cell.runs) run.leastDistance = run.time = 1;
+  for (const Plot& plot :
+       {clearances(campaign_, cells_, 0), solvedOverTime(campaign_, cells_, 0)}) {
+    ASSERT_TRUE(plot.rangeX);
+    EXPECT_LE(plot.rangeX->first, 1) << plot.name;
+    EXPECT_GE(plot.rangeX->second, 10 * plot.rangeX->first) << plot.name;
+    if (canPlot()) {
+      EXPECT_THAT(svgOf(plot), HasSubstr("<svg")) << plot.name;
+    }
+  }
+}
+
+TEST_F(Report, NamesThatAreOneAsFiles) {
+  campaign_.problemNames = {"a b", "a-b"};
+  const auto files = writeReport(campaign_, cells_, folder_);
+  EXPECT_EQ(std::set(files.begin(), files.end()).size(), files.size());
+  std::ifstream in(folder_ / "plots" / "clearance.a-b-2.csv");
+  EXPECT_TRUE(in.good());
+}
+
+/// A gnuplot that fails costs the pictures only.
+TEST_F(Report, WithoutPictures) {
+  if (!canPlot()) GTEST_SKIP() << "no gnuplot";
+  writeReport(campaign_, cells_, folder_);
+  const auto picture = folder_ / "plots" / "cost.svg";
+  ASSERT_TRUE(std::filesystem::exists(picture));
+  const auto bin = folder_ / "bin";
+  std::filesystem::create_directory(bin);
+  std::ofstream(bin / "gnuplot") << "#!/bin/sh\necho 'no <terminal>'; exit 1\n";
+  std::filesystem::permissions(bin / "gnuplot", std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
+  const std::string text = page();
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_THAT(text, HasSubstr("no plot: gnuplot: no &lt;terminal&gt;"));
+  EXPECT_THAT(text, HasSubstr("60 runs: 60 returned a path"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "plots" / "cost.csv"));
+  EXPECT_FALSE(std::filesystem::exists(picture)) << "an earlier report's";
+  // The folder for temporary files may have any name.
+  const auto temporary = folder_ / "it's here";
+  std::filesystem::create_directory(temporary);
+  const char* const was = std::getenv("TMPDIR");
+  const std::string before = was ? was : "";
+  ::setenv("TMPDIR", temporary.c_str(), 1);
+  EXPECT_THAT(page(), Not(HasSubstr("no plot")));
+  if (was)
+    ::setenv("TMPDIR", before.c_str(), 1);
+  else
+    ::unsetenv("TMPDIR");
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
 }
 
 TEST_F(Report, OfNothing) {
