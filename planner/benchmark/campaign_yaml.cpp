@@ -14,7 +14,7 @@ namespace corridor {
 namespace {
 
 constexpr const char* kFormat = "corridor-campaign-1";
-constexpr std::size_t kMostOfARange = 1000;
+constexpr std::size_t kMostOfARange = 1000, kMostVariants = 1000;
 
 /// A checker of the file, and what of its lists a variant has.
 struct Expanded {
@@ -38,6 +38,22 @@ std::vector<Expanded> expanded(const YamlValue& checker) {
     all = std::move(next);
   }
   return all;
+}
+
+/// How many that is, as far as `kMostVariants` + 1.
+std::size_t countExpanded(const YamlValue& checker) {
+  std::size_t count = 1;
+  for (const YamlValue::Entry& entry : checker.entries)
+    if (entry.value.kind == YamlValue::Kind::List)
+      count = std::min(count * std::min(entry.value.items.size(), kMostVariants + 1),
+                       kMostVariants + 1);
+  return count;
+}
+
+/// A name that tables, plots and logs can have: in one line.
+bool isName(const std::string& text) {
+  return !text.empty() && std::none_of(text.begin(), text.end(),
+                                       [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
 /// Without the keys that are not a problem's.
@@ -125,6 +141,7 @@ class CampaignReader {
       map.require("name", "OMPL's, such as RRTConnect");
       if (!name) continue;
       CampaignPlanner planner{map.text("label").value_or(*name), *name, {}};
+      if (!isName(planner.label)) map.fault("label", "a word or more are needed, in one line");
       if (const YamlValue* params = map.find("params")) {
         planner.params.emplace();
         const YamlMap of(*params, "planners[].params", nullptr, source_);
@@ -163,6 +180,16 @@ class CampaignReader {
                       path + "." + key.key + ": of a list, one or more single values are needed");
         return;
       }
+    if (!isName(entry.key)) {
+      source_.fault(entry.line, "checkers: a checker's name is to be a word or more, in one line");
+      return;
+    }
+    expanded_ = std::min(expanded_ + countExpanded(entry.value), kMostVariants + 1);
+    if (expanded_ > kMostVariants) {
+      source_.fault(entry.line, path + ": with its lists there are more than " +
+                                    std::to_string(kMostVariants) + " variants");
+      return;
+    }
     std::set<std::string> told;  // what is wrong with several of its variants
     for (const Expanded& one : expanded(entry.value)) {
       FaultList faults;
@@ -217,12 +244,14 @@ class CampaignReader {
     const YamlMap map(*value, "limits", &campaignKeys().at("limits"), source_);
     campaign_.time = map.number("time", Range::Positive);
     const auto memory = map.number("memory_mb", Range::Positive);
+    if (memory && !(*memory >= 1 && *memory <= 1e9)) map.fault("memory_mb", "1 to 1e9 are needed");
     campaign_.limits.memory = memory.value_or(campaign_.limits.memory);
   }
 
   std::filesystem::path path_;
   FaultList faults_;
   YamlSource source_;
+  std::size_t expanded_ = 0;  // variants, with those that are left out
   Campaign campaign_;
 };
 

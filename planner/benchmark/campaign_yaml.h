@@ -14,7 +14,7 @@ bool isCampaignFile(const std::filesystem::path& file);
 
 /// Reads a campaign file, and the problems that it names, relative to its folder. Every key:
 /// planner/benchmark/README.md. A key of a checker may be a list; then there is a variant for each
-/// combination. Peers that can't take part here are left out, with a note.
+/// combination (1,000 in all at most). Peers that can't take part here are left out, with a note.
 /// @throws InputError with all faults of the file and its problems at once.
 Campaign readCampaign(const std::filesystem::path& file);
 

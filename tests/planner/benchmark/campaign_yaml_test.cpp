@@ -106,6 +106,45 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(planned.seed, 9u);
 }
 
+/// A short file of many lists asks for more than there is memory or time for.
+TEST_F(CampaignYaml, CombinationsHaveALimit) {
+  const auto list = [](int count) {
+    std::string text = "[";
+    for (int i = 1; i <= count; ++i) text += (i > 1 ? ", 0." : "0.") + std::to_string(1000 + i);
+    return text + "]";
+  };
+  const auto checkers = [&](int a, int b) {
+    return std::string(kStart) + "checkers:\n  mine: {edges: discrete, resolution: " + list(a) +
+           ", tolerance: " + list(b) + "}\n  other: {}\n";
+  };
+  EXPECT_EQ(read(checkers(27, 37)).variants.size(), 1000u);
+  for (const auto& [a, b, line] : {std::tuple(40, 25, 5), std::tuple(40, 26, 4)}) try {
+      read(checkers(a, b));
+      ADD_FAILURE() << a << ", " << b;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("more than 1000 variants"));
+      EXPECT_EQ(error.faults().front().line, line);
+    }
+  std::string many = std::string(kStart) + "checkers: {mine: {";
+  for (const char* key : {"edges", "resolution", "tolerance", "volume", "fit", "overlap"})
+    many += std::string(key) + ": " + list(100) + ", ";
+  EXPECT_THROW(read(many + "peer: fcl}}\n"), InputError);
+}
+
+TEST_F(CampaignYaml, NamesAreOfOneLine) {
+  for (const char* wrong : {"checkers: {\"a\\nb\": {}}\n", "checkers: {\"\": {}}\n",
+                            "checkers: {a: {}}\nplanners: [{name: RRT, label: \"x\\ty\"}]\n"})
+    EXPECT_THROW(read(kStart + std::string(wrong)), InputError) << wrong;
+}
+
+TEST_F(CampaignYaml, MemoryHasARange) {
+  for (const char* wrong : {"1.0e-300", "0.5", "1.0e+300"})
+    EXPECT_THROW(
+        read(std::string(kStart) + "checkers: {a: {}}\nlimits: {memory_mb: " + wrong + "}\n"),
+        InputError)
+        << wrong;
+}
+
 TEST_F(CampaignYaml, Defaults) {
   const Campaign c = read(std::string(kStart) + "checkers: {mine: {}}\n");
   EXPECT_THAT(c.planners, IsEmpty());
