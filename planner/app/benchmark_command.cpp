@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/fault_list.h"
+#include "collision/core/nearest.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
@@ -20,6 +21,7 @@
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/write_reports.h"
+#include "planner/problem/keys.h"
 
 namespace corridor::app {
 namespace {
@@ -30,13 +32,30 @@ using nlohmann::ordered_json;
   throw InputError(Fault{option, 0, why});
 }
 
+/// The peers, opened only where a variant names one, or nothing that there is.
+/// @throws InputError for one that can't take part.
+std::vector<BenchmarkPeer> peersOf(const std::vector<std::string>& variants) {
+  const std::vector<std::string>& edges = problemChoices().at("checker.edges");
+  bool needed = false;
+  for (const std::string& word : variants) {
+    const std::string name = word.substr(0, word.find(':'));
+    needed = needed || std::find(edges.begin(), edges.end(), name) == edges.end();
+    if (std::find(peerNames().begin(), peerNames().end(), name) == peerNames().end()) continue;
+    if (const std::string why = whyNoPeer(name); !why.empty())
+      refuse("--variants", "no " + name + ": " + why);
+  }
+  return needed ? peersHere() : std::vector<BenchmarkPeer>();
+}
+
 /// Reads problems and words; all faults at once.
 Campaign campaignOfProblems(const BenchmarkArguments& a) {
   Campaign campaign;
   FaultList faults;
-  const std::vector<BenchmarkPeer> peers = peersHere();
   std::vector<std::string> variants = a.variants;
   if (variants.empty()) variants = {"certified", "discrete:0.01"};
+  std::vector<BenchmarkPeer> peers;
+  faults.collect([&] { peers = peersOf(variants); });
+  faults.throwIfAny();
   for (const std::string& word : variants)
     faults.collect([&] { campaign.variants.push_back(readVariant(word, peers)); });
   for (const std::string& file : a.files) {
@@ -136,7 +155,7 @@ bool anyRun(const std::vector<CampaignCell>& cells) {
 
 int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.resume && !a.output) refuse("--resume", "say by -o which folder the campaign is in");
-  const Campaign campaign = campaignOf(a);
+  Campaign campaign = campaignOf(a);
   for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
   const bool made = a.output && makeReportFolder(*a.output);
@@ -157,6 +176,12 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
   const bool any = anyRun(result.cells);
+  if (database)
+    if (const std::vector<std::string> builds = database->commits(); builds.size() > 1) {
+      campaign.notes.push_back(
+          "the runs are of several builds, which may differ in time: commits " + joined(builds));
+      warn(campaign.notes.back());
+    }
   if (result.interrupted)
     warn(!any       ? "interrupted before the first run was done; nothing is written"
          : a.output ? "interrupted: what follows is of the runs that were done; --resume goes on"

@@ -89,6 +89,17 @@ class CampaignDatabase::Tables {
     });
   }
 
+  std::vector<std::string> commits() {
+    std::vector<std::string> all;
+    told([&] {
+      SQLite::Statement of(*base_,
+                           "SELECT DISTINCT \"commit\" FROM corridor_sessions s WHERE EXISTS "
+                           "(SELECT 1 FROM corridor_runs WHERE sessionid = s.id) ORDER BY id");
+      while (of.executeStep()) all.push_back(of.getColumn(0).getString());
+    });
+    return all;
+  }
+
   void add(std::size_t cell, const BenchmarkRun& run) {
     told([&] {
       columns_.clear();  // an earlier run's may have been taken back
@@ -124,6 +135,8 @@ class CampaignDatabase::Tables {
   void told(const Step& step) const {
     try {
       step();
+    } catch (const nlohmann::json::exception& error) {  // of what it holds
+      refuse("is damaged: " + std::string(error.what()));
     } catch (const SQLite::Exception& error) {
       switch (error.getErrorCode()) {
         case SQLITE_NOTADB:
@@ -198,11 +211,15 @@ class CampaignDatabase::Tables {
         continue;
       }
       const std::int64_t id = known.getColumn(0).getInt64();
-      if (const std::string was = known.getColumn(1).getString(); was != spec)
-        refuse(cellName(cell) + " was another one: " + difference(was, spec) +
-               "; name another folder");
+      const std::string was = known.getColumn(1).getString();
       ids.insert(id);
       readRuns(id, cell);
+      if (was == spec) continue;
+      if (!cell.runs.empty())
+        refuse(cellName(cell) + " was another one: " + difference(was, spec) +
+               "; name another folder");
+      known.reset();
+      execute("UPDATE corridor_cells SET spec = ? WHERE id = ?", spec, id);
     }
     SQLite::Statement others(*base_,
                              "SELECT id, problem, variant, planner FROM corridor_cells c "
@@ -248,9 +265,13 @@ class CampaignDatabase::Tables {
   }
 
   std::int64_t addExperiment(const CampaignCell& cell, const BenchmarkRun& run) {
-    const std::string name = omplExperimentName(campaign_, cell);
-    SQLite::Statement known(*base_, "SELECT id FROM experiments WHERE name = ?");
-    known.bind(1, name);
+    // Another planner's of the same problem and variant. Not told by its name: "one pct" and
+    // "one_pct" have the same.
+    SQLite::Statement known(*base_,
+                            "SELECT experimentid FROM corridor_cells WHERE problem = ? AND "
+                            "variant = ? AND experimentid IS NOT NULL");
+    SQLite::bind(known, campaign_.problemNames[cell.problem],
+                 campaign_.variants[cell.variant].name);
     const auto [ofProblem, ofPlanner] = omplSetup(run.ompl.setup);
     if (known.executeStep()) {
       const std::int64_t id = known.getColumn(0).getInt64();
@@ -262,7 +283,8 @@ class CampaignDatabase::Tables {
         "INSERT INTO experiments (name, totaltime, timelimit, memorylimit, runcount, version, "
         "hostname, cpuinfo, date, seed, setup) VALUES (?, 0, ?, ?, ?, ?, ?, ?, datetime('now'), ?, "
         "?)",
-        name, campaign_.time.value_or(problem.planner.time), campaign_.limits.memory,
+        freeName(omplExperimentName(campaign_, cell)),
+        campaign_.time.value_or(problem.planner.time), campaign_.limits.memory,
         static_cast<std::int64_t>(campaign_.runs), "OMPL " + versionOfOmpl(), run.ompl.host,
         run.ompl.cpu, std::to_string(campaign_.seed), ofProblem + ofPlanner);
     for (const auto& [words, value] : omplParameters(campaign_, cell)) {
@@ -271,6 +293,18 @@ class CampaignDatabase::Tables {
       execute("UPDATE experiments SET " + quotedName(column.name) + " = ? WHERE id = ?", value, id);
     }
     return id;
+  }
+
+  /// An experiment's that there isn't yet: "NAME-2".
+  std::string freeName(const std::string& name) {
+    SQLite::Statement taken(*base_, "SELECT 1 FROM experiments WHERE name = ?");
+    std::string free = name;
+    for (int i = 2;; ++i) {
+      taken.bind(1, free);
+      if (!taken.executeStep()) return free;
+      taken.reset();
+      free = name + "-" + std::to_string(i);
+    }
   }
 
   std::int64_t plannerOf(const CampaignCell& cell, const BenchmarkRun& run) {
@@ -343,6 +377,10 @@ CampaignDatabase::~CampaignDatabase() = default;
 
 void CampaignDatabase::add(std::size_t cell, const BenchmarkRun& run) {
   tables_->add(cell, run);
+}
+
+std::vector<std::string> CampaignDatabase::commits() const {
+  return tables_->commits();
 }
 
 std::string specOf(const Campaign& campaign, const CampaignCell& cell) {

@@ -34,6 +34,10 @@ class CampaignDatabase {
   /// @param cell which. @throws InputError where it can't be written; what was there before stays.
   void add(std::size_t cell, const BenchmarkRun& run);
 
+  /// The builds (`buildCommit`) that made its runs, in the order in which they came.
+  /// @throws InputError as `add`.
+  std::vector<std::string> commits() const;
+
  private:
   class Tables;
   std::unique_ptr<Tables> tables_;

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
+#include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/child_process.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
@@ -77,6 +78,60 @@ std::vector<std::string> rowsOf(const std::filesystem::path& file, const std::st
     rows.push_back(row);
   }
   return rows;
+}
+
+/// "one pct" and "one_pct" are one word to OMPL's readers; they are two variants all the same.
+TEST_F(Database, VariantsOfOneWordAreTwoExperiments) {
+  Campaign campaign = hallCampaign({"discrete:0.1", "certified"});
+  campaign.variants[0].name = "one pct";
+  campaign.variants[1].name = "one_pct";
+  campaign.runs = 1;
+  runInto(campaign);
+  EXPECT_THAT(rowsOf(file_, "SELECT name, edges FROM experiments ORDER BY id"),
+              ElementsAre("hall/one_pct|discrete", "hall/one_pct-2|certified"));
+  EXPECT_THAT(rowsOf(file_,
+                     "SELECT count(DISTINCT r.experimentid) FROM corridor_runs o JOIN runs r ON "
+                     "o.runid = r.id"),
+              ElementsAre("2"));
+}
+
+TEST_F(Database, DamagedRecordsAreSaid) {
+  const Campaign campaign = hallCampaign({"certified"});
+  runInto(campaign);
+  for (const char* damage : {"UPDATE corridor_runs SET record = '{\"seed\":1}' WHERE seed = 1",
+                             "UPDATE corridor_runs SET record = '{' WHERE seed = 1",
+                             "UPDATE corridor_cells SET spec = 'x'"}) {
+    SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec(damage);
+    EXPECT_THAT(complaint(Mode::resume, campaign), HasSubstr("is damaged: ")) << damage;
+  }
+}
+
+/// Of what has no run yet nothing is lost.
+TEST_F(Database, WithoutRunsACampaignMayChange) {
+  Campaign campaign = hallCampaign({"certified"});
+  EXPECT_EQ(complaint(Mode::fresh, campaign), "");
+  campaign.time = 3.0 * test::kSlowdown;
+  EXPECT_EQ(complaint(Mode::resume, campaign), "");
+  runInto(campaign);
+  campaign.time = 4.0 * test::kSlowdown;
+  EXPECT_THAT(complaint(Mode::resume, campaign), HasSubstr("was another one: time"));
+}
+
+TEST_F(Database, TellsTheBuildsOfItsRuns) {
+  Campaign campaign = hallCampaign({"certified"});
+  campaign.runs = 1;
+  runInto(campaign);
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)
+      .exec("UPDATE corridor_sessions SET \"commit\" = 'an older one'");
+  std::vector<CampaignCell> cells = cellsOf(campaign);
+  EXPECT_THAT(CampaignDatabase(file_, Mode::resume, campaign, cells).commits(),
+              ElementsAre("an older one"))
+      << "a session without a run made nothing";
+  campaign.runs = 2;
+  runInto(campaign);
+  cells = cellsOf(campaign);
+  EXPECT_THAT(CampaignDatabase(file_, Mode::resume, campaign, cells).commits(),
+              ElementsAre("an older one", buildCommit()));
 }
 
 TEST_F(Database, WhatWentInComesBack) {
