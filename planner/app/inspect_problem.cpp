@@ -160,7 +160,8 @@ class ProblemReport {
   /// Where time will go, by some random edges.
   void tellCosts() {
     constexpr std::size_t kEdges = 200, kShown = 5;
-    const EdgeCosts costs = sampleEdgeCosts(problem_, checker_, kEdges, problem_.seed);
+    constexpr double kSeconds = 2;  // who inspects doesn't wait
+    const EdgeCosts costs = sampleEdgeCosts(problem_, checker_, kEdges, kSeconds, problem_.seed);
     json_["random_edges"] = {{"edges", costs.edges},
                              {"free", costs.free},
                              {"free_us", 1e6 * costs.freeSeconds},

@@ -46,7 +46,7 @@ Configuration randomState(const ConfigurationSpace& space, std::mt19937_64& rand
 }  // namespace
 
 EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::size_t edges,
-                          std::uint64_t seed) {
+                          double seconds, std::uint64_t seed) {
   const Scene& scene = checker.scene();
   EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
   QueryContext context;
@@ -56,7 +56,12 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
   std::map<std::pair<std::size_t, std::size_t>, EdgeCosts::OfPair> pairs;
   double all = 0;
   std::vector<std::pair<Configuration, Configuration>> ways;
-  for (std::size_t i = 0; i < edges; ++i) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto past = [&](double share) {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    return took.count() > share * seconds;
+  };
+  for (std::size_t i = 0; i < edges && (i == 0 || !past(0.25)); ++i) {
     const Configuration from = randomState(problem.space, random);
     ways.emplace_back(
         from, problem.space.interpolate(from, randomState(problem.space, random), kShareOfTheWay));
@@ -65,25 +70,26 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
     scene.certify(motion, checker.options(), context);
   }
   for (const auto& [from, to] : ways) {
+    if (costs.edges > 0 && past(1)) break;
+    ++costs.edges;
     motion.set(from, to);
     MotionResult result;
-    const double seconds =
+    const double took =
         secondsOf([&] { result = scene.certify(motion, checker.options(), context); });
-    (result.verdict == MotionVerdict::free ? free : other).push_back(seconds);
+    (result.verdict == MotionVerdict::free ? free : other).push_back(took);
     for (const MotionPair& pair : scene.motionPairs()) {
       const Counters before = context.counters;
-      const double took = secondsOf([&] {
+      const double alone = secondsOf([&] {
         certifyMotion(motion, {&pair, 1}, checker.options(), context);
       });
       std::size_t a = checker.bodyOf(pair.bodyA), b = checker.bodyOf(pair.bodyB);
       if (b < a) std::swap(a, b);
       EdgeCosts::OfPair& of = pairs[{a, b}];
-      of.a = a, of.b = b, of.share += took, all += took;
+      of.a = a, of.b = b, of.share += alone, all += alone;
       of.boxTests += context.counters.boxTests - before.boxTests;
       of.triangleTests += context.counters.triangleTests - before.triangleTests;
     }
   }
-  costs.edges = edges;
   costs.free = free.size();
   costs.freeSeconds = median(free);
   costs.otherSeconds = median(other);

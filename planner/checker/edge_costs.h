@@ -21,7 +21,8 @@ struct EdgeCosts {
 
 /// Certifies random edges: from a random state within the bounds a fifth of the way to another, as
 /// planners with OMPL's usual range do. For people: times are the machine's of the moment.
+/// @param edges,seconds at most so many, and none more after so long; one at least.
 EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::size_t edges,
-                          std::uint64_t seed);
+                          double seconds, std::uint64_t seed);
 
 }  // namespace corridor
