@@ -1,6 +1,7 @@
 #include "planner/view/browser_picture.h"
 
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include <iterator>
 #include <spawn.h>
 #include <sstream>
+#include <string_view>
 #include <sys/wait.h>
 #include <system_error>
 #include <thread>
@@ -54,6 +56,20 @@ class WorkFolder {
 std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A path as browsers take it: what isn't a letter, a digit or /-_. by its bytes.
+std::string fileUrl(const std::filesystem::path& path) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string url = "file://";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || std::string_view("/-_.").find(c) != std::string_view::npos)
+      url += c;
+    else
+      url += {'%', digits[byte >> 4], digits[byte & 15]};
+  }
+  return url;
 }
 
 enum class End { itself, late, interrupted };
@@ -146,7 +162,7 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
       "--window-size=" + std::to_string(size.width) + "," + std::to_string(size.height),
       "--screenshot=" + picture.string()};
   if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // it refuses to run as root with it
-  words.push_back("file://" + html.string() + "#image");
+  words.push_back(fileUrl(html) + "#image");
   const End end = run(words, log, interrupted);
   if (end == End::interrupted) return false;
   const std::string said = contents(log), png = contents(picture);
