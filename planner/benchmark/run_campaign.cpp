@@ -105,6 +105,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   const auto interrupted = [&] { return options.interrupted && options.interrupted->load(); };
   while (!interrupted() && !(tasks.empty() && running.empty())) {
     while (!tasks.empty() && running.size() < options.jobs && !interrupted()) begin();
+    if (interrupted()) break;
     std::vector<ChildProcess*> children;
     for (Running& one : running) children.push_back(&one.run.process());
     ChildProcess::waitForAny(children, kLookMs);
