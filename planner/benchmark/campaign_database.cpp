@@ -192,7 +192,7 @@ class CampaignDatabase::Tables {
         check != "ok")
       refuse("is damaged: " + check);
     const int runs = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt();
-    if (mode == Mode::fresh)
+    if (mode == Mode::fresh && runs > 0)
       refuse("holds " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
              " already: go on with it by --resume, or name another folder");
   }

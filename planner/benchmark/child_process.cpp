@@ -63,8 +63,9 @@ void limitMemory(std::size_t bytes) {
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-[[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes) {
+[[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it died before it could be heard of
   // The parent decides what an interrupt from the terminal means.
   ::signal(SIGINT, SIG_IGN);
   limitMemory(bytes);
@@ -99,6 +100,7 @@ ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
   if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw systemError("pipe");
   std::cout.flush();
   std::fflush(nullptr);  // what is buffered would be written twice
+  const pid_t parent = ::getpid();
   id_ = ::fork();
   if (id_ < 0) {
     const auto error = systemError("fork");
@@ -109,7 +111,7 @@ ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
   if (id_ == 0) {
     ::close(pipe[0]);
     ::fcntl(pipe[1], F_SETFL, 0);  // the child may wait until its parent has read
-    child(pipe[1], work, limits.bytes);
+    child(pipe[1], work, limits.bytes, parent);
   }
   ::close(pipe[1]);
   pipe_ = pipe[0];

@@ -17,12 +17,20 @@ double lengthShare(const BenchmarkRun& run) {
                                      : kNone;
 }
 
+/// How well costs tell a run's time is judged by runs that they don't come from: each half of the
+/// runs by the other half's. None of fewer than four.
 VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   VariantScore::Cost cost{fittedCosts(queries), kNone, kNone, kNone};
+  if (queries.size() < 4) return cost;
+  std::vector<QueryCost> halves[2];
+  for (std::size_t i = 0; i < queries.size(); ++i) halves[i % 2].push_back(queries[i]);
   std::vector<double> ratios;
-  for (const QueryCost& query : queries)
-    if (const double predicted = cost.model.predicted(query); predicted > 0)
-      ratios.push_back(query.ns / predicted);
+  for (const int half : {0, 1}) {
+    const CostModel model = fittedCosts(halves[1 - half]);
+    for (const QueryCost& query : halves[half])
+      if (const double predicted = model.predicted(query); predicted > 0)
+        ratios.push_back(query.ns / predicted);
+  }
   if (ratios.empty()) return cost;
   cost.ratioP5 = quantile(ratios, 0.05);
   cost.ratioMedian = quantile(ratios, 0.5);

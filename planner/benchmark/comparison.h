@@ -21,8 +21,9 @@ struct VariantScore {
   double timeRatio = 0;
   Interval timeRatioInterval;
   /// What a test costs within its runs, by least squares of N_v·C_v + N_p·C_p against the time that
-  /// went into checking; how well that tells a run's: quantiles of measured over predicted. None of
-  /// peers, which count nothing.
+  /// went into checking; how well that tells a run's: quantiles of measured over predicted, each
+  /// half of the runs by the costs of the other (NaN of fewer than four). None of peers, which
+  /// count nothing.
   struct Cost {
     CostModel model;
     double ratioP5 = 0, ratioMedian = 0, ratioP95 = 0;
