@@ -151,6 +151,15 @@ bool anyRun(const std::vector<CampaignCell>& cells) {
                      [](const CampaignCell& cell) { return !cell.runs.empty(); });
 }
 
+/// In the order in which they came.
+std::vector<std::string> commitsOf(const std::vector<CampaignSession>& sessions) {
+  std::vector<std::string> commits;
+  for (const CampaignSession& session : sessions)
+    if (std::find(commits.begin(), commits.end(), session.commit) == commits.end())
+      commits.push_back(session.commit);
+  return commits;
+}
+
 }  // namespace
 
 int benchmarkCommand(const BenchmarkArguments& a) {
@@ -165,7 +174,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.output)
     database.emplace(file,
                      a.resume ? CampaignDatabase::Mode::resume : CampaignDatabase::Mode::fresh,
-                     campaign, cells);
+                     campaign, cells, a.jobs);
   CampaignOptions options;
   options.interrupted = &listenForInterrupts();
   options.jobs = a.jobs;
@@ -176,12 +185,13 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
   const bool any = anyRun(result.cells);
-  if (database)
-    if (const std::vector<std::string> builds = database->commits(); builds.size() > 1) {
-      campaign.notes.push_back(
-          "the runs are of several builds, which may differ in time: commits " + joined(builds));
-      warn(campaign.notes.back());
-    }
+  std::vector<CampaignSession> sessions;
+  if (database) sessions = database->sessions();
+  if (const std::vector<std::string> builds = commitsOf(sessions); builds.size() > 1) {
+    campaign.notes.push_back("the runs are of several builds, which may differ in time: commits " +
+                             joined(builds));
+    warn(campaign.notes.back());
+  }
   if (result.interrupted)
     warn(!any       ? "interrupted before the first run was done; nothing is written"
          : a.output ? "interrupted: what follows is of the runs that were done; --resume goes on"
@@ -192,7 +202,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   try {
     if (a.output && any) {
       writeReports(campaign, result, *a.output);
-      writeReport(campaign, result.cells, *a.output);
+      writeReport(campaign, result.cells, *a.output, sessions);
     }
   } catch (const InputError&) {
     unwritten = std::current_exception();

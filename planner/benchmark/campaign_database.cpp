@@ -17,7 +17,7 @@ namespace corridor {
 namespace {
 
 /// "corr": marks files of ours (PRAGMA application_id), and the version of our tables.
-constexpr int kApplication = 0x636f7272, kVersion = 1;
+constexpr int kApplication = 0x636f7272, kVersion = 2;
 
 /// OMPL's tables, word for word those of `ompl_benchmark_statistics` 1.5.2 (its columns of runs are
 /// added as they come), and ours.
@@ -39,7 +39,7 @@ CREATE TABLE corridor_cells (id INTEGER PRIMARY KEY, problem TEXT, variant TEXT,
 CREATE TABLE corridor_runs (cellid INTEGER, seed INTEGER, runid INTEGER UNIQUE, sessionid INTEGER,
   record TEXT, PRIMARY KEY (cellid, seed));
 CREATE TABLE corridor_sessions (id INTEGER PRIMARY KEY, started DATETIME, version TEXT,
-  "commit" TEXT);
+  "commit" TEXT, jobs INTEGER);
 )";
 
 std::string quotedName(const std::string& name) {
@@ -68,7 +68,7 @@ bool isNothing(const std::string& value) {
 class CampaignDatabase::Tables {
  public:
   Tables(const std::filesystem::path& file, Mode mode, const Campaign& campaign,
-         std::vector<CampaignCell>& cells)
+         std::vector<CampaignCell>& cells, std::size_t jobs)
       : file_(file), campaign_(campaign), cells_(cellsOf(campaign)) {
     told([&] {
       std::error_code ignored;
@@ -84,18 +84,21 @@ class CampaignDatabase::Tables {
       else
         checkTables(mode);
       matchCells(cells);
-      beginSession();
+      beginSession(jobs);
       base_->exec("COMMIT");
     });
   }
 
-  std::vector<std::string> commits() {
-    std::vector<std::string> all;
+  std::vector<CampaignSession> sessions() {
+    std::vector<CampaignSession> all;
     told([&] {
       SQLite::Statement of(*base_,
-                           "SELECT DISTINCT \"commit\" FROM corridor_sessions s WHERE EXISTS "
-                           "(SELECT 1 FROM corridor_runs WHERE sessionid = s.id) ORDER BY id");
-      while (of.executeStep()) all.push_back(of.getColumn(0).getString());
+                           "SELECT started, \"commit\", jobs, count(*) FROM corridor_sessions s "
+                           "JOIN corridor_runs ON sessionid = s.id GROUP BY s.id ORDER BY s.id");
+      while (of.executeStep())
+        all.push_back({of.getColumn(0).getString(), of.getColumn(1).getString(),
+                       static_cast<std::size_t>(of.getColumn(2).getInt64()),
+                       static_cast<std::size_t>(of.getColumn(3).getInt64())});
     });
     return all;
   }
@@ -259,12 +262,12 @@ class CampaignDatabase::Tables {
     return was;
   }
 
-  void beginSession() {
+  void beginSession(std::size_t jobs) {
     execute("UPDATE experiments SET runcount = ?", static_cast<std::int64_t>(campaign_.runs));
     session_ = execute(
-        "INSERT INTO corridor_sessions (started, version, \"commit\") VALUES (datetime('now'), ?, "
-        "?)",
-        std::string(CORRIDOR_VERSION), std::string(buildCommit()));
+        "INSERT INTO corridor_sessions (started, version, \"commit\", jobs) VALUES "
+        "(datetime('now'), ?, ?, ?)",
+        std::string(CORRIDOR_VERSION), std::string(buildCommit()), static_cast<std::int64_t>(jobs));
   }
 
   std::int64_t addExperiment(const CampaignCell& cell, const BenchmarkRun& run) {
@@ -374,16 +377,17 @@ class CampaignDatabase::Tables {
 };
 
 CampaignDatabase::CampaignDatabase(const std::filesystem::path& file, Mode mode,
-                                   const Campaign& campaign, std::vector<CampaignCell>& cells)
-    : tables_(std::make_unique<Tables>(file, mode, campaign, cells)) {}
+                                   const Campaign& campaign, std::vector<CampaignCell>& cells,
+                                   std::size_t jobs)
+    : tables_(std::make_unique<Tables>(file, mode, campaign, cells, jobs)) {}
 CampaignDatabase::~CampaignDatabase() = default;
 
 void CampaignDatabase::add(std::size_t cell, const BenchmarkRun& run) {
   tables_->add(cell, run);
 }
 
-std::vector<std::string> CampaignDatabase::commits() const {
-  return tables_->commits();
+std::vector<CampaignSession> CampaignDatabase::sessions() const {
+  return tables_->sessions();
 }
 
 std::string specOf(const Campaign& campaign, const CampaignCell& cell) {

@@ -1,4 +1,6 @@
 // A module of its own: see peers.h. It uses nothing of Corridor's that isn't in headers.
+#include <fcl/config.h>
+
 #include "planner/benchmark/fcl_scene.h"
 #include "planner/benchmark/peers.h"
 
@@ -19,4 +21,8 @@ class FclPeer final : public corridor::PeerScene {
 
 corridor::PeerScene* corridor::corridorFclScene(const Checker& checker) {
   return std::make_unique<FclPeer>(checker).release();
+}
+
+const char* corridor::corridorFclVersion() {
+  return "FCL " FCL_VERSION;
 }

@@ -14,6 +14,7 @@ namespace {
 
 struct Module {
   decltype(&corridorFclScene) scene = nullptr;
+  std::string version;
   std::string why;  ///< there is none
 };
 
@@ -25,13 +26,17 @@ Module openModule() {
   const std::string name = CORRIDOR_FCL_MODULE;
   for (const auto& file : {(program.parent_path() / name).string(),
                            (std::filesystem::path(CORRIDOR_FCL_DIR) / name).string()})
-    if (void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL))
-      if (void* const function = dlsym(module, "corridorFclScene"))
-        return {reinterpret_cast<decltype(&corridorFclScene)>(function), ""};
+    if (void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+      void* const scene = dlsym(module, "corridorFclScene");
+      void* const version = dlsym(module, "corridorFclVersion");
+      if (scene && version)
+        return {reinterpret_cast<decltype(&corridorFclScene)>(scene),
+                reinterpret_cast<decltype(&corridorFclVersion)>(version)(), ""};
+    }
   const char* const reason = dlerror();
-  return {nullptr, std::string("its module can't be opened: ") + (reason ? reason : "unknown")};
+  return {nullptr, "", std::string("its module can't be opened: ") + (reason ? reason : "unknown")};
 #else
-  return {nullptr, "Corridor was built without it (Debian's libfcl-dev)"};
+  return {nullptr, "", "Corridor was built without it (Debian's libfcl-dev)"};
 #endif
 }
 
@@ -72,10 +77,12 @@ std::string whyNoPeer(const std::string&) {
 BenchmarkPeer peerNamed(const std::string& name) {
   const auto makeScene = fclModule().scene;
   if (!makeScene) throw std::logic_error(name + " can't take part: " + fclModule().why);
-  return {name, [makeScene](const auto& si, const Checker& checker) {
-            return std::make_shared<PeerStates>(si, checker,
-                                                std::unique_ptr<PeerScene>(makeScene(checker)));
-          }};
+  BenchmarkPeer peer{name, [makeScene](const auto& si, const Checker& checker) {
+                       return std::make_shared<PeerStates>(
+                           si, checker, std::unique_ptr<PeerScene>(makeScene(checker)));
+                     }};
+  peer.version = fclModule().version;
+  return peer;
 }
 
 std::vector<BenchmarkPeer> peersHere() {

@@ -27,6 +27,7 @@ extern "C" {
 /// program depends on it no more than its users do. The caller owns the scene, which may keep
 /// the checker. @throws std::runtime_error for shapes that FCL isn't given (fcl_scene.h).
 PeerScene* corridorFclScene(const Checker& checker);
+const char* corridorFclVersion();  ///< "FCL 0.7.0"
 }
 
 /// The names of all peers that there could be.

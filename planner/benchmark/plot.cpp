@@ -52,6 +52,9 @@ class Script {
     axis('y', plot.logY, plot.rangeY);
     std::string drawn;
     for (std::size_t i = 0; i < plot.series.size(); ++i) drawn += series(i);
+    for (std::size_t i = 0; i < plot.shapes.size() && !drawn.empty(); ++i)
+      drawn += ", NaN with points" + pointOf(i, 0.9) + " lc rgb \"#64748b\" title " +
+               quoted(plot.shapes[i]);
     // gnuplot has no picture of nothing.
     out_ << (drawn.empty() ? "set xrange [1:2]\nset yrange [1:2]\nset label \"no data\" at graph "
                              "0.5,0.5 center\nplot NaN notitle\n"
@@ -72,13 +75,26 @@ class Script {
     return std::isfinite(p.x) && std::isfinite(p.y) && (!plot_.logX || p.x > 0) &&
            (!plot_.logY || p.y > 0);
   }
-  /// Its data, and how it is drawn.
+  /// Its data, and how it is drawn: a part for each shape of its points.
   std::string series(std::size_t i) {
     const PlotSeries& s = plot_.series[i];
+    const std::string color = " lc rgb \"" + plotColor(s.color) + "\"";
+    const std::string title = s.name.empty() ? std::string(" notitle") : " title " + quoted(s.name);
+    std::string drawn;
+    for (std::size_t shape = 0; shape < std::max<std::size_t>(plot_.shapes.size(), 1); ++shape) {
+      const std::string block = "$data" + std::to_string(i) + "_" + std::to_string(shape);
+      drawn += part(s, shape, block, color, title);
+    }
+    if (s.style == PlotSeries::Style::points && !drawn.empty() && !s.name.empty())
+      drawn += ", NaN with points pt 7 ps 0.9" + color + title;
+    return drawn;
+  }
+  std::string part(const PlotSeries& s, std::size_t shape, const std::string& block,
+                   const std::string& color, const std::string& title) {
     std::ostringstream data;
     bool barsX = false, barsY = false;
     for (const PlotPoint& p : s.points) {
-      if (!shown(p)) continue;
+      if (!shown(p) || p.shape != shape) continue;
       const bool x = std::isfinite(p.fromX) && std::isfinite(p.toX);
       const bool y = std::isfinite(p.fromY) && std::isfinite(p.toY);
       barsX |= x, barsY |= y;
@@ -87,10 +103,7 @@ class Script {
            << number(y ? p.toY : p.y) << ' ' << quoted(p.text) << '\n';
     }
     if (data.str().empty()) return "";
-    const std::string block = "$data" + std::to_string(i);
     out_ << block << " << CORRIDOR_END\n" << data.str() << "CORRIDOR_END\n";
-    const std::string color = " lc rgb \"" + plotColor(s.color) + "\"";
-    const std::string title = s.name.empty() ? std::string(" notitle") : " title " + quoted(s.name);
     if (s.style != PlotSeries::Style::points)
       return ", " + block + " using 1:2 with lines lw 1.8" +
              (s.style == PlotSeries::Style::dashes ? " dt (6,4)" : "") + color + title;
@@ -99,10 +112,15 @@ class Script {
       drawn += ", " + block + " using 1:2:3:4 with xerrorbars pt -1 lw 1" + color + " notitle";
     if (barsY)
       drawn += ", " + block + " using 1:2:5:6 with yerrorbars pt -1 lw 1" + color + " notitle";
-    drawn +=
-        ", " + block + " using 1:2:7 with labels hypertext point pt 7 ps 0.7" + color + " notitle";
-    if (!s.name.empty()) drawn += ", NaN with points pt 7 ps 0.9" + color + title;
-    return drawn;
+    return drawn + ", " + block + " using 1:2:7 with labels hypertext point" + pointOf(shape, 0.7) +
+           color + " notitle";
+  }
+  /// Round, square, triangle up and down, diamond, pentagon; then the same, hollow.
+  static std::string pointOf(std::size_t shape, double size) {
+    static constexpr std::array kTypes{7, 5, 9, 11, 13, 15, 6, 4, 8, 10, 12, 14};
+    std::ostringstream text;
+    text << " pt " << kTypes[shape % kTypes.size()] << " ps " << size;
+    return text.str();
   }
 
   const Plot& plot_;
@@ -139,8 +157,10 @@ std::string runGnuplot(const std::string& script) {
 }  // namespace
 
 std::string plotColor(std::size_t number) {
-  static constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
-                                      "#e69f00", "#6b7280", "#7c3aed", "#84cc16", "#991b1b"};
+  static constexpr std::array<const char*, kPlotColors> kColors{
+      "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00",
+      "#6b7280", "#7c3aed", "#84cc16", "#991b1b", "#111827", "#f472b6",
+      "#0f766e", "#a16207", "#1e3a8a", "#c4b5fd", "#3f6212", "#fb7185"};
   return kColors[number % kColors.size()];
 }
 

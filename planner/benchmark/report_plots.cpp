@@ -4,9 +4,13 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 
 namespace corridor {
 namespace {
+
+/// Of shares, so that points at 0 and at 1 are seen whole.
+constexpr std::pair kShares{-0.03, 1.03};
 
 std::string digits(double value) {
   char text[32];
@@ -50,7 +54,7 @@ std::pair<double, double> decades(const std::vector<double>& values) {
 Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                     std::size_t problem) {
   const std::string& name = campaign.problemNames[problem];
-  Plot plot{"solved." + name, name, "processor time, s", "share of runs", true, false, {}, {}, {}};
+  Plot plot{"solved." + name, name, "processor time, s", "share of runs", true};
   plot.rangeY = {0, 1.02};
   struct Times {
     std::vector<double> solved, held;
@@ -69,6 +73,12 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
       }
     });
   plot.rangeX = decades(times);
+  // Not a decade beyond what runs were given, but all that they took.
+  if (!times.empty()) {
+    const double limit = campaign.time.value_or(campaign.problems[problem].planner.time);
+    const double most = std::max(limit, *std::max_element(times.begin(), times.end()));
+    if (most > 2 * plot.rangeX->first) plot.rangeX->second = std::min(plot.rangeX->second, most);
+  }
   for (std::size_t v = 0; v < all.size(); ++v) {
     if (all[v].runs == 0) continue;
     const auto [first, last] = *plot.rangeX;
@@ -84,19 +94,14 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
 Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem) {
   const std::string& name = campaign.problemNames[problem];
-  Plot plot{"error." + name,
-            name,
-            "median processor time, s",
-            "share of paths refuted",
-            true,
-            false,
-            {},
-            {},
-            {}};
-  plot.rangeY = {-0.03, 1.03};
+  Plot plot{"error." + name, name, "median processor time, s", "share of paths refuted", true};
+  plot.rangeY = kShares;
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
     PlotSeries series{campaign.variants[v].name, v, PlotSeries::Style::points, {}};
+    std::size_t planner = 0;
     forCells(cells, problem, v, [&](const CampaignCell& cell) {
+      const std::size_t shape = planner++;
+      if (v == 0) plot.shapes.push_back(cell.planner.label);
       std::vector<double> times;
       std::size_t judged = 0, refuted = 0;
       for (const BenchmarkRun& run : cell.runs) {
@@ -110,25 +115,78 @@ Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>&
       series.points.push_back({medianOf(times), y, time.from, time.to, share.from, share.to,
                                campaign.variants[v].name + ", " + cell.planner.label + "\n" +
                                    std::to_string(refuted) + " of " + std::to_string(judged) +
-                                   " paths refuted\n" + digits(medianOf(times)) + " s (median)"});
+                                   " paths refuted\n" + digits(medianOf(times)) + " s (median)",
+                               shape});
     });
     plot.series.push_back(std::move(series));
   }
   return plot;
 }
 
+Plot errorOfAll(const Campaign& campaign, const std::vector<VariantScore>& scores) {
+  Plot plot{"error", "All problems", "processor time, multiples of " + campaign.variants[0].name,
+            "share of paths refuted", true};
+  plot.rangeY = kShares;
+  double least = 1, most = 1;
+  for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
+    const VariantScore& s = *std::find_if(scores.begin(), scores.end(),
+                                          [&](const VariantScore& of) { return of.variant == v; });
+    if (s.judged() == 0 || s.pairs == 0) continue;
+    for (const double x : {s.timeRatio, s.timeRatioInterval.from, s.timeRatioInterval.to})
+      if (std::isfinite(x) && x > 0) least = std::min(least, x), most = std::max(most, x);
+    const double y = static_cast<double>(s.refuted) / static_cast<double>(s.judged());
+    const std::string& name = campaign.variants[v].name;
+    plot.series.push_back(
+        {name,
+         v,
+         PlotSeries::Style::points,
+         {{s.timeRatio, y, s.timeRatioInterval.from, s.timeRatioInterval.to, s.refutedShare.from,
+           s.refutedShare.to,
+           name + "\n" + std::to_string(s.refuted) + " of " + std::to_string(s.judged()) +
+               " paths refuted\n" + digits(s.timeRatio) + " times the time"}}});
+  }
+  plot.rangeX = {least / 1.5, most * 1.5};  // no point on an axis
+  return plot;
+}
+
+Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  // Of each problem, planner and seed the time of each variant that returned a path which holds.
+  const std::size_t variants = campaign.variants.size();
+  std::vector<std::size_t> runs(variants, 0);
+  std::vector<std::vector<double>> ratios(variants);
+  std::vector<double> all;
+  for (std::size_t first = 0; first < cells.size(); first += variants) {
+    std::map<std::uint64_t, std::map<std::size_t, double>> bySeed;
+    for (std::size_t v = 0; v < variants; ++v) {
+      runs[v] += cells[first + v].runs.size();
+      for (const BenchmarkRun& run : cells[first + v].runs)
+        if (run.solved && run.verdict != "refuted" && run.processorTime > 0)
+          bySeed[run.seed][v] = run.processorTime;
+    }
+    for (const auto& [seed, times] : bySeed) {
+      double best = HUGE_VAL;
+      for (const auto& [v, time] : times) best = std::min(best, time);
+      for (const auto& [v, time] : times) {
+        ratios[v].push_back(time / best);
+        all.push_back(time / best);
+      }
+    }
+  }
+  Plot plot{"profile", "All problems", "processor time, multiples of the quickest one",
+            "share of runs", true};
+  plot.rangeX = {1, std::max(10.0, decades(all).second)};
+  plot.rangeY = {0, 1.02};
+  for (std::size_t v = 0; v < variants; ++v)
+    if (runs[v] > 0)
+      plot.series.push_back({campaign.variants[v].name, v, PlotSeries::Style::line,
+                             steps(ratios[v], runs[v], 1, plot.rangeX->second)});
+  return plot;
+}
+
 Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                 std::size_t problem) {
   const std::string& name = campaign.problemNames[problem];
-  Plot plot{"clearance." + name,
-            name,
-            "least distance of the path, m",
-            "share of paths",
-            true,
-            false,
-            {},
-            {},
-            {}};
+  Plot plot{"clearance." + name, name, "least distance of the path, m", "share of paths", true};
   plot.rangeY = {0, 1.02};
   std::vector<std::vector<double>> all(campaign.variants.size());
   std::vector<double> distances;
@@ -151,15 +209,9 @@ Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells
 
 Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                    const std::vector<VariantScore>& scores) {
-  Plot plot{"cost",
-            "All problems, a point a run",
-            "N_v C_v + N_p C_p, s",
-            "time in checking, s",
-            true,
-            true,
-            {},
-            {},
-            {}};
+  Plot plot{
+      "cost", "All problems, a point a run", "N_v C_v + N_p C_p, s", "time in checking, s", true,
+      true};
   std::vector<double> both;
   std::vector<PlotSeries> series;
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {

@@ -12,10 +12,16 @@ namespace corridor {
 /// the returned paths that hold (dashed: those that were refuted count, too).
 Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                     std::size_t problem);
-/// Of a problem, a point a planner and variant: median time against the share of returned paths
-/// that are refuted, with what both are sure to.
+/// Of a problem, a point a planner (its shape) and variant: median time against the share of
+/// returned paths that are refuted, with what both are sure to.
 Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem);
+/// The same of all problems, a point a variant: time as a multiple of the first variant's, as the
+/// ranking has it.
+Plot errorOfAll(const Campaign& campaign, const std::vector<VariantScore>& scores);
+/// Performance profile (Dolan, Moré 2002) of all problems, planners and seeds: the share of runs
+/// that returned a path which holds within x times what the quickest variant took for one.
+Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 /// Of a problem, the share of returned paths whose least distance is at most x; those in collision
 /// have 0, and where the lines begin.
 Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells,

@@ -36,6 +36,7 @@ struct BenchmarkPeer {
   std::function<BenchmarkRun(const Problem& planned, double memory,
                              std::vector<Configuration>& path)>
       run = nullptr;
+  std::string version = {};  ///< "FCL 0.7.0"
 };
 
 /// A checker, as a benchmark compares it with others.

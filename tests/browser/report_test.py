@@ -32,10 +32,10 @@ def pages(browser, folder):
         browser.open(os.path.join(out, "report.html"))
         browser.check_page()
     assert browser.js("document.title") == "pages"
-    assert browser.js("document.querySelectorAll('figure svg').length") == 7  # three of each problem, and the cost
+    assert browser.js("document.querySelectorAll('figure svg').length") == 9  # three of each problem, three of all
     names = browser.js("[...document.querySelectorAll('figure')].map((figure) => figure.dataset.plot)")
     assert sorted(names) == sorted(
-        [f"{kind}.{problem}" for kind in ("error", "solved", "clearance") for problem in ("thin_plate", "gantry_bins")] + ["cost"]
+        [f"{kind}.{problem}" for kind in ("error", "solved", "clearance") for problem in ("thin_plate", "gantry_bins")] + ["cost", "error", "profile"]
     ), names
     assert browser.js("document.querySelectorAll('#ranking tbody tr').length") == 3
     # Certified comes first, and none of its paths is refuted.

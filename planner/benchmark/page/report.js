@@ -13,3 +13,7 @@ const gnuplot_svg = {
   },
 };
 addEventListener("scroll", gnuplot_svg.hideHypertext, {passive: true});
+// On paper nothing can be opened.
+addEventListener("beforeprint", () => {
+  for (const details of document.querySelectorAll("details")) details.open = true;
+});

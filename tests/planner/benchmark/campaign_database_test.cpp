@@ -117,21 +117,33 @@ TEST_F(Database, WithoutRunsACampaignMayChange) {
   EXPECT_THAT(complaint(Mode::resume, campaign), HasSubstr("was measured as something else: time"));
 }
 
-TEST_F(Database, TellsTheBuildsOfItsRuns) {
+TEST_F(Database, TellsTheSessionsOfItsRuns) {
   Campaign campaign = hallCampaign({"certified"});
   campaign.runs = 1;
   runInto(campaign);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)
       .exec("UPDATE corridor_sessions SET \"commit\" = 'an older one'");
   std::vector<CampaignCell> cells = cellsOf(campaign);
-  EXPECT_THAT(CampaignDatabase(file_, Mode::resume, campaign, cells).commits(),
-              ElementsAre("an older one"))
-      << "a session without a run made nothing";
-  campaign.runs = 2;
-  runInto(campaign);
-  cells = cellsOf(campaign);
-  EXPECT_THAT(CampaignDatabase(file_, Mode::resume, campaign, cells).commits(),
-              ElementsAre("an older one", buildCommit()));
+  std::vector<CampaignSession> sessions =
+      CampaignDatabase(file_, Mode::resume, campaign, cells, 7).sessions();
+  ASSERT_EQ(sessions.size(), 1u) << "a session without a run made nothing";
+  EXPECT_EQ(sessions[0].commit, "an older one");
+  EXPECT_EQ(sessions[0].jobs, 1u);
+  EXPECT_EQ(sessions[0].started.size(), std::string("2026-05-04 03:02:01").size());
+  campaign.runs = 3;
+  {
+    cells = cellsOf(campaign);
+    CampaignDatabase database(file_, Mode::resume, campaign, cells, 2);
+    CampaignOptions options;
+    options.done = [&](std::size_t cell, const BenchmarkRun& run) { database.add(cell, run); };
+    runCampaign(campaign, options, cells);
+    sessions = database.sessions();
+  }
+  ASSERT_EQ(sessions.size(), 2u);
+  EXPECT_EQ(sessions[0].runs, 1u);
+  EXPECT_EQ(sessions[1].commit, buildCommit());
+  EXPECT_EQ(sessions[1].jobs, 2u);
+  EXPECT_EQ(sessions[1].runs, 2u);
 }
 
 TEST_F(Database, WhatWentInComesBack) {
@@ -250,7 +262,7 @@ TEST_F(Database, ForeignAndDamagedFiles) {
   runInto(campaign);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
   EXPECT_EQ(complaint(Mode::resume, campaign),
-            "is of version 99 of campaigns' databases; this is 1");
+            "is of version 99 of campaigns' databases; this is 2");
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
   EXPECT_THAT(complaint(Mode::resume, campaign),
               testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is of version 99")));

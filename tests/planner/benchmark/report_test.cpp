@@ -125,6 +125,16 @@ TEST_F(Report, PlotsHaveTheirData) {
   EXPECT_NEAR(error.series[1].points[0].x, 0.275, 1e-12);
   EXPECT_LT(error.series[1].points[0].fromY, 0.5);
   EXPECT_THAT(error.series[1].points[0].text, HasSubstr("5 of 10 paths refuted"));
+  // Planners are told apart by their shapes.
+  std::vector<CampaignCell> two = cells_;
+  for (CampaignCell& cell : cells_) {
+    two.push_back(cell);
+    two.back().planner.label = "another";
+  }
+  const Plot planners = timeAgainstError(campaign_, two, 0);
+  EXPECT_THAT(planners.shapes, testing::ElementsAre(cells_[0].planner.label, "another"));
+  ASSERT_EQ(planners.series[2].points.size(), 2u);
+  EXPECT_EQ(planners.series[2].points[1].shape, 1u);
   const Plot clear = clearances(campaign_, cells_, 0);
   ASSERT_EQ(clear.series.size(), 3u);
   EXPECT_DOUBLE_EQ(clear.rangeX->first, 0.01);
@@ -139,13 +149,75 @@ TEST_F(Report, PlotsHaveTheirData) {
   for (const PlotPoint& p : cost.series[1].points) EXPECT_NEAR(p.x / p.y, 1, 1e-9);
 }
 
+TEST_F(Report, PlotsOfAllProblems) {
+  const Plot error = errorOfAll(campaign_, scoresOf(campaign_, cells_));
+  ASSERT_EQ(error.series.size(), 3u);  // as variants are, not as they rank
+  EXPECT_EQ(error.series[1].name, "discrete:0.1");
+  EXPECT_DOUBLE_EQ(error.series[1].points[0].x, 0.5);
+  EXPECT_DOUBLE_EQ(error.series[1].points[0].y, 0.5);
+  EXPECT_DOUBLE_EQ(error.series[2].points[0].x, 10);
+  EXPECT_DOUBLE_EQ(error.series[2].points[0].y, 0.1);
+  // Of ten seeds the second variant has five paths that hold, and is the quickest with them; the
+  // first is twice as slow then, and the quickest for the others, the third 20 or 10 times, and one
+  // of its paths doesn't hold.
+  const Plot profile = profileOfAll(campaign_, cells_);
+  ASSERT_EQ(profile.series.size(), 3u);
+  const auto at = [&](std::size_t variant, double x) {
+    double share = 0;
+    for (const PlotPoint& p : profile.series[variant].points)
+      if (p.x <= x) share = p.y;
+    return share;
+  };
+  EXPECT_DOUBLE_EQ(profile.rangeX->first, 1);
+  EXPECT_DOUBLE_EQ(at(0, 1), 0.5);
+  EXPECT_DOUBLE_EQ(at(0, 1.9), 0.5);
+  EXPECT_DOUBLE_EQ(at(0, 2.1), 1);
+  EXPECT_DOUBLE_EQ(at(1, 1), 0.5);
+  EXPECT_DOUBLE_EQ(at(1, 100), 0.5);
+  EXPECT_DOUBLE_EQ(at(2, 9), 0);
+  EXPECT_DOUBLE_EQ(at(2, 11), 0.4);
+  EXPECT_DOUBLE_EQ(at(2, 21), 0.9);
+}
+
+TEST_F(Report, TimesEndWhereTheLimitIs) {
+  campaign_.time = 20;
+  EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second, 10);  // all are quicker
+  cells_[0].runs[0].processorTime = 12;
+  EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second, 20);
+  cells_[0].runs[0].processorTime = 30;  // of several threads
+  EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second, 30);
+}
+
+/// Ten problems' plots are there, but not all in the way.
+TEST_F(Report, OfManyProblems) {
+  EXPECT_THAT(page(), Not(HasSubstr("<details>")));
+  campaign_.problems.resize(10, campaign_.problems[0]);
+  nameProblems(campaign_);
+  cells_ = cellsOf(campaign_);
+  for (CampaignCell& cell : cells_) cell.runs.push_back(run(cell, 1));
+  EXPECT_THAT(page(), HasSubstr("<summary>The plot of each of the 10 problems</summary>"));
+}
+
+TEST_F(Report, SaysHowItWasMeasured) {
+  campaign_.planners = {{"short", "RRT", {{{"range", "0.2"}}}}, {"KPIECE1", "KPIECE1", {}}};
+  campaign_.simplify = false;
+  writeReport(campaign_, cells_, folder_, {{"2026-05-04 03:02:01", "abc", 2, 60}});
+  std::ifstream in(folder_ / "report.html");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  for (const char* said :
+       {"session of 2026-05-04 03:02:01 UTC</td><td>60 runs, 2 at a time, by commit abc<",
+        "planner “short”</td><td>RRT, range: 0.2<", "OMPL 1.5.2", "simplified</td><td>no<",
+        "planner “KPIECE1”</td><td>KPIECE1, with a problem’s own"})
+    EXPECT_THAT(text, HasSubstr(said));
+}
+
 TEST_F(Report, ThePageAndItsFiles) {
   const auto files = writeReport(campaign_, cells_, folder_);
   for (const auto& file : files) {
     EXPECT_TRUE(std::filesystem::exists(file)) << file;
     EXPECT_GT(std::filesystem::file_size(file), 50u) << file;
   }
-  EXPECT_EQ(files.size(), 1 + (canPlot() ? 2u : 1u) * (3 * 2 + 1));
+  EXPECT_EQ(files.size(), 1 + (canPlot() ? 2u : 1u) * (3 * 2 + 3));
   const std::string text = page();
   EXPECT_THAT(text,
               HasSubstr("60 runs: 60 returned a path; of 60 that were judged 12 are refuted."));
@@ -154,6 +226,7 @@ TEST_F(Report, ThePageAndItsFiles) {
     EXPECT_THAT(text, Not(HasSubstr(outside)));
   if (canPlot()) {
     EXPECT_THAT(text, HasSubstr("data-plot=\"error.hall-2\""));
+    EXPECT_THAT(text, HasSubstr("data-plot=\"profile\""));
   } else {
     EXPECT_THAT(text, HasSubstr("gnuplot is not installed"));
   }

@@ -1,0 +1,217 @@
+#include "planner/benchmark/report_tables.h"
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+
+#include "planner/benchmark/build_commit.h"
+#include "planner/benchmark/ompl_log.h"
+#include "planner/benchmark/plot.h"
+#include "planner/view/page_text.h"
+
+namespace corridor {
+namespace {
+
+using view::escapedHtml;
+
+/// Three digits; of large numbers all, in groups.
+std::string digits(double value) {
+  if (std::isnan(value)) return "–";
+  if (std::isinf(value)) return "∞";
+  char text[64];
+  const bool large = std::abs(value) >= 999.5;
+  std::snprintf(text, sizeof text, large ? "%.0f" : "%.3g", value);
+  std::string all = text;
+  for (auto at = static_cast<std::ptrdiff_t>(all.size()) - 3; large && at > (value < 0); at -= 3)
+    all.insert(static_cast<std::size_t>(at), 1, ',');
+  return all;
+}
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  return text;
+}
+std::string small(const std::string& text) {
+  return " <small>" + text + "</small>";
+}
+std::string interval(const Interval& of, std::string (*text)(double)) {
+  return std::isinf(of.from) && of.from < 0 ? small("[0, ∞]")
+                                            : small("[" + text(of.from) + ", " + text(of.to) + "]");
+}
+std::string count(std::size_t hits, std::size_t of) {
+  return std::to_string(hits) + " of " + std::to_string(of);
+}
+/// One is bad news.
+std::string refuted(std::size_t hits, std::size_t judged) {
+  if (judged == 0) return "–";
+  return std::string("<span class=\"") + (hits ? "bad" : "good") + "\">" + count(hits, judged) +
+         "</span>";
+}
+
+class Table {
+ public:
+  explicit Table(const std::vector<std::string>& heads, const std::string& kind = "") {
+    text_ = "<div class=\"scroll " + kind + "\"><table><thead><tr>";
+    for (const std::string& head : heads) text_ += "<th>" + head + "</th>";
+    text_ += "</tr></thead><tbody>\n";
+  }
+  void row(const std::vector<std::string>& cells) {
+    text_ += "<tr>";
+    for (const std::string& cell : cells) text_ += "<td>" + cell + "</td>";
+    text_ += "</tr>\n";
+  }
+  std::string html() const { return text_ + "</tbody></table></div>\n"; }
+
+ private:
+  std::string text_;
+};
+
+std::vector<std::string> cellRow(const Campaign& campaign, const CampaignCell& cell) {
+  std::vector<double> times, states, edges, boxes, triangles, raw, length;
+  std::size_t judged = 0, refutedPaths = 0;
+  for (const BenchmarkRun& run : cell.runs) {
+    judged += !run.verdict.empty();
+    refutedPaths += run.verdict == "refuted";
+    if (!run.solved) continue;
+    times.push_back(run.processorTime);
+    states.push_back(static_cast<double>(run.states));
+    edges.push_back(static_cast<double>(run.edges));
+    boxes.push_back(static_cast<double>(run.counters.boxTests));
+    triangles.push_back(static_cast<double>(run.counters.triangleTests));
+    // Metres, or of what only turns radians.
+    const bool metres = run.rawLength.metres > 0;
+    raw.push_back(metres ? run.rawLength.metres : run.rawLength.radians);
+    length.push_back(metres ? run.length.metres : run.length.radians);
+  }
+  const bool peer = campaign.variants[cell.variant].peer.has_value();
+  const auto median = [](const std::vector<double>& of) { return digits(medianOf(of)); };
+  return {escapedHtml(cell.planner.label),
+          variantHtml(campaign, cell.variant),
+          median(times) + (times.empty() ? "" : interval(medianInterval(times), digits)),
+          count(times.size(), cell.runs.size()),
+          refuted(refutedPaths, judged),
+          median(states),
+          median(edges),
+          peer ? "–" : median(boxes),
+          peer ? "–" : median(triangles),
+          median(raw),
+          median(length)};
+}
+
+std::string checkerText(const Variant& variant) {
+  std::string text;
+  for (const YamlValue::Entry& entry : variant.checker.entries)
+    text += (text.empty() ? "" : ", ") + entry.key + ": " + entry.value.text;
+  if (variant.peer) text += ", peer: " + variant.peer->name;
+  return text.empty() ? "as each problem says" : text;
+}
+/// Of what `lscpu` says: its "Model name:".
+std::string processorOf(const std::string& cpu) {
+  const std::string key = "Model name:";
+  const auto at = cpu.find(key);
+  if (at == std::string::npos) return cpu.substr(0, cpu.find('\n'));
+  const auto begin = cpu.find_first_not_of(" \t", at + key.size());
+  return cpu.substr(begin, cpu.find('\n', begin) - begin);
+}
+std::string plannerText(const CampaignPlanner& planner) {
+  std::string text = planner.name;
+  if (!planner.params) return text + ", with a problem’s own parameters, if it is the problem’s";
+  for (const auto& [key, value] : *planner.params) text += ", " + key + ": " + value;
+  return planner.params->empty() ? text + ", by OMPL’s defaults" : text;
+}
+std::string peerVersions(const Campaign& campaign) {
+  std::string text;
+  for (const Variant& variant : campaign.variants)
+    if (variant.peer && !variant.peer->version.empty() &&
+        text.find(variant.peer->version) == std::string::npos)
+      text += "; " + variant.peer->version;
+  return text;
+}
+
+}  // namespace
+
+std::string variantHtml(const Campaign& campaign, std::size_t variant) {
+  return "<i class=\"swatch\" style=\"background:" + plotColor(variant) + "\"></i>" +
+         escapedHtml(campaign.variants[variant].name);
+}
+
+std::string rankingTable(const Campaign& campaign, const std::vector<VariantScore>& scores) {
+  Table table(
+      {"variant", "refuted", "share refuted", "solved", "time", "in checking", "length left"});
+  for (const VariantScore& s : scores) {
+    const double share =
+        s.judged() ? static_cast<double>(s.refuted) / static_cast<double>(s.judged()) : NAN;
+    table.row({variantHtml(campaign, s.variant), refuted(s.refuted, s.judged()),
+               s.judged() ? percent(share) + interval(s.refutedShare, percent) : "–",
+               count(s.solved, s.runs) + interval(s.solvedShare, percent),
+               digits(s.timeRatio) +
+                   (s.variant == 0 || s.pairs == 0 ? "" : interval(s.timeRatioInterval, digits)),
+               std::isnan(s.checkingShare) ? "–" : percent(s.checkingShare),
+               std::isnan(s.lengthShare) ? "–" : percent(s.lengthShare)});
+  }
+  return table.html();
+}
+std::string costTable(const Campaign& campaign, const std::vector<VariantScore>& scores) {
+  Table table({"variant", "C<sub>v</sub>, ns", "C<sub>p</sub>, ns", "5 %", "median", "95 %"});
+  for (const VariantScore& s : scores)
+    if (s.cost)
+      table.row({variantHtml(campaign, s.variant), digits(s.cost->model.box),
+                 digits(s.cost->model.triangle), digits(s.cost->ratioP5),
+                 digits(s.cost->ratioMedian), digits(s.cost->ratioP95)});
+  return table.html();
+}
+
+std::string cellTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                      std::size_t problem) {
+  Table table({"planner", "variant", "time, s", "solved", "refuted", "states", "edges",
+               "N<sub>v</sub>", "N<sub>p</sub>", "length before", "after"},
+              "cells");
+  for (const CampaignCell& cell : cells)
+    if (cell.problem == problem) table.row(cellRow(campaign, cell));
+  return table.html();
+}
+
+std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                          const std::vector<CampaignSession>& sessions) {
+  const BenchmarkRun* any = nullptr;
+  for (const CampaignCell& cell : cells)
+    for (const BenchmarkRun& run : cell.runs)
+      if (!any && !run.ompl.host.empty()) any = &run;
+  char date[64];
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &utc);
+  Table table({"", ""});
+  table.row({"written", date});
+  if (any) {
+    table.row({"machine", escapedHtml(any->ompl.host)});
+    table.row({"processor", escapedHtml(processorOf(any->ompl.cpu))});
+  }
+  table.row({"programs", "Corridor, commit " + escapedHtml(buildCommit()) + "; OMPL " +
+                             versionOfOmpl() + peerVersions(campaign)});
+  for (const CampaignSession& session : sessions)
+    table.row({"session of " + escapedHtml(session.started) + " UTC",
+               std::to_string(session.runs) + " runs, " + std::to_string(session.jobs) +
+                   " at a time, by commit " + escapedHtml(session.commit)});
+  table.row({"seeds", std::to_string(campaign.seed) + " to " +
+                          std::to_string(campaign.seed + campaign.runs - 1)});
+  table.row(
+      {"limits", (campaign.time ? digits(*campaign.time) + " s" : "time as each problem says") +
+                     ", " + digits(campaign.limits.memory) + " MB a run"});
+  table.row({"simplified", !campaign.simplify   ? "as each problem says"
+                           : *campaign.simplify ? "yes"
+                                                : "no"});
+  table.row({"verified", campaign.verify ? "yes" : "no"});
+  if (campaign.planners.empty()) table.row({"planners", "each problem’s own"});
+  for (const CampaignPlanner& planner : campaign.planners)
+    table.row({"planner “" + escapedHtml(planner.label) + "”", escapedHtml(plannerText(planner))});
+  for (const Variant& variant : campaign.variants)
+    table.row({"variant “" + escapedHtml(variant.name) + "”", escapedHtml(checkerText(variant))});
+  for (std::size_t p = 0; p < campaign.problems.size(); ++p)
+    table.row({"problem “" + escapedHtml(campaign.problemNames[p]) + "”",
+               "SHA-256 " + campaign.problems[p].digest});
+  return table.html();
+}
+
+}  // namespace corridor
