@@ -11,9 +11,8 @@ namespace corridor {
 /// 1. At the window's middle the two volumes are tested with a pad: what is asked for (margin), and
 ///    how far b's volume goes in the window, *whatever the direction*, tube and rounding included.
 ///    Apart: all below the two are, for all of the window.
-/// 2. Else whatever is coarser is split: time, where b's volume goes far for how large the larger
-/// of
-///    the two is: the pair is left to the window's halves; …
+/// 2. Else whatever is coarser is split: time, where b's volume goes far for the size of the larger
+///    one: the pair is left to the window's halves; …
 /// 3. … or space: the larger volume is opened (`traverse`).
 /// 4. Two leaves: their triangles or parts decide, along the direction of their closest points, as
 ///    in every other method (`decideMovingTriangles`, `decideMovingParts`).
