@@ -39,7 +39,7 @@ class Script {
  public:
   explicit Script(const Plot& plot, int width, int height) : plot_(plot) {
     out_ << "set terminal svg size " << width << "," << height
-         << " dynamic noenhanced font \"sans-serif,13\" linewidth 1.2\n"
+         << " dynamic noenhanced background \"white\" font \"sans-serif,13\" linewidth 1.2\n"
          << "set encoding utf8\nset border 3 lc rgb \"#94a3b8\"\n"
          << "set tics nomirror out textcolor rgb \"#334155\"\n"
          << "set grid lt 1 lc rgb \"#e2e8f0\" lw 0.6\n"
