@@ -145,6 +145,21 @@ TEST_F(CampaignYaml, MemoryHasARange) {
         << wrong;
 }
 
+/// Their own ranges, each told once, whatever is wrong with them.
+TEST_F(CampaignYaml, RunsAndSeedsHaveRanges) {
+  const std::string start = std::string(kStart) + "checkers: {a: {}}\n";
+  for (const std::string wrong : {"-2", "1.5", "0", "1000001", "1e3", "many", "99999999999999999999"})
+    EXPECT_THAT(faults(start + "runs: " + wrong + "\n"),
+                ElementsAre("c.yaml:4: runs: a whole number from 1 to 1,000,000 is needed, not \"" +
+                            wrong + "\""));
+  for (const std::string wrong : {"-1", "1.5", "0", "4294967296"})
+    EXPECT_THAT(faults(start + "seed: " + wrong + "\n"),
+                ElementsAre("c.yaml:4: seed: a whole number from 1 to 2^32 - 1 is needed, not \"" +
+                            wrong + "\""));
+  EXPECT_EQ(read(start + "runs: 1000000\nseed: 4294967295\n").runs, 1'000'000u);
+  EXPECT_EQ(read(start + "seed: 4294967295\n").seed, 0xffffffffu);
+}
+
 TEST_F(CampaignYaml, Defaults) {
   const Campaign c = read(std::string(kStart) + "checkers: {mine: {}}\n");
   EXPECT_THAT(c.planners, IsEmpty());
@@ -200,7 +215,7 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
           "c.yaml:7: checkers.b: a map is needed, such as {edges: certified}, not \"certified\"",
           "c.yaml:8: checkers.c.resolution: of a list, one or more single values are needed",
           HasSubstr("c.yaml:9: unknown key \"knob\" in checkers.d"),
-          "c.yaml:10: runs: 1 to 1,000,000 are needed",
+          "c.yaml:10: runs: a whole number from 1 to 1,000,000 is needed, not \"0\"",
           HasSubstr("c.yaml:11: unknown key \"memory\" in limits; did you mean \"memory_mb\"?"),
           HasSubstr("c.yaml:11: limits.time: ")));
   EXPECT_THAT(
