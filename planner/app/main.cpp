@@ -152,13 +152,11 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
                    "without: certified:TOLERANCE (m), discrete:RESOLUTION (OMPL's "
                    "longest_valid_segment_fraction), fcl:RESOLUTION (default: "
                    "certified,discrete:0.01)")
-      ->delimiter(',')
       ->allow_extra_args(false)
       ->group(compared);
   command
       ->add_option("--planners", a.planners,
                    "comma separated, by OMPL's names (default: each problem's own)")
-      ->delimiter(',')
       ->allow_extra_args(false)
       ->group(compared);
   const char* runs = "Runs (over what the campaign or the problems say)";

@@ -9,6 +9,7 @@
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
+#include "planner/solve/planner_factory.h"
 
 namespace corridor {
 namespace {
@@ -129,7 +130,7 @@ class CampaignReader {
     }
     for (const YamlValue& item : value->items) {
       if (item.kind == YamlValue::Kind::Scalar) {
-        campaign_.planners.push_back({item.text, item.text, {}});
+        addPlanner({item.text, item.text, {}}, item.line);
         continue;
       }
       const YamlMap map(item, "planners[]", &campaignKeys().at("planners[]"), source_);
@@ -144,8 +145,15 @@ class CampaignReader {
         for (const YamlValue::Entry* entry : of.entries())
           if (const auto text = of.text(entry->key)) (*planner.params)[entry->key] = *text;
       }
-      campaign_.planners.push_back(std::move(planner));
+      addPlanner(std::move(planner), item.line);
     }
+  }
+
+  void addPlanner(CampaignPlanner planner, int line) {
+    planner.place = path_.string() + ":" + std::to_string(line) + ": planners";
+    if (const auto unknown = unknownPlanner(planner.name))
+      source_.fault(line, "planners: " + *unknown);
+    campaign_.planners.push_back(std::move(planner));
   }
 
   void readCheckers(const YamlMap& file) {

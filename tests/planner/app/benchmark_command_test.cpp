@@ -133,6 +133,9 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml --variants certified,certified", "--variants: \"certified\" is named twice");
   refuse("hall.yaml --planners RRTConect",
          "--planners: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?");
+  for (const std::string list : {"certified,,discrete:0.1", ",certified", "certified,", ","})
+    refuse("hall.yaml --variants " + list, "--variants: of \"" + list + "\" an entry is empty");
+  refuse("hall.yaml --planners RRT,,PRM", "--planners: of \"RRT,,PRM\" an entry is empty");
   refuse("hall.yaml --runs 0", "--runs: a whole number from 1 to 1000000 is needed");
   refuse("hall.yaml --runs 500001",
          "--runs: more than 1000000 runs in all: 500001 of each of 2 combinations");
@@ -144,6 +147,9 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml --memory 0", "--memory: a number of MB from 1 to 1e9 is needed");
   refuse("nothing.yaml", "nothing.yaml: ");
   refuse("", "CAMPAIGN|PROBLEM is required");
+  const Result both = run("benchmark hall.yaml none.yaml --planners RRTConect");
+  EXPECT_THAT(both.err, HasSubstr("none.yaml: no such file"));
+  EXPECT_THAT(both.err, HasSubstr("--planners: unknown planner \"RRTConect\""));
   write("touching.yaml", problem("0, 0"));
   refuse("hall.yaml touching.yaml", "touching.yaml:5: start is in contact");
 }

@@ -148,7 +148,8 @@ TEST_F(CampaignYaml, MemoryHasARange) {
 /// Their own ranges, each told once, whatever is wrong with them.
 TEST_F(CampaignYaml, RunsAndSeedsHaveRanges) {
   const std::string start = std::string(kStart) + "checkers: {a: {}}\n";
-  for (const std::string wrong : {"-2", "1.5", "0", "1000001", "1e3", "many", "99999999999999999999"})
+  for (const std::string wrong :
+       {"-2", "1.5", "0", "1000001", "1e3", "many", "99999999999999999999"})
     EXPECT_THAT(faults(start + "runs: " + wrong + "\n"),
                 ElementsAre("c.yaml:4: runs: a whole number from 1 to 1,000,000 is needed, not \"" +
                             wrong + "\""));
@@ -228,6 +229,36 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
               ElementsAre("c.yaml:3: checkers: at least one is needed"));
   EXPECT_THAT(faults("format: corridor-campaign-1\nproblems: []\ncheckers: {a: {}}\n"),
               ElementsAre("c.yaml:2: problems: at least one is needed"));
+}
+
+/// Where each of them stands, and names with all else that is wrong.
+TEST_F(CampaignYaml, FaultsOfPlannersHaveTheirLines) {
+  const std::string start = std::string(kStart) + "checkers: {a: {}}\nplanners:\n";
+  EXPECT_THAT(
+      faults(start + "  - RRT\n  - RRTConect\n  - label: mine\n    name: PMR\nruns: 0\n"),
+      ElementsAre(HasSubstr("c.yaml:6: planners: unknown planner \"RRTConect\"; did you mean "
+                            "\"RRTConnect\"?; there are: RRTConnect, RRT, "),
+                  HasSubstr("c.yaml:7: planners: unknown planner \"PMR\"; did you mean "
+                            "\"PRM\"?"),
+                  HasSubstr("c.yaml:9: runs: ")));
+  const auto checked = [&](const std::string& planners) -> std::string {
+    const Campaign campaign = read(start + planners);
+    try {
+      checkCampaign(campaign);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(checked("  - RRT\n  - PRM\n  - RRT\n"),
+              testing::EndsWith("c.yaml:7: planners: \"RRT\" is named twice"));
+  const std::string wrong = checked(
+      "  - RRT\n  - {name: RRT, label: a, params: {rnge: 1}}\n"
+      "  - {name: RRT, label: b, params: {range: far}}\n");
+  EXPECT_THAT(wrong, HasSubstr("c.yaml:6: planners: RRT has no parameter \"rnge\""));
+  EXPECT_THAT(wrong,
+              HasSubstr("c.yaml:7: planners: RRT's parameter range: \"far\" is not a number"));
+  EXPECT_EQ(checked("  - RRT\n  - {name: RRT, label: a, params: {range: 1}}\n"), "");
 }
 
 TEST_F(CampaignYaml, FaultsOfProblemsAreTold) {
