@@ -176,7 +176,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   Campaign campaign = campaignOf(a);
   for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
-  const bool made = a.output && makeReportFolder(*a.output);
+  const bool made = a.output && makeReportFolder(*a.output, campaign);
   std::vector<CampaignCell> cells = cellsOf(campaign);
   std::optional<CampaignDatabase> database;
   const std::filesystem::path file = std::filesystem::path(a.output.value_or("")) / "campaign.db";

@@ -164,6 +164,35 @@ TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
   refuse("/proc", "/proc: can't be written to");
 }
 
+/// What is in the way of the results is told before they cost any time, and stays as it is.
+TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsToldAtOnce) {
+  const auto inTheWay = [&](const char* name) {
+    return "results/" + std::string(name) + ": is a folder, where a file is to be written\n";
+  };
+  for (const char* name : {"hall.certified.log", "runs.csv", "summary.csv", "report.html"})
+    std::filesystem::create_directories(folder_ / "results" / name);
+  write("results/report.html/mine.txt", "mine");
+  write("results/plots", "mine");
+  const Result all = run("benchmark hall.yaml --runs 1 -o results");
+  EXPECT_EQ(all.status, 2);
+  EXPECT_EQ(all.out, "");
+  EXPECT_EQ(all.err, inTheWay("hall.certified.log") + inTheWay("runs.csv") +
+                         inTheWay("summary.csv") + inTheWay("report.html") +
+                         "results/plots: is a file; a folder is needed\n");
+  EXPECT_EQ(read("results/report.html/mine.txt"), "mine");
+  EXPECT_EQ(read("results/plots"), "mine");
+  EXPECT_THAT(files("results"), UnorderedElementsAre("hall.certified.log", "runs.csv",
+                                                     "summary.csv", "report.html", "plots"));
+  std::filesystem::remove_all(folder_ / "results");
+  std::filesystem::create_directory(folder_ / "results");
+  std::filesystem::create_symlink("/proc", folder_ / "results/plots");
+  expectFault("benchmark hall.yaml --runs 1 -o results", "results/plots: can't be written to");
+  std::filesystem::remove(folder_ / "results/plots");
+  std::filesystem::create_symlink("nowhere", folder_ / "results/plots");
+  expectFault("benchmark hall.yaml --runs 1 -o results",
+              "results/plots: is a file; a folder is needed");
+}
+
 TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
   std::filesystem::create_directory(folder_ / "results");
   write("results/notes.txt", "mine");
@@ -194,9 +223,11 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
 
 /// What took long is not lost with the folder.
 TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
-  // In the way of a file: a folder of its name.
-  std::filesystem::create_directories(folder_ / "results/runs.csv");
-  const Result result = run("benchmark hall.yaml --variants discrete:0.05 --runs 1 -o results");
+  // In the way of a file: a folder of its name, that comes while the runs are under way.
+  const Result result =
+      run("benchmark hall.yaml --variants discrete:0.05 --runs 40 -o results",
+          "{ (for i in $(seq 1000); do [ -e results/campaign.db ] && break; sleep 0.01; done; "
+          "mkdir results/runs.csv) & } && ");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, StartsWith("results/runs.csv: can't be written"));
   EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
