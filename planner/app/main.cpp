@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdint>
 #include <iostream>
 #include <limits>
@@ -419,6 +420,9 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Where a file may not get longer (ulimit -f), writing fails, and is told as a full disk is,
+  // instead of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App program("Corridor plans collision-free motions and proves each one.", "corridor");
   program.set_version_flag("--version", CORRIDOR_VERSION);
   program.require_subcommand(1);
