@@ -98,7 +98,7 @@ int inspectRobot(const InspectArguments& a) {
   const auto setup = readRobotFile(a.file, faults);
   faults.throwIfAny();
   const RobotModel& model = setup->robot.model;
-  ordered_json j = {{"format", "corridor-inspect-robot-1"},
+  ordered_json j = {{"format", "corridor-inspect-robot-2"},
                     {"file", a.file},
                     {"name", model.name},
                     {"root", model.links[model.root].name},

@@ -229,7 +229,10 @@ void addCheck(CLI::App& program, CheckArguments& a, int& status) {
 void addInspect(CLI::App& program, InspectArguments& a, int& status) {
   CLI::App* command = program.add_subcommand(
       "inspect", "Tell what a mesh, robot or problem is, and what is skipped");
-  command->add_option("FILE", a.file, "a mesh file, a URDF or robot.yaml, or a problem")
+  command
+      ->add_option("FILE", a.file,
+                   "a mesh file, a URDF or robot.yaml, a problem, or a folder that holds a problem "
+                   "or a robot")
       ->required();
   command->add_option("--unit", a.unit, "of a mesh file: m, cm, mm or in")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
