@@ -78,19 +78,53 @@ void countEdges(const std::vector<Triangle>& distinctFair, MeshHealth& health) {
   });
 }
 
-bool isWatertight(const std::vector<Triangle>& triangles) {
+/// The edges of triangles whose corners are three, by direction; sorted.
+struct DirectedEdges {
   std::vector<std::uint64_t> forward, backward;
-  for (const Triangle& t : triangles) {
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      (a < b ? forward : backward).push_back(undirected(a, b));
+
+  explicit DirectedEdges(const std::vector<Triangle>& triangles) {
+    for (const Triangle& t : triangles) {
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+        (a < b ? forward : backward).push_back(undirected(a, b));
+      }
     }
+    std::sort(forward.begin(), forward.end());
+    std::sort(backward.begin(), backward.end());
   }
-  std::sort(forward.begin(), forward.end());
-  std::sort(backward.begin(), backward.end());
-  return !forward.empty() && forward == backward &&
-         std::adjacent_find(forward.begin(), forward.end()) == forward.end();
+  bool areWatertight() const {
+    return !forward.empty() && forward == backward &&
+           std::adjacent_find(forward.begin(), forward.end()) == forward.end();
+  }
+  std::size_t countTurned() const {
+    return twiceInOne(forward, backward) + twiceInOne(backward, forward);
+  }
+
+ private:
+  static std::size_t twiceInOne(const std::vector<std::uint64_t>& one,
+                                const std::vector<std::uint64_t>& other) {
+    std::size_t count = 0;
+    for (auto run = one.begin(); run != one.end();) {
+      const auto end = std::upper_bound(run, one.end(), *run);
+      count += end - run == 2 && !std::binary_search(other.begin(), other.end(), *run);
+      run = end;
+    }
+    return count;
+  }
+};
+
+/// @pre it is not.
+std::string whyNotWatertight(const MeshHealth& health) {
+  const auto ofEdges = [](std::size_t count) { return std::to_string(count) + " of its edges"; };
+  if (health.boundaryEdges > 0)
+    return ofEdges(health.boundaryEdges) + " have a triangle on one side only";
+  if (health.nonManifoldEdges > 0)
+    return ofEdges(health.nonManifoldEdges) + " have three triangles or more";
+  if (health.turnedEdges > 0)
+    return "its triangles do not face the same way at " + ofEdges(health.turnedEdges);
+  if (health.distinctTriangles < health.triangles) return "some of its triangles are repeated";
+  return "its degenerate triangles have open edges, or are all that there is";
 }
 
 std::size_t countComponents(const std::vector<Triangle>& triangles, std::size_t points) {
@@ -131,7 +165,10 @@ double volumeOf(const std::vector<Triangle>& triangles, const std::vector<Vec3>&
 MeshHealth inspectMesh(const TriangleMesh& mesh) {
   MeshHealth health;
   health.triangles = mesh.triangles.size();
-  if (mesh.triangles.empty()) return health;
+  if (mesh.triangles.empty()) {
+    health.whyNotWatertight = "there are no triangles";
+    return health;
+  }
 
   VertexWelder welder(mesh.vertices.size());
   std::vector<Triangle> triangles = mesh.triangles;
@@ -140,8 +177,8 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   }
   const std::vector<Vec3> points = welder.takePoints();
   const Bounds bounds(mesh);
-  health.min = bounds.min;
-  health.max = bounds.max;
+  health.min = bounds.min + Vec3::Zero();  // no -0
+  health.max = bounds.max + Vec3::Zero();
 
   std::vector<Triangle> all, fair;  // corners sorted; then made distinct
   for (const Triangle& t : triangles) {
@@ -160,7 +197,10 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.distinctTriangles = all.size();
   countEdges(fair, health);
   health.components = countComponents(triangles, points.size());
-  health.watertight = isWatertight(triangles);
+  const DirectedEdges edges(triangles);
+  health.watertight = edges.areWatertight();
+  health.turnedEdges = health.watertight ? 0 : edges.countTurned();
+  if (!health.watertight) health.whyNotWatertight = whyNotWatertight(health);
   if (health.watertight)
     if (const double volume = volumeOf(triangles, points, bounds); std::isfinite(volume))
       health.volume = volume;

@@ -22,10 +22,14 @@ struct MeshHealth {
   std::size_t sliverTriangles = 0;
   std::size_t boundaryEdges = 0;     ///< used by one distinct triangle that is not degenerate
   std::size_t nonManifoldEdges = 0;  ///< used by three or more of them
+  /// Used by two triangles in the same direction, so that one faces out and the other in (triangles
+  /// with two equal corners aside).
+  std::size_t turnedEdges = 0;
   std::size_t components = 0;  ///< sets of triangles that are connected through shared corners
   /// Every edge is used by exactly two triangles, in opposite directions (triangles with two equal
   /// corners aside).
   bool watertight = false;
+  std::string whyNotWatertight;  ///< the first reason, for people; "" where it is
   /// m³, where watertight, and within the range of doubles; negative where the triangles face
   /// inwards. Rounded.
   std::optional<double> volume;

@@ -22,6 +22,7 @@
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/write_reports.h"
 #include "planner/problem/keys.h"
+#include "planner/solve/planner_factory.h"
 
 namespace corridor::app {
 namespace {
@@ -30,6 +31,20 @@ using nlohmann::ordered_json;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& why) {
   throw InputError(Fault{option, 0, why});
+}
+
+/// The words of an option that takes several, comma separated. CLI11's own delimiter drops empty
+/// ones: "$A,certified" of a variable that isn't set would be another comparison.
+std::vector<std::string> wordsOf(const std::string& option, const std::vector<std::string>& lists) {
+  std::vector<std::string> words;
+  for (const std::string& list : lists) {
+    for (std::size_t from = 0, to = 0; to != list.npos; from = to + 1) {
+      to = list.find(',', from);
+      words.push_back(list.substr(from, to == list.npos ? to : to - from));
+      if (words.back().empty()) refuse(option, "of " + quotedWord(list) + " an entry is empty");
+    }
+  }
+  return words;
 }
 
 /// The peers, opened only where a variant names one, or nothing that there is.
@@ -51,7 +66,7 @@ std::vector<BenchmarkPeer> peersOf(const std::vector<std::string>& variants) {
 Campaign campaignOfProblems(const BenchmarkArguments& a) {
   Campaign campaign;
   FaultList faults;
-  std::vector<std::string> variants = a.variants;
+  std::vector<std::string> variants = wordsOf("--variants", a.variants);
   if (variants.empty()) variants = {"certified", "discrete:0.01"};
   std::vector<BenchmarkPeer> peers;
   faults.collect([&] { peers = peersOf(variants); });
@@ -64,8 +79,11 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
         faults.collect([&] { campaign.problems.push_back(readProblem(problem)); });
     });
   }
+  for (const std::string& name : wordsOf("--planners", a.planners)) {
+    if (const auto unknown = unknownPlanner(name)) faults.add("--planners", 0, *unknown);
+    campaign.planners.push_back({name, name, {}});
+  }
   faults.throwIfAny();
-  for (const std::string& name : a.planners) campaign.planners.push_back({name, name, {}});
   nameProblems(campaign);
   return campaign;
 }
@@ -167,7 +185,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   Campaign campaign = campaignOf(a);
   for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
-  const bool made = a.output && makeReportFolder(*a.output);
+  const bool made = a.output && makeReportFolder(*a.output, campaign);
   std::vector<CampaignCell> cells = cellsOf(campaign);
   std::optional<CampaignDatabase> database;
   const std::filesystem::path file = std::filesystem::path(a.output.value_or("")) / "campaign.db";

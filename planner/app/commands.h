@@ -22,8 +22,9 @@ struct SolveArguments {
 int solveCommand(const SolveArguments& arguments);
 
 struct BenchmarkArguments {
-  std::vector<std::string> files;               ///< a campaign, or problems
-  std::vector<std::string> variants, planners;  ///< of problems; none: the defaults
+  std::vector<std::string> files;  ///< a campaign, or problems
+  /// Of problems, each comma separated; none: the defaults.
+  std::vector<std::string> variants, planners;
   std::optional<std::uint64_t> runs, seed;
   std::optional<double> time;    ///< seconds a run
   std::optional<double> memory;  ///< MB a run

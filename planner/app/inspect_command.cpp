@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/fault_list.h"
+#include "collision/core/nearest.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/hierarchy/wide_obb_tree.h"
@@ -42,8 +43,8 @@ MeshFile meshFileAsked(const std::string& file, const InspectArguments& a) {
 ordered_json meshJson(const MeshFile& file) {
   const MeshHealth health = inspectMesh(file.mesh);
   ordered_json j = {{"format", file.format},
-                    {"unit", file.unitRule},
-                    {"up", file.upRule},
+                    {"unit_rule", file.unitRule},
+                    {"up_rule", file.upRule},
                     {"float_vertices", file.floatVertices},
                     {"vertices", file.mesh.vertices.size()},
                     {"triangles", health.triangles},
@@ -55,7 +56,9 @@ ordered_json meshJson(const MeshFile& file) {
                     {"degenerate_triangles", health.degenerateTriangles},
                     {"sliver_triangles", health.sliverTriangles},
                     {"boundary_edges", health.boundaryEdges},
-                    {"non_manifold_edges", health.nonManifoldEdges}};
+                    {"non_manifold_edges", health.nonManifoldEdges},
+                    {"turned_edges", health.turnedEdges}};
+  if (!health.watertight) j["why_not_watertight"] = health.whyNotWatertight;
   if (health.volume) j["volume_m3"] = *health.volume;
   return j;
 }
@@ -83,7 +86,9 @@ std::vector<TrianglePair> selfIntersectionsOf(const MeshFile& file) {
 int inspectMeshFile(const InspectArguments& a) {
   const MeshFile file = meshFileAsked(a.file, a);
   if (a.json) {
-    ordered_json j = {{"format", "corridor-inspect-mesh-1"}, {"file", a.file}};
+    ordered_json j = {{"format", "corridor-inspect-mesh-2"}, {"file", a.file}};
+    j["unit"] = a.unit ? ordered_json(*a.unit) : ordered_json();
+    j["up"] = a.up ? ordered_json(*a.up) : ordered_json();
     j["mesh"] = meshJson(file);
     if (const auto tree = treeOf(file.mesh))
       j["tree"] = {{"nodes", tree->nodes},
@@ -108,13 +113,14 @@ int inspectMeshFile(const InspectArguments& a) {
   out.line("triangles", grouped(health.triangles));
   out.line("bounds", rounded(health.min) + " to " + rounded(health.max) + " m");
   out.line("components", grouped(health.components));
-  out.line("watertight", health.watertight ? "yes" : "no");
+  out.line("watertight", health.watertight ? "yes" : "no: " + health.whyNotWatertight);
   if (health.volume) out.line("volume", rounded(*health.volume) + " m³");
   out.line("repeated triangles", grouped(health.triangles - health.distinctTriangles));
   out.line("degenerate triangles", grouped(health.degenerateTriangles));
   out.line("slivers", grouped(health.sliverTriangles));
   out.line("boundary edges", grouped(health.boundaryEdges));
   out.line("non-manifold edges", grouped(health.nonManifoldEdges));
+  out.line("turned edges", grouped(health.turnedEdges));
   if (const auto tree = treeOf(file.mesh))
     out.line("tree",
              counted(tree->nodes, "node") + " of four boxes, " +
@@ -141,12 +147,31 @@ bool isRobotFile(const std::string& file) {
   });
 }
 
-}  // namespace
+/// The robot of a folder without a problem: its robot.yaml, or its only URDF; "" for what is no
+/// folder, or one with a problem.
+std::string robotInFolder(const std::filesystem::path& folder) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(folder, none) ||
+      std::filesystem::exists(folder / "problem.yaml", none))
+    return "";
+  if (std::filesystem::exists(folder / "robot.yaml", none)) return folder / "robot.yaml";
+  std::vector<std::string> robots;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".urdf") robots.push_back(entry.path().string());
+  std::sort(robots.begin(), robots.end());
+  if (robots.size() == 1) return robots[0];
+  throw InputError(Fault{folder.string(), 0,
+                         robots.empty() ? "no problem.yaml, robot.yaml or URDF in this folder"
+                                        : "no problem.yaml or robot.yaml in this folder, and "
+                                          "several URDFs: name one of " +
+                                              joined(robots)});
+}
 
-int inspectCommand(const InspectArguments& a) {
+/// @param a of a folder with a robot: the robot's file.
+int inspectFile(const InspectArguments& a, bool inFolder) {
   const std::string extension = std::filesystem::path(a.file).extension().string();
   const bool yaml = extension == ".yaml" || extension == ".yml";
-  const bool robot = extension == ".urdf" || (yaml && isRobotFile(a.file));
+  const bool robot = inFolder || extension == ".urdf" || (yaml && isRobotFile(a.file));
   const bool problem = yaml || std::filesystem::is_directory(a.file) || extension == ".cfg" ||
                        a.file.find(".json") != a.file.npos;
   if (a.poses && !a.against)
@@ -170,6 +195,15 @@ int inspectCommand(const InspectArguments& a) {
     throw InputError(Fault{"--self-intersections", 0, "is not of --against"});
   if (a.against) return inspectCost(a);
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);
+}
+
+}  // namespace
+
+int inspectCommand(const InspectArguments& a) {
+  InspectArguments of = a;
+  const std::string robot = robotInFolder(a.file);
+  if (!robot.empty()) of.file = robot;
+  return inspectFile(of, !robot.empty());
 }
 
 }  // namespace corridor::app

@@ -22,7 +22,7 @@ class ProblemReport {
       : problem_(problem), a_(a), checker_(problem), out_(a.json) {}
 
   int run() {
-    json_ = {{"format", "corridor-inspect-problem-3"},
+    json_ = {{"format", "corridor-inspect-problem-4"},
              {"file", a_.file},
              {"name", problem_.name},
              {"digest", problem_.digest}};

@@ -57,18 +57,26 @@ double radiusOf(const LinkModel& link) {
   return radius;
 }
 
+/// Metres that a joint moves what is behind it, at most. One that mimics another goes where that
+/// one's range takes it: its own limits need not hold it there.
+double slideOf(const RobotModel& model, const JointModel& joint) {
+  if (joint.type == JointType::planar || joint.type == JointType::floating)
+    return std::numeric_limits<double>::infinity();
+  if (joint.type != JointType::prismatic) return 0;
+  const auto farther = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
+  if (!joint.mimic) return farther(joint.lower, joint.upper);
+  const auto [leader, multiplier, offset] = *joint.mimic;
+  if (multiplier == 0) return std::abs(offset);  // of whatever, without limits, too
+  const JointModel& other = model.joints[leader];
+  return farther(multiplier * other.lower + offset, multiplier * other.upper + offset);
+}
+
 /// How far from the root's origin each link's points can be at most: with the chain stretched out,
 /// sliding joints at their farther ends. Infinite behind joints without limits of where they go.
 std::vector<double> reachOfLinks(const RobotModel& model) {
   std::vector<double> origin(model.links.size(), 0), reach;
-  for (const JointModel& joint : model.joints) {  // parents before children
-    double slide = 0;
-    if (joint.type == JointType::prismatic)
-      slide = std::max(std::abs(joint.lower), std::abs(joint.upper));
-    if (joint.type == JointType::planar || joint.type == JointType::floating)
-      slide = std::numeric_limits<double>::infinity();
-    origin[joint.child] = origin[joint.parent] + joint.X_PJ.p.norm() + slide;
-  }
+  for (const JointModel& joint : model.joints)  // parents before children
+    origin[joint.child] = origin[joint.parent] + joint.X_PJ.p.norm() + slideOf(model, joint);
   for (std::size_t i = 0; i < model.links.size(); ++i)
     reach.push_back(origin[i] + radiusOf(model.links[i]));
   return reach;
@@ -98,7 +106,7 @@ int inspectRobot(const InspectArguments& a) {
   const auto setup = readRobotFile(a.file, faults);
   faults.throwIfAny();
   const RobotModel& model = setup->robot.model;
-  ordered_json j = {{"format", "corridor-inspect-robot-1"},
+  ordered_json j = {{"format", "corridor-inspect-robot-2"},
                     {"file", a.file},
                     {"name", model.name},
                     {"root", model.links[model.root].name},

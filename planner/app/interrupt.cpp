@@ -8,7 +8,7 @@ namespace corridor::app {
 namespace {
 
 // All that a signal handler can reach.
-std::atomic<bool> interruptAsked = false;
+std::atomic<bool> interruptAsked = false, secondEnds = true;
 std::atomic<std::int64_t> askedAt = 0;  // milliseconds; 0: not yet
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);
@@ -23,7 +23,7 @@ void onInterrupt(int) {
   std::int64_t first = 0;
   if (askedAt.compare_exchange_strong(first, ms)) {
     interruptAsked = true;
-  } else if (ms - first > kSameMs) {  // who asks again wants no more waiting
+  } else if (secondEnds && ms - first > kSameMs) {  // who asks again wants no more waiting
     std::signal(SIGINT, SIG_DFL);
     std::raise(SIGINT);
   }
@@ -31,7 +31,8 @@ void onInterrupt(int) {
 
 }  // namespace
 
-const std::atomic<bool>& listenForInterrupts() {
+const std::atomic<bool>& listenForInterrupts(SecondInterrupt second) {
+  secondEnds = second == SecondInterrupt::ends;
   struct sigaction action {};
   action.sa_handler = onInterrupt;
   sigaction(SIGINT, &action, nullptr);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdint>
 #include <iostream>
 #include <limits>
@@ -40,6 +41,28 @@ CLI::Validator from(Number low, Number high, const std::string& needed) {
   return {complaint, ""};
 }
 
+// What several commands take.
+
+CLI::Validator isSeconds() {
+  return from(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+              "a number of seconds above 0");
+}
+
+CLI::Validator isSeed() {
+  return from<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
+                             "a whole number from 0 to 2^64 - 1");
+}
+
+constexpr const char* kOptions = "Options";  // CLI11's group of those that are in no other
+
+void addJson(CLI::App& command, bool& json, const char* group = kOptions) {
+  command.add_flag("--json", json, "results as JSON")->group(group);
+}
+
+void addQuiet(CLI::App& command, bool& quiet, const char* group = kOptions) {
+  command.add_flag("--quiet", quiet, "no results on stdout")->group(group);
+}
+
 void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
   command
@@ -56,10 +79,7 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
       ->add_option("--sampler", a.sampler,
                    "uniform, gaussian, obstacle_based, bridge_test or max_clearance")
       ->group(planning);
-  command->add_option("--time", a.time, "seconds")
-      ->check(from(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
-                   "a number of seconds above 0"))
-      ->group(planning);
+  command->add_option("--time", a.time, "seconds")->check(isSeconds())->group(planning);
   command
       ->add_option("--stop", a.stop,
                    "first: at the first solution; time: planners that optimise use all of it "
@@ -67,8 +87,7 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
       ->check(CLI::IsMember({"first", "time"}))
       ->group(planning);
   command->add_option("--seed", a.seed, "the same seed gives the same path, for most planners")
-      ->check(from<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
-                                  "a whole number from 0 to 2^64 - 1"))
+      ->check(isSeed())
       ->group(planning);
   command->add_flag("--no-simplify", a.noSimplify, "the planner's own path")->group(planning);
   const char* checking = "Checking";
@@ -86,8 +105,8 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   const char* results = "Results";
   command->add_option("-o,--output", a.output, "the solution file (YAML)")->group(results);
   command->add_option("--picture", a.picture, "an SVG of the scene and the path")->group(results);
-  command->add_flag("--json", a.json, "results as JSON")->group(results);
-  command->add_flag("--quiet", a.quiet, "no results on stdout")->group(results);
+  addJson(*command, a.json, results);
+  addQuiet(*command, a.quiet, results);
   command->footer(
       std::string(
           "Example: corridor solve problems/piano -o piano.solution.yaml --picture piano.svg\n") +
@@ -102,8 +121,8 @@ void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
   command
       ->add_option("SOLUTION", a.solution, "a solution file, or an OMPL.app .path: a state a line")
       ->required();
-  command->add_flag("--json", a.json, "results as JSON");
-  command->add_flag("--quiet", a.quiet, "no results on stdout");
+  addJson(*command, a.json);
+  addQuiet(*command, a.quiet);
   command->footer(std::string("Example: corridor verify problems/piano piano.solution.yaml\n") +
                   kExitStatus);
   command->callback([&] { status = verifyCommand(a); });
@@ -123,11 +142,12 @@ void addView(CLI::App& program, ViewArguments& a, int& status) {
       ->group(results);
   command
       ->add_option("--image", a.image,
-                   "a PNG of the scene with the path's poses; by Chromium, without a display")
+                   "a PNG of the scene with the path's poses and what verify says of it; by "
+                   "Chromium, without a display")
       ->group(results);
   command->add_option("--size", a.size, "of the image: WIDTHxHEIGHT in pixels (default 1366x768)")
       ->group(results);
-  command->add_flag("--quiet", a.quiet, "no results on stdout")->group(results);
+  addQuiet(*command, a.quiet, results);
   command->footer(
       std::string(
           "Example: corridor solve problems/two_arms -o arms.yaml && corridor view "
@@ -152,13 +172,11 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
                    "without: certified:TOLERANCE (m), discrete:RESOLUTION (OMPL's "
                    "longest_valid_segment_fraction), fcl:RESOLUTION (default: "
                    "certified,discrete:0.01)")
-      ->delimiter(',')
       ->allow_extra_args(false)
       ->group(compared);
   command
       ->add_option("--planners", a.planners,
                    "comma separated, by OMPL's names (default: each problem's own)")
-      ->delimiter(',')
       ->allow_extra_args(false)
       ->group(compared);
   const char* runs = "Runs (over what the campaign or the problems say)";
@@ -172,10 +190,7 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
       ->check(from<std::uint64_t>(1, std::numeric_limits<std::uint32_t>::max(),
                                   "a whole number from 1 to 2^32 - 1"))
       ->group(runs);
-  command->add_option("--time", a.time, "limit of a run, seconds")
-      ->check(from(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
-                   "a number of seconds above 0"))
-      ->group(runs);
+  command->add_option("--time", a.time, "limit of a run, seconds")->check(isSeconds())->group(runs);
   command->add_option("--memory", a.memory, "limit of a run, MB (default 4096)")
       ->check(from(1.0, 1e9, "a number of MB from 1 to 1e9"))
       ->group(runs);
@@ -193,7 +208,7 @@ void addBenchmark(CLI::App& program, BenchmarkArguments& a, int& status) {
   command
       ->add_flag("--resume", a.resume, "goes on with the campaign in the folder, where it stopped")
       ->group(results);
-  command->add_flag("--json", a.json, "results as JSON")->group(results);
+  addJson(*command, a.json, results);
   command->footer(
       std::string(
           "Example: corridor benchmark problems/campaigns/error.yaml -o results --jobs 2\n"
@@ -217,7 +232,7 @@ void addCheck(CLI::App& program, CheckArguments& a, int& status) {
                       "a file of states (- is the standard input), one a line, numbers blank or "
                       "comma separated, # comments: "
                       "prints one line each, state,valid,pairs");
-  command->add_flag("--json", a.json, "results as JSON");
+  addJson(*command, a.json);
   command->footer(
       std::string(
           "Example: corridor check problems/arm_at_shelf --states states.txt > valid.csv\n"
@@ -230,7 +245,10 @@ void addCheck(CLI::App& program, CheckArguments& a, int& status) {
 void addInspect(CLI::App& program, InspectArguments& a, int& status) {
   CLI::App* command = program.add_subcommand(
       "inspect", "Tell what a mesh, robot or problem is, and what is skipped");
-  command->add_option("FILE", a.file, "a mesh file, a URDF or robot.yaml, or a problem")
+  command
+      ->add_option("FILE", a.file,
+                   "a mesh file, a URDF or robot.yaml, a problem, or a folder that holds a problem "
+                   "or a robot")
       ->required();
   command->add_option("--unit", a.unit, "of a mesh file: m, cm, mm or in")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
@@ -255,7 +273,7 @@ void addInspect(CLI::App& program, InspectArguments& a, int& status) {
                    "of --against: the second mesh's poses, as of corridor query (default: a grid "
                    "over the bounds of both)")
       ->group(cost);
-  command->add_flag("--json", a.json, "results as JSON");
+  addJson(*command, a.json);
   command->footer(
       std::string("Example: corridor inspect robots/piano/piano.obj\n"
                   "         corridor inspect a.obj --against b.obj --poses poses.txt\n") +
@@ -290,8 +308,7 @@ void addQuery(CLI::App& program, QueryArguments& a, int& status) {
       ->check(from<std::uint64_t>(1, 10'000'000, "a whole number from 1 to 10000000"))
       ->group(poses);
   command->add_option("--seed", a.seed, "of those rotations (default 1)")
-      ->check(from<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
-                                  "a whole number from 0 to 2^64 - 1"))
+      ->check(isSeed())
       ->group(poses);
   command->add_option("--save-poses", a.savePoses, "a file for the grid's poses, as --poses reads")
       ->group(poses);
@@ -421,6 +438,9 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Where a file may not get longer (ulimit -f), writing fails, and is told as a full disk is,
+  // instead of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App program("Corridor plans collision-free motions and proves each one.", "corridor");
   program.set_version_flag("--version", CORRIDOR_VERSION);
   program.require_subcommand(1);

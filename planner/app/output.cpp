@@ -30,7 +30,7 @@ void warn(const std::string& text) {
 
 std::string rounded(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
+  std::snprintf(text, sizeof text, "%.4g", value + 0.0);  // no "-0"
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "collision/core/error.h"
+#include "collision/core/nearest.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
@@ -23,11 +24,23 @@ std::string pageName(const Problem& problem) {
   return (name.empty() || name[0] == '.' ? "view" + name : name) + ".html";
 }
 
+/// "a.jpg" with a PNG in it helps nobody; a name without an extension promises nothing.
+void requirePng(const std::optional<std::string>& image) {
+  if (!image) return;
+  std::string extension = std::filesystem::path(*image).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!extension.empty() && extension != ".png")
+    throw InputError(
+        Fault{"--image", 0,
+              "pictures are PNG: a name that ends in .png is needed, not " + quotedWord(*image)});
+}
+
 }  // namespace
 
 int viewCommand(const ViewArguments& a) {
   requireFolderFor(a.output, "--output");
   requireFolderFor(a.image, "--image");
+  requirePng(a.image);
   if (a.size && !a.image) throw InputError(Fault{"--size", 0, "is of --image, and there is none"});
   const PictureSize size = a.size ? pictureSize(*a.size, "--size") : PictureSize();
   const std::optional<std::filesystem::path> browser =
@@ -56,7 +69,9 @@ int viewCommand(const ViewArguments& a) {
     out.line("page", file);
   }
   if (a.image) {
-    if (!writePicture(page, *browser, size, *a.image, listenForInterrupts())) return kInterrupted;
+    // The browser and its folder are gone in a moment: nobody has to ask twice.
+    const std::atomic<bool>& interrupted = listenForInterrupts(SecondInterrupt::isIgnored);
+    if (!writePicture(page, *browser, size, *a.image, interrupted)) return kInterrupted;
     out.line("image", *a.image);
   }
   return kDone;

@@ -22,13 +22,23 @@ std::string placeOf(const Campaign& campaign, const std::string& what) {
   return place != campaign.places.end() ? place->second : "--" + what;
 }
 
-void faultRepeated(const std::string& place, const std::vector<std::string>& words,
-                   std::vector<Fault>& faults) {
-  std::set<std::string> seen;
-  for (const std::string& word : words)
-    if (!seen.insert(word).second)
-      faults.push_back({place, 0, quotedWord(word) + " is named twice"});
+std::string placeOf(const Campaign& campaign, const CampaignPlanner& planner) {
+  return planner.place.empty() ? placeOf(campaign, "planners") : planner.place;
 }
+
+/// Names of variants or planners, and where they stand.
+class Names {
+ public:
+  explicit Names(std::vector<Fault>& faults) : faults_(faults) {}
+  void add(const std::string& name, const std::string& place) {
+    if (!seen_.insert(name).second)
+      faults_.push_back({place, 0, quotedWord(name) + " is named twice"});
+  }
+
+ private:
+  std::vector<Fault>& faults_;
+  std::set<std::string> seen_;
+};
 
 /// What is wrong with the cells, each fault once, in order. OMPL has one stream of random numbers a
 /// process: setting up here would leave a mark on it.
@@ -38,10 +48,11 @@ std::vector<Fault> faultsInChild(const Campaign& campaign) {
     nlohmann::json faults = nlohmann::json::array();
     for (const CampaignCell& cell : cells) {
       std::map<std::string, std::string> elsewhere;
-      if (!campaign.planners.empty()) elsewhere["planner.name"] = placeOf(campaign, "planners");
+      const std::string place = placeOf(campaign, cell.planner);
+      if (!campaign.planners.empty()) elsewhere["planner.name"] = place;
       if (cell.planner.params)
         for (const auto& [key, value] : *cell.planner.params)
-          elsewhere["planner.params." + key] = placeOf(campaign, "planners");
+          elsewhere["planner.params." + key] = place;
       try {
         checkRun(plannedProblem(campaign, cell, campaign.seed), elsewhere);
       } catch (const InputError& error) {
@@ -104,16 +115,17 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
 
 void checkCampaign(const Campaign& campaign) {
   std::vector<Fault> faults;
-  std::vector<std::string> variants, planners;
-  for (const Variant& variant : campaign.variants) variants.push_back(variant.name);
-  for (const CampaignPlanner& planner : campaign.planners) planners.push_back(planner.label);
-  faultRepeated(placeOf(campaign, "variants"), variants, faults);
-  faultRepeated(placeOf(campaign, "planners"), planners, faults);
+  Names variants(faults), planners(faults);
+  for (const Variant& variant : campaign.variants)
+    variants.add(variant.name, placeOf(campaign, "variants"));
+  for (const CampaignPlanner& planner : campaign.planners)
+    planners.add(planner.label, placeOf(campaign, planner));
   if (campaign.problems.empty()) faults.push_back({"", 0, "a problem is needed"});
-  if (variants.empty()) faults.push_back({placeOf(campaign, "variants"), 0, "a variant is needed"});
+  if (campaign.variants.empty())
+    faults.push_back({placeOf(campaign, "variants"), 0, "a variant is needed"});
   if (campaign.runs == 0)
     faults.push_back({placeOf(campaign, "runs"), 0, "1 or more are needed, not 0"});
-  const std::uint64_t cells = campaign.problems.size() * variants.size() *
+  const std::uint64_t cells = campaign.problems.size() * campaign.variants.size() *
                               std::max<std::uint64_t>(campaign.planners.size(), 1);
   if (cells > 0 && campaign.runs > kMostRuns / cells)
     faults.push_back({placeOf(campaign, "runs"), 0,

@@ -17,6 +17,7 @@ struct CampaignPlanner {
   std::string name;   ///< OMPL's
   /// Unset: the problem's, if it is the problem's own planner, else OMPL's defaults.
   std::optional<std::map<std::string, std::string>> params;
+  std::string place = {};  ///< for messages: "lecture.yaml:5: planners"; "": as of all planners
 };
 
 /// Every problem with every variant and every planner, with the same seeds.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <sqlite3.h>
+#include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 
@@ -141,6 +142,7 @@ class CampaignDatabase::Tables {
     } catch (const nlohmann::json::exception& error) {  // of what it holds
       refuse("is damaged: " + std::string(error.what()));
     } catch (const SQLite::Exception& error) {
+      const std::string kept = "what was measured before is kept, --resume goes on";
       switch (error.getErrorCode()) {
         case SQLITE_NOTADB:
           refuse("is no database of a campaign");
@@ -152,15 +154,25 @@ class CampaignDatabase::Tables {
         case SQLITE_READONLY:
           refuse("can't be written to");
         case SQLITE_FULL:
-          refuse(
-              "can't be written: the disk is full; what was measured before is kept, --resume "
-              "goes on");
+          refuse("can't be written: the disk is full; " + kept);
+        case SQLITE_IOERR:
+          refuse("can't be read or written: " + std::string(error.what()) + sizeLimit() + "; " +
+                 kept);
         case SQLITE_CORRUPT:
           refuse("is damaged: " + std::string(error.what()));
         default:
           refuse("can't be read or written: " + std::string(error.what()));
       }
     }
+  }
+
+  /// What keeps files from growing, where something does: SQLite doesn't tell it from a disk that
+  /// fails.
+  static std::string sizeLimit() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
+    return " (no file may be larger than " + std::to_string(limit.rlim_cur) +
+           " bytes here: ulimit -f)";
   }
 
   template <class... Values>

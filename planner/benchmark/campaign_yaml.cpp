@@ -9,12 +9,15 @@
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
+#include "planner/solve/planner_factory.h"
 
 namespace corridor {
 namespace {
 
 constexpr const char* kFormat = "corridor-campaign-1";
 constexpr std::size_t kMostOfARange = 1000, kMostVariants = 1000;
+constexpr WholeRange kRuns{1, 1'000'000, "1 to 1,000,000"};
+constexpr WholeRange kSeeds{1, 0xffffffff, "1 to 2^32 - 1"};  // OMPL takes 32 bits
 
 /// A checker of the file, and what of its lists a variant has.
 struct Expanded {
@@ -76,14 +79,8 @@ class CampaignReader {
     readProblems(map);
     readPlanners(map);
     readCheckers(map);
-    if (const auto runs = map.wholeNumber("runs")) {
-      if (*runs == 0 || *runs > 1'000'000) map.fault("runs", "1 to 1,000,000 are needed");
-      campaign_.runs = *runs;
-    }
-    if (const auto seed = map.wholeNumber("seed")) {
-      if (*seed == 0 || *seed > 0xffffffff) map.fault("seed", "1 to 2^32 - 1 is needed");
-      campaign_.seed = *seed;
-    }
+    campaign_.runs = map.wholeNumber("runs", kRuns).value_or(campaign_.runs);
+    campaign_.seed = map.wholeNumber("seed", kSeeds).value_or(campaign_.seed);
     readLimits(map);
     campaign_.simplify = map.boolean("simplify");
     campaign_.verify = map.boolean("verify").value_or(true);
@@ -133,7 +130,7 @@ class CampaignReader {
     }
     for (const YamlValue& item : value->items) {
       if (item.kind == YamlValue::Kind::Scalar) {
-        campaign_.planners.push_back({item.text, item.text, {}});
+        addPlanner({item.text, item.text, {}}, item.line);
         continue;
       }
       const YamlMap map(item, "planners[]", &campaignKeys().at("planners[]"), source_);
@@ -148,8 +145,15 @@ class CampaignReader {
         for (const YamlValue::Entry* entry : of.entries())
           if (const auto text = of.text(entry->key)) (*planner.params)[entry->key] = *text;
       }
-      campaign_.planners.push_back(std::move(planner));
+      addPlanner(std::move(planner), item.line);
     }
+  }
+
+  void addPlanner(CampaignPlanner planner, int line) {
+    planner.place = path_.string() + ":" + std::to_string(line) + ": planners";
+    if (const auto unknown = unknownPlanner(planner.name))
+      source_.fault(line, "planners: " + *unknown);
+    campaign_.planners.push_back(std::move(planner));
   }
 
   void readCheckers(const YamlMap& file) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <set>
+#include <unistd.h>
 
 #include "collision/core/error.h"
 #include "planner/benchmark/ompl_log.h"
@@ -13,6 +16,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether files can be made in a folder: by making one, since permissions don't tell of a file
+/// system that can't be written to.
+bool takesFiles(const fs::path& folder) {
+  std::string probe = (folder / ".corridor-benchmark-XXXXXX").string();
+  const int file = ::mkstemp(probe.data());  // none that is there
+  if (file < 0) return false;
+  ::close(file);
+  ::unlink(probe.c_str());
+  return true;
+}
+
+/// The logs' files, whether there are runs for them or not: by problem, then variant.
+std::vector<fs::path> logFiles(const Campaign& campaign, const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::set<std::string> taken;
+  for (const std::string& problem : campaign.problemNames)
+    for (const Variant& variant : campaign.variants) {
+      const std::string base = fileName(problem + "." + variant.name);
+      std::string name = base;
+      for (int i = 2; !taken.insert(name).second; ++i) name = base + "-" + std::to_string(i);
+      files.push_back(folder / (name + ".log"));
+    }
+  return files;
+}
+
+/// What would keep the reports from being written into a folder that is there.
+std::vector<Fault> inTheWay(const Campaign& campaign, const fs::path& folder) {
+  std::vector<Fault> faults;
+  std::error_code none;
+  if (!takesFiles(folder)) return {{folder.string(), 0, "can't be written to"}};
+  std::vector<fs::path> files = logFiles(campaign, folder);
+  for (const char* name : {"runs.csv", "summary.csv", "report.html"})
+    files.push_back(folder / name);
+  for (const fs::path& file : files)
+    if (fs::is_directory(file, none))
+      faults.push_back({file.string(), 0, "is a folder, where a file is to be written"});
+  const fs::path plots = folder / "plots";
+  if (fs::is_directory(plots, none)) {
+    if (!takesFiles(plots)) faults.push_back({plots.string(), 0, "can't be written to"});
+  } else if (fs::exists(fs::symlink_status(plots, none))) {
+    faults.push_back({plots.string(), 0, "is a file; a folder is needed"});
+  }
+  return faults;
+}
+
 }  // namespace
 
 std::string fileName(std::string text) {
@@ -22,20 +70,16 @@ std::string fileName(std::string text) {
   return text;
 }
 
-bool makeReportFolder(const fs::path& folder) {
+bool makeReportFolder(const fs::path& folder, const Campaign& campaign) {
   std::error_code failure, ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     throw InputError(Fault{folder.string(), 0, "is a file; a folder is needed"});
   const bool made = fs::create_directory(folder, failure);
   if (failure) throw InputError(Fault{folder.string(), 0, "can't be made: " + failure.message()});
-  const fs::path probe = folder / ".corridor-benchmark";
-  try {
-    writeWhole(probe, "");
-  } catch (const InputError&) {
+  if (std::vector<Fault> faults = inTheWay(campaign, folder); !faults.empty()) {
     if (made) fs::remove(folder, ignored);
-    throw InputError(Fault{folder.string(), 0, "can't be written to"});
+    throw InputError(std::move(faults));
   }
-  fs::remove(probe, ignored);
   return made;
 }
 
@@ -44,18 +88,15 @@ std::vector<fs::path> writeReports(const Campaign& campaign, const CampaignResul
   std::vector<fs::path> files{folder / "runs.csv", folder / "summary.csv"};
   writeWhole(files[0], csvOf(runRows(campaign, result.cells)));
   writeWhole(files[1], csvOf(summaryRows(campaign, result.cells)));
+  const std::vector<fs::path> logs = logFiles(campaign, folder);
   for (std::size_t p = 0; p < campaign.problems.size(); ++p)
     for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
       const auto isRun = [&](const CampaignCell& cell) {
         return cell.problem == p && cell.variant == v && !cell.runs.empty();
       };
       if (std::none_of(result.cells.begin(), result.cells.end(), isRun)) continue;
-      const std::string name = fileName(campaign.problemNames[p] + "." + campaign.variants[v].name);
-      fs::path file = folder / (name + ".log");
-      for (int i = 2; std::find(files.begin(), files.end(), file) != files.end(); ++i)
-        file = folder / (name + "-" + std::to_string(i) + ".log");
-      writeWhole(file, omplLog(campaign, result, p, v));
-      files.push_back(file);
+      files.push_back(logs[p * campaign.variants.size() + v]);
+      writeWhole(files.back(), omplLog(campaign, result, p, v));
     }
   return files;
 }

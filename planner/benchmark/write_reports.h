@@ -8,9 +8,11 @@
 
 namespace corridor {
 
-/// Makes the folder (its parent has to be there) and sees that it can be written to.
-/// @returns whether it was not there before. @throws InputError where it can't be written to.
-bool makeReportFolder(const std::filesystem::path& folder);
+/// Makes the folder (its parent has to be there) and sees that it and `plots` in it can be written
+/// to, and that nothing but files is where `writeReports` and `writeReport` (report.h) will put
+/// theirs; of plots only the folder is looked at. What is there stays as it is.
+/// @returns whether it was not there before. @throws InputError with all that is in the way.
+bool makeReportFolder(const std::filesystem::path& folder, const Campaign& campaign);
 
 /// Writes `runs.csv`, `summary.csv`, and for each problem and variant OMPL's log,
 /// `PROBLEM.VARIANT.log`, where there are runs; what is there of these names is replaced. Each file

@@ -140,12 +140,8 @@ bool isFinite(const ConvexPart& part) {
 bool checkSolid(const YamlMap& map, const PlacedShape& shape) {
   const MeshHealth health = inspectMesh(shape.mesh->mesh);
   if (health.watertight) return true;
-  std::string why = "its triangles do not face the same way";
-  if (health.boundaryEdges > 0)
-    why = std::to_string(health.boundaryEdges) + " of its edges have a triangle on one side only";
-  else if (health.nonManifoldEdges > 0)
-    why = std::to_string(health.nonManifoldEdges) + " of its edges have three triangles or more";
-  map.fault("solid", "needs a watertight mesh, and " + shape.file.string() + " is none: " + why);
+  map.fault("solid", "needs a watertight mesh, and " + shape.file.string() +
+                         " is none: " + health.whyNotWatertight);
   return false;
 }
 

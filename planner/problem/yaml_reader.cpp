@@ -164,16 +164,18 @@ std::optional<double> YamlMap::number(std::string_view key, Range range) const {
   return std::nullopt;
 }
 
-std::optional<std::uint64_t> YamlMap::wholeNumber(std::string_view key) const {
+std::optional<std::uint64_t> YamlMap::wholeNumber(std::string_view key,
+                                                  const WholeRange& range) const {
   const YamlValue* value = find(key);
   if (!value) return std::nullopt;
   std::uint64_t result = 0;
   const char* const end = value->text.data() + value->text.size();
   const auto [stop, error] = std::from_chars(value->text.data(), end, result);
   if (value->kind == YamlValue::Kind::Scalar && value->isPlain && stop == end &&
-      error == std::errc())
+      error == std::errc() && range.least <= result && result <= range.most)
     return result;
-  fault(key, "a whole number from 0 to 2^64 - 1 is needed, not " + described(*value));
+  fault(key,
+        "a whole number from " + std::string(range.words) + " is needed, not " + described(*value));
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -40,6 +41,12 @@ struct YamlSource {
 /// What numbers a key takes.
 enum class Range { Any, NotNegative, Positive, Fraction /**< above 0 and under 1 */ };
 
+/// What whole numbers a key takes, both ends included.
+struct WholeRange {
+  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
+  const char* words = "0 to 2^64 - 1";  ///< for the message
+};
+
 /// A whole text as a decimal number. @returns a complaint ("a number is needed, not …"), or "" and
 /// `value` set. Numbers too small for a double become the nearest, those too large (and nan, inf)
 /// are not finite.
@@ -73,7 +80,8 @@ class YamlMap {
 
   // Each faults a value of the wrong kind. nullopt: absent or faulted.
   std::optional<double> number(std::string_view key, Range range = Range::Any) const;
-  std::optional<std::uint64_t> wholeNumber(std::string_view key) const;
+  std::optional<std::uint64_t> wholeNumber(std::string_view key,
+                                           const WholeRange& range = {}) const;
   std::optional<bool> boolean(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& of) const;

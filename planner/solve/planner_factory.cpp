@@ -1,5 +1,6 @@
 #include "planner/solve/planner_factory.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -211,18 +212,21 @@ const std::vector<PlannerInfo>& knownPlanners() {
   return infos;
 }
 
+std::optional<std::string> unknownPlanner(const std::string& name) {
+  const std::vector<std::string> names = plannerNames();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return std::nullopt;
+  return "unknown planner " + quotedWord(name) + didYouMean(name, names) +
+         "; there are: " + joined(names);
+}
+
 ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string& name,
                            const std::vector<PlannerParameter>& parameters,
                            const PlannerParameter& nameAt) {
+  if (auto unknown = unknownPlanner(name))
+    throw InputError(Fault{nameAt.file, nameAt.line, std::move(*unknown)});
   ob::PlannerPtr planner;
   for (const Entry& entry : entries())
     if (entry.info.name == name) planner = entry.make(si);
-  if (!planner) {
-    throw InputError(Fault{nameAt.file, nameAt.line,
-                           "unknown planner " + quotedWord(name) +
-                               didYouMean(name, plannerNames()) +
-                               "; there are: " + joined(plannerNames())});
-  }
   std::vector<Fault> faults;
   for (const PlannerParameter& given : parameters) {
     ob::ParamSet& set = !planner->params().hasParam(given.key) && si->params().hasParam(given.key)

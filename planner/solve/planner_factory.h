@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct PlannerInfo {
 /// All that `makePlanner` knows, in the order in which help lists them. To add one: a line in
 /// planner_factory.cpp.
 const std::vector<PlannerInfo>& knownPlanners();
+
+/// What is wrong with the name of a planner that there isn't: a line that lists those that there
+/// are. nullopt: `makePlanner` knows it.
+std::optional<std::string> unknownPlanner(const std::string& name);
 
 /// A parameter by OMPL's own name, and where a user wrote it (empty: nowhere).
 struct PlannerParameter {

@@ -78,7 +78,7 @@ void run(const Arguments& arguments) {
   if (arguments.has("--time")) campaign.time = arguments.number("--time", 20);
   checkCampaign(campaign);
   const std::string folder = arguments.text("--out");
-  if (!folder.empty()) makeReportFolder(folder);
+  if (!folder.empty()) makeReportFolder(folder, campaign);
   const CampaignResult result = runCampaign(campaign);
   if (!folder.empty()) writeReports(campaign, result, folder);
   std::cout << tableOf(summaryRows(campaign, result.cells));

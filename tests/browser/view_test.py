@@ -185,4 +185,63 @@ def picture(browser, path):
     assert os.path.getsize(image) > 10000, "hardly anything is on it"
 
 
-main([two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture])
+def pictured(browser, page, size):
+    """The page as `--image` draws it. Returns the verdict in its legend; all of the legend is in the picture, below the scene's points."""
+    browser.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                   {"width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False})
+    browser.open(page, "#image")
+    browser.wait(READY)
+    browser.js("corridorView.stage.drawNow()")
+    browser.check_page()
+    boxes = browser.js("[...document.querySelectorAll('#legend, #legend span')].map((e) => { const b = e.getBoundingClientRect();"
+                       " return [b.left, b.top, b.right, b.bottom]; })")
+    for left, top, right, bottom in boxes:
+        assert 0 <= left < right <= size[0] and 0 <= top < bottom <= size[1], (size, boxes)
+    lowest = browser.js("Math.min(...corridorView.stage.points.map((p) => p.clone().project(corridorView.stage.camera).y))")
+    assert (1 - lowest) / 2 * size[1] <= boxes[0][1], f"{size}: the scene goes on under the legend"
+    assert not browser.find("#panel").is_displayed()
+    return browser.find("#legend .verdict").text
+
+
+def picture_tells_the_verdict(browser, path):
+    """In the legend; where the path is refuted a ring is where, and all poses are there in their own colours."""
+    ring = "corridorView.contact.ring.visible"
+    sizes = (1366, 768), (600, 400)
+    page = page_of(path, "thin_plate", "--seed", 1)
+    for size in sizes:
+        assert pictured(browser, page, size) == "proved"
+        assert not browser.js(ring)
+    page = page_of(path, "thin_plate", "--edges", "discrete", "--seed", 1)
+    for size in sizes:
+        assert pictured(browser, page, size) == "refuted: paper_plane and plate touch"
+        assert browser.js(ring) and browser.js("corridorView.contact.lit.length") == 0
+        assert browser.js("corridorView.contact.ring.position.toArray()") == browser.js("data.verdict.findings[0].point")
+        x, y = browser.js("(({x, y}) => [x, y])(corridorView.contact.ring.position.clone().project(corridorView.stage.camera))")
+        assert max(abs(x), abs(y)) < 1, "the ring is not in the picture"
+        motion = "corridorView.motion"
+        assert browser.js(f"[{motion}.start, ...{motion}.goals, ...{motion}.ghosts].every((copy) => copy.root.visible)")
+        with_ring = canvas(browser)[1]
+        browser.driver.execute_script("corridorView.contact.show(null);")
+        assert canvas(browser)[1] != with_ring, "the ring is not drawn"
+    shown(browser, page, "desktop")
+    assert not browser.js(ring), "pages ring what is asked for"
+    assert browser.js("document.querySelector('#legend .verdict')") is None, "pages have a panel for it"
+    # What is no finding: a violation. And names without an end.
+    long = "from_here_to_there_and_back_again_" * 5
+    for file, text in {
+            "robot.yaml": f"format: corridor-robot-1\nname: {long}\nrigid: SE2\nshapes: [{{box: [1, 1, 1]}}]\n",
+            "problem.yaml": f"format: corridor-problem-1\nrobot: robot.yaml\nworld: {{{long}wall: {{box: [0.1, 9, 1]}}}}\n"
+                            "start: {at: [-3, 0]}\ngoal: {at: [3, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n",
+            "short.yaml": "format: corridor-solution-1\nspace: SE2\npath: [[-3, 0, 0], [-2, 0, 0]]\n",
+            "through.yaml": "format: corridor-solution-1\nspace: SE2\npath: [[-3, 0, 0], [3, 0, 0]]\n"}.items():
+        with open(os.path.join(path, file), "w", encoding="utf-8") as out:
+            out.write(text)
+    for solution, told in ("short", "refuted: the last state is not in the goal"), ("through", "from_here_to_th…_back_again_wall touch"):
+        corridor("view", os.path.join(path, "problem.yaml"), os.path.join(path, f"{solution}.yaml"), "-o", page)
+        for size in sizes:
+            text = pictured(browser, page, size)
+            assert text.endswith(told) and len(text) < 100, text
+            assert browser.js(ring) == (solution == "through")
+
+
+main([two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture, picture_tells_the_verdict])

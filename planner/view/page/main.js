@@ -41,6 +41,8 @@ function start() {
   const robotBox = new THREE.Box3().setFromPoints(robotPoints);
   const obstacles = new Obstacles(scene, robotBox.min.z);
   const [points, bounds] = interest(robotPoints, robotBox, obstacles);
+  const ringed = image && path ? data.verdict.findings[Panel.mainFinding()] : null;
+  if (ringed && ringed.a !== null) points.push(new THREE.Vector3(...ringed.point));
   stage.show(points, bounds);
   const triangles = data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0);
   if (!data.planar && triangles <= kShadowTriangles) stage.castShadows();
@@ -132,10 +134,12 @@ function start() {
   byId('pairs').addEventListener('change', (event) => { byId('pairs-body').hidden = !event.target.checked; });
 
   Panel.legend(stage);
+  if (image) stage.below = byId('stage').clientHeight - byId('legend').offsetTop + 6;
   view(data.planar);
   glass('auto');
   if (path) seek(0);
   if (image && path) motion.hideNow();
+  if (ringed) contact.show(ringed, () => []);  // the ring alone: the poses keep their colours
   stage.drawNow();
   let looking = 0;
   stage.onView = () => {

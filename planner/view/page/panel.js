@@ -51,6 +51,20 @@ const Panel = {
     });
   },
 
+  /** The finding that a picture tells of: the first that says what the verdict does; -1: none. */
+  mainFinding() {
+    return data.verdict ? data.verdict.findings.findIndex((f) => f.verdict === data.verdict.verdict) : -1;
+  },
+
+  /** "refuted: seat and shelf touch" */
+  verdictText() {
+    const {verdict, findings, violations} = data.verdict, f = findings[this.mainFinding()];
+    const short = (name) => name.length > 32 ? `${name.slice(0, 15)}…${name.slice(-16)}` : name;  // for a line of a picture
+    const pair = f && f.a !== null ? `${short(this.bodyName(f.a))} and ${short(this.bodyName(f.b))}` : '';
+    const reason = !f ? (violations[0] || '').split(': ')[0] : !pair ? f.reason : f.reason === 'contact' ? `${pair} touch` : `${pair}: ${f.reason}`;
+    return reason ? `${verdict}: ${reason}` : verdict;
+  },
+
   pressFinding(index) {
     byId('findings').querySelectorAll('button').forEach((button, i) => button.setAttribute('aria-pressed', String(i === index)));
   },
@@ -89,6 +103,12 @@ const Panel = {
     const names = data.robots.length > 1 ? data.robots.map((robot) => `${robot.name}, now`) : ['now'];
     if (path && !image) names.forEach((text, i) => legend.append(item('', palette.robots[i % palette.robots.length], text)));
     legend.append(item('scale', '', `grid ${metres(stage.step)}`));
+    if (!path || !image) return;
+    // What the panel says of the path, which pictures don't have; its mark is the scene's ring.
+    const finding = data.verdict.findings[this.mainFinding()], said = make('span', this.verdictText());
+    said.className = `verdict ${data.verdict.verdict}`;
+    if (finding && finding.a !== null) said.prepend(make('i'));
+    legend.append(said);
   },
 
   place(at, closest) {

@@ -16,6 +16,7 @@ class Stage {
     this.scene = new THREE.Scene();
     this.beforeDraw = [];
     this.onView = () => {};
+    this.below = 0;  // pixels that the legend takes, where it is more than a line on a large page
     this.moved = false;  // by the user: then nothing moves the camera but the user
     this.top = options.top;
     this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.1, 10);
@@ -140,9 +141,9 @@ class Stage {
     return changed;
   }
 
-  /** All points within the picture, but for a border and the legend's line. */
+  /** All points within the picture, but for a border and the legend's lines. */
   fit() {
-    const border = 0.93, lift = 0.03;
+    const below = Math.max(0.05, Math.min(this.below / this.height, 0.4)), border = 0.98 - below, lift = below - 0.02;
     const toViewer = this.top ? new THREE.Vector3(0, 0, 1)
       : new THREE.Vector3(Math.cos(kElevation) * Math.cos(kAzimuth), Math.cos(kElevation) * Math.sin(kAzimuth), Math.sin(kElevation));
     const up = this.top ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);

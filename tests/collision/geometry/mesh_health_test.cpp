@@ -27,6 +27,8 @@ TEST(InspectMesh, ClosedMesh) {
   EXPECT_EQ(health.nonManifoldEdges, 0u);
   EXPECT_EQ(health.components, 1u);
   EXPECT_TRUE(health.watertight);
+  EXPECT_EQ(health.turnedEdges, 0u);
+  EXPECT_EQ(health.whyNotWatertight, "");
   EXPECT_DOUBLE_EQ(health.volume.value_or(0), 1.0 / 6);
   EXPECT_EQ(health.min, Vec3(0, 0, 0));
   EXPECT_EQ(health.max, Vec3(1, 1, 1));
@@ -42,6 +44,9 @@ TEST(InspectMesh, CornersCountByPositionNotByIndex) {
   }
   soup.vertices[0] = {-0.0, 0, 0};
   EXPECT_TRUE(inspectMesh(soup).watertight);
+  for (Vec3& vertex : soup.vertices) vertex = -vertex;  // its bounds end at -0
+  const MeshHealth health = inspectMesh(soup);
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(health.max[i]));
 }
 
 TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
@@ -50,11 +55,15 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(inspectMesh(open).boundaryEdges, 3u);
   EXPECT_FALSE(inspectMesh(open).watertight);
   EXPECT_FALSE(inspectMesh(open).volume.has_value());
+  EXPECT_EQ(inspectMesh(open).whyNotWatertight, "3 of its edges have a triangle on one side only");
 
   TriangleMesh turned = tetrahedron();
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
   EXPECT_EQ(inspectMesh(turned).boundaryEdges, 0u);
   EXPECT_FALSE(inspectMesh(turned).watertight);
+  EXPECT_EQ(inspectMesh(turned).turnedEdges, 3u);
+  EXPECT_EQ(inspectMesh(turned).whyNotWatertight,
+            "its triangles do not face the same way at 3 of its edges");
 
   TriangleMesh inwards = tetrahedron();
   for (auto& t : inwards.triangles) std::swap(t[0], t[1]);
@@ -66,7 +75,20 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(health.triangles, 8u);
   EXPECT_EQ(health.distinctTriangles, 4u);
   EXPECT_EQ(health.nonManifoldEdges, 0u);
+  EXPECT_EQ(health.turnedEdges, 0u);
   EXPECT_FALSE(health.watertight);
+  EXPECT_EQ(health.whyNotWatertight, "some of its triangles are repeated");
+
+  TriangleMesh finned = tetrahedron();  // closed but for a triangle that is a line
+  finned.vertices.push_back({2, 0, 0});
+  finned.triangles.push_back({0, 1, 4});
+  EXPECT_EQ(inspectMesh(finned).whyNotWatertight,
+            "its degenerate triangles have open edges, or are all that there is");
+  TriangleMesh fan = tetrahedron();  // a third triangle at an edge
+  fan.vertices.push_back({1, 1, 1});
+  fan.triangles.push_back({0, 1, 4});
+  EXPECT_EQ(inspectMesh(fan).whyNotWatertight, "2 of its edges have a triangle on one side only");
+  EXPECT_EQ(inspectMesh(TriangleMesh{}).whyNotWatertight, "there are no triangles");
 }
 
 TEST(InspectMesh, DefectsAreCounted) {

@@ -133,6 +133,9 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml --variants certified,certified", "--variants: \"certified\" is named twice");
   refuse("hall.yaml --planners RRTConect",
          "--planners: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?");
+  for (const std::string list : {"certified,,discrete:0.1", ",certified", "certified,", ","})
+    refuse("hall.yaml --variants " + list, "--variants: of \"" + list + "\" an entry is empty");
+  refuse("hall.yaml --planners RRT,,PRM", "--planners: of \"RRT,,PRM\" an entry is empty");
   refuse("hall.yaml --runs 0", "--runs: a whole number from 1 to 1000000 is needed");
   refuse("hall.yaml --runs 500001",
          "--runs: more than 1000000 runs in all: 500001 of each of 2 combinations");
@@ -144,6 +147,9 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml --memory 0", "--memory: a number of MB from 1 to 1e9 is needed");
   refuse("nothing.yaml", "nothing.yaml: ");
   refuse("", "CAMPAIGN|PROBLEM is required");
+  const Result both = run("benchmark hall.yaml none.yaml --planners RRTConect");
+  EXPECT_THAT(both.err, HasSubstr("none.yaml: no such file"));
+  EXPECT_THAT(both.err, HasSubstr("--planners: unknown planner \"RRTConect\""));
   write("touching.yaml", problem("0, 0"));
   refuse("hall.yaml touching.yaml", "touching.yaml:5: start is in contact");
 }
@@ -156,6 +162,35 @@ TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
   refuse("robot.yaml/results", "robot.yaml/results: can't be made: Not a directory");
   refuse("none/results", "none/results: can't be made: No such file or directory");
   refuse("/proc", "/proc: can't be written to");
+}
+
+/// What is in the way of the results is told before they cost any time, and stays as it is.
+TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsToldAtOnce) {
+  const auto inTheWay = [&](const char* name) {
+    return "results/" + std::string(name) + ": is a folder, where a file is to be written\n";
+  };
+  for (const char* name : {"hall.certified.log", "runs.csv", "summary.csv", "report.html"})
+    std::filesystem::create_directories(folder_ / "results" / name);
+  write("results/report.html/mine.txt", "mine");
+  write("results/plots", "mine");
+  const Result all = run("benchmark hall.yaml --runs 1 -o results");
+  EXPECT_EQ(all.status, 2);
+  EXPECT_EQ(all.out, "");
+  EXPECT_EQ(all.err, inTheWay("hall.certified.log") + inTheWay("runs.csv") +
+                         inTheWay("summary.csv") + inTheWay("report.html") +
+                         "results/plots: is a file; a folder is needed\n");
+  EXPECT_EQ(read("results/report.html/mine.txt"), "mine");
+  EXPECT_EQ(read("results/plots"), "mine");
+  EXPECT_THAT(files("results"), UnorderedElementsAre("hall.certified.log", "runs.csv",
+                                                     "summary.csv", "report.html", "plots"));
+  std::filesystem::remove_all(folder_ / "results");
+  std::filesystem::create_directory(folder_ / "results");
+  std::filesystem::create_symlink("/proc", folder_ / "results/plots");
+  expectFault("benchmark hall.yaml --runs 1 -o results", "results/plots: can't be written to");
+  std::filesystem::remove(folder_ / "results/plots");
+  std::filesystem::create_symlink("nowhere", folder_ / "results/plots");
+  expectFault("benchmark hall.yaml --runs 1 -o results",
+              "results/plots: is a file; a folder is needed");
 }
 
 TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
@@ -188,9 +223,11 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
 
 /// What took long is not lost with the folder.
 TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
-  // In the way of a file: a folder of its name.
-  std::filesystem::create_directories(folder_ / "results/runs.csv");
-  const Result result = run("benchmark hall.yaml --variants discrete:0.05 --runs 1 -o results");
+  // In the way of a file: a folder of its name, that comes while the runs are under way.
+  const Result result =
+      run("benchmark hall.yaml --variants discrete:0.05 --runs 40 -o results",
+          "{ (for i in $(seq 1000); do [ -e results/campaign.db ] && break; sleep 0.01; done; "
+          "mkdir results/runs.csv) & } && ");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, StartsWith("results/runs.csv: can't be written"));
   EXPECT_EQ(lines(result.err).size(), 1u) << result.err;

@@ -104,6 +104,29 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   EXPECT_GT(base.execAndGet("SELECT count(*) FROM corridor_sessions").getInt(), 1);
 }
 
+/// A limit of files' sizes is as a full disk: told, and what was measured before is there.
+TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
+  // Of 512 bytes: more than the tables take, less than those of all runs.
+  const Result stopped = run("benchmark campaign.yaml -o results", "ulimit -f 300 && ");
+  EXPECT_EQ(stopped.status, 2);
+  EXPECT_EQ(stopped.out, "");
+  EXPECT_EQ(stopped.err,
+            "results/campaign.db: can't be read or written: disk I/O error (no file may be larger "
+            "than 153600 bytes here: ulimit -f); what was measured before is kept, --resume goes "
+            "on\n");
+  const auto runs = [&] {
+    SQLite::Database base((folder_ / "results/campaign.db").string(), SQLite::OPEN_READWRITE);
+    EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
+    return base.execAndGet("SELECT count(*) FROM corridor_runs").getInt();
+  };
+  const int kept = runs();
+  EXPECT_GT(kept, 0);
+  EXPECT_LT(kept, 2 * 3 * 12);
+  const Result more = run("benchmark campaign.yaml -o results --resume");
+  EXPECT_EQ(more.status, 0) << more.err;
+  EXPECT_EQ(runs(), 2 * 3 * 12);
+}
+
 TEST_F(CampaignCommand, OptionsSayMoreThanTheFile) {
   const Result result =
       run("benchmark campaign.yaml --runs 2 --seed 5 --time 30 --memory 2000 --jobs 2 --json");

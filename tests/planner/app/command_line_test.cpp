@@ -421,6 +421,19 @@ TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsTold) {
   EXPECT_EQ(run("solve problem.yaml --quiet >/dev/full; exit $?;").status, 0);
 }
 
+/// As a full disk, and not the end of the program by a signal.
+TEST_F(CommandLine, AFileThatMayNotGrowIsToldAndNotLeftInHalf) {
+  const Result whole = run("solve problem.yaml --seed 1 --picture p.svg");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  ASSERT_GT(std::filesystem::file_size(folder_ / "p.svg"), 1024u);
+  std::filesystem::remove(folder_ / "p.svg");
+  const Result cut = run("solve problem.yaml --seed 1 --picture p.svg", "ulimit -f 2 && ");
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_EQ(cut.err, "p.svg: can't be written\n");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().string().find("p.svg"), std::string::npos) << entry.path();
+}
+
 TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
   for (const char* command : {"solve", "verify", "check", "inspect", "query", "benchmark"}) {
     const Result help = run(std::string(command) + " --help");

@@ -1,5 +1,12 @@
 // `corridor view` as its users meet it: a page or a picture, whole or not at all, and a line for
 // each fault.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,6 +73,12 @@ TEST_F(ViewCommand, Faults) {
   EXPECT_THAT(other.err, StartsWith("other.yaml"));
   expectFault("view " + plate + " -o none/page.html", "--output: there is no folder none");
   expectFault("view " + plate + " --image none/a.png", "--image: there is no folder none");
+  for (const char* name : {"a.jpg", "a.svg", "a.png.html"})
+    expectFault("view none.yaml --image " + std::string(name),
+                "--image: pictures are PNG: a name that ends in .png is needed, not \"" +
+                    std::string(name) + "\"");
+  for (const char* name : {"a.PNG", "a"})
+    expectFault("view none.yaml --image " + std::string(name), "none.yaml: no such file");
   expectFault("view " + plate + " -o .", "--output: . is a folder; a file's name is needed");
   expectFault("view " + plate + " --size 100x100", "--size: is of --image, and there is none");
   for (const char* size :
@@ -100,6 +113,46 @@ TEST_F(ViewCommand, ABrowserThatFailsIsTold) {
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
   EXPECT_EQ(read("err.txt"), (folder_ / "chromium").string() + ": has not drawn the picture\n");
   EXPECT_EQ(read("a.png"), "before");
+}
+
+/// Neither the browser nor its folder outlives an interrupt, though another one comes while what
+/// the browser has left is removed.
+TEST_F(ViewCommand, TwoInterruptsLeaveNothing) {
+  // A browser that leaves many files, tells who it is, and goes on.
+  write("chromium",
+        "#!/bin/sh\nfor word in \"$@\"; do case \"$word\" in --user-data-dir=*) "
+        "folder=\"${word#*=}\";; esac; done\nmkdir -p \"$folder\" && cd \"$folder\"\n"
+        "seq 60000 | xargs touch\necho $$ >\"" +
+            (folder_ / "browser.txt").string() + "\"\nexec sleep 600\n");
+  std::filesystem::permissions(folder_ / "chromium", std::filesystem::perms::owner_all);
+  std::filesystem::create_directory(folder_ / "temporary");
+  const pid_t id = ::fork();
+  if (id == 0) {
+    if (::chdir(folder_.c_str()) != 0 || !std::freopen("out.txt", "w", stdout) ||
+        !std::freopen("err.txt", "w", stderr))
+      ::_exit(1);
+    ::setenv("TMPDIR", "temporary", 1);
+    ::setenv("PATH", (folder_.string() + ":/usr/bin:/bin").c_str(), 1);
+    ::execl(CORRIDOR_PROGRAM, CORRIDOR_PROGRAM, "view", plate.c_str(), "--image", "a.png",
+            static_cast<char*>(nullptr));
+    ::_exit(1);
+  }
+  const auto wait = [](int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  };
+  for (int i = 0; i < 6000 && lines(read("browser.txt")).empty(); ++i) wait(10);
+  const pid_t browser = std::atoi(read("browser.txt").c_str());
+  ASSERT_GT(browser, 0) << read("err.txt");
+  ::kill(id, SIGINT);
+  wait(550);  // later than a repeated signal of the same interrupt
+  ::kill(id, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(id, &status, 0), id);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "temporary"));
+  EXPECT_NE(::kill(browser, 0), 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }
 
 }  // namespace

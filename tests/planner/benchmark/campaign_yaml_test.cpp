@@ -145,6 +145,22 @@ TEST_F(CampaignYaml, MemoryHasARange) {
         << wrong;
 }
 
+/// Their own ranges, each told once, whatever is wrong with them.
+TEST_F(CampaignYaml, RunsAndSeedsHaveRanges) {
+  const std::string start = std::string(kStart) + "checkers: {a: {}}\n";
+  for (const std::string wrong :
+       {"-2", "1.5", "0", "1000001", "1e3", "many", "99999999999999999999"})
+    EXPECT_THAT(faults(start + "runs: " + wrong + "\n"),
+                ElementsAre("c.yaml:4: runs: a whole number from 1 to 1,000,000 is needed, not \"" +
+                            wrong + "\""));
+  for (const std::string wrong : {"-1", "1.5", "0", "4294967296"})
+    EXPECT_THAT(faults(start + "seed: " + wrong + "\n"),
+                ElementsAre("c.yaml:4: seed: a whole number from 1 to 2^32 - 1 is needed, not \"" +
+                            wrong + "\""));
+  EXPECT_EQ(read(start + "runs: 1000000\nseed: 4294967295\n").runs, 1'000'000u);
+  EXPECT_EQ(read(start + "seed: 4294967295\n").seed, 0xffffffffu);
+}
+
 TEST_F(CampaignYaml, Defaults) {
   const Campaign c = read(std::string(kStart) + "checkers: {mine: {}}\n");
   EXPECT_THAT(c.planners, IsEmpty());
@@ -200,7 +216,7 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
           "c.yaml:7: checkers.b: a map is needed, such as {edges: certified}, not \"certified\"",
           "c.yaml:8: checkers.c.resolution: of a list, one or more single values are needed",
           HasSubstr("c.yaml:9: unknown key \"knob\" in checkers.d"),
-          "c.yaml:10: runs: 1 to 1,000,000 are needed",
+          "c.yaml:10: runs: a whole number from 1 to 1,000,000 is needed, not \"0\"",
           HasSubstr("c.yaml:11: unknown key \"memory\" in limits; did you mean \"memory_mb\"?"),
           HasSubstr("c.yaml:11: limits.time: ")));
   EXPECT_THAT(
@@ -213,6 +229,36 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
               ElementsAre("c.yaml:3: checkers: at least one is needed"));
   EXPECT_THAT(faults("format: corridor-campaign-1\nproblems: []\ncheckers: {a: {}}\n"),
               ElementsAre("c.yaml:2: problems: at least one is needed"));
+}
+
+/// Where each of them stands, and names with all else that is wrong.
+TEST_F(CampaignYaml, FaultsOfPlannersHaveTheirLines) {
+  const std::string start = std::string(kStart) + "checkers: {a: {}}\nplanners:\n";
+  EXPECT_THAT(
+      faults(start + "  - RRT\n  - RRTConect\n  - label: mine\n    name: PMR\nruns: 0\n"),
+      ElementsAre(HasSubstr("c.yaml:6: planners: unknown planner \"RRTConect\"; did you mean "
+                            "\"RRTConnect\"?; there are: RRTConnect, RRT, "),
+                  HasSubstr("c.yaml:7: planners: unknown planner \"PMR\"; did you mean "
+                            "\"PRM\"?"),
+                  HasSubstr("c.yaml:9: runs: ")));
+  const auto checked = [&](const std::string& planners) -> std::string {
+    const Campaign campaign = read(start + planners);
+    try {
+      checkCampaign(campaign);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(checked("  - RRT\n  - PRM\n  - RRT\n"),
+              testing::EndsWith("c.yaml:7: planners: \"RRT\" is named twice"));
+  const std::string wrong = checked(
+      "  - RRT\n  - {name: RRT, label: a, params: {rnge: 1}}\n"
+      "  - {name: RRT, label: b, params: {range: far}}\n");
+  EXPECT_THAT(wrong, HasSubstr("c.yaml:6: planners: RRT has no parameter \"rnge\""));
+  EXPECT_THAT(wrong,
+              HasSubstr("c.yaml:7: planners: RRT's parameter range: \"far\" is not a number"));
+  EXPECT_EQ(checked("  - RRT\n  - {name: RRT, label: a, params: {range: 1}}\n"), "");
 }
 
 TEST_F(CampaignYaml, FaultsOfProblemsAreTold) {

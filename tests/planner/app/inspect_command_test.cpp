@@ -1,0 +1,107 @@
+// `corridor inspect` as its users meet it: what it says of meshes and robots, and which file it
+// finds.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/planner/app/program_test.h"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+using InspectCommand = corridor::test::ProgramTest;
+
+/// A joint that mimics another goes where that one takes it, though its own limits are closer.
+TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
+  const auto joint = [](const std::string& name, const std::string& parent,
+                        const std::string& more) {
+    return "<link name='" + name + "'/><joint name='" + name + "' type='prismatic'><parent link='" +
+           parent + "'/><child link='" + name + "'/><origin xyz='1 0 0'/>" + more + "</joint>\n";
+  };
+  const std::string free = "<limit effort='1' velocity='1'/>";  // no range: 0 to 0, if asked
+  // It comes before the one that it mimics: -2 times -0.5 to 0.25, and 0.5 more.
+  write("slides.urdf",
+        "<robot name='slides'><link name='base'/>\n" +
+            joint("first", "base", free + "<mimic joint='last' multiplier='-2' offset='0.5'/>") +
+            joint("last", "first",
+                  "<limit lower='-0.5' upper='0.25' effort='1' "
+                  "velocity='1'/>") +
+            joint("still", "last", free + "<mimic joint='last' multiplier='0' offset='-0.125'/>") +
+            "</robot>");
+  const Result told = run("inspect slides.urdf --json");
+  ASSERT_EQ(told.status, 0) << told.err;
+  const auto links = nlohmann::json::parse(told.out)["links"];
+  ASSERT_EQ(links.size(), 4u);
+  EXPECT_EQ(links[1]["reach_m"], 1 + 1.5);
+  EXPECT_EQ(links[2]["reach_m"], 1 + 1.5 + 1 + 0.5);
+  EXPECT_EQ(links[3]["reach_m"], 1 + 1.5 + 1 + 0.5 + 1 + 0.125);
+}
+
+TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
+  const std::string arm6 = CORRIDOR_SOURCE_DIR "/robots/arm6";
+  const Result named = run("inspect " + arm6 + "/robot.yaml"), found = run("inspect " + arm6);
+  EXPECT_EQ(named.status, 0) << named.err;
+  EXPECT_THAT(named.out, HasSubstr("robot: " + arm6 + "/robot.yaml\n"));
+  EXPECT_EQ(found.out, named.out);
+  expectFault("inspect " + arm6 + " --pairs",
+              "--pairs: is of a problem, and " + arm6 + "/robot.yaml is a robot");
+  // Of a folder with both, the problem: as other commands do.
+  write("robot.yaml",
+        "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+  write("problem.yaml",
+        "format: corridor-problem-1\nrobot: robot.yaml\nworld: {wall: {box: [0.01, 6, 1]}}\nstart: "
+        "{at: [-2, 0]}\n"
+        "goal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");
+  EXPECT_THAT(run("inspect .").out, StartsWith("problem: ."));
+  const auto in = [&](const std::string& folder, const std::string& name) {
+    std::filesystem::create_directory(folder_ / folder);
+    std::filesystem::copy(CORRIDOR_SOURCE_DIR "/robots/gantry/gantry.urdf",
+                          folder_ / folder / name);
+  };
+  in("one", "gantry.urdf");
+  EXPECT_THAT(run("inspect one").out, StartsWith("robot: one/gantry.urdf\n"));
+  in("one", "leg.urdf");
+  expectFault("inspect one",
+              "one: no problem.yaml or robot.yaml in this folder, and several URDFs: name one of "
+              "one/gantry.urdf, one/leg.urdf");
+  std::filesystem::create_directory(folder_ / "none");
+  expectFault("inspect none", "none: no problem.yaml, robot.yaml or URDF in this folder");
+}
+
+TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
+  // A tetrahedron with its corner at the bounds' upper end, one triangle turned.
+  write("turned.obj",
+        "v -0 -0 -0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const Result text = run("inspect turned.obj");
+  EXPECT_EQ(text.status, 0) << text.err;
+  const std::string why = "its triangles do not face the same way at 3 of its edges";
+  EXPECT_THAT(text.out, HasSubstr("watertight: no: " + why + "\n"));
+  EXPECT_THAT(text.out, HasSubstr("boundary edges: 0\nnon-manifold edges: 0\nturned edges: 3\n"));
+  EXPECT_THAT(text.out, HasSubstr("bounds: [-1, -1, -1] to [0, 0, 0] m\n"));
+  const Result json = run("inspect turned.obj --json");
+  EXPECT_EQ(json.out.find("-0.0"), std::string::npos) << json.out;
+  const auto plain = nlohmann::json::parse(json.out);
+  EXPECT_EQ(plain["format"], "corridor-inspect-mesh-2");
+  EXPECT_EQ(plain["unit"], nullptr);
+  EXPECT_EQ(plain["up"], nullptr);
+  EXPECT_EQ(plain["mesh"]["watertight"], false);
+  EXPECT_EQ(plain["mesh"]["why_not_watertight"], why);
+  EXPECT_EQ(plain["mesh"]["turned_edges"], 3);
+  const auto asked = nlohmann::json::parse(run("inspect turned.obj --json --unit mm --up y").out);
+  EXPECT_EQ(asked["unit"], "mm");
+  EXPECT_EQ(asked["up"], "y");
+  EXPECT_EQ(asked["mesh"]["unit_rule"], "0.001 m per unit, as asked");
+  EXPECT_EQ(asked["mesh"]["up_rule"], "y is up, as asked: turned by (x, y, z) -> (x, -z, y)");
+  write("closed.obj",
+        "v 0 0 0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto closed = nlohmann::json::parse(run("inspect closed.obj --json").out)["mesh"];
+  EXPECT_EQ(closed["watertight"], true);
+  EXPECT_FALSE(closed.contains("why_not_watertight"));
+}
+
+}  // namespace
