@@ -1,7 +1,7 @@
 #include "planner/benchmark/campaign_yaml.h"
 
 #include <algorithm>
-#include <regex>
+#include <charconv>
 #include <set>
 
 #include "collision/core/nearest.h"
@@ -51,6 +51,15 @@ std::size_t countExpanded(const YamlValue& checker) {
       count = std::min(count * std::min(entry.value.items.size(), kMostVariants + 1),
                        kMostVariants + 1);
   return count;
+}
+
+/// Of digits alone, nine at most.
+std::optional<std::size_t> problemNumber(const std::string& digits) {
+  std::size_t number = 0;
+  const char* const end = digits.data() + digits.size();
+  if (digits.empty() || digits.size() > 9) return std::nullopt;
+  const auto [stop, error] = std::from_chars(digits.data(), end, number);
+  return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
 }
 
 /// A name that tables, plots and logs can have: in one line.
@@ -299,17 +308,18 @@ const std::map<std::string, MapKeys>& campaignKeys() {
 }
 
 std::vector<std::string> problemsOf(const std::string& text) {
-  std::smatch range;
-  if (!std::regex_match(text, range, std::regex("(.*)#([0-9]{1,9})-([0-9]{1,9})"))) return {text};
-  const std::size_t first = std::stoul(range[2]), last = std::stoul(range[3]);
-  if (last < first || last - first >= kMostOfARange)
-    throw InputError(Fault{range[1].str(), 0,
-                           quotedWord("#" + range[2].str() + "-" + range[3].str()) +
-                               " is no range of 1 to " + std::to_string(kMostOfARange) +
-                               " problems, such as #1-10"});
+  const auto hash = text.rfind('#'), dash = text.find('-', hash);
+  if (hash == text.npos || dash == text.npos) return {text};
+  const std::string file = text.substr(0, hash);
+  const auto first = problemNumber(text.substr(hash + 1, dash - hash - 1)),
+             last = problemNumber(text.substr(dash + 1));
+  if (!first || !last) return {text};
+  if (*last < *first || *last - *first >= kMostOfARange)
+    throw InputError(Fault{file, 0,
+                           quotedWord(text.substr(hash)) + " is no range of 1 to " +
+                               std::to_string(kMostOfARange) + " problems, such as #1-10"});
   std::vector<std::string> problems;
-  for (std::size_t i = first; i <= last; ++i)
-    problems.push_back(range[1].str() + "#" + std::to_string(i));
+  for (std::size_t i = *first; i <= *last; ++i) problems.push_back(file + "#" + std::to_string(i));
   return problems;
 }
 
