@@ -35,6 +35,7 @@ const std::atomic<bool>& listenForInterrupts(SecondInterrupt second) {
   secondEnds = second == SecondInterrupt::ends;
   struct sigaction action {};
   action.sa_handler = onInterrupt;
+  action.sa_flags = SA_RESTART;  // who reads a pipe meanwhile, such as a plot's, isn't disturbed
   sigaction(SIGINT, &action, nullptr);
   return interruptAsked;
 }

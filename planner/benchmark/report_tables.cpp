@@ -111,7 +111,7 @@ std::string processorOf(const std::string& cpu) {
   const auto at = cpu.find(key);
   if (at == std::string::npos) return cpu.substr(0, cpu.find('\n'));
   const auto begin = cpu.find_first_not_of(" \t", at + key.size());
-  return cpu.substr(begin, cpu.find('\n', begin) - begin);
+  return begin == std::string::npos ? "" : cpu.substr(begin, cpu.find('\n', begin) - begin);
 }
 std::string plannerText(const CampaignPlanner& planner) {
   std::string text = planner.name;

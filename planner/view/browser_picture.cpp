@@ -88,8 +88,13 @@ End run(const std::vector<std::string>& words, const std::filesystem::path& log,
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
   posix_spawnattr_t attributes;  // a group of its own: its own children end with it
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   posix_spawnattr_setpgroup(&attributes, 0);
+  // Where its files may not grow (ulimit -f) it ends: with the signal ignored it would hang.
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
   pid_t child = 0;
   const int failure =
       ::posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);

@@ -32,14 +32,18 @@ TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
                   "<limit lower='-0.5' upper='0.25' effort='1' "
                   "velocity='1'/>") +
             joint("still", "last", free + "<mimic joint='last' multiplier='0' offset='-0.125'/>") +
-            "</robot>");
+            joint("stiller", "still", free + "<mimic joint='wheel' multiplier='0' offset='2'/>") +
+            "<link name='wheel'/><joint name='wheel' type='continuous'><parent link='stiller'/>"
+            "<child link='wheel'/></joint></robot>");
   const Result told = run("inspect slides.urdf --json");
   ASSERT_EQ(told.status, 0) << told.err;
   const auto links = nlohmann::json::parse(told.out)["links"];
-  ASSERT_EQ(links.size(), 4u);
+  ASSERT_EQ(links.size(), 6u);
   EXPECT_EQ(links[1]["reach_m"], 1 + 1.5);
   EXPECT_EQ(links[2]["reach_m"], 1 + 1.5 + 1 + 0.5);
   EXPECT_EQ(links[3]["reach_m"], 1 + 1.5 + 1 + 0.5 + 1 + 0.125);
+  EXPECT_EQ(links[4]["reach_m"], 1 + 1.5 + 1 + 0.5 + 1 + 0.125 + 1 + 2);  // 0 times no limit
+  EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 
 TEST_F(InspectCommand, FindsTheRobotOfAFolder) {

@@ -211,6 +211,14 @@ TEST_F(Report, SaysHowItWasMeasured) {
     EXPECT_THAT(text, HasSubstr(said));
 }
 
+TEST_F(Report, ProcessorsWithoutANameAreNoFault) {
+  cells_[0].runs[0].ompl.host = "somewhere";
+  for (const char* cpu : {"", "\n", "Model name:", "Model name:  ", "Model name:\nmore"}) {
+    cells_[0].runs[0].ompl.cpu = cpu;
+    EXPECT_THAT(page(), HasSubstr("processor</td><td></td>")) << cpu;
+  }
+}
+
 TEST_F(Report, ThePageAndItsFiles) {
   const auto files = writeReport(campaign_, cells_, folder_);
   for (const auto& file : files) {
@@ -242,6 +250,9 @@ TEST_F(Report, HostileNames) {
   campaign_.problemNames[0] = evil;
   campaign_.variants[1].name = evil;
   for (CampaignCell& cell : cells_) cell.planner.label = evil;
+  campaign_.planners = {{evil, evil, {{{evil, evil}}}}};
+  cells_[0].runs[0].ompl.host = evil;
+  cells_[0].runs[0].ompl.cpu = "Model name:  " + evil;
   campaign_.notes = {evil};
   const std::string text = page();
   EXPECT_THAT(text, Not(HasSubstr("<script>alert")));
@@ -306,6 +317,23 @@ TEST_F(Report, WithoutPictures) {
   else
     ::unsetenv("TMPDIR");
   EXPECT_TRUE(std::filesystem::is_empty(temporary));
+}
+
+/// Pictures don't depend on what somebody likes gnuplot to begin with.
+TEST_F(Report, WithoutSettingsOfOnesOwn) {
+  if (!canPlot()) GTEST_SKIP() << "no gnuplot";
+  const Plot plot = timeAgainstError(campaign_, cells_, 0);
+  const std::string usual = svgOf(plot);
+  std::filesystem::create_directories(folder_);
+  std::ofstream(folder_ / ".gnuplot") << "set datafile separator ','\nset key off\n";
+  const char* const was = std::getenv("HOME");
+  const std::string before = was ? was : "";
+  ::setenv("HOME", folder_.c_str(), 1);
+  EXPECT_EQ(svgOf(plot), usual);
+  if (was)
+    ::setenv("HOME", before.c_str(), 1);
+  else
+    ::unsetenv("HOME");
 }
 
 TEST_F(Report, OfNothing) {
