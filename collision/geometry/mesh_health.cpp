@@ -78,11 +78,15 @@ void countEdges(const std::vector<Triangle>& distinctFair, MeshHealth& health) {
   });
 }
 
-/// The edges of triangles whose corners are three, by direction; sorted.
-struct DirectedEdges {
-  std::vector<std::uint64_t> forward, backward;
+/// The edges of triangles whose corners are three, by how many of these use them.
+struct EdgeUses {
+  std::size_t sound = 0;   ///< two, in opposite directions
+  std::size_t open = 0;    ///< one
+  std::size_t turned = 0;  ///< two, in the same direction
+  std::size_t many = 0;    ///< three or more
 
-  explicit DirectedEdges(const std::vector<Triangle>& triangles) {
+  explicit EdgeUses(const std::vector<Triangle>& triangles) {
+    std::vector<std::uint64_t> forward, backward;
     for (const Triangle& t : triangles) {
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       for (int i = 0; i < 3; ++i) {
@@ -92,39 +96,29 @@ struct DirectedEdges {
     }
     std::sort(forward.begin(), forward.end());
     std::sort(backward.begin(), backward.end());
-  }
-  bool areWatertight() const {
-    return !forward.empty() && forward == backward &&
-           std::adjacent_find(forward.begin(), forward.end()) == forward.end();
-  }
-  std::size_t countTurned() const {
-    return twiceInOne(forward, backward) + twiceInOne(backward, forward);
-  }
-
- private:
-  static std::size_t twiceInOne(const std::vector<std::uint64_t>& one,
-                                const std::vector<std::uint64_t>& other) {
-    std::size_t count = 0;
-    for (auto run = one.begin(); run != one.end();) {
-      const auto end = std::upper_bound(run, one.end(), *run);
-      count += end - run == 2 && !std::binary_search(other.begin(), other.end(), *run);
-      run = end;
+    auto f = forward.begin(), b = backward.begin();
+    while (f != forward.end() || b != backward.end()) {
+      const std::uint64_t edge = b == backward.end()  ? *f
+                                 : f == forward.end() ? *b
+                                                      : std::min(*f, *b);
+      std::size_t along = 0, against = 0;
+      for (; f != forward.end() && *f == edge; ++f) ++along;
+      for (; b != backward.end() && *b == edge; ++b) ++against;
+      ++(along + against == 1 ? open : along + against > 2 ? many : along == 1 ? sound : turned);
     }
-    return count;
   }
+  bool areWatertight() const { return sound > 0 && open + turned + many == 0; }
 };
 
-/// @pre it is not.
-std::string whyNotWatertight(const MeshHealth& health) {
+/// @pre they are not watertight.
+std::string whyNotWatertight(const EdgeUses& edges, bool repeated) {
   const auto ofEdges = [](std::size_t count) { return std::to_string(count) + " of its edges"; };
-  if (health.boundaryEdges > 0)
-    return ofEdges(health.boundaryEdges) + " have a triangle on one side only";
-  if (health.nonManifoldEdges > 0)
-    return ofEdges(health.nonManifoldEdges) + " have three triangles or more";
-  if (health.turnedEdges > 0)
-    return "its triangles do not face the same way at " + ofEdges(health.turnedEdges);
-  if (health.distinctTriangles < health.triangles) return "some of its triangles are repeated";
-  return "its degenerate triangles have open edges, or are all that there is";
+  if (edges.open > 0) return ofEdges(edges.open) + " have a triangle on one side only";
+  if (edges.turned > 0) return "its triangles do not face the same way at " + ofEdges(edges.turned);
+  if (edges.many > 0)
+    return ofEdges(edges.many) + " have three triangles or more" +
+           (repeated ? ", repeated ones included" : "");
+  return "none of its triangles has three different corners";
 }
 
 std::size_t countComponents(const std::vector<Triangle>& triangles, std::size_t points) {
@@ -197,10 +191,11 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.distinctTriangles = all.size();
   countEdges(fair, health);
   health.components = countComponents(triangles, points.size());
-  const DirectedEdges edges(triangles);
+  const EdgeUses edges(triangles);
   health.watertight = edges.areWatertight();
-  health.turnedEdges = health.watertight ? 0 : edges.countTurned();
-  if (!health.watertight) health.whyNotWatertight = whyNotWatertight(health);
+  health.turnedEdges = edges.turned;
+  if (!health.watertight)
+    health.whyNotWatertight = whyNotWatertight(edges, health.distinctTriangles < health.triangles);
   if (health.watertight)
     if (const double volume = volumeOf(triangles, points, bounds); std::isfinite(volume))
       health.volume = volume;

@@ -77,17 +77,40 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(health.nonManifoldEdges, 0u);
   EXPECT_EQ(health.turnedEdges, 0u);
   EXPECT_FALSE(health.watertight);
-  EXPECT_EQ(health.whyNotWatertight, "some of its triangles are repeated");
+  EXPECT_EQ(health.whyNotWatertight,
+            "6 of its edges have three triangles or more, repeated ones included");
 
   TriangleMesh finned = tetrahedron();  // closed but for a triangle that is a line
   finned.vertices.push_back({2, 0, 0});
   finned.triangles.push_back({0, 1, 4});
   EXPECT_EQ(inspectMesh(finned).whyNotWatertight,
-            "its degenerate triangles have open edges, or are all that there is");
+            "2 of its edges have a triangle on one side only");
   TriangleMesh fan = tetrahedron();  // a third triangle at an edge
   fan.vertices.push_back({1, 1, 1});
   fan.triangles.push_back({0, 1, 4});
   EXPECT_EQ(inspectMesh(fan).whyNotWatertight, "2 of its edges have a triangle on one side only");
+  // Three closed surfaces at one edge are six triangles at it.
+  TriangleMesh book;
+  for (const double x : {1.0, 2.0, 3.0}) {
+    TriangleMesh page = tetrahedron();
+    for (const std::size_t v : {2, 3}) page.vertices[v] = Vec3(0, static_cast<double>(v), 10 * x);
+    const auto first = static_cast<std::uint32_t>(book.vertices.size());
+    for (const Vec3& p : page.vertices) book.vertices.push_back(p);
+    for (const auto& t : page.triangles)
+      book.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  EXPECT_EQ(inspectMesh(book).whyNotWatertight, "1 of its edges have three triangles or more");
+  // A triangle that is a line closes what is open there: that isn't the reason.
+  TriangleMesh filled = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
+                         {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 1}}};
+  EXPECT_TRUE(inspectMesh(filled).watertight);
+  EXPECT_EQ(inspectMesh(filled).boundaryEdges, 3u);
+  std::swap(filled.triangles[3][0], filled.triangles[3][1]);
+  EXPECT_EQ(inspectMesh(filled).whyNotWatertight,
+            "its triangles do not face the same way at 3 of its edges");
+  const TriangleMesh point = {{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}};
+  EXPECT_EQ(inspectMesh(point).whyNotWatertight,
+            "none of its triangles has three different corners");
   EXPECT_EQ(inspectMesh(TriangleMesh{}).whyNotWatertight, "there are no triangles");
 }
 
