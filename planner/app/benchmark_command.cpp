@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -28,6 +29,9 @@ namespace corridor::app {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// What isn't UTF-8 of the verifier's words, as of names in files, is shown as such.
+constexpr auto kReplace = ordered_json::error_handler_t::replace;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& why) {
   throw InputError(Fault{option, 0, why});
@@ -164,6 +168,14 @@ void showProgress(const Campaign& campaign, const CampaignProgress& p) {
                std::to_string(p.seed).c_str());
 }
 
+std::set<std::string> hostsOf(const std::vector<CampaignCell>& cells) {
+  std::set<std::string> hosts;
+  for (const CampaignCell& cell : cells)
+    for (const BenchmarkRun& run : cell.runs)
+      if (!run.ompl.host.empty()) hosts.insert(run.ompl.host);
+  return hosts;
+}
+
 bool anyRun(const std::vector<CampaignCell>& cells) {
   return std::any_of(cells.begin(), cells.end(),
                      [](const CampaignCell& cell) { return !cell.runs.empty(); });
@@ -203,20 +215,29 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
   const bool any = anyRun(result.cells);
+  // Neither the files nor the table are lost where the other can't be written: a folder that is
+  // gone, a pipe that is closed.
+  std::exception_ptr unwritten;
   std::vector<CampaignSession> sessions;
-  if (database) sessions = database->sessions();
+  try {
+    if (database) sessions = database->sessions();
+  } catch (const InputError&) {
+    unwritten = std::current_exception();
+  }
   if (const std::vector<std::string> builds = commitsOf(sessions); builds.size() > 1) {
     campaign.notes.push_back("the runs are of several builds, which may differ in time: commits " +
                              joined(builds));
+    warn(campaign.notes.back());
+  }
+  if (const std::set<std::string> hosts = hostsOf(result.cells); hosts.size() > 1) {
+    campaign.notes.push_back("the runs are of several machines, which differ in time: " +
+                             joined(std::vector<std::string>(hosts.begin(), hosts.end())));
     warn(campaign.notes.back());
   }
   if (result.interrupted)
     warn(!any       ? "interrupted before the first run was done; nothing is written"
          : a.output ? "interrupted: what follows is of the runs that were done; --resume goes on"
                     : "interrupted: what follows is of the runs that were done");
-  // Neither the files nor the table are lost where the other can't be written: a folder that is
-  // gone, a pipe that is closed.
-  std::exception_ptr unwritten;
   try {
     if (a.output && any) {
       writeReports(campaign, result, *a.output);
@@ -232,7 +253,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     if (made) std::filesystem::remove(*a.output, ignored);
   }
   if (a.json)
-    std::cout << jsonOf(campaign, result).dump(2) << '\n';
+    std::cout << jsonOf(campaign, result).dump(2, ' ', false, kReplace) << '\n';
   else if (any)
     std::cout << tableOf(summaryRows(campaign, result.cells));
   if (unwritten) std::rethrow_exception(unwritten);

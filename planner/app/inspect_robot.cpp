@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 std::string jointText(const RobotModel& model, const JointModel& joint) {
   std::string text = "\"" + joint.name + "\": " + nameOf(joint.type) + ", " +
                      model.links[joint.parent].name + " to " + model.links[joint.child].name;
-  if (std::isfinite(joint.lower) || std::isfinite(joint.upper))
+  if (!joint.mimic && (std::isfinite(joint.lower) || std::isfinite(joint.upper)))
     text += ", " + rounded(joint.lower) + " to " + rounded(joint.upper) +
             (joint.type == JointType::prismatic ? " m" : " rad");
   if (joint.mimic)

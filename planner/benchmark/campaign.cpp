@@ -40,6 +40,16 @@ class Names {
   std::set<std::string> seen_;
 };
 
+/// A folder's name may have any bytes: UTF-8 in one line, which tables, plots and JSON can show.
+std::string printable(const std::string& name) {
+  const auto replace = nlohmann::json::error_handler_t::replace;
+  std::string text =
+      nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, replace)).get<std::string>();
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text;
+}
+
 /// What is wrong with the cells, each fault once, in order. OMPL has one stream of random numbers a
 /// process: setting up here would leave a mark on it.
 std::vector<Fault> faultsInChild(const Campaign& campaign) {
@@ -80,9 +90,10 @@ void nameProblems(Campaign& campaign) {
   std::vector<std::string>& names = campaign.problemNames;
   names.clear();
   for (const Problem& problem : campaign.problems) {
-    std::string name = problem.name;
+    const std::string plain = printable(problem.name);
+    std::string name = plain;
     for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
-      name = problem.name + "-" + std::to_string(i);
+      name = plain + "-" + std::to_string(i);
     names.push_back(name);
   }
 }

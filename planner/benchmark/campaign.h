@@ -38,7 +38,7 @@ struct Campaign {
   std::vector<std::string> notes;  ///< what was left out, and why
 };
 
-/// The problems' names, those of one name told apart: "plate", "plate-2".
+/// The problems' names, printable, those of one name told apart: "plate", "plate-2".
 void nameProblems(Campaign& campaign);
 
 /// A problem with a variant and a planner.

@@ -202,7 +202,7 @@ class CampaignDatabase::Tables {
       refuse("is a database, but none of a campaign");
     if (const int version = base_->execAndGet("PRAGMA user_version").getInt(); version != kVersion)
       refuse("is of version " + std::to_string(version) + " of campaigns' databases; this is " +
-             std::to_string(kVersion));
+             std::to_string(kVersion) + ": name another folder");
     if (const std::string check = base_->execAndGet("PRAGMA quick_check(1)").getString();
         check != "ok")
       refuse("is damaged: " + check);

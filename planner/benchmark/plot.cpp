@@ -64,12 +64,24 @@ class Script {
 
  private:
   void axis(char name, bool log, const std::optional<std::pair<double, double>>& range) {
+    if (log && range && range->second < 300 * range->first) labelHalfDecades(name, *range);
     if (log)
       out_ << "set logscale " << name << "\nset format " << name << " \"%g\"\nset m" << name
            << "tics 10\n";
     if (range)
       out_ << "set " << name << "range [" << number(range->first) << ":" << number(range->second)
            << "]\n";
+  }
+  /// 1, 2 and 5 of each decade: of a narrow range more than one number is to be read.
+  void labelHalfDecades(char name, const std::pair<double, double>& range) {
+    std::string tics;
+    const int last = static_cast<int>(std::ceil(std::log10(range.second)));
+    for (int decade = static_cast<int>(std::floor(std::log10(range.first))); decade <= last;
+         ++decade)
+      for (const int digit : {1, 2, 5})
+        if (const double at = digit * std::pow(10, decade); range.first <= at && at <= range.second)
+          tics += ", " + number(at);
+    if (!tics.empty()) out_ << "set " << name << "tics (" << tics.substr(2) << ")\n";
   }
   bool shown(const PlotPoint& p) const {
     return std::isfinite(p.x) && std::isfinite(p.y) && (!plot_.logX || p.x > 0) &&
@@ -117,7 +129,7 @@ class Script {
   }
   /// Round, square, triangle up and down, diamond, pentagon; then the same, hollow.
   static std::string pointOf(std::size_t shape, double size) {
-    static constexpr std::array kTypes{7, 5, 9, 11, 13, 15, 6, 4, 8, 10, 12, 14};
+    static constexpr std::array<int, kPlotShapes> kTypes{7, 5, 9, 11, 13, 15, 6, 4, 8, 10, 12, 14};
     std::ostringstream text;
     text << " pt " << kTypes[shape % kTypes.size()] << " ps " << size;
     return text.str();
@@ -137,7 +149,10 @@ std::string runGnuplot(const std::string& script) {
   const int made = ::mkstemp(file.data());
   if (made < 0) throw std::runtime_error("no file for a plot can be made: " + file);
   ::close(made);
-  std::ofstream(file) << script;
+  if (!(std::ofstream(file) << script << std::flush)) {
+    std::filesystem::remove(file);
+    throw std::runtime_error("a plot's file can't be written: " + file);
+  }
   std::string out;
   int status = -1;
   std::string word = file;  // of a shell's: TMPDIR is the user's

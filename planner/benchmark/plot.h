@@ -38,6 +38,8 @@ struct Plot {
 /// those who see no red and green (Okabe, Ito 2008); after `kPlotColors` they begin anew.
 std::string plotColor(std::size_t number);
 constexpr std::size_t kPlotColors = 18;
+/// After so many shapes of points these begin anew.
+constexpr std::size_t kPlotShapes = 12;
 
 /// Is gnuplot there (Debian's gnuplot-nox)?
 bool canPlot();

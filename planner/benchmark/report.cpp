@@ -31,7 +31,13 @@ int heightOf(const Plot& plot) {
   const auto names = plot.shapes.size() + static_cast<std::size_t>(std::count_if(
                                               plot.series.begin(), plot.series.end(),
                                               [](const PlotSeries& s) { return !s.name.empty(); }));
-  return 340 + 15 * static_cast<int>((names + 1) / 2);
+  // Names that are longer stand below each other, not in two columns.
+  constexpr std::size_t kLong = 25;
+  const bool twoColumns = std::all_of(plot.series.begin(), plot.series.end(),
+                                      [](const PlotSeries& s) { return s.name.size() <= kLong; }) &&
+                          std::all_of(plot.shapes.begin(), plot.shapes.end(),
+                                      [](const std::string& name) { return name.size() <= kLong; });
+  return 340 + 15 * static_cast<int>(twoColumns ? (names + 1) / 2 : names);
 }
 
 class Report {
@@ -116,6 +122,9 @@ class Report {
     if (campaign_.variants.size() > kPlotColors)
       notes.push_back("There are more variants than colours: the " +
                       std::to_string(kPlotColors + 1) + "th has the first one’s again.");
+    if (campaign_.planners.size() > kPlotShapes)
+      notes.push_back("There are more planners than shapes of points: the " +
+                      std::to_string(kPlotShapes + 1) + "th has the first one’s again.");
     if (!campaign_.verify) notes.push_back("Paths were not judged (verify: false).");
     if (notes.empty()) return "";
     std::string list = "<ul class=\"notes\">";

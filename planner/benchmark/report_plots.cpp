@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <map>
 
 namespace corridor {
 namespace {
 
 /// Of shares, so that points at 0 and at 1 are seen whole.
 constexpr std::pair kShares{-0.03, 1.03};
+/// Seconds: no time is told finer.
+constexpr double kClockTick = 1e-9;
 
 std::string digits(double value) {
   char text[32];
@@ -150,36 +151,38 @@ Plot errorOfAll(const Campaign& campaign, const std::vector<VariantScore>& score
 }
 
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  // Of each problem, planner and seed the time of each variant that returned a path which holds.
+  // What every variant has run: else who ran alone would be the quickest.
   const std::size_t variants = campaign.variants.size();
-  std::vector<std::size_t> runs(variants, 0);
+  std::size_t runs = 0;
   std::vector<std::vector<double>> ratios(variants);
   std::vector<double> all;
-  for (std::size_t first = 0; first < cells.size(); first += variants) {
-    std::map<std::uint64_t, std::map<std::size_t, double>> bySeed;
-    for (std::size_t v = 0; v < variants; ++v) {
-      runs[v] += cells[first + v].runs.size();
-      for (const BenchmarkRun& run : cells[first + v].runs)
-        if (run.solved && run.verdict != "refuted" && run.processorTime > 0)
-          bySeed[run.seed][v] = run.processorTime;
-    }
-    for (const auto& [seed, times] : bySeed) {
+  for (std::size_t first = 0; first < cells.size(); first += variants)
+    for (const BenchmarkRun& any : cells[first].runs) {
+      std::vector<const BenchmarkRun*> same;
+      for (std::size_t v = 0; v < variants; ++v)
+        for (const BenchmarkRun& run : cells[first + v].runs)
+          if (run.seed == any.seed) same.push_back(&run);
+      if (same.size() < variants) continue;
+      ++runs;
+      const auto holds = [](const BenchmarkRun& r) { return r.solved && r.verdict != "refuted"; };
+      const auto time = [](const BenchmarkRun& r) { return std::max(r.processorTime, kClockTick); };
       double best = HUGE_VAL;
-      for (const auto& [v, time] : times) best = std::min(best, time);
-      for (const auto& [v, time] : times) {
-        ratios[v].push_back(time / best);
-        all.push_back(time / best);
-      }
+      for (const BenchmarkRun* run : same)
+        if (holds(*run)) best = std::min(best, time(*run));
+      for (std::size_t v = 0; v < variants; ++v)
+        if (holds(*same[v])) {
+          ratios[v].push_back(time(*same[v]) / best);
+          all.push_back(ratios[v].back());
+        }
     }
-  }
-  Plot plot{"profile", "All problems", "processor time, multiples of the quickest one",
-            "share of runs", true};
+  Plot plot{"profile",
+            "All problems, the " + std::to_string(runs) + " runs that every variant has made",
+            "processor time, multiples of the quickest one", "share of runs", true};
   plot.rangeX = {1, std::max(10.0, decades(all).second)};
   plot.rangeY = {0, 1.02};
-  for (std::size_t v = 0; v < variants; ++v)
-    if (runs[v] > 0)
-      plot.series.push_back({campaign.variants[v].name, v, PlotSeries::Style::line,
-                             steps(ratios[v], runs[v], 1, plot.rangeX->second)});
+  for (std::size_t v = 0; v < variants && runs > 0; ++v)
+    plot.series.push_back({campaign.variants[v].name, v, PlotSeries::Style::line,
+                           steps(ratios[v], runs, 1, plot.rangeX->second)});
   return plot;
 }
 

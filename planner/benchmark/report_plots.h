@@ -19,8 +19,9 @@ Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>&
 /// The same of all problems, a point a variant: time as a multiple of the first variant's, as the
 /// ranking has it.
 Plot errorOfAll(const Campaign& campaign, const std::vector<VariantScore>& scores);
-/// Performance profile (Dolan, Moré 2002) of all problems, planners and seeds: the share of runs
-/// that returned a path which holds within x times what the quickest variant took for one.
+/// Performance profile (Dolan, Moré 2002) of the problems, planners and seeds that every variant
+/// has run: the share of these of which it returned a path that is not refuted, within x times what
+/// the quickest variant took for one.
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 /// Of a problem, the share of returned paths whose least distance is at most x; those in collision
 /// have 0, and where the lines begin.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <set>
 
 #include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/ompl_log.h"
@@ -173,10 +174,6 @@ std::string cellTable(const Campaign& campaign, const std::vector<CampaignCell>&
 
 std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                           const std::vector<CampaignSession>& sessions) {
-  const BenchmarkRun* any = nullptr;
-  for (const CampaignCell& cell : cells)
-    for (const BenchmarkRun& run : cell.runs)
-      if (!any && !run.ompl.host.empty()) any = &run;
   char date[64];
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -184,10 +181,12 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
   std::strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &utc);
   Table table({"", ""});
   table.row({"written", date});
-  if (any) {
-    table.row({"machine", escapedHtml(any->ompl.host)});
-    table.row({"processor", escapedHtml(processorOf(any->ompl.cpu))});
-  }
+  std::set<std::pair<std::string, std::string>> machines;
+  for (const CampaignCell& cell : cells)
+    for (const BenchmarkRun& run : cell.runs)
+      if (!run.ompl.host.empty()) machines.insert({run.ompl.host, processorOf(run.ompl.cpu)});
+  for (const auto& [host, processor] : machines)
+    table.row({"machine", escapedHtml(host + (processor.empty() ? "" : ", " + processor))});
   table.row({"programs", "Corridor, commit " + escapedHtml(buildCommit()) + "; OMPL " +
                              versionOfOmpl() + peerVersions(campaign)});
   for (const CampaignSession& session : sessions)

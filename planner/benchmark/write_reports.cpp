@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <set>
 #include <unistd.h>
 
@@ -18,13 +20,14 @@ namespace fs = std::filesystem;
 
 /// Whether files can be made in a folder: by making one, since permissions don't tell of a file
 /// system that can't be written to.
-bool takesFiles(const fs::path& folder) {
+/// @returns why not; "" if so.
+std::string whyNoFiles(const fs::path& folder) {
   std::string probe = (folder / ".corridor-benchmark-XXXXXX").string();
   const int file = ::mkstemp(probe.data());  // none that is there
-  if (file < 0) return false;
+  if (file < 0) return std::string("can't be written to: ") + std::strerror(errno);
   ::close(file);
   ::unlink(probe.c_str());
-  return true;
+  return "";
 }
 
 /// The logs' files, whether there are runs for them or not: by problem, then variant.
@@ -45,7 +48,7 @@ std::vector<fs::path> logFiles(const Campaign& campaign, const fs::path& folder)
 std::vector<Fault> inTheWay(const Campaign& campaign, const fs::path& folder) {
   std::vector<Fault> faults;
   std::error_code none;
-  if (!takesFiles(folder)) return {{folder.string(), 0, "can't be written to"}};
+  if (const std::string why = whyNoFiles(folder); !why.empty()) return {{folder.string(), 0, why}};
   std::vector<fs::path> files = logFiles(campaign, folder);
   for (const char* name : {"runs.csv", "summary.csv", "report.html"})
     files.push_back(folder / name);
@@ -54,7 +57,13 @@ std::vector<Fault> inTheWay(const Campaign& campaign, const fs::path& folder) {
       faults.push_back({file.string(), 0, "is a folder, where a file is to be written"});
   const fs::path plots = folder / "plots";
   if (fs::is_directory(plots, none)) {
-    if (!takesFiles(plots)) faults.push_back({plots.string(), 0, "can't be written to"});
+    if (const std::string why = whyNoFiles(plots); !why.empty())
+      faults.push_back({plots.string(), 0, why});
+    // Of whatever name: those of the plots are the report's.
+    for (const auto& entry : fs::directory_iterator(plots, none))
+      if (const auto kind = entry.path().extension();
+          (kind == ".csv" || kind == ".svg") && entry.is_directory(none))
+        faults.push_back({entry.path().string(), 0, "is a folder, where a file may be written"});
   } else if (fs::exists(fs::symlink_status(plots, none))) {
     faults.push_back({plots.string(), 0, "is a file; a folder is needed"});
   }
@@ -67,7 +76,9 @@ std::string fileName(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
       [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; }, '-');
-  return text;
+  // File systems take 255 bytes, of which callers want some.
+  constexpr std::size_t kLongest = 120;
+  return text.substr(0, kLongest);
 }
 
 bool makeReportFolder(const fs::path& folder, const Campaign& campaign) {

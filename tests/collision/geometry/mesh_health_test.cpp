@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +46,7 @@ TEST(InspectMesh, CornersCountByPositionNotByIndex) {
   }
   soup.vertices[0] = {-0.0, 0, 0};
   EXPECT_TRUE(inspectMesh(soup).watertight);
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(inspectMesh(soup).min[i]));
   for (Vec3& vertex : soup.vertices) vertex = -vertex;  // its bounds end at -0
   const MeshHealth health = inspectMesh(soup);
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(health.max[i]));
@@ -112,6 +115,42 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(inspectMesh(point).whyNotWatertight,
             "none of its triangles has three different corners");
   EXPECT_EQ(inspectMesh(TriangleMesh{}).whyNotWatertight, "there are no triangles");
+}
+
+/// Random triangles on few points, against the header's words, edge by edge.
+TEST(InspectMesh, EdgesByTheirDefinition) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::size_t closed = 0, turned = 0;
+  for (int i = 0; i < 20000; ++i) {
+    TriangleMesh mesh = tetrahedron();
+    mesh.vertices.push_back({1, 1, 1});
+    std::uniform_int_distribution<std::uint32_t> vertex(0, 4), count(0, 3), any(0, 1);
+    for (auto& t : mesh.triangles)
+      if (any(random) && any(random)) std::swap(t[0], t[1]);
+    for (std::uint32_t k = count(random); k > 0; --k)
+      mesh.triangles.push_back({vertex(random), vertex(random), vertex(random)});
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> uses;
+    for (const auto& t : mesh.triangles)
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+        for (int k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
+    bool watertight = true;
+    std::size_t same = 0;
+    for (const auto& [edge, n] : uses) {
+      const auto back = uses.find({edge.second, edge.first});
+      watertight = watertight && n == 1 && back != uses.end() && back->second == 1;
+      same += n == 2 && back == uses.end();
+    }
+    const MeshHealth health = inspectMesh(mesh);
+    ASSERT_EQ(health.watertight, watertight) << i;
+    ASSERT_EQ(health.turnedEdges, same) << i;
+    ASSERT_EQ(health.whyNotWatertight.empty(), watertight) << i;
+    closed += watertight;
+    turned += same > 0;
+  }
+  EXPECT_GT(closed, 100u);
+  EXPECT_GT(turned, 100u);
 }
 
 TEST(InspectMesh, DefectsAreCounted) {

@@ -127,6 +127,34 @@ TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
   EXPECT_EQ(runs(), 2 * 3 * 12);
 }
 
+TEST_F(CampaignCommand, ItsReportTellsTheSessions) {
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);
+  ASSERT_EQ(run("benchmark campaign.yaml --runs 2 --jobs 2 --resume -o results").status, 0);
+  const std::string page = read("results/report.html");
+  EXPECT_THAT(page, HasSubstr("6 runs, 1 at a time"));
+  EXPECT_THAT(page, HasSubstr("6 runs, 2 at a time"));
+}
+
+/// Names may be as long as anybody likes, and a folder's of any bytes.
+TEST_F(CampaignCommand, AnyNames) {
+  const std::string name = "a\xff b\x1b[31m " + std::string(200, 'n');
+  std::filesystem::create_directory(folder_ / name);
+  std::filesystem::copy_file(folder_ / "robot.yaml", folder_ / name / "robot.yaml");
+  std::filesystem::copy_file(folder_ / "hall.yaml", folder_ / name / "problem.yaml");
+  write("names.yaml", "format: corridor-campaign-1\nproblems: [hall.yaml]\ncheckers:\n  " +
+                          std::string(300, 'v') + ": {edges: certified}\n  " +
+                          std::string(300, 'v') + "2: {edges: certified}\nruns: 1\n");
+  const Result variants = run("benchmark names.yaml -o variants");
+  EXPECT_EQ(variants.status, 0) << variants.err;
+  EXPECT_EQ(lines(read("variants/runs.csv")).size(), 3u);
+  const Result problem =
+      run("benchmark '" + name + "' --variants certified --runs 1 --json -o problem");
+  EXPECT_EQ(problem.status, 0) << problem.err;
+  const auto json = nlohmann::json::parse(problem.out);
+  EXPECT_EQ(json["results"][0]["problem"], "a\uFFFD b [31m " + std::string(200, 'n'));
+  EXPECT_EQ(read("problem/runs.csv").find('\x1b'), std::string::npos);
+}
+
 TEST_F(CampaignCommand, OptionsSayMoreThanTheFile) {
   const Result result =
       run("benchmark campaign.yaml --runs 2 --seed 5 --time 30 --memory 2000 --jobs 2 --json");

@@ -262,7 +262,7 @@ TEST_F(Database, ForeignAndDamagedFiles) {
   runInto(campaign);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
   EXPECT_EQ(complaint(Mode::resume, campaign),
-            "is of version 99 of campaigns' databases; this is 2");
+            "is of version 99 of campaigns' databases; this is 2: name another folder");
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
   EXPECT_THAT(complaint(Mode::resume, campaign),
               testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is of version 99")));

@@ -13,6 +13,7 @@
 
 #include "planner/benchmark/comparison.h"
 #include "planner/benchmark/report_plots.h"
+#include "planner/benchmark/report_tables.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
 
@@ -157,6 +158,15 @@ TEST_F(Report, PlotsOfAllProblems) {
   EXPECT_DOUBLE_EQ(error.series[1].points[0].y, 0.5);
   EXPECT_DOUBLE_EQ(error.series[2].points[0].x, 10);
   EXPECT_DOUBLE_EQ(error.series[2].points[0].y, 0.1);
+  for (const VariantScore& score : scoresOf(campaign_, cells_)) {
+    const PlotPoint& p = error.series[score.variant].points[0];
+    EXPECT_EQ(p.fromX, score.timeRatioInterval.from);
+    EXPECT_EQ(p.toX, score.timeRatioInterval.to);
+    EXPECT_EQ(p.fromY, score.refutedShare.from);
+    EXPECT_EQ(p.toY, score.refutedShare.to);
+    EXPECT_LT(error.rangeX->first, p.x);
+    EXPECT_GT(error.rangeX->second, p.x);
+  }
   // Of ten seeds the second variant has five paths that hold, and is the quickest with them; the
   // first is twice as slow then, and the quickest for the others, the third 20 or 10 times, and one
   // of its paths doesn't hold.
@@ -177,6 +187,72 @@ TEST_F(Report, PlotsOfAllProblems) {
   EXPECT_DOUBLE_EQ(at(2, 9), 0);
   EXPECT_DOUBLE_EQ(at(2, 11), 0.4);
   EXPECT_DOUBLE_EQ(at(2, 21), 0.9);
+  EXPECT_THAT(profile.title, HasSubstr("the 20 runs that every variant has made"));
+}
+
+/// Who ran alone is not the quickest of all.
+TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
+  const auto shareAtOnce = [&](std::size_t variant) {
+    const Plot profile = profileOfAll(campaign_, cells_);
+    double share = 0;
+    for (const PlotPoint& p : profile.series.at(variant).points)
+      if (p.x <= 1) share = p.y;
+    return share;
+  };
+  cells_[1].runs.resize(2);  // of the first problem discrete:0.1 has two, both quicker and proved
+  cells_[4].runs.clear();    // and of the second none
+  EXPECT_DOUBLE_EQ(shareAtOnce(0), 0);
+  EXPECT_DOUBLE_EQ(shareAtOnce(1), 1);
+  // What nobody could decide counts, a run that failed doesn't; both were made.
+  cells_[1].runs[0].verdict = "undecided";
+  EXPECT_DOUBLE_EQ(shareAtOnce(1), 1);
+  cells_[1].runs[0].solved = false;
+  EXPECT_DOUBLE_EQ(shareAtOnce(0), 0.5);
+  EXPECT_DOUBLE_EQ(shareAtOnce(1), 0.5);
+  cells_[1].runs.clear();
+  EXPECT_TRUE(profileOfAll(campaign_, cells_).series.empty());
+  EXPECT_THAT(page(), HasSubstr("All problems"));
+}
+
+/// Every point of a plot is drawn once, whatever its shape, and has its words.
+TEST_F(Report, PointsAreDrawnOnce) {
+  if (!canPlot()) GTEST_SKIP() << "no gnuplot";
+  std::vector<CampaignCell> two = cells_;
+  for (CampaignCell& cell : cells_) {
+    two.push_back(cell);
+    two.back().planner.label = "another";
+  }
+  const std::string svg = svgOf(timeAgainstError(campaign_, two, 0));
+  const auto count = [&](const std::string& word) {
+    std::size_t times = 0;
+    for (auto at = svg.find(word); at != svg.npos; at = svg.find(word, at + 1)) ++times;
+    return times;
+  };
+  EXPECT_EQ(count("onmousemove"), 6u);
+  EXPECT_EQ(count("paths refuted"), 6u + count(">share of paths refuted<"));
+}
+
+TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
+  if (!canPlot()) GTEST_SKIP() << "no gnuplot";
+  const auto height = [&] {
+    page();
+    std::ifstream in(folder_ / "plots" / "solved.hall.svg");
+    const std::string svg{std::istreambuf_iterator<char>(in), {}};
+    return std::atof(svg.substr(svg.find("viewBox=\"0 0 560 ") + 17, 4).c_str());
+  };
+  const double few = height();
+  EXPECT_GT(few, 300);
+  for (Variant& variant : campaign_.variants) variant.name += " of a name that is very long";
+  EXPECT_GT(height(), few);
+}
+
+TEST_F(Report, TablesHaveEachUnderItsHead) {
+  for (CampaignCell& cell : cells_)
+    for (BenchmarkRun& run : cell.runs) run.states = 1234, run.edges = 77;
+  const std::string table = cellTable(campaign_, cells_, 0);
+  EXPECT_THAT(table, HasSubstr("<td>10 of 10</td><td><span class=\"bad\">5 of 10</span></td>"
+                               "<td>1,234</td><td>77</td><td>5,500</td><td>305</td>"
+                               "<td>4</td><td>3</td>"));
 }
 
 TEST_F(Report, TimesEndWhereTheLimitIs) {
@@ -215,7 +291,7 @@ TEST_F(Report, ProcessorsWithoutANameAreNoFault) {
   cells_[0].runs[0].ompl.host = "somewhere";
   for (const char* cpu : {"", "\n", "Model name:", "Model name:  ", "Model name:\nmore"}) {
     cells_[0].runs[0].ompl.cpu = cpu;
-    EXPECT_THAT(page(), HasSubstr("processor</td><td></td>")) << cpu;
+    EXPECT_THAT(page(), HasSubstr("machine</td><td>somewhere</td>")) << cpu;
   }
 }
 

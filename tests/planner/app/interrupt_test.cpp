@@ -1,0 +1,73 @@
+// What interrupts do to a program that listens for them.
+#include "planner/app/interrupt.h"
+
+#include <chrono>
+#include <csignal>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+namespace corridor::app {
+namespace {
+
+constexpr int kWentOn = 7, kNotTold = 8;
+
+/// How a process ends that is interrupted, and once more after so long.
+int statusAfterTwo(SecondInterrupt second, int milliseconds) {
+  const pid_t id = ::fork();
+  if (id == 0) {
+    const std::atomic<bool>& interrupted = listenForInterrupts(second);
+    std::raise(SIGINT);
+    if (!interrupted) ::_exit(kNotTold);
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    std::raise(SIGINT);
+    ::_exit(kWentOn);
+  }
+  int status = 0;
+  ::waitpid(id, &status, 0);
+  return status;
+}
+
+TEST(Interrupt, ASecondEndsOrIsIgnored) {
+  const int ended = statusAfterTwo(SecondInterrupt::ends, 600);
+  EXPECT_TRUE(WIFSIGNALED(ended));
+  EXPECT_EQ(WTERMSIG(ended), SIGINT);
+  const int ignored = statusAfterTwo(SecondInterrupt::isIgnored, 600);
+  EXPECT_TRUE(WIFEXITED(ignored));
+  EXPECT_EQ(WEXITSTATUS(ignored), kWentOn);
+}
+
+/// timeout(1) sends one to the program, and then to its group.
+TEST(Interrupt, OneThatComesTwiceIsOne) {
+  const int status = statusAfterTwo(SecondInterrupt::ends, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), kWentOn);
+}
+
+/// Who reads a pipe meanwhile isn't disturbed.
+TEST(Interrupt, ReadsGoOn) {
+  int pipe[2];
+  ASSERT_EQ(::pipe(pipe), 0);
+  const pid_t id = ::fork();
+  if (id == 0) {
+    listenForInterrupts(SecondInterrupt::ends);
+    std::thread([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      ::kill(::getpid(), SIGINT);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      [[maybe_unused]] const auto written = ::write(pipe[1], "x", 1);
+    }).detach();
+    char c = 0;
+    ::_exit(::read(pipe[0], &c, 1) == 1 && c == 'x' ? kWentOn : kNotTold);
+  }
+  int status = 0;
+  ::waitpid(id, &status, 0);
+  ::close(pipe[0]);
+  ::close(pipe[1]);
+  EXPECT_EQ(WEXITSTATUS(status), kWentOn);
+}
+
+}  // namespace
+}  // namespace corridor::app
