@@ -44,7 +44,10 @@ std::vector<std::string> wordsOf(const std::string& option, const std::vector<st
   for (const std::string& list : lists) {
     for (std::size_t from = 0, to = 0; to != list.npos; from = to + 1) {
       to = list.find(',', from);
-      words.push_back(list.substr(from, to == list.npos ? to : to - from));
+      const std::string word = list.substr(from, to == list.npos ? to : to - from);
+      const auto begin = word.find_first_not_of(' ');
+      words.push_back(
+          begin == word.npos ? "" : word.substr(begin, word.find_last_not_of(' ') + 1 - begin));
       if (words.back().empty()) refuse(option, "of " + quotedWord(list) + " an entry is empty");
     }
   }
@@ -168,6 +171,18 @@ void showProgress(const Campaign& campaign, const CampaignProgress& p) {
                std::to_string(p.seed).c_str());
 }
 
+/// Peers test for contact alone: their paths may be refuted for what they were never told.
+std::string marginNote(const Campaign& campaign) {
+  const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
+                                  [](const Problem& p) { return p.margin > 0; });
+  for (const Variant& variant : campaign.variants)
+    if (margin && variant.peer)
+      return variant.peer->name +
+             " knows no margin, and paths of it are refuted that keep none: least_distance_m in "
+             "runs.csv tells which of them collide";
+  return "";
+}
+
 std::set<std::string> hostsOf(const std::vector<CampaignCell>& cells) {
   std::set<std::string> hosts;
   for (const CampaignCell& cell : cells)
@@ -228,6 +243,10 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     campaign.notes.push_back("the runs are of several builds, which may differ in time: commits " +
                              joined(builds));
     warn(campaign.notes.back());
+  }
+  if (const std::string note = marginNote(campaign); !note.empty()) {
+    campaign.notes.push_back(note);
+    warn(note);
   }
   if (const std::set<std::string> hosts = hostsOf(result.cells); hosts.size() > 1) {
     campaign.notes.push_back("the runs are of several machines, which differ in time: " +

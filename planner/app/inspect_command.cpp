@@ -113,7 +113,9 @@ int inspectMeshFile(const InspectArguments& a) {
   out.line("triangles", grouped(health.triangles));
   out.line("bounds", rounded(health.min) + " to " + rounded(health.max) + " m");
   out.line("components", grouped(health.components));
-  out.line("watertight", health.watertight ? "yes" : "no: " + health.whyNotWatertight);
+  out.line("watertight", !health.watertight              ? "no: " + health.whyNotWatertight
+                         : health.volume.value_or(0) < 0 ? "yes, its triangles face inwards"
+                                                         : "yes");
   if (health.volume) out.line("volume", rounded(*health.volume) + " m³");
   out.line("repeated triangles", grouped(health.triangles - health.distinctTriangles));
   out.line("degenerate triangles", grouped(health.degenerateTriangles));

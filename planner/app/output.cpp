@@ -112,6 +112,14 @@ void requireFolderFor(const std::optional<std::string>& file, const char* option
     throw InputError(Fault{option, 0, "there is no folder " + folder.string()});
 }
 
+void requireNotRead(const std::optional<std::string>& file, const char* option,
+                    const std::vector<std::filesystem::path>& read, const std::string& what) {
+  std::error_code none;
+  for (const std::filesystem::path& other : read)
+    if (file && std::filesystem::equivalent(*file, other, none))
+      throw InputError(Fault{option, 0, *file + " is of " + what + " itself; name another file"});
+}
+
 nlohmann::ordered_json numbersJson(const Configuration& q) {
   return std::vector<double>(q.begin(), q.end());
 }

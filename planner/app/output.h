@@ -33,6 +33,11 @@ void warn(const std::string& text);
 /// @throws InputError that names the option.
 void requireFolderFor(const std::optional<std::string>& file, const char* option);
 
+/// And would that file take the place of one that is read? @param what these are: "the problem".
+/// @throws InputError that names the option.
+void requireNotRead(const std::optional<std::string>& file, const char* option,
+                    const std::vector<std::filesystem::path>& read, const std::string& what);
+
 /// For people: four significant digits.
 std::string rounded(double value);
 std::string rounded(const Vec3& v, int dimension = 3);  ///< "[1, 2, 3]"

@@ -146,6 +146,8 @@ struct Solved {
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
   Problem problem = readProblem(file);
+  requireNotRead(a.output, "--output", problem.files, "the problem");
+  requireNotRead(a.picture, "--picture", problem.files, "the problem");
   SolveOptions options;
   options.setElsewhere = applyArguments(a, problem);
   options.interrupted = &interrupted;

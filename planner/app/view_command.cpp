@@ -25,14 +25,16 @@ std::string pageName(const Problem& problem) {
 }
 
 /// "a.jpg" with a PNG in it helps nobody; a name without an extension promises nothing.
-void requirePng(const std::optional<std::string>& image) {
-  if (!image) return;
-  std::string extension = std::filesystem::path(*image).extension().string();
+void requireExtension(const std::optional<std::string>& file, const char* option,
+                      const std::string& kind, const std::vector<std::string>& extensions) {
+  if (!file) return;
+  std::string extension = std::filesystem::path(*file).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (!extension.empty() && extension != ".png")
-    throw InputError(
-        Fault{"--image", 0,
-              "pictures are PNG: a name that ends in .png is needed, not " + quotedWord(*image)});
+  if (!extension.empty() &&
+      std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    throw InputError(Fault{option, 0,
+                           kind + ": a name that ends in " + extensions.front() +
+                               " is needed, not " + quotedWord(*file)});
 }
 
 }  // namespace
@@ -40,13 +42,18 @@ void requirePng(const std::optional<std::string>& image) {
 int viewCommand(const ViewArguments& a) {
   requireFolderFor(a.output, "--output");
   requireFolderFor(a.image, "--image");
-  requirePng(a.image);
+  requireExtension(a.output, "--output", "pages are HTML", {".html", ".htm"});
+  requireExtension(a.image, "--image", "pictures are PNG", {".png"});
   if (a.size && !a.image) throw InputError(Fault{"--size", 0, "is of --image, and there is none"});
   const PictureSize size = a.size ? pictureSize(*a.size, "--size") : PictureSize();
   const std::optional<std::filesystem::path> browser =
       a.image ? std::optional(requireBrowser("--image")) : std::nullopt;
 
   const Problem problem = readProblem(a.problem);
+  for (const auto& [file, option] : {std::pair(a.output, "--output"), {a.image, "--image"}}) {
+    requireNotRead(file, option, problem.files, "the problem");
+    if (a.solution) requireNotRead(file, option, {*a.solution}, "the solution");
+  }
   std::optional<ViewedPath> path;
   if (a.solution) {
     path.emplace();

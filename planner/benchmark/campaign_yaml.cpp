@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 
 #include "collision/core/nearest.h"
@@ -68,6 +69,20 @@ bool isName(const std::string& text) {
                                        [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
+/// The keys of a checker that make a difference, where it says itself how edges are checked: a
+/// resolution is of samples, a tolerance of all else; a peer takes the place of trees.
+std::string effectOf(const YamlValue& checker) {
+  std::map<std::string, std::string> keys;
+  for (const YamlValue::Entry& entry : checker.entries) keys[entry.key] = entry.value.text;
+  if (const auto edges = keys.find("edges"); edges != keys.end())
+    keys.erase(edges->second == "discrete" ? "tolerance" : "resolution");
+  if (keys.count("peer"))
+    for (const char* key : {"volume", "overlap", "fit", "tolerance"}) keys.erase(key);
+  std::string text;
+  for (const auto& [key, value] : keys) text += key + ": " + value + "\n";
+  return text;
+}
+
 /// Without the keys that are not a problem's.
 YamlValue withoutPeer(YamlValue map) {
   std::erase_if(map.entries, [](const YamlValue::Entry& entry) { return entry.key == "peer"; });
@@ -130,7 +145,11 @@ class CampaignReader {
   void readPlanners(const YamlMap& file) {
     const YamlValue* value = file.find("planners");
     if (!value) return;
-    if (value->kind != YamlValue::Kind::List || value->items.empty()) {
+    if (value->kind == YamlValue::Kind::List && value->items.empty()) {
+      file.fault("planners", "at least one is needed; without this key each problem has its own");
+      return;
+    }
+    if (value->kind != YamlValue::Kind::List) {
       file.fault("planners",
                  "a list is needed, such as [RRTConnect, {name: RRT, label: short "
                  "RRT, params: {range: 0.2}}], not " +
@@ -203,7 +222,8 @@ class CampaignReader {
                                     std::to_string(kMostVariants) + " variants");
       return;
     }
-    std::set<std::string> told;  // what is wrong with several of its variants
+    std::set<std::string> told;               // what is wrong with several of its variants
+    std::map<std::string, std::string> same;  // what has an effect, and the variant that has it
     for (const Expanded& one : expanded(entry.value)) {
       FaultList faults;
       YamlSource source{path_.string(), faults, {}};
@@ -214,6 +234,12 @@ class CampaignReader {
       const auto peer = map.text("peer");
       const bool part = !peer || takesPart(*peer, variant, map, checker);
       if (faults.size() == 0) {
+        const auto [other, unlike] = same.insert({effectOf(one.map), one.suffix});
+        if (!unlike) {
+          source_.fault(entry.line, path + ": \"" + entry.key + other->second + "\" and \"" +
+                                        entry.key + one.suffix + "\" would be the same checker");
+          return;
+        }
         if (part) campaign_.variants.push_back(std::move(variant));
         continue;
       }

@@ -38,15 +38,24 @@ VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   return cost;
 }
 
-/// What `runs` solved, in the time of the first variant's run of the same seed.
-void addRatios(const CampaignCell& cell, const CampaignCell& first, std::vector<double>& ratios) {
+/// What `runs` solved, in the time of another variant's run of the same seed.
+void addRatios(const CampaignCell& cell, const CampaignCell& reference,
+               std::vector<double>& ratios) {
   for (const BenchmarkRun& run : cell.runs)
-    for (const BenchmarkRun& other : first.runs)
+    for (const BenchmarkRun& other : reference.runs)
       if (run.seed == other.seed && run.solved && other.solved && other.processorTime > 0)
         ratios.push_back(run.processorTime / other.processorTime);
 }
 
 }  // namespace
+
+std::size_t referenceVariant(const std::vector<CampaignCell>& cells) {
+  std::optional<std::size_t> first;
+  for (const CampaignCell& cell : cells)
+    if (std::any_of(cell.runs.begin(), cell.runs.end(), [](const auto& run) { return run.solved; }))
+      first = std::min(first.value_or(cell.variant), cell.variant);
+  return first.value_or(0);
+}
 
 std::optional<QueryCost> checkingCost(const BenchmarkRun& run) {
   const QueryCost cost{static_cast<double>(run.counters.boxTests),
@@ -57,6 +66,7 @@ std::optional<QueryCost> checkingCost(const BenchmarkRun& run) {
 
 std::vector<VariantScore> scoresOf(const Campaign& campaign,
                                    const std::vector<CampaignCell>& cells) {
+  const std::size_t reference = referenceVariant(cells);
   std::vector<VariantScore> scores;
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
     VariantScore score;
@@ -66,7 +76,8 @@ std::vector<VariantScore> scoresOf(const Campaign& campaign,
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const CampaignCell& cell = cells[c];
       if (cell.variant != v) continue;
-      addRatios(cell, cells[c - v], ratios);  // a problem's and planner's variants are neighbours
+      // A problem's and planner's variants are neighbours.
+      addRatios(cell, cells[c - v + reference], ratios);
       for (const BenchmarkRun& run : cell.runs) {
         ++score.runs;
         score.failed += run.result == "failed";

@@ -8,6 +8,10 @@
 
 namespace corridor {
 
+/// The variant in whose time that of the others is told: the first that solved anything, else the
+/// first.
+std::size_t referenceVariant(const std::vector<CampaignCell>& cells);
+
 /// How a variant did over all problems, planners and seeds of a campaign.
 struct VariantScore {
   std::size_t variant = 0;  ///< index
@@ -15,8 +19,8 @@ struct VariantScore {
   std::size_t certified = 0, proved = 0, refuted = 0, undecided = 0;  ///< of those solved
   Interval solvedShare;                                               ///< of the runs
   Interval refutedShare;  ///< of the paths that were judged: proved, refuted, undecided
-  /// Processor time as a multiple of the first variant's, in pairs of runs of one problem, planner
-  /// and seed that both solved: the median, and how sure it is. NaN without pairs.
+  /// Processor time as a multiple of the reference variant's, in pairs of runs of one problem,
+  /// planner and seed that both solved: the median, and how sure it is. NaN without pairs.
   std::size_t pairs = 0;
   double timeRatio = 0;
   Interval timeRatioInterval;

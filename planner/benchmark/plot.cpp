@@ -31,6 +31,14 @@ std::string quoted(const std::string& text) {
   for (const char c : plain(text)) out += c == '\n' ? std::string("\\n") : std::string(1, c);
   return out + "\"";
 }
+/// Of a name what a key has room for; whole characters of UTF-8.
+std::string shortened(const std::string& name) {
+  constexpr std::size_t kMost = 60;
+  if (name.size() <= kMost) return name;
+  std::size_t end = kMost - 1;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+  return name.substr(0, end) + "…";
+}
 std::string number(double value) {
   return std::isfinite(value) ? shortest(value) : "NaN";
 }
@@ -54,7 +62,7 @@ class Script {
     for (std::size_t i = 0; i < plot.series.size(); ++i) drawn += series(i);
     for (std::size_t i = 0; i < plot.shapes.size() && !drawn.empty(); ++i)
       drawn += ", NaN with points" + pointOf(i, 0.9) + " lc rgb \"#64748b\" title " +
-               quoted(plot.shapes[i]);
+               quoted(shortened(plot.shapes[i]));
     // gnuplot has no picture of nothing.
     out_ << (drawn.empty() ? "set xrange [1:2]\nset yrange [1:2]\nset label \"no data\" at graph "
                              "0.5,0.5 center\nplot NaN notitle\n"
@@ -91,7 +99,8 @@ class Script {
   std::string series(std::size_t i) {
     const PlotSeries& s = plot_.series[i];
     const std::string color = " lc rgb \"" + plotColor(s.color) + "\"";
-    const std::string title = s.name.empty() ? std::string(" notitle") : " title " + quoted(s.name);
+    const std::string title =
+        s.name.empty() ? std::string(" notitle") : " title " + quoted(shortened(s.name));
     std::string drawn;
     for (std::size_t shape = 0; shape < std::max<std::size_t>(plot_.shapes.size(), 1); ++shape) {
       const std::string block = "$data" + std::to_string(i) + "_" + std::to_string(shape);

@@ -32,7 +32,7 @@ int heightOf(const Plot& plot) {
                                               plot.series.begin(), plot.series.end(),
                                               [](const PlotSeries& s) { return !s.name.empty(); }));
   // Names that are longer stand below each other, not in two columns.
-  constexpr std::size_t kLong = 25;
+  constexpr std::size_t kLong = 20;
   const bool twoColumns = std::all_of(plot.series.begin(), plot.series.end(),
                                       [](const PlotSeries& s) { return s.name.size() <= kLong; }) &&
                           std::all_of(plot.shapes.begin(), plot.shapes.end(),
@@ -49,6 +49,7 @@ class Report {
         sessions_(sessions),
         folder_(folder),
         scores_(scoresOf(campaign, cells)),
+        reference_(referenceVariant(cells)),
         files_{folder / "report.html"} {}
 
   std::vector<fs::path> write() {
@@ -57,12 +58,17 @@ class Report {
     if (failure)
       throw InputError(
           Fault{(folder_ / "plots").string(), 0, "can't be made: " + failure.message()});
-    std::string error, solved;
+    std::string error, solved, clearance;
     if (campaign_.problems.size() > 1) {
-      error = figures(figure(errorOfAll(campaign_, scores_)));
+      if (campaign_.verify) error = figures(figure(errorOfAll(campaign_, cells_, scores_)));
       solved = figures(figure(profileOfAll(campaign_, cells_)));
     }
-    error += figuresOfEach(timeAgainstError);
+    if (campaign_.verify) {
+      error += figuresOfEach(timeAgainstError);
+      clearance = figuresOfEach(clearances);
+    } else {
+      error = clearance = "<p>Paths were not judged.</p>";
+    }
     solved += figuresOfEach(solvedOverTime);
     const std::string name = campaign_.name.empty() ? "Comparison" : campaign_.name;
     const std::string page = view::filled(
@@ -71,12 +77,12 @@ class Report {
                                     {"script", std::string(reportFile("report.js"))},
                                     {"summary", summary()},
                                     {"notes", notes()},
-                                    {"first", escapedHtml(campaign_.variants.front().name)},
-                                    {"pairs", std::to_string(pairs())},
-                                    {"ranking", rankingTable(campaign_, scores_)},
+                                    {"first", escapedHtml(campaign_.variants[reference_].name)},
+                                    {"pairs", counted(pairs(), "run")},
+                                    {"ranking", rankingTable(campaign_, cells_, scores_)},
                                     {"error", error},
                                     {"solved", solved},
-                                    {"clearance", figuresOfEach(clearances)},
+                                    {"clearance", clearance},
                                     {"costs", costTable(campaign_, scores_)},
                                     {"cost", figure(predictedCost(campaign_, cells_, scores_))},
                                     {"cells", cellTables()},
@@ -94,7 +100,7 @@ class Report {
   std::size_t pairs() const {
     std::size_t most = 0;
     for (const VariantScore& score : scores_)
-      if (score.variant != 0) most = std::max(most, score.pairs);
+      if (score.variant != reference_) most = std::max(most, score.pairs);
     return most;
   }
 
@@ -190,6 +196,7 @@ class Report {
   const std::vector<CampaignSession>& sessions_;
   fs::path folder_;
   std::vector<VariantScore> scores_;
+  std::size_t reference_;
   std::vector<fs::path> files_;
   std::set<std::string> plots_;  // names
 };

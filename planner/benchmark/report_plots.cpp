@@ -124,8 +124,10 @@ Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>&
   return plot;
 }
 
-Plot errorOfAll(const Campaign& campaign, const std::vector<VariantScore>& scores) {
-  Plot plot{"error", "All problems", "processor time, multiples of " + campaign.variants[0].name,
+Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                const std::vector<VariantScore>& scores) {
+  Plot plot{"error", "All problems",
+            "processor time, multiples of " + campaign.variants[referenceVariant(cells)].name,
             "share of paths refuted", true};
   plot.rangeY = kShares;
   double least = 1, most = 1;
@@ -212,9 +214,12 @@ Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells
 
 Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                    const std::vector<VariantScore>& scores) {
-  Plot plot{
-      "cost", "All problems, a point a run", "N_v C_v + N_p C_p, s", "time in checking, s", true,
-      true};
+  Plot plot{"cost",
+            "All problems, a point a run",
+            "predicted, Nᵥ·Cᵥ + Nₚ·Cₚ, s",
+            "time in checking, s",
+            true,
+            true};
   std::vector<double> both;
   std::vector<PlotSeries> series;
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {

@@ -16,9 +16,10 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
 /// returned paths that are refuted, with what both are sure to.
 Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem);
-/// The same of all problems, a point a variant: time as a multiple of the first variant's, as the
-/// ranking has it.
-Plot errorOfAll(const Campaign& campaign, const std::vector<VariantScore>& scores);
+/// The same of all problems, a point a variant: time as a multiple of the reference variant's, as
+/// the ranking has it.
+Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                const std::vector<VariantScore>& scores);
 /// Performance profile (Dolan, Moré 2002) of the problems, planners and seeds that every variant
 /// has run: the share of these of which it returned a path that is not refuted, within x times what
 /// the quickest variant took for one.

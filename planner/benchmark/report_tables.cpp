@@ -52,9 +52,10 @@ std::string refuted(std::size_t hits, std::size_t judged) {
 class Table {
  public:
   explicit Table(const std::vector<std::string>& heads, const std::string& kind = "") {
-    text_ = "<div class=\"scroll " + kind + "\"><table><thead><tr>";
-    for (const std::string& head : heads) text_ += "<th>" + head + "</th>";
-    text_ += "</tr></thead><tbody>\n";
+    text_ = "<div class=\"scroll " + kind + "\"><table>";
+    for (const std::string& head : heads)
+      text_ += (&head == &heads.front() ? "<thead><tr><th>" : "<th>") + head + "</th>";
+    text_ += std::string(heads.empty() ? "" : "</tr></thead>") + "<tbody>\n";
   }
   void row(const std::vector<std::string>& cells) {
     text_ += "<tr>";
@@ -136,19 +137,22 @@ std::string variantHtml(const Campaign& campaign, std::size_t variant) {
          escapedHtml(campaign.variants[variant].name);
 }
 
-std::string rankingTable(const Campaign& campaign, const std::vector<VariantScore>& scores) {
+std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                         const std::vector<VariantScore>& scores) {
+  const std::size_t reference = referenceVariant(cells);
   Table table(
       {"variant", "refuted", "share refuted", "solved", "time", "in checking", "length left"});
   for (const VariantScore& s : scores) {
     const double share =
         s.judged() ? static_cast<double>(s.refuted) / static_cast<double>(s.judged()) : NAN;
-    table.row({variantHtml(campaign, s.variant), refuted(s.refuted, s.judged()),
-               s.judged() ? percent(share) + interval(s.refutedShare, percent) : "–",
-               count(s.solved, s.runs) + interval(s.solvedShare, percent),
-               digits(s.timeRatio) +
-                   (s.variant == 0 || s.pairs == 0 ? "" : interval(s.timeRatioInterval, digits)),
-               std::isnan(s.checkingShare) ? "–" : percent(s.checkingShare),
-               std::isnan(s.lengthShare) ? "–" : percent(s.lengthShare)});
+    table.row(
+        {variantHtml(campaign, s.variant), refuted(s.refuted, s.judged()),
+         s.judged() ? percent(share) + interval(s.refutedShare, percent) : "–",
+         count(s.solved, s.runs) + interval(s.solvedShare, percent),
+         digits(s.timeRatio) +
+             (s.variant == reference || s.pairs == 0 ? "" : interval(s.timeRatioInterval, digits)),
+         std::isnan(s.checkingShare) ? "–" : percent(s.checkingShare),
+         std::isnan(s.lengthShare) ? "–" : percent(s.lengthShare)});
   }
   return table.html();
 }
@@ -179,7 +183,7 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
   std::tm utc{};
   gmtime_r(&now, &utc);
   std::strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &utc);
-  Table table({"", ""});
+  Table table({});
   table.row({"written", date});
   std::set<std::pair<std::string, std::string>> machines;
   for (const CampaignCell& cell : cells)

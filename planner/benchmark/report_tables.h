@@ -10,7 +10,8 @@
 namespace corridor {
 
 /// A line a variant, as ranked: refuted, solved, time, share of checking, length left.
-std::string rankingTable(const Campaign& campaign, const std::vector<VariantScore>& scores);
+std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                         const std::vector<VariantScore>& scores);
 /// A line a variant that counts its tests: C_v, C_p, and how well they predict.
 std::string costTable(const Campaign& campaign, const std::vector<VariantScore>& scores);
 /// Of a problem, a line a planner and variant.

@@ -104,17 +104,19 @@ bool isInGoal(const Problem& problem, const Away& away) {
   return isSame(away);
 }
 
-void checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
+/// @returns whether the path's end is in the goal.
+bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   const Away start = awayFrom(problem.space, problem.start, path.front());
   if (!isSame(start)) violations.push_back("the first state is not the start: " + inFact(start));
   Away nearest;
   nearest.distance = HUGE_VALL;
   for (const Configuration& goal : problem.goals) {
     const Away away = awayFrom(problem.space, goal, path.back());
-    if (isInGoal(problem, away)) return;
+    if (isInGoal(problem, away)) return true;
     if (away.distance < nearest.distance) nearest = away;
   }
   violations.push_back("the last state is not in the goal: " + inFact(nearest));
+  return false;
 }
 
 void checkBounds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
@@ -181,7 +183,7 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution) {
   VerifyReport report;
   report.margin = problem.margin;
   report.tube = problem.tube;
-  checkEnds(problem, solution.path, report.violations);
+  report.reachesGoal = checkEnds(problem, solution.path, report.violations);
   checkBounds(problem, solution.path, report.violations);
   report.motion = verifyPath(plainProblem(problem), solution.path);
   report.verdict = report.violations.empty() ? report.motion.verdict : PathVerdict::refuted;

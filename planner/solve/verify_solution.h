@@ -13,9 +13,10 @@ struct VerifyReport {
   PathVerdict verdict = PathVerdict::proved;
   PathReport motion;  ///< of the path among the meshes, by planner/verify alone
   std::vector<std::string>
-      violations;      ///< what else is wrong, one line each: start, goal, bounds of a state
-  double margin = 0;   ///< metres
-  Configuration tube;  ///< that was proved, as Problem::tube
+      violations;           ///< what else is wrong, one line each: start, goal, bounds of a state
+  bool reachesGoal = true;  ///< the last state is in the goal
+  double margin = 0;        ///< metres
+  Configuration tube;       ///< that was proved, as Problem::tube
 };
 
 /// A problem as planner/verify wants it. The problem must outlive it.

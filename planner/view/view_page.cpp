@@ -174,11 +174,10 @@ class PageData {
              : verdict == PathVerdict::refuted ? "refuted"
                                                : "undecided";
     };
-    ordered_json& verdict = json_["verdict"] = {{"verdict", name(r.verdict)},
-                                                {"edges", r.motion.edges},
-                                                {"edges_proved", r.motion.edgesProved},
-                                                {"violations", r.violations},
-                                                {"findings", ordered_json::array()}};
+    ordered_json& verdict = json_["verdict"] = {
+        {"verdict", name(r.verdict)},           {"edges", r.motion.edges},
+        {"edges_proved", r.motion.edgesProved}, {"reaches_goal", r.reachesGoal},
+        {"violations", r.violations},           {"findings", ordered_json::array()}};
     if (r.motion.verdict == PathVerdict::proved) {
       verdict["clearance_m"] = r.motion.provenClearance;
       verdict["distance_met_m"] = r.motion.smallestDistanceMet;

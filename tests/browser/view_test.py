@@ -241,6 +241,7 @@ def picture_tells_the_verdict(browser, path):
         for size in sizes:
             text = pictured(browser, page, size)
             assert text.endswith(told) and len(text) < 100, text
+            assert ("end of the path, not in the goal" in browser.find("#legend").text) == (solution == "short")
             assert browser.js(ring) == (solution == "through")
 
 

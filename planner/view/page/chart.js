@@ -32,7 +32,7 @@ class Chart {
     for (const i of path.states) line(this.x(path.at[i]), bottom, this.x(path.at[i]), bottom + 4, {stroke: '#b5b8bc'});
     for (const i of path.findings) line(this.x(path.at[i]), top, this.x(path.at[i]), bottom, {stroke: palette.alarm, opacity: 0.6});
     this.add('text', {x: left, y: bottom + 15}, 'start');
-    this.add('text', {x: right, y: bottom + 15, 'text-anchor': 'end'}, 'goal');
+    this.add('text', {x: right, y: bottom + 15, 'text-anchor': 'end'}, data.verdict.reaches_goal ? 'goal' : 'end');
     this.cursor = line(0, top, 0, bottom, {stroke: palette.ink, 'stroke-width': 1});
     this.dot = this.add('circle', {r: 3.5, fill: palette.witness, stroke: '#fff', 'stroke-width': 1.5});
     this.parent.replaceChildren(this.svg);

@@ -97,8 +97,9 @@ const Panel = {
     };
     const legend = byId('legend');
     const image = document.body.classList.contains('image');
+    const end = path && !data.verdict.reaches_goal ? 'end of the path, not in the goal' : 'goal';
     legend.replaceChildren(item('', palette.start, 'start'),
-      item('', palette.goal, path ? 'goal' : data.goal_count > 1 ? `goals (${data.goals.length} of ${data.goal_count})` : 'goal'));
+      item('', palette.goal, path ? end : data.goal_count > 1 ? `goals (${data.goals.length} of ${data.goal_count})` : 'goal'));
     if (path) legend.append(item('way', '', 'on the way'));
     const names = data.robots.length > 1 ? data.robots.map((robot) => `${robot.name}, now`) : ['now'];
     if (path && !image) names.forEach((text, i) => legend.append(item('', palette.robots[i % palette.robots.length], text)));

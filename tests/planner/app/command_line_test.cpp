@@ -315,6 +315,11 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
   fault("solve problem.yaml problem.yaml -o s.yaml",
         testing::Eq("--output: names one file, but there are 2 problems\n"));
   fault("solve problem.yaml -o none/s.yaml", testing::Eq("--output: there is no folder none\n"));
+  for (const char* file : {"problem.yaml", "./robot.yaml"})
+    for (const char* option : {"--output", "--picture"})
+      fault(std::string("solve problem.yaml ") + option + " " + file,
+            testing::Eq(std::string(option) + ": " + file +
+                        " is of the problem itself; name another file\n"));
   fault("solve problem.yaml --picture .",
         testing::Eq("--picture: . is a folder; a file's name is needed\n"));
   fault("solve problem.yaml --edges discrete --resolution 1",

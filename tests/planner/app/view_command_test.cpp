@@ -79,6 +79,16 @@ TEST_F(ViewCommand, Faults) {
                     std::string(name) + "\"");
   for (const char* name : {"a.PNG", "a"})
     expectFault("view none.yaml --image " + std::string(name), "none.yaml: no such file");
+  expectFault("view none.yaml -o a.png",
+              "--output: pages are HTML: a name that ends in .html is needed, not \"a.png\"");
+  // What is read is not written over.
+  std::filesystem::copy_file(folder_ / "path.yaml", folder_ / "path");
+  std::filesystem::create_symlink(plate + "/problem.yaml", folder_ / "problem.png");
+  expectFault("view " + plate + " path -o path",
+              "--output: path is of the solution itself; name another file");
+  expectFault("view " + plate + " path --image problem.png",
+              "--image: problem.png is of the problem itself; name another file");
+  EXPECT_EQ(read("path"), read("path.yaml"));
   expectFault("view " + plate + " -o .", "--output: . is a folder; a file's name is needed");
   expectFault("view " + plate + " --size 100x100", "--size: is of --image, and there is none");
   for (const char* size :

@@ -17,6 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 class CampaignYaml : public testing::Test {
  protected:
@@ -114,7 +115,7 @@ TEST_F(CampaignYaml, CombinationsHaveALimit) {
     return text + "]";
   };
   const auto checkers = [&](int a, int b) {
-    return std::string(kStart) + "checkers:\n  mine: {edges: discrete, resolution: " + list(a) +
+    return std::string(kStart) + "checkers:\n  mine: {resolution: " + list(a) +
            ", tolerance: " + list(b) + "}\n  other: {}\n";
   };
   EXPECT_EQ(read(checkers(27, 37)).variants.size(), 1000u);
@@ -229,6 +230,26 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
               ElementsAre("c.yaml:3: checkers: at least one is needed"));
   EXPECT_THAT(faults("format: corridor-campaign-1\nproblems: []\ncheckers: {a: {}}\n"),
               ElementsAre("c.yaml:2: problems: at least one is needed"));
+  EXPECT_THAT(faults(std::string(kStart) + "planners: []\ncheckers: {a: {}}\n"),
+              ElementsAre("c.yaml:3: planners: at least one is needed; without this key each "
+                          "problem has its own"));
+}
+
+/// A key without effect makes no variant.
+TEST_F(CampaignYaml, VariantsDiffer) {
+  const auto of = [&](const char* checker) {
+    return faults(std::string(kStart) + "checkers:\n  a: " + checker + "\n");
+  };
+  EXPECT_THAT(
+      of("{edges: certified, resolution: [0.1, 0.01]}"),
+      ElementsAre("c.yaml:4: checkers.a: \"a 0.1\" and \"a 0.01\" would be the same checker"));
+  EXPECT_THAT(of("{edges: [certified, discrete], resolution: [0.1, 0.01]}"),
+              ElementsAre(HasSubstr("\"a certified 0.1\" and \"a certified 0.01\"")));
+  EXPECT_THAT(of("{edges: discrete, tolerance: [0.1, 0.01]}"), SizeIs(1));
+  EXPECT_THAT(of("{volume: [aabb, aabb]}"), SizeIs(1));
+  EXPECT_THAT(of("{edges: discrete, resolution: [0.1, 0.01], volume: [aabb, sphere]}"), IsEmpty());
+  EXPECT_THAT(of("{edges: [certified, adaptive], tolerance: [0.1, 0.01]}"), IsEmpty());
+  EXPECT_THAT(of("{resolution: [0.1, 0.01]}"), IsEmpty());  // the problem's edges may be discrete
 }
 
 /// Where each of them stands, and names with all else that is wrong.

@@ -99,9 +99,35 @@ TEST_F(Report, AVariantThatSolvesNothingIsLast) {
       }
   const std::vector<VariantScore> scores = scoresOf(campaign_, cells_);
   EXPECT_EQ(scores.back().variant, 0u);
-  EXPECT_EQ(scores[0].pairs, 0u);
-  EXPECT_TRUE(std::isnan(scores[0].timeRatio));
+  EXPECT_EQ(scores.back().pairs, 0u);
+  EXPECT_TRUE(std::isnan(scores.back().timeRatio));
   EXPECT_THAT(page(), HasSubstr("0 of 20"));
+}
+
+/// Times are told in those of the first variant that has any.
+TEST_F(Report, AFirstVariantThatSolvesNothingIsNoMeasure) {
+  for (CampaignCell& cell : cells_)
+    if (cell.variant == 0)
+      for (BenchmarkRun& run : cell.runs) run.solved = false, run.verdict.clear();
+  EXPECT_EQ(referenceVariant(cells_), 1u);
+  for (const VariantScore& score : scoresOf(campaign_, cells_)) {
+    const double ratios[] = {NAN, 1, 20};
+    if (score.variant > 0) {
+      EXPECT_DOUBLE_EQ(score.timeRatio, ratios[score.variant]);
+    }
+  }
+  EXPECT_THAT(page(), HasSubstr("as a multiple of discrete:0.1’s: the median over 20 runs"));
+  for (CampaignCell& cell : cells_) cell.runs.clear();
+  EXPECT_EQ(referenceVariant(cells_), 0u);
+}
+
+TEST_F(Report, WhatNobodyJudgedIsNotPlotted) {
+  campaign_.verify = false;
+  for (CampaignCell& cell : cells_)
+    for (BenchmarkRun& run : cell.runs) run.verdict.clear(), run.leastDistance = -1;
+  const std::string text = page();
+  EXPECT_THAT(text, HasSubstr("<p>Paths were not judged.</p>"));
+  EXPECT_THAT(text, Not(HasSubstr("no data")));
 }
 
 TEST_F(Report, PlotsHaveTheirData) {
@@ -151,7 +177,7 @@ TEST_F(Report, PlotsHaveTheirData) {
 }
 
 TEST_F(Report, PlotsOfAllProblems) {
-  const Plot error = errorOfAll(campaign_, scoresOf(campaign_, cells_));
+  const Plot error = errorOfAll(campaign_, cells_, scoresOf(campaign_, cells_));
   ASSERT_EQ(error.series.size(), 3u);  // as variants are, not as they rank
   EXPECT_EQ(error.series[1].name, "discrete:0.1");
   EXPECT_DOUBLE_EQ(error.series[1].points[0].x, 0.5);
@@ -244,6 +270,12 @@ TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
   EXPECT_GT(few, 300);
   for (Variant& variant : campaign_.variants) variant.name += " of a name that is very long";
   EXPECT_GT(height(), few);
+  // Of a name that is longer than any key a beginning is there, of whole characters.
+  campaign_.variants[0].name = std::string(58, 'x') + "ßßßß";
+  height();
+  std::ifstream in(folder_ / "plots" / "solved.hall.svg");
+  const std::string svg{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_THAT(svg, HasSubstr(">" + std::string(58, 'x') + "…<"));
 }
 
 TEST_F(Report, TablesHaveEachUnderItsHead) {
