@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/core/floating_point.h"
+
 namespace corridor {
 
 /// Unit roundoff of double: |fl(x∘y) − x∘y| ≤ u·|x∘y| for + − × ÷ √ where nothing under- or

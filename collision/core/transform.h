@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "collision/core/floating_point.h"
+
 namespace corridor {
 
 using Vec3 = Eigen::Vector3d;

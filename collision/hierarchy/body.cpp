@@ -59,6 +59,7 @@ void Body::Bounds::around(const Each& each, double grow, const Vec3& reach) {
 
 Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& params)
     : impl_(std::make_unique<Impl>()) {
+  requireStandardFloatingPoint();
   if (mesh.triangles.empty()) throw std::invalid_argument("body " + name + " has no triangle");
   if (const auto complaint = checkMesh(mesh))
     throw std::invalid_argument("body " + name + ": " + *complaint);
@@ -80,6 +81,7 @@ Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& pa
 }
 
 Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) {
+  requireStandardFloatingPoint();
   if (part.points.empty()) throw std::invalid_argument("body " + name + " has no points");
   if (part.flatEnds && part.points.size() != 2)
     throw std::invalid_argument("body " + name + " is a cylinder without two ends");

@@ -43,6 +43,7 @@ Cell boundsOf(const Triangle& t) {
 }  // namespace
 
 Octree::Octree(const TriangleMesh& mesh, const OctreeParams& params) {
+  requireStandardFloatingPoint();
   std::vector<Cell> extents;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     extents.push_back(boundsOf({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}));

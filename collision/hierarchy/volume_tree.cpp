@@ -27,6 +27,7 @@ VolumeTree<Volume>::VolumeTree(std::vector<ConvexPart> parts, const TreeParams& 
 
 template <BoundingVolume Volume>
 void VolumeTree<Volume>::build(const TreeParams& params) {
+  requireStandardFloatingPoint();
   if (items_.numbers.empty()) throw std::invalid_argument("a tree needs a triangle or a part");
   const Skeleton skeleton = buildSkeleton(items_, Volume::kOriented, params);
   nodes_.reserve(skeleton.size());
@@ -56,6 +57,7 @@ void VolumeTree<Volume>::measure() {
 
 template <BoundingVolume Volume>
 void VolumeTree<Volume>::refit(const TriangleMesh& moved) {
+  requireStandardFloatingPoint();
   for (std::uint32_t i = 0; i < items_.size(); ++i)
     for (int k = 0; k < 3; ++k) items_.triangles[i][k] = moved.corner(items_.numbers[i], k);
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // children first

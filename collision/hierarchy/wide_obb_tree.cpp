@@ -11,6 +11,7 @@ namespace corridor {
 
 WideObbTree::WideObbTree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
     : vertices_(mesh.vertices) {
+  requireStandardFloatingPoint();
   const std::size_t n = mesh.triangles.size();
   if (n == 0) throw std::invalid_argument("a tree needs a triangle");
   if (const auto complaint = checkMesh(mesh)) throw std::invalid_argument(*complaint);

@@ -12,6 +12,7 @@ namespace corridor {
 /// One node, of which one lane holds the part's enclosing box {c + U x : |x_k| ≤ e_k}, in floats:
 /// its centre is the tree's origin, so that it is {U x} there, and no centre is rounded.
 WideObbTree::WideObbTree(const ConvexPart& part) : meshTriangle_{0}, part_(part) {
+  requireStandardFloatingPoint();
   const Obb box = enclosingObb(part);
   origin_ = box.center;
   // |U x| ≤ (1 + 2^-38)|e|: axes are orthonormal to 2^-40.

@@ -1,5 +1,6 @@
 #include "collision/hierarchy/wide_pose.h"
 
+#include <cassert>
 #include <cmath>
 
 #include "collision/core/rounding.h"
@@ -193,6 +194,7 @@ HWY_EXPORT(relate);
 
 WidePose::WidePose(const WideObbTree& a, const Transform& X_WA, const WideObbTree& b,
                    const Transform& X_WB, double pad) {
+  assert(standardFloatingPoint());
   HWY_DYNAMIC_DISPATCH(relate)(a, X_WA, b, X_WB, pad, *this);
 }
 

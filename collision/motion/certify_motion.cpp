@@ -286,6 +286,7 @@ class Certifier {
   /// Are two nodes of the first `count` of the stack's items in contact at the rounded pose, that
   /// of t?
   bool touches(const MotionPair& pair, const Transform& X_AB, double t, std::size_t count) {
+    if (!X_AB.isFinite()) return false;  // overflow counts as overlap, and is no contact
     const auto hit = touchBelow(pair, X_AB, count);
     --counters_.states;  // part of an edge
     if (!hit) return false;
@@ -298,6 +299,7 @@ class Certifier {
 
   Descent walkTrees(const MotionPair& pair, const MotionWindow& window, const DescentOptions& asked,
                     std::size_t count) {
+    if (!window.X_AB.isFinite()) return {.kind = Descent::Kind::undecided};
     if (options_.trees == TreeKind::wideObb)
       return descend(pair.a->tree(), pair.b->tree(), window, asked, count, items_, context_);
     return onVolumeTrees(
@@ -372,11 +374,13 @@ class Certifier {
     if (contactTime_ == w.t1 && clearance && !found_.wide) return contact(w.t0, true);
     if (contactTime_ >= 0 && (near() || !options_.earliest)) return contact(w.t0, false);
     result_.verdict = MotionVerdict::undecided;
-    result_.reason = clearance ? UndecidedReason::clearance : UndecidedReason::workLimit;
+    result_.reason = UndecidedReason::workLimit;
     result_.certifiedUntil = w.t0;
     result_.contactTime = w.middle();
     if (clearance) {
       const MotionPair& pair = pairs_[bodies_];
+      moveTo(w.middle(), w.half());
+      result_.reason = reasonOf(windowOf(pair.motion), *pair.b, options_.tolerance);
       result_.pair = Contact{pair.bodyA, pair.bodyB, found_.s, found_.t};
       result_.gap = found_.gap;
     }

@@ -20,11 +20,18 @@ struct Contact {
 };
 
 enum class MotionVerdict { free, contact, undecided };
-enum class UndecidedReason { none, clearance, workLimit, ambiguous };
+enum class UndecidedReason {
+  none,
+  clearance,      ///< the clearance is under twice the tolerance somewhere
+  workLimit,      ///< the query's work limit was reached
+  ambiguous,      ///< a half turn, whose shorter way is not unique, or a way that overflows: the
+                  ///< edge defines no curve
+  rounding,       ///< the rounding of large values takes more than half of the tolerance
+  floatingPoint,  ///< the processor is set so that no bound holds (core/floating_point.h)
+};
 
 /// The answer of a motion query (design: contract 2). `free` is never wrong. `contact` has an exact
-/// contact at the rounded pose at `contactTime`. `undecided` means a clearance under the tolerance
-/// somewhere, the work limit, or a half turn.
+/// contact at the rounded pose at `contactTime`. `undecided` has a reason.
 struct MotionResult {
   MotionVerdict verdict = MotionVerdict::free;
   UndecidedReason reason = UndecidedReason::none;
@@ -66,7 +73,7 @@ class MotionSource {
   /// Motion `i` in [t − h, t + h], outside of [0, 1] as if it went on. @pre 0 ≤ t ≤ 1, h ≤ 1/2,
   /// t − h and t + h exact. The span stays good until the next call for the same i.
   virtual MotionWindow window(std::size_t i, double t, double h) = 0;
-  /// The shorter way is not unique within 1e-9 rad somewhere (half turns): no edge.
+  /// The shorter way is not unique within 1e-9 rad somewhere (half turns), or overflows: no edge.
   virtual bool ambiguous() const = 0;
   /// Nothing moves: one pose stands for all of it (the tube aside).
   virtual bool still() const = 0;

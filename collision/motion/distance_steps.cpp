@@ -6,6 +6,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/motion/may_meet.h"
+#include "collision/motion/motion_answer.h"
 #include "collision/queries/surface_distance.h"
 
 /// The bound. Let X̂ be the rounded map at t, which the distance D is of, in real arithmetic. Every
@@ -77,7 +78,10 @@ DistanceSteps::Look DistanceSteps::look(std::uint32_t pair, double t, double h, 
   look.s = told.a;
   look.t = told.b;
   look.gap = std::max(0.0, told.distance - options_.margin);
-  look.contact = told.distance == 0 || distanceFromAbove(a, {}, b, w.X_AB, told) <= options_.margin;
+  // Where the pose overflows, "contact" only says that nothing is known.
+  look.contact =
+      w.X_AB.isFinite() &&
+      (told.distance == 0 || distanceFromAbove(a, {}, b, w.X_AB, told) <= options_.margin);
   look.hopeless = !(told.distance > needed - travel);
   if (told.distance > needed)
     look.lower = provedDistance(a, {}, b, w.X_AB, told, measure, context_, options_.trees);
@@ -121,7 +125,8 @@ MotionResult DistanceSteps::close(std::uint32_t pair, double t0, double time, do
   const Look seen = look(pair, time, 0, true);
   MotionResult result;
   result.verdict = MotionVerdict::undecided;
-  result.reason = UndecidedReason::clearance;
+  result.reason =
+      reasonOf(motion_.window(pairs_[pair].motion, time, 0), *pairs_[pair].b, options_.tolerance);
   result.certifiedUntil = t0;
   result.contactTime = time;
   result.pair = Contact{pairs_[pair].bodyA, pairs_[pair].bodyB, seen.s, seen.t};

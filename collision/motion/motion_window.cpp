@@ -30,7 +30,10 @@
 /// in s): with y the lever from the axis, |y − (k·y)k| = r_j, φ = sδ, Rodrigues' formula leaves
 ///   (1 − cos φ) k × (k × y) + (sin φ − φ) k × y,
 /// at a right angle to k and of length r|e^(iφ) − 1 − iφ| ≤ r φ²/2: along n at most
-/// ½ r δ²|n × k| = ½ r δ |n × angular|. That is `bend`.
+/// ½ r δ²|n × k| = ½ r δ |n × angular|. That is `bend`. The stored `angular` is off: its direction
+/// by rounding, which takes `tilt`·r δ²; its length δ by the window's reachError e (the rounding of
+/// the rate), which takes ½ r δ e here, and r δ e where the second order is computed itself
+/// (moving_triangles.cpp: ½ r (δ + e)² − ½ r δ²). `curvature` has r δ e.
 ///
 /// Tube. x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1): what is
 /// after j is nominal. A bracket is at most |ε_j| times the distance of z_(j+1) from axis j, r̄_j
@@ -106,10 +109,10 @@ PointTravel travelOf(const MotionWindow& window, const Vec3& x_A, double radius)
              l[2] + (w[0] * y[1] - w[1] * y[0])) +
       window.angle * grown + 16 * kUnit * (window.speed + window.angle * lever) + 0.5 * second;
   travel.cap = scale * (std::min(displaced, firstOrder) + stray);
-  // The directions of `angular` and of the axis may differ by rounding.
-  const double tilt = sole > 0 && turns == 1 ? window.reachError + 8 * kUnit : 0.5;
-  travel.bend = sole > 0 && turns == 1 ? scale * 0.5 * sole : 0;
-  travel.curvature = scale * (tilt * second + stray);
+  const bool bends = sole > 0 && turns == 1;
+  const double tilt = bends ? window.reachError + 8 * kUnit : 0.5;
+  travel.bend = bends ? scale * 0.5 * sole : 0;
+  travel.curvature = scale * (tilt * second + (bends ? window.reachError * sole : 0) + stray);
   return travel;
 }
 

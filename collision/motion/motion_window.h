@@ -51,6 +51,7 @@ struct MotionWindow {
   /// distances from the axes. What else may stray may be in it, too.
   double fixedError = 0;
   double reachError = 0;
+  double fixedTube = 0, reachTube = 0;  ///< the share of the two that is no rounding, but a tube
 };
 
 /// Bounds for all points of b within `radius` of a point: along any vector n,

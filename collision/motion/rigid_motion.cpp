@@ -35,6 +35,7 @@ constexpr double kLeastError = 0x1p-400;
 void RigidMotion::setLine(const Vec3& from, const Vec3& to) {
   from_ = from;
   delta_ = to - from;
+  overflows_ = !delta_.allFinite();
   direction_ = delta_.stableNormalized();
 }
 
@@ -71,8 +72,10 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
   // the half displacement h·δ below 2uP more: 9√3·uP < 16uP. The tube moves each coordinate by
   // `position`.
   const double P = std::max(from.p.cwiseAbs().maxCoeff(), to.p.cwiseAbs().maxCoeff());
-  m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(3.0) * tube.position + kLeastError);
-  m.reachError_ = roundedUp(kRotationError + tube.rotation);
+  m.fixedTube_ = std::sqrt(3.0) * tube.position;
+  m.reachTube_ = tube.rotation;
+  m.fixedError_ = roundedUp(16 * kUnit * P + m.fixedTube_ + kLeastError);
+  m.reachError_ = roundedUp(kRotationError + m.reachTube_);
   return m;
 }
 
@@ -89,8 +92,10 @@ RigidMotion RigidMotion::planar(const Vec3& from, const Vec3& to, const Tube& tu
   m.setRotation(R0, turn < 0 ? Vec3(0, 0, -1) : Vec3(0, 0, 1), std::abs(turn), turnError);
   const double P =
       std::max(from.head<2>().cwiseAbs().maxCoeff(), to.head<2>().cwiseAbs().maxCoeff());
-  m.fixedError_ = roundedUp(16 * kUnit * P + std::sqrt(2.0) * tube.position + kLeastError);
-  m.reachError_ = roundedUp(kRotationError + turnError + tube.rotation);
+  m.fixedTube_ = std::sqrt(2.0) * tube.position;
+  m.reachTube_ = tube.rotation;
+  m.fixedError_ = roundedUp(16 * kUnit * P + m.fixedTube_ + kLeastError);
+  m.reachError_ = roundedUp(kRotationError + turnError + m.reachTube_);
   return m;
 }
 
@@ -114,6 +119,8 @@ MotionWindow RigidMotion::window(double t, double h, std::span<ScrewTravel, 2> s
   w.screws = screws.first(count);
   w.fixedError = fixedError_;
   w.reachError = reachError_;
+  w.fixedTube = fixedTube_;
+  w.reachTube = reachTube_;
   return w;
 }
 

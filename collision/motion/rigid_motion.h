@@ -28,8 +28,8 @@ class RigidMotion {
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
   /// The shorter way is not unique within 1e-9 rad, or within the rounding of large yaws: half
-  /// turns.
-  bool ambiguous() const { return ambiguous_; }
+  /// turns. Or the way of the position overflows.
+  bool ambiguous() const { return ambiguous_ || overflows_; }
   /// No coordinate changes.
   bool still() const { return delta_.isZero(0) && angle_ == 0; }
 
@@ -37,6 +37,14 @@ class RigidMotion {
   /// reference point. The tube is in the errors. The window looks at `screws`. @pre 0 ≤ t ≤ 1,
   /// h ≤ 1/2, t − h and t + h exact.
   MotionWindow window(double t, double h, std::span<ScrewTravel, 2> screws) const;
+  /// The least tolerance, metres, at which rounding leaves no edge undecided whose clearance is
+  /// above twice the tolerance, where no point of either body, no position and no body's coordinate
+  /// is farther than `size` metres from the origin. With u = 2^-53 a clearance loses 64u·3·size to
+  /// the comparison of triangles (moving_triangles.cpp), 16u·size to the position and 1024u·size to
+  /// the rotation (rigid_motion.cpp), twice with what the search for a direction loses: four times
+  /// 1300u·size, as 0.75 of twice the tolerance must exceed it and the tolerance.
+  static double roundingTolerance(double size) { return 0x1p-53 * 5200 * size; }
+
   /// The rounded pose at t: that of every window about it.
   Transform at(double t) const;
 
@@ -52,7 +60,8 @@ class RigidMotion {
   Vec3 direction_ = Vec3::Zero();  // of delta_, unit
   double angle_ = 0;
   double fixedError_ = 0, reachError_ = 0;
-  bool ambiguous_ = false;
+  double fixedTube_ = 0, reachTube_ = 0;  // in them
+  bool ambiguous_ = false, overflows_ = false;
 };
 
 /// One rigid body against the world: motion 0, and the only one.

@@ -191,7 +191,9 @@ class WideTravel {
       const V cap = hn::Mul(scaled, hn::Add(hn::Min(displaced, first), stray));
       const V tilt = set(bends ? w.reachError + 8 * kUnit : 0.5);
       store(cap, travel.cap, at);
-      store(hn::Mul(scaled, hn::MulAdd(tilt, second, hn::Add(stray, blur))), travel.curvature, at);
+      V curvature = hn::MulAdd(tilt, second, hn::Add(stray, blur));
+      if (bends) curvature = hn::MulAdd(set(w.reachError), sole, curvature);
+      store(hn::Mul(scaled, curvature), travel.curvature, at);
       store(bends ? hn::Mul(scaled, hn::Mul(set(0.5), sole)) : zero, travel.bend, at);
       store(hn::MulAdd(scaled, hn::Add(pad, set(margin_)), set(0x1p-118)), travel.pad, at);
       for (int k = 0; k < 3; ++k)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace corridor {
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
 PairTest<Volume, Overlap> pairTestOf(const TreeA& a, const Transform& X_WA, const TreeB& b,
                                      const Transform& X_WB) {
+  assert(standardFloatingPoint());
   const Transform X_AB = rigidInverse(X_WA) * X_WB;
   return {a.bounds(), b.bounds(), X_AB, relativePoseError(X_WA, X_AB, X_WB, b.reach())};
 }

@@ -17,7 +17,8 @@ class RigidScene {
   std::span<const Scene::Placed> moving() const {
     return std::span(scene_.bodies()).subspan(fixedCount_);
   }
-  double defaultTolerance() const { return scene_.defaultTolerance(); }
+  /// @param farthest  metres; the poses of edges are at most so far from the origin.
+  double defaultTolerance(double farthest = 0) const { return scene_.defaultTolerance(farthest); }
 
   /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
   /// numbers that are not finite or out of range.

@@ -12,6 +12,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/motion/may_meet.h"
+#include "collision/motion/rigid_motion.h"
 #include "collision/world/body_queries.h"
 
 namespace corridor {
@@ -99,7 +100,7 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
   }
 }
 
-double Scene::defaultTolerance() const {
+double Scene::defaultTolerance(double farthest) const {
   struct Bounds {
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   };
@@ -110,12 +111,15 @@ double Scene::defaultTolerance() const {
       side->second.lower = side->second.lower.cwiseMin(placed.body.lower());
       side->second.upper = side->second.upper.cwiseMax(placed.body.upper());
     }
-  double radius = std::numeric_limits<double>::infinity();
-  for (const auto& [frame, side] : sides)
+  double radius = std::numeric_limits<double>::infinity(), size = 0;
+  for (const auto& [frame, side] : sides) {
     radius = std::min(radius, 0.5 * (side.upper - side.lower).norm());
+    size = std::max(size, farthest + side.lower.cwiseAbs().cwiseMax(side.upper.cwiseAbs()).norm());
+  }
   if (sides.empty()) radius = 1;  // nothing is ever asked of it
   // A single point has no radius; any positive number will do.
-  return 1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8);
+  return std::max(1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8),
+                  RigidMotion::roundingTolerance(size));
 }
 
 /// Visits the pairs of bodies whose bounds don't keep them farther apart than `within` metres,

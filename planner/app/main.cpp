@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "collision/core/error.h"
+#include "collision/core/floating_point.h"
 #include "collision/core/nearest.h"
 #include "planner/app/commands.h"
 #include "planner/app/query_batch.h"
@@ -441,6 +442,13 @@ int main(int argc, char** argv) {
   // Where a file may not get longer (ulimit -f), writing fails, and is told as a full disk is,
   // instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  if (const auto arithmetic = corridor::floatingPoint();
+      arithmetic != corridor::FloatingPoint::standard) {
+    std::cerr << "corridor: nothing can be proved here: " << corridor::described(arithmetic)
+              << "; a library or a wrapper that is loaded with the program has set the processor "
+                 "so\n";
+    return kInternal;
+  }
   CLI::App program("Corridor plans collision-free motions and proves each one.", "corridor");
   program.set_version_flag("--version", CORRIDOR_VERSION);
   program.require_subcommand(1);

@@ -102,6 +102,7 @@ Coordinate::Kind kindOf(const ConfigurationSpace& space, std::size_t variable) {
 EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
                        std::span<const Scene::FramePair> pairs, const Configuration& tube)
     : space(moved) {
+  requireStandardFloatingPoint();
   const std::size_t count = tree.frames.size();
   // Frames that are seen, look on, or move by themselves; the rest is put into their fixed poses.
   std::vector<char> kept(count);

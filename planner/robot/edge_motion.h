@@ -19,6 +19,8 @@ class EdgeMotion final : public MotionSource {
  public:
   /// All must outlive the object. @param tube for each number of a Configuration, how far it may
   /// stray (metres; radians; of a rotation the first of its four numbers counts, radians), ≥ 0.
+  /// @throws std::runtime_error where the processor is set so that no bound holds
+  /// (collision/core/floating_point.h).
   EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,
              std::span<const Scene::FramePair> pairs, const Configuration& tube);
   ~EdgeMotion() override;

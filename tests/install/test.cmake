@@ -39,6 +39,15 @@ run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERATO
     "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build "${build}" --config "${CONFIG}")
 
+# Headers refuse options under which no bound holds.
+foreach(option -ffast-math -ffinite-math-only)
+  execute_process(COMMAND ${COMPILER} -std=c++20 ${option} -fsyntax-only -I "${prefix}/include/corridor"
+    -I /usr/include/eigen3 "${CMAKE_CURRENT_LIST_DIR}/main.cpp" RESULT_VARIABLE status ERROR_VARIABLE err)
+  if(status EQUAL 0 OR NOT err MATCHES "bounds do not hold under -ffast-math")
+    message(FATAL_ERROR "main.cpp under ${option}: ${status}\n${err}")
+  endif()
+endforeach()
+
 # A unit cube, once in a format of ours, once in one that assimp's module reads.
 set(corners "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1")
 set(quads "0 3 2 1" "4 5 6 7" "0 1 5 4" "1 2 6 5" "2 3 7 6" "3 0 4 7")

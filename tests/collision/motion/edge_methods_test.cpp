@@ -11,6 +11,7 @@
 #include "tests/collision/motion/bodies.h"
 #include "tests/collision/motion/grazing.h"
 #include "tests/support/chain_motion.h"
+#include "tests/support/floating_point.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -68,6 +69,43 @@ TEST_P(EdgeMethods, SlideBesideAWall) {
       // Windows no longer than twice the gap, halved at most once too often; advancement asks for
       // each of its steps up to three times how far it goes.
       EXPECT_LE(static_cast<double>(context_.counters.poses), 64 + 4 * 10 / gap) << gap;
+    }
+  }
+}
+
+/// A way that overflows is no contact, and not free.
+TEST_P(EdgeMethods, WaysThatOverflowAreUndecided) {
+  const Body cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5))),
+             aside = bodyOf(box(Vec3(-1, 5, -1), Vec3(1, 6, 1)));
+  for (const double far : {1e308, 9e307}) {
+    const MotionResult result =
+        ask(cube, aside, RigidMotion::spatial(at(Vec3(far, 0, 0)), at(Vec3(-far, 0, 0)), {}));
+    EXPECT_EQ(result.verdict, MotionVerdict::undecided) << far;
+  }
+}
+
+/// Where the processor rounds otherwise no bound holds: the query says so, and answers nothing
+/// else.
+TEST_P(EdgeMethods, OtherArithmeticIsRefused) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  for (const double gap : {0.25, -0.25}) {
+    const RigidMotion slide =
+        RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)), {});
+    for (const auto& setting : test::floatingPointSettings()) {
+      MotionResult result;
+      {
+        const test::WithFloatingPoint set(setting);
+        result = ask(cube, wall, slide);
+      }
+      if (!setting.standard()) {
+        EXPECT_EQ(result.verdict, MotionVerdict::undecided) << setting.name;
+        EXPECT_EQ(result.reason, UndecidedReason::floatingPoint) << setting.name;
+        EXPECT_EQ(result.certifiedUntil, 0);
+      } else {
+        EXPECT_EQ(result.verdict, gap > 0 ? MotionVerdict::free : MotionVerdict::contact)
+            << setting.name;
+      }
     }
   }
 }

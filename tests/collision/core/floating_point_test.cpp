@@ -1,0 +1,60 @@
+#include "collision/core/floating_point.h"
+
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "collision/hierarchy/body.h"
+#include "collision/hierarchy/octree.h"
+#include "collision/hierarchy/wide_obb_tree.h"
+#include "tests/support/floating_point.h"
+#include "tests/support/meshes.h"
+
+namespace corridor {
+namespace {
+
+TEST(FloatingPointTest, EverySettingIsSeen) {
+  for (const auto& setting : test::floatingPointSettings()) {
+    FloatingPoint seen = FloatingPoint::standard, inThread = seen;
+    {
+      const test::WithFloatingPoint set(setting);
+      seen = floatingPoint();
+      std::thread([&] { inThread = floatingPoint(); }).join();
+    }
+    const FloatingPoint expected = setting.shortExtended ? FloatingPoint::precision
+                                   : setting.standard()  ? FloatingPoint::standard
+                                                         : FloatingPoint::rounding;
+    EXPECT_EQ(seen, expected) << setting.name;
+    EXPECT_EQ(inThread, expected) << setting.name << ": threads inherit it";
+    EXPECT_EQ(floatingPoint(), FloatingPoint::standard) << "after " << setting.name;
+  }
+}
+
+/// What proofs rest on is never computed in an arithmetic in which its bounds don't hold.
+TEST(FloatingPointTest, NothingIsBuiltInAnUnsoundArithmetic) {
+  TriangleMesh mesh;
+  test::add(mesh, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY());
+  const ConvexPart part{{Vec3::Zero()}, 1, false};
+  for (const auto& setting : test::floatingPointSettings()) {
+    const auto builds = [&](const auto& build) {
+      const test::WithFloatingPoint set(setting);
+      try {
+        build();
+      } catch (const std::runtime_error&) {
+        return false;
+      }
+      return true;
+    };
+    EXPECT_EQ(builds([&] { Body("", mesh); }), setting.standard()) << setting.name;
+    EXPECT_EQ(builds([&] { Body("", part); }), setting.standard()) << setting.name;
+    EXPECT_EQ(builds([&] { WideObbTree{mesh}; }), setting.standard()) << setting.name;
+    EXPECT_EQ(builds([&] { WideObbTree{part}; }), setting.standard()) << setting.name;
+    EXPECT_EQ(builds([&] { ObbTree{mesh}; }), setting.standard()) << setting.name;
+    EXPECT_EQ(builds([&] { ObbTree{part}; }), setting.standard()) << setting.name;
+    EXPECT_EQ(builds([&] { Octree(mesh, {}); }), setting.standard()) << setting.name;
+  }
+}
+
+}  // namespace
+}  // namespace corridor

@@ -1,0 +1,54 @@
+// This program is linked with -ffast-math, which sets flush-to-zero and denormals-are-zero before
+// `main`. Proofs hold there.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/core/floating_point.h"
+#include "collision/motion/check_evidence.h"
+#include "tests/collision/motion/bodies.h"
+#include "tests/collision/motion/grazing.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+/// The least normal number, which the compiler must not halve itself.
+volatile double least = 0x1p-1022;
+
+TEST(FlushToZero, IsSetFromTheStart) {
+#if defined(__x86_64__)
+  EXPECT_EQ(least / 2, 0);
+#endif
+  EXPECT_EQ(floatingPoint(), FloatingPoint::standard) << "it is allowed";
+}
+
+TEST(FlushToZero, GrazingEdgesAreRight) {
+  std::mt19937_64 random(test::testSeed(5));
+  int known = 0;
+  for (int n = 0; n < 3'000; ++n) {
+    const double gap = (n % 2 ? 1 : -1) * std::pow(10.0, -2 - n % 12);
+    const double size = std::pow(10.0, 6 - n % 13);
+    const auto feature = static_cast<test::Grazing::Feature>(n % test::Grazing::features);
+    const test::Grazing g(random, feature, n % 5 == 0, gap, size);
+    if (!g.known) continue;
+    ++known;
+    const Body fixed = test::bodyOf(g.fixed), moving = test::bodyOf(g.moving);
+    RigidEdge edge(RigidMotion::spatial(g.from, g.to, {}));
+    const MotionPair pair{&fixed, &moving};
+    MotionOptions options;
+    options.tolerance = 1e-7 * size;
+    QueryContext context;
+    MotionEvidence evidence;
+    const MotionResult result = certifyMotion(edge, {&pair, 1}, options, context, &evidence);
+    if (gap < 0) {
+      ASSERT_NE(result.verdict, MotionVerdict::free) << n;
+    } else if (gap * size > 2 * options.tolerance) {
+      ASSERT_EQ(result.verdict, MotionVerdict::free) << n;
+    }
+  }
+  EXPECT_GT(known, 1'000);
+}
+
+}  // namespace
+}  // namespace corridor
