@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "collision/core/rounding.h"
+#include "collision/queries/containment.h"
 #include "collision/queries/distance.h"
 
 namespace corridor {
@@ -20,25 +22,56 @@ PointTravel travelOfBody(const Body& b, const MotionWindow& window) {
   return travelOf(window, y + window.X_AB.t, roundedUp(b.sphereRadius() + 16 * kUnit * terms));
 }
 
-/// Proves half of the claim for all of [t0, t1], or tells where it can't be.
-std::optional<EvidenceFault> faultIn(MotionSource& motion, std::span<const MotionPair> pairs,
-                                     const FreeInterval& i, QueryContext& context) {
-  const MotionPair& pair = pairs[i.pair];
-  const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
-  const MotionWindow window = motion.window(pair.motion, middle, h);
-  const auto closer = [&](double d) {
-    return closerThan(pair.a->binaryTree(), {}, pair.b->binaryTree(), window.X_AB, d, context);
-  };
-  const PointTravel travel = travelOfBody(*pair.b, window);
-  const double needed = roundedUp(i.clearance / 2 + travel.cap + travel.pad);
-  if (needed < HUGE_VAL && !closer(needed)) return std::nullopt;
-  // Nothing is gained by shorter windows: what is not proved is lost to the pad, or not so.
-  if (!(travel.cap >= i.clearance / 4) || !(i.t0 < middle && middle < i.t1))
-    return EvidenceFault{closer(0.75 * i.clearance) ? Kind::refuted : Kind::unproved, i.pair,
-                         middle};
-  const auto first = faultIn(motion, pairs, {i.pair, i.t0, middle, i.clearance}, context);
-  return first ? first : faultIn(motion, pairs, {i.pair, middle, i.t1, i.clearance}, context);
-}
+class EvidenceCheck {
+ public:
+  EvidenceCheck(MotionSource& motion, std::span<const MotionPair> pairs,
+                const MotionOptions& options, QueryContext& context)
+      : motion_(motion), pairs_(pairs), options_(options), context_(context) {
+    const std::uint64_t done = context.counters.work();
+    workEnd_ = done + std::min(options.workLimit, std::numeric_limits<std::uint64_t>::max() - done);
+  }
+
+  /// Proves the margin and half of what the interval claims beyond it, for all of [t0, t1].
+  std::optional<EvidenceFault> faultIn(const FreeInterval& i) {
+    const MotionPair& pair = pairs_[i.pair];
+    const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
+    if (context_.counters.work() >= workEnd_) return EvidenceFault{Kind::workLimit, i.pair, middle};
+    const MotionWindow window = motion_.window(pair.motion, middle, h);
+    const auto closer = [&](double d) {
+      return closerThan(pair.a->binaryTree(), {}, pair.b->binaryTree(), window.X_AB, d, context_);
+    };
+    const PointTravel travel = travelOfBody(*pair.b, window);
+    const double beyond = std::max(0.0, i.clearance - options_.margin);
+    const double needed =
+        roundedUp(options_.margin + roundedUp(beyond / 2) + travel.cap + travel.pad);
+    if (needed < HUGE_VAL && !closer(needed)) return std::nullopt;
+    // Shorter windows gain nothing: what is not proved is lost to the pad, or does not hold.
+    if (!(travel.cap >= std::max(beyond, options_.tolerance) / 4) ||
+        !(i.t0 < middle && middle < i.t1))
+      return EvidenceFault{closer(options_.margin + 0.75 * beyond) ? Kind::refuted : Kind::unproved,
+                           i.pair, middle};
+    const auto first = faultIn({i.pair, i.t0, middle, i.clearance});
+    return first ? first : faultIn({i.pair, middle, i.t1, i.clearance});
+  }
+
+  /// Surfaces that stay apart, of which one body is inside the other?
+  std::optional<EvidenceFault> insideAtStart() {
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      const MotionPair& pair = pairs_[k];
+      const Transform X_AB = motion_.window(pair.motion, 0, 0).X_AB;
+      if (insideEachOther(*pair.a, {}, *pair.b, X_AB, context_))
+        return EvidenceFault{Kind::refuted, k, 0};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  MotionSource& motion_;
+  std::span<const MotionPair> pairs_;
+  const MotionOptions& options_;
+  QueryContext& context_;
+  std::uint64_t workEnd_ = 0;
+};
 
 /// On the grid of windows: then their middles are exact.
 bool isWindow(const FreeInterval& i) {
@@ -48,17 +81,27 @@ bool isWindow(const FreeInterval& i) {
   return onGrid(i.t0) && onGrid(i.t1) && i.t0 < i.t1;
 }
 
+bool areOptions(const MotionOptions& options) {
+  const auto finite = [](double x) { return x >= 0 && x < HUGE_VAL; };
+  return finite(options.margin) && finite(options.reserve) && finite(options.tolerance) &&
+         options.tolerance > 0;
+}
+
 }  // namespace
 
 std::optional<EvidenceFault> checkEvidence(MotionSource& motion, std::span<const MotionPair> pairs,
                                            const MotionOptions& options, double until,
                                            const MotionEvidence& evidence, QueryContext& context) {
+  if (!standardFloatingPoint()) return EvidenceFault{Kind::floatingPoint, 0, 0};
+  if (!areOptions(options) || !(until >= 0 && until <= 1))
+    return EvidenceFault{Kind::malformed, 0, until};
+  const bool claims = until > 0 || !evidence.free.empty();
+  if (claims && motion.ambiguous()) return EvidenceFault{Kind::ambiguous, 0, 0};
   std::vector<FreeInterval> intervals = evidence.free;
-  const double least = options.margin + options.reserve;
-  if (!(until >= 0 && until <= 1)) return EvidenceFault{Kind::malformed, 0, until};
+  const double least = roundedDown(options.margin + options.reserve);
   for (const FreeInterval& i : intervals)
     if (i.pair >= pairs.size() || !isWindow(i) ||
-        !(i.clearance >= roundedDown(least) && i.clearance > 0 && i.clearance < HUGE_VAL))
+        !(i.clearance >= least && i.clearance > 0 && i.clearance < HUGE_VAL))
       return EvidenceFault{Kind::malformed, i.pair, i.t0};
   std::sort(intervals.begin(), intervals.end(), [](const FreeInterval& x, const FreeInterval& y) {
     return x.pair != y.pair ? x.pair < y.pair : x.t0 < y.t0;
@@ -70,9 +113,10 @@ std::optional<EvidenceFault> checkEvidence(MotionSource& motion, std::span<const
       if (next->t0 <= covered) covered = std::max(covered, next->t1);
     if (covered < until) return EvidenceFault{Kind::gap, k, covered};
   }
+  EvidenceCheck check(motion, pairs, options, context);
   for (const FreeInterval& i : intervals)
-    if (auto fault = faultIn(motion, pairs, i, context)) return fault;
-  return std::nullopt;
+    if (auto fault = check.faultIn(i)) return fault;
+  return until > 0 ? check.insideAtStart() : std::nullopt;
 }
 
 }  // namespace corridor

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include <Eigen/Geometry>
 
@@ -125,6 +126,23 @@ std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_W
                                      QueryContext& context) {
   if (const auto triangle = containing(solid, X_WS, inner.points[0], X_WI, context))
     return TrianglePair{*triangle, 0};
+  return std::nullopt;
+}
+
+std::optional<TrianglePair> enclosed(const Body& solid, const Transform& X_WS, const Body& inner,
+                                     const Transform& X_WI, QueryContext& context) {
+  if (!solid.solid() || solid.part()) return std::nullopt;
+  const MeshBody around{solid.binaryTree(), solid.components()};
+  if (inner.part()) return enclosed(around, X_WS, *inner.part(), X_WI, context);
+  return enclosed(around, X_WS, {inner.binaryTree(), inner.components()}, X_WI, context);
+}
+
+std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
+                                            const Transform& X_WB, QueryContext& context) {
+  if (!X_WA.isFinite() || !X_WB.isFinite())
+    throw std::invalid_argument("the pose of a body is to be finite");
+  if (const auto hit = enclosed(a, X_WA, b, X_WB, context)) return hit;
+  if (const auto hit = enclosed(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
   return std::nullopt;
 }
 

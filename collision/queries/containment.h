@@ -4,6 +4,7 @@
 
 #include "collision/core/query_context.h"
 #include "collision/geometry/mesh_components.h"
+#include "collision/hierarchy/body.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/queries/interference.h"
 
@@ -34,5 +35,14 @@ std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_W
 std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_WS,
                                      const ConvexPart& inner, const Transform& X_WI,
                                      QueryContext& context);
+/// Is a component of the body `inner` inside the body `solid`, a solid mesh? Nothing is inside
+/// other bodies: what is inside a convex part touches it. @pre surfaces that don't touch.
+std::optional<TrianglePair> enclosed(const Body& solid, const Transform& X_WS, const Body& inner,
+                                     const Transform& X_WI, QueryContext& context);
+/// Is one of two bodies, or a component of it, inside the other? The pair is (of a, of b).
+/// @pre surfaces that don't touch.
+/// @throws std::invalid_argument for a pose that is not finite.
+std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
+                                            const Transform& X_WB, QueryContext& context);
 
 }  // namespace corridor

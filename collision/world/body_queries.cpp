@@ -22,31 +22,12 @@ void require(double x, const char* what) {
     throw std::invalid_argument(std::string(what) + " is to be finite and not negative");
 }
 
-/// Is a component of `inner` inside `solid`, surfaces that don't touch? The triangle around, and
-/// the number of what is inside. A convex part has looked at what is inside it when it looked for
-/// contacts.
-std::optional<TrianglePair> inside(const Body& solid, const Transform& X_WS, const Body& inner,
-                                   const Transform& X_WI, QueryContext& context) {
-  if (!solid.solid() || solid.part()) return std::nullopt;
-  const MeshBody around{solid.binaryTree(), solid.components()};
-  if (inner.part()) return enclosed(around, X_WS, *inner.part(), X_WI, context);
-  return enclosed(around, X_WS, {inner.binaryTree(), inner.components()}, X_WI, context);
-}
-
-/// A point of what `inside` found.
+/// A point of what `enclosed` found.
 Vec3 pointOf(const Body& inner, std::uint32_t number, const Transform& X_WI) {
   return X_WI * (inner.part() ? inner.part()->points[0] : inner.mesh().corner(number, 0));
 }
 
 }  // namespace
-
-std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
-                                            const Transform& X_WB, QueryContext& context) {
-  require(X_WA, X_WB);
-  if (const auto hit = inside(a, X_WA, b, X_WB, context)) return hit;
-  if (const auto hit = inside(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
-  return std::nullopt;
-}
 
 std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
                                          const Transform& X_WB, QueryContext& context,
@@ -69,10 +50,10 @@ Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Tra
   require(options.absolute, "a distance's absolute error");
   Distance d = surfaceDistance(a, X_WA, b, X_WB, options, context, trees);
   if (d.distance == 0) return d;
-  if (const auto hit = inside(a, X_WA, b, X_WB, context)) {
+  if (const auto hit = enclosed(a, X_WA, b, X_WB, context)) {
     const Vec3 p_W = pointOf(b, hit->b, X_WB);
     d = {0, p_W, p_W, hit->a, hit->b};
-  } else if (const auto other = inside(b, X_WB, a, X_WA, context)) {
+  } else if (const auto other = enclosed(b, X_WB, a, X_WA, context)) {
     const Vec3 p_W = pointOf(a, other->b, X_WA);
     d = {0, p_W, p_W, other->b, other->a};
   }

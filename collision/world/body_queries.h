@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "collision/queries/containment.h"
 #include "collision/queries/distance.h"
 #include "collision/queries/triangle_pair.h"
 #include "collision/world/scene.h"
@@ -36,10 +37,5 @@ Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Tra
 /// The tolerance query: are they at most d metres apart? `false` is a proof that they are farther.
 bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
                 double d, QueryContext& context, TreeKind trees = TreeKind::wideObb);
-
-/// Of two bodies whose surfaces don't touch: is one, or a component of it, in the other, a solid
-/// mesh? (What is inside a primitive touches it.)
-std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
-                                            const Transform& X_WB, QueryContext& context);
 
 }  // namespace corridor

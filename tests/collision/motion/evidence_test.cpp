@@ -8,6 +8,7 @@
 #include "collision/queries/distance.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/collision/queries/every_target.h"
+#include "tests/support/floating_point.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -131,6 +132,123 @@ TEST_P(Evidence, TamperedWithItFails) {
   EXPECT_EQ(fault(), Kind::malformed);
   swing.options.margin = 1;
   EXPECT_EQ(fault(), Kind::malformed) << "less than what was asked for";
+}
+
+/// A claim that leaves less than the margin isn't accepted, however small the shortfall.
+TEST_P(Evidence, AMarginIsProvedInFull) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  for (const double gap : {0.08, 0.095, 0.0999999, 0.1, 0.11, 0.2}) {
+    Case slide(wall, cube,
+               RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)), {}),
+               1e-9);
+    slide.options.margin = 0.1;
+    slide.options.workLimit = 500'000;
+    slide.result.certifiedUntil = 1;
+    slide.evidence.free = {{0, 0, 1, 0.1}};
+    EXPECT_EQ(slide.check().has_value(), gap <= 0.1) << gap;
+    // So does the tube: two millimetres along y.
+    slide.motion = RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)),
+                                        {.position = 0.002, .rotation = 0});
+    EXPECT_EQ(slide.check().has_value(), gap <= 0.102) << gap << " with a tube";
+  }
+}
+
+TEST_P(Evidence, OtherArithmeticIsRefused) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  Case slide(wall, cube, RigidMotion::spatial(at(Vec3(-5, 0, 0)), at(Vec3(5, 0, 0)), {}));
+  slide.run();
+  for (const auto& setting : test::floatingPointSettings()) {
+    std::optional<EvidenceFault> fault;
+    {
+      const test::WithFloatingPoint set(setting);
+      fault = slide.check();
+    }
+    ASSERT_EQ(fault.has_value(), !setting.standard()) << setting.name;
+    if (fault) {
+      EXPECT_EQ(fault->kind, Kind::floatingPoint);
+    }
+  }
+}
+
+TEST_P(Evidence, AHalfTurnIsNoEdge) {
+  const Body wall = bodyOf(box(Vec3(-10, 5, -10), Vec3(10, 6, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  Case turn(
+      wall, cube,
+      RigidMotion::spatial(at(Vec3::Zero()), {Vec3::Zero(), Eigen::Quaterniond(0, 0, 0, 1)}, {}));
+  turn.result.certifiedUntil = 1;
+  turn.evidence.free = {{0, 0, 1, 0.1}};
+  ASSERT_TRUE(turn.check());
+  EXPECT_EQ(turn.check()->kind, Kind::ambiguous);
+}
+
+TEST_P(Evidence, WhatIsInsideASolidIsNotFree) {
+  const TriangleMesh shell = box(Vec3(-3, -3, -3), Vec3(3, 3, 3)),
+                     small = box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5));
+  const Body surface = bodyOf(shell), solid("solid", shell, true), cube = bodyOf(small),
+             ball("ball", ConvexPart{{Vec3::Zero()}, 0.5, false});
+  for (const Body* moving : {&cube, &ball})
+    for (const Body* fixed : {&surface, &solid}) {
+      Case inside(*fixed, *moving, RigidMotion::spatial(at(Vec3(-1, 0, 0)), at(Vec3(1, 0, 0)), {}));
+      inside.result.certifiedUntil = 1;
+      inside.evidence.free = {{0, 0, 1, 0.5}};
+      const auto fault = inside.check();
+      EXPECT_EQ(fault.has_value(), fixed == &solid);
+      if (fault) {
+        EXPECT_EQ(fault->kind, Kind::refuted);
+      }
+      // The other way round: the shell moves about what is inside.
+      Case around(*moving, *fixed, RigidMotion::spatial(at(Vec3(-1, 0, 0)), at(Vec3(1, 0, 0)), {}));
+      around.result.certifiedUntil = 1;
+      around.evidence.free = {{0, 0, 1, 0.5}};
+      EXPECT_EQ(around.check().has_value(), fixed == &solid);
+    }
+}
+
+TEST_P(Evidence, TheWorkLimitEndsTheCheck) {
+  std::mt19937_64 random(test::testSeed(42));
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cloud = bodyOf(blob(random, 200, 0.5, 0.3));
+  Case slide(wall, cloud, RigidMotion::spatial(at(Vec3(-5, -1, 0)), at(Vec3(5, -1, 0)), {}));
+  slide.run();
+  ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
+  ASSERT_FALSE(slide.check());
+  slide.options.workLimit = 3;
+  ASSERT_TRUE(slide.check());
+  EXPECT_EQ(slide.check()->kind, Kind::workLimit);
+}
+
+/// Claims as large as can be made, true or not: what is accepted holds at samples, margin and tube
+/// included.
+TEST_P(Evidence, WhatIsAcceptedHolds) {
+  std::mt19937_64 random(test::testSeed(43));
+  int accepted = 0, refused = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Body fixed = bodyOf(blob(random, 20, 2, 0.3)), moving = bodyOf(blob(random, 6, 0.3, 0.3));
+    const auto [a, b] = randomEdge(random);
+    const Tube tube{n % 2 ? 0.01 : 0, n % 4 / 2 ? 0.01 : 0};
+    Case c(fixed, moving, RigidMotion::spatial(a, b, tube), 1e-6);
+    c.options.margin = n % 3 ? 0.1 * std::uniform_real_distribution(0.0, 1.0)(random) : 0;
+    double least = HUGE_VAL;  // at samples of the nominal motion
+    for (int k = 0; k <= 64; ++k)
+      least = std::min(least, distance(fixed.binaryTree(), {}, moving.binaryTree(),
+                                       c.motion.at(k / 64.0), {}, c.context)
+                                  .distance);
+    const double claim = c.options.margin + std::pow(10.0, -(n % 6)) * least;
+    c.result.certifiedUntil = 1;
+    c.evidence.free = {{0, 0, 1, claim + 1e-12}};
+    if (c.check()) {
+      ++refused;
+      continue;
+    }
+    ++accepted;
+    // A curve of the tube may be nearer by as much as the tube moves some point along one axis.
+    ASSERT_GT(least, c.options.margin + tube.position) << n;
+  }
+  EXPECT_GT(accepted, 20);
+  EXPECT_GT(refused, 20);
 }
 
 /// The check takes the whole body for as loose as its farthest point: it may not be able to prove a
