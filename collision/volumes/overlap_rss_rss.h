@@ -52,6 +52,7 @@ class PairTest<Rss> {
                       double pad, double enough) const {
     const double slack = margins_.relative * (pair.T.cwiseAbs().sum() + a.sum() + b.sum() + radii) +
                          margins_.absolute + radii + kTiny;
+    if (!(slack < HUGE_VAL)) return 0;  // far from rigid: `relative` may exceed 1
     double best = 0;
     Vec3 q = pair.T;  // on b
     for (int step = 0; step < kSteps; ++step) {

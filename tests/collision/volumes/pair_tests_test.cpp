@@ -29,7 +29,8 @@ Vec3 normalOf(std::mt19937_64& random, int n) {
   return v.norm() > 0 ? Vec3(v.normalized()) : Vec3::UnitX();
 }
 
-Meeting meeting(std::mt19937_64& random, int n, double gap, double offset) {
+/// @param defect  of the map from a rotation, about; 0: as near to one as poses are.
+Meeting meeting(std::mt19937_64& random, int n, double gap, double offset, double defect = 0) {
   std::uniform_real_distribution<double> real(-1, 1);
   const Vec3 normal = normalOf(random, n);
   const Vec3 where = offset * Vec3(real(random), real(random), real(random));
@@ -37,6 +38,10 @@ Meeting meeting(std::mt19937_64& random, int n, double gap, double offset) {
   m.X_AB = test::anyPose(random, offset);
   if (n % 4 == 0) m.X_AB.m = Mat3::Identity();
   if (n % 4 == 1) m.X_AB.m += 1e-9 * test::anyPose(random, 1).m;
+  if (defect > 0) {
+    const Mat3 bent = defect * test::anyPose(random, 1).m;
+    m.X_AB.m += n % 7 == 2 ? Mat3(Vec3(bent.row(0)).asDiagonal()) : bent;
+  }
   const Mat3 inverse = m.X_AB.m.inverse();
   const double depth = n % 2 ? 0 : std::pow(10.0, -(n % 9));  // flat, or thick behind the plane
   const auto cloud = [&](double side) {
@@ -100,6 +105,34 @@ TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
     told += bound > 0;
   }
   EXPECT_GT(told, 100) << "nothing is ever told: nothing was tested";
+}
+
+/// Maps that are far from rigid (scaled, sheared, mirrored, nearly flat): still no bound may exceed
+/// the distance of two points of the contents.
+TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
+  std::mt19937_64 random(test::testSeed(44));
+  for (int n = 0; n < 20'000; ++n) {
+    const double defect = std::pow(10.0, std::uniform_real_distribution(-3.0, 1.0)(random));
+    const double gap = n % 3 ? std::pow(10.0, -(n % 16)) : 0;
+    const Meeting m = meeting(random, n, gap, n % 5 == 0 ? 1e6 : 1, defect);
+    // Of a map that is nearly flat the inverse may be of no use.
+    if (!(m.distance < HUGE_VAL)) continue;
+    const Fitted<TypeParam> a(m.a), b(m.b);
+    const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
+    ASSERT_LE(test.distanceBound(a.volume, b.volume), m.distance) << n << ", defect " << defect;
+    ASSERT_FALSE(test.separated(a.volume, b.volume, m.distance)) << n << ", defect " << defect;
+    if constexpr (std::is_same_v<TypeParam, Obb>) {
+      const auto& [u, v] = std::pair(a.volume, b.volume);
+      ASSERT_FALSE((PairTest<Obb, Gjk>(a.bounds, b.bounds, m.X_AB, 0).separated(u, v, m.distance)))
+          << n << ", defect " << defect;
+      ASSERT_FALSE(
+          (PairTest<Obb, LinearProgram>(a.bounds, b.bounds, m.X_AB, 0).separated(u, v, m.distance)))
+          << n << ", defect " << defect;
+      ASSERT_FALSE(
+          (PairTest<Obb, EdgeFace>(a.bounds, b.bounds, m.X_AB, 0).separated(u, v, m.distance)))
+          << n << ", defect " << defect;
+    }
+  }
 }
 
 /// What is far apart is told to be, and about how far.
