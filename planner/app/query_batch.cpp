@@ -165,14 +165,21 @@ BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
   result.bytesB = treeB.bytes;
   result.buildMsB = treeB.ms;
   MotionOptions options;
-  options.tolerance = tolerance.value_or(1e-7 * std::min(a.sphereRadius(), b.sphereRadius()));
+  double farthest = 0;
+  for (const PoseMotion& motion : motions)
+    farthest = std::max({farthest, motion.from.p.stableNorm(), motion.to.p.stableNorm()});
+  for (const Body* body : {&a, &b}) farthest += body->sphereCenter().norm() + body->sphereRadius();
+  options.tolerance =
+      tolerance.value_or(std::max(1e-7 * std::min(a.sphereRadius(), b.sphereRadius()),
+                                  RigidMotion::roundingTolerance(farthest)));
   if (!(options.tolerance > 0)) options.tolerance = 1e-300;  // a single point; any will do
   options.earliest = true;
   options.trees = trees.trees;
   result.tolerance = options.tolerance;
   std::vector<RigidEdge> edges;
   for (const PoseMotion& motion : motions)
-    edges.emplace_back(RigidMotion::spatial(motion.from, motion.to, {}));
+    edges.emplace_back(
+        RigidMotion::spatial(motion.from, motion.to, {.position = 0, .rotation = motion.defect}));
   const MotionPair pair{&a, &b, 0, 0, 1};
   result.motions.resize(motions.size());
   result.answers =

@@ -69,7 +69,8 @@ struct BatchResult {
 BatchResult runPoses(const Batch& batch);
 
 /// The first contact of motions of b, a at rest.
-/// @param tolerance metres; unset: 1e-7 of the smaller one's radius.
+/// @param tolerance metres; unset: 1e-7 of the smaller one's radius, or what the
+/// rounding of the poses needs, if that is larger.
 BatchResult runMotions(TriangleMesh a, TriangleMesh b, const std::vector<PoseMotion>& motions,
                        const TreeChoice& trees, std::optional<double> tolerance, int repeat,
                        EdgeMethod method);

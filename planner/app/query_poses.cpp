@@ -7,9 +7,11 @@
 #include <ostream>
 #include <random>
 #include <string_view>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
@@ -53,6 +55,15 @@ std::string parsePose(const double* values, Transform& X) {
   return whyNoRotation(X.m);
 }
 
+/// The rotation nearest to a matrix, as a unit quaternion q, and a bound of |M − R(q)| in the
+/// operator norm: Frobenius' norm of the difference, and 40u for the rounding of R(q) and of it.
+std::pair<Eigen::Quaterniond, double> nearestRotation(const Mat3& M) {
+  const Eigen::JacobiSVD<Mat3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Mat3 R = svd.matrixU() * svd.matrixV().transpose();  // no mirror: M is none
+  const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
+  return {q, roundedUp((M - q.toRotationMatrix()).norm() + 40 * kUnit)};
+}
+
 std::string parsePose(const Numbers& values, Transform& X) {
   if (values.size() != 12)
     return "a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not " +
@@ -71,9 +82,9 @@ std::string parseMotion(const Numbers& values, PoseMotion& motion) {
         !complaint.empty())
       return (last ? "where it ends " : "where it begins ") + complaint;
     RigidPose& pose = last ? motion.to : motion.from;
-    pose.p = X.t;
-    pose.q = Eigen::Quaterniond(X.m);
-    pose.q.normalize();
+    const auto [q, defect] = nearestRotation(X.m);
+    pose = {X.t, q};
+    motion.defect = std::max(motion.defect, defect);
   }
   return "";
 }

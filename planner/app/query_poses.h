@@ -23,10 +23,12 @@ namespace corridor::app {
 std::vector<Transform> readPoses(const std::filesystem::path& file);
 
 /// Two poses of B, where a motion begins and where it ends, 24 numbers a line; the rest as
-/// `readPoses`. Their rotations are told as unit quaternions (rounded), which is what moves; so an
-/// orientation may be as far from the matrix in the file as that is from a rotation.
+/// `readPoses`. What moves is the rotation nearest to each matrix, as a unit quaternion. How far
+/// the two matrices are from those is a tube around the motion: what is proved free is free for the
+/// maps in the file, too.
 struct PoseMotion {
   RigidPose from, to;
+  double defect = 0;  ///< rounded up; the larger |M − R|, metres per metre of lever
 };
 std::vector<PoseMotion> readMotions(const std::filesystem::path& file);
 

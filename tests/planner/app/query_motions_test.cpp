@@ -5,18 +5,24 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <random>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "collision/core/transform.h"
 #include "tests/planner/app/program_test.h"
+#include "tests/support/support.h"
 
 namespace {
 
+using corridor::Mat3;
+using corridor::Vec3;
 using corridor::test::ProgramTest;
 
 const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the rotation that is none
@@ -144,6 +150,67 @@ TEST_F(QueryMotions, HalfATurnIsUndecided) {
     const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.out, kHeader + "\n0,undecided,0,-1,0,-1,-1,0,0,0\n") << edges;
+  }
+}
+
+/// Matrices with a few digits: what is free as a motion touches at neither end, as a pose.
+TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
+  // The needle's tip is 7 m from B's origin, so that an error of the matrix is one of the tip.
+  write("b.obj", "v 7 0 0\nv 7.1 0 1\nv 6.9 0 1\nf 1 2 3\n");
+  const Vec3 vertices[] = {{7, 0, 0}, {7.1, 0, 1}, {6.9, 0, 1}};
+  std::mt19937_64 random(corridor::test::testSeed(9));
+  std::uniform_real_distribution<double> real(-1, 1);
+  std::string motions, poses;
+  constexpr int kCount = 600;
+  for (int n = 0; n < kCount; ++n) {
+    const auto rounded = [&](double x) {
+      const double digits = n % 2 ? 1e6 : 1e4;
+      return std::round(x * digits) / digits;
+    };
+    std::string line;
+    const int close = n / 2 % 3;  // where it begins, where it ends, nowhere
+    const Mat3 turn = Eigen::AngleAxisd(3 * real(random), Vec3::UnitZ()).toRotationMatrix();
+    for (int end = 0; end < 2; ++end) {
+      Mat3 M = turn * Eigen::AngleAxisd(0.3 * real(random),
+                                        Vec3(real(random), real(random), real(random)).normalized())
+                          .toRotationMatrix();
+      M = M.unaryExpr(rounded);
+      // The lowest vertex a little above the floor, or in it.
+      double lowest = HUGE_VAL;
+      Vec3 low;
+      for (const Vec3& v : vertices)
+        if ((M * v).z() < lowest) lowest = (M * v).z(), low = M * v;
+      const double gap = end == close ? (n % 4 ? 1 : -1) * std::pow(10.0, -3 - n % 9) : 1;
+      const Vec3 t(-low.x(), -low.y() - 1, gap - lowest);
+      std::ostringstream numbers;
+      numbers.precision(17);
+      for (int i = 0; i < 9; ++i) numbers << M(i / 3, i % 3) << ' ';
+      numbers << t.x() << ' ' << t.y() << ' ' << t.z();
+      line += numbers.str() + ' ';
+      poses += numbers.str() + '\n';
+    }
+    motions += line + '\n';
+  }
+  write("poses.txt", poses);
+  const Result hits = run("query a.obj b.obj --poses poses.txt");
+  ASSERT_EQ(hits.status, 0) << hits.err;
+  const std::vector<std::string> hit = wordsOf(hits.out, '\n');
+  for (const std::string edges : {"certified", "adaptive", "advancement"}) {
+    const Result result = query(motions, "--tolerance 1e-9 --edges " + edges);
+    ASSERT_EQ(result.status, 0) << result.err;
+    const std::vector<Row> rows = rowsOf(result.out);
+    ASSERT_EQ(rows.size(), std::size_t{kCount});
+    int free = 0, touching = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool touches =
+          wordsOf(hit[2 * i + 1], ',')[1] == "1" || wordsOf(hit[2 * i + 2], ',')[1] == "1";
+      touching += touches;
+      if (rows[i].at("verdict") != "free") continue;
+      ++free;
+      EXPECT_FALSE(touches) << edges << ", motion " << i;
+    }
+    EXPECT_GT(free, 250) << edges;
+    EXPECT_GT(touching, 50);
   }
 }
 
