@@ -6,6 +6,7 @@
 #include <thread>
 #include <unordered_map>
 
+#include "planner/checker/default_tolerance.h"
 #include "planner/robot/edge_motion.h"
 
 namespace corridor {
@@ -84,7 +85,8 @@ Checker::Checker(const Problem& problem)
       pool_(std::make_unique<Pool>()) {
   if (const auto wrong = wrongWordIn(problem.checker))
     throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
-  options_.tolerance = problem.checker.tolerance.value_or(scene_.defaultTolerance());
+  options_.tolerance = problem.checker.tolerance.value_or(
+      std::max(scene_.defaultTolerance(), roundingTolerance(problem)));
   options_.reserve = options_.tolerance;
   options_.margin = problem.margin;
   options_.trees = treesNamed(problem.checker.trees()).trees;
@@ -128,6 +130,7 @@ MotionResult Checker::edge(const Configuration& from, const Configuration& to, b
 }
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
+  requireStandardFloatingPoint();
   QueryContext& context = mine().context;
   const std::uint64_t before = context.counters.states;
   const std::optional<Contact> contact =
@@ -137,6 +140,7 @@ std::optional<Contact> Checker::interference(const Configuration& q) const {
 }
 
 double Checker::clearance(const Configuration& q) const {
+  requireStandardFloatingPoint();
   QueryContext& context = mine().context;
   const std::uint64_t before = context.counters.states;
   const double least = scene_.clearance(framePoses(problem_.tree, q), context, options_.trees);
@@ -144,7 +148,7 @@ double Checker::clearance(const Configuration& q) const {
   return least - options_.margin;
 }
 
-std::vector<Scene::Pair> Checker::pairsNotFree(const Configuration& q) const {
+std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) const {
   Workspace& workspace = mine();
   workspace.motion.set(q, q);
   const Counters before = workspace.context.counters;
@@ -152,12 +156,17 @@ std::vector<Scene::Pair> Checker::pairsNotFree(const Configuration& q) const {
       scene_.certifyEachPair(workspace.motion, options_, workspace.context);
   workspace.context.counters.edges = before.edges;
   workspace.context.counters.states = before.states + 1;
-  std::vector<Scene::Pair> pairs;
+  std::vector<PairNotFree> pairs;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].verdict == MotionVerdict::free) continue;
+    const bool tooLarge = results[i].reason == UndecidedReason::rounding;
     const auto [a, b] = std::minmax(bodyOf_[scene_.pairs()[i].a], bodyOf_[scene_.pairs()[i].b]);
-    const auto same = [a = a, b = b](const Scene::Pair& p) { return p.a == a && p.b == b; };
-    if (std::none_of(pairs.begin(), pairs.end(), same)) pairs.push_back({a, b});
+    const auto same = [a = a, b = b](const PairNotFree& p) { return p.a == a && p.b == b; };
+    const auto known = std::find_if(pairs.begin(), pairs.end(), same);
+    if (known == pairs.end())
+      pairs.push_back({a, b, tooLarge});
+    else
+      known->tooLarge = known->tooLarge && tooLarge;
   }
   return pairs;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/robot/turns.h"
+
 namespace corridor {
 namespace {
 
@@ -119,8 +121,7 @@ Orientation fromRpy(const Vec3& a) {
 }
 
 double wrappedYaw(double radians) {
-  if (std::abs(radians) <= std::numbers::pi) return radians;
-  return std::remainder(radians, 2 * std::numbers::pi);
+  return intoCircle(radians);
 }
 
 double wrappedYawDegrees(double degrees) {

@@ -94,7 +94,7 @@ struct Problem {
   struct CheckerSpec {
     std::string edges = "certified";  ///< a name of `EdgeMethod`, or "discrete"
     double resolution = 0.01;         ///< discrete: OMPL's longest_valid_segment_fraction
-    std::optional<double> tolerance;  ///< metres; unset: Scene::defaultTolerance
+    std::optional<double> tolerance;  ///< metres; unset: see checker/default_tolerance.h
     std::string volume = "obb";       ///< of the trees: a name of `volumeKinds`
     std::string fit, overlap;         ///< of the volume's own; empty: its first
 

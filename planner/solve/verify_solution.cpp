@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "planner/checker/default_tolerance.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/verify/edge_curve.h"
 
 namespace corridor {
 namespace {
@@ -34,7 +35,7 @@ Real awayIn(const Coordinate& c, const Configuration& a, const Configuration& b)
     case Coordinate::Kind::line:
       return std::abs(Real(b[i]) - Real(a[i]));
     case Coordinate::Kind::circle:
-      return std::abs(std::remainder(Real(b[i]) - Real(a[i]), 2 * std::numbers::pi_v<Real>));
+      return std::abs(verify::circleWay(a[i], b[i]));
     case Coordinate::Kind::rotation:
       return 2 * quaternionAngle(a, b, c.first);
   }
@@ -141,8 +142,8 @@ double sizeOf(const VerifyBody& body) {
   return 0.5 * (upper - lower).norm() + (body.part ? body.part->radius : 0);
 }
 
-/// A tenth of what the planner calls too close to tell (1e-7 of the smaller body, unless the
-/// problem says otherwise), so that its paths are decided.
+/// A tenth of what the planner calls too close to tell (1e-7 of the smaller body, or
+/// what rounding needs, unless the problem says otherwise), so that its paths are decided.
 double toleranceOf(const Problem& problem, const PathProblem& plain) {
   if (problem.checker.tolerance) return 0.1 * *problem.checker.tolerance;
   double smallest = 1;
@@ -150,7 +151,7 @@ double toleranceOf(const Problem& problem, const PathProblem& plain) {
     for (const std::size_t body : {pair.a, pair.b})
       if (const double size = sizeOf(plain.bodies[body]); size > 0)
         smallest = std::min(smallest, size);
-  return 1e-8 * smallest;
+  return 0.1 * std::max(1e-7 * smallest, roundingTolerance(problem));
 }
 
 }  // namespace

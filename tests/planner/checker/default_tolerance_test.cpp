@@ -1,0 +1,145 @@
+// Contract 2 at the default tolerance, however large coordinates are beside the bodies: a free edge
+// whose clearance is above twice the tolerance is proved.
+#include "planner/checker/default_tolerance.h"
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "collision/world/rigid_scene.h"
+#include "planner/robot/edge_motion.h"
+#include "tests/support/meshes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using Long3 = Eigen::Matrix<long double, 3, 1>;
+
+/// A floor of one triangle at the height 0 of its own frame, below a tetrahedron that stands on its
+/// tip.
+TriangleMesh floorOf(double size) {
+  TriangleMesh mesh;
+  test::add(mesh, Vec3(-9 * size, -9 * size, 0), Vec3(9 * size, -9 * size, 0),
+            Vec3(0, 9 * size, 0));
+  return mesh;
+}
+TriangleMesh topOf(double size) {
+  TriangleMesh mesh;
+  const Vec3 tip(0, 0, 0), a(size, 0, size), b(-size, size, size), c(-size, -size, size);
+  test::add(mesh, tip, a, b);
+  test::add(mesh, tip, b, c);
+  test::add(mesh, tip, c, a);
+  return mesh;
+}
+
+/// Heights of the tip above the floor are exact: position and gap are multiples of 2^-80.
+double onGrid(double x) {
+  return std::ldexp(std::round(std::ldexp(x, 42)), -42);
+}
+
+TEST(DefaultTolerance, RigidBodiesFarFromTheOrigin) {
+  std::mt19937_64 random(test::testSeed(7));
+  std::uniform_real_distribution<double> real(-1, 1);
+  for (int n = 0; n < 2'000; ++n) {
+    const double size = std::pow(10.0, -5 + n % 3), far = std::pow(10.0, 1 + n % 3);
+    const Vec3 where(onGrid(far * real(random)), onGrid(far * real(random)),
+                     onGrid(far * real(random)));
+    TriangleMesh floor = floorOf(size);
+    for (Vec3& p : floor.vertices) p = Vec3(p + where);
+    for (Vec3& p : floor.vertices) p.z() = where.z();  // level, and exactly so
+    std::vector<Body> moving, fixed;
+    moving.emplace_back("top", topOf(size));
+    fixed.emplace_back("floor", floor);
+    const RigidScene scene(std::move(moving), std::move(fixed));
+    MotionOptions options;
+    options.tolerance = scene.defaultTolerance(where.norm() + 1);
+    const double gap = options.tolerance * (2.01 + std::abs(real(random)));
+    // Along the floor, turning about the vertical: the tip is the lowest point all along.
+    RigidPose from, to;
+    from.p = where + Vec3(size * real(random), size * real(random), 0);
+    to.p = where + Vec3(size * real(random), size * real(random), 0);
+    from.p.z() = to.p.z() = where.z() + gap;  // rounds by 2^-53 of `far`, far below the gap
+    to.q = Eigen::AngleAxisd(real(random), Vec3::UnitZ());
+    QueryContext context;
+    const MotionResult result = scene.certifyEdge(from, to, options, context);
+    ASSERT_EQ(result.verdict, MotionVerdict::free)
+        << n << ": size " << size << ", far " << far << ", tolerance " << options.tolerance;
+  }
+}
+
+TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
+  std::mt19937_64 random(test::testSeed(8));
+  std::uniform_real_distribution<double> real(-1, 1);
+  int sharp = 0;
+  for (int n = 0; n < 1'000; ++n) {
+    const double size = std::pow(10.0, -5 + n % 3), far = std::pow(10.0, 1 + n % 3);
+    Problem problem;
+    const auto variable = [&](Coordinate::Kind kind, double limit) {
+      Coordinate c;
+      c.kind = kind;
+      c.lower = -limit;
+      c.upper = limit;
+      return problem.space.coordinates()[problem.space.add(c)].first;
+    };
+    // Slides along x, y and z, then turns about z far out, to and fro.
+    std::size_t parent = 0;
+    for (int k = 0; k < 3; ++k) {
+      Frame frame;
+      frame.parent = parent;
+      frame.joint = Frame::Joint::slide;
+      frame.axis = Vec3::Unit(k);
+      frame.variable = variable(Coordinate::Kind::line, far + 1);
+      parent = problem.tree.add(frame);
+    }
+    const int turns = 1 + n % 4;
+    for (int k = 0; k < turns; ++k) {
+      Frame frame;
+      frame.parent = parent;
+      frame.fixed.p = Vec3(far / 3 * real(random), far / 3 * real(random), 0);
+      frame.joint = Frame::Joint::turn;
+      frame.variable = variable(k % 2 ? Coordinate::Kind::circle : Coordinate::Kind::line, 3);
+      parent = problem.tree.add(frame);
+    }
+    const auto numbers = static_cast<Eigen::Index>(problem.space.size());
+    problem.tube = Configuration::Zero(numbers);
+    Configuration from(numbers), to(numbers);
+    for (Eigen::Index i = 0; i < numbers; ++i) {
+      from[i] = i < 3 ? onGrid(far * real(random)) : 3 * real(random);
+      to[i] = from[i] + (i < 3 ? 0 : size / far * real(random));
+    }
+    const std::vector<Transform> poses = framePoses(problem.tree, from);
+    const Vec3 tip = poses[parent].t;
+    TriangleMesh floor = floorOf(100 * size);
+    for (Vec3& p : floor.vertices) p = Vec3(p.x() + tip.x(), p.y() + tip.y(), from[2]);
+    PlacedShape under, over;
+    under.mesh.emplace().mesh = floor;
+    over.mesh.emplace().mesh = topOf(size);
+    problem.bodies = {{"top", parent, 0, {over}}, {"floor", 0, {}, {under}}};
+    problem.pairs = {{0, 1, ""}};
+
+    std::vector<Scene::Placed> placed;
+    placed.push_back({Body("top", topOf(size)), parent});
+    placed.push_back({Body("floor", floor), 0});
+    const Scene scene(std::move(placed), {{0, 1}});
+    MotionOptions options;
+    const double rounding = roundingTolerance(problem);
+    options.tolerance = std::max(scene.defaultTolerance(), rounding);
+    sharp += options.tolerance == rounding;
+    ASSERT_LT(options.tolerance, 0.01 * size) << "of use";
+    from[2] = to[2] = from[2] + options.tolerance * (2.05 + std::abs(real(random)));
+    EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+    motion.set(from, to);
+    QueryContext context;
+    const MotionResult result = scene.certify(motion, options, context);
+    ASSERT_EQ(result.verdict, MotionVerdict::free)
+        << n << ": size " << size << ", far " << far << ", tolerance " << options.tolerance
+        << ", reason " << static_cast<int>(result.reason);
+  }
+  EXPECT_GT(sharp, 300) << "the rounding of large coordinates decides";
+}
+
+}  // namespace
+}  // namespace corridor
