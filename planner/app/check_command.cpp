@@ -1,4 +1,6 @@
+#include <cmath>
 #include <iostream>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -20,12 +22,25 @@ struct CheckedState {
   bool valid = false;
   std::vector<std::string> pairs;        ///< "hand~table": not free
   std::vector<std::string> outOfBounds;  ///< names of coordinates
+  std::optional<std::string> tooLarge;   ///< the coordinate whose rounding leaves pairs undecided
 };
 
+/// The coordinate of the largest magnitude, which rounds most.
+std::string largestCoordinate(const ConfigurationSpace& space, const Configuration& q) {
+  const Coordinate* largest = &space.coordinates().front();
+  for (const Coordinate& c : space.coordinates())
+    if (c.kind != Coordinate::Kind::rotation &&
+        std::abs(q[static_cast<Eigen::Index>(c.first)]) >
+            std::abs(q[static_cast<Eigen::Index>(largest->first)]))
+      largest = &c;
+  return largest->name;
+}
+
+/// The state as it is: a full circle takes any angle, and no number is wrapped.
 CheckedState checkState(const Checker& checker, Configuration q, std::vector<std::string>& notes) {
   CheckedState checked;
   for (const Coordinate& c : checker.space().coordinates()) {
-    if (c.kind == Coordinate::Kind::rotation) continue;
+    if (c.kind != Coordinate::Kind::line) continue;
     double& number = q[static_cast<Eigen::Index>(c.first)];
     std::string why;
     if (const auto value = coordinateValue(c, number, c.name, notes, why))
@@ -33,10 +48,11 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
     else
       checked.outOfBounds.push_back(c.name);
   }
-  checker.space().normalise(q);
   const std::vector<ProblemBody>& bodies = checker.problem().bodies;
-  for (const Scene::Pair& pair : checker.pairsNotFree(q))
+  for (const Checker::PairNotFree& pair : checker.pairsNotFree(q)) {
     checked.pairs.push_back(bodies[pair.a].name + "~" + bodies[pair.b].name);
+    if (pair.tooLarge) checked.tooLarge = largestCoordinate(checker.space(), q);
+  }
   checked.valid = checked.pairs.empty() && checked.outOfBounds.empty();
   return checked;
 }
@@ -67,17 +83,19 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
                         {"valid", state.valid},
                         {"pairs", state.pairs},
                         {"out_of_bounds", state.outOfBounds}});
+      if (state.tooLarge) states.back()["too_large"] = *state.tooLarge;
       continue;
     }
     std::string why;
     for (const std::string& pair : state.pairs) why += (why.empty() ? "" : ";") + pair;
     for (const std::string& name : state.outOfBounds)
       why += (why.empty() ? "bounds:" : ";bounds:") + name;
+    if (state.tooLarge) why += ";too_large:" + *state.tooLarge;
     std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
   }
   if (noted)
     warn(*a.states + ": in " + counted(noted, "state") +
-         ", angles were wrapped or values a rounding beyond a limit taken for it");
+         ", values a rounding beyond a limit were taken for the limit");
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-1"},
                               {"problem", a.problem},

@@ -41,13 +41,21 @@ class Checker {
   /// `discrete`). @pre finite.
   MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Exact static interference: neither margin nor tolerance nor tube. @pre finite.
+  /// @throws std::runtime_error where the processor is set so that no bound holds
+  /// (collision/core/floating_point.h); so does `clearance`.
   std::optional<Contact> interference(const Configuration& q) const;
   /// How far the closest tested pair is apart beyond the margin, metres: where it is 0 or less,
   /// `state` isn't free (it may not be where it is less than tolerance and tube); the margin below
   /// 0 where a pair touches (there is no depth). Infinite where no pair is tested. @pre finite.
   double clearance(const Configuration& q) const;
-  /// The pairs of bodies of the problem of which `state` isn't free, each once. @pre finite.
-  std::vector<Scene::Pair> pairsNotFree(const Configuration& q) const;
+  /// Two bodies of the problem, by index, of which a state isn't free.
+  struct PairNotFree {
+    std::size_t a = 0, b = 0;
+    bool tooLarge =
+        false;  ///< undecided: a value is so large that the pose's rounding hides the gap
+  };
+  /// The pairs of which `state` isn't free, each once. @pre finite.
+  std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// In bounds and `state` is free.
   bool certifiedState(const Configuration& q) const;

@@ -33,10 +33,6 @@ Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
   return Quaterniond(Eigen::Vector4d(wa * a.coeffs() + wb * b.coeffs())).normalized();
 }
 
-double intoCircle(double angle) {
-  return std::abs(angle) <= pi ? angle : std::remainder(angle, 2 * pi);
-}
-
 /// The root of the sum of squares, for numbers whose squares under- or overflow, too.
 template <class Vector>
 double lengthOf(const Vector& v) {

@@ -229,6 +229,10 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
            ", too small to prove at a tolerance of " + number(options.tolerance) +
            " m; move it away, or set checker: {tolerance: " + number(result.gap / 4) + "}";
   }
+  if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::rounding)
+    return name + ": a value is too large: the rounding of the pose exceeds the gap between " +
+           pair + ", or the tolerance of " + number(options.tolerance) +
+           " m; bring it back by whole turns, or set a larger checker: {tolerance: …}";
   if (result.verdict == MotionVerdict::undecided)
     return name + ": the check of it took too much work";
   return name + " is in contact: " + pair +

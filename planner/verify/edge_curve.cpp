@@ -30,6 +30,12 @@ RealVec axisOf(const Frame& frame) {
   return frame.axis.cast<Real>().normalized();
 }
 
+/// Does the frame follow the circle, and is it elsewhere after a whole turn of that?
+bool leavesCircle(const Frame& frame, const Coordinate& circle) {
+  if (frame.joint == Frame::Joint::none || frame.variable != circle.first) return false;
+  return frame.joint != Frame::Joint::turn || frame.multiplier != std::trunc(frame.multiplier);
+}
+
 }  // namespace
 
 Limb limbOf(const KinematicTree& tree, std::size_t base, std::size_t frame) {
@@ -47,6 +53,14 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
   return a;
 }
 
+Real circleWay(double from, double to) {
+  const Real way = Real(to) - Real(from);
+  if (std::abs(way) <= kPi) return way;
+  const Real s0 = std::sin(Real(from)), c0 = std::cos(Real(from));
+  const Real s1 = std::sin(Real(to)), c1 = std::cos(Real(to));
+  return std::atan2(s1 * c0 - c1 * s0, c1 * c0 + s1 * s0);
+}
+
 EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
                      const Configuration& from, const Configuration& to)
     : tree_(tree),
@@ -56,12 +70,16 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
   for (const Coordinate& c : coordinates) {
     const auto i = static_cast<Eigen::Index>(c.first);
     if (c.kind != Coordinate::Kind::rotation) {
-      Real way = Real(to[i]) - Real(from[i]);
-      if (c.kind == Coordinate::Kind::circle) {
-        way = std::remainder(way, 2 * kPi);
-        ambiguous_ |= kPi - std::abs(way) <= kAmbiguous;
-      }
-      lines_[c.first] = {Real(from[i]), way};
+      const bool circle = c.kind == Coordinate::Kind::circle;
+      const Real way = circle ? circleWay(from[i], to[i]) : Real(to[i]) - Real(from[i]);
+      // `way` is off by u of itself, or, of a circle, by 32u; the products and sums by u each.
+      lines_[c.first] = {Real(from[i]), way,
+                         std::abs(Real(from[i])) + std::abs(way) + (circle ? 4 : 0)};
+      if (!circle) continue;
+      ambiguous_ |= kPi - std::abs(way) <= kAmbiguous;
+      const bool throughSeam = std::abs(Real(to[i]) - Real(from[i])) > kPi;
+      jumps_ |= throughSeam && std::any_of(tree.frames.begin(), tree.frames.end(),
+                                           [&](const Frame& f) { return leavesCircle(f, c); });
       continue;
     }
     Arc arc;
@@ -92,10 +110,11 @@ RealMat EdgeCurve::arcAt(const Arc& arc, Real t) const {
 }
 
 EdgeCurve::Line EdgeCurve::valueOf(const Frame& frame) const {
-  if (frame.variable == Frame::noVariable) return {Real(frame.offset), 0};
+  const Real offset = frame.offset, multiplier = frame.multiplier;
+  if (frame.variable == Frame::noVariable) return {offset, 0, std::abs(offset)};
   const Line& line = lines_[frame.variable];
-  return {Real(frame.multiplier) * line.from + Real(frame.offset),
-          Real(frame.multiplier) * line.way};
+  return {multiplier * line.from + offset, multiplier * line.way,
+          std::abs(multiplier) * line.terms + std::abs(offset)};
 }
 
 template <class See>
@@ -245,7 +264,6 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
     const Line value = frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide
                            ? valueOf(frame)
                            : Line{};
-    const Real largest = std::abs(value.from) + std::abs(value.way);
     const bool held = frame.variable == Frame::noVariable;
     switch (frame.joint) {
       case Frame::Joint::none:
@@ -253,11 +271,11 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
       case Frame::Joint::turn:
         turn(std::abs(value.way),
              held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable));
-        manyTurns += 0x1p-11L * largest;
+        manyTurns += 0x1p-11L * value.terms;
         break;
       case Frame::Joint::slide:
         slide(std::abs(value.way),
-              held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable), largest);
+              held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable), value.terms);
         break;
       case Frame::Joint::shift: {
         Real way = 0, stray = 0, longest = 0;
@@ -278,7 +296,8 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
     length += frame.fixed.p.cast<Real>().norm();
   }
   const Real frames = std::max<Real>(1, Real(limb.path.size()) / 54);
-  reach.size = (length + reach.speed + reach.tube) * manyTurns * frames * kUp;
+  reach.lengths = (length + reach.speed + reach.tube) * frames * kUp;
+  reach.size = reach.lengths * manyTurns * kUp;
   reach.speed *= kUp;
   reach.bend *= kUp;
   reach.tube *= kUp;

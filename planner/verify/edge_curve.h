@@ -72,7 +72,16 @@ struct Reach {
   Real bendCross = 0;  ///< twice the bilinear form of Δ and τ
   Real bendTube = 0;   ///< the form of τ
   Real size = 0;       ///< bounds every length that enters the pose; rounding is 2^-50 of it
+  Real lengths = 0;    ///< `size` without what large angles add to it
 };
+
+/// The shorter way round a circle, radians, in [−π, π]: to − from in real arithmetic on the two
+/// doubles, less whole turns. Off by at most 32u, u = 2^-64, however many turns the two are.
+///
+/// Where |to − from| ≤ π the difference rounds by πu. Otherwise the sines and cosines of both are
+/// within 2u (the C library reduces their arguments with as many digits of π as they need), those
+/// of the difference within 11u, and the arc tangent of these within 11√2·u + 2πu.
+Real circleWay(double from, double to);
 
 /// The curve of an edge by Corridor's definition, in the verifier's own arithmetic: lines linear in
 /// t, circles the shorter way round, rotations by slerp of the quaternions normalised in real
@@ -81,18 +90,23 @@ struct Reach {
 ///
 /// Rounding, u = 2^-64, t with at most 63 bits. Normalised quaternions are off by ≤ 5u each, their
 /// slerp by < 128u (angle Ω = 2 atan2 of |q1 − q0| and |q1 + q0|, off by ≤ 32u; weights by ≤ 0.6
-/// per unit of Ω and 8u), the rotation by < 256u. A turn by q0 + tΔ is off by ≤ 4u of its largest
-/// summand, sine, cosine and Rodrigues' matrix by < 16u. A frame multiplies two such into the
-/// rotation, 10u more: < 300u a frame for rotations, < 40u a frame else. With n frames a point is
-/// off by ≤ n·300u times the lengths that come after: below 2^14·u·size = 2^-50·size for n ≤ 54;
-/// `Reach::size` grows with n beyond that, and with angles that are many turns.
+/// per unit of Ω and 8u), the rotation by < 256u. A turn by m·q0 + o + t·m·Δ is off by ≤ 8u times
+/// `Line::terms` (products, sums and the rounding of Δ), sine, cosine and Rodrigues' matrix by
+/// < 16u. A frame multiplies two such into the rotation, 10u more: < 300u a frame for rotations,
+/// < 40u a frame else. With n frames a point is off by ≤ n·300u times the lengths that come after:
+/// below 2^14·u·size = 2^-50·size for n ≤ 54; `Reach::size` grows with n beyond that, and with
+/// the terms of angles.
 class EdgeCurve {
  public:
   EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
             const Configuration& from, const Configuration& to);
 
-  /// The shorter way round is not unique within 1e-9 rad: the edge is nothing that could be proved.
+  /// The shorter way round is not unique within 1e-9 rad: the edge defines no curve.
   bool ambiguous() const { return ambiguous_; }
+  /// A circle goes round through its seam, and a joint that mimics it does not come round with it
+  /// (a slide, or a turn by a multiplier that is no whole number): the edge defines no curve, since
+  /// that joint would jump.
+  bool jumps() const { return jumps_; }
   FrameState at(const Limb& limb, Real t) const;
   Strays straysAt(const Limb& limb, Real t, const Configuration& tube) const;
   Configuration configuration(Real t) const;  ///< rounded
@@ -102,6 +116,7 @@ class EdgeCurve {
   /// What a coordinate does: number from + t·way; a rotation by slerp.
   struct Line {
     Real from = 0, way = 0;
+    Real terms = 0;  ///< 8u of it bounds the rounding of from + t·way
   };
   struct Arc {
     Eigen::Matrix<Real, 4, 1> q0, q1;  // x, y, z, w
@@ -121,7 +136,7 @@ class EdgeCurve {
   std::vector<Line> lines_;         // a number of a configuration each
   std::vector<Arc> arcs_;           // a coordinate each; empty but for rotations
   std::vector<std::size_t> arcAt_;  // of the first number of a rotation
-  bool ambiguous_ = false;
+  bool ambiguous_ = false, jumps_ = false;
 };
 
 }  // namespace corridor::verify

@@ -18,7 +18,7 @@ namespace {
 using namespace verify;
 
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
-constexpr std::size_t kFindings = 100;
+constexpr int kFindings = 100;
 /// Halvings of an edge: t keeps 60 bits, which EdgeCurve's count of roundings allows.
 constexpr int kDepth = 60;
 /// Every edge is first looked at in 2^kCoarse parts, the worst first, so that a deep collision is
@@ -33,8 +33,11 @@ constexpr Real kRefined = 0.9L;
 /// A pair of bodies along one edge: what its reach weights allow.
 struct PairReach {
   Reach sum;
-  Real rounding = 0;
+  Real rounding = 0;  ///< metres; of every computed distance and displacement
+  bool sharp = true;  ///< a contact at a computed pose says something about the path
 };
+
+constexpr const char* kTooLarge = "value too large: its rounding exceeds the clearance";
 
 /// A pair of bodies in a part of an edge.
 struct OpenPair {
@@ -87,6 +90,8 @@ class Verifier {
   Real look(const Interval& part, OpenPair& pair);
   /// The bound by a slab for each pair of pieces that comes near.
   Real lookClosely(const Interval& part, std::size_t pair, const Measured& m);
+  const char* whyRefuted(const PairReach& reach, std::size_t pair, const Measured& m) const;
+  const char* whyStuck(const PairReach& reach, const Measured& m) const;
   /// Bounding the tube by direction may bring a verdict: it takes more than the tolerance.
   bool tubeMatters(const PairReach& reach) const { return reach.sum.tube > problem_.tolerance; }
   void close(const Interval& part, std::size_t pair, const Measured& m, PathVerdict verdict,
@@ -169,6 +174,8 @@ Verifier::Verifier(const PathProblem& problem, const std::vector<Configuration>&
       closeInvalid(e, isState(from) ? to : from, "not a state");
     } else if (curves_.back().ambiguous()) {
       closeInvalid(e, from, "ambiguous half turn");
+    } else if (curves_.back().jumps()) {
+      closeInvalid(e, from, "a joint that mimics a full circle by a fraction would jump");
     }
     std::vector<PairReach> reaches;
     for (std::size_t p = 0; p < pairs_.size(); ++p) reaches.push_back(reachOf(e, p));
@@ -205,10 +212,12 @@ PairReach Verifier::reachOf(std::size_t edge, std::size_t pair) const {
     sum.bendCross += one.bendCross;
     sum.bendTube += one.bendTube;
     sum.size += one.size;
+    sum.lengths += one.lengths;
   }
   // 2^-50 = 2^14 u for each limb; the relative placement, the boxes (32u) and the slabs (16u) and
   // displacements of as much.
   reach.rounding = 0x1p-49L * sum.size;
+  reach.sharp = reach.rounding <= std::max<Real>(0x1p-48L * sum.lengths, problem_.tolerance);
   return reach;
 }
 
@@ -276,6 +285,26 @@ Real Verifier::leastInTube(std::size_t pair, const Measured& m) const {
   return std::hypot(std::max<Real>(along - stray, 0), across);
 }
 
+/// Why the path is refuted at these poses; null: it is not. Poses that may be far from the path
+/// refute nothing: then the reason is why they leave it undecided.
+const char* Verifier::whyRefuted(const PairReach& reach, std::size_t pair,
+                                 const Measured& m) const {
+  if (!reach.sharp) return m.gap.upper <= problem_.margin + reach.rounding ? kTooLarge : nullptr;
+  if (m.gap.touching) return "contact";
+  if (problem_.margin > 0 && m.gap.upper <= problem_.margin) return "closer than the margin";
+  // A curve of the tube is the path displaced so far: it touches, or comes as close as the margin.
+  if (std::isfinite(m.gap.upper) && leastInTube(pair, m) <= problem_.margin)
+    return "closer than the tube allows";
+  return nullptr;
+}
+
+/// Why no shorter interval about these poses can be proved.
+const char* Verifier::whyStuck(const PairReach& reach, const Measured& m) const {
+  const Real clear = m.gap.lower - problem_.margin;
+  if (clear - reach.rounding > problem_.tolerance) return "the tube may take all of the clearance";
+  return clear > problem_.tolerance ? kTooLarge : "clearance below the tolerance";
+}
+
 Real Verifier::look(const Interval& part, OpenPair& open) {
   const Pair& p = pairs_[open.pair];
   const PairReach& reach = reaches_[part.edge][open.pair];
@@ -289,35 +318,29 @@ Real Verifier::look(const Interval& part, OpenPair& open) {
   const Real wanted = std::max<Real>(problem_.margin, interesting());
   contact_.reset();
   ++queries_;
-  m.gap = distance_.measure(
-      open.guess, reach.rounding, wanted + travel + pad + reach.rounding, [&](PiecePair pieces) {
-        const Piece &a = trees_[p.a].piece(pieces.a), &b = trees_[p.b].piece(pieces.b);
-        if (a.part || b.part) return distance_.gap(pieces).upper <= reach.rounding;
-        RigidPose pose;
-        pose.p = X_AB.position.cast<double>();
-        pose.q = Eigen::Quaternion<Real>(X_AB.rotation).cast<double>();
-        contact_ = exactContact(pose, b.corners, a.corners);
-        return contact_.has_value();
-      });
+  m.gap = distance_.measure(open.guess, reach.sharp ? reach.rounding : 0,
+                            wanted + travel + pad + reach.rounding, [&](PiecePair pieces) {
+                              if (!reach.sharp) return false;
+                              const Piece &a = trees_[p.a].piece(pieces.a),
+                                          &b = trees_[p.b].piece(pieces.b);
+                              if (a.part || b.part)
+                                return distance_.gap(pieces).upper <= reach.rounding;
+                              RigidPose pose;
+                              pose.p = X_AB.position.cast<double>();
+                              pose.q = Eigen::Quaternion<Real>(X_AB.rotation).cast<double>();
+                              contact_ = exactContact(pose, b.corners, a.corners);
+                              return contact_.has_value();
+                            });
   open.guess = m.gap.pair;
   smallest_ = std::min(smallest_, m.gap.upper);
-  if (m.gap.touching) {
-    close(part, open.pair, m, PathVerdict::refuted, "contact");
-  } else if (problem_.margin > 0 && m.gap.upper <= problem_.margin) {
-    close(part, open.pair, m, PathVerdict::refuted, "closer than the margin");
-  } else if (std::isfinite(m.gap.upper) && leastInTube(open.pair, m) <= problem_.margin) {
-    // A curve of the tube is the path displaced so far: it touches, or comes as close as the
-    // margin.
-    close(part, open.pair, m, PathVerdict::refuted, "closer than the tube allows");
+  if (const char* why = whyRefuted(reach, open.pair, m)) {
+    close(part, open.pair, m, reach.sharp ? PathVerdict::refuted : PathVerdict::undecided, why);
   } else {
     open.bound = std::max(open.bound, m.gap.lower - travel - pad);
     if (open.bound <= problem_.margin && (part.half > 0 || tubeMatters(reach)))
       open.bound = std::max(open.bound, lookClosely(part, open.pair, m));
     if (open.bound <= problem_.margin && (travel <= problem_.tolerance || part.depth >= kDepth))
-      close(part, open.pair, m, PathVerdict::undecided,
-            m.gap.lower - reach.rounding - problem_.margin > problem_.tolerance
-                ? "the tube may take all of the clearance"
-                : "clearance below the tolerance");
+      close(part, open.pair, m, PathVerdict::undecided, whyStuck(reach, m));
     else if (open.bound <= problem_.margin && queries_ >= problem_.workLimit)
       close(part, open.pair, m, PathVerdict::undecided, "work limit reached");
   }
@@ -482,7 +505,7 @@ PathReport Verifier::run() {
   for (const auto& [edge, finding] : findings_) {
     if (finding.verdict == PathVerdict::refuted) report.verdict = PathVerdict::refuted;
     if (report.verdict == PathVerdict::proved) report.verdict = PathVerdict::undecided;
-    if (report.findings.size() < kFindings) report.findings.push_back(finding);
+    if (report.findings.size() < std::size_t{kFindings}) report.findings.push_back(finding);
   }
   report.smallestDistanceMet = static_cast<double>(smallest_);
   report.distanceQueries = queries_;
@@ -492,7 +515,18 @@ PathReport Verifier::run() {
 }  // namespace
 
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states) {
-  return Verifier(problem, states).run();
+  const FloatingPoint arithmetic = floatingPoint();
+  if (arithmetic == FloatingPoint::standard) return Verifier(problem, states).run();
+  PathReport report;
+  report.verdict = PathVerdict::undecided;
+  report.edges = static_cast<int>(std::max<std::size_t>(states.size(), 2)) - 1;
+  for (int edge = 0; edge < std::min(report.edges, kFindings); ++edge) {
+    PathFinding& finding = report.findings.emplace_back();
+    finding.edge = edge;
+    if (!states.empty()) finding.configuration = states[static_cast<std::size_t>(edge)];
+    finding.reason = described(arithmetic);
+  }
+  return report;
 }
 
 }  // namespace corridor

@@ -59,13 +59,13 @@ struct PathProblem {
 };
 
 enum class PathVerdict {
-  proved,    ///< every curve in the tube keeps more than the margin, everywhere; never wrong
-  refuted,   ///< some finding is: a contact at a pose within rounding of the path (relative 2^-50),
-             ///< a point closer than margin or tube allow, an ambiguous half turn, or a state that
-             ///< is no state
+  proved,   ///< every curve in the tube keeps more than the margin, everywhere; never wrong
+  refuted,  ///< some finding is: a contact, or a point closer than margin or tube allow, at a
+            ///< pose within rounding of the path (2^-48 of the lengths involved, or the tolerance);
+            ///< an ambiguous half turn; a joint that would jump; or a state that is no state
   undecided  ///< neither: the clearance left is somewhere less than twice the tolerance, or than
-             ///< what the tube takes of it by MovedSlab's first order and Reach's second, or the
-             ///< work limit was reached
+             ///< what the tube takes of it by MovedSlab's first order and Reach's second; or the
+             ///< rounding of a large value takes it; or the work limit was reached
 };
 
 /// What is wrong with an edge.
@@ -99,7 +99,8 @@ struct PathReport {
 /// goal are those of the problem, are the caller's to check.
 /// @throws std::invalid_argument for no states, for null pointers, and for a margin, tube or
 /// tolerance that is negative or not finite. A state that is not finite or has a zero quaternion is
-/// a finding.
+/// a finding. Where the processor is set so that no bound holds (collision/core/floating_point.h)
+/// every edge is undecided.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 
 }  // namespace corridor

@@ -152,9 +152,10 @@ TEST_F(ArmCommandLine, CheckOfManyStates) {
   const Result checked = run("check arm.yaml --states states.txt");
   EXPECT_EQ(checked.status, 1);
   EXPECT_EQ(checked.out, "state,valid,pairs\n0,1,\n1,0,lower~post\n2,1,\n3,0,bounds:elbow\n4,1,\n");
-  EXPECT_EQ(checked.err,
-            "corridor: warning: states.txt: in 1 state, angles were wrapped or values a rounding "
-            "beyond a limit taken for it\n");
+  EXPECT_EQ(
+      checked.err,
+      "corridor: warning: states.txt: in 1 state, values a rounding beyond a limit were taken "
+      "for the limit\n");
   write("free.txt", "0 0\n0.1 0.1\n");
   EXPECT_EQ(run("check arm.yaml --states free.txt").status, 0);
   const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
@@ -162,6 +163,39 @@ TEST_F(ArmCommandLine, CheckOfManyStates) {
   EXPECT_EQ(json["states"][1]["pairs"][0], "lower~post");
   EXPECT_EQ(json["states"][1]["line"], 4);
   EXPECT_EQ(json["states"][3]["out_of_bounds"][0], "elbow");
+}
+
+/// A full circle takes any angle as it is: no state is wrapped, and what rounding hides is not
+/// valid.
+TEST_F(ArmCommandLine, CheckOfStatesTakesAnglesAsTheyAre) {
+  std::string urdf = read("arm.urdf");
+  const std::string revolute = "<joint name=\"shoulder\" type=\"revolute\">";
+  urdf.replace(urdf.find(revolute), revolute.size(),
+               "<joint name=\"shoulder\" type=\"continuous\">");
+  write("arm.urdf", urdf);
+  // The post's middle is at 90 degrees; 1e6 rad are at 166.8 degrees, 1e15 rad at 143.9.
+  write("states.txt",
+        "1.5707963 0\n0.3 0\n1000000 0\n1000000.45 0\n-999998.654 0\n1e15 0\n1e22 0\n");
+  const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
+  const auto& states = json["states"];
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double angle[] = {1.5707963, 0.3, 1000000, 1000000.45, -999998.654, 1e15, 1e22};
+    // The arm, 2 m long, meets the ball of 0.1 m at 1.5 m where it is within 0.12 rad of the
+    // middle.
+    const double off =
+        std::remainder(static_cast<double>(std::atan2(std::sin(angle[i]), std::cos(angle[i]))) -
+                           std::acos(-1.0) / 2,
+                       2 * std::acos(-1.0));
+    if (i < 5) {
+      EXPECT_EQ(states[i]["valid"], std::abs(off) > 0.2) << i;
+      EXPECT_FALSE(states[i].contains("too_large")) << i;
+    } else {
+      EXPECT_EQ(states[i]["valid"], false) << i;
+      EXPECT_EQ(states[i]["too_large"], "shoulder") << i;
+    }
+  }
+  EXPECT_THAT(run("check arm.yaml --states states.txt").out,
+              testing::HasSubstr(";too_large:shoulder\n"));
 }
 
 TEST_F(ArmCommandLine, CheckOfStatesFromAPipe) {

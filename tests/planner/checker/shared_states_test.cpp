@@ -25,7 +25,7 @@ std::string joined(std::string a, std::string b) {
 
 Names touching(const Checker& checker, const Configuration& q) {
   Names names;
-  for (const Scene::Pair& pair : checker.pairsNotFree(q))
+  for (const Checker::PairNotFree& pair : checker.pairsNotFree(q))
     names.insert(
         joined(checker.problem().bodies[pair.a].name, checker.problem().bodies[pair.b].name));
   return names;

@@ -4,6 +4,7 @@
 
 #include "planner/verify/exact_contact.h"
 #include "tests/planner/verify/meshes.h"
+#include "tests/support/floating_point.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -60,6 +61,30 @@ TEST(VerifyPath, BoxPastAWall) {
     EXPECT_NEAR(report.smallestDistanceMet, clearance, 1e-12);
     EXPECT_LE(report.provenClearance, clearance);
     EXPECT_GE(report.provenClearance, (clearance < 0.1 ? 0.6 : 0.89) * clearance);  // the cap
+  }
+}
+
+/// Where the processor rounds otherwise no bound holds: every edge is undecided, for that reason.
+TEST(VerifyPath, OtherArithmeticIsRefused) {
+  World world(boxMesh(Vec3(-1, -1, -1), Vec3(1, 1, 1)), boxMesh(Vec3(-9, 2, -9), Vec3(9, 3, 9)));
+  const Poses path = {poseOf(Vec3(-5, 0, 0)), poseOf(Vec3(0, 0, 0)), poseOf(Vec3(5, 0, 0))};
+  for (const auto& setting : test::floatingPointSettings()) {
+    PathReport report;
+    {
+      const test::WithFloatingPoint set(setting);
+      report = world.verify(path);
+    }
+    EXPECT_EQ(report.edges, 2);
+    if (setting.standard()) {
+      EXPECT_EQ(report.verdict, PathVerdict::proved) << setting.name;
+      continue;
+    }
+    EXPECT_EQ(report.verdict, PathVerdict::undecided) << setting.name;
+    EXPECT_EQ(report.edgesProved, 0);
+    ASSERT_EQ(report.findings.size(), 2U);
+    EXPECT_THAT(report.findings[0].reason,
+                testing::HasSubstr(setting.shortExtended ? "does not keep 64 bits"
+                                                         : "rounding is not to nearest"));
   }
 }
 

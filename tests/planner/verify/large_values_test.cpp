@@ -1,0 +1,230 @@
+// Angles of any size on full circles: the edge is the shorter way between the stored doubles in
+// real arithmetic. What rounding can't decide is undecided, and never proved or refuted wrongly.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/robot/edge_motion.h"
+#include "planner/robot/turns.h"
+#include "planner/verify/edge_curve.h"
+#include "planner/verify/verify_path.h"
+#include "tests/planner/verify/meshes.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+/// Digits enough for 10^308 rad and what is left of a turn there.
+using Many = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<400>>;
+
+const Many& pi() {
+  static const Many value = boost::math::constants::pi<Many>();
+  return value;
+}
+
+/// The angle less whole turns, in [−π, π].
+Many reduced(const Many& angle) {
+  return angle - 2 * pi() * round(angle / (2 * pi()));
+}
+Many trueWay(double from, double to) {
+  return reduced(Many(to) - Many(from));
+}
+
+/// ±10^k and something, k = 4 … 25 in turn.
+double large(std::mt19937_64& random, int n) {
+  const double size = std::pow(10.0, 4 + n % 22);
+  return (n % 2 ? -1 : 1) * size * std::uniform_real_distribution(1.0, 3.0)(random);
+}
+
+/// Of an edge: both ends large, or one of them.
+struct Ends {
+  double from, to;
+  Ends(std::mt19937_64& random, int n) {
+    std::uniform_real_distribution<double> small(-3, 3);
+    from = n / 44 % 3 == 0 ? small(random) : large(random, n);
+    to = n / 44 % 3 == 1 ? small(random) : large(random, n / 2);
+    if (n / 44 % 3 == 2 && n % 5 == 0) to = from + small(random);  // near each other, and large
+  }
+};
+
+/// A rod on a full circle about z (an arm's joint, or a planar body's yaw), and a post where the
+/// rod passes at an angle.
+struct Sweep {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  ConvexPart rod{{Vec3(0.3, 0, 0), Vec3(1, 0, 0)}, 0.01, false}, post;
+  PathProblem problem;
+  std::size_t circle = 0;
+
+  Sweep(const Many& angle, double multiplier, bool planar) {
+    CoordinateGroup group;
+    group.kind = planar ? CoordinateGroup::Kind::planar : CoordinateGroup::Kind::joints;
+    if (planar) {
+      for (int k = 0; k < 2; ++k) {
+        Coordinate line;
+        line.lower = -1, line.upper = 1;
+        group.coordinates.push_back(space.add(line));
+      }
+      Frame shift;
+      shift.joint = Frame::Joint::shift;
+      shift.variable = 0;
+      shift.count = 2;
+      tree.add(shift);
+    }
+    Coordinate c;
+    c.kind = Coordinate::Kind::circle;
+    group.coordinates.push_back(space.add(c));
+    circle = space.coordinates().back().first;
+    space.addGroup(group);
+    Frame turn;
+    turn.parent = tree.frames.size() - 1;
+    turn.joint = Frame::Joint::turn;
+    turn.variable = circle;
+    turn.multiplier = multiplier;
+    tree.add(turn);
+    const double a = static_cast<double>(reduced(angle));
+    post = {{Vec3(0.7 * std::cos(a), 0.7 * std::sin(a), -1),
+             Vec3(0.7 * std::cos(a), 0.7 * std::sin(a), 1)},
+            0.01,
+            false};
+    problem.tree = &tree;
+    problem.space = &space;
+    problem.tolerance = 1e-8;
+    problem.tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
+    problem.bodies = {{"post", nullptr, &post, false, 0},
+                      {"rod", nullptr, &rod, false, tree.frames.size() - 1}};
+    problem.pairs = {{0, 1}};
+  }
+  Sweep(const Sweep&) = delete;
+
+  Configuration at(double angle) const {
+    Configuration q = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
+    q[static_cast<Eigen::Index>(circle)] = angle;
+    return q;
+  }
+  MotionResult checked(double from, double to) const {
+    std::vector<Scene::Placed> placed;
+    placed.push_back({Body("post", post), 0});
+    placed.push_back({Body("rod", rod), tree.frames.size() - 1});
+    const Scene scene(std::move(placed), {{0, 1}});
+    EdgeMotion motion(tree, space, scene.framePairs(), problem.tube);
+    motion.set(at(from), at(to));
+    MotionOptions options;
+    options.tolerance = problem.tolerance;
+    QueryContext context;
+    return scene.certify(motion, options, context);
+  }
+};
+
+TEST(LargeValues, TheWayRoundACircleIsExact) {
+  std::mt19937_64 random(test::testSeed(3));
+  for (int n = 0; n < 20'000; ++n) {
+    Ends ends(random, n);
+    if (n % 7 == 0) ends.to *= std::pow(10.0, n % 280);  // up to the largest doubles
+    if (!std::isfinite(ends.to)) continue;
+    const Many way = trueWay(ends.from, ends.to);
+    if (abs(abs(way) - pi()) < 1e-12) continue;  // either way
+    const Many off = abs(Many(verify::circleWay(ends.from, ends.to)) - way);
+    ASSERT_LE(off, Many(std::ldexp(1.0, -59))) << ends.from << " to " << ends.to;
+    const CircleTurn turn = circleTurn(ends.from, ends.to);
+    if (!turn.ambiguous()) {
+      ASSERT_LE(abs(Many(turn.angle) - way), Many(turn.error)) << ends.from << " to " << ends.to;
+    }
+    ASSERT_LE(abs(Many(intoCircle(ends.to)) - reduced(Many(ends.to))), Many(0x1p-51)) << ends.to;
+  }
+}
+
+/// A post in the middle of the true way, and one half a turn from there.
+TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
+  std::mt19937_64 random(test::testSeed(4));
+  int refuted = 0, proved = 0, contact = 0, free = 0;
+  for (int n = 0; n < 2'000; ++n) {
+    const Ends ends(random, n);
+    const bool planar = n % 3 == 0;
+    const int multiplier = planar ? 1 : n % 4 - 2 == 0 ? 3 : n % 4 - 2;
+    const Many way = trueWay(ends.from, ends.to);
+    if (abs(multiplier * way) > 2.8 || abs(abs(way) - pi()) < 1e-6) continue;  // the rod passes all
+    const Many middle = multiplier * (Many(ends.from) + way / 2);
+    const std::string what = std::to_string(n) + ": " + std::to_string(ends.from) + " to " +
+                             std::to_string(ends.to) + " times " + std::to_string(multiplier);
+    {
+      const Sweep sweep(middle, multiplier, planar);
+      const PathReport report = verifyPath(sweep.problem, {sweep.at(ends.from), sweep.at(ends.to)});
+      ASSERT_NE(report.verdict, PathVerdict::proved) << what;
+      refuted += report.verdict == PathVerdict::refuted;
+      const MotionResult result = sweep.checked(ends.from, ends.to);
+      ASSERT_NE(result.verdict, MotionVerdict::free) << what;
+      contact += result.verdict == MotionVerdict::contact;
+    }
+    const Sweep sweep(middle + pi(), multiplier, planar);
+    const PathReport report = verifyPath(sweep.problem, {sweep.at(ends.from), sweep.at(ends.to)});
+    ASSERT_NE(report.verdict, PathVerdict::refuted) << what;
+    const double size = std::max(std::abs(ends.from), std::abs(ends.to));
+    if (size < 1e6) {
+      ASSERT_EQ(report.verdict, PathVerdict::proved) << what;
+    }
+    if (size > 1e22 && std::abs(ends.from) > 1e22) {
+      ASSERT_EQ(report.verdict, PathVerdict::undecided) << what;
+      EXPECT_THAT(report.findings[0].reason, testing::HasSubstr("value too large")) << what;
+    }
+    proved += report.verdict == PathVerdict::proved;
+    const MotionResult result = sweep.checked(ends.from, ends.to);
+    if (size < 1e6) {
+      ASSERT_EQ(result.verdict, MotionVerdict::free) << what;
+    }
+    if (result.verdict == MotionVerdict::undecided) {
+      EXPECT_TRUE(result.reason == UndecidedReason::rounding ||
+                  result.reason == UndecidedReason::ambiguous)
+          << what;
+    }
+    free += result.verdict == MotionVerdict::free;
+  }
+  EXPECT_GT(refuted, 300);
+  EXPECT_GT(proved, 300);
+  EXPECT_GT(contact, 100);
+  EXPECT_GT(free, 100);
+}
+
+/// States, which nobody wraps: the verdict is that of the angle as it is.
+TEST(LargeValues, StatesAreTakenAsTheyAre) {
+  std::mt19937_64 random(test::testSeed(5));
+  for (int n = 0; n < 1'000; ++n) {
+    const double angle = large(random, n);
+    const Sweep touched(Many(angle), 1, n % 2 == 0), away(Many(angle) + 1, 1, n % 2 == 0);
+    EXPECT_NE(verifyPath(touched.problem, {touched.at(angle)}).verdict, PathVerdict::proved);
+    EXPECT_NE(verifyPath(away.problem, {away.at(angle)}).verdict, PathVerdict::refuted);
+    EXPECT_NE(touched.checked(angle, angle).verdict, MotionVerdict::free) << angle;
+    if (std::abs(angle) < 1e6) {
+      EXPECT_EQ(verifyPath(away.problem, {away.at(angle)}).verdict, PathVerdict::proved);
+      EXPECT_EQ(away.checked(angle, angle).verdict, MotionVerdict::free) << angle;
+    }
+  }
+}
+
+/// Through the seam a joint that mimics the circle by a fraction would jump.
+TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
+  for (const double multiplier : {0.5, -1.5, 2.0}) {
+    const Sweep sweep(pi() / 2, multiplier, false);
+    const bool whole = multiplier == 2;
+    const PathReport report = verifyPath(sweep.problem, {sweep.at(3), sweep.at(-3)});
+    EXPECT_EQ(report.verdict, whole ? PathVerdict::proved : PathVerdict::refuted) << multiplier;
+    if (!whole) {
+      EXPECT_EQ(report.findings[0].reason,
+                "a joint that mimics a full circle by a fraction would jump");
+    }
+    EXPECT_EQ(sweep.checked(3, -3).verdict, whole ? MotionVerdict::free : MotionVerdict::undecided)
+        << multiplier;
+    // The same way, written without the seam.
+    EXPECT_EQ(verifyPath(sweep.problem, {sweep.at(1), sweep.at(1.2)}).verdict,
+              sweep.checked(1, 1.2).verdict == MotionVerdict::free ? PathVerdict::proved
+                                                                   : PathVerdict::refuted);
+  }
+}
+
+}  // namespace
+}  // namespace corridor
