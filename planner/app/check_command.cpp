@@ -79,10 +79,11 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
     warn(*a.states + ": in " + counted(noted, "state") +
          ", angles were wrapped or values a rounding beyond a limit taken for it");
   if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-1"},
+    std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
                               {"numbers", problem.space.numberNames()},
                               {"valid", all},
+                              {"notes", problem.notes},
                               {"states", states}}
                      .dump(2)
               << '\n';
@@ -106,10 +107,8 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   for (std::size_t i = 0; i < goals.size(); ++i)
     all &= tell(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
   for (const std::string& note : problem.notes) out.line("note", note);
-  const std::size_t tested = checker.scene().pairs().size();
-  if (tested == 0) warn(a.problem + ": 0 pairs are tested, every state is valid");
   if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-1"},
+    std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
                               {"valid", all},
                               {"ends", ends},
@@ -122,7 +121,7 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
 }  // namespace
 
 int checkCommand(const CheckArguments& a) {
-  const Problem problem = readProblem(a.problem);
+  const Problem problem = readProblemOf(a.problem);
   return a.states ? checkStates(problem, a) : checkEnds(problem, a);
 }
 

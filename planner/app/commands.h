@@ -36,6 +36,7 @@ int benchmarkCommand(const BenchmarkArguments& arguments);
 
 struct VerifyArguments {
   std::string problem, solution;
+  bool ignoreDigest = false;  ///< verify a solution that was made for other files
   bool json = false, quiet = false;
 };
 int verifyCommand(const VerifyArguments& arguments);
@@ -44,6 +45,7 @@ struct ViewArguments {
   std::string problem;
   std::optional<std::string> solution;
   std::optional<std::string> output, image, size;
+  bool ignoreDigest = false;  ///< as of verify
   bool quiet = false;
 };
 int viewCommand(const ViewArguments& arguments);

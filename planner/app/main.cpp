@@ -63,6 +63,12 @@ void addQuiet(CLI::App& command, bool& quiet, const char* group = kOptions) {
   command.add_flag("--quiet", quiet, "no results on stdout")->group(group);
 }
 
+void addIgnoreDigest(CLI::App& command, bool& ignore) {
+  command.add_flag("--ignore-digest", ignore,
+                   "verify a solution although the problem's files have changed since it was made "
+                   "(its digest differs; else the verdict is: other problem)");
+}
+
 void addSolve(CLI::App& program, SolveArguments& a, int& status) {
   CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
   command
@@ -121,6 +127,7 @@ void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
   command
       ->add_option("SOLUTION", a.solution, "a solution file, or an OMPL.app .path: a state a line")
       ->required();
+  addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);
   addQuiet(*command, a.quiet);
   command->footer(std::string("Example: corridor verify problems/piano piano.solution.yaml\n") +
@@ -134,6 +141,7 @@ void addView(CLI::App& program, ViewArguments& a, int& status) {
   command->add_option("PROBLEM", a.problem, "the problem")->required();
   command->add_option("SOLUTION", a.solution,
                       "a path: a solution file, or an OMPL.app .path; none: start and goal alone");
+  addIgnoreDigest(*command, a.ignoreDigest);
   const char* results = "Results";
   command
       ->add_option("-o,--output", a.output,

@@ -145,7 +145,7 @@ struct Solved {
 
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
-  Problem problem = readProblem(file);
+  Problem problem = readProblemOf(file);
   requireNotRead(a.output, "--output", problem.files, "the problem");
   requireNotRead(a.picture, "--picture", problem.files, "the problem");
   SolveOptions options;
