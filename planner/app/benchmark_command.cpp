@@ -283,7 +283,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   else if (any)
     std::cout << tableOf(summaryRows(campaign, result.cells));
   if (unwritten) std::rethrow_exception(unwritten);
-  return result.interrupted ? kInterrupted : kDone;
+  return result.interrupted ? interruptedStatus() : kDone;
 }
 
 }  // namespace corridor::app

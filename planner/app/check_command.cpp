@@ -4,6 +4,7 @@
 
 #include "planner/app/commands.h"
 #include "planner/app/output.h"
+#include "planner/app/standard_streams.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/problem/state_yaml.h"
 #include "planner/solve/endpoint_help.h"
@@ -74,6 +75,7 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
     for (const std::string& name : state.outOfBounds)
       why += (why.empty() ? "bounds:" : ";bounds:") + name;
     std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
+    if (!std::cout) requireResultsWritten();  // in vain from here on
   }
   if (noted)
     warn(*a.states + ": in " + counted(noted, "state") +

@@ -7,8 +7,9 @@
 
 namespace corridor::app {
 
-/// Exit status (documented by --help and in the README): the same for all commands.
-enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3, kInterrupted = 130 };
+/// Exit status (documented by --help and in the README): the same for all commands. One that is
+/// stopped by a signal has 128 and its number (`interruptedStatus`).
+enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3 };
 
 struct SolveArguments {
   std::vector<std::string> problems;

@@ -14,6 +14,7 @@
 #include "collision/core/nearest.h"
 #include "planner/app/commands.h"
 #include "planner/app/query_batch.h"
+#include "planner/app/standard_streams.h"
 #include "planner/problem/keys.h"
 
 namespace {
@@ -23,9 +24,8 @@ using corridor::VolumeKind;
 using corridor::volumeKinds;
 
 constexpr const char* kExitStatus =
-    "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input; 3 internal "
-    "error; 130 "
-    "interrupted.";
+    "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input, or a result "
+    "can't be written; 3 internal error; 128 + N stopped by signal N (130: Ctrl-C).";
 
 /// An option's value from `low` to `high`; `needed` says so. (CLI11's own ranges take NaN, and
 /// print 309 digits.)
@@ -446,6 +446,7 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
 }  // namespace
 
 int main(int argc, char** argv) {
+  openStandardStreams();
   // Where a file may not get longer (ulimit -f), writing fails, and is told as a full disk is,
   // instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -470,15 +471,16 @@ int main(int argc, char** argv) {
   addQuery(program, query, status);
   refuseEmptyValues(program);
   try {
-    program.parse(argc, argv);
-    // A full disk behind `>` shows only here, and half of a result is none.
-    if (!std::cout.flush())
-      throw corridor::InputError(
-          corridor::Fault{"standard output", 0, "can't be written, or not all of it"});
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-    std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';
-    return kBadInput;
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() != 0) {
+        std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';
+        return kBadInput;
+      }
+      program.exit(error);  // --help, --version
+    }
+    requireResultsWritten();
   } catch (const corridor::InputError& error) {
     std::cerr << error.what() << '\n';
     return kBadInput;

@@ -125,6 +125,13 @@ void requireFolderFor(const std::optional<std::string>& file, const char* option
     throw InputError(Fault{option, 0, *file + " is a folder; a file's name is needed"});
   if (!std::filesystem::is_directory(folder, none))
     throw InputError(Fault{option, 0, "there is no folder " + folder.string()});
+  // A device or a pipe is written to where it is.
+  const bool takesItsPlace =
+      !std::filesystem::exists(path, none) || std::filesystem::is_regular_file(path, none);
+  if (takesItsPlace && ::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(Fault{option, 0,
+                           "no file can be made in the folder " + folder.string() + ": " +
+                               std::generic_category().message(errno) + "; name another folder"});
 }
 
 void requireNotRead(const std::optional<std::string>& file, const char* option,

@@ -16,6 +16,7 @@
 #include "planner/problem/problem.h"
 #include "planner/solve/solution.h"
 #include "planner/solve/solve.h"
+#include "planner/solve/whole_file.h"
 #include "planner/view/svg_picture.h"
 
 namespace corridor::app {
@@ -199,7 +200,7 @@ int solveCommand(const SolveArguments& a) {
       status = kBadInput;
     }
     if (interrupted) {
-      status = kInterrupted;
+      status = interruptedStatus();
       break;
     }
   }

@@ -9,7 +9,7 @@
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/problem/problem.h"
-#include "planner/solve/verify_solution.h"
+#include "planner/solve/whole_file.h"
 #include "planner/view/browser_picture.h"
 #include "planner/view/view_page.h"
 
@@ -79,7 +79,7 @@ int viewCommand(const ViewArguments& a) {
   if (a.image) {
     // The browser and its folder are gone in a moment: nobody has to ask twice.
     const std::atomic<bool>& interrupted = listenForInterrupts(SecondInterrupt::isIgnored);
-    if (!writePicture(page, *browser, size, *a.image, interrupted)) return kInterrupted;
+    if (!writePicture(page, *browser, size, *a.image, interrupted)) return interruptedStatus();
     out.line("image", *a.image);
   }
   return kDone;

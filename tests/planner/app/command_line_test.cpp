@@ -432,7 +432,9 @@ TEST_F(CommandLine, AFileThatMayNotGrowIsToldAndNotLeftInHalf) {
   std::filesystem::remove(folder_ / "p.svg");
   const Result cut = run("solve problem.yaml --seed 1 --picture p.svg", "ulimit -f 2 && ");
   EXPECT_EQ(cut.status, 2);
-  EXPECT_EQ(cut.err, "p.svg: can't be written\n");
+  EXPECT_EQ(cut.err,
+            "p.svg: can't be written: File too large; raise the limit on the size of files (ulimit "
+            "-f)\n");
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
     EXPECT_EQ(entry.path().string().find("p.svg"), std::string::npos) << entry.path();
 }
