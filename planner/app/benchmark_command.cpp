@@ -23,6 +23,7 @@
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/write_reports.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/nothing_tested.h"
 #include "planner/solve/planner_factory.h"
 
 namespace corridor::app {
@@ -210,8 +211,14 @@ std::vector<std::string> commitsOf(const std::vector<CampaignSession>& sessions)
 int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.resume && !a.output) refuse("--resume", "say by -o which folder the campaign is in");
   Campaign campaign = campaignOf(a);
+  for (std::size_t i = campaign.problems.size(); i-- > 0;)  // before all other notes
+    if (nothingIsTested(campaign.problems[i]))
+      campaign.notes.insert(campaign.notes.begin(),
+                            campaign.problemNames[i] + ": " + kNothingTested);
   for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
+  // From here on there are files to tidy up.
+  const std::atomic<bool>& interrupted = listenForInterrupts();
   const bool made = a.output && makeReportFolder(*a.output, campaign);
   std::vector<CampaignCell> cells = cellsOf(campaign);
   std::optional<CampaignDatabase> database;
@@ -221,7 +228,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
                      a.resume ? CampaignDatabase::Mode::resume : CampaignDatabase::Mode::fresh,
                      campaign, cells, a.jobs);
   CampaignOptions options;
-  options.interrupted = &listenForInterrupts();
+  options.interrupted = &interrupted;
   options.jobs = a.jobs;
   if (database)
     options.done = [&](std::size_t cell, const BenchmarkRun& run) { database->add(cell, run); };
@@ -276,7 +283,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   else if (any)
     std::cout << tableOf(summaryRows(campaign, result.cells));
   if (unwritten) std::rethrow_exception(unwritten);
-  return result.interrupted ? kInterrupted : kDone;
+  return result.interrupted ? interruptedStatus() : kDone;
 }
 
 }  // namespace corridor::app

@@ -6,6 +6,7 @@
 
 #include "planner/app/commands.h"
 #include "planner/app/output.h"
+#include "planner/app/standard_streams.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/problem/state_yaml.h"
 #include "planner/solve/endpoint_help.h"
@@ -92,15 +93,17 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
       why += (why.empty() ? "bounds:" : ";bounds:") + name;
     if (state.tooLarge) why += ";too_large:" + *state.tooLarge;
     std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
+    if (!std::cout) requireResultsWritten();  // in vain from here on
   }
   if (noted)
     warn(*a.states + ": in " + counted(noted, "state") +
          ", values a rounding beyond a limit were taken for the limit");
   if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-1"},
+    std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
                               {"numbers", problem.space.numberNames()},
                               {"valid", all},
+                              {"notes", problem.notes},
                               {"states", states}}
                      .dump(2)
               << '\n';
@@ -124,10 +127,8 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   for (std::size_t i = 0; i < goals.size(); ++i)
     all &= tell(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
   for (const std::string& note : problem.notes) out.line("note", note);
-  const std::size_t tested = checker.scene().pairs().size();
-  if (tested == 0) warn(a.problem + ": 0 pairs are tested, every state is valid");
   if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-1"},
+    std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
                               {"valid", all},
                               {"ends", ends},
@@ -140,7 +141,7 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
 }  // namespace
 
 int checkCommand(const CheckArguments& a) {
-  const Problem problem = readProblem(a.problem);
+  const Problem problem = readProblemOf(a.problem);
   return a.states ? checkStates(problem, a) : checkEnds(problem, a);
 }
 

@@ -7,8 +7,9 @@
 
 namespace corridor::app {
 
-/// Exit status (documented by --help and in the README): the same for all commands.
-enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3, kInterrupted = 130 };
+/// Exit status (documented by --help and in the README): the same for all commands. One that is
+/// stopped by a signal has 128 and its number (`interruptedStatus`).
+enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3 };
 
 struct SolveArguments {
   std::vector<std::string> problems;
@@ -36,6 +37,7 @@ int benchmarkCommand(const BenchmarkArguments& arguments);
 
 struct VerifyArguments {
   std::string problem, solution;
+  bool ignoreDigest = false;  ///< verify a solution that was made for other files
   bool json = false, quiet = false;
 };
 int verifyCommand(const VerifyArguments& arguments);
@@ -44,6 +46,7 @@ struct ViewArguments {
   std::string problem;
   std::optional<std::string> solution;
   std::optional<std::string> output, image, size;
+  bool ignoreDigest = false;  ///< as of verify
   bool quiet = false;
 };
 int viewCommand(const ViewArguments& arguments);

@@ -198,7 +198,7 @@ class ProblemReport {
 }  // namespace
 
 int inspectProblem(const InspectArguments& a) {
-  const Problem problem = readProblem(a.file);
+  const Problem problem = readProblemOf(a.file);
   return ProblemReport(problem, a).run();
 }
 

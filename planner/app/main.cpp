@@ -15,6 +15,7 @@
 #include "collision/core/nearest.h"
 #include "planner/app/commands.h"
 #include "planner/app/query_batch.h"
+#include "planner/app/standard_streams.h"
 #include "planner/problem/keys.h"
 
 namespace {
@@ -24,9 +25,8 @@ using corridor::VolumeKind;
 using corridor::volumeKinds;
 
 constexpr const char* kExitStatus =
-    "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input; 3 internal "
-    "error; 130 "
-    "interrupted.";
+    "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input, or a result "
+    "can't be written; 3 internal error; 128 + N stopped by signal N (130: Ctrl-C).";
 
 /// An option's value from `low` to `high`; `needed` says so. (CLI11's own ranges take NaN, and
 /// print 309 digits.)
@@ -62,6 +62,12 @@ void addJson(CLI::App& command, bool& json, const char* group = kOptions) {
 
 void addQuiet(CLI::App& command, bool& quiet, const char* group = kOptions) {
   command.add_flag("--quiet", quiet, "no results on stdout")->group(group);
+}
+
+void addIgnoreDigest(CLI::App& command, bool& ignore) {
+  command.add_flag("--ignore-digest", ignore,
+                   "verify a solution although the problem's files have changed since it was made "
+                   "(its digest differs; else the verdict is: other problem)");
 }
 
 void addSolve(CLI::App& program, SolveArguments& a, int& status) {
@@ -122,6 +128,7 @@ void addVerify(CLI::App& program, VerifyArguments& a, int& status) {
   command
       ->add_option("SOLUTION", a.solution, "a solution file, or an OMPL.app .path: a state a line")
       ->required();
+  addIgnoreDigest(*command, a.ignoreDigest);
   addJson(*command, a.json);
   addQuiet(*command, a.quiet);
   command->footer(std::string("Example: corridor verify problems/piano piano.solution.yaml\n") +
@@ -135,6 +142,7 @@ void addView(CLI::App& program, ViewArguments& a, int& status) {
   command->add_option("PROBLEM", a.problem, "the problem")->required();
   command->add_option("SOLUTION", a.solution,
                       "a path: a solution file, or an OMPL.app .path; none: start and goal alone");
+  addIgnoreDigest(*command, a.ignoreDigest);
   const char* results = "Results";
   command
       ->add_option("-o,--output", a.output,
@@ -439,6 +447,7 @@ std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
 }  // namespace
 
 int main(int argc, char** argv) {
+  openStandardStreams();
   // Where a file may not get longer (ulimit -f), writing fails, and is told as a full disk is,
   // instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -470,15 +479,16 @@ int main(int argc, char** argv) {
   addQuery(program, query, status);
   refuseEmptyValues(program);
   try {
-    program.parse(argc, argv);
-    // A full disk behind `>` shows only here, and half of a result is none.
-    if (!std::cout.flush())
-      throw corridor::InputError(
-          corridor::Fault{"standard output", 0, "can't be written, or not all of it"});
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-    std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';
-    return kBadInput;
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() != 0) {
+        std::cerr << usageFault(program, error, argc > 1 ? argv[1] : "") << '\n';
+        return kBadInput;
+      }
+      program.exit(error);  // --help, --version
+    }
+    requireResultsWritten();
   } catch (const corridor::InputError& error) {
     std::cerr << error.what() << '\n';
     return kBadInput;

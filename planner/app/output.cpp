@@ -1,12 +1,16 @@
 #include "planner/app/output.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 #include <unistd.h>
 
 #include "collision/core/error.h"
+#include "planner/problem/nothing_tested.h"
 
 namespace corridor::app {
 
@@ -95,10 +99,21 @@ std::string stateText(const ConfigurationSpace& space, const Configuration& q) {
   return text;
 }
 
-const char* nameOf(PathVerdict verdict) {
-  return verdict == PathVerdict::proved    ? "proved"
-         : verdict == PathVerdict::refuted ? "refuted"
-                                           : "undecided";
+Problem readProblemOf(const std::string& file) {
+  Problem problem = readProblem(file);
+  if (nothingIsTested(problem)) warn(file + ": " + kNothingTested);
+  return problem;
+}
+
+VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
+                         const std::string& problemFile, const std::string& solutionFile,
+                         bool ignoreDigest) {
+  if (digestState(problem, solution) == DigestState::differs)
+    warn(solutionFile + ": made for other files than those of " + problemFile +
+         " (the digests differ)" +
+         (ignoreDigest ? "" : "; it is not verified: --ignore-digest verifies it anyway"));
+  return verifySolution(problem, solution,
+                        ignoreDigest ? OtherDigest::ignored : OtherDigest::refused);
 }
 
 void requireFolderFor(const std::optional<std::string>& file, const char* option) {
@@ -110,6 +125,13 @@ void requireFolderFor(const std::optional<std::string>& file, const char* option
     throw InputError(Fault{option, 0, *file + " is a folder; a file's name is needed"});
   if (!std::filesystem::is_directory(folder, none))
     throw InputError(Fault{option, 0, "there is no folder " + folder.string()});
+  // A device or a pipe is written to where it is.
+  const bool takesItsPlace =
+      !std::filesystem::exists(path, none) || std::filesystem::is_regular_file(path, none);
+  if (takesItsPlace && ::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(Fault{option, 0,
+                           "no file can be made in the folder " + folder.string() + ": " +
+                               std::generic_category().message(errno) + "; name another folder"});
 }
 
 void requireNotRead(const std::optional<std::string>& file, const char* option,
@@ -122,6 +144,10 @@ void requireNotRead(const std::optional<std::string>& file, const char* option,
 
 nlohmann::ordered_json numbersJson(const Configuration& q) {
   return std::vector<double>(q.begin(), q.end());
+}
+
+nlohmann::ordered_json numberJson(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
 std::string grouped(std::uint64_t count) {

@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/transform.h"
+#include "planner/problem/problem.h"
 #include "planner/robot/configuration_space.h"
-#include "planner/verify/verify_path.h"
+#include "planner/solve/verify_solution.h"
 
 namespace corridor::app {
 
@@ -29,7 +30,18 @@ class Lines {
 /// To stderr, in front of results that go to stdout.
 void warn(const std::string& text);
 
-/// Before any time is spent on what is to be written: is there a folder for the file?
+/// Reads the problem of a command. If no pair of its bodies is tested, a warning says so before any
+/// other output (`notes` says it, too). @throws InputError as readProblem.
+Problem readProblemOf(const std::string& file);
+
+/// Verifies a solution. If it was made for other files than the problem's, a warning says so first,
+/// and nothing is verified unless `ignoreDigest`.
+VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
+                         const std::string& problemFile, const std::string& solutionFile,
+                         bool ignoreDigest);
+
+/// Before any time is spent on what is to be written: is there a folder for the file, and may files
+/// be made in it?
 /// @throws InputError that names the option.
 void requireFolderFor(const std::optional<std::string>& file, const char* option);
 
@@ -49,8 +61,9 @@ std::string tubeText(const ConfigurationSpace& space, const Configuration& tube)
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
 /// "x = 1, y = 2, yaw = 0.5"
 std::string stateText(const ConfigurationSpace& space, const Configuration& q);
-const char* nameOf(PathVerdict verdict);
 nlohmann::ordered_json numbersJson(const Configuration& q);
+/// null for what is infinite or no number, for which JSON has no word.
+nlohmann::ordered_json numberJson(double value);
 
 /// Digits in groups of three: 12,345.
 std::string grouped(std::uint64_t count);

@@ -12,6 +12,7 @@
 #include "planner/app/query_batch.h"
 #include "planner/app/query_poses.h"
 #include "planner/app/query_timing.h"
+#include "planner/app/standard_streams.h"
 
 namespace corridor::app {
 namespace {
@@ -118,7 +119,8 @@ void printCsv(const QueryKind& kind, const BatchResult& result) {
               std::to_string(answer.boxTests) + ',' + std::to_string(answer.triangleTests) + '\n';
     }
   }
-  std::cout << text << std::flush;
+  std::cout << text;
+  requireResultsWritten();
 }
 
 /// `words`: what was asked and what is told of all answers; then come the times.
@@ -152,6 +154,7 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& wor
   tell("build_ms_b", "%.4f", result.buildMsB);
   tell("bytes_a", "%.0f", static_cast<double>(result.bytesA));
   tell("bytes_b", "%.0f", static_cast<double>(result.bytesB));
+  if (!std::cerr) throw InputError(Fault{"standard error", 0, "can't be written"});
 }
 
 void printMotions(const BatchResult& result) {
@@ -173,7 +176,8 @@ void printMotions(const BatchResult& result) {
                   static_cast<unsigned long long>(motion.splits));
     text += line;
   }
-  std::cout << text << std::flush;
+  std::cout << text;
+  requireResultsWritten();
 }
 
 void checkRepeats(const QueryArguments& a, std::size_t count, const char* what) {
@@ -222,6 +226,7 @@ int queryMotions(const QueryArguments& a) {
 
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
+  requireFolderFor(a.savePoses, "--save-poses");
   if (a.motions) return queryMotions(a);
   const QueryKind& query = queryNamed(a.query);
   const TreeWords trees = treesAsked(a);
@@ -234,6 +239,7 @@ int queryCommand(const QueryArguments& a) {
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
   checkRepeats(a, poses.size(), "pose");
+  requireNotRead(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
   if (a.savePoses) writePoses(*a.savePoses, poses);
   const BatchResult result =
       runPoses({meshA.mesh, meshB.mesh, poses, query.asked, treesNamed(trees),

@@ -19,7 +19,7 @@
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/solution.h"
+#include "planner/solve/whole_file.h"
 
 namespace corridor::app {
 namespace {

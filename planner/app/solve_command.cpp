@@ -16,6 +16,7 @@
 #include "planner/problem/problem.h"
 #include "planner/solve/solution.h"
 #include "planner/solve/solve.h"
+#include "planner/solve/whole_file.h"
 #include "planner/view/svg_picture.h"
 
 namespace corridor::app {
@@ -145,7 +146,7 @@ struct Solved {
 
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
-  Problem problem = readProblem(file);
+  Problem problem = readProblemOf(file);
   requireNotRead(a.output, "--output", problem.files, "the problem");
   requireNotRead(a.picture, "--picture", problem.files, "the problem");
   SolveOptions options;
@@ -199,7 +200,7 @@ int solveCommand(const SolveArguments& a) {
       status = kBadInput;
     }
     if (interrupted) {
-      status = kInterrupted;
+      status = interruptedStatus();
       break;
     }
   }

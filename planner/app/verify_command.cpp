@@ -5,7 +5,7 @@
 
 #include "planner/app/commands.h"
 #include "planner/app/output.h"
-#include "planner/problem/problem.h"
+#include "planner/problem/nothing_tested.h"
 #include "planner/solve/verify_solution.h"
 
 namespace corridor::app {
@@ -52,14 +52,16 @@ ordered_json jsonOf(const PathFinding& f) {
 }
 
 ordered_json jsonOf(const VerifyReport& r, const Problem& problem, const VerifyArguments& a) {
-  ordered_json j = {{"format", "corridor-verify-report-2"},
+  ordered_json j = {{"format", "corridor-verify-report-3"},
                     {"problem", a.problem},
                     {"solution", a.solution},
-                    {"verdict", nameOf(r.verdict)},
+                    {"verdict", verdictName(r)},
+                    {"digest", nameOf(r.digest)},
+                    {"notes", problem.notes},
                     {"edges", r.motion.edges},
                     {"edges_proved", r.motion.edgesProved},
-                    {"proven_clearance_m", r.motion.provenClearance},
-                    {"smallest_distance_met_m", r.motion.smallestDistanceMet},
+                    {"proven_clearance_m", numberJson(r.motion.provenClearance)},
+                    {"smallest_distance_met_m", numberJson(r.motion.smallestDistanceMet)},
                     {"margin_m", r.margin},
                     {"tube", tubeJson(problem.space, r.tube)},
                     {"numbers", problem.space.numberNames()},
@@ -74,12 +76,16 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   const Lines out(a.quiet);
   out.line("problem", a.problem);
   out.line("solution", a.solution);
-  out.line("verdict", nameOf(r.verdict), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
+  out.line("verdict", verdictName(r), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
+  if (r.otherProblem) return;
+  for (const std::string& note : problem.notes) out.line("note", note);
   out.line("edges proved",
            std::to_string(r.motion.edgesProved) + " of " + std::to_string(r.motion.edges));
   if (r.motion.verdict == PathVerdict::proved)
-    out.line("clearance", "at least " + rounded(r.motion.provenClearance) + " m, at most " +
-                              rounded(r.motion.smallestDistanceMet) + " m");
+    out.line("clearance", nothingIsTested(problem)
+                              ? "none: no pair is tested"
+                              : "at least " + rounded(r.motion.provenClearance) + " m, at most " +
+                                    rounded(r.motion.smallestDistanceMet) + " m");
   if (r.margin > 0) out.line("margin", rounded(r.margin) + " m");
   out.line("tube", tubeText(problem.space, r.tube));
   out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated",
@@ -92,12 +98,9 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 }  // namespace
 
 int verifyCommand(const VerifyArguments& a) {
-  const Problem problem = readProblem(a.problem);
+  const Problem problem = readProblemOf(a.problem);
   const Solution solution = readSolution(a.solution, problem.space);
-  if (!solution.digest.empty() && solution.digest != problem.digest)
-    warn(a.solution + ": made for other files than those of " + a.problem +
-         " (the digests differ)");
-  const VerifyReport report = verifySolution(problem, solution);
+  const VerifyReport report = verifyAloud(problem, solution, a.problem, a.solution, a.ignoreDigest);
   if (!a.json) {
     print(report, problem, a);
   } else if (!a.quiet) {

@@ -9,7 +9,7 @@
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/problem/problem.h"
-#include "planner/solve/verify_solution.h"
+#include "planner/solve/whole_file.h"
 #include "planner/view/browser_picture.h"
 #include "planner/view/view_page.h"
 
@@ -49,8 +49,13 @@ int viewCommand(const ViewArguments& a) {
   const std::optional<std::filesystem::path> browser =
       a.image ? std::optional(requireBrowser("--image")) : std::nullopt;
 
-  const Problem problem = readProblem(a.problem);
-  for (const auto& [file, option] : {std::pair(a.output, "--output"), {a.image, "--image"}}) {
+  const Problem problem = readProblemOf(a.problem);
+  std::optional<std::string> pageFile = a.output;
+  if (!a.output && !a.image) {
+    pageFile = pageName(problem);
+    requireFolderFor(pageFile, "--output");
+  }
+  for (const auto& [file, option] : {std::pair(pageFile, "--output"), {a.image, "--image"}}) {
     requireNotRead(file, option, problem.files, "the problem");
     if (a.solution) requireNotRead(file, option, {*a.solution}, "the solution");
   }
@@ -58,27 +63,23 @@ int viewCommand(const ViewArguments& a) {
   if (a.solution) {
     path.emplace();
     path->solution = readSolution(*a.solution, problem.space);
-    if (!path->solution.digest.empty() && path->solution.digest != problem.digest)
-      warn(*a.solution + ": made for other files than those of " + a.problem +
-           " (the digests differ)");
-    path->report = verifySolution(problem, path->solution);
+    path->report = verifyAloud(problem, path->solution, a.problem, *a.solution, a.ignoreDigest);
   }
   const std::string page = viewPage(problem, path);
   const Lines out(a.quiet);
   out.line("problem", a.problem);
   if (path) {
-    const PathVerdict verdict = path->report.verdict;
-    out.line("verdict", nameOf(verdict), verdict == PathVerdict::proved ? Tone::good : Tone::bad);
+    out.line("verdict", verdictName(path->report),
+             path->report.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
   }
-  if (a.output || !a.image) {
-    const std::string file = a.output.value_or(pageName(problem));
-    writeWhole(file, page);
-    out.line("page", file);
+  if (pageFile) {
+    writeWhole(*pageFile, page);
+    out.line("page", *pageFile);
   }
   if (a.image) {
     // The browser and its folder are gone in a moment: nobody has to ask twice.
     const std::atomic<bool>& interrupted = listenForInterrupts(SecondInterrupt::isIgnored);
-    if (!writePicture(page, *browser, size, *a.image, interrupted)) return kInterrupted;
+    if (!writePicture(page, *browser, size, *a.image, interrupted)) return interruptedStatus();
     out.line("image", *a.image);
   }
   return kDone;

@@ -216,9 +216,7 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
   const SolveClock clock;
   const VerifyReport report = verifySolution(problem, solution);
   run.verificationTime = clock.seconds();
-  run.verdict = report.verdict == PathVerdict::proved    ? "proved"
-                : report.verdict == PathVerdict::refuted ? "refuted"
-                                                         : "undecided";
+  run.verdict = verdictName(report);
   if (report.verdict != PathVerdict::proved) run.finding = firstFinding(report);
   if (std::isfinite(report.motion.smallestDistanceMet)) {
     run.provenClearance = report.motion.provenClearance;

@@ -66,8 +66,8 @@ void limitMemory(std::size_t bytes) {
 [[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it died before it could be heard of
-  // The parent decides what an interrupt from the terminal means.
-  ::signal(SIGINT, SIG_IGN);
+  // The parent decides what a signal to the whole group means, as one from the terminal.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
   limitMemory(bytes);
   std::string failure;
   try {

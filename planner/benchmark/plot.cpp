@@ -166,8 +166,8 @@ std::string runGnuplot(const std::string& script) {
   int status = -1;
   std::string word = file;  // of a shell's: TMPDIR is the user's
   replaceAll(word, "'", "'\\''");
-  // Without the user's own settings (~/.gnuplot); an interrupt from the terminal is its parent's.
-  const std::string command = "trap '' INT; exec gnuplot -d '" + word + "' 2>&1";
+  // Without the user's own settings (~/.gnuplot); a signal to the whole group is its parent's.
+  const std::string command = "trap '' INT TERM HUP; exec gnuplot -d '" + word + "' 2>&1";
   if (FILE* const pipe = ::popen(command.c_str(), "r")) {
     std::array<char, 65536> part;
     while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe))

@@ -8,7 +8,7 @@
 #include "planner/benchmark/report_plots.h"
 #include "planner/benchmark/report_tables.h"
 #include "planner/benchmark/write_reports.h"
-#include "planner/solve/solution.h"
+#include "planner/solve/whole_file.h"
 #include "planner/view/page_text.h"
 
 namespace corridor {

@@ -11,7 +11,7 @@
 #include "collision/core/error.h"
 #include "planner/benchmark/ompl_log.h"
 #include "planner/benchmark/rows.h"
-#include "planner/solve/solution.h"
+#include "planner/solve/whole_file.h"
 
 namespace corridor {
 namespace {

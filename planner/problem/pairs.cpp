@@ -4,6 +4,7 @@
 
 #include "planner/problem/assembly.h"
 #include "planner/problem/joint_yaml.h"
+#include "planner/problem/nothing_tested.h"
 
 namespace corridor {
 namespace {
@@ -92,22 +93,19 @@ void setPairs(const AllowedBodies& allowed, Problem& problem) {
   };
 
   problem.pairs.clear();
-  std::size_t tested = 0;
   std::vector<std::string> still;
   for (std::size_t i = 0; i < problem.bodies.size(); ++i)
     for (std::size_t j = i + 1; j < problem.bodies.size(); ++j) {
       const ProblemBody &a = problem.bodies[i], &b = problem.bodies[j];
       if (!a.robot && !b.robot) continue;
       problem.pairs.push_back({i, j, reasonOf(i, j)});
-      tested += problem.pairs.back().skipped.empty();
       if (problem.pairs.back().skipped == kNeverMove && a.robot != b.robot)
         still.push_back(a.name + " ~ " + b.name);
     }
   if (!still.empty())
     problem.notes.push_back("not tested, since they never move against each other: " +
                             listed(still));
-  if (tested == 0)
-    problem.notes.push_back("no pair of bodies is tested: nothing can collide in this problem");
+  if (nothingIsTested(problem)) problem.notes.insert(problem.notes.begin(), kNothingTested);
 }
 
 }  // namespace corridor

@@ -1,13 +1,12 @@
 #include "planner/solve/solution.h"
 
 #include <cstdio>
-#include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 #include "planner/problem/format_key.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/state_rows.h"
+#include "planner/solve/whole_file.h"
 
 namespace corridor {
 namespace {
@@ -212,30 +211,6 @@ void writeSolution(const Solution& solution, const std::filesystem::path& file) 
       std::filesystem::absolute(solution.problem, failure), folder, failure);
   if (!failure && !relative.empty()) placed.problem = relative.generic_string();
   writeWhole(file, yamlOf(placed));
-}
-
-void writeWhole(const std::filesystem::path& file, const std::string& text) {
-  writeWhole(file, [&](std::ostream& out) { out << text; });
-}
-
-void writeWhole(const std::filesystem::path& file,
-                const std::function<void(std::ostream&)>& write) {
-  std::error_code failure, ignored;
-  // A device or a pipe is written to: renaming a file over it would replace it.
-  const bool inPlace =
-      std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
-  const std::filesystem::path written =
-      inPlace ? file : std::filesystem::path(file.string() + ".tmp" + std::to_string(::getpid()));
-  std::ofstream out(written, std::ios::binary);
-  write(out);
-  out.close();
-  if (out && !inPlace) std::filesystem::rename(written, file, failure);
-  if (!out || failure) {
-    if (!inPlace) std::filesystem::remove(written, ignored);
-    throw InputError(
-        Fault{file.string(), 0,
-              "can't be written" + (failure ? ": " + failure.message() : std::string())});
-  }
 }
 
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space) {

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -32,11 +30,6 @@ Solution makeSolution(const Problem& problem, const SolveReport& report);
 /// Numbers with the digits that read back as the same double. The file appears whole or not at all.
 /// @throws InputError where it can't be written.
 void writeSolution(const Solution& solution, const std::filesystem::path& file);
-
-/// What `write` puts into the file, or the text: whole or not at all.
-/// @throws InputError where it can't be written.
-void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
-void writeWhole(const std::filesystem::path& file, const std::string& text);
 
 /// Reads what `writeSolution` wrote, strictly; or an OMPL.app `.path` file: a state a line.
 /// @throws InputError with all faults: format, unknown, missing or repeated keys, states that

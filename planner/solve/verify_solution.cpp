@@ -180,10 +180,38 @@ PathProblem plainProblem(const Problem& problem) {
   return plain;
 }
 
-VerifyReport verifySolution(const Problem& problem, const Solution& solution) {
+const char* nameOf(DigestState state) {
+  return state == DigestState::same ? "same" : state == DigestState::differs ? "differs" : "none";
+}
+
+DigestState digestState(const Problem& problem, const Solution& solution) {
+  if (solution.digest.empty()) return DigestState::none;
+  return solution.digest == problem.digest ? DigestState::same : DigestState::differs;
+}
+
+const char* nameOf(PathVerdict verdict) {
+  return verdict == PathVerdict::proved    ? "proved"
+         : verdict == PathVerdict::refuted ? "refuted"
+                                           : "undecided";
+}
+
+const char* verdictName(const VerifyReport& report) {
+  return report.otherProblem ? "other problem" : nameOf(report.verdict);
+}
+
+VerifyReport verifySolution(const Problem& problem, const Solution& solution, OtherDigest other) {
   VerifyReport report;
   report.margin = problem.margin;
   report.tube = problem.tube;
+  report.digest = digestState(problem, solution);
+  report.otherProblem = report.digest == DigestState::differs && other == OtherDigest::refused;
+  if (report.otherProblem) {
+    report.verdict = report.motion.verdict = PathVerdict::undecided;
+    report.motion.edges = static_cast<int>(solution.path.size()) - 1;
+    std::vector<std::string> unused;
+    report.reachesGoal = checkEnds(problem, solution.path, unused);  // for pictures
+    return report;
+  }
   report.reachesGoal = checkEnds(problem, solution.path, report.violations);
   checkBounds(problem, solution.path, report.violations);
   report.motion = verifyPath(plainProblem(problem), solution.path);

@@ -22,7 +22,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/nearest.h"
-#include "planner/solve/solution.h"
+#include "planner/solve/whole_file.h"
 
 extern char** environ;
 
@@ -36,16 +36,27 @@ constexpr int kPatience = 180;
 class WorkFolder {
  public:
   WorkFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "corridor-view-XXXXXX").string();
+    std::error_code none;
+    const std::filesystem::path base = std::filesystem::temp_directory_path(none);
+    if (none)
+      throw InputError(Fault{"TMPDIR", 0, "names no folder; one is needed to draw a picture"});
+    std::string name = (base / "corridor-view-XXXXXX").string();
     if (!::mkdtemp(name.data()))
-      throw std::system_error(errno, std::generic_category(), "a folder for the picture");
+      throw InputError(
+          Fault{base.string(), 0,
+                "no folder can be made here: " + std::generic_category().message(errno) +
+                    "; let TMPDIR name another one"});
     path_ = name;
   }
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
   ~WorkFolder() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    // The browser's processes that were killed may write a last file meanwhile.
+    for (int i = 0; i < 100 && std::filesystem::exists(path_, ignored); ++i) {
+      if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      std::filesystem::remove_all(path_, ignored);
+    }
   }
   const std::filesystem::path& path() const { return path_; }
 
@@ -56,6 +67,11 @@ class WorkFolder {
 std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Whether a picture is there to its last byte: on a full disk browsers leave a part of it.
+bool isWholePng(const std::string& png) {
+  return png.starts_with("\x89PNG") && png.ends_with("IEND\xAE\x42\x60\x82");
 }
 
 /// A path as browsers take it: what isn't a letter, a digit or /-_. by its bytes.
@@ -72,14 +88,34 @@ std::string fileUrl(const std::filesystem::path& path) {
   return url;
 }
 
+/// The environment with TMPDIR naming this folder: Chromium leaves files there when it is killed.
+/// Its socket is among them, whose path has 107 bytes at most; where the folder's name is too long
+/// for that, TMPDIR stays.
+std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
+  constexpr std::size_t kLongest =
+      107 - std::string_view("/org.chromium.Chromium.XXXXXX/SingletonSocket").size();
+  const bool fits = folder.string().size() <= kLongest;
+  std::vector<std::string> words;
+  for (char** word = environ; *word; ++word)
+    if (!fits || !std::string_view(*word).starts_with("TMPDIR=")) words.emplace_back(*word);
+  if (fits) words.push_back("TMPDIR=" + folder.string());
+  return words;
+}
+
+/// As C has them: ended by a null pointer, valid as long as `words`.
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 enum class End { itself, late, interrupted };
 
-/// Runs a program, all that it says into a file.
-End run(const std::vector<std::string>& words, const std::filesystem::path& log,
-        const std::atomic<bool>& interrupted) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
+/// Runs a program with a folder for its temporary files, all that it says into a file.
+End run(std::vector<std::string> words, const std::filesystem::path& folder,
+        const std::filesystem::path& log, const std::atomic<bool>& interrupted) {
+  std::vector<std::string> environment = environmentIn(std::filesystem::absolute(folder));
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -96,8 +132,8 @@ End run(const std::vector<std::string>& words, const std::filesystem::path& log,
   sigaddset(&usual, SIGXFSZ);
   posix_spawnattr_setsigdefault(&attributes, &usual);
   pid_t child = 0;
-  const int failure =
-      ::posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+  const int failure = ::posix_spawn(&child, words[0].c_str(), &files, &attributes,
+                                    pointersTo(words).data(), pointersTo(environment).data());
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   if (failure != 0) throw std::system_error(failure, std::generic_category(), words[0]);
@@ -168,12 +204,16 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
       "--screenshot=" + picture.string()};
   if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // it refuses to run as root with it
   words.push_back(fileUrl(html) + "#image");
-  const End end = run(words, log, interrupted);
+  const End end = run(std::move(words), folder.path(), log, interrupted);
   if (end == End::interrupted) return false;
   const std::string said = contents(log), png = contents(picture);
-  if (said.find("corridor: the picture is drawn") == std::string::npos || png.empty()) {
+  const bool drawn = said.find("corridor: the picture is drawn") != std::string::npos;
+  if (!drawn || !isWholePng(png)) {
     std::string why = "has not drawn the picture";
     if (end == End::late) why += " in " + std::to_string(kPatience) + " s";
+    if (drawn)
+      why = "has not written the whole picture to " + folder.path().parent_path().string() +
+            "; free some space there, or let TMPDIR name another folder";
     if (said.find("corridor: no picture") != std::string::npos)
       why = "can't draw the picture: it has no WebGL";
     if (said.find("No usable sandbox") != std::string::npos)

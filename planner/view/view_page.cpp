@@ -166,24 +166,21 @@ class PageData {
         {"states", s.path.size()},
         {"length_m", lengths ? ordered_json(length.metres) : ordered_json()},
         {"rotation_rad", angles ? ordered_json(length.radians) : ordered_json()},
-        {"other_files", !s.digest.empty() && s.digest != problem_.digest},
+        {"other_files", r.digest == DigestState::differs},
         {"margin_m", r.margin}};
     if (!s.digest.empty()) solution["seed"] = s.seed;
-    const auto name = [](PathVerdict verdict) {
-      return verdict == PathVerdict::proved    ? "proved"
-             : verdict == PathVerdict::refuted ? "refuted"
-                                               : "undecided";
-    };
-    ordered_json& verdict = json_["verdict"] = {
-        {"verdict", name(r.verdict)},           {"edges", r.motion.edges},
-        {"edges_proved", r.motion.edgesProved}, {"reaches_goal", r.reachesGoal},
-        {"violations", r.violations},           {"findings", ordered_json::array()}};
+    ordered_json& verdict = json_["verdict"] = {{"verdict", verdictName(r)},
+                                                {"edges", r.motion.edges},
+                                                {"edges_proved", r.motion.edgesProved},
+                                                {"reaches_goal", r.reachesGoal},
+                                                {"violations", r.violations},
+                                                {"findings", ordered_json::array()}};
     if (r.motion.verdict == PathVerdict::proved) {
       verdict["clearance_m"] = r.motion.provenClearance;
       verdict["distance_met_m"] = r.motion.smallestDistanceMet;
     }
     for (const PathFinding& f : r.motion.findings)
-      verdict["findings"].push_back({{"verdict", name(f.verdict)},
+      verdict["findings"].push_back({{"verdict", nameOf(f.verdict)},
                                      {"reason", f.reason},
                                      {"edge", f.edge},
                                      {"t", f.t},

@@ -245,4 +245,26 @@ def picture_tells_the_verdict(browser, path):
             assert browser.js(ring) == (solution == "through")
 
 
-main([two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture, picture_tells_the_verdict])
+def hollow_proofs(browser, path):
+    """A path of another problem, and one of a problem in which nothing is tested, don't look proved."""
+    for file, text in {
+            "robot.yaml": "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [1, 1, 1]}]\n",
+            "free.yaml": "format: corridor-problem-1\nrobot: robot.yaml\nworld: {wall: {box: [0.1, 1, 1]}}\nallow: [[cube, wall]]\n"
+                         "start: {at: [-3, 0]}\ngoal: {at: [3, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n",
+            "hand.yaml": "format: corridor-solution-1\nspace: SE2\npath: [[-3, 0, 0], [3, 0, 0]]\n",
+            "other.yaml": f"format: corridor-solution-1\nspace: SE2\ndigest: {64 * 'a'}\npath: [[-3, 0, 0], [3, 0, 0]]\n"}.items():
+        with open(os.path.join(path, file), "w", encoding="utf-8") as out:
+            out.write(text)
+    page = os.path.join(path, "page.html")
+    for solution, badge, verdict in (("hand", "No pair is tested", "no pair is tested"), ("other", "Other problem", "other problem")):
+        corridor("view", os.path.join(path, "free.yaml"), os.path.join(path, f"{solution}.yaml"), "-o", page)
+        shown(browser, page, "desktop")
+        shown_badge = browser.find("#badge")
+        assert shown_badge.text == badge and "proved" not in shown_badge.get_attribute("class")
+        assert browser.find("#notes li").text.startswith("The path was made for" if solution == "other" else "no pair of bodies is tested")
+        assert ("Edges proved" in browser.find("#facts").text) == (solution == "hand")
+        browser.check_page()
+        assert pictured(browser, page, (600, 400)) == verdict
+
+
+main([hollow_proofs, two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture, picture_tells_the_verdict])

@@ -10,22 +10,23 @@ const Panel = {
     const s = data.solution, v = data.verdict;
     if (s) {
       const badge = byId('badge');
-      badge.textContent = {proved: 'Proved free of contact', refuted: 'Refuted', undecided: 'Undecided'}[v.verdict];
-      badge.className = v.verdict;
+      badge.textContent = {proved: 'Proved free of contact', refuted: 'Refuted', undecided: 'Undecided', 'other problem': 'Other problem'}[v.verdict];
+      badge.className = this.verdictClass();
+      if (this.provedOfNothing()) badge.textContent = 'No pair is tested';
       badge.hidden = false;
       if (s.planner) facts.push(['Planner', s.planner + (s.seed === undefined ? '' : `, seed ${s.seed}`)]);
       if (s.checker) facts.push(['Certified', s.certified ? 'yes' : `no (${s.checker})`]);
       const length = [s.length_m === null ? '' : metres(s.length_m), s.rotation_rad === null ? '' : `${digits(s.rotation_rad)} rad`];
       facts.push(['Path length', length.filter(Boolean).join(', ')]);
       facts.push(['States', s.states.toLocaleString('en')]);
-      facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
+      if (v.verdict !== 'other problem') facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
       if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);
     }
     if (s && s.margin_m > 0) facts.push(['Margin', metres(s.margin_m)]);
     facts.push(['Bodies', data.bodies.length.toLocaleString('en')]);
     facts.push(['Triangles', data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0).toLocaleString('en')]);
     for (const [key, value] of facts) byId('facts').append(make('dt', key), make('dd', value));
-    const notes = [...(s && s.other_files ? ['The path was made for other files than those of this problem.'] : []), ...data.notes];
+    const notes = [...(s && s.other_files ? ['The path was made for other files than those of this problem' + (v.verdict === 'other problem' ? ', and is not verified.' : '.')] : []), ...data.notes];
     byId('notes').hidden = notes.length === 0;
     for (const note of notes) byId('notes').querySelector('ul').append(make('li', note));
     this.pairs();
@@ -56,8 +57,17 @@ const Panel = {
     return data.verdict ? data.verdict.findings.findIndex((f) => f.verdict === data.verdict.verdict) : -1;
   },
 
+  /** Proved, since nothing that could collide is tested. */
+  provedOfNothing: () => data.verdict.verdict === 'proved' && data.pairs.tested === 0,
+
+  /** Of the style: only a proof of something is green. */
+  verdictClass() {
+    return this.provedOfNothing() || data.verdict.verdict === 'other problem' ? 'undecided' : data.verdict.verdict;
+  },
+
   /** "refuted: seat and shelf touch" */
   verdictText() {
+    if (this.provedOfNothing()) return 'no pair is tested';
     const {verdict, findings, violations} = data.verdict, f = findings[this.mainFinding()];
     const short = (name) => name.length > 32 ? `${name.slice(0, 15)}…${name.slice(-16)}` : name;  // for a line of a picture
     const pair = f && f.a !== null ? `${short(this.bodyName(f.a))} and ${short(this.bodyName(f.b))}` : '';
@@ -107,7 +117,7 @@ const Panel = {
     if (!path || !image) return;
     // What the panel says of the path, which pictures don't have; its mark is the scene's ring.
     const finding = data.verdict.findings[this.mainFinding()], said = make('span', this.verdictText());
-    said.className = `verdict ${data.verdict.verdict}`;
+    said.className = `verdict ${this.verdictClass()}`;
     if (finding && finding.a !== null) said.prepend(make('i'));
     legend.append(said);
   },

@@ -15,14 +15,15 @@ namespace {
 constexpr int kWentOn = 7, kNotTold = 8;
 
 /// How a process ends that is interrupted, and once more after so long.
-int statusAfterTwo(SecondInterrupt second, int milliseconds) {
+int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT) {
   const pid_t id = ::fork();
   if (id == 0) {
+    ::signal(SIGHUP, SIG_DFL);  // whatever this test runs under
     const std::atomic<bool>& interrupted = listenForInterrupts(second);
-    std::raise(SIGINT);
-    if (!interrupted) ::_exit(kNotTold);
+    std::raise(signal);
+    if (!interrupted || interruptedStatus() != 128 + signal) ::_exit(kNotTold);
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-    std::raise(SIGINT);
+    std::raise(signal);
     ::_exit(kWentOn);
   }
   int status = 0;
@@ -31,12 +32,29 @@ int statusAfterTwo(SecondInterrupt second, int milliseconds) {
 }
 
 TEST(Interrupt, ASecondEndsOrIsIgnored) {
-  const int ended = statusAfterTwo(SecondInterrupt::ends, 600);
-  EXPECT_TRUE(WIFSIGNALED(ended));
-  EXPECT_EQ(WTERMSIG(ended), SIGINT);
-  const int ignored = statusAfterTwo(SecondInterrupt::isIgnored, 600);
-  EXPECT_TRUE(WIFEXITED(ignored));
-  EXPECT_EQ(WEXITSTATUS(ignored), kWentOn);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const int ended = statusAfterTwo(SecondInterrupt::ends, 600, signal);
+    EXPECT_TRUE(WIFSIGNALED(ended));
+    EXPECT_EQ(WTERMSIG(ended), signal);
+    const int ignored = statusAfterTwo(SecondInterrupt::isIgnored, 600, signal);
+    EXPECT_TRUE(WIFEXITED(ignored));
+    EXPECT_EQ(WEXITSTATUS(ignored), kWentOn);
+  }
+}
+
+/// nohup(1) is for programs that go on where their terminal is closed.
+TEST(Interrupt, UnderNohupHangingUpIsNothing) {
+  const pid_t id = ::fork();
+  if (id == 0) {
+    ::signal(SIGHUP, SIG_IGN);
+    const std::atomic<bool>& interrupted = listenForInterrupts();
+    std::raise(SIGHUP);
+    ::_exit(interrupted ? kNotTold : kWentOn);
+  }
+  int status = 0;
+  ::waitpid(id, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), kWentOn);
 }
 
 /// timeout(1) sends one to the program, and then to its group.

@@ -55,6 +55,19 @@ class ProgramTest : public testing::Test {
     EXPECT_EQ(result.out, "") << arguments;
   }
 
+  /// Those that `corridor --help` lists.
+  std::vector<std::string> commands() const {
+    std::vector<std::string> names;
+    bool listed = false;
+    for (const std::string& line : lines(run("--help").out)) {
+      if (listed && line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
+        names.push_back(line.substr(2, line.find(' ', 2) - 2));
+      if (line.starts_with("Subcommands")) listed = true;
+    }
+    EXPECT_FALSE(names.empty());
+    return names;
+  }
+
   std::filesystem::path folder_ = newFolder();
 };
 

@@ -279,8 +279,12 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   };
   boundsFault("--lower 99,0,0", "--lower: [99, 0, 0] is not below --upper, by default [");
   boundsFault("--upper -99,0,0", "--upper: [-99, 0, 0] is not above --lower, by default [");
-  fault("a.obj b.obj --grid 2x2x2 --save-poses none/p.txt", "none/p.txt: can't be written");
-  fault("a.obj b.obj --grid 2x2x2 --save-poses .", ".: can't be written");
+  fault("a.obj b.obj --grid 2x2x2 --save-poses none/p.txt",
+        "--save-poses: there is no folder none");
+  fault("a.obj b.obj --grid 2x2x2 --save-poses .",
+        "--save-poses: . is a folder; a file's name is needed");
+  fault("a.obj b.obj --grid 2x2x2 --save-poses b.obj",
+        "--save-poses: b.obj is of the query itself; name another file");
 }
 
 }  // namespace

@@ -58,9 +58,17 @@ TEST_F(ViewCommand, APathOfOtherFilesIsToldOnThePage) {
                          "\npath:\n  - [-3, -2, 0, 0, 0, 0, 1]\n  - [3, -2, 0, 0, 0, 0, 1]\n");
   const Result result = run("view " + plate + " path.yaml -o page.html");
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "corridor: warning: path.yaml: made for other files than those of " +
-                            plate + " (the digests differ)\n");
+  const std::string warning = "corridor: warning: path.yaml: made for other files than those of " +
+                              plate + " (the digests differ)";
+  EXPECT_EQ(result.err, warning + "; it is not verified: --ignore-digest verifies it anyway\n");
+  EXPECT_THAT(result.out, HasSubstr("verdict: other problem\n"));
   EXPECT_THAT(read("page.html"), HasSubstr("\"other_files\":true"));
+  EXPECT_THAT(read("page.html"), HasSubstr("\"verdict\":\"other problem\""));
+  const Result ignored = run("view " + plate + " path.yaml -o page.html --ignore-digest");
+  EXPECT_EQ(ignored.err, warning + "\n");
+  EXPECT_THAT(ignored.out, HasSubstr("verdict: refuted\n"));
+  EXPECT_THAT(read("page.html"), HasSubstr("\"other_files\":true"));
+  EXPECT_THAT(read("page.html"), HasSubstr("\"verdict\":\"refuted\""));
 }
 
 TEST_F(ViewCommand, Faults) {

@@ -9,6 +9,8 @@
 
 #include "collision/core/error.h"
 #include "planner/solve/state_rows.h"
+#include "planner/solve/verify_solution.h"
+#include "planner/solve/whole_file.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
 

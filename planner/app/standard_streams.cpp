@@ -1,0 +1,25 @@
+#include "planner/app/standard_streams.h"
+
+#include <fcntl.h>
+#include <iostream>
+#include <unistd.h>
+
+#include "collision/core/error.h"
+
+namespace corridor::app {
+
+void openStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    // It gets the lowest free number, which is this one; opened so that its use fails.
+    [[maybe_unused]] const int same =
+        ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+void requireResultsWritten() {
+  if (!std::cout.flush())
+    throw InputError(Fault{"standard output", 0, "can't be written, or not all of it"});
+}
+
+}  // namespace corridor::app

@@ -1,0 +1,193 @@
+// Outputs are written whole or not at all, and a command says so by its exit status: on a full
+// disk, in a read-only folder, to a closed pipe or a closed stdout. Every use of every command.
+#include <algorithm>
+#include <csignal>
+#include <fcntl.h>
+#include <set>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/app/uses.h"
+
+namespace corridor::test {
+namespace {
+
+using testing::AnyOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+constexpr const char* kStdoutFault = "standard output: can't be written, or not all of it\n";
+
+class OutputFaults : public UseTest {
+ protected:
+  OutputFaults() { learnWhole(GetParam()); }
+  void expectAll() const {
+    expectWholeOrNothing(GetParam());
+    for (const std::string& file : GetParam().files)
+      EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / file)) << file;
+  }
+};
+
+TEST_P(OutputFaults, AFullDiskBehindStdout) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const End end =
+      this->end(GetParam().arguments, [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, EndsWith(kStdoutFault));
+  EXPECT_TRUE(end.alone);
+  expectAll();
+}
+
+/// The next file that is opened must not get stdout's number, and the results with it.
+TEST_P(OutputFaults, AClosedStdout) {
+  const End end = this->end(GetParam().arguments, [] { ::close(STDOUT_FILENO); });
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, EndsWith(kStdoutFault));
+  EXPECT_TRUE(end.alone);
+  expectAll();
+}
+
+TEST_P(OutputFaults, APipeThatNobodyReads) {
+  for (const bool ignored : {false, true}) {
+    const End end = this->end(GetParam().arguments, [ignored] {
+      int pipe[2];
+      if (::pipe(pipe) != 0) ::_exit(99);
+      ::close(pipe[0]);
+      ::dup2(pipe[1], STDOUT_FILENO);
+      if (ignored) ::signal(SIGPIPE, SIG_IGN);
+    });
+    EXPECT_EQ(end.status, ignored ? 2 : 128 + SIGPIPE);
+    EXPECT_THAT(end.err, EndsWith(ignored ? kStdoutFault : ""));
+    EXPECT_TRUE(end.alone);
+    expectAll();
+    // For the second time: a folder with a campaign in it is not written over.
+    std::filesystem::remove_all(folder_ / "out");
+    std::filesystem::create_directory(folder_ / "out");
+  }
+}
+
+/// What `query` says on stderr is a result, too.
+TEST_P(OutputFaults, AFullDiskBehindStderr) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const End end =
+      this->end(GetParam().arguments, [] { ::dup2(::open("/dev/full", O_WRONLY), STDERR_FILENO); });
+  EXPECT_EQ(end.status, GetParam().arguments.starts_with("query") ? 2 : 0);
+  EXPECT_TRUE(end.alone);
+  expectAll();
+}
+
+INSTANTIATE_TEST_SUITE_P(Uses, OutputFaults, testing::ValuesIn(uses()),
+                         [](const auto& use) { return use.param.name; });
+
+/// Uses that write files.
+class FileFaults : public OutputFaults {
+ protected:
+  bool isFolder() const { return GetParam().arguments.starts_with("benchmark"); }
+  /// One line that names what can't be written, and says why.
+  static void expectSaid(const End& end, const std::string& why) {
+    EXPECT_EQ(end.status, 2);
+    EXPECT_THAT(end.err, HasSubstr(why));
+    EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
+    EXPECT_TRUE(end.alone);
+  }
+};
+
+/// As by `ulimit -f`: half of the file would fit. What was there before stays.
+TEST_P(FileFaults, FilesThatMayNotGrow) {
+  for (const std::string& file : GetParam().files) {
+    if (isFolder() && file != GetParam().files[0]) break;  // the database is the first to suffer
+    if (!isFolder()) write("out/" + file, "before");
+    const std::size_t half = whole_.at(file).size() / 2;
+    const End end = this->end(GetParam().arguments, [half] {
+      const rlimit limit{half, half};
+      if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(99);
+      ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
+    });
+    EXPECT_EQ(end.status, 2) << end.err;
+    EXPECT_THAT(end.err, AnyOf(HasSubstr("can't be written: File too large; raise the limit on the "
+                                         "size of files (ulimit -f)\n"),
+                               HasSubstr("no file may be larger than")));
+    EXPECT_TRUE(end.alone);
+    if (isFolder()) continue;
+    EXPECT_EQ(read("out/" + file), "before");
+    std::filesystem::remove(folder_ / "out" / file);
+    expectWholeOrNothing(GetParam());
+  }
+}
+
+constexpr const char* kLookAndGo =
+    "\"$0\" \"$@\"; status=$?; find out -type f ! -name fill >left.txt; umount out; exit $status";
+
+TEST_P(FileFaults, AFullDisk) {
+  const auto wrapper = mounting(
+      std::string("mount -t tmpfs -o size=64k none out && { head -c 1m /dev/zero >out/fill "
+                  "2>/dev/null; true; } && ") +
+      kLookAndGo);
+  if (wrapper.empty()) GTEST_SKIP() << "a small file system may not be mounted here (unshare -m)";
+  const End end = wait(startBy(wrapper, GetParam().arguments));
+  expectSaid(end, isFolder() ? "disk" : "No space left on device");
+  EXPECT_EQ(read("left.txt"), isFolder() ? "out/results/campaign.db\n" : "");
+  expectWholeOrNothing(GetParam());
+}
+
+TEST_P(FileFaults, AReadOnlyFolder) {
+  const auto wrapper = mounting(
+      std::string("mount --bind out out && mount -o remount,bind,ro out && ") + kLookAndGo);
+  if (wrapper.empty()) GTEST_SKIP() << "a folder may not be mounted read-only here (unshare -m)";
+  const End end = wait(startBy(wrapper, GetParam().arguments));
+  expectSaid(end, "Read-only file system");
+  EXPECT_EQ(read("left.txt"), "");
+  expectWholeOrNothing(GetParam());
+}
+
+std::vector<Use> usesWithFiles() {
+  std::vector<Use> all;
+  for (const Use& use : uses())
+    if (!use.files.empty()) all.push_back(use);
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Uses, FileFaults, testing::ValuesIn(usesWithFiles()),
+                         [](const auto& use) { return use.param.name; });
+
+class Uses : public ProgramTest {};
+
+/// A command that is new must be tried, too, and what it writes.
+TEST_F(Uses, HaveEveryCommandAndOutput) {
+  std::set<std::string> used;
+  for (const Use& use : uses()) used.insert(use.arguments.substr(0, use.arguments.find(' ')));
+  const std::vector<std::string> all = commands();
+  EXPECT_EQ(used, std::set<std::string>(all.begin(), all.end()));
+  const auto hasUse = [](const std::string& command, const std::string& words) {
+    return std::any_of(uses().begin(), uses().end(), [&](const Use& use) {
+      return use.arguments.starts_with(command + " ") &&
+             (use.arguments + " ").find(" " + words + " ") != std::string::npos;
+    });
+  };
+  const std::map<std::string, std::string> shortNames{{"solve --output", "-o"}};
+  for (const std::string& command : all) {
+    const std::string help = run(command + " --help").out;
+    for (const std::string option : {"--output", "--picture", "--image", "--save-poses", "--json",
+                                     "--states", "--against", "--motions"}) {
+      if (help.find(option) == std::string::npos) continue;
+      const auto brief = shortNames.find(command + " " + option);
+      EXPECT_TRUE(hasUse(command, brief == shortNames.end() ? option : brief->second))
+          << command << " " << option;
+    }
+  }
+  for (const std::string query : {"contacts", "distance", "tolerance"})
+    EXPECT_TRUE(hasUse("query", "--query " + query)) << query;
+}
+
+/// Help is a result.
+TEST_F(Uses, HelpThatCannotBeWrittenIsToldOf) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  for (const char* words : {"--help", "solve --help", "--version"})
+    EXPECT_EQ(run(words + std::string(" >/dev/full 2>told.txt; exit $?;")).status, 2) << words;
+  EXPECT_EQ(read("told.txt"), kStdoutFault);
+}
+
+}  // namespace
+}  // namespace corridor::test

@@ -1,0 +1,115 @@
+// Signals that end a program, at any moment of every use of every command: the exit status names
+// the signal, files are whole or not there, and neither temporary files nor processes are left.
+#include <csignal>
+#include <thread>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/app/uses.h"
+
+namespace corridor::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+void pause(int milliseconds) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+std::vector<Use> named(const std::string& name) {
+  for (const Use& use : uses())
+    if (use.name == name) return {use};
+  return {};
+}
+
+class Signals : public UseTest {
+ protected:
+  /// Until the sign of the use is there, or a minute has passed.
+  void awaitSign(const std::string& sign) const {
+    for (int i = 0; i < 6000 && !fs::exists(folder_ / sign); ++i) pause(10);
+    EXPECT_TRUE(fs::exists(folder_ / sign)) << read("err.txt");
+  }
+  /// How the use's longer run ends on a signal, to its group or to itself, after so many ms.
+  End endBy(int signal, bool group, int milliseconds) {
+    fs::remove_all(folder_ / "out");
+    fs::create_directory(folder_ / "out");
+    fs::remove(folder_ / "browser.txt");
+    const pid_t id = start(GetParam().longer);
+    if (!group && !GetParam().sign.empty()) awaitSign(GetParam().sign);
+    pause(milliseconds);
+    ::kill(group ? -id : id, signal);
+    return wait(id);
+  }
+};
+
+TEST_P(Signals, EndItCleanly) {
+  const Use& use = GetParam();
+  learnWhole(use);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    for (const int delay : {5, 120}) {
+      const bool group = delay == 5;  // as from a terminal; else to the program alone
+      SCOPED_TRACE(std::string(::strsignal(signal)) + " after " + std::to_string(delay) + " ms");
+      End end;
+      // On a machine so fast that it was done before: sooner.
+      for (int ms = delay * kSlowdown; ms > 0 && end.status < 2; ms /= 2)
+        end = endBy(signal, group, ms);
+      EXPECT_EQ(end.status, 128 + signal) << end.err;
+      EXPECT_TRUE(end.alone);
+      expectWholeOrNothing(use);
+      EXPECT_TRUE(use.keeps || written().empty()) << written()[0];
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Uses, Signals, testing::ValuesIn(uses()),
+                         [](const auto& use) { return use.param.name; });
+
+/// Chromium has processes and files of its own.
+class RealBrowser : public Signals {};
+
+TEST_P(RealBrowser, EndsWithTheProgram) {
+  fs::remove(folder_ / "chromium");
+  if (std::system("command -v chromium >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "there is no chromium";
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t id = start(GetParam().longer);
+    const auto profile = [&] {
+      for (const auto& entry : fs::directory_iterator(folder_ / "tmp"))
+        if (fs::exists(entry.path() / "profile/Default")) return true;
+      return false;
+    };
+    for (int i = 0; i < 6000 && !profile(); ++i) pause(10);
+    EXPECT_TRUE(profile()) << read("err.txt");
+    ::kill(id, signal);
+    const End end = wait(id);
+    EXPECT_EQ(end.status, 128 + signal) << end.err;
+    EXPECT_TRUE(end.alone);
+    expectWholeOrNothing(GetParam());
+    EXPECT_THAT(written(), testing::IsEmpty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Uses, RealBrowser, testing::ValuesIn(named("ViewImage")),
+                         [](const auto& use) { return use.param.name; });
+
+/// A campaign that is stopped writes what is done, whichever signal it was.
+class StoppedCampaign : public Signals {};
+
+TEST_P(StoppedCampaign, WritesWhatIsDone) {
+  const pid_t id = start(GetParam().longer);
+  awaitSign(GetParam().sign);
+  pause(1500 * kSlowdown);
+  ::kill(id, SIGTERM);
+  const End end = wait(id);
+  EXPECT_EQ(end.status, 128 + SIGTERM);
+  EXPECT_THAT(end.err, testing::HasSubstr("--resume goes on"));
+  EXPECT_GT(lines(read("out/results/runs.csv")).size(), 1u);
+  EXPECT_THAT(read("out/results/report.html"), testing::HasSubstr("</html>"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Uses, StoppedCampaign, testing::ValuesIn(named("BenchmarkOutput")),
+                         [](const auto& use) { return use.param.name; });
+
+}  // namespace
+}  // namespace corridor::test
