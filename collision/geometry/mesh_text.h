@@ -1,23 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "collision/core/error.h"
-#include "collision/core/transform.h"
+#include "collision/geometry/triangle_mesh.h"
 
-/// What the mesh readers share: the file as text, words and numbers in it, and the faults found.
+/// What the mesh readers share: words and numbers in a text, and the faults found.
 namespace corridor {
-
-/// @throws InputError: missing, a directory, not a regular file, unreadable, empty.
-void requireMeshFile(const std::filesystem::path& file);
-
-/// The bytes of a file. @throws InputError as `requireMeshFile`.
-std::string readWholeFile(const std::filesystem::path& file);
 
 /// For messages: the word, shortened and with unprintable bytes shown as '?'.
 std::string printable(std::string_view word);
@@ -34,8 +27,18 @@ class MeshFaults {
   /// For faults that leave a reader without a place to go on from.
   [[noreturn]] void fail(int line, std::string text);
   void throwIfAny() const;
+  /// Fails where there are more than are read.
+  void checkCounts(std::uint64_t vertices, std::uint64_t triangles, int line) {
+    if (vertices > kMostVertices) failCount(vertices, kMostVertices, "vertices", line);
+    if (triangles > kMostTriangles) failCount(triangles, kMostTriangles, "triangles", line);
+  }
+  void checkCounts(const TriangleMesh& mesh, int line) {
+    checkCounts(mesh.vertices.size(), mesh.triangles.size(), line);
+  }
 
  private:
+  [[noreturn]] void failCount(std::uint64_t count, std::uint64_t most, const char* what, int line);
+
   std::string file_;
   std::vector<Fault> faults_;
 };
