@@ -13,6 +13,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "collision/core/rounding.h"
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"

@@ -52,7 +52,10 @@ class TreeBuilder : public YAML::EventHandler {
     bool keyIsNext = true;  ///< Map: what comes is a key
   };
 
-  static YamlValue value(YamlValue::Kind kind, const YAML::Mark& mark) {
+  YamlValue value(YamlValue::Kind kind, const YAML::Mark& mark) {
+    if (++nodes_ > kMostYamlNodes)
+      fail(mark,
+           "has more than " + std::to_string(kMostYamlNodes) + " keys and values; split the file");
     YamlValue result;
     result.kind = kind;
     result.line = mark.line + 1;
@@ -65,6 +68,10 @@ class TreeBuilder : public YAML::EventHandler {
 
   void open(YamlValue value) {
     requireNoKey(value);
+    if (open_.size() == kMostYamlDepth)
+      throw InputError(Fault{file_, value.line,
+                             "has lists and maps more than " + std::to_string(kMostYamlDepth) +
+                                 " deep in each other; no file that is read here needs so many"});
     open_.push_back({std::move(value), true});
   }
 
@@ -101,6 +108,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::string file_;
   YamlValue root_;
   std::vector<Open> open_;
+  std::size_t nodes_ = 0;
 };
 
 }  // namespace

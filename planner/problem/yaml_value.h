@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,15 @@ struct YamlValue::Entry {
   YamlValue value;
 };
 
+/// Limits of a document: 1.4 GB of memory, and no stack to speak of. There are no aliases, so none
+/// can multiply what stands in the file.
+constexpr std::size_t kMostYamlNodes = 10'000'000;
+constexpr std::size_t kMostYamlDepth = 64;
+
 /// Parses one YAML document.
 /// @param file for messages.
-/// @throws InputError: syntax error, more than one document, aliases, or a key that is no word.
+/// @throws InputError: syntax error, more than one document, aliases, a key that is no word, or
+/// beyond the limits.
 YamlValue parseYaml(const std::string& file, const std::string& text);
 
 }  // namespace corridor

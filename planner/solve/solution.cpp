@@ -5,6 +5,7 @@
 #include <sstream>
 #include <unistd.h>
 
+#include "collision/core/read_file.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/state_rows.h"
