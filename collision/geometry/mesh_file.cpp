@@ -99,8 +99,10 @@ std::string notRead(const std::string& extension) {
   std::string formats;
   for (const std::string_view format : kOwnFormats) formats += std::string(format) + ", ";
   for (const std::string_view format : kAssimpFormats)
-    formats += (format == kAssimpFormats.back() ? "or " : "") + std::string(format) +
-               (format == kAssimpFormats.back() ? "" : ", ");
+    formats += (format == kAssimpFormats.back()    ? " or "
+                : format == kAssimpFormats.front() ? ""
+                                                   : ", ") +
+               std::string(format);
   return (extension.empty() ? std::string("a name without an extension")
                             : "the extension " + inQuotes(extension)) +
          " stands for no format that is read; a mesh is needed as " + formats;

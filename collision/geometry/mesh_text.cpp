@@ -32,9 +32,9 @@ void MeshFaults::fail(int line, std::string text) {
   throw InputError(faults_);
 }
 
-void MeshFaults::failCount(std::uint64_t count, std::uint64_t most, const char* what, int line) {
-  fail(line, "has " + std::to_string(count) + " " + what + " or more; at most " +
-                 std::to_string(most) + " are read: use a coarser mesh, or split it");
+void MeshFaults::failCount(std::uint64_t count, std::string_view what, int line) {
+  fail(line, "has " + std::to_string(count) + " " + std::string(what) + " or more; at most " +
+                 std::to_string(kMostOfAMesh) + " are read: use a coarser mesh, or split it");
 }
 
 void MeshFaults::throwIfAny() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "collision/geometry/mesh_limits.h"
 #include "collision/geometry/triangle_mesh.h"
 
 /// What the mesh readers share: words and numbers in a text, and the faults found.
@@ -27,17 +28,17 @@ class MeshFaults {
   /// For faults that leave a reader without a place to go on from.
   [[noreturn]] void fail(int line, std::string text);
   void throwIfAny() const;
-  /// Fails where there are more than are read.
-  void checkCounts(std::uint64_t vertices, std::uint64_t triangles, int line) {
-    if (vertices > kMostVertices) failCount(vertices, kMostVertices, "vertices", line);
-    if (triangles > kMostTriangles) failCount(triangles, kMostTriangles, "triangles", line);
+  /// Fails where there are more vertices or triangles (`what`) than are read.
+  void requireFew(std::uint64_t count, std::string_view what, int line) {
+    if (count > kMostOfAMesh) failCount(count, what, line);
   }
-  void checkCounts(const TriangleMesh& mesh, int line) {
-    checkCounts(mesh.vertices.size(), mesh.triangles.size(), line);
+  void requireFew(const TriangleMesh& mesh, int line) {
+    requireFew(mesh.vertices.size(), "vertices", line);
+    requireFew(mesh.triangles.size(), "triangles", line);
   }
 
  private:
-  [[noreturn]] void failCount(std::uint64_t count, std::uint64_t most, const char* what, int line);
+  [[noreturn]] void failCount(std::uint64_t count, std::string_view what, int line);
 
   std::string file_;
   std::vector<Fault> faults_;

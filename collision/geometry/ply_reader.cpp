@@ -159,9 +159,9 @@ class BodyReader {
       if (element.name == "vertex") vertexCount_ = element.count;
     }
     for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") faults_.requireFew(element.count, "vertices", 0);
+      if (element.name == "face") faults_.requireFew(element.count, "faces", 0);
       if (!hasRoom(element)) continue;
-      if (element.name == "vertex") faults_.checkCounts(element.count, 0, 0);
-      if (element.name == "face") faults_.checkCounts(0, element.count, 0);
       if (element.name == "vertex") mesh_.vertices.reserve(element.count);
       if (element.name == "face") mesh_.triangles.reserve(element.count);
       for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -224,7 +224,7 @@ class BodyReader {
       triangle[i < 2 ? i : 2] = static_cast<std::uint32_t>(corner);
       if (i < 2) continue;
       mesh_.triangles.push_back(triangle);
-      faults_.checkCounts(mesh_, 0);
+      faults_.requireFew(mesh_, 0);
       triangle[1] = triangle[2];
     }
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,8 +19,5 @@ struct TriangleMesh {
 
   const Vec3& corner(std::size_t triangle, int i) const { return vertices[triangles[triangle][i]]; }
 };
-
-/// The most that is read of one mesh file: some 4 GB of a mesh, and twice that of a tree.
-constexpr std::size_t kMostVertices = 100'000'000, kMostTriangles = 100'000'000;
 
 }  // namespace corridor

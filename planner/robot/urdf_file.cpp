@@ -127,12 +127,6 @@ class ModelBuilder {
     bool finite = true;
     if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(source.geometry.get())) {
       shape.file = outline.mesh;
-      triangles_ += meshes_.get(outline.mesh).mesh.triangles.size();
-      if (triangles_ > kMostTriangles)
-        return file_.fault(outline.line, owned("shape", shape.name) +
-                                             ": the shapes up to this one have more than " +
-                                             std::to_string(kMostTriangles) +
-                                             " triangles in all; use coarser meshes");
       shape.mesh = placedMesh(meshes_.get(outline.mesh),
                               Vec3(mesh->scale.x, mesh->scale.y, mesh->scale.z), X);
       for (const Vec3& vertex : shape.mesh->mesh.vertices) finite &= vertex.allFinite();
@@ -232,7 +226,6 @@ class ModelBuilder {
   XmlFile& file_;
   RobotModel model_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
-  std::size_t triangles_ = 0;
   std::unordered_map<std::string, std::size_t> jointIndex_;  // by urdfdom's name
 };
 

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "collision/core/nearest.h"
+#include "collision/geometry/mesh_limits.h"
 #include "planner/robot/joint_types.h"
 
 namespace corridor {
@@ -269,6 +270,21 @@ bool isTooLarge(XmlFile& file, const Element& root) {
   return file.faultCount() != before;
 }
 
+/// Each shape has a copy of its mesh. @pre the file is sound.
+void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile& file) {
+  std::size_t triangles = 0;
+  for (const UrdfLink& link : outline.links)
+    for (const UrdfCollision& collision : link.collisions) {
+      if (collision.mesh.empty()) continue;
+      triangles += meshes.get(collision.mesh).mesh.triangles.size();
+      if (triangles > kMostOfAMesh)
+        return file.fault(collision.line, owned("link", link.name) +
+                                              ": the shapes up to this one have more than " +
+                                              std::to_string(kMostOfAMesh) +
+                                              " triangles in all; use coarser meshes");
+    }
+}
+
 }  // namespace
 
 UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::string>& notes) {
@@ -292,6 +308,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::s
   }
   if (!root.FirstChildElement("link"))
     file.fault(root.GetLineNum(), "the robot has no <link>; one at least is needed");
+  if (file.sound()) checkTriangles(outline, meshes, file);
   return outline;
 }
 

@@ -134,8 +134,8 @@ TEST_F(MeshFileComplaint, FilesThatAreNone) {
   EXPECT_EQ(complaint(folder_ / "none.obj"), "none.obj: no such file");
   EXPECT_EQ(complaint(folder_ / "none.dae"), "none.dae: no such file");
   std::filesystem::create_directory(folder_ / "folder.stl");
-  EXPECT_EQ(complaint(folder_ / "folder.stl"), "folder.stl: is a directory; a mesh file is needed");
-  EXPECT_EQ(complaint("/dev/null"), "/dev/null: is not a regular file; a mesh file is needed");
+  EXPECT_EQ(complaint(folder_ / "folder.stl"), "folder.stl: is a folder; a file is needed");
+  EXPECT_EQ(complaint("/dev/null"), "/dev/null: is a device; an ordinary file is needed");
   EXPECT_EQ(complaint("a.ply", ""), "a.ply: is empty; a mesh file is needed");
 }
 
