@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 #include "collision/core/error.h"
 
@@ -94,22 +95,6 @@ class OrdinaryFile : public OpenFile {
   std::uint64_t size_ = 0;
 };
 
-std::string readOrdinary(const std::filesystem::path& file, const std::string& what,
-                         std::uint64_t most) {
-  const std::string name = file.string();
-  const OrdinaryFile open(file, what, most);
-  std::string bytes(static_cast<std::size_t>(open.size()), '\0');
-  for (std::size_t done = 0; done < bytes.size();) {
-    const std::size_t n =
-        readSome(open.descriptor(), bytes.data() + done, bytes.size() - done, name);
-    if (n == 0)
-      fail(name, "cannot be read: it ended after " + std::to_string(done) + " of " +
-                     std::to_string(bytes.size()) + " bytes");
-    done += n;
-  }
-  return bytes;
-}
-
 /// Refuses a byte 0 in `text` from `from` on.
 void requireText(const std::string& text, std::size_t from, const std::string& name) {
   const auto zero = text.find('\0', from);
@@ -128,13 +113,12 @@ std::string notBlank(std::string text, const std::string& name, const std::strin
 
 /// All that comes until its end.
 std::string readPipe(int descriptor, const std::string& name, const std::string& what) {
-  constexpr std::size_t part = std::size_t{1} << 20;
+  std::vector<char> part(std::size_t{1} << 18);
   std::string text;
   while (true) {
     const std::size_t before = text.size();
-    text.resize(before + part);
-    const std::size_t n = readSome(descriptor, text.data() + before, part, name);
-    text.resize(before + n);
+    const std::size_t n = readSome(descriptor, part.data(), part.size(), name);
+    text.append(part.data(), n);
     if (n == 0) return notBlank(std::move(text), name, what);
     if (text.size() > kMostFileBytes)
       fail(name, "has more than " + std::to_string(kMostFileBytes) + " bytes, which is the most " +
@@ -150,16 +134,28 @@ std::string whyNoFile(const std::filesystem::path& file) {
   return whyNotOrdinary(std::filesystem::status(file, error).type());
 }
 
-void requireFile(const std::filesystem::path& file, const std::string& what) {
-  OrdinaryFile(file, what, kMostFileBytes);
+void requireFile(const std::filesystem::path& file, const std::string& what, std::uint64_t most) {
+  OrdinaryFile(file, what, most);
 }
 
-std::string readFile(const std::filesystem::path& file, const std::string& what) {
-  return readOrdinary(file, what, kMostFileBytes);
+std::string readFile(const std::filesystem::path& file, const std::string& what,
+                     std::uint64_t most) {
+  const std::string name = file.string();
+  const OrdinaryFile open(file, what, most);
+  std::string bytes(static_cast<std::size_t>(open.size()), '\0');
+  for (std::size_t done = 0; done < bytes.size();) {
+    const std::size_t n =
+        readSome(open.descriptor(), bytes.data() + done, bytes.size() - done, name);
+    if (n == 0)
+      fail(name, "cannot be read: it ended after " + std::to_string(done) + " of " +
+                     std::to_string(bytes.size()) + " bytes");
+    done += n;
+  }
+  return bytes;
 }
 
 std::string readTextFile(const std::filesystem::path& file, const std::string& what) {
-  std::string text = readOrdinary(file, what, kMostDocumentBytes);
+  std::string text = readFile(file, what, kMostDocumentBytes);
   requireText(text, 0, file.string());
   return notBlank(std::move(text), file.string(), what);
 }

@@ -18,13 +18,14 @@ constexpr std::uint64_t kMostDocumentBytes = std::uint64_t{1} << 28;
 /// What keeps a path from being an ordinary file ("no such file …"), or "". Opens nothing.
 std::string whyNoFile(const std::filesystem::path& file);
 
-/// @param what as below. @throws InputError: no such file, not an ordinary one, unreadable, empty,
-/// or above 4 GiB.
-void requireFile(const std::filesystem::path& file, const std::string& what);
+/// @param what "a mesh file", for messages. @param most bytes that it may have.
+/// @throws InputError: no such file, not an ordinary one, unreadable, empty, or larger.
+void requireFile(const std::filesystem::path& file, const std::string& what,
+                 std::uint64_t most = kMostFileBytes);
 
-/// The bytes of a file. @param what "a mesh file", for messages.
-/// @throws InputError: as `requireFile`.
-std::string readFile(const std::filesystem::path& file, const std::string& what);
+/// The bytes of a file. @throws InputError: as `requireFile`.
+std::string readFile(const std::filesystem::path& file, const std::string& what,
+                     std::uint64_t most = kMostFileBytes);
 
 /// The text of a document. @param what "a problem", for messages.
 /// @throws InputError: as `requireFile`; also above 256 MiB, only blanks, or not text (a byte 0).

@@ -108,13 +108,16 @@ std::string notRead(const std::string& extension) {
          " stands for no format that is read; a mesh is needed as " + formats;
 }
 
+/// 1 GiB: assimp would take more than its 4 GiB of memory over a larger one.
+constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
+
 /// What needs no assimp to be known of a file.
 void requireForAssimp(const std::filesystem::path& file, const std::string& extension,
                       MeshFaults& faults) {
   if (extension == ".dae")
-    checkColladaAsset(readFile(file, kWhat), faults);
+    checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults);
   else
-    requireFile(file, kWhat);
+    requireFile(file, kWhat, kMostAssimpBytes);
 }
 
 constexpr const char* floatHint = " (this format is read in float, whose numbers end at 3.4e38)";

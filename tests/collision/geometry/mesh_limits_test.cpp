@@ -123,6 +123,21 @@ TEST_F(MeshLimits, NoOrdinaryFile) {
   }
 }
 
+TEST_F(MeshLimits, SizesOfFiles) {
+  const auto sparse = [&](const std::string& name, std::uint64_t size) {
+    const auto file = write(name, "x");
+    std::filesystem::resize_file(file, size);
+    return complaint(file);
+  };
+  EXPECT_EQ(sparse("a.stl", (std::uint64_t{4} << 30) + 1),
+            "a.stl: has 4294967297 bytes; at most 4294967296 are read of a mesh file");
+  for (const char* const name : {"a.dae", "a.glb"})
+    EXPECT_EQ(sparse(name, (std::uint64_t{1} << 30) + 1),
+              std::string(name) +
+                  ": has 1073741825 bytes; at most 1073741824 are read of a mesh "
+                  "file");
+}
+
 TEST_F(MeshLimits, OnlyTheFormatsThatAreWrittenDown) {
   const std::string formats =
       " stands for no format that is read; a mesh is needed as .obj, .stl, .ply, .off, .dae, "
