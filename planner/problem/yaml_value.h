@@ -28,13 +28,16 @@ struct YamlValue::Entry {
 
 /// Limits of a document: 1.4 GB of memory, and no stack to speak of. There are no aliases, so none
 /// can multiply what stands in the file.
-constexpr std::size_t kMostYamlNodes = 10'000'000;
-constexpr std::size_t kMostYamlDepth = 64;
+struct YamlLimits {
+  std::size_t nodes = 10'000'000;  ///< keys and values
+  std::size_t depth = 64;          ///< of lists and maps in each other
+};
 
 /// Parses one YAML document.
 /// @param file for messages.
 /// @throws InputError: syntax error, more than one document, aliases, a key that is no word, or
 /// beyond the limits.
-YamlValue parseYaml(const std::string& file, const std::string& text);
+YamlValue parseYaml(const std::string& file, const std::string& text,
+                    const YamlLimits& limits = {});
 
 }  // namespace corridor

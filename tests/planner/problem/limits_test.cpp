@@ -16,9 +16,9 @@ std::string repeated(const std::string& text, std::size_t times) {
 
 class Limits : public ProblemTest {
  protected:
-  static std::string complaintOfYaml(const std::string& text) {
+  static std::string complaintOfYaml(const std::string& text, const YamlLimits& limits = {}) {
     try {
-      parseYaml("a.yaml", text);
+      parseYaml("a.yaml", text, limits);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -39,15 +39,18 @@ TEST_F(Limits, YamlDepth) {
   std::string blocks;
   for (std::size_t i = 0; i < 1000; ++i) blocks += std::string(i, ' ') + "a:\n";
   EXPECT_EQ(complaintOfYaml(blocks).substr(0, 9), "a.yaml:65");
-  EXPECT_EQ(complaintOf(head + "start: " + repeated("[", 100'000)),
+  EXPECT_EQ(complaintOf(head + "start: " + repeated("[", 100'000) + repeated("]", 100'000)),
             "problem.yaml:5: has lists and maps more than 64 deep in each other; no file that is "
             "read here needs so many");
 }
 
 TEST_F(Limits, YamlNodes) {
-  EXPECT_EQ(complaintOfYaml(repeated("- ,\n", kMostYamlNodes - 1)), "no complaint");
-  EXPECT_EQ(complaintOfYaml(repeated("- ,\n", kMostYamlNodes)),
-            "a.yaml:10000000: has more than 10000000 keys and values; split the file");
+  EXPECT_EQ(YamlLimits{}.nodes, 10'000'000u);
+  const YamlLimits limits{1000, 64};
+  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 999), limits), "no complaint");  // and the list
+  const std::string told = ": has more than 1000 keys and values; split the file";
+  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 1000), limits), "a.yaml:1000" + told);
+  EXPECT_EQ(complaintOfYaml(repeated("- a: {b: \n    []}\n", 1000), limits), "a.yaml:333" + told);
 }
 
 /// Each list of ten of the one before: 10^9 of the first.
