@@ -50,7 +50,7 @@ TEST_F(Limits, YamlNodes) {
   EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 999), limits), "no complaint");  // and the list
   const std::string told = ": has more than 1000 keys and values; split the file";
   EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 1000), limits), "a.yaml:1000" + told);
-  EXPECT_EQ(complaintOfYaml(repeated("- a: {b: \n    []}\n", 1000), limits), "a.yaml:333" + told);
+  EXPECT_EQ(complaintOfYaml(repeated("- a: {b: \n    []}\n", 1000), limits), "a.yaml:400" + told);
 }
 
 /// Each list of ten of the one before: 10^9 of the first.
