@@ -5,7 +5,6 @@
 #include <charconv>
 #include <exception>
 #include <memory>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -114,11 +113,12 @@ std::string oneLine(std::string text) {
 /// A file may name others (a glTF's buffers): those are ordinary files, too, or not there.
 class OrdinaryFiles : public Assimp::DefaultIOSystem {
  public:
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
+  bool Exists(const char* file) const override {  // assimp's own opens it
     struct stat status {};
-    return ::stat(file, &status) == 0 && S_ISREG(status.st_mode)
-               ? Assimp::DefaultIOSystem::Open(file, mode)
-               : nullptr;
+    return ::stat(file, &status) == 0 && S_ISREG(status.st_mode);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
   }
 };
 

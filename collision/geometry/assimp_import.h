@@ -37,6 +37,9 @@ struct AssimpImport {
 /// and memory. Throws nothing. Defined in the helper program only.
 AssimpImport importByAssimp(const std::string& file, AssimpRules rules);
 
+/// The helper's exit status where its memory ends: assimp would take that for a damaged file.
+constexpr int kNoMemory = 9;
+
 /// What the helper program writes to its standard output, and back. Both ends are the same build
 /// on the same machine.
 std::string packed(const AssimpImport& import);

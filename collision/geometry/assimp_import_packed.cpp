@@ -48,7 +48,8 @@ std::string packed(const AssimpImport& import) {
   append(bytes, &head, 1);
   append(bytes, import.mesh.vertices.data(), import.mesh.vertices.size());
   append(bytes, import.mesh.triangles.data(), import.mesh.triangles.size());
-  return bytes + import.format + import.error;
+  bytes += import.format;
+  return bytes += import.error;
 }
 
 bool unpack(std::string_view bytes, AssimpImport& import) {

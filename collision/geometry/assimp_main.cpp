@@ -3,6 +3,7 @@
 // than this process.
 #include <csignal>
 #include <cstdlib>
+#include <new>
 #include <string>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -24,6 +25,7 @@ int main(int count, char** words) {
   ::setrlimit(RLIMIT_CORE, &none);
   corridor::limitMemory(std::strtoull(words[4], nullptr, 10));
 
+  std::set_new_handler([] { ::_exit(corridor::kNoMemory); });
   const std::string bytes = corridor::packed(corridor::importByAssimp(file, rules));
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t n = ::write(STDOUT_FILENO, bytes.data() + done, bytes.size() - done);

@@ -74,7 +74,7 @@ class Helper {
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// All that it writes until it ends. @returns false: `seconds` are over, or too much came.
+  /// All that it writes until it ends. @returns false: `seconds` are over.
   bool readAll(double seconds, std::string& bytes) {
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     std::vector<char> part(std::size_t{1} << 18);
@@ -89,14 +89,8 @@ class Helper {
     }
   }
 
-  /// How it ended, where it should have answered. @pre its output has ended
-  std::string end() {
-    const int status = wait();
-    if (WIFSIGNALED(status))
-      return "killed by signal " + std::to_string(WTERMSIG(status)) + ", " +
-             ::strsignal(WTERMSIG(status));
-    return "exit status " + std::to_string(WEXITSTATUS(status));
-  }
+  /// How it ended, as of waitpid(2). @pre its output has ended
+  int end() { return wait(); }
 
  private:
   int wait() {
@@ -110,6 +104,13 @@ class Helper {
   int pipe_ = -1;
   pid_t id_ = -1;
 };
+
+std::string textOf(int status) {
+  if (WIFSIGNALED(status))
+    return "killed by signal " + std::to_string(WTERMSIG(status)) + ", " +
+           ::strsignal(WTERMSIG(status));
+  return "exit status " + std::to_string(WEXITSTATUS(status));
+}
 
 std::string text(double seconds) {
   char digits[32];
@@ -146,16 +147,18 @@ AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
     if (!helper.readAll(limits.seconds, bytes))
       fail("assimp, which reads this format, took more than " + text(limits.seconds) +
            " s and was stopped" + instead);
-    if (!unpack(bytes, result))
-      fail("assimp, which reads this format, ended without an answer (" + helper.end() + ")" +
+    if (!unpack(bytes, result)) {
+      const int status = helper.end();
+      if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory)
+        fail("assimp, which reads this format, needs more than " +
+             std::to_string(limits.bytes >> 20) + " MiB of memory for it" + instead);
+      fail("assimp, which reads this format, ended without an answer (" + textOf(status) + ")" +
            instead);
+    }
   } catch (const std::system_error& error) {
     fail("assimp is needed for this format, and its program " + limits.program.string() +
          " cannot be started: " + error.code().message());
   }
-  if (result.error == "std::bad_alloc")
-    fail("assimp, which reads this format, needs more than " + std::to_string(limits.bytes >> 20) +
-         " MiB of memory for it" + instead);
   if (!result.error.empty()) fail("cannot be read by assimp: " + result.error);
   return result;
 }

@@ -156,11 +156,11 @@ class BodyReader {
 
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") faults_.requireFew(element.count, "vertices", 0);
+      if (element.name == "face") faults_.requireFew(element.count, "faces", 0);
       if (element.name == "vertex") vertexCount_ = element.count;
     }
     for (const PlyElement& element : header_.elements) {
-      if (element.name == "vertex") faults_.requireFew(element.count, "vertices", 0);
-      if (element.name == "face") faults_.requireFew(element.count, "faces", 0);
       if (!hasRoom(element)) continue;
       if (element.name == "vertex") mesh_.vertices.reserve(element.count);
       if (element.name == "face") mesh_.triangles.reserve(element.count);

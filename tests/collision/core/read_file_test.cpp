@@ -76,8 +76,14 @@ TEST_F(ReadFile, WhatIsNoOrdinaryFile) {
 
 TEST_F(ReadFile, TheSizeIsLookedAtFirst) {
   expectRefused(write("empty", ""), "is empty; a thing is needed");
-  expectRefused(sparse("huge", kMostFileBytes + 1),
-                "has 4294967297 bytes; at most 4294967296 are read of a thing");
+  const auto huge = sparse("huge", kMostFileBytes + 1);
+  const std::string told = huge.string() + ": has 4294967297 bytes; at most ";
+  EXPECT_EQ(complaintOf([&] { readFile(huge, "a thing"); }),
+            told + "4294967296 are read of a thing");
+  EXPECT_EQ(complaintOf([&] { requireFile(huge, "a thing"); }),
+            told + "4294967296 are read of a thing");
+  EXPECT_EQ(complaintOf([&] { readTextFile(huge, "a thing"); }),
+            told + "268435456 are read of a thing");
   EXPECT_EQ(complaintOf([&] { requireFile(sparse("most", kMostFileBytes), "a thing"); }),
             "no complaint");
   const auto large = sparse("large", kMostDocumentBytes + 1);

@@ -80,6 +80,7 @@ TEST_F(AssimpProcess, EndsWithoutAnAnswer) {
             reads + "ended without an answer (killed by signal 11, Segmentation fault)" + instead);
   EXPECT_EQ(complaintWith("kill -ABRT $$"),
             reads + "ended without an answer (killed by signal 6, Aborted)" + instead);
+  EXPECT_EQ(complaintWith("exit 9"), reads + "needs more than 1024 MiB of memory for it" + instead);
   EXPECT_EQ(complaintWith("exit 3"), reads + "ended without an answer (exit status 3)" + instead);
   EXPECT_EQ(complaintWith("echo and this is no answer, long as it may be, of the program at all"),
             reads + "ended without an answer (exit status 0)" + instead);
@@ -111,8 +112,8 @@ TEST_F(AssimpProcess, MemoryEnds) {
   GTEST_SKIP() << "AddressSanitizer ends the process where memory ends";
 #endif
   write("a.dae", grid(400));
-  EXPECT_EQ(complaint({600, std::uint64_t{8} << 20, AssimpLimits::assimpProgram()}),
-            reads + "needs more than 8 MiB of memory for it" + instead);
+  EXPECT_EQ(complaint({600, std::uint64_t{2} << 20, AssimpLimits::assimpProgram()}),
+            reads + "needs more than 2 MiB of memory for it" + instead);
   EXPECT_EQ(complaint({600, std::uint64_t{1} << 30, AssimpLimits::assimpProgram()}),
             "no complaint");
 }

@@ -66,7 +66,7 @@ TEST_F(MeshLimits, PlyLists) {
   expect("a.ply",
          ply("binary_little_endian", points + list) + std::string(3, '\0') + "\xff\xff\xff\xff" +
              std::string(6, '\0'),
-         ": face 1 of 1 (byte 177): the file ends here: it is cut short");
+         ": face 1 of 1 (byte 180): the file ends here: it is cut short");
   expect("a.ply", ply("ascii", points + list) + "0 0 0\n1000000000000000000 0 0 0\n",
          ":12: face 1 of 1: the file ends here: it is cut short");
   const std::string unread = "element face 1\n" + corners + "property list uint int more\n";
