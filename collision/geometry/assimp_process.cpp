@@ -50,6 +50,7 @@ class Helper {
     int pipe[2];
     if (::pipe2(pipe, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
     pipe_ = pipe[0];
+    ::fcntl(pipe_, F_SETPIPE_SZ, 1 << 20);  // fewer turns of the two; the usual 64 KiB will do, too
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
