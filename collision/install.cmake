@@ -3,16 +3,16 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/corridor)
-set(module_dir ${CMAKE_INSTALL_LIBDIR}/corridor)
+set(helper_dir ${CMAKE_INSTALL_LIBDIR}/corridor)
 
 set_target_properties(corridor_collision PROPERTIES EXPORT_NAME collision)
 target_include_directories(corridor_collision INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/corridor>)
-# A program that uses the library finds assimp's module (collision/geometry/assimp_module.cpp) by its run path.
+# A program that uses the library finds corridor_assimp (collision/geometry/assimp_process.h) by its run path.
 target_link_options(corridor_collision INTERFACE
-  $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${module_dir}>)
+  $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${helper_dir}>)
 
 install(TARGETS corridor_collision EXPORT corridor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS corridor_assimp LIBRARY DESTINATION ${module_dir})
+install(TARGETS corridor_assimp RUNTIME DESTINATION ${helper_dir})
 install(EXPORT corridor NAMESPACE corridor:: FILE corridorTargets.cmake DESTINATION ${package_dir})
 # Not for users: code that is compiled once a SIMD target (-inl.h), and rationals and wide integers (exact_*.h), which
 # would bring Boost along.

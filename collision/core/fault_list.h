@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,9 +9,11 @@
 namespace corridor {
 
 /// Collects the faults of an input and of the files that it names, so that its user sees all of
-/// them at once.
+/// them at once. At the thousandth it gives up: `add` throws all of them.
 class FaultList {
  public:
+  static constexpr std::size_t kMost = 1000;
+
   /// @param mainFile whose faults come first; empty: no file does.
   explicit FaultList(std::string mainFile = {}) : mainFile_(std::move(mainFile)) {}
   void add(std::string file, int line, std::string text);
@@ -23,6 +24,7 @@ class FaultList {
     try {
       step();
     } catch (const InputError& error) {
+      if (size() >= kMost) throw;
       add(error);
     }
   }
@@ -34,18 +36,10 @@ class FaultList {
   void throwIfAny() const;
 
  private:
+  void throwIfFull() const;
+
   std::string mainFile_;
   std::vector<Fault> faults_;
 };
-
-/// The bytes of a text file. @param what "a problem", for the message.
-/// @throws InputError: no such file, a folder, unreadable, empty.
-std::string readTextFile(const std::filesystem::path& file, const std::string& what);
-
-/// The same, and of pipes; "-" is the standard input.
-std::string readTextStream(const std::filesystem::path& file, const std::string& what);
-
-/// What keeps a path from being an ordinary file ("no such file …"), or "".
-std::string whyNoFile(const std::filesystem::path& file);
 
 }  // namespace corridor

@@ -5,7 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "collision/geometry/assimp_module.h"
+#include "collision/core/read_file.h"
+#include "collision/geometry/assimp_process.h"
 #include "collision/geometry/collada_asset.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/geometry/mesh_readers.h"
@@ -13,6 +14,8 @@
 
 namespace corridor {
 namespace {
+
+constexpr const char* kWhat = "a mesh file";
 
 std::string shortest(double value) {
   char text[32];
@@ -47,7 +50,7 @@ struct StoredMesh {
 
 using Reader = ReadMesh (*)(std::string_view, MeshFaults&);
 
-/// Null: assimp is to read it.
+/// Null: assimp reads it, if anything does.
 Reader ownReader(const std::string& extension) {
   return extension == ".obj"   ? readObj
          : extension == ".stl" ? readStl
@@ -57,7 +60,7 @@ Reader ownReader(const std::string& extension) {
 }
 
 StoredMesh readOwn(const std::filesystem::path& file, Reader reader, MeshFaults& faults) {
-  ReadMesh read = reader(readWholeFile(file), faults);
+  ReadMesh read = reader(readFile(file, kWhat), faults);
   StoredMesh stored;
   stored.file.mesh = std::move(read.mesh);
   stored.file.format = std::move(read.format);
@@ -86,15 +89,46 @@ void requireSound(const TriangleMesh& mesh, MeshFaults& faults, const char* hint
   if (const auto complaint = checkMesh(mesh)) faults.fail(0, *complaint + hint);
 }
 
+template <std::size_t n>
+bool contains(const std::array<std::string_view, n>& formats, const std::string& extension) {
+  return std::find(formats.begin(), formats.end(), extension) != formats.end();
+}
+
+/// Of a file with another extension.
+std::string notRead(const std::string& extension) {
+  std::string formats;
+  for (const std::string_view format : kOwnFormats) formats += std::string(format) + ", ";
+  for (const std::string_view format : kAssimpFormats)
+    formats += (format == kAssimpFormats.back()    ? " or "
+                : format == kAssimpFormats.front() ? ""
+                                                   : ", ") +
+               std::string(format);
+  return (extension.empty() ? std::string("a name without an extension")
+                            : "the extension " + inQuotes(extension)) +
+         " stands for no format that is read; a mesh is needed as " + formats;
+}
+
+/// 1 GiB: assimp would take more than its 4 GiB of memory over a larger one.
+constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
+
+/// What needs no assimp to be known of a file.
+void requireForAssimp(const std::filesystem::path& file, const std::string& extension,
+                      MeshFaults& faults) {
+  if (extension == ".dae")
+    checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults);
+  else
+    requireFile(file, kWhat, kMostAssimpBytes);
+}
+
 constexpr const char* floatHint = " (this format is read in float, whose numbers end at 3.4e38)";
 
 StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
                        bool unitGiven, MeshFaults& faults) {
-  requireMeshFile(file);
+  if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
   if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
     faults.fail(0, "the format has a unit, which assimp does not hand on: state the unit");
   }
-  if (extension == ".dae") checkColladaAsset(readWholeFile(file), faults);
+  requireForAssimp(file, extension, faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
   requireSound(import.mesh, faults, floatHint);
   StoredMesh stored;
@@ -152,6 +186,7 @@ std::string upRule(const MeshFileOptions& options, bool isCollada) {
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options) {
   MeshFaults faults(file.string());
   checkOptions(options, faults);
+  if (const std::string why = whyNoFile(file); !why.empty()) faults.fail(0, why);
   const std::string extension = lowerExtension(file);
   const Reader own = ownReader(extension);
   StoredMesh stored = own ? readOwn(file, own, faults)
@@ -175,8 +210,11 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
 
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   MeshFaults faults(file.string());
-  requireMeshFile(file);
-  if (lowerExtension(file) == ".dae") checkColladaAsset(readWholeFile(file), faults);
+  if (const std::string why = whyNoFile(file); !why.empty()) faults.fail(0, why);
+  const std::string extension = lowerExtension(file);
+  if (!contains(kAssimpFormats, extension) && !contains(kOwnFormats, extension))
+    faults.fail(0, notRead(extension));
+  requireForAssimp(file, extension, faults);
   const AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
   requireSound(import.mesh, faults, floatHint);
   OmplAppMesh result;

@@ -27,11 +27,11 @@ struct MeshFile {
       false;  ///< read by assimp, so the vertices are those of the file rounded to float
 };
 
-/// Reads a mesh file. OBJ, STL and PLY are read in double by our own readers; anything else by
-/// assimp, whose module is loaded at the first such file. Scale and turn are applied here, once:
-/// what comes back is the model.
+/// Reads a mesh file. The extension decides: OBJ, STL, PLY and OFF are read in double by our own
+/// readers; Collada, glTF, FBX, 3DS, X3D, 3MF and AMF by assimp, in a process of its own with
+/// limits of time and memory. Scale and turn are applied here, once: what comes back is the model.
 /// @throws InputError naming file and line, face or byte: unreadable, no faces, non-finite, index
-/// out of range, truncated …
+/// out of range, truncated, too large, another extension …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
 /// A mesh as OMPL.app places it: read with its import steps, node transforms and Y-up turn applied.

@@ -1,44 +1,14 @@
 #include "collision/geometry/mesh_text.h"
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <system_error>
 
 namespace corridor {
-
-void requireMeshFile(const std::filesystem::path& file) {
-  const auto fail = [&](std::string text) {
-    throw InputError(Fault{file.string(), 0, std::move(text)});
-  };
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) fail("no such file");
-  if (std::filesystem::is_directory(status)) fail("is a directory; a mesh file is needed");
-  if (!std::filesystem::is_regular_file(status))
-    fail("is not a regular file; a mesh file is needed");
-  errno = 0;
-  if (!std::ifstream(file, std::ios::binary))
-    fail(std::string("cannot be read: ") + std::strerror(errno));
-  if (std::filesystem::file_size(file, error) == 0) fail("is empty; a mesh file is needed");
-}
-
-std::string readWholeFile(const std::filesystem::path& file) {
-  requireMeshFile(file);
-  std::string bytes(std::filesystem::file_size(file), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
-    throw InputError(Fault{file.string(), 0,
-                           "cannot be read: it ended after " + std::to_string(stream.gcount()) +
-                               " of " + std::to_string(bytes.size()) + " bytes"});
-  }
-  return bytes;
-}
 
 std::string printable(std::string_view word) {
   constexpr std::size_t longest = 32;
@@ -60,6 +30,11 @@ void MeshFaults::add(int line, std::string text) {
 void MeshFaults::fail(int line, std::string text) {
   faults_.push_back({file_, line, std::move(text)});
   throw InputError(faults_);
+}
+
+void MeshFaults::failCount(std::uint64_t count, std::string_view what, int line) {
+  fail(line, "has " + std::to_string(count) + " " + std::string(what) + " or more; at most " +
+                 std::to_string(kMostOfAMesh) + " are read: use a coarser mesh, or split it");
 }
 
 void MeshFaults::throwIfAny() const {
@@ -116,7 +91,7 @@ bool TextCursor::nextLine() {
     return false;
   }
   rest_.remove_prefix(static_cast<std::size_t>(static_cast<const char*>(found) - rest_.data()) + 1);
-  ++line_;
+  if (line_ < std::numeric_limits<int>::max()) ++line_;
   return true;
 }
 

@@ -1,23 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "collision/core/error.h"
-#include "collision/core/transform.h"
+#include "collision/geometry/mesh_limits.h"
+#include "collision/geometry/triangle_mesh.h"
 
-/// What the mesh readers share: the file as text, words and numbers in it, and the faults found.
+/// What the mesh readers share: words and numbers in a text, and the faults found.
 namespace corridor {
-
-/// @throws InputError: missing, a directory, not a regular file, unreadable, empty.
-void requireMeshFile(const std::filesystem::path& file);
-
-/// The bytes of a file. @throws InputError as `requireMeshFile`.
-std::string readWholeFile(const std::filesystem::path& file);
 
 /// For messages: the word, shortened and with unprintable bytes shown as '?'.
 std::string printable(std::string_view word);
@@ -34,8 +28,18 @@ class MeshFaults {
   /// For faults that leave a reader without a place to go on from.
   [[noreturn]] void fail(int line, std::string text);
   void throwIfAny() const;
+  /// Fails where there are more vertices or triangles (`what`) than are read.
+  void requireFew(std::uint64_t count, std::string_view what, int line) {
+    if (count > kMostOfAMesh) failCount(count, what, line);
+  }
+  void requireFew(const TriangleMesh& mesh, int line) {
+    requireFew(mesh.vertices.size(), "vertices", line);
+    requireFew(mesh.triangles.size(), "triangles", line);
+  }
 
  private:
+  [[noreturn]] void failCount(std::uint64_t count, std::string_view what, int line);
+
   std::string file_;
   std::vector<Fault> faults_;
 };

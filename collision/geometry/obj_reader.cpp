@@ -20,6 +20,7 @@ class ObjReader {
       }
       // Everything else (normals, groups, materials, lines, points …) says nothing about the
       // surface.
+      faults_.requireFew(mesh_, cursor_.line());
     } while (cursor_.nextLine());
     for (const LateCorner& late : lateCorners_) {
       if (late.number > count()) outOfRange(late.line, late.number);
@@ -60,6 +61,7 @@ class ObjReader {
       triangle[corners < 2 ? corners : 2] = corner(word);
       if (++corners < 3) continue;
       mesh_.triangles.push_back(triangle);
+      faults_.requireFew(mesh_, cursor_.line());
       triangle[1] = triangle[2];
     }
     if (corners < 3) {

@@ -65,7 +65,8 @@ class OffReader {
     if (!parseInteger(word, number) || number < 0)
       faults_.fail(cursor_.line(), "the number of " + what + " is " + inQuotes(word) +
                                        "; a whole number is needed");
-    if (number > UINT32_MAX || number > static_cast<std::int64_t>(cursor_.bytesLeft()))
+    faults_.requireFew(static_cast<std::uint64_t>(number), what, cursor_.line());
+    if (number > static_cast<std::int64_t>(cursor_.bytesLeft()))
       faults_.fail(cursor_.line(),
                    std::to_string(number) + " " + what + " are more than the file has bytes for");
     return number;
@@ -101,6 +102,7 @@ class OffReader {
       triangle[static_cast<std::size_t>(std::min<std::int64_t>(k, 2))] = *corner;
       if (k < 2) continue;
       mesh_.triangles.push_back(triangle);
+      faults_.requireFew(mesh_, cursor_.line());
       triangle[1] = triangle[2];
     }
     endLine();

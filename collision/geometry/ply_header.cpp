@@ -95,6 +95,8 @@ class HeaderReader {
            " is not an integer from 0");
     }
     element.count = static_cast<std::uint64_t>(count);
+    if (header_.elements.size() == mostElements)
+      fail("the header has more than " + std::to_string(mostElements) + " elements");
     for (const PlyElement& other : header_.elements) {
       if (other.name == element.name) fail("element " + inQuotes(element.name) + " is there twice");
     }
@@ -123,7 +125,11 @@ class HeaderReader {
     property.type = readType();
     property.name = cursor_.wordInLine();
     if (property.name.empty()) fail("a property needs a name");
-    header_.elements.back().properties.push_back(std::move(property));
+    std::vector<PlyProperty>& properties = header_.elements.back().properties;
+    if (properties.size() == mostProperties)
+      fail("element " + inQuotes(header_.elements.back().name) + " has more than " +
+           std::to_string(mostProperties) + " properties");
+    properties.push_back(std::move(property));
   }
 
   /// The element, or a complaint that it is missing.
@@ -154,6 +160,9 @@ class HeaderReader {
       faults_.fail(0, "element \"face\" needs one list \"vertex_indices\" of an integer type");
     }
   }
+
+  // Every name is compared with all others.
+  static constexpr std::size_t mostElements = 1000, mostProperties = 1000;
 
   TextCursor cursor_;
   std::string_view bytes_;

@@ -156,6 +156,8 @@ class BodyReader {
 
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") faults_.requireFew(element.count, "vertices", 0);
+      if (element.name == "face") faults_.requireFew(element.count, "faces", 0);
       if (element.name == "vertex") vertexCount_ = element.count;
     }
     for (const PlyElement& element : header_.elements) {
@@ -222,6 +224,7 @@ class BodyReader {
       triangle[i < 2 ? i : 2] = static_cast<std::uint32_t>(corner);
       if (i < 2) continue;
       mesh_.triangles.push_back(triangle);
+      faults_.requireFew(mesh_, 0);
       triangle[1] = triangle[2];
     }
   }

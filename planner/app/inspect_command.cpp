@@ -8,6 +8,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/hierarchy/wide_obb_tree.h"

@@ -15,6 +15,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "collision/core/rounding.h"
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"

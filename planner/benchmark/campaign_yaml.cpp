@@ -6,6 +6,7 @@
 #include <set>
 
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "planner/benchmark/peers.h"
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"

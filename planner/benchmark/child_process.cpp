@@ -1,6 +1,5 @@
 #include "planner/benchmark/child_process.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -8,17 +7,17 @@
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
-#include <fstream>
 #include <iostream>
 #include <new>
 #include <poll.h>
 #include <sstream>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+
+#include "collision/core/memory_limit.h"
 
 namespace corridor {
 namespace {
@@ -42,33 +41,12 @@ void writeAll(int pipe, const std::string& text) {
   }
 }
 
-/// What a process has of data, stack and heap: what RLIMIT_DATA limits.
-std::size_t dataBytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("VmData:", 0) == 0) {
-      std::size_t kilobytes = 0;
-      std::istringstream(line.substr(7)) >> kilobytes;
-      return kilobytes * 1024;
-    }
-  return 0;
-}
-
-void limitMemory(std::size_t bytes) {
-  const std::size_t now = dataBytes();
-  if (bytes == 0 || now == 0) return;
-  rlimit limit{};
-  getrlimit(RLIMIT_DATA, &limit);
-  limit.rlim_cur = std::min<rlim_t>(now + bytes, limit.rlim_max);
-  setrlimit(RLIMIT_DATA, &limit);
-}
-
 [[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it died before it could be heard of
   // The parent decides what a signal to the whole group means, as one from the terminal.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
-  limitMemory(bytes);
+  if (bytes > 0) limitMemory(bytes);
   std::string failure;
   try {
     work([&](const std::string& text) { writeAll(pipe, kMessage + text + '\n'); });

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/shape_yaml.h"
@@ -17,6 +18,10 @@ namespace corridor {
 namespace {
 
 using Json = nlohmann::json;
+
+/// Limits of a set. A list has a beginning and an end, an object's value a key and itself.
+constexpr std::size_t kMostEvents = 20'000'000;
+constexpr int kMostDepth = 64;
 
 /// A set being read. Its faults have no lines, but say where: "problems[2].start".
 class MbmReader {
@@ -54,8 +59,17 @@ class MbmReader {
 
   Json parse() {
     const std::string text = readTextFile(file_, "a set of problems (format: mbm-scene-1)");
+    std::size_t values = 0;
+    const auto countValue = [&](int depth, Json::parse_event_t, const Json&) {
+      if (++values > kMostEvents)
+        stop("has more than " + std::to_string(kMostEvents / 2) + " values; split the set");
+      if (depth > kMostDepth)
+        stop("has lists and objects more than " + std::to_string(kMostDepth) +
+             " deep in each other; a set needs no more than six");
+      return true;
+    };
     try {
-      return Json::parse(text);
+      return Json::parse(text, countValue);
     } catch (const Json::parse_error& error) {
       const auto end =
           text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
@@ -86,7 +100,7 @@ class MbmReader {
     bool inRow = indices.size() > 2;
     for (std::size_t i = 0; i < indices.size() && inRow; ++i)
       inRow = indices[i] == std::to_string(std::stoul("0" + indices[0]) + i);
-    return inRow ? indices.front() + " to " + indices.back() : joined(indices);
+    return inRow ? indices.front() + " to " + indices.back() : joinedFirst(indices);
   }
 
   const Json& field(const Json& object, const std::string& key) const {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/ini_file.h"

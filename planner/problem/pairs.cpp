@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <set>
 
@@ -69,9 +70,25 @@ std::string linkOf(const Problem& problem, const ProblemBody& body) {
                                                        : body.name.substr(robot.name.size() + 1);
 }
 
+/// @throws InputError
+void requireFewPairs(const Problem& problem) {
+  constexpr double most = 1e7;  // some 500 MB of them
+  const auto bodies = static_cast<double>(problem.bodies.size());
+  const auto still = static_cast<double>(
+      std::count_if(problem.bodies.begin(), problem.bodies.end(),
+                    [](const ProblemBody& body) { return !body.robot.has_value(); }));
+  const double pairs = (bodies * (bodies - 1) - still * (still - 1)) / 2;
+  if (pairs > most)
+    throw InputError(Fault{problem.file.string(), 0,
+                           "has " + std::to_string(static_cast<std::uint64_t>(pairs)) +
+                               " pairs of bodies, at most 10000000 are handled; join shapes that "
+                               "do not move against each other into one body"});
+}
+
 }  // namespace
 
 void setPairs(const AllowedBodies& allowed, Problem& problem) {
+  requireFewPairs(problem);
   const std::vector<std::size_t> mover = movers(problem.tree);
   std::vector<std::map<LinkPair, std::string>> reasons;
   for (std::size_t r = 0; r < problem.robots.size(); ++r) {
@@ -80,10 +97,11 @@ void setPairs(const AllowedBodies& allowed, Problem& problem) {
       if (body.robot == r) withShapes.insert(linkOf(problem, body));
     reasons.push_back(allowedLinks(problem.robots[r].model, withShapes));
   }
+  std::set<std::pair<std::size_t, std::size_t>> mayTouch;
+  for (const auto& pair : allowed) mayTouch.insert(std::minmax(pair[0], pair[1]));
   const auto reasonOf = [&](std::size_t i, std::size_t j) -> std::string {
     const ProblemBody &a = problem.bodies[i], &b = problem.bodies[j];
-    for (const auto& pair : allowed)
-      if ((pair[0] == i && pair[1] == j) || (pair[0] == j && pair[1] == i)) return "allow";
+    if (mayTouch.contains({i, j})) return "allow";
     if (a.robot && a.robot == b.robot) {
       const auto& links = reasons[*a.robot];
       const auto found = links.find(sorted(linkOf(problem, a), linkOf(problem, b)));
@@ -94,14 +112,23 @@ void setPairs(const AllowedBodies& allowed, Problem& problem) {
 
   problem.pairs.clear();
   std::vector<std::string> still;
-  for (std::size_t i = 0; i < problem.bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < problem.bodies.size(); ++j) {
-      const ProblemBody &a = problem.bodies[i], &b = problem.bodies[j];
-      if (!a.robot && !b.robot) continue;
+  std::vector<std::size_t> all(problem.bodies.size()), ofRobots;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = i;
+    if (problem.bodies[i].robot) ofRobots.push_back(i);
+  }
+  for (const std::size_t i : all) {
+    const ProblemBody& a = problem.bodies[i];
+    const std::vector<std::size_t>& others = a.robot ? all : ofRobots;
+    for (auto next = std::upper_bound(others.begin(), others.end(), i); next != others.end();
+         ++next) {
+      const std::size_t j = *next;
+      const ProblemBody& b = problem.bodies[j];
       problem.pairs.push_back({i, j, reasonOf(i, j)});
       if (problem.pairs.back().skipped == kNeverMove && a.robot != b.robot)
         still.push_back(a.name + " ~ " + b.name);
     }
+  }
   if (!still.empty())
     problem.notes.push_back("not tested, since they never move against each other: " +
                             listed(still));

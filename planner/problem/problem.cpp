@@ -4,6 +4,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "planner/problem/mbm_json.h"
 #include "planner/problem/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
@@ -47,7 +48,7 @@ std::string digestOfFiles(const std::vector<std::filesystem::path>& files) {
   Sha256 all;
   for (const std::filesystem::path& file : files) {
     Sha256 one;
-    one.update(readTextFile(file, "an input"));
+    one.update(readFile(file, "an input"));
     const auto digest = one.finish();
     all.update({reinterpret_cast<const char*>(digest.data()), digest.size()});
   }

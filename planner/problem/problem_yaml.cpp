@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "collision/core/read_file.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds_yaml.h"
 #include "planner/problem/checker_yaml.h"

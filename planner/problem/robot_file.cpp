@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "collision/core/read_file.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"

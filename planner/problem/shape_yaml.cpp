@@ -1,8 +1,10 @@
 #include "planner/problem/shape_yaml.h"
 
 #include <algorithm>
+#include <set>
 
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "collision/geometry/mesh_health.h"
 #include "planner/problem/keys.h"
 
@@ -196,14 +198,13 @@ std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
                   (list.kind == YamlValue::Kind::List ? "an empty one" : described(list)));
     return shapes;
   }
-  std::vector<std::string> names;
+  std::set<std::string> names;
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     const YamlMap item(list.items[i], map.pathOf("shapes") + "[" + std::to_string(i) + "]", &keys,
                        map.source());
     const std::string own = item.text("name").value_or(std::to_string(i + 1));
-    if (std::find(names.begin(), names.end(), own) != names.end())
+    if (!names.insert(own).second)
       item.fault("name", quotedWord(own) + " is the name of another shape");
-    names.push_back(own);
     ShapePlace inside = place;
     if (list.items.size() > 1) inside.name += "/" + own;
     if (auto shape = readShape(item, inside, files)) shapes.push_back(std::move(*shape));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"

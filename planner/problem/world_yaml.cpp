@@ -1,6 +1,6 @@
 #include "planner/problem/world_yaml.h"
 
-#include <algorithm>
+#include <unordered_map>
 
 #include "collision/core/nearest.h"
 #include "planner/problem/keys.h"
@@ -20,18 +20,20 @@ std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, Problem
   return readShapes(map, problemKeys().at("world.*.shapes[]"), place, problem.files);
 }
 
-std::vector<std::size_t> bodiesCalled(const std::string& name, const Problem& problem) {
+using BodiesByName = std::unordered_map<std::string, std::vector<std::size_t>>;
+
+std::vector<std::size_t> bodiesCalled(const std::string& name, const Problem& problem,
+                                      const BodiesByName& bodies) {
   std::vector<std::size_t> found;
+  if (const auto same = bodies.find(name); same != bodies.end()) found = same->second;
   // A robot that is alone has no prefix; with that of its own name, a link is its, whatever the
   // obstacles are called.
   const ProblemRobot& first = problem.robots.front();
   const std::string own = first.model.name + "/";
-  const bool prefixed = first.name.empty() && name.starts_with(own);
-  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
-    const ProblemBody& body = problem.bodies[i];
-    if (body.name == name || (prefixed && body.robot && body.name == name.substr(own.size())))
-      found.push_back(i);
-  }
+  if (!first.name.empty() || !name.starts_with(own)) return found;
+  if (const auto link = bodies.find(name.substr(own.size())); link != bodies.end())
+    for (const std::size_t i : link->second)
+      if (problem.bodies[i].robot) found.push_back(i);
   return found;
 }
 
@@ -77,7 +79,11 @@ AllowedBodies readAllow(const YamlMap& file, const Problem& problem) {
     return allowed;
   }
   std::vector<std::string> names;
-  for (const ProblemBody& body : problem.bodies) names.push_back(body.name);
+  BodiesByName byName;
+  for (const ProblemBody& body : problem.bodies) {
+    byName[body.name].push_back(names.size());
+    names.push_back(body.name);
+  }
   for (const YamlValue& item : value->items) {
     const auto pair = readWords(item, "such as [hand, table]", "allow", file.source());
     if (!pair) continue;
@@ -90,7 +96,7 @@ AllowedBodies readAllow(const YamlMap& file, const Problem& problem) {
     }
     std::vector<std::size_t> bodies;
     for (const std::string& name : *pair) {
-      const auto found = bodiesCalled(name, problem);
+      const auto found = bodiesCalled(name, problem, byName);
       if (found.size() == 1)
         bodies.push_back(found.front());
       else if (found.size() > 1)

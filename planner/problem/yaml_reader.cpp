@@ -62,11 +62,9 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
   }
   const std::string in = path_.empty() ? "" : " in " + path_;
   for (const YamlValue::Entry& entry : value.entries) {
-    if (const auto first = std::find_if(entries_.begin(), entries_.end(),
-                                        [&](const auto* e) { return e->key == entry.key; });
-        first != entries_.end()) {
+    if (const YamlValue::Entry* const first = entryOf(entry.key)) {
       source.fault(entry.line, "duplicate key " + quotedWord(entry.key) + in + ", first on line " +
-                                   std::to_string((*first)->line));
+                                   std::to_string(first->line));
       continue;
     }
     if (keys && std::find(keys->legal.begin(), keys->legal.end(), entry.key) == keys->legal.end()) {
@@ -85,6 +83,7 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
       continue;
     }
     entries_.push_back(&entry);
+    index_.emplace(entry.key, &entry);
     source.lines.emplace(pathOf(entry.key), entry.line);
   }
 }
@@ -94,16 +93,18 @@ std::string YamlMap::pathOf(std::string_view key) const {
 }
 
 void YamlMap::fault(std::string_view key, const std::string& text) const {
-  int line = line_;
-  for (const auto* entry : entries_)
-    if (entry->key == key) line = entry->line;
-  source_->fault(line, pathOf(key) + ": " + text);
+  const YamlValue::Entry* const entry = entryOf(key);
+  source_->fault(entry ? entry->line : line_, pathOf(key) + ": " + text);
+}
+
+const YamlValue::Entry* YamlMap::entryOf(std::string_view key) const {
+  const auto found = index_.find(key);
+  return found == index_.end() ? nullptr : found->second;
 }
 
 const YamlValue* YamlMap::find(std::string_view key) const {
-  for (const auto* entry : entries_)
-    if (entry->key == key) return &entry->value;
-  return nullptr;
+  const YamlValue::Entry* const entry = entryOf(key);
+  return entry ? &entry->value : nullptr;
 }
 
 const YamlValue* YamlMap::require(std::string_view key, const std::string& purpose) const {

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "collision/core/fault_list.h"
@@ -94,7 +95,10 @@ class YamlMap {
   std::string path_;
   YamlSource* source_;
   int line_ = 0;
+  const YamlValue::Entry* entryOf(std::string_view key) const;  ///< nullptr: not there
+
   std::vector<const YamlValue::Entry*> entries_;
+  std::unordered_map<std::string_view, const YamlValue::Entry*> index_;  ///< the same, by key
   std::set<std::string> missed_;  ///< legal keys that an unknown one may have meant
   bool explainsMissing_ = false;  ///< no map, or it has a key of a later version
 };

@@ -16,7 +16,8 @@ namespace {
 /// Builds the tree from the parser's events: yaml-cpp's own nodes would hide repeated keys.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
+  TreeBuilder(std::string file, const YamlLimits& limits)
+      : file_(std::move(file)), limits_(limits) {}
 
   YamlValue take() { return std::move(root_); }
 
@@ -52,7 +53,10 @@ class TreeBuilder : public YAML::EventHandler {
     bool keyIsNext = true;  ///< Map: what comes is a key
   };
 
-  static YamlValue value(YamlValue::Kind kind, const YAML::Mark& mark) {
+  YamlValue value(YamlValue::Kind kind, const YAML::Mark& mark) {
+    if (++nodes_ > limits_.nodes)
+      fail(mark,
+           "has more than " + std::to_string(limits_.nodes) + " keys and values; split the file");
     YamlValue result;
     result.kind = kind;
     result.line = mark.line + 1;
@@ -65,6 +69,10 @@ class TreeBuilder : public YAML::EventHandler {
 
   void open(YamlValue value) {
     requireNoKey(value);
+    if (open_.size() == limits_.depth)
+      throw InputError(Fault{file_, value.line,
+                             "has lists and maps more than " + std::to_string(limits_.depth) +
+                                 " deep in each other; no file that is read here needs so many"});
     open_.push_back({std::move(value), true});
   }
 
@@ -99,17 +107,19 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   std::string file_;
+  YamlLimits limits_;
   YamlValue root_;
   std::vector<Open> open_;
+  std::size_t nodes_ = 0;
 };
 
 }  // namespace
 
-YamlValue parseYaml(const std::string& file, const std::string& text) {
+YamlValue parseYaml(const std::string& file, const std::string& text, const YamlLimits& limits) {
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
-    TreeBuilder first(file), second(file);
+    TreeBuilder first(file, limits), second(file, limits);
     parser.HandleNextDocument(first);
     if (parser.HandleNextDocument(second))
       throw InputError(Fault{file, 0, "has more than one YAML document (---); one is read"});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,18 @@ struct YamlValue::Entry {
   YamlValue value;
 };
 
+/// Limits of a document: 1.4 GB of memory, and no stack to speak of. There are no aliases, so none
+/// can multiply what stands in the file.
+struct YamlLimits {
+  std::size_t nodes = 10'000'000;  ///< keys and values
+  std::size_t depth = 64;          ///< of lists and maps in each other
+};
+
 /// Parses one YAML document.
 /// @param file for messages.
-/// @throws InputError: syntax error, more than one document, aliases, or a key that is no word.
-YamlValue parseYaml(const std::string& file, const std::string& text);
+/// @throws InputError: syntax error, more than one document, aliases, a key that is no word, or
+/// beyond the limits.
+YamlValue parseYaml(const std::string& file, const std::string& text,
+                    const YamlLimits& limits = {});
 
 }  // namespace corridor

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 
 namespace corridor {
 namespace {

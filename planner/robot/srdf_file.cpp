@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <set>
+#include <unordered_map>
 
 #include "collision/core/nearest.h"
 #include "planner/robot/urdf_file.h"
@@ -15,14 +17,15 @@ using Element = XmlFile::Element;
 class SrdfReader {
  public:
   SrdfReader(XmlFile& file, RobotModel& model) : file_(file), model_(model) {
-    for (const LinkModel& link : model.links) links_.push_back(link.name);
-    for (const JointModel& joint : model.joints) joints_.push_back(joint.name);
+    for (const LinkModel& link : model.links) links_.add(link.name);
+    for (const JointModel& joint : model.joints) joints_.add(joint.name);
     parentJoint_.assign(links_.size(), none);
     for (std::size_t j = 0; j < model.joints.size(); ++j) parentJoint_[model.joints[j].child] = j;
   }
 
   void read() {
     Element& root = *file_.root();
+    if (isTooLarge(root)) return;
     const char* const name = root.Attribute("name");
     if (name && name != model_.name)
       note(root,
@@ -43,6 +46,60 @@ class SrdfReader {
 
  private:
   static constexpr std::size_t none = SIZE_MAX;
+
+  /// Names with their indices. No name comes twice.
+  class Names {
+   public:
+    void add(const std::string& name) {
+      indices_.emplace(name, names_.size());
+      names_.push_back(name);
+    }
+    /// nullopt: there is none.
+    std::optional<std::size_t> find(const std::string& name) const {
+      const auto found = indices_.find(name);
+      return found == indices_.end() ? std::nullopt : std::optional(found->second);
+    }
+    const std::vector<std::string>& all() const { return names_; }
+    const std::string& operator[](std::size_t i) const { return names_[i]; }
+    std::size_t size() const { return names_.size(); }
+
+   private:
+    std::vector<std::string> names_;
+    std::unordered_map<std::string, std::size_t> indices_;
+  };
+
+  /// Faults a file beyond the limits. @returns whether it is.
+  bool isTooLarge(const Element& root) {
+    std::map<std::string_view, std::size_t> counts;  // of elements
+    std::size_t members = 0, chains = 0;
+    for (const Element* element = root.FirstChildElement(); element;
+         element = element->NextSiblingElement()) {
+      ++counts[element->Name()];
+      if (std::string_view(element->Name()) != "group") continue;
+      for (const Element* member = element->FirstChildElement(); member;
+           member = member->NextSiblingElement()) {
+        ++members;
+        chains += std::string_view(member->Name()) == "chain";
+      }
+    }
+    const std::size_t before = file_.faultCount();
+    const auto require = [&](std::size_t count, const std::string& what, std::size_t most) {
+      if (count > most)
+        file_.fault(root.GetLineNum(), "has " + std::to_string(count) + " " + what + "; at most " +
+                                           std::to_string(most) + " are read");
+    };
+    for (const char* const pairs : {"disable_collisions", "enable_collisions"})
+      require(counts[pairs], "<" + std::string(pairs) + ">", mostPairs);
+    require(counts["disable_default_collisions"] * links_.size(),
+            "pairs of links by <disable_default_collisions>", mostPairs);
+    require(counts["group"], "<group>", 1000);
+    require(counts["group_state"], "<group_state>", 10'000);
+    require(members, "members of groups", 100'000);
+    require(chains, "<chain>", 1000);
+    return file_.faultCount() != before;
+  }
+  static constexpr std::size_t mostPairs = 1'000'000;
+
   using Joints = std::set<std::size_t>;  // the model's order
 
   static void forEach(Element& parent, const char* name,
@@ -58,16 +115,17 @@ class SrdfReader {
 
   /// The index of what an attribute names. nullopt: faulted.
   std::optional<std::size_t> find(const Element& element, const char* attribute,
-                                  const std::string& owner, const char* kind,
-                                  const std::vector<std::string>& known) {
+                                  const std::string& owner, const char* kind, const Names& known) {
     const auto name = file_.text(element, attribute, owner);
     if (!name) return std::nullopt;
-    const auto found = std::find(known.begin(), known.end(), *name);
-    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    if (const auto found = known.find(*name)) return found;
     file_.fault(element.FindAttribute(attribute)->GetLineNum(),
                 (owner.empty() ? "" : owner + ": ") + "the robot has no " + owned(kind, *name) +
-                    didYouMean(*name, known));
+                    hint(*name, known));
     return std::nullopt;
+  }
+  std::string hint(const std::string& name, const Names& known) const {
+    return file_.hints() ? didYouMean(name, known.all()) : "";
   }
   std::optional<std::size_t> findLink(const Element& element, const char* attribute,
                                       const std::string& owner) {
@@ -120,7 +178,7 @@ class SrdfReader {
                            owned("group", *name) + " is there already, on line " +
                                std::to_string(first->element->GetLineNum()) + "; names are unique");
       groups_.push_back({*name, &element, {}, {}});
-      groupNames_.push_back(*name);
+      groupNames_.add(*name);
     });
     for (Group& group : groups_) readGroup(group);
     for (std::size_t i = 0; i < groups_.size(); ++i) {
@@ -137,8 +195,8 @@ class SrdfReader {
   }
 
   const Group* findGroup(const std::string& name) const {
-    const auto found = std::find(groupNames_.begin(), groupNames_.end(), name);
-    return found == groupNames_.end() ? nullptr : &groups_[found - groupNames_.begin()];
+    const auto found = groupNames_.find(name);
+    return found ? &groups_[*found] : nullptr;
   }
 
   void readGroup(Group& group) {
@@ -162,7 +220,7 @@ class SrdfReader {
         group.subgroups.push_back(static_cast<std::size_t>(inner - groups_.data()));
       else
         file_.fault(element.GetLineNum(), owner + ": there is no " + owned("group", *name) +
-                                              " in this file" + didYouMean(*name, groupNames_));
+                                              " in this file" + hint(*name, groupNames_));
     });
     if (file_.faultCount() != before) faulty_.insert(group.name);
   }
@@ -206,6 +264,8 @@ class SrdfReader {
 
   void readStates(Element& root) {
     std::vector<State> states;
+    std::map<std::pair<std::string, std::string>, int> lines;  // of names in their groups
+    std::map<std::string, int> count;                          // of names
     forEach(root, "group_state", [&](Element& element) {
       const auto name = file_.text(element, "name", "");
       if (!name) return;
@@ -217,7 +277,7 @@ class SrdfReader {
         if (!findGroup(group))
           file_.fault(element.FindAttribute("group")->GetLineNum(),
                       owner + ": there is no " + owned("group", group) + " in this file" +
-                          didYouMean(group, groupNames_));
+                          hint(group, groupNames_));
       } else {
         note(element, owner + " names no group; its values are taken as they are");
       }
@@ -228,17 +288,16 @@ class SrdfReader {
         note(element, owner +
                           ": the values of joints that do not move by themselves are ignored: " +
                           joined(fixed));
-      for (const State& other : states)
-        if (other.name == state.name && other.group == state.group)
-          return file_.fault(state.line, owner + " is there already, on line " +
-                                             std::to_string(other.line) +
-                                             "; names are unique in a group");
+      const auto [first, isNew] = lines.emplace(std::pair{state.name, state.group}, state.line);
+      if (!isNew)
+        return file_.fault(state.line, owner + " is there already, on line " +
+                                           std::to_string(first->second) +
+                                           "; names are unique in a group");
+      ++count[state.name];
       states.push_back(std::move(state));
     });
     for (State& state : states) {
-      const bool shared = std::count_if(states.begin(), states.end(), [&](const State& other) {
-                            return other.name == state.name;
-                          }) > 1;
+      const bool shared = count[state.name] > 1;
       // Two arms may both have a "home".
       const std::string name =
           shared && !state.group.empty() ? state.group + "/" + state.name : state.name;
@@ -288,7 +347,7 @@ class SrdfReader {
     forEach(root, "disable_default_collisions", [&](Element& element) {
       const auto link = findLink(element, "link", "");
       if (!link) return;
-      for (const std::string& other : links_)
+      for (const std::string& other : links_.all())
         if (other != links_[*link] && !enabled.contains(pairOf(links_[*link], other)))
           allow(links_[*link], other, "SRDF: disable_default_collisions");
     });
@@ -296,7 +355,7 @@ class SrdfReader {
 
   XmlFile& file_;
   RobotModel& model_;
-  std::vector<std::string> links_, joints_, groupNames_;
+  Names links_, joints_, groupNames_;
   std::vector<std::size_t> parentJoint_;  // of each link
   std::set<std::string> virtualJoints_;
   std::vector<Group> groups_;

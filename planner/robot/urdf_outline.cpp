@@ -1,9 +1,10 @@
 #include "planner/robot/urdf_outline.h"
 
 #include <algorithm>
-#include <array>
+#include <unordered_map>
 
 #include "collision/core/nearest.h"
+#include "collision/geometry/mesh_limits.h"
 #include "planner/robot/joint_types.h"
 
 namespace corridor {
@@ -226,19 +227,62 @@ bool isXacro(XmlFile& file, const Element& element) {
   return false;
 }
 
-/// @returns false: faulted, and left out.
+using Lines = std::unordered_map<std::string, int>;
+
+/// @param lines of those that are there. @returns false: faulted, and left out.
 template <class Named>
-bool addUnique(Named named, const char* kind, std::vector<Named>& all, XmlFile& file) {
+bool addUnique(Named named, const char* kind, std::vector<Named>& all, Lines& lines,
+               XmlFile& file) {
   if (named.name.empty()) return false;
-  const auto first = std::find_if(all.begin(), all.end(),
-                                  [&](const Named& other) { return other.name == named.name; });
-  if (first != all.end()) {
+  const auto [first, isNew] = lines.emplace(named.name, named.line);
+  if (!isNew) {
     file.fault(named.line, owned(kind, named.name) + " is there already, on line " +
-                               std::to_string(first->line) + "; names are unique");
+                               std::to_string(first->second) + "; names are unique");
     return false;
   }
   all.push_back(std::move(named));
   return true;
+}
+
+/// Faults a robot beyond the limits. @returns whether there is one.
+bool isTooLarge(XmlFile& file, const Element& root) {
+  constexpr std::size_t mostLinks = 10'000, mostShapes = 100'000;
+  std::size_t links = 0, joints = 0, shapes = 0;
+  for (const Element* element = root.FirstChildElement(); element;
+       element = element->NextSiblingElement()) {
+    const std::string_view kind = element->Name();
+    links += kind == "link";
+    joints += kind == "joint";
+    if (kind != "link") continue;
+    for (const Element* shape = element->FirstChildElement("collision"); shape;
+         shape = shape->NextSiblingElement("collision"))
+      ++shapes;
+  }
+  const std::size_t before = file.faultCount();
+  const auto require = [&](std::size_t count, const char* what, std::size_t most) {
+    if (count > most)
+      file.fault(root.GetLineNum(), "the robot has " + std::to_string(count) + " " + what +
+                                        "; at most " + std::to_string(most) + " are read");
+  };
+  require(links, "<link>", mostLinks);
+  require(joints, "<joint>", mostLinks);
+  require(shapes, "<collision>", mostShapes);
+  return file.faultCount() != before;
+}
+
+/// Each shape has a copy of its mesh. @pre the file is sound.
+void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile& file) {
+  std::size_t triangles = 0;
+  for (const UrdfLink& link : outline.links)
+    for (const UrdfCollision& collision : link.collisions) {
+      if (collision.mesh.empty()) continue;
+      triangles += meshes.get(collision.mesh).mesh.triangles.size();
+      if (triangles > kMostOfAMesh)
+        return file.fault(collision.line, owned("link", link.name) +
+                                              ": the shapes up to this one have more than " +
+                                              std::to_string(kMostOfAMesh) +
+                                              " triangles in all; use coarser meshes");
+    }
 }
 
 }  // namespace
@@ -246,7 +290,8 @@ bool addUnique(Named named, const char* kind, std::vector<Named>& all, XmlFile& 
 UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::string>& notes) {
   UrdfOutline outline;
   Element& root = *file.root();
-  if (isXacro(file, root)) return outline;
+  if (isXacro(file, root) || isTooLarge(file, root)) return outline;
+  Lines links, joints;
   outline.name = file.text(root, "name", "").value_or("");
   file.checkChildren(root, {"link", "joint"},
                      {"material", "transmission", "gazebo", "sensor", "ros2_control"},
@@ -256,13 +301,14 @@ UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::s
     const std::string_view kind = element->Name();
     if (kind == "link")
       outline.complete &=
-          addUnique(readLink(file, *element, meshes, notes), "link", outline.links, file);
+          addUnique(readLink(file, *element, meshes, notes), "link", outline.links, links, file);
     else if (kind == "joint")
       outline.complete &=
-          addUnique(readJoint(file, *element, notes), "joint", outline.joints, file);
+          addUnique(readJoint(file, *element, notes), "joint", outline.joints, joints, file);
   }
   if (!root.FirstChildElement("link"))
     file.fault(root.GetLineNum(), "the robot has no <link>; one at least is needed");
+  if (file.sound()) checkTriangles(outline, meshes, file);
   return outline;
 }
 

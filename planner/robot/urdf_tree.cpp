@@ -85,10 +85,10 @@ class Tree {
     return true;
   }
 
-  /// The nearest name, of the first hundred faults: a file may have any number of both.
+  /// The nearest name.
   template <class Named>
   std::string hint(const std::string& name, const std::vector<Named>& all) const {
-    return file_.faultCount() < 100 ? didYouMean(name, namesOf(all)) : "";
+    return file_.hints() ? didYouMean(name, namesOf(all)) : "";
   }
 
   std::size_t parentOf(std::size_t link) const {

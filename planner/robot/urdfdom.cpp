@@ -39,7 +39,11 @@ class ErrorCatcher final : private console_bridge::OutputHandler {
 };
 
 void removeAll(XmlFile::Element& parent, const char* name) {
-  while (XmlFile::Element* child = parent.FirstChildElement(name)) parent.DeleteChild(child);
+  for (XmlFile::Element* child = parent.FirstChildElement(name); child;) {
+    XmlFile::Element* const next = child->NextSiblingElement(name);
+    parent.DeleteChild(child);
+    child = next;
+  }
 }
 
 }  // namespace

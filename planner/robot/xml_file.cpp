@@ -7,6 +7,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/nearest.h"
+#include "collision/core/read_file.h"
 
 namespace corridor {
 namespace {
@@ -49,6 +50,28 @@ bool holdsGeometry(const XmlFile::Element& element) {
   return false;
 }
 
+/// What would take TinyXML2 gigabytes (elements and attributes) or quadratic time (attributes of
+/// one element), or "". Entities need no limit: it expands none but XML's own five.
+std::string whyTooMuch(std::string_view text) {
+  constexpr std::size_t mostMarks = 10'000'000, mostInTag = 100;
+  std::size_t marks = 0, inTag = 0;
+  for (std::size_t at = text.find_first_of("<="); at != text.npos;
+       at = text.find_first_of("<=", at + 1)) {
+    if (text[at] == '<') {
+      inTag = 0;
+    } else {
+      const std::size_t next = text.find_first_not_of(blanks, at + 1);
+      if (next == text.npos || (text[next] != '"' && text[next] != '\'')) continue;
+      ++inTag;
+    }
+    if (++marks > mostMarks)
+      return "has more than " + std::to_string(mostMarks) + " tags and attributes";
+    if (inTag > mostInTag)
+      return "has a tag of more than " + std::to_string(mostInTag) + " attributes";
+  }
+  return "";
+}
+
 std::string explained(tinyxml2::XMLError error) {
   switch (error) {
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
@@ -89,11 +112,10 @@ void XmlFile::open(const std::string& what) {
     text = readTextFile(path_, what);
   } catch (const InputError& error) {
     faults_ = error.faults();
+    faultCount_ = faults_.size();
     return;
   }
-  if (const auto zero = text.find('\0'); zero != text.npos)
-    return fault(static_cast<int>(1 + std::count(text.begin(), text.begin() + zero, '\n')),
-                 "is not XML: it has a byte 0; UTF-8 is needed");
+  if (const std::string why = whyTooMuch(text); !why.empty()) return fault(0, why);
   if (const auto error = document_.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS)
     return fault(document_.ErrorLineNum(), "is not sound XML: " + explained(error));
   Element* const first = document_.RootElement();
@@ -110,12 +132,15 @@ void XmlFile::fault(int line, std::string text) {
   // Names that a file uses may have anything in them.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
-  faults_.push_back({path_.string(), line, std::move(text)});
+  if (++faultCount_ <= FaultList::kMost) faults_.push_back({path_.string(), line, std::move(text)});
 }
 
 std::vector<Fault> XmlFile::takeFaults() {
   std::stable_sort(faults_.begin(), faults_.end(),
                    [](const Fault& a, const Fault& b) { return a.line < b.line; });
+  if (faultCount_ > faults_.size())
+    faults_.push_back({path_.string(), 0,
+                       "and " + std::to_string(faultCount_ - faults_.size()) + " more faults"});
   return std::move(faults_);
 }
 

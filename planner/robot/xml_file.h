@@ -29,8 +29,11 @@ class XmlFile {
   void fault(int line, std::string text);
   /// "file:line: text", for notes.
   std::string at(int line, const std::string& text) const;
-  bool sound() const { return faults_.empty(); }
-  std::size_t faultCount() const { return faults_.size(); }
+  bool sound() const { return faultCount_ == 0; }
+  /// All, also those that are not kept: of a thousand and more, the first.
+  std::size_t faultCount() const { return faultCount_; }
+  /// Whether a hint is still worth its time: a file may have any number of faults and of names.
+  bool hints() const { return faultCount_ < 100; }
   /// By line.
   std::vector<Fault> takeFaults();
 
@@ -60,6 +63,7 @@ class XmlFile {
 
   std::filesystem::path path_;
   std::vector<Fault> faults_;
+  std::size_t faultCount_ = 0;
   tinyxml2::XMLDocument document_;
   Element* root_ = nullptr;
 };

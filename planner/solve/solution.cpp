@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "collision/core/read_file.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/state_rows.h"

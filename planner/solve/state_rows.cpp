@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "collision/core/read_file.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {

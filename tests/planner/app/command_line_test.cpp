@@ -368,7 +368,7 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
                     "folder (robot.yaml: packages: {p: FOLDER}), and p/m.obj is no file\n"));
   fault("check problem.yaml --states .", testing::Eq(".: is a folder; a file is needed\n"));
   fault("check problem.yaml --states /dev/zero",
-        testing::Eq("/dev/zero: is not an ordinary file\n"));
+        testing::Eq("/dev/zero: is a device; an ordinary file is needed\n"));
   write("problem.yaml", problem("0.05, 0, 0"));
   fault("solve problem.yaml -o s.yaml",
         StartsWith("problem.yaml:5: start is in contact: \"cube\" (triangle "));

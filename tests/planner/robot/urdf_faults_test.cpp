@@ -26,7 +26,7 @@ TEST_F(UrdfFaults, Files) {
   EXPECT_EQ(textOf(faults), "none.urdf: no such file");
   EXPECT_EQ(complaintOf(" \n"), "r.urdf: is empty; a robot (URDF) is needed");
   EXPECT_EQ(complaintOf(std::string("<robot>\n\0", 9)),
-            "r.urdf:2: is not XML: it has a byte 0; UTF-8 is needed");
+            "r.urdf:2: is not text: it has a byte 0; UTF-8 is needed");
   EXPECT_EQ(complaintOf("<robot name=\"r\">\n<link name=\"a\">\n</robot>\n"),
             "r.urdf:2: is not sound XML: the element that begins here is not closed by an end of "
             "its own name");

@@ -1,4 +1,4 @@
-#include "collision/geometry/assimp_plugin.h"
+#include "collision/geometry/assimp_import.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,8 +8,12 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <sys/stat.h>
+#include <vector>
 
 #include <Eigen/Geometry>
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
@@ -17,7 +21,7 @@
 #include <assimp/scene.h>
 
 /// Debian's assimp has its assertions on, and would end the program where a damaged file breaks
-/// one. This module comes before assimp in the order in which assimp's own symbols are looked up,
+/// one. The program comes before assimp in the order in which assimp's own symbols are looked up,
 /// so that this one is called instead; assimp's importers throw, and clean up, in the same way.
 namespace Assimp {
 ASSIMP_API void aiAssertViolation(const char* expression, const char*, int) {
@@ -106,8 +110,50 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-void read(const char* file, AssimpRules rules, AssimpImport& result) {
+/// A file may name others (a glTF's buffers): those are ordinary files, too, or not there.
+class OrdinaryFiles : public Assimp::DefaultIOSystem {
+ public:
+  bool Exists(const char* file) const override {  // assimp's own opens it
+    struct stat status {};
+    return ::stat(file, &status) == 0 && S_ISREG(status.st_mode);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+};
+
+/// Does an importer read one of our formats?
+bool isLetThrough(const aiImporterDesc& description) {
+  std::string_view rest = description.mFileExtensions;  // "dae zae"
+  while (!rest.empty()) {
+    const std::string extension = "." + std::string(rest.substr(0, rest.find(' ')));
+    const auto same = [&](std::string_view format) { return format == extension; };
+    if (std::any_of(kAssimpFormats.begin(), kAssimpFormats.end(), same) ||
+        std::any_of(kOwnFormats.begin(), kOwnFormats.end(), same))
+      return true;
+    rest.remove_prefix(std::min(rest.size(), extension.size()));
+  }
+  return false;
+}
+
+/// assimp looks into files whose extension it does not know, by all of its importers. Those of
+/// other formats have no business here.
+void removeOtherFormats(Assimp::Importer& importer) {
+  std::vector<Assimp::BaseImporter*> others;
+  for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)
+    if (const aiImporterDesc* const description = importer.GetImporterInfo(i);
+        !description || !isLetThrough(*description))
+      others.push_back(importer.GetImporter(i));
+  for (Assimp::BaseImporter* const other : others) {
+    importer.UnregisterLoader(other);
+    const std::unique_ptr<Assimp::BaseImporter> end(other);
+  }
+}
+
+void read(const std::string& file, AssimpRules rules, AssimpImport& result) {
   Assimp::Importer importer;
+  removeOtherFormats(importer);
+  importer.SetIOHandler(std::make_unique<OrdinaryFiles>().release());  // which it owns
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
                            rules == AssimpRules::Stored);
@@ -141,8 +187,8 @@ void read(const char* file, AssimpRules rules, AssimpImport& result) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) void corridorReadWithAssimp(
-    const char* file, AssimpRules rules, AssimpImport& result) {
+AssimpImport importByAssimp(const std::string& file, AssimpRules rules) {
+  AssimpImport result;
   try {
     read(file, rules, result);
   } catch (const std::exception& error) {
@@ -150,6 +196,7 @@ extern "C" __attribute__((visibility("default"))) void corridorReadWithAssimp(
   } catch (...) {
     result.error = "assimp gave up without a reason";
   }
+  return result;
 }
 
 }  // namespace corridor

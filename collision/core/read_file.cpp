@@ -1,0 +1,174 @@
+#include "collision/core/read_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+#include "collision/core/error.h"
+
+namespace corridor {
+namespace {
+
+[[noreturn]] void fail(const std::string& name, std::string text, int line = 0) {
+  throw InputError(Fault{name, line, std::move(text)});
+}
+
+std::string whyNotOrdinary(std::filesystem::file_type type) {
+  using Type = std::filesystem::file_type;
+  switch (type) {
+    case Type::regular:
+      return "";
+    case Type::not_found:
+    case Type::none:
+      return "no such file";
+    case Type::directory:
+      return "is a folder; a file is needed";
+    case Type::fifo:
+      return "is a pipe; an ordinary file is needed";
+    case Type::character:
+    case Type::block:
+      return "is a device; an ordinary file is needed";
+    case Type::socket:
+      return "is a socket; an ordinary file is needed";
+    default:
+      return "is not an ordinary file; one is needed";
+  }
+}
+
+/// A file descriptor, closed at its end.
+class OpenFile {
+ public:
+  OpenFile(const std::filesystem::path& file, int flags)
+      : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | flags)) {
+    if (descriptor_ < 0)
+      fail(file.string(), std::string("cannot be read: ") + std::strerror(errno));
+  }
+  ~OpenFile() { ::close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// As many bytes as come, up to `size`. @returns how many.
+std::size_t readSome(int descriptor, char* to, std::size_t size, const std::string& name) {
+  constexpr std::size_t most = std::size_t{1} << 30;  // of one call; the system has a limit, too
+  while (true) {
+    const ssize_t n = ::read(descriptor, to, std::min(size, most));
+    if (n >= 0) return static_cast<std::size_t>(n);
+    if (errno != EINTR) fail(name, std::string("cannot be read: ") + std::strerror(errno));
+  }
+}
+
+/// An ordinary file that is open, and its size.
+class OrdinaryFile : public OpenFile {
+ public:
+  // Should a pipe take the file's place after the first look, nothing waits for its other end.
+  OrdinaryFile(const std::filesystem::path& file, const std::string& what, std::uint64_t most)
+      : OpenFile(looked(file), O_NONBLOCK) {
+    const std::string name = file.string();
+    struct stat status {};
+    if (::fstat(descriptor(), &status) != 0 || !S_ISREG(status.st_mode))
+      fail(name, "is not an ordinary file; one is needed");
+    size_ = static_cast<std::uint64_t>(status.st_size);
+    if (size_ == 0) fail(name, "is empty; " + what + " is needed");
+    if (size_ > most)
+      fail(name, "has " + std::to_string(size_) + " bytes; at most " + std::to_string(most) +
+                     " are read of " + what);
+  }
+  std::uint64_t size() const { return size_; }
+
+ private:
+  static const std::filesystem::path& looked(const std::filesystem::path& file) {
+    if (const std::string why = whyNoFile(file); !why.empty()) fail(file.string(), why);
+    return file;
+  }
+
+  std::uint64_t size_ = 0;
+};
+
+/// Refuses a byte 0 in `text` from `from` on.
+void requireText(const std::string& text, std::size_t from, const std::string& name) {
+  const auto zero = text.find('\0', from);
+  if (zero == text.npos) return;
+  const auto lines =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
+  fail(name, "is not text: it has a byte 0; UTF-8 is needed", static_cast<int>(1 + lines));
+}
+
+/// @returns the text.
+std::string notBlank(std::string text, const std::string& name, const std::string& what) {
+  if (text.find_first_not_of(" \t\r\n") == text.npos)
+    fail(name, "is empty; " + what + " is needed");
+  return text;
+}
+
+/// All that comes until its end.
+std::string readPipe(int descriptor, const std::string& name, const std::string& what) {
+  std::vector<char> part(std::size_t{1} << 18);
+  std::string text;
+  while (true) {
+    const std::size_t before = text.size();
+    const std::size_t n = readSome(descriptor, part.data(), part.size(), name);
+    text.append(part.data(), n);
+    if (n == 0) return notBlank(std::move(text), name, what);
+    if (text.size() > kMostFileBytes)
+      fail(name, "has more than " + std::to_string(kMostFileBytes) + " bytes, which is the most " +
+                     "that is read of " + what);
+    requireText(text, before, name);
+  }
+}
+
+}  // namespace
+
+std::string whyNoFile(const std::filesystem::path& file) {
+  std::error_code error;
+  return whyNotOrdinary(std::filesystem::status(file, error).type());
+}
+
+void requireFile(const std::filesystem::path& file, const std::string& what, std::uint64_t most) {
+  OrdinaryFile(file, what, most);
+}
+
+std::string readFile(const std::filesystem::path& file, const std::string& what,
+                     std::uint64_t most) {
+  const std::string name = file.string();
+  const OrdinaryFile open(file, what, most);
+  std::string bytes(static_cast<std::size_t>(open.size()), '\0');
+  for (std::size_t done = 0; done < bytes.size();) {
+    const std::size_t n =
+        readSome(open.descriptor(), bytes.data() + done, bytes.size() - done, name);
+    if (n == 0)
+      fail(name, "cannot be read: it ended after " + std::to_string(done) + " of " +
+                     std::to_string(bytes.size()) + " bytes");
+    done += n;
+  }
+  return bytes;
+}
+
+std::string readTextFile(const std::filesystem::path& file, const std::string& what) {
+  std::string text = readFile(file, what, kMostDocumentBytes);
+  requireText(text, 0, file.string());
+  return notBlank(std::move(text), file.string(), what);
+}
+
+std::string readTextStream(const std::filesystem::path& file, const std::string& what) {
+  const std::string name = file.string();
+  if (file == "-" || file == "/dev/stdin") return readPipe(STDIN_FILENO, name, what);
+  std::error_code none;
+  if (std::filesystem::is_fifo(file, none))
+    return readPipe(OpenFile(file, 0).descriptor(), name, what);
+  std::string text = readFile(file, what);
+  requireText(text, 0, name);
+  return notBlank(std::move(text), name, what);
+}
+
+}  // namespace corridor

@@ -1,0 +1,36 @@
+// The program corridor_assimp: reads one file by assimp and writes what it found to its standard
+// output, for assimp_process.cpp. A process of its own, so that a damaged file cannot cost more
+// than this process.
+#include <csignal>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "collision/core/memory_limit.h"
+#include "collision/geometry/assimp_import.h"
+
+int main(int count, char** words) {
+  // FILE RULES SECONDS BYTES PARENT
+  if (count != 6) return 2;
+  const std::string file = words[1];
+  const auto rules = static_cast<corridor::AssimpRules>(std::atoi(words[2]));
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != std::atoi(words[5])) return 2;  // it died before it could be heard of
+  const auto seconds = static_cast<rlim_t>(std::atof(words[3])) + 1;
+  const rlimit time{seconds, seconds}, none{0, 0};
+  ::setrlimit(RLIMIT_CPU, &time);
+  ::setrlimit(RLIMIT_CORE, &none);
+  corridor::limitMemory(std::strtoull(words[4], nullptr, 10));
+
+  std::set_new_handler([] { ::_exit(corridor::kNoMemory); });
+  const std::string bytes = corridor::packed(corridor::importByAssimp(file, rules));
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = ::write(STDOUT_FILENO, bytes.data() + done, bytes.size() - done);
+    if (n < 0) ::_exit(1);
+    done += static_cast<std::size_t>(n);
+  }
+  ::_exit(0);  // whatever assimp would tidy up goes with the process
+}

@@ -1,0 +1,129 @@
+// Documents that are too deep, too large or made to explode: an error at once.
+#include "planner/problem/yaml_reader.h"
+#include "tests/planner/problem/problem_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string all;
+  all.reserve(text.size() * times);
+  for (std::size_t i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+class Limits : public ProblemTest {
+ protected:
+  static std::string complaintOfYaml(const std::string& text, const YamlLimits& limits = {}) {
+    try {
+      parseYaml("a.yaml", text, limits);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+};
+
+TEST_F(Limits, YamlDepth) {
+  const std::string told =
+      ":1: has lists and maps more than 64 deep in each other; no file that is read here needs so "
+      "many";
+  EXPECT_EQ(complaintOfYaml(repeated("[", 64) + repeated("]", 64)), "no complaint");
+  for (const std::size_t depth : {std::size_t{65}, std::size_t{100'000}}) {
+    EXPECT_EQ(complaintOfYaml(repeated("[", depth) + repeated("]", depth)), "a.yaml" + told);
+    EXPECT_EQ(complaintOfYaml(repeated("{a: ", depth) + repeated("}", depth)), "a.yaml" + told);
+    EXPECT_EQ(complaintOfYaml(repeated("- ", depth) + "1\n"), "a.yaml" + told);
+  }
+  std::string blocks;
+  for (std::size_t i = 0; i < 1000; ++i) blocks += std::string(i, ' ') + "a:\n";
+  EXPECT_EQ(complaintOfYaml(blocks).substr(0, 9), "a.yaml:65");
+  EXPECT_EQ(complaintOf(head + "start: " + repeated("[", 100'000) + repeated("]", 100'000)),
+            "problem.yaml:5: has lists and maps more than 64 deep in each other; no file that is "
+            "read here needs so many");
+}
+
+TEST_F(Limits, YamlNodes) {
+  EXPECT_EQ(YamlLimits{}.nodes, 10'000'000u);
+  const YamlLimits limits{1000, 64};
+  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 999), limits), "no complaint");  // and the list
+  const std::string told = ": has more than 1000 keys and values; split the file";
+  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 1000), limits), "a.yaml:1000" + told);
+  EXPECT_EQ(complaintOfYaml(repeated("- a: {b: \n    []}\n", 1000), limits), "a.yaml:400" + told);
+}
+
+/// Each list of ten of the one before: 10^9 of the first.
+TEST_F(Limits, YamlAliases) {
+  std::string laughs = "a: &a [lol, lol, lol, lol, lol, lol, lol, lol, lol, lol]\n";
+  for (char c = 'b'; c < 'j'; ++c) {
+    const std::string last = std::string(", *") + static_cast<char>(c - 1);
+    laughs += std::string(1, c) + ": &" + c + " [" + repeated(last, 10).substr(2) + "]\n";
+  }
+  EXPECT_EQ(complaintOfYaml(laughs),
+            "a.yaml:2: aliases (*name) are not read here; write the value out");
+}
+
+/// Nothing is quadratic in the keys of a map.
+TEST_F(Limits, YamlKeys) {
+  std::string text = "same: 1\n";
+  for (int i = 0; i < 200'000; ++i) text += "key" + std::to_string(i) + ": " + "1\n";
+  text += "same: 2\n";
+  const YamlValue document = parseYaml("a.yaml", text);
+  FaultList faults;
+  YamlSource source{"a.yaml", faults, {}};
+  const YamlMap map(document, "", nullptr, source);
+  double sum = 0;
+  for (const auto* entry : map.entries()) sum += map.number(entry->key).value_or(0);
+  EXPECT_EQ(sum, 200'001);
+  EXPECT_EQ(faults.size(), 1u);
+}
+
+TEST_F(Limits, FaultsAreListedUpToAThousand) {
+  std::string text = head + poses;
+  for (int i = 0; i < 100'000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";
+  const std::string told = complaintOf(text);
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1000);
+  EXPECT_THAT(told, HasSubstr("problem.yaml: reading stopped at 1000 faults; there may be more"));
+}
+
+TEST_F(Limits, Json) {
+  const std::string deep =
+      ": has lists and objects more than 64 deep in each other; a set needs "
+      "no more than six";
+  for (const std::string& open : {std::string("["), std::string("{\"a\": ")})
+    EXPECT_EQ(complaint(write("a.json", repeated(open, 100'000))), "a.json" + deep);
+  EXPECT_EQ(complaint(write("a.json", "[" + repeated("[],", 10'000'000) + "1]")),
+            "a.json: has more than 10000000 values; split the set");
+  EXPECT_EQ(complaint(write("a.json", repeated("[", 100) + std::string(1, '\0'))),
+            "a.json:1: is not text: it has a byte 0; UTF-8 is needed");
+}
+
+TEST_F(Limits, CfgLines) {
+  EXPECT_THAT(complaint(write("a.cfg", std::string(50'000'000, 'x'))),
+              HasSubstr("a.cfg:1: [section] or key = value is needed, not \"xxx"));
+  EXPECT_THAT(complaint(write("a.cfg", "[problem]\nrobot = " + std::string(5'000'000, '[') + "\n")),
+              HasSubstr("a.cfg:2: robot: "));
+  const std::string told = complaint(write("a.cfg", repeated("x\n", 1'000'000)));
+  EXPECT_THAT(told, HasSubstr("a.cfg: reading stopped at 1000 faults; there may be more"));
+}
+
+TEST_F(Limits, PairsOfBodies) {
+  // 4,600 spheres on joints of a robot's each: above 10^7 pairs.
+  std::string urdf = "<robot name=\"r\">\n<link name=\"l0\"/>\n";
+  for (int i = 1; i <= 4600; ++i) {
+    const std::string n = std::to_string(i);
+    urdf += "<link name=\"l" + n +
+            "\"><collision><geometry><sphere radius=\"1\"/></geometry></collision></link>\n"
+            "<joint name=\"j" +
+            n + "\" type=\"continuous\"><parent link=\"l0\"/><child link=\"l" + n +
+            "\"/></joint>\n";
+  }
+  write("many.urdf", urdf + "</robot>\n");
+  EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: many.urdf\nstart: {}\ngoal: {}\n"),
+              HasSubstr("problem.yaml: has 10577700 pairs of bodies, at most 10000000 are handled; "
+                        "join shapes that do not move against each other into one body"));
+}
+
+}  // namespace
+}  // namespace corridor::test
