@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <console_bridge/console.h>
 #include <exception>
+#include <mutex>
 #include <urdf_parser/urdf_parser.h>
 
 namespace corridor {
@@ -61,6 +62,9 @@ urdf::ModelInterfaceSharedPtr parseByUrdfdom(XmlFile::Element& robot,
     removeAll(*link, "visual");
   tinyxml2::XMLPrinter text;
   robot.Accept(&text);
+  // Its handler of messages is one for the whole program: threads take turns.
+  static std::mutex turn;
+  const std::lock_guard lock(turn);
   const ErrorCatcher catcher(errors);
   urdf::ModelInterfaceSharedPtr model;
   try {

@@ -1,0 +1,251 @@
+// planner/ from several threads: one problem and one checker that all share.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/SpaceInformation.h>
+
+#include "planner/benchmark/checking_tally.h"
+#include "planner/checker/motion_validators.h"
+#include "planner/checker/problem_goal.h"
+#include "planner/checker/problem_state_space.h"
+#include "planner/checker/state_validity_checkers.h"
+#include "planner/robot/edge_motion.h"
+#include "planner/robot/urdf_file.h"
+#include "planner/solve/verify_solution.h"
+#include "tests/support/support.h"
+#include "tests/threads/in_threads.h"
+#include "tests/threads/own_problem.h"
+
+namespace corridor {
+namespace {
+
+namespace ob = ompl::base;
+using test::Answers;
+using test::expectOneAnswer;
+using test::inThreads;
+using test::kThreads;
+using test::ownProblem;
+
+struct Edge {
+  Configuration from, to;
+};
+
+/// Random edges from states that are often free, near the start or the goal: a half short, a
+/// quarter longer, a quarter from the one to the other.
+std::vector<Edge> someEdges(const Problem& problem, std::size_t count) {
+  std::mt19937_64 random(71);
+  std::normal_distribution<double> normal;
+  const auto near = [&](const Configuration& q, double distance) {
+    Configuration r = q;
+    for (Eigen::Index i = 0; i < r.size(); ++i) r[i] += distance * normal(random);
+    problem.space.normalise(r);
+    return r;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Configuration from = near(i % 3 ? startOf(problem) : goalsOf(problem)[0], 0.05);
+    edges.push_back(
+        {from, i % 4 == 3 ? near(goalsOf(problem)[0], 0.05) : near(from, i % 4 == 1 ? 0.3 : 0.02)});
+  }
+  return edges;
+}
+
+/// What a checker says of one edge, and of the state that it begins at.
+void ask(const Checker& checker, const Edge& edge, Answers& answers) {
+  answers.add(checker.state(edge.from));
+  answers.add(checker.edge(edge.from, edge.to, false));
+  answers.add(checker.edge(edge.from, edge.to, true));
+  answers.addVerdict(checker.certifiedEdge(edge.from, edge.to));
+  answers.addVerdict(checker.interference(edge.to).has_value());
+  answers.add(checker.clearance(edge.from));
+  for (const Scene::Pair& pair : checker.pairsNotFree(edge.to)) {
+    answers.add(pair.a);
+    answers.add(pair.b);
+  }
+}
+
+class Threads : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Problems, Threads, testing::Values("thin_plate", "two_arms"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+/// In the same order the answers are the same to the last bit, and no count is lost.
+TEST_P(Threads, CheckerInOneOrder) {
+  for (const char* const volume : {"obb", "kdop18"}) {
+    Problem problem = ownProblem(GetParam());
+    problem.checker.volume = volume;
+    const std::vector<Edge> edges = someEdges(problem, 10);
+    const Checker shared(problem);
+    expectOneAnswer([&] {
+      Answers answers;
+      for (const Edge& edge : edges) ask(shared, edge, answers);
+      return answers;
+    });
+    const std::uint64_t rounds = kThreads + 1;
+    EXPECT_EQ(shared.counters().edges, 3 * edges.size() * rounds);
+    EXPECT_EQ(shared.counters().states, 4 * edges.size() * rounds);
+  }
+}
+
+/// In another order a context remembers other things. The verdicts are the same.
+TEST_P(Threads, CheckerInAnotherOrder) {
+  const Problem problem = ownProblem(GetParam());
+  const std::vector<Edge> edges = someEdges(problem, 60);
+  const Checker alone(problem), shared(problem);
+  std::vector<MotionVerdict> states, motions;
+  for (const Edge& edge : edges) {
+    states.push_back(alone.state(edge.to).verdict);
+    motions.push_back(alone.edge(edge.from, edge.to, false).verdict);
+  }
+  for (const MotionVerdict verdict : {MotionVerdict::free, MotionVerdict::contact})
+    EXPECT_GT(std::count(motions.begin(), motions.end(), verdict), 3);
+  inThreads([&](int k) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const std::size_t e = (i * 7 + static_cast<std::size_t>(k) * 31) % edges.size();
+      ASSERT_EQ(shared.edge(edges[e].from, edges[e].to, false).verdict, motions[e]) << e;
+      ASSERT_EQ(shared.state(edges[e].to).verdict, states[e]) << e;
+    }
+  });
+}
+
+/// Without a checker: one scene, and an EdgeMotion and a QueryContext a thread.
+TEST_P(Threads, SceneAndEdgeMotions) {
+  const Problem problem = ownProblem(GetParam());
+  const std::vector<Edge> edges = someEdges(problem, 16);
+  MotionOptions options;
+  options.tolerance = 1e-5;
+  const Scene scene = makeScene(problem);
+  const Answers answers = expectOneAnswer([&] {
+    Answers mine;
+    QueryContext context;
+    EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+    for (const Edge& edge : edges) {
+      motion.set(edge.from, edge.to);
+      for (const EdgeMethod method :
+           {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
+        mine.add(scene.certify(motion, options, context, method));
+    }
+    mine.add(context.counters);
+    return mine;
+  });
+  EXPECT_GT(answers.count(MotionVerdict::free), 3);
+  EXPECT_GT(answers.count(MotionVerdict::contact), 2);
+}
+
+/// OMPL's interface, with every method, and the tally that benchmarks put around it.
+TEST_P(Threads, Validators) {
+  for (const char* const method : {"certified", "adaptive", "discrete"}) {
+    Problem problem = ownProblem(GetParam());
+    problem.checker.edges = method;
+    const std::vector<Edge> edges = someEdges(problem, 16);
+    const Checker checker(problem);
+    const auto space = std::make_shared<ProblemStateSpace>(problem.space);
+    const auto si = std::make_shared<ob::SpaceInformation>(space);
+    std::shared_ptr<CountingMotionValidator> validator;
+    if (std::string(method) == "discrete") {
+      si->setStateValidityChecker(std::make_shared<ExactStateValidityChecker>(si, checker));
+      validator = std::make_shared<DiscreteMotionValidator>(si, checker);
+    } else {
+      si->setStateValidityChecker(std::make_shared<CertifiedStateValidityChecker>(si, checker));
+      validator = std::make_shared<CertifiedMotionValidator>(si, checker);
+    }
+    si->setMotionValidator(validator);
+    CheckingTally tally;
+    tallyChecks(si, tally);
+    si->setup();
+    const Answers answers = expectOneAnswer([&] {
+      Answers mine;
+      ob::ScopedState<> from(si), to(si), last(si);
+      for (const Edge& edge : edges) {
+        space->write(edge.from, from.get());
+        space->write(edge.to, to.get());
+        mine.addVerdict(si->isValid(from.get()));
+        mine.addVerdict(si->checkMotion(from.get(), to.get()));
+        std::pair<ob::State*, double> lastValid{last.get(), 1};
+        mine.addVerdict(si->checkMotion(from.get(), to.get(), lastValid));
+        mine.add(lastValid.second);
+        if (lastValid.second < 1)
+          for (const double number : space->read(last.get())) mine.add(number);
+      }
+      return mine;
+    });
+    EXPECT_GT(answers.count(true), 3);
+    if (std::string(method) != "discrete") {  // which may step over what is in the way
+      EXPECT_GT(answers.count(false), 2);
+    }
+    const std::uint64_t motions = (kThreads + 1) * 2 * edges.size();
+    EXPECT_EQ(validator->checkedMotions(), motions);
+    EXPECT_EQ(si->getMotionValidator()->getCheckedMotionCount(), motions);
+    EXPECT_EQ(tally.motions, motions);
+    EXPECT_EQ(tally.states % (kThreads + 1), 0u);
+  }
+}
+
+/// The verifier keeps nothing from one call to the next.
+TEST_P(Threads, Verifier) {
+  const Problem problem = ownProblem(GetParam());
+  const PathProblem plain = plainProblem(problem);
+  const std::vector<Edge> edges = someEdges(problem, 6);
+  expectOneAnswer([&] {
+    Answers answers;
+    for (const Edge& edge : edges) {
+      const PathReport report = verifyPath(plain, {edge.from, edge.to});
+      answers.addVerdict(report.verdict);
+      answers.add(report.provenClearance);
+      answers.add(report.smallestDistanceMet);
+      answers.add(report.distanceQueries);
+    }
+    return answers;
+  });
+}
+
+/// Threads that read the same files: problem, robots, URDF, SRDF, meshes.
+TEST_P(Threads, ReadProblems) {
+  std::array<std::string, kThreads> seen;
+  inThreads([&](int k) {
+    for (int i = 0; i < 3; ++i) {
+      const Problem problem = ownProblem(GetParam());
+      seen[k] += problem.digest + std::to_string(problem.pairs.size());
+    }
+  });
+  EXPECT_FALSE(seen[0].empty());
+  for (const std::string& mine : seen) EXPECT_EQ(mine, seen[0]);
+}
+
+/// urdfdom reports faults through a handler that the whole program shares: each thread is to get
+/// those of the URDF that it reads, and no other's.
+TEST(Threads, ReadFaultyRobots) {
+  const std::filesystem::path folder = test::newFolder();
+  const auto fileOf = [&](int k) { return folder / ("robot" + std::to_string(k) + ".urdf"); };
+  const auto nameOf = [](int k) { return "[link" + std::to_string(k) + "]"; };
+  for (int k = 0; k < kThreads; ++k) {
+    std::ofstream file(fileOf(k));
+    file << "<robot name=\"r\">";
+    for (int i = 0; i < 100; ++i)  // so that reading takes some time
+      file << "<link name=\"sound" << i << "\"/><joint name=\"j" << i
+           << "\" type=\"fixed\"><parent link=\"link" << k << "\"/><child link=\"sound" << i
+           << "\"/></joint>";
+    file << "<link name=\"link" << k << "\"><inertial/></link></robot>";
+  }
+  inThreads([&](int k) {
+    for (int i = 0; i < 10; ++i) {
+      std::vector<Fault> faults;
+      std::vector<std::filesystem::path> files;
+      EXPECT_FALSE(readUrdf(fileOf(k), {}, faults, files));
+      ASSERT_EQ(faults.size(), 1u);
+      for (int other = 0; other < kThreads; ++other)
+        ASSERT_EQ(faults[0].text.find(nameOf(other)) != std::string::npos, other == k)
+            << faults[0].text;
+    }
+  });
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace corridor
