@@ -77,10 +77,11 @@ Graze::Look<S> Graze::look(const Curve<S>& curve, const Shape& rest, S t) const 
   return l;
 }
 
-/// No less than this apart between two times. Along a fixed direction every point's height has a
-/// second derivative of at most bend; so has the distance of two points, or of a point from a line,
-/// from below. That of two lines is n·y, n = u/|u|, u the cross product of unit vectors with
-/// |u'| ≤ Ω and |u''| ≤ Ω²: |n'| ≤ Ω/s and |n''| ≤ Ω²/s + 3Ω²/s², s = |u|.
+/// No less than this apart between two times: the lesser of the two, less f''·w²/8, where f'' is
+/// the largest that the second derivative may be. Height of a point along a fixed direction: f'' ≤
+/// bend. Distance |y| of two points, or of a point from a line: f'' ≤ bend + |y'|²/|y|. Distance
+/// n·y of two lines, n = u/|u|, u the cross product of unit vectors, so that |u'| ≤ Ω and |u''| ≤
+/// Ω²: with s = |u|, |n'| ≤ Ω/s and |n''| ≤ Ω²/s + 3Ω²/s².
 template <class S>
 S Graze::boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) const {
   const S w = b.t - a.t;
@@ -95,12 +96,16 @@ S Graze::boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) cons
   const S slack = 1e-14L * S(curve.length() + reach);
   if (a.features - a.along > slack || b.features - b.along > slack) return bound;
   S second = bend;
+  const S radii = S(tip_.coreRadius) + S(base_.coreRadius);
   if (tip_.feature == Feature::edge && base_.feature == Feature::edge) {
     const S s = std::min(a.sine, b.sine) - turned * w;
     if (s < S(0.1L)) return bound;
-    const S y = std::max(magnitude(a.features), magnitude(b.features)) + S(keep_) +
-                S(tip_.coreRadius + base_.coreRadius) + speed * w;
+    const S y = std::max(magnitude(a.features), magnitude(b.features)) + radii + speed * w;
     second += 2 * turned / s * speed + 4 * turned * turned / (s * s) * y;
+  } else {
+    const S y = std::min(a.features, b.features) + radii - speed * w;
+    if (y <= 0) return bound;
+    second += speed * speed / y;
   }
   return std::max(bound, std::min(a.along, b.along) - second * w * w / 8);
 }
@@ -129,6 +134,10 @@ void Graze::proveHeights() {
     last = next;
   }
   long double lowest = HUGE_VALL;
+  if (curve_->speed(std::max(tip_.reach, base_.reach)) < 1e-3 * size_) {  // all of it is close
+    open.clear();
+    close.emplace_back(0, 1);
+  }
   for (int looks = 0; !open.empty();) {
     const Part part = open.back();
     open.pop_back();
@@ -150,7 +159,7 @@ void Graze::proveHeights() {
   struct QuadPart {
     Look<Quad> a, b;
   };
-  const Quad enough = keep_ - 2 * baseError_ - 1e-15 * size_;
+  Quad enough = keep_ - 2 * baseError_ - 1e-15 * size_;
   Quad least = lowest;
   int looks = 0;
   for (const auto& [from, to] : close) {
@@ -167,7 +176,9 @@ void Graze::proveHeights() {
       }
       if (++looks > kQuadLooks) return;
       const Look<Quad> middle = look(*curve_, base_, (part.a.t + part.b.t) / 2);
-      if (std::max(middle.flat, middle.along) < enough) return;  // it comes closer than at `time_`
+      // It comes closer than at `time_`: that is to be proved then.
+      const Quad met = std::max(middle.flat, middle.along) - 1e-15 * size_;
+      enough = std::min(enough, met);
       parts128.push_back({middle, part.b});
       parts128.push_back({part.a, middle});
     }
@@ -247,6 +258,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Meeting meeting = meetings[dice.index(6)];
   const double depth = std::exp2(1 + static_cast<double>(dice.index(10)));
   time_ = dice.oneIn(2) ? std::floor(dice.real(0, depth)) / depth : dice.real(0, 1);
+  passesAlong_ = curve_->speed(1) > 0 && (meeting == Meeting::along || meeting == Meeting::slide);
   if (meeting == Meeting::start) time_ = 0;
   if (meeting == Meeting::end) time_ = 1;
   const double away = swapped ? curve_->length() : 0;  // a tip at rest is near what comes

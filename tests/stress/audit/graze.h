@@ -47,7 +47,8 @@ class Graze {
   /// No less than what rounding may do to poses anywhere, as Corridor's README promises it: 2^-43
   /// of all lengths for each joint, and 2^-48 of what angles of many turns are worth.
   double rounding() const { return rounding_; }
-  double time() const { return time_; }
+  /// The tip moves along the plane where they meet; else straight to it or from it, or not at all.
+  bool passesAlong() const { return passesAlong_; }
 
  private:
   template <class S>
@@ -70,7 +71,7 @@ class Graze {
   std::optional<Quad> distanceAtMost(const Shape& rest) const;
   bool crosses(const Shape& rest) const;
 
-  bool usable_ = false;
+  bool usable_ = false, passesAlong_ = false;
   std::size_t tipFrame_ = 0, restFrame_ = 0;
   double size_, keep_, time_ = 0, rounding_ = 0;
   bool inTube_;

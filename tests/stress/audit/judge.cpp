@@ -51,7 +51,7 @@ PathProblem Case::problem() const {
   problem.margin = question.options.margin;
   problem.tube = edge.tube;
   problem.tolerance = question.options.tolerance;
-  problem.workLimit = 5000;
+  problem.workLimit = 1000;
   return problem;
 }
 
