@@ -46,6 +46,7 @@ class Audit {
 Dice diceOf(std::uint64_t seed, long number);
 
 /// `normally`, or `stress` with CORRIDOR_STRESS; fewer where the build is slow.
+/// CORRIDOR_AUDIT_COUNT sets another count for all tests.
 long countOf(long normally, long stress);
 
 }  // namespace corridor::audit

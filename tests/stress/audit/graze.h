@@ -36,6 +36,7 @@ class Graze {
   /// Something can be said: else the case is to be thrown away.
   bool usable() const { return usable_; }
 
+  double size() const { return size_; }
   const Shape& tip() const { return tip_; }
   std::size_t tipFrame() const { return tipFrame_; }
   std::size_t restFrame() const { return restFrame_; }
