@@ -11,9 +11,9 @@
 namespace corridor::audit {
 namespace {
 
-/// Of the bodies' size. Its slabs stand along the line between the closest points, whose direction
-/// at a distance d is off by 2^-63·size/d, which costs as much of d where bodies are wide.
-constexpr double kVerifierResolves = 1e-8;
+/// Of the bodies' size, the square root of the unit roundoff. At a distance d the direction between
+/// closest points is off by 2^-53·size/d, which costs wide bodies size times as much of d.
+constexpr double kResolved = 0x1p-26;
 
 RigidPose poseOf(const Configuration& q) {
   return {q.head<3>(), Eigen::Quaterniond(Eigen::Vector4d(q.tail<4>()))};
@@ -60,7 +60,7 @@ PathProblem Case::problem() const {
 }
 
 double Case::undecidedBelow() const {
-  return 2 * std::max(question.options.tolerance, 4 * graze.rounding());
+  return 2 * std::max({question.options.tolerance, 4 * graze.rounding(), kResolved * graze.size()});
 }
 
 std::optional<MotionResult> askChecker(const Case& c) {
@@ -193,7 +193,7 @@ std::string faultOf(const Case& c, const PathReport& r) {
             << c.graze.apartAt(c.rest, t) << " m apart";
   }
   if (r.verdict == PathVerdict::undecided && !c.question.inTube && reason != "work limit reached" &&
-      c.truth.apart > margin + std::max(c.undecidedBelow(), kVerifierResolves * c.graze.size()))
+      c.truth.apart > margin + c.undecidedBelow())
     fault << " undecided (" << reason << ") at a clearance of " << c.truth.apart - margin << " m";
   if (c.truth.apart - c.graze.rounding() > r.smallestDistanceMet)
     fault << " met a distance of " << r.smallestDistanceMet << " m, where there is none below "

@@ -38,7 +38,7 @@ struct Case {
   Scene scene() const;
   PathProblem problem() const;
   /// Clearances above this, beyond margin and reserve, are to be decided: twice the tolerance, or
-  /// what rounding takes where that is more.
+  /// twice of what doubles resolve where that is more.
   double undecidedBelow() const;
 };
 
