@@ -30,8 +30,9 @@ void chooseProof(Dice& dice, const Graze& graze, double size, Question& question
   o.trees = dice.of(std::span<const TreeKind>(kTrees));
   question.method = dice.of(std::span<const EdgeMethod>(kMethods));
   const bool certified = question.method == EdgeMethod::certified;
-  o.tolerance = std::max(4 * graze.rounding(), size * (certified ? 1e-7 : dice.power(-4.5, -3)));
-  o.workLimit = certified ? 100'000 : 300'000;
+  o.tolerance =
+      std::max(4 * graze.rounding(), size * (certified ? dice.power(-7, -5) : dice.power(-4, -3)));
+  o.workLimit = 100'000;
   if (certified && dice.oneIn(graze.passesAlong() ? 8 : 2)) {
     o.tolerance = size * dice.power(-14, -8);
     o.workLimit = 50'000;
