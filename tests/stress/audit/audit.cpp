@@ -22,11 +22,12 @@ constexpr EdgeMethod kMethods[] = {EdgeMethod::certified, EdgeMethod::certified,
                                    EdgeMethod::advancement};
 constexpr int kGaps = 6;
 
-/// How a case is asked. Work is in proportion to 1/√tolerance where bodies pass along each other,
-/// and more so by methods on distances. A tolerance may be so small that only rounding is between
-/// free and contact.
-void chooseProof(Dice& dice, const Graze& graze, double size, Question& question) {
+/// How a case is asked, and how far the two are apart at it. Work is in proportion to 1/√tolerance
+/// where bodies pass along each other, and more so by methods on distances. Elsewhere gap and
+/// tolerance may be so small that nothing but rounding is between free and contact.
+double chooseProof(Dice& dice, const Graze& graze, double sign, Question& question) {
   MotionOptions& o = question.options;
+  const double size = graze.size();
   o.trees = dice.of(std::span<const TreeKind>(kTrees));
   question.method = dice.of(std::span<const EdgeMethod>(kMethods));
   const bool certified = question.method == EdgeMethod::certified;
@@ -34,9 +35,15 @@ void chooseProof(Dice& dice, const Graze& graze, double size, Question& question
       std::max(4 * graze.rounding(), size * (certified ? dice.power(-7, -5) : dice.power(-4, -3)));
   o.workLimit = 100'000;
   if (certified && dice.oneIn(graze.passesAlong() ? 8 : 2)) {
-    o.tolerance = size * dice.power(-14, -8);
     o.workLimit = 50'000;
+    o.tolerance = size * dice.power(-14, -8);
+    if (dice.oneIn(2)) {
+      const double gap = graze.ulp() * dice.power(-1.5, 1.5);
+      o.tolerance = gap * dice.power(-2, 0);
+      return sign * gap;
+    }
   }
+  return sign * size * dice.power(-13, -2);
 }
 
 }  // namespace
@@ -104,8 +111,7 @@ void Audit::make(long number) {
   ++usable_;
   const std::string row = question.inTube ? "tube: worst corner" : nameOf(family);
   for (int k = 0; k < kGaps; ++k) {
-    const double gap = dice.power(-13, -2) * size * (question.inTube || k % 2 ? -1 : 1);
-    chooseProof(dice, graze, size, question);
+    const double gap = chooseProof(dice, graze, question.inTube || k % 2 ? -1 : 1, question);
     Truth truth;
     const Shape rest = graze.rest(gap, truth);
     const std::string name = nameOf(family) + ", CORRIDOR_SEED=" + std::to_string(seed_) +
@@ -119,17 +125,22 @@ void Audit::make(long number) {
   }
 }
 
-/// Each number's part of the tube: of one size for all lengths, of one for all angles, or 0.
+/// Each number's part of the tube: of one size for all lengths, of one for all angles, or 0; half
+/// of the time only one has any.
 void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
   const double position = size * dice.power(-9, -1), rotation = dice.power(-9, -1.5);
-  for (const Coordinate& c : edge.space.coordinates()) {
+  const auto& coordinates = edge.space.coordinates();
+  const bool one = !rigid && !coordinates.empty() && dice.oneIn(2);
+  const std::size_t only = one ? dice.index(coordinates.size()) : 0;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const Coordinate& c = coordinates[i];
     const bool turns =
         std::any_of(edge.tree.frames.begin(), edge.tree.frames.end(), [&](const Frame& frame) {
           return frame.joint == Frame::Joint::turn && frame.variable == c.first;
         });
     double& tube = edge.tube[static_cast<Eigen::Index>(c.first)];
     tube = turns || c.kind != Coordinate::Kind::line ? rotation : position;
-    if (!rigid && dice.oneIn(3)) tube = 0;
+    if (one ? i != only : !rigid && dice.oneIn(3)) tube = 0;
   }
 }
 

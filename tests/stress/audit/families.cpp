@@ -226,6 +226,16 @@ Edge randomEdge(Dice& dice, Family family, bool still, double& size) {
     case Family::offsets: {
       Frame far;
       far.fixed.p = dice.power(2, 6) * dice.vector();
+      if (dice.oneIn(3)) {  // two bodies that meet far from the world's origin
+        m.edge.first = m.base(0, dice.oneIn(2));
+        m.edge.second = m.base(0, dice.oneIn(2));
+        far.fixed.p[2] = 0;
+        for (const Frame& f : m.edge.tree.frames)
+          for (std::size_t k = 0; f.joint == Frame::Joint::shift && k < f.count; ++k)
+            for (std::vector<double>* state : {&m.from, &m.to})
+              (*state)[f.variable + k] += far.fixed.p[static_cast<Eigen::Index>(k)];
+        break;
+      }
       if (dice.oneIn(2)) {  // the bodies are far from their frames, and meet far from the world's
         m.slideAt = dice.power(2, 5);
         m.anything();

@@ -281,6 +281,11 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
       if (dot(way, way) > 0) normal_ = unit(way);
     }
     strayToWorst(edge);
+    if (meeting == Meeting::along) {  // so does the curve that meets
+      const Quad e = 1e-12;
+      const Vec<Quad> v = unit(curve_->at(time_ + e) * touch_ - curve_->at(time_) * touch_);
+      normal_ = unit(normal_ - v * dot(v, normal_));
+    }
   }
   const Pose<Quad> X = curve_->at(time_);
   const Vec<Quad> p = X * touch_;
@@ -303,6 +308,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const double reach = std::max(tip_.reach, base_.reach), lengths = nominal_->length() + 2 * reach;
   rounding_ = lengths * (static_cast<double>(nominal_->joints() + 2) * 0x1p-43 +
                          0x1p-48 * nominal_->largest());
+  ulp_ = 0x1p-53 * lengths;
   usable_ = true;
   if (!inTube_) proveHeights();
 }

@@ -48,6 +48,8 @@ class Graze {
   /// No less than what rounding may do to poses anywhere, as Corridor's README promises it: 2^-43
   /// of all lengths for each joint, and 2^-48 of what angles of many turns are worth.
   double rounding() const { return rounding_; }
+  /// What one operation may round, metres: 2^-53 of all lengths.
+  double ulp() const { return ulp_; }
   /// The tip moves along the plane where they meet; else straight to it or from it, or not at all.
   bool passesAlong() const { return passesAlong_; }
 
@@ -74,7 +76,7 @@ class Graze {
 
   bool usable_ = false, passesAlong_ = false;
   std::size_t tipFrame_ = 0, restFrame_ = 0;
-  double size_, keep_, time_ = 0, rounding_ = 0;
+  double size_, keep_, time_ = 0, rounding_ = 0, ulp_ = 0;
   bool inTube_;
   std::optional<Curve<Quad>> curve_;
   std::optional<Curve<Quad>> nominal_;
