@@ -25,19 +25,19 @@ constexpr int kGaps = 6;
 /// How a case is asked, and how far the two are apart at it. Work is in proportion to 1/√tolerance
 /// where bodies pass along each other, and more so by methods on distances. Elsewhere gap and
 /// tolerance may be so small that nothing but rounding is between free and contact.
-double chooseProof(Dice& dice, const Graze& graze, double sign, Question& question) {
+double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, Question& question) {
   MotionOptions& o = question.options;
   const double size = graze.size();
   o.trees = dice.of(std::span<const TreeKind>(kTrees));
-  question.method = dice.of(std::span<const EdgeMethod>(kMethods));
+  question.method = fine ? EdgeMethod::certified : dice.of(std::span<const EdgeMethod>(kMethods));
   const bool certified = question.method == EdgeMethod::certified;
   o.tolerance =
       std::max(4 * graze.rounding(), size * (certified ? dice.power(-7, -5) : dice.power(-4, -3)));
   o.workLimit = 100'000;
-  if (certified && dice.oneIn(graze.passesAlong() ? 8 : 2)) {
-    o.workLimit = 50'000;
+  if (fine || (certified && dice.oneIn(graze.passesAlong() ? 8 : 2))) {
+    o.workLimit = fine ? 10'000 : 50'000;
     o.tolerance = size * dice.power(-14, -8);
-    if (dice.oneIn(2)) {
+    if (fine || dice.oneIn(2)) {
       const double gap = graze.ulp() * dice.power(-1.5, 1.5);
       o.tolerance = gap * dice.power(-2, 0);
       return sign * gap;
@@ -111,7 +111,8 @@ void Audit::make(long number) {
   ++usable_;
   const std::string row = question.inTube ? "tube: worst corner" : nameOf(family);
   for (int k = 0; k < kGaps; ++k) {
-    const double gap = chooseProof(dice, graze, question.inTube || k % 2 ? -1 : 1, question);
+    const double gap =
+        chooseProof(dice, graze, question.inTube || k % 2 ? -1 : 1, plan_.fine, question);
     Truth truth;
     const Shape rest = graze.rest(gap, truth);
     const std::string name = nameOf(family) + ", CORRIDOR_SEED=" + std::to_string(seed_) +

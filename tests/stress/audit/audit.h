@@ -13,6 +13,7 @@ class Audit {
  public:
   struct Plan {
     bool states = false;                ///< edges of zero length
+    bool fine = false;                  ///< gaps and tolerances of the size of rounding only
     std::size_t verify = 6;             ///< one case in so many is put to the verifier, too
     std::optional<Family> family = {};  ///< only this one; else all by turns
     Mode mode = Mode::usual;            ///< of floating point while a query runs

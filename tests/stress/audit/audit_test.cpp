@@ -21,6 +21,16 @@ TEST(Audit, States) {
   audit.expectDecided();
 }
 
+/// Bodies that stick in each other by no more than poses are rounded: only the bounds of the
+/// rounding are between a proof and a contact.
+TEST(Audit, DepthsOfRounding) {
+  for (const bool states : {false, true}) {
+    Audit audit(9, {.states = states, .fine = true, .verify = 20});
+    audit.run(countOf(6'000, 200'000));
+    audit.report(states ? "depths of rounding, states" : "depths of rounding, edges");
+  }
+}
+
 /// Values of circles of up to 10^25 rad, as `from`, as `to`, as both: where they are so large that
 /// rounding decides which way is the shorter one, no answer but `undecided` is right.
 TEST(Audit, LargeValuesOfCircles) {

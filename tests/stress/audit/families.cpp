@@ -226,7 +226,7 @@ Edge randomEdge(Dice& dice, Family family, bool still, double& size) {
     case Family::offsets: {
       Frame far;
       far.fixed.p = dice.power(2, 6) * dice.vector();
-      if (dice.oneIn(3)) {  // two bodies that meet far from the world's origin
+      if (dice.oneIn(2)) {  // two bodies that meet far from the world's origin
         m.edge.first = m.base(0, dice.oneIn(2));
         m.edge.second = m.base(0, dice.oneIn(2));
         far.fixed.p[2] = 0;
