@@ -19,11 +19,6 @@ using std::numbers::pi;
 constexpr EdgeMethod kMethods[] = {EdgeMethod::certified, EdgeMethod::adaptive,
                                    EdgeMethod::advancement};
 
-/// The first failures in full, all of them counted.
-void expectNone(int failures, const char* what) {
-  EXPECT_EQ(failures, 0) << what;
-}
-
 /// Whatever evidence claims: where the two are closer than the margin and the reserve, it is not
 /// accepted. And what the query itself says of a free edge is.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
@@ -73,8 +68,8 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   }
   std::cout << forged << " certificates forged, " << wrong << " accepted; " << honest << " honest, "
             << accepted << " accepted\n";
-  expectNone(wrong, "forged certificates accepted");
-  expectNone(claimed, "false certificates of the query itself");
+  EXPECT_EQ(wrong, 0) << "forged certificates accepted";
+  EXPECT_EQ(claimed, 0) << "false certificates of the query itself";
   EXPECT_GT(honest, count / 10);
   EXPECT_GE(static_cast<double>(accepted), 0.9 * static_cast<double>(honest));
 }
@@ -128,9 +123,9 @@ TEST(Certificates, HalfTurnsAreNoEdges) {
     proved += askVerifier(c)->verdict == PathVerdict::proved;
     accepted += acceptsForged(c, 1e-3, 1 << dice.index(4));
   }
-  expectNone(free, "half turns that the checker decides");
-  expectNone(proved, "half turns that the verifier proves");
-  expectNone(accepted, "half turns for which evidence is accepted");
+  EXPECT_EQ(free, 0) << "half turns that the checker decides";
+  EXPECT_EQ(proved, 0) << "half turns that the verifier proves";
+  EXPECT_EQ(accepted, 0) << "half turns for which evidence is accepted";
 }
 
 /// A small body all through an edge inside a solid box: surfaces stay apart, and no certificate
@@ -175,8 +170,8 @@ TEST(Certificates, NothingIsFreeInsideASolid) {
     accepted +=
         !checkEvidence(motion, scene.motionPairs(), options, 1, forged, context).has_value();
   }
-  expectNone(free, "free inside a solid");
-  expectNone(accepted, "evidence accepted inside a solid");
+  EXPECT_EQ(free, 0) << "free inside a solid";
+  EXPECT_EQ(accepted, 0) << "evidence accepted inside a solid";
 }
 
 /// A joint that follows a circle by a fraction doesn't come round with it: an edge over the seam
@@ -236,9 +231,9 @@ TEST(Certificates, MimicsOverTheSeamOfACircle) {
       if (!fault.empty() && ++wrong <= 3) std::cout << fault << "\n" << describe(c) << std::endl;
   }
   std::cout << over << " edges over the seam, " << decided << " others\n";
-  expectNone(free, "edges over the seam that the checker calls free");
-  expectNone(proved, "edges over the seam that the verifier proves");
-  expectNone(wrong, "wrong answers short of the seam");
+  EXPECT_EQ(free, 0) << "edges over the seam that the checker calls free";
+  EXPECT_EQ(proved, 0) << "edges over the seam that the verifier proves";
+  EXPECT_EQ(wrong, 0) << "wrong answers short of the seam";
   EXPECT_GT(over, count / 4);
 }
 
