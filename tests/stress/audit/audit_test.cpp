@@ -1,0 +1,68 @@
+// The audit: bodies that graze by construction, whose verdict is known in 128 bits, put to the
+// checker and the verifier. ../README.md says what is in it.
+#include "tests/stress/audit/audit.h"
+
+#include <gtest/gtest.h>
+
+namespace corridor::audit {
+namespace {
+
+TEST(Audit, Edges) {
+  Audit audit(1, {});
+  audit.run(countOf(20'000, 1'000'000));
+  audit.report("edges");
+  audit.expectDecided();
+}
+
+TEST(Audit, States) {
+  Audit audit(2, {.states = true});
+  audit.run(countOf(20'000, 1'000'000));
+  audit.report("states");
+  audit.expectDecided();
+}
+
+/// Bodies that stick in each other by no more than poses are rounded: only the bounds of the
+/// rounding are between a proof and a contact.
+TEST(Audit, DepthsOfRounding) {
+  for (const bool states : {false, true}) {
+    Audit audit(9, {.states = states, .fine = true, .verify = 20});
+    audit.run(countOf(6'000, 200'000));
+    audit.report(states ? "depths of rounding, states" : "depths of rounding, edges");
+  }
+}
+
+/// Values of circles of up to 10^25 rad, as `from`, as `to`, as both: where they are so large that
+/// rounding decides which way is the shorter one, no answer but `undecided` is right.
+TEST(Audit, LargeValuesOfCircles) {
+  for (const bool states : {false, true}) {
+    Audit audit(3, {.states = states, .verify = 1, .family = Family::largeCircles});
+    audit.run(countOf(1'500, 50'000));
+    audit.report(states ? "large circles, states" : "large circles, edges");
+  }
+}
+
+/// Floating point in another mode while the query runs: an answer is right, or it is a refusal.
+/// Flush-to-zero is no reason to refuse.
+class Modes : public testing::TestWithParam<Mode> {};
+
+TEST_P(Modes, RightOrRefused) {
+  for (const bool states : {false, true}) {
+    Audit audit(4, {.states = states, .verify = 2, .mode = GetParam()});
+    audit.run(countOf(1'000, 50'000));
+    audit.report(states ? "states" : "edges");
+    if (GetParam() == Mode::flushToZero) audit.expectDecided();
+  }
+}
+
+std::string nameOfMode(const testing::TestParamInfo<Mode>& mode) {
+  const char* names[] = {"Usual", "FlushToZero", "Upward", "Downward", "TowardZero", "ShortX87"};
+  return names[static_cast<int>(mode.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Audit, Modes,
+                         testing::Values(Mode::flushToZero, Mode::upward, Mode::downward,
+                                         Mode::towardZero, Mode::shortX87),
+                         nameOfMode);
+
+}  // namespace
+}  // namespace corridor::audit

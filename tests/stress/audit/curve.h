@@ -1,0 +1,159 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/robot/kinematic_tree.h"
+#include "tests/stress/audit/quad.h"
+
+namespace corridor::audit {
+
+/// An edge as plain data, and the two frames whose bodies may meet.
+struct Edge {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  Configuration from, to;
+  Configuration tube;                 ///< as EdgeMotion takes it; mostly zero
+  std::size_t first = 0, second = 0;  ///< frames
+};
+
+/// A stray from a curve: what is added to each number of a configuration. A rotation's first three
+/// numbers are a rotation vector, about which it turns besides.
+using Stray = std::vector<Quad>;
+
+/// The motion of one frame as seen from another along an edge, by the definition of an edge:
+/// numbers linear in t, circles the shorter way of the real difference modulo 2π, rotations by
+/// slerp of the quaternions normalised, the shorter arc; joints follow by multiplier·q + offset.
+template <class S>
+class Curve {
+ public:
+  /// @param stray  empty: none.
+  Curve(const Edge& edge, std::size_t watcher, std::size_t watched, const Stray& stray = {});
+  /// The same curve with fewer digits.
+  template <class Other>
+  explicit Curve(const Curve<Other>& other);
+
+  /// The map from the watched frame to the watcher's.
+  Pose<S> at(S t) const;
+
+  /// Bounds for points of the watched frame at most `radius` from its origin: |x'| and |x''|. With
+  /// Ω the sum of all turns, V of all slides and R of all lengths: ΩR + V, and Ω²R + 2ΩV.
+  double speed(double radius) const { return turned_ * (length_ + radius) + slid_; }
+  double bend(double radius) const { return turned_ * (speed(radius) + slid_); }
+  double turned() const { return turned_; }    ///< rad, of all joints
+  double length() const { return length_; }    ///< m, no less than the way through all joints
+  double largest() const { return largest_; }  ///< rad, of any joint's values as stored
+  /// Where only one joint turns, all accelerations are at a right angle to its axis.
+  bool oneTurn() const { return turning_ == 1; }
+  /// The axis of it at t, in the watcher's frame; unit.
+  Vec<S> axisAt(S t) const;
+
+  std::size_t joints() const { return elements_.size(); }
+
+ private:
+  template <class Other>
+  friend class Curve;
+
+  struct Element {
+    Frame::Joint joint = Frame::Joint::none;
+    bool inverted = false;
+    Pose<S> fixed;
+    Vec<S> axis;           // of a turn or slide
+    S value = 0, way = 0;  // of a turn or slide at t = 0, and in all
+    Vec<S> shift, shiftWay;
+    std::array<S, 4> q0{}, q1{};
+    S omega = 0, sineOfOmega = 0;
+    Mat<S> stray;  // of a rotation, before it
+  };
+  Pose<S> poseOf(const Element& e, S t) const;
+  void add(const Edge& edge, std::size_t frame, bool inverted, const Stray& stray);
+
+  std::vector<Element> elements_;  // from the watcher to the watched
+  double turned_ = 0, slid_ = 0, length_ = 0, largest_ = 0;
+  int turning_ = 0;
+};
+
+/// How far a circle goes from one value to another, the shorter way; exact to 33 digits.
+Quad circleWay(double from, double to);
+
+template <class S>
+template <class Other>
+Curve<S>::Curve(const Curve<Other>& o)
+    : turned_(o.turned_),
+      slid_(o.slid_),
+      length_(o.length_),
+      largest_(o.largest_),
+      turning_(o.turning_) {
+  const auto mat = [](const Mat<Other>& m) {
+    Mat<S> n;
+    for (std::size_t i = 0; i < 3; ++i) n.row[i] = Vec<S>(m.row[i]);
+    return n;
+  };
+  for (const auto& e : o.elements_) {
+    Element n;
+    n.joint = e.joint, n.inverted = e.inverted;
+    n.fixed = {mat(e.fixed.R), Vec<S>(e.fixed.p)};
+    n.axis = Vec<S>(e.axis), n.value = S(e.value), n.way = S(e.way);
+    n.shift = Vec<S>(e.shift), n.shiftWay = Vec<S>(e.shiftWay);
+    for (std::size_t i = 0; i < 4; ++i) n.q0[i] = S(e.q0[i]), n.q1[i] = S(e.q1[i]);
+    n.omega = S(e.omega), n.sineOfOmega = S(e.sineOfOmega);
+    n.stray = mat(e.stray);
+    elements_.push_back(n);
+  }
+}
+
+template <class S>
+Pose<S> Curve<S>::poseOf(const Element& e, S t) const {
+  Pose<S> joint;
+  switch (e.joint) {
+    case Frame::Joint::none:
+      break;
+    case Frame::Joint::turn: {
+      const S phi = e.value + t * e.way;
+      joint.R = turnAbout(e.axis, sine(phi), cosine(phi));
+      break;
+    }
+    case Frame::Joint::slide:
+      joint.p = e.axis * (e.value + t * e.way);
+      break;
+    case Frame::Joint::shift:
+      joint.p = e.shift + e.shiftWay * t;
+      break;
+    case Frame::Joint::rotate: {
+      const bool turns = e.sineOfOmega > 0;
+      const S a = turns ? sine((1 - t) * e.omega) / e.sineOfOmega : 1 - t;
+      const S b = turns ? sine(t * e.omega) / e.sineOfOmega : t;
+      std::array<S, 4> q;
+      for (std::size_t i = 0; i < 4; ++i) q[i] = a * e.q0[i] + b * e.q1[i];
+      joint.R = e.stray * rotationOf(q);
+      break;
+    }
+  }
+  return e.fixed * joint;
+}
+
+template <class S>
+Pose<S> Curve<S>::at(S t) const {
+  Pose<S> X;
+  for (const Element& e : elements_) X = X * (e.inverted ? poseOf(e, t).inverse() : poseOf(e, t));
+  return X;
+}
+
+template <class S>
+Vec<S> Curve<S>::axisAt(S t) const {
+  Pose<S> X;
+  for (const Element& e : elements_) {
+    const Pose<S> own = poseOf(e, t);
+    if (e.joint == Frame::Joint::turn && e.way != 0)
+      return e.inverted ? X.R * e.axis : (X * e.fixed).R * e.axis;
+    if (e.joint == Frame::Joint::rotate && e.omega > 0) {
+      // The vector part of q1·q0⁻¹, in the frame after `fixed`: w0 v1 − w1 v0 − v1 × v0.
+      const Vec<S> v0(e.q0[0], e.q0[1], e.q0[2]), v1(e.q1[0], e.q1[1], e.q1[2]);
+      const Vec<S> k = e.stray * unit(v1 * e.q0[3] - v0 * e.q1[3] - cross(v1, v0));
+      return e.inverted ? (X * own.inverse()).R * (e.fixed.R * k) : (X * e.fixed).R * k;
+    }
+    X = X * (e.inverted ? own.inverse() : own);
+  }
+  return {1, 0, 0};
+}
+
+}  // namespace corridor::audit
