@@ -1,6 +1,7 @@
 // A fuzz target without libFuzzer: runs every file named, or in the folders named, and then
 // mutations of them.
-//   fuzz_TARGET [--mutations N] FILE|FOLDER…
+//   fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…
+// An input that takes longer than SECONDS (10) is a finding.
 // Same seed (CORRIDOR_SEED), same mutations. Each input is written to TMPDIR/corridor_fuzz_TARGET
 // before it runs: where the program ends in it, that file is the reproducer.
 #include <algorithm>
@@ -16,8 +17,6 @@ namespace {
 
 using Random = std::mt19937_64;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::chrono::seconds kLongestInput{10};
 
 std::size_t below(Random& random, std::size_t n) {
   return n == 0 ? 0 : random() % n;
@@ -64,22 +63,27 @@ std::string mutated(std::string bytes, const std::vector<std::string>& inputs, R
   return bytes;
 }
 
-void run(const std::string& input, const std::filesystem::path& kept) {
+void run(const std::string& input, std::chrono::seconds longest,
+         const std::filesystem::path& kept) {
   std::ofstream(kept, std::ios::binary | std::ios::trunc) << input;
   const auto start = Clock::now();
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
-  if (Clock::now() - start > kLongestInput) corridor::fuzz::fail("more than 10 s for one input");
+  if (Clock::now() - start > longest)
+    corridor::fuzz::fail("more than " + std::to_string(longest.count()) + " s for one input");
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   std::size_t mutations = 0;
+  std::chrono::seconds longest{10};
   std::vector<std::string> inputs;
   for (int i = 1; i < count; ++i) {
     const std::filesystem::path path = arguments[i];
     if (path == "--mutations" && i + 1 < count) {
       mutations = std::stoul(arguments[++i]);
+    } else if (path == "--longest" && i + 1 < count) {
+      longest = std::chrono::seconds(std::stoul(arguments[++i]));
     } else if (std::filesystem::is_directory(path)) {
       std::vector<std::filesystem::path> files{std::filesystem::directory_iterator(path), {}};
       std::sort(files.begin(), files.end());
@@ -99,10 +103,10 @@ int main(int count, char** arguments) {
   std::cout << inputs.size() << " inputs, then " << mutations
             << " mutations, CORRIDOR_SEED=" << seed << "; the input that runs is in "
             << kept.string() << std::endl;
-  for (const std::string& input : inputs) run(input, kept);
+  for (const std::string& input : inputs) run(input, longest, kept);
   Random random(seed);
   for (std::size_t i = 0; i < mutations; ++i)
-    run(mutated(inputs[below(random, inputs.size())], inputs, random), kept);
+    run(mutated(inputs[below(random, inputs.size())], inputs, random), longest, kept);
   std::error_code ignored;
   std::filesystem::remove(kept, ignored);
 }
