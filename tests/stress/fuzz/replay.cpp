@@ -2,8 +2,8 @@
 // mutations of them.
 //   fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…
 // An input that takes longer than SECONDS (10) is a finding.
-// Same seed (CORRIDOR_SEED), same mutations. Each input is written to TMPDIR/corridor_fuzz_TARGET
-// before it runs: where the program ends in it, that file is the reproducer.
+// Same seed (CORRIDOR_SEED), same mutations. Each input is written to TMPDIR/input before it runs:
+// where the program ends in it, that file is the reproducer.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -96,8 +96,7 @@ int main(int count, char** arguments) {
     std::cerr << "fuzz target: name files of inputs, or folders of them\n";
     return 2;
   }
-  const auto kept = std::filesystem::temp_directory_path() /
-                    ("corridor_" + std::filesystem::path(arguments[0]).filename().string());
+  const auto kept = std::filesystem::temp_directory_path() / "input";
   const char* const asked = std::getenv("CORRIDOR_SEED");
   const unsigned long seed = asked ? std::stoul(asked) : 7;
   std::cout << inputs.size() << " inputs, then " << mutations
