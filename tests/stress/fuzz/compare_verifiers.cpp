@@ -56,12 +56,13 @@ void addJoint(Decoder& in, Robot& robot) {
       frame.joint = Frame::Joint::slide;
       frame.variable = robot.variable(Kind::line);
       break;
-    case 3: {  // follows the first line, or is held
+    case 3: {  // follows the first line or circle, or is held
       frame.joint = in.oneIn(2) ? Frame::Joint::slide : Frame::Joint::turn;
       frame.multiplier = in.real();
       frame.offset = in.real();
       for (const Coordinate& c : robot.space.coordinates())
-        if (c.kind == Kind::line && frame.variable == Frame::noVariable) frame.variable = c.first;
+        if (c.kind != Kind::rotation && frame.variable == Frame::noVariable)
+          frame.variable = c.first;
       break;
     }
     case 4:
@@ -94,6 +95,8 @@ void decodeEdge(Decoder& in, Robot& robot) {
     } else {
       robot.from[i] = in.real();
       robot.to[i] = little ? robot.from[i] + 1e-3 * in.real() : in.real();
+      if (c.kind == Coordinate::Kind::circle && in.oneIn(4))  // many turns
+        (in.oneIn(2) ? robot.from : robot.to)[i] *= std::pow(10.0, in.below(25));
     }
     if (tube) robot.tube[i] = std::min(std::abs(in.real()), 1.0) * 1e-3;
   }

@@ -2,13 +2,13 @@
 # seeds.sh TARGET FOLDER: fills FOLDER with the inputs that fuzzing TARGET starts from: files of the project that are
 # small enough, and those in seeds/TARGET. Targets that read several formats have a first line with the file's ending.
 set -euo pipefail
-target=$1 folder=$2
+mkdir -p "$2"
+target=$1 folder=$(cd "$2" && pwd)
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 project=$here/../../..
 largest=20000  # bytes
 shopt -s nullglob
 
-mkdir -p "$folder"
 rm -f "$folder"/*
 
 # seeds FILE…: with the ending in the first line, where the target wants one.
