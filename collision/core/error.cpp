@@ -5,6 +5,15 @@
 namespace corridor {
 namespace {
 
+/// What a file has of control characters is shown as '?': each fault is one line, and none of them
+/// speaks to the terminal.
+std::vector<Fault> printable(std::vector<Fault> faults) {
+  for (Fault& fault : faults)
+    for (char& c : fault.text)
+      if ((c >= 0 && c < ' ') || c == 0x7f) c = '?';
+  return faults;
+}
+
 std::string joined(const std::vector<Fault>& faults) {
   std::string text;
   for (const Fault& fault : faults) {
@@ -23,6 +32,6 @@ std::string Fault::str() const {
 }
 
 InputError::InputError(std::vector<Fault> faults)
-    : std::runtime_error(joined(faults)), faults_(std::move(faults)) {}
+    : std::runtime_error(joined(printable(faults))), faults_(printable(std::move(faults))) {}
 
 }  // namespace corridor

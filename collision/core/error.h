@@ -16,8 +16,8 @@ struct Fault {
   std::string str() const;
 };
 
-/// Bad input. Carries all faults that were found, `what()` has them one a line. The program turns
-/// it into exit status 2.
+/// Bad input. Carries all faults that were found, `what()` has them one a line (control characters
+/// in their texts become '?'). The program turns it into exit status 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Fault> faults);

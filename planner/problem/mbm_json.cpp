@@ -76,6 +76,8 @@ class MbmReader {
       const auto line = 1 + std::count(text.begin(), end, '\n');
       throw InputError(
           Fault{file_.string(), static_cast<int>(line), "is not JSON, or ends too early"});
+    } catch (const Json::out_of_range&) {
+      stop("has a number that is too large for a double");
     }
   }
 

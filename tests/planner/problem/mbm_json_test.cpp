@@ -63,6 +63,8 @@ TEST_F(MbmJson, Faults) {
       "sets/box.json: a.type: one of box, cylinder, sphere is needed, not \"torus\"");
   EXPECT_EQ(complaint(write("x.json", "{\n\"a\": ,\n}")),
             "x.json:2: is not JSON, or ends too early");
+  EXPECT_EQ(complaint(write("x.json", "{\"a\": 1e999}")),
+            "x.json: has a number that is too large for a double");
   EXPECT_EQ(complaint(write("x.json", "[]")),
             "x.json: a set of problems (format: mbm-scene-1) is needed");
   EXPECT_EQ(complaint(folder_ / "gone.json"), "gone.json: no such file");

@@ -34,6 +34,15 @@ TEST_F(ProblemFaults, Files) {
             "robot.yaml:1: format: corridor-problem-1 is needed here, not \"corridor-robot-1\"");
 }
 
+TEST_F(ProblemFaults, AreOfOneLineWithoutControlCharacters) {
+  const std::string text =
+      complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {rock: {mesh: "
+                  "\"a\\e[2J\\nb.obj\"}}\n" +
+                  poses);
+  EXPECT_THAT(text, testing::HasSubstr("a?[2J?b.obj: no such file"));
+  EXPECT_EQ(text.find('\x1b'), text.npos);
+}
+
 TEST_F(ProblemFaults, Syntax) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
             "problem.yaml:3: is not YAML: end of sequence flow not found");

@@ -1,0 +1,183 @@
+// Two bodies under two maps: wide trees and binary ones of every volume give one answer, within the
+// errors that collision/queries promises.
+#include <cmath>
+#include <set>
+
+#include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/with_volume.h"
+#include "collision/queries/contacts.h"
+#include "collision/queries/interference_wide.h"
+#include "collision/world/body_queries.h"
+#include "tests/stress/fuzz/decode.h"
+#include "tests/stress/fuzz/fuzz.h"
+
+namespace corridor::fuzz {
+namespace {
+
+struct Kind {
+  std::string name;
+  TreeKind trees;
+};
+/// The wide one first.
+const std::vector<Kind>& everyKind() {
+  static const std::vector<Kind> kinds = [] {
+    std::vector<Kind> all;
+    for (const VolumeKind& volume : volumeKinds())
+      for (const std::string& overlap : volume.overlaps)
+        all.push_back(
+            {volume.name + " by " + overlap, treesNamed({volume.name, "", overlap}).trees});
+    return all;
+  }();
+  return kinds;
+}
+
+/// nullopt: the bytes are no sound body.
+std::optional<Body> decodeBody(Decoder& in) {
+  const std::size_t kind = in.below(4);
+  if (kind == 0) {
+    ConvexPart part = in.part();
+    for (const Vec3& p : part.points)
+      if (!p.allFinite()) return std::nullopt;
+    return Body("part", std::move(part));
+  }
+  TreeParams params;
+  params.fit = static_cast<ObbFit>(in.below(3));
+  params.split = in.oneIn(2) ? SplitRule::median : SplitRule::mean;
+  params.building = in.oneIn(3) ? TreeBuilding::bottomUp : TreeBuilding::topDown;
+  const bool solid = kind == 1;
+  TriangleMesh mesh = solid ? in.closedMesh() : in.mesh();
+  if (checkMesh(mesh)) return std::nullopt;
+  try {
+    return Body(solid ? "solid" : "surface", std::move(mesh), solid, params);
+  } catch (const std::invalid_argument&) {
+    if (!solid) throw;
+    return std::nullopt;  // corners coincide: nothing is closed
+  }
+}
+
+/// The largest Σ|m||v| + |t| of the corners, with radii.
+double reachOf(const Body& body, const Transform& X) {
+  double most = 0;
+  const auto add = [&](const Vec3& v, double radius) {
+    const double reach =
+        (X.m.cwiseAbs() * (v.cwiseAbs() + Vec3::Constant(radius)) + X.t.cwiseAbs()).maxCoeff();
+    most = std::max(most, reach);
+  };
+  if (const ConvexPart* part = body.part())
+    for (const Vec3& p : part->points) add(p, part->radius);
+  for (const Vec3& v : body.mesh().vertices) add(v, 0);
+  return most;
+}
+
+struct Case {
+  const Body& a;
+  const Body& b;
+  Transform X_WA, X_WB;
+};
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+void compare(const Case& c, double asked) {
+  const double S = std::max(reachOf(c.a, c.X_WA), reachOf(c.b, c.X_WB));
+  if (!std::isfinite(S)) return;
+  const bool meshes = !c.a.part() && !c.b.part();
+  // Primitives: touching is decided in a band of 2^-44 of the largest coordinate.
+  const double band = meshes ? 0 : 0x1p-42 * S;
+  const auto error = [&](double d) { return 1e-12 * d + 4 * 0x1p-53 * S + band + 0x1p-998; };
+
+  struct Told {
+    bool touch;
+    double distance;
+  };
+  std::vector<Told> told;
+  QueryContext context;  // one for all: what it remembers may change no answer
+  for (const Kind& kind : everyKind()) {
+    const bool touch = interference(c.a, c.X_WA, c.b, c.X_WB, context, kind.trees).has_value();
+    const Distance d = distance(c.a, c.X_WA, c.b, c.X_WB, {}, context, kind.trees);
+    if (!(d.distance >= 0 && std::isfinite(d.distance)))
+      fail(kind.name + ": a distance of " + number(d.distance));
+    if (touch != (d.distance == 0))
+      fail(kind.name + ": contact is " + std::to_string(touch) + ", distance " +
+           number(d.distance));
+    const double between = (d.p_WA - d.p_WB).stableNorm();
+    if (!(std::abs(between - d.distance) <= 1e-11 * d.distance + 0x1p-44 * S + band + 0x1p-998))
+      fail(kind.name + ": distance " + number(d.distance) + ", of points " + number(between) +
+           " apart");
+    const bool back = interference(c.b, c.X_WB, c.a, c.X_WA, context, kind.trees).has_value();
+    if (back != touch && d.distance > band)
+      fail(kind.name + ": contact is " + std::to_string(touch) + ", the other way round " +
+           std::to_string(back));
+    told.push_back({touch, d.distance});
+    const Told& first = told.front();
+    const std::string both = everyKind().front().name + " and " + kind.name;
+    if (touch != first.touch && std::max(first.distance, d.distance) > band)
+      fail(both + ": contact is " + std::to_string(first.touch) + " and " + std::to_string(touch) +
+           ", at distances " + number(first.distance) + " and " + number(d.distance));
+    if (std::abs(first.distance - d.distance) > error(first.distance) + error(d.distance))
+      fail(both + ": distances " + number(first.distance) + " and " + number(d.distance));
+    const double rough =
+        distance(c.a, c.X_WA, c.b, c.X_WB, {0.25, 0}, context, kind.trees).distance;
+    if (!(rough >= d.distance - 2 * error(d.distance) &&
+          rough <= 1.25 * d.distance + 3 * error(d.distance)))
+      fail(kind.name + ": distance " + number(d.distance) + ", with a quarter allowed " +
+           number(rough));
+  }
+  const double d = told.front().distance;
+  for (const double x : {asked, d, d * (1 + 1e-9), d * (1 - 1e-9), 0.5 * d}) {
+    if (!std::isfinite(x)) continue;
+    for (const Kind& kind : everyKind()) {
+      const bool closer = closerThan(c.a, c.X_WA, c.b, c.X_WB, x, context, kind.trees);
+      if (closer ? d > x + 2 * error(x) + error(d) : d < x - error(d))
+        fail(kind.name + ": distance " + number(d) + ", but closer than " + number(x) + " is " +
+             std::to_string(closer));
+    }
+  }
+}
+
+using Pairs = std::multiset<std::pair<std::uint32_t, std::uint32_t>>;
+
+template <class Contacts>
+Pairs pairsOf(const Contacts& contacts) {
+  Pairs pairs;
+  for (const TriangleContact& contact : contacts) pairs.insert({contact.a, contact.b});
+  return pairs;
+}
+
+void compareContacts(const Case& c) {
+  if (c.a.part() || c.b.part()) return;
+  QueryContext context;
+  const Pairs wide = pairsOf(contacts(c.a.tree(), c.X_WA, c.b.tree(), c.X_WB, context));
+  for (const Kind& kind : everyKind()) {
+    if (kind.trees == TreeKind::wideObb) continue;
+    const Pairs pairs = onVolumeTrees(
+        kind.trees, c.a, c.b, [&]<class Overlap>(Overlap, const auto& a, const auto& b) {
+          return pairsOf(contacts<Overlap>(a, c.X_WA, b, c.X_WB, context));
+        });
+    if (pairs != wide)
+      fail(kind.name + ": " + std::to_string(pairs.size()) + " contacts, wide trees have " +
+           std::to_string(wide.size()));
+  }
+}
+
+}  // namespace
+}  // namespace corridor::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace corridor;
+  fuzz::Decoder in(data, size);
+  static constexpr double limits[] = {1e3, 1e6, 1e9, 1e60};
+  in.limit(limits[in.below(4)]);
+  const bool rigid = !in.oneIn(4);
+  const Transform X_WA = rigid ? in.map() : in.anyMap(), X_WB = rigid ? in.map() : in.anyMap();
+  const double asked = std::abs(in.real());
+  const std::optional<Body> a = fuzz::decodeBody(in), b = fuzz::decodeBody(in);
+  if (!a || !b || !X_WA.isFinite() || !X_WB.isFinite()) return 0;
+  const fuzz::Case c{*a, *b, X_WA, X_WB};
+  fuzz::compare(c, asked);
+  fuzz::compareContacts(c);
+  return 0;
+}

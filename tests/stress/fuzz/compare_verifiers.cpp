@@ -1,0 +1,246 @@
+// An edge of a small robot among small bodies: the checker and the verifier, which share no code,
+// never contradict each other. `undecided` contradicts nothing.
+#include <cmath>
+
+#include "collision/geometry/mesh_health.h"
+#include "collision/motion/edge_method.h"
+#include "planner/robot/edge_motion.h"
+#include "planner/verify/verify_path.h"
+#include "tests/stress/fuzz/decode.h"
+#include "tests/stress/fuzz/fuzz.h"
+
+namespace corridor::fuzz {
+namespace {
+
+struct Shape {
+  TriangleMesh mesh;
+  std::optional<ConvexPart> part;
+  bool solid = false;
+  std::size_t frame = 0;
+};
+
+struct Robot {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  Configuration from, to, tube;
+  std::vector<Shape> shapes;
+  double size = 0;  ///< of all coordinates together, metres: what roundings go by
+
+  std::size_t variable(Coordinate::Kind kind) {
+    Coordinate c;
+    c.kind = kind;
+    return space.coordinates()[space.add(c)].first;
+  }
+};
+
+void addJoint(Decoder& in, Robot& robot) {
+  using Kind = Coordinate::Kind;
+  Frame frame;
+  frame.parent = in.oneIn(4) ? in.below(robot.tree.frames.size()) : robot.tree.frames.size() - 1;
+  frame.fixed = in.pose();
+  frame.axis = in.direction();
+  switch (in.below(8)) {
+    case 0:  // floating
+      frame.joint = Frame::Joint::shift;
+      frame.count = 3;
+      frame.variable = robot.variable(Kind::line);
+      robot.variable(Kind::line), robot.variable(Kind::line);
+      break;
+    case 1:  // planar
+      frame.joint = Frame::Joint::shift;
+      frame.count = 2;
+      frame.variable = robot.variable(Kind::line);
+      robot.variable(Kind::line);
+      break;
+    case 2:
+      frame.joint = Frame::Joint::slide;
+      frame.variable = robot.variable(Kind::line);
+      break;
+    case 3: {  // follows the first line or circle, or is held
+      frame.joint = in.oneIn(2) ? Frame::Joint::slide : Frame::Joint::turn;
+      frame.multiplier = in.real();
+      frame.offset = in.real();
+      for (const Coordinate& c : robot.space.coordinates())
+        if (c.kind != Kind::rotation && frame.variable == Frame::noVariable)
+          frame.variable = c.first;
+      break;
+    }
+    case 4:
+      frame.joint = Frame::Joint::turn;
+      frame.variable = robot.variable(Kind::circle);
+      break;
+    default:
+      frame.joint = Frame::Joint::turn;
+      frame.variable = robot.variable(Kind::line);
+  }
+  const std::size_t added = robot.tree.add(frame);
+  if (frame.joint != Frame::Joint::shift) return;
+  Frame turn;
+  turn.parent = added;
+  turn.joint = frame.count == 3 ? Frame::Joint::rotate : Frame::Joint::turn;
+  turn.variable = robot.variable(frame.count == 3 ? Kind::rotation : Kind::circle);
+  robot.tree.add(turn);
+}
+
+void decodeEdge(Decoder& in, Robot& robot) {
+  const auto size = static_cast<Eigen::Index>(robot.space.size());
+  robot.from = robot.to = robot.tube = Configuration::Zero(size);
+  const bool tube = in.oneIn(3);
+  const bool little = in.oneIn(3);
+  for (const Coordinate& c : robot.space.coordinates()) {
+    const auto i = static_cast<Eigen::Index>(c.first);
+    if (c.kind == Coordinate::Kind::rotation) {
+      robot.from.segment<4>(i) = in.quaternion().coeffs();
+      robot.to.segment<4>(i) = in.quaternion().coeffs();
+    } else {
+      robot.from[i] = in.real();
+      robot.to[i] = little ? robot.from[i] + 1e-3 * in.real() : in.real();
+      if (c.kind == Coordinate::Kind::circle && in.oneIn(4))  // many turns
+        (in.oneIn(2) ? robot.from : robot.to)[i] *= std::pow(10.0, in.below(25));
+    }
+    if (tube) robot.tube[i] = std::min(std::abs(in.real()), 1.0) * 1e-3;
+  }
+}
+
+/// nullopt: the bytes are no sound scene.
+std::optional<Robot> decodeRobot(Decoder& in) {
+  Robot robot;
+  for (std::size_t n = 1 + in.below(4); n > 0; --n) addJoint(in, robot);
+  decodeEdge(in, robot);
+  const std::size_t bodies = 2 + in.below(3);
+  for (std::size_t n = 0; n < bodies; ++n) {
+    Shape shape;
+    // One stands on the last frame, one in the world.
+    shape.frame = n == 0   ? robot.tree.frames.size() - 1
+                  : n == 1 ? 0
+                           : in.below(robot.tree.frames.size());
+    const std::size_t kind = in.below(4);
+    shape.solid = kind == 1;
+    if (kind == 0)
+      shape.part = in.part();
+    else
+      shape.mesh = shape.solid ? in.closedMesh() : in.mesh();
+    if (kind != 0 && checkMesh(shape.mesh)) return std::nullopt;
+    robot.shapes.push_back(std::move(shape));
+  }
+  const auto length = [](const Vec3& v) { return v.stableNorm(); };
+  for (const Shape& shape : robot.shapes) {
+    double most = 0;
+    for (const Vec3& v : shape.part ? shape.part->points : shape.mesh.vertices)
+      most = std::max(most, length(v));
+    robot.size += most + (shape.part ? shape.part->radius : 0);
+  }
+  for (const Frame& frame : robot.tree.frames) {
+    robot.size += length(frame.fixed.p);
+    if (frame.joint == Frame::Joint::slide || frame.joint == Frame::Joint::shift) {
+      double most = std::abs(frame.offset);
+      if (frame.variable != Frame::noVariable)
+        for (std::size_t k = 0; k < frame.count; ++k) {
+          const auto i = static_cast<Eigen::Index>(frame.variable + k);
+          most +=
+              std::abs(frame.multiplier) * std::max(std::abs(robot.from[i]), std::abs(robot.to[i]));
+        }
+      robot.size += most;
+    }
+  }
+  if (!std::isfinite(robot.size)) return std::nullopt;
+  return robot;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+void compare(const Robot& robot, Decoder& in) {
+  PathProblem problem;
+  problem.tree = &robot.tree;
+  problem.space = &robot.space;
+  problem.tube = robot.tube;
+  std::vector<Scene::Placed> bodies;
+  for (const Shape& shape : robot.shapes) {
+    problem.bodies.push_back({"body " + std::to_string(bodies.size()),
+                              shape.part ? nullptr : &shape.mesh,
+                              shape.part ? &*shape.part : nullptr, shape.solid, shape.frame});
+    const std::string name = problem.bodies.back().name;
+    try {
+      bodies.push_back({shape.part ? Body(name, *shape.part) : Body(name, shape.mesh, shape.solid),
+                        shape.frame});
+    } catch (const std::invalid_argument&) {
+      if (!shape.solid) throw;
+      return;  // corners coincide: nothing is closed
+    }
+  }
+  std::vector<Scene::Pair> pairs;
+  for (std::size_t b = 1; b < bodies.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a)
+      if (bodies[a].frame != bodies[b].frame) {
+        pairs.push_back({a, b});
+        problem.pairs.push_back({a, b});
+      }
+  const Scene scene(std::move(bodies), std::move(pairs));
+
+  MotionOptions options;
+  const double rounding = 0x1p-40 * robot.size;
+  options.tolerance = std::max(scene.defaultTolerance(), 4 * rounding);
+  options.reserve = options.tolerance;
+  options.margin = in.oneIn(3) ? std::min(std::abs(in.real()), 0.1) : 0;
+  options.earliest = in.oneIn(4);
+  options.workLimit = 20'000;
+  options.trees = static_cast<TreeKind>(in.below(10));
+  const auto method = static_cast<EdgeMethod>(in.oneIn(2) ? 0 : in.below(3));
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) return;
+  problem.margin = options.margin;
+  problem.tolerance = 0.1 * options.tolerance;
+  problem.workLimit = 1'000;
+
+  EdgeMotion motion(robot.tree, robot.space, scene.framePairs(), robot.tube);
+  motion.set(robot.from, robot.to);
+  QueryContext context;
+  const MotionResult checked = scene.certify(motion, options, context, method);
+  const PathReport verified = verifyPath(problem, {robot.from, robot.to});
+  const std::string who = edgeMethodNames()[static_cast<std::size_t>(method)] + ", trees " +
+                          std::to_string(static_cast<int>(options.trees)) + ": ";
+  if (checked.verdict == MotionVerdict::free && verified.verdict == PathVerdict::refuted)
+    for (const PathFinding& finding : verified.findings)
+      if (finding.verdict == PathVerdict::refuted)
+        fail(who + "free, but refuted at t = " + number(finding.t) + " (" + finding.reason +
+             "), gap " + number(finding.gap) + ", " + finding.a + " and " + finding.b);
+  // A pose is rounded where the checker finds its contact, and need not touch before.
+  if (checked.verdict == MotionVerdict::contact && verified.verdict == PathVerdict::proved &&
+      verified.provenClearance > options.margin + rounding)
+    fail(who + "contact at t = " + number(checked.contactTime) +
+         ", but proved with a clearance of " + number(verified.provenClearance));
+
+  // States, without margin and tube.
+  problem.margin = 0;
+  problem.tube.setZero();
+  for (const Configuration& q : {robot.from, robot.to}) {
+    const bool touches =
+        scene.interference(framePoses(robot.tree, q), context, options.trees).has_value();
+    const double clearance = scene.clearance(framePoses(robot.tree, q), context, options.trees);
+    const PathReport state = verifyPath(problem, {q});
+    if (touches != (clearance == 0)) fail(who + "contact, at a distance of " + number(clearance));
+    if (touches && state.verdict == PathVerdict::proved && state.provenClearance > rounding)
+      fail(who + "contact in a state, proved with a clearance of " + number(state.provenClearance));
+    if (clearance > rounding && state.verdict == PathVerdict::refuted)
+      fail(who + "a state refuted (" + state.findings.front().reason + ") at a clearance of " +
+           number(clearance));
+    if (state.provenClearance > clearance + rounding)
+      fail(who + "a state proved with a clearance of " + number(state.provenClearance) +
+           ", but at " + number(clearance));
+  }
+}
+
+}  // namespace
+}  // namespace corridor::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace corridor;
+  fuzz::Decoder in(data, size);
+  static constexpr double limits[] = {10, 100, 1e3, 1e6};
+  in.limit(limits[in.below(4)]);
+  if (const auto robot = fuzz::decodeRobot(in)) fuzz::compare(*robot, in);
+  return 0;
+}

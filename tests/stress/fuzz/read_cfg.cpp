@@ -1,0 +1,16 @@
+// OMPL.app's .cfg files, beside small meshes.
+#include "planner/problem/problem.h"
+#include "tests/stress/fuzz/small_world.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace corridor;
+  static const fuzz::Folder folder;
+  static const bool ready = (fuzz::writeArm(folder), true);
+  const auto file = folder.write("problem.cfg", fuzz::textOf(data, ready ? size : 0));
+  fuzz::readsOrRefuses([&] {
+    const Problem problem = readProblem(file);
+    if (!problem.space.isFinite(problem.start) || !problem.space.inBounds(problem.start))
+      fuzz::fail("the start is out of bounds");
+  });
+  return 0;
+}

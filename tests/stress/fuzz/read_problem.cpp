@@ -1,0 +1,19 @@
+// Problem files (corridor-problem-1), beside small robots and meshes. What is read is built, too:
+// the checker takes any problem that the reader lets pass.
+#include "planner/checker/checker.h"
+#include "tests/stress/fuzz/small_world.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace corridor;
+  static const fuzz::Folder folder;
+  static const bool ready = (fuzz::writeSmallWorld(folder), true);
+  const auto file = folder.write("problems/p/problem.yaml", fuzz::textOf(data, ready ? size : 0));
+  fuzz::readsOrRefuses([&] {
+    const Problem problem = readProblem(file);
+    const Checker checker(problem);
+    if (!checker.inBounds(problem.start)) fuzz::fail("the start is out of bounds");
+    checker.interference(problem.start);
+    for (const Configuration& goal : problem.goals) checker.state(goal);
+  });
+  return 0;
+}

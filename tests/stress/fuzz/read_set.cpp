@@ -1,0 +1,17 @@
+// MotionBenchMaker's sets (mbm-scene-1, JSON), beside a small arm.
+#include "planner/problem/problem.h"
+#include "tests/stress/fuzz/small_world.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace corridor;
+  static const fuzz::Folder folder;
+  static const bool ready = (fuzz::writeArm(folder), true);
+  const auto file = folder.write("sets/box.json", fuzz::textOf(data, ready ? size : 0));
+  for (const char* index : {"#1", "#2", ""})
+    fuzz::readsOrRefuses([&] {
+      const Problem problem = readProblem(file.string() + index);
+      if (!problem.space.isFinite(problem.start) || !problem.space.inBounds(problem.start))
+        fuzz::fail("the start is out of bounds");
+    });
+  return 0;
+}
