@@ -84,7 +84,7 @@ void Audit::expectDecided() const {
     EXPECT_GT(table->sum(Table::truthContact), all / 4);
     EXPECT_GT(table->sum(Table::free), all / 10);
     EXPECT_GT(table->sum(Table::contact), all / 10);
-    EXPECT_LT(table->sum(Table::atLimit), all / 20);
+    EXPECT_LT(table->sum(Table::atLimit), all / 10);
   }
 }
 

@@ -160,10 +160,10 @@ struct Maker {
 }  // namespace
 
 std::string nameOf(Family family) {
-  const char* names[] = {"planar body", "spatial body", "chain",      "branches",
-                         "moving base", "mimics",       "far slides", "many turns",
-                         "half turns",  "nearly equal", "scales",     "offsets",
-                         "tiny bodies", "large circles"};
+  const char* names[] = {"planar body", "spatial body", "chain",        "branches",
+                         "moving base", "mimics",       "far slides",   "many turns",
+                         "half turns",  "nearly equal", "scales",       "offsets",
+                         "tiny bodies", "reaching arm", "large circles"};
   return names[static_cast<std::size_t>(family)];
 }
 
@@ -252,6 +252,19 @@ Edge randomEdge(Dice& dice, Family family, bool still, double& size) {
       m.step = dice.power(-6, -2);
       m.anything();
       break;
+    case Family::reachingArm: {
+      bodies = 0.2;
+      Frame turn = m.place(0, 0.7), slide;
+      turn.joint = Frame::Joint::turn;
+      turn.variable = m.line(3, 0);
+      slide.parent = m.edge.tree.add(turn);
+      slide.joint = Frame::Joint::slide;
+      slide.fixed.p = Vec3(dice.real(1, 3), 0, dice.real());
+      slide.axis = Vec3(1, 0, dice.real());  // away from the turn's axis
+      slide.variable = m.line(1, 2);
+      m.edge.second = m.edge.tree.add(slide);
+      break;
+    }
     case Family::largeCircles: {
       m.onlyTurns(1 + dice.index(3));
       if (dice.oneIn(3)) m.edge.second = m.base(m.edge.second, true);

@@ -22,13 +22,14 @@ enum class Family {
   scales,        ///< all lengths times 10^-6 to 10^6
   offsets,       ///< up to 10^6 m from the world's origin
   tinyBodies,    ///< bodies of 2e-5 m at 40 to 330 m
+  reachingArm,   ///< only the slide at an arm's end moves: its tube grows with its reach
   largeCircles,  ///< values of circles of 10^4 to 10^25 rad
 };
-inline constexpr Family kFamilies[] = {Family::planarBody,  Family::spatialBody, Family::chain,
-                                       Family::branches,    Family::movingBase,  Family::mimics,
-                                       Family::farSlides,   Family::manyTurns,   Family::halfTurns,
-                                       Family::nearlyEqual, Family::scales,      Family::offsets,
-                                       Family::tinyBodies,  Family::largeCircles};
+inline constexpr Family kFamilies[] = {
+    Family::planarBody, Family::spatialBody, Family::chain,       Family::branches,
+    Family::movingBase, Family::mimics,      Family::farSlides,   Family::manyTurns,
+    Family::halfTurns,  Family::nearlyEqual, Family::scales,      Family::offsets,
+    Family::tinyBodies, Family::reachingArm, Family::largeCircles};
 std::string nameOf(Family family);
 
 /// A random edge of the family. @param[out] size  of the bodies that suit it, metres.

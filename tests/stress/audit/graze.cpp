@@ -255,7 +255,9 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   curve_ = nominal_;
   const Meeting meetings[] = {Meeting::along, Meeting::along, Meeting::along,
                               Meeting::start, Meeting::end,   Meeting::slide};
-  const Meeting meeting = meetings[dice.index(6)];
+  Meeting meeting = meetings[dice.index(6)];
+  // What a tube takes may grow up to the end: only there is it all of it.
+  if (inTube_ && dice.oneIn(2)) meeting = dice.oneIn(2) ? Meeting::start : Meeting::end;
   const double depth = std::exp2(1 + static_cast<double>(dice.index(10)));
   time_ = dice.oneIn(2) ? std::floor(dice.real(0, depth)) / depth : dice.real(0, 1);
   passesAlong_ = curve_->speed(1) > 0 && (meeting == Meeting::along || meeting == Meeting::slide);
