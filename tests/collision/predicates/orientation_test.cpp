@@ -48,7 +48,7 @@ TEST(OrientationSign, NearlyCoplanarPointsUnderTwoMaps) {
     return Mat3(Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix());
   };
   int roundedWrongly = 0, positive = 0, negative = 0;
-  for (int n = 0; n < 20'000; ++n) {
+  for (int n = 0; n < 5'000; ++n) {
     const double far = std::ldexp(1.0, static_cast<int>(10 * real()));
     const Transform X{rotation(), far * point()}, Y{rotation(), far * point()};
     const Transform X_YX{Y.m.transpose() * X.m, Y.m.transpose() * (X.t - Y.t)};
@@ -67,9 +67,9 @@ TEST(OrientationSign, NearlyCoplanarPointsUnderTwoMaps) {
     const double det = s.dot(q.cross(r));
     roundedWrongly += (det > 0) - (det < 0) != expected;
   }
-  EXPECT_GT(positive, 5'000);
-  EXPECT_GT(negative, 5'000);
-  EXPECT_GT(roundedWrongly, 1'000) << "the cases must be hard";
+  EXPECT_GT(positive, 1'000);
+  EXPECT_GT(negative, 1'000);
+  EXPECT_GT(roundedWrongly, 250) << "the cases must be hard";
 }
 
 /// Exactly in one plane, and off it by the least number there is.
