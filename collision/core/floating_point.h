@@ -11,9 +11,15 @@
 ///
 /// Flush-to-zero and denormals-are-zero are allowed: every bound has room for what they lose. A
 /// program that is linked with -ffast-math has both set from its start.
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "Corridor's bounds do not hold under -ffast-math or -ffinite-math-only: compile without them"
+///
+/// The headers refuse every option of g++ under which no bound holds. clang defines no macro for
+/// -fassociative-math and -freciprocal-math alone: there it is the caller's to leave them out.
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "Corridor's bounds do not hold under -ffast-math or any part of it: compile without it"
 #endif
+
+#include <limits>
 
 namespace corridor {
 
@@ -23,13 +29,14 @@ enum class FloatingPoint {
   precision  ///< long double does not keep all of its digits
 };
 
-/// How the processor computes in this thread. A dozen additions; no state is changed.
+/// How the processor computes in this thread. A dozen additions; they raise the flag "inexact".
 inline FloatingPoint floatingPoint() {
   // `volatile` keeps the compiler from computing these itself, which it would do to nearest.
   volatile double one = 1, little = 0x1p-60;
   if (one + little != 1 || -one - little != -1 || one - little != 1 || little - one != -1)
     return FloatingPoint::rounding;
-  volatile long double longOne = 1, last = 0x1p-63L, below = 0x1p-70L;
+  constexpr long double kEpsilon = std::numeric_limits<long double>::epsilon();
+  volatile long double longOne = 1, last = kEpsilon, below = kEpsilon / 128;
   if (longOne + last == 1) return FloatingPoint::precision;
   if (longOne + below != 1 || -longOne - below != -1 || longOne - below != 1 ||
       below - longOne != -1)

@@ -380,7 +380,7 @@ class Certifier {
     if (clearance) {
       const MotionPair& pair = pairs_[bodies_];
       moveTo(w.middle(), w.half());
-      result_.reason = reasonOf(windowOf(pair.motion), *pair.b, options_.tolerance);
+      result_.reason = reasonOf(windowOf(pair.motion), *pair.b, found_.gap, options_.tolerance);
       result_.pair = Contact{pair.bodyA, pair.bodyB, found_.s, found_.t};
       result_.gap = found_.gap;
     }

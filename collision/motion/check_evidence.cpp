@@ -44,7 +44,12 @@ class EvidenceCheck {
     const double beyond = std::max(0.0, i.clearance - options_.margin);
     const double needed =
         roundedUp(options_.margin + roundedUp(beyond / 2) + travel.cap + travel.pad);
-    if (needed < HUGE_VAL && !closer(needed)) return std::nullopt;
+    if (needed < HUGE_VAL && !closer(needed)) {
+      // Nothing passes through a surface between here and t = 0: what is outside stays so.
+      if (i.t0 > 0 || !insideEachOther(*pair.a, {}, *pair.b, window.X_AB, context_))
+        return std::nullopt;
+      return EvidenceFault{Kind::refuted, i.pair, 0};
+    }
     // Shorter windows gain nothing: what is not proved is lost to the pad, or does not hold.
     if (!(travel.cap >= std::max(beyond, options_.tolerance) / 4) ||
         !(i.t0 < middle && middle < i.t1))
@@ -52,17 +57,6 @@ class EvidenceCheck {
                            i.pair, middle};
     const auto first = faultIn({i.pair, i.t0, middle, i.clearance});
     return first ? first : faultIn({i.pair, middle, i.t1, i.clearance});
-  }
-
-  /// Surfaces that stay apart, of which one body is inside the other?
-  std::optional<EvidenceFault> insideAtStart() {
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const MotionPair& pair = pairs_[k];
-      const Transform X_AB = motion_.window(pair.motion, 0, 0).X_AB;
-      if (insideEachOther(*pair.a, {}, *pair.b, X_AB, context_))
-        return EvidenceFault{Kind::refuted, k, 0};
-    }
-    return std::nullopt;
   }
 
  private:
@@ -116,7 +110,7 @@ std::optional<EvidenceFault> checkEvidence(MotionSource& motion, std::span<const
   EvidenceCheck check(motion, pairs, options, context);
   for (const FreeInterval& i : intervals)
     if (auto fault = check.faultIn(i)) return fault;
-  return until > 0 ? check.insideAtStart() : std::nullopt;
+  return std::nullopt;
 }
 
 }  // namespace corridor

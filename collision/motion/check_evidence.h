@@ -29,10 +29,10 @@ struct EvidenceFault {
 /// Does the evidence hold? Proves anew that the intervals of every pair cover [0, until], and that
 /// all through each of them, for the tube around the motion, the two stay farther apart than the
 /// margin and half of what the interval claims beyond it. Solid meshes are tested for what is
-/// inside them once, at t = 0.
+/// inside them once, where the first window of an interval from t = 0 is proved.
 ///
-/// Guarantee: where nothing is found wrong, no pair comes as close as the margin on [0, until], and
-/// none is inside the other there.
+/// Guarantee: where nothing is found wrong and until > 0, no pair comes as close as the margin on
+/// [0, until], and none is inside the other there.
 ///
 /// The method is another one, on other trees: the tolerance query on the binary trees, at the
 /// middles of ever shorter windows, against an isotropic bound of how far b goes from there. All

@@ -125,8 +125,8 @@ MotionResult DistanceSteps::close(std::uint32_t pair, double t0, double time, do
   const Look seen = look(pair, time, 0, true);
   MotionResult result;
   result.verdict = MotionVerdict::undecided;
-  result.reason =
-      reasonOf(motion_.window(pairs_[pair].motion, time, 0), *pairs_[pair].b, options_.tolerance);
+  result.reason = reasonOf(motion_.window(pairs_[pair].motion, time, 0), *pairs_[pair].b, seen.gap,
+                           options_.tolerance);
   result.certifiedUntil = t0;
   result.contactTime = time;
   result.pair = Contact{pairs_[pair].bodyA, pairs_[pair].bodyB, seen.s, seen.t};

@@ -4,14 +4,17 @@
 
 namespace corridor {
 
-/// The reason of a pair that no window about the middle of `window`, however short, proves, though
-/// its clearance isn't known to be too small.
-/// @param window  without the reserve.
-inline UndecidedReason reasonOf(const MotionWindow& window, const Body& b, double tolerance) {
+/// Why a pair of bodies stays undecided in every window about the middle of `window`: its clearance
+/// is small, or the rounding of its pose takes more than half of the tolerance from a gap above it,
+/// or more than a thousandth of the body, so that the gap says nothing.
+/// @param window  without the reserve. @param gap  as measured at the middle, metres.
+inline UndecidedReason reasonOf(const MotionWindow& window, const Body& b, double gap,
+                                double tolerance) {
   const double lever = (window.X_AB.m * b.sphereCenter()).norm() + b.sphereRadius();
-  const bool sharp = window.fixedError - window.fixedTube +
-                         (window.reachError - window.reachTube) * lever <=
-                     tolerance / 2;
+  const double rounding =
+      window.fixedError - window.fixedTube + (window.reachError - window.reachTube) * lever;
+  const bool sharp =
+      rounding <= tolerance / 2 || (gap <= tolerance && rounding <= 1e-3 * b.sphereRadius());
   return sharp ? UndecidedReason::clearance : UndecidedReason::rounding;
 }
 
@@ -25,6 +28,7 @@ MotionResult answered(const MotionSource& motion, bool earliest, QueryContext& c
     MotionResult result;
     result.verdict = MotionVerdict::undecided;
     result.reason = reason;
+    result.certifiedUntil = 0;
     return result;
   };
   MotionResult result = !standardFloatingPoint() ? refused(UndecidedReason::floatingPoint)

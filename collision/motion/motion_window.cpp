@@ -33,7 +33,8 @@
 /// ½ r δ²|n × k| = ½ r δ |n × angular|. That is `bend`. The stored `angular` is off: its direction
 /// by rounding, which takes `tilt`·r δ²; its length δ by the window's reachError e (the rounding of
 /// the rate), which takes ½ r δ e here, and r δ e where the second order is computed itself
-/// (moving_triangles.cpp: ½ r (δ + e)² − ½ r δ²). `curvature` has r δ e.
+/// (moving_triangles.cpp): `amount` is no less than the real δ, and no more than e above |angular|,
+/// so that ½ r (δ² − |angular|²) ≤ r·amount·e. `curvature` has r·amount·e.
 ///
 /// Tube. x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1): what is
 /// after j is nominal. A bracket is at most |ε_j| times the distance of z_(j+1) from axis j, r̄_j

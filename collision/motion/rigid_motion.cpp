@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision/core/circle.h"
 #include "collision/core/rounding.h"
 
 namespace corridor {
 namespace {
-
-constexpr double kHalfTurnBand = 1e-9;  // radians; design: «What an edge is»
 
 /// How far the computed rotation, and the half-window's rotation vector, may be from the real ones,
 /// as an operator norm (so metres of displacement per metre of lever). With u the unit roundoff:
@@ -35,7 +34,7 @@ constexpr double kLeastError = 0x1p-400;
 void RigidMotion::setLine(const Vec3& from, const Vec3& to) {
   from_ = from;
   delta_ = to - from;
-  overflows_ = !delta_.allFinite();
+  unsound_ = !delta_.allFinite() || !standardFloatingPoint();
   direction_ = delta_.stableNormalized();
 }
 
@@ -85,17 +84,15 @@ RigidMotion RigidMotion::planar(const Vec3& from, const Vec3& to, const Tube& tu
   const double c = std::cos(from[2]), s = std::sin(from[2]);
   Mat3 R0;
   R0 << c, -s, 0, s, c, 0, 0, 0, 1;
-  const double turn = std::remainder(to[2] - from[2], 2 * std::numbers::pi);
-  // The difference of the yaws rounds once, and each of its at most (|a| + |b|)/2π + 1 turns
-  // is 2.5e-16 off 2π in double. Near a half turn that could take the longer way.
-  const double turnError = 0x1p-51 * (std::abs(from[2]) + std::abs(to[2]));
-  m.setRotation(R0, turn < 0 ? Vec3(0, 0, -1) : Vec3(0, 0, 1), std::abs(turn), turnError);
+  const CircleTurn turn = circleTurn(from[2], to[2]);
+  m.setRotation(R0, turn.angle < 0 ? Vec3(0, 0, -1) : Vec3(0, 0, 1), std::abs(turn.angle),
+                turn.error);
   const double P =
       std::max(from.head<2>().cwiseAbs().maxCoeff(), to.head<2>().cwiseAbs().maxCoeff());
   m.fixedTube_ = std::sqrt(2.0) * tube.position;
   m.reachTube_ = tube.rotation;
   m.fixedError_ = roundedUp(16 * kUnit * P + m.fixedTube_ + kLeastError);
-  m.reachError_ = roundedUp(kRotationError + turnError + m.reachTube_);
+  m.reachError_ = roundedUp(kRotationError + turn.error + m.reachTube_);
   return m;
 }
 

@@ -28,8 +28,9 @@ class RigidMotion {
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
   /// The shorter way is not unique within 1e-9 rad, or within the rounding of large yaws: half
-  /// turns. Or the way of the position overflows.
-  bool ambiguous() const { return ambiguous_ || overflows_; }
+  /// turns. Or the way of the position overflows, or the motion was made where no bound holds
+  /// (core/floating_point.h).
+  bool ambiguous() const { return ambiguous_ || unsound_; }
   /// No coordinate changes.
   bool still() const { return delta_.isZero(0) && angle_ == 0; }
 
@@ -61,7 +62,7 @@ class RigidMotion {
   double angle_ = 0;
   double fixedError_ = 0, reachError_ = 0;
   double fixedTube_ = 0, reachTube_ = 0;  // in them
-  bool ambiguous_ = false, overflows_ = false;
+  bool ambiguous_ = false, unsound_ = false;
 };
 
 /// One rigid body against the world: motion 0, and the only one.

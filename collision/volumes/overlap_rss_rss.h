@@ -52,7 +52,8 @@ class PairTest<Rss> {
                       double pad, double enough) const {
     const double slack = margins_.relative * (pair.T.cwiseAbs().sum() + a.sum() + b.sum() + radii) +
                          margins_.absolute + radii + kTiny;
-    if (!(slack < HUGE_VAL)) return 0;  // far from rigid: `relative` may exceed 1
+    // Far from rigid: a factor below 0 would turn the sign of the gap.
+    if (!(slack < HUGE_VAL && margins_.relative < 1)) return 0;
     double best = 0;
     Vec3 q = pair.T;  // on b
     for (int step = 0; step < kSteps; ++step) {

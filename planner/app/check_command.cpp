@@ -1,5 +1,6 @@
 #include <cmath>
 #include <iostream>
+#include <numbers>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "planner/app/output.h"
 #include "planner/app/standard_streams.h"
 #include "planner/checker/problem_goal.h"
+#include "planner/problem/bounds.h"
 #include "planner/problem/state_yaml.h"
 #include "planner/solve/endpoint_help.h"
 #include "planner/solve/solve.h"
@@ -23,18 +25,24 @@ struct CheckedState {
   bool valid = false;
   std::vector<std::string> pairs;        ///< "hand~table": not free
   std::vector<std::string> outOfBounds;  ///< names of coordinates
-  std::optional<std::string> tooLarge;   ///< the coordinate whose rounding leaves pairs undecided
+  /// Rounding leaves pairs undecided; the angle that is too large, or "": coordinates are too far
+  /// out.
+  std::optional<std::string> tooLarge;
 };
 
-/// The coordinate of the largest magnitude, which rounds most.
-std::string largestCoordinate(const ConfigurationSpace& space, const Configuration& q) {
-  const Coordinate* largest = &space.coordinates().front();
-  for (const Coordinate& c : space.coordinates())
-    if (c.kind != Coordinate::Kind::rotation &&
-        std::abs(q[static_cast<Eigen::Index>(c.first)]) >
-            std::abs(q[static_cast<Eigen::Index>(largest->first)]))
+/// The largest angle beyond a turn, or "" where none is: then coordinates in metres round too much.
+std::string largestAngle(const ConfigurationSpace& space, const Configuration& q) {
+  const Coordinate* largest = nullptr;
+  const auto size = [&](const Coordinate& c) {
+    return std::abs(q[static_cast<Eigen::Index>(c.first)]);
+  };
+  for (const Coordinate& c : space.coordinates()) {
+    const bool angle =
+        c.kind == Coordinate::Kind::circle || (c.kind == Coordinate::Kind::line && c.angular);
+    if (angle && size(c) > 2 * std::numbers::pi && (!largest || size(c) > size(*largest)))
       largest = &c;
-  return largest->name;
+  }
+  return largest ? largest->name : "";
 }
 
 /// The state as it is: a full circle takes any angle, and no number is wrapped.
@@ -49,10 +57,12 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
     else
       checked.outOfBounds.push_back(c.name);
   }
+  for (const FollowerOutside& follower : followersOutside(checker.problem(), q))
+    checked.outOfBounds.push_back(follower.name);
   const std::vector<ProblemBody>& bodies = checker.problem().bodies;
   for (const Checker::PairNotFree& pair : checker.pairsNotFree(q)) {
     checked.pairs.push_back(bodies[pair.a].name + "~" + bodies[pair.b].name);
-    if (pair.tooLarge) checked.tooLarge = largestCoordinate(checker.space(), q);
+    if (pair.tooLarge) checked.tooLarge = largestAngle(checker.space(), q);
   }
   checked.valid = checked.pairs.empty() && checked.outOfBounds.empty();
   return checked;
@@ -91,7 +101,8 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
     for (const std::string& pair : state.pairs) why += (why.empty() ? "" : ";") + pair;
     for (const std::string& name : state.outOfBounds)
       why += (why.empty() ? "bounds:" : ";bounds:") + name;
-    if (state.tooLarge) why += ";too_large:" + *state.tooLarge;
+    if (state.tooLarge)
+      why += ";too_large" + (state.tooLarge->empty() ? "" : ":" + *state.tooLarge);
     std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
     if (!std::cout) requireResultsWritten();  // in vain from here on
   }

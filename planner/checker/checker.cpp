@@ -20,6 +20,15 @@ std::vector<std::size_t> bodiesOfShapes(const Problem& problem) {
   return owner;
 }
 
+/// No bound holds here: nothing is computed.
+MotionResult refused() {
+  MotionResult result;
+  result.verdict = MotionVerdict::undecided;
+  result.reason = UndecidedReason::floatingPoint;
+  result.certifiedUntil = 0;
+  return result;
+}
+
 }  // namespace
 
 Scene makeScene(const Problem& problem) {
@@ -85,8 +94,8 @@ Checker::Checker(const Problem& problem)
       pool_(std::make_unique<Pool>()) {
   if (const auto wrong = wrongWordIn(problem.checker))
     throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
-  options_.tolerance = problem.checker.tolerance.value_or(
-      std::max(scene_.defaultTolerance(), roundingTolerance(problem)));
+  options_.tolerance =
+      problem.checker.tolerance.value_or(defaultTolerance(problem, scene_.defaultTolerance()));
   options_.reserve = options_.tolerance;
   options_.margin = problem.margin;
   options_.trees = treesNamed(problem.checker.trees()).trees;
@@ -107,6 +116,7 @@ bool Checker::inBounds(const Configuration& q) const {
 }
 
 MotionResult Checker::state(const Configuration& q) const {
+  if (!standardFloatingPoint()) return refused();
   Workspace& workspace = mine();
   workspace.motion.set(q, q);
   const MotionResult result = scene_.certify(workspace.motion, options_, workspace.context);
@@ -122,6 +132,7 @@ MotionResult Checker::edge(const Configuration& from, const Configuration& to,
 
 MotionResult Checker::edge(const Configuration& from, const Configuration& to, bool earliest,
                            EdgeMethod method) const {
+  if (!standardFloatingPoint()) return refused();
   Workspace& workspace = mine();
   MotionOptions options = options_;
   options.earliest = earliest;
@@ -149,6 +160,7 @@ double Checker::clearance(const Configuration& q) const {
 }
 
 std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) const {
+  requireStandardFloatingPoint();
   Workspace& workspace = mine();
   workspace.motion.set(q, q);
   const Counters before = workspace.context.counters;

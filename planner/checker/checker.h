@@ -40,9 +40,10 @@ class Checker {
   /// Bounds aside, by the method that the problem asks for (its default where edges are
   /// `discrete`). @pre finite.
   MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
-  /// Exact static interference: neither margin nor tolerance nor tube. @pre finite.
+  /// Exact static interference at the rounded poses of the frames: neither margin nor tolerance nor
+  /// tube. @pre finite.
   /// @throws std::runtime_error where the processor is set so that no bound holds
-  /// (collision/core/floating_point.h); so does `clearance`.
+  /// (collision/core/floating_point.h); so do `clearance` and `pairsNotFree`.
   std::optional<Contact> interference(const Configuration& q) const;
   /// How far the closest tested pair is apart beyond the margin, metres: where it is 0 or less,
   /// `state` isn't free (it may not be where it is less than tolerance and tube); the margin below

@@ -6,17 +6,18 @@
 
 #include "collision/core/rounding.h"
 
-/// Derivation. With u = 2^-53, S the largest length that enters a pose (chains of joints to a
-/// body's farthest point, both as if stretched) and V_j the largest angle of joint j, in radians,
-/// `EdgeMotion::window` states errors of pose and axes, each at most u·S times the sum over the
-/// joints between two bodies of
+/// Derivation. With u = 2^-53, V_j the largest angle of joint j in radians, and S the lengths of
+/// both chains from the world to the farthest points of two bodies, stretched and added,
+/// `EdgeMotion` states rotation and position errors, each at most u·S times the sum over the joints
+/// of both of
 ///   103 + 12·V_j  for a turn     (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
 ///                                 an axis 40),
 ///   51            for a slide or a shift  (value and sum 24 + 12, product 10 + 11 of S),
 ///   575           for a rotation  (2^-44 = 512, and the products).
-/// Both together are at most twice that: w_j below. Leaf triangles and parts are compared with an
-/// error of 64u·3S (moving_triangles.cpp) and their bounds grow with less: 300. With E = u·S·(300 +
-/// Σ w_j), a clearance of 2τ is proved where a window's travel is under τ, the direction of the
+/// The pose has both, turned into one body's frame: twice that; so have points and axes of joints:
+/// four times that together, of which w_j below has two, and the sum the factor 2. Leaf triangles
+/// and parts are compared with an error of 64u·(2|t| + L) ≤ 64u·3S: 300. With E = u·S·(300 + 2·Σ
+/// w_j), a clearance of 2τ is proved where a window's travel is under τ, the direction of the
 /// closest points is tilted by at most a quarter of the gap, and so 0.75·2τ > τ + 2E: τ = 4E.
 namespace corridor {
 namespace {
@@ -90,13 +91,17 @@ double roundingTolerance(const Problem& problem) {
     double size = 0, roundings = kLeaves;
     for (const std::size_t b : {pair.a, pair.b}) {
       const ProblemBody& body = problem.bodies[b];
-      size = std::max(size, chains[body.frame].length + farthestPoint(body));
-      roundings += chains[body.frame].roundings;
+      size += chains[body.frame].length + farthestPoint(body);
+      roundings += 2 * chains[body.frame].roundings;
     }
     const double error = kUnit * size * roundings;
     if (std::isfinite(error)) largest = std::max(largest, error);
   }
   return 4 * largest;
+}
+
+double defaultTolerance(const Problem& problem, double usual) {
+  return std::clamp(roundingTolerance(problem), usual, 1000 * usual);
 }
 
 }  // namespace corridor

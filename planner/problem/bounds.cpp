@@ -33,6 +33,26 @@ void include(const TriangleMesh& mesh, Corners& box) {
 
 }  // namespace
 
+std::vector<FollowerOutside> followersOutside(const Problem& problem, const Configuration& q) {
+  std::vector<FollowerOutside> outside;
+  for (const ProblemRobot& robot : problem.robots) {
+    const std::string prefix = robot.name.empty() ? "" : robot.name + "/";
+    for (const JointModel& joint : robot.model.joints) {
+      if (!joint.mimic || !(std::isfinite(joint.lower) || std::isfinite(joint.upper))) continue;
+      const std::string leader = prefix + robot.model.joints[joint.mimic->joint].name;
+      for (const Coordinate& c : problem.space.coordinates()) {
+        if (c.kind != Coordinate::Kind::circle || c.name != leader) continue;
+        const double value =
+            joint.mimic->multiplier * q[static_cast<Eigen::Index>(c.first)] + joint.mimic->offset;
+        const double slack = 0x1p-40 * (std::abs(value) + std::abs(joint.mimic->offset));
+        if (!(value >= joint.lower - slack && value <= joint.upper + slack))
+          outside.push_back({prefix + joint.name, value, joint.lower, joint.upper});
+      }
+    }
+  }
+  return outside;
+}
+
 std::size_t dimensionsOf(const CoordinateGroup& group) {
   return group.kind == CoordinateGroup::Kind::planar ? 2 : 3;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/problem/problem.h"
 
@@ -30,6 +31,15 @@ std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 /// not in [0, 1]"), or "".
 std::string whyOutside(const Problem& problem, const CoordinateGroup& group,
                        const Configuration& q);
+
+/// A joint with limits that mimics a full circle, and is outside of them.
+struct FollowerOutside {
+  std::string name;  ///< "s", "left/s"
+  double value = 0, lower = 0, upper = 0;
+};
+/// Where angles of full circles are taken as they are, beyond a turn, what mimics them may leave
+/// its own limits. Values within a rounding of a limit are within it.
+std::vector<FollowerOutside> followersOutside(const Problem& problem, const Configuration& q);
 
 /// 2 or 3.
 std::size_t dimensionsOf(const CoordinateGroup& group);

@@ -115,7 +115,8 @@ Configuration ConfigurationSpace::interpolate(const Configuration& from, const C
                              std::max(from[i], to[i]));
         break;
       case Coordinate::Kind::circle:
-        at[i] = intoCircle(atEnd ? at[i] : from[i] + t * circleTurn(from[i], to[i]).angle);
+        at[i] =
+            intoCircle(atEnd ? at[i] : intoCircle(from[i]) + t * circleTurn(from[i], to[i]).angle);
         break;
       case Coordinate::Kind::rotation:
         if (!atEnd)

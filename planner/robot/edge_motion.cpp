@@ -253,7 +253,7 @@ void EdgeMotion::set(const Configuration& from, const Configuration& to) {
   Impl& m = *impl_;
   ++m.stamp;
   m.t = 0;
-  m.ambiguous = m.space.ambiguous(from, to);
+  m.ambiguous = m.space.ambiguous(from, to) || !standardFloatingPoint();
   m.still = true;
   for (Impl::Place& place : m.places) {
     place.joint.set(from, to);

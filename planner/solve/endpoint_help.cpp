@@ -230,7 +230,9 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
            " m; move it away, or set checker: {tolerance: " + number(result.gap / 4) + "}";
   }
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::rounding)
-    return name + ": a value is too large: the rounding of the pose exceeds the gap between " +
+    return name +
+           ": a value is too large, or too far out: the rounding of the pose hides the gap "
+           "between " +
            pair + ", or the tolerance of " + number(options.tolerance) +
            " m; bring it back by whole turns, or set a larger checker: {tolerance: …}";
   if (result.verdict == MotionVerdict::undecided)

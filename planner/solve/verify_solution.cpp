@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/checker/default_tolerance.h"
+#include "planner/problem/bounds.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/verify/edge_curve.h"
 
@@ -121,15 +122,20 @@ bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string
 }
 
 void checkBounds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
-  for (std::size_t i = 0; i < path.size(); ++i)
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const auto outside = [&](const std::string& name, double value, double lower, double upper) {
+      violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " + name +
+                           " = " + shortest(value) + " is not in [" + shortest(lower) + ", " +
+                           shortest(upper) + "]");
+    };
     for (const Coordinate& c : problem.space.coordinates()) {
       if (c.kind != Coordinate::Kind::line) continue;
       const double value = path[i][static_cast<Eigen::Index>(c.first)];
-      if (!(value >= c.lower && value <= c.upper))
-        violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " + c.name +
-                             " = " + shortest(value) + " is not in [" + shortest(c.lower) + ", " +
-                             shortest(c.upper) + "]");
+      if (!(value >= c.lower && value <= c.upper)) outside(c.name, value, c.lower, c.upper);
     }
+    for (const FollowerOutside& f : followersOutside(problem, path[i]))
+      outside(f.name, f.value, f.lower, f.upper);
+  }
 }
 
 /// Half the diagonal of the box around a shape.
@@ -151,7 +157,7 @@ double toleranceOf(const Problem& problem, const PathProblem& plain) {
     for (const std::size_t body : {pair.a, pair.b})
       if (const double size = sizeOf(plain.bodies[body]); size > 0)
         smallest = std::min(smallest, size);
-  return 0.1 * std::max(1e-7 * smallest, roundingTolerance(problem));
+  return 0.1 * defaultTolerance(problem, 1e-7 * smallest);
 }
 
 }  // namespace

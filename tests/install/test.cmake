@@ -40,7 +40,11 @@ run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERATO
 run(${CMAKE_COMMAND} --build "${build}" --config "${CONFIG}")
 
 # Headers refuse options under which no bound holds.
-foreach(option -ffast-math -ffinite-math-only)
+set(refused -ffast-math -ffinite-math-only)
+if(NOT COMPILER MATCHES "clang")  # which defines no macro for these
+  list(APPEND refused -funsafe-math-optimizations -freciprocal-math)
+endif()
+foreach(option ${refused})
   execute_process(COMMAND ${COMPILER} -std=c++20 ${option} -fsyntax-only -I "${prefix}/include/corridor"
     -I /usr/include/eigen3 "${CMAKE_CURRENT_LIST_DIR}/main.cpp" RESULT_VARIABLE status ERROR_VARIABLE err)
   if(status EQUAL 0 OR NOT err MATCHES "bounds do not hold under -ffast-math")

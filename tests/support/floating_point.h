@@ -19,6 +19,7 @@ struct FloatingPointSetting {
   bool sseOnly = false;         ///< `rounding` is set for vectors and doubles alone
   bool x87Only = false;         ///< `rounding` is set for long double alone
   bool shortExtended = false;   ///< the x87 keeps 53 bits
+  bool bits24 = false;          ///< or 24 of them
   bool standard() const { return rounding == FE_TONEAREST && !shortExtended; }
 };
 
@@ -31,6 +32,7 @@ inline std::vector<FloatingPointSetting> floatingPointSettings() {
 #if defined(__x86_64__)
   all.push_back({.name = "flush_to_zero", .flushToZero = true});
   all.push_back({.name = "short_extended", .shortExtended = true});
+  all.push_back({.name = "single_extended", .shortExtended = true, .bits24 = true});
   for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     all.push_back(
         {.name = "vectors_" + std::to_string(rounding), .rounding = rounding, .sseOnly = true});
@@ -56,7 +58,7 @@ class WithFloatingPoint {
     if (setting.flushToZero) _mm_setcsr(_mm_getcsr() | 0x8040);
     if (setting.shortExtended) {
       asm volatile("fnstcw %0" : "=m"(control));
-      control = static_cast<std::uint16_t>((control & ~0x300) | 0x200);
+      control = static_cast<std::uint16_t>((control & ~0x300) | (setting.bits24 ? 0 : 0x200));
       asm volatile("fldcw %0" : : "m"(control));
     }
 #else

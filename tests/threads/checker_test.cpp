@@ -65,7 +65,7 @@ void ask(const Checker& checker, const Edge& edge, Answers& answers) {
   answers.addVerdict(checker.certifiedEdge(edge.from, edge.to));
   answers.addVerdict(checker.interference(edge.to).has_value());
   answers.add(checker.clearance(edge.from));
-  for (const Scene::Pair& pair : checker.pairsNotFree(edge.to)) {
+  for (const Checker::PairNotFree& pair : checker.pairsNotFree(edge.to)) {
     answers.add(pair.a);
     answers.add(pair.b);
   }

@@ -25,10 +25,11 @@ TEST(FlushToZero, IsSetFromTheStart) {
 
 TEST(FlushToZero, GrazingEdgesAreRight) {
   std::mt19937_64 random(test::testSeed(5));
-  int known = 0;
+  int known = 0, audited = 0;
   for (int n = 0; n < 3'000; ++n) {
     const double gap = (n % 2 ? 1 : -1) * std::pow(10.0, -2 - n % 12);
-    const double size = std::pow(10.0, 6 - n % 13);
+    // Every tenth so small that squares vanish, or lengths themselves: then nothing is proved.
+    const double size = std::pow(10.0, n % 10 ? 6 - n % 13 : -100 - n % 210);
     const auto feature = static_cast<test::Grazing::Feature>(n % test::Grazing::features);
     const test::Grazing g(random, feature, n % 5 == 0, gap, size);
     if (!g.known) continue;
@@ -37,17 +38,26 @@ TEST(FlushToZero, GrazingEdgesAreRight) {
     RigidEdge edge(RigidMotion::spatial(g.from, g.to, {}));
     const MotionPair pair{&fixed, &moving};
     MotionOptions options;
-    options.tolerance = 1e-7 * size;
+    options.tolerance = std::max(1e-7 * size, 1e-300);
     QueryContext context;
     MotionEvidence evidence;
     const MotionResult result = certifyMotion(edge, {&pair, 1}, options, context, &evidence);
     if (gap < 0) {
       ASSERT_NE(result.verdict, MotionVerdict::free) << n;
-    } else if (gap * size > 2 * options.tolerance) {
+    } else if (size > 1e-7 && gap * size > 2 * options.tolerance) {
       ASSERT_EQ(result.verdict, MotionVerdict::free) << n;
+    }
+    if (result.verdict == MotionVerdict::free && gap > 1e-4) {
+      ASSERT_FALSE(checkEvidence(edge, {&pair, 1}, options, 1, evidence, context)) << n;
+      ++audited;
+    }
+    evidence.free = {{0, 0, 1, 1e-5 * size}};
+    if (gap < 0) {
+      ASSERT_TRUE(checkEvidence(edge, {&pair, 1}, options, 1, evidence, context)) << n;
     }
   }
   EXPECT_GT(known, 1'000);
+  EXPECT_GT(audited, 100);
 }
 
 }  // namespace

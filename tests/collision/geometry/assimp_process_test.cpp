@@ -169,7 +169,7 @@ std::string gltf(const std::string& uri) {
 TEST_F(AssimpProcess, FilesThatAFileNames) {
   std::string numbers;
   for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 2.f, 0.f}) numbers += bytesOf(x);
-  for (const std::uint16_t corner : {0, 1, 2}) numbers += bytesOf(corner);
+  for (std::uint16_t corner = 0; corner < 3; ++corner) numbers += bytesOf(corner);
   write("a.bin", numbers + std::string(2, '\0'));
   const MeshFile file = read("a.gltf", gltf("a.bin"));
   EXPECT_EQ(file.format, "glTF2");

@@ -173,10 +173,15 @@ TEST(CertifyMotion, GapWhoseSquareUnderflows) {
 }
 
 /// 2π in double is off by 2.4e-16: after 10^8 turns, half a turn goes the other way round.
-TEST(CertifyMotion, LargeYawsNearAHalfTurnAreAmbiguous) {
-  const double yaw = 628318558.99229252;  // remainders: −3.14159264 in the reals, … of 2π in double
-  EXPECT_TRUE(RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {}).ambiguous());
-  EXPECT_FALSE(RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw + 0.1), {}).ambiguous());
+/// The way between large yaws is that of real arithmetic: a remainder by 2π in double would take
+/// the longer way here.
+TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
+  const double yaw = 628318558.99229252;  // 3.141592647 and whole turns
+  const RigidMotion turn = RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {});
+  EXPECT_FALSE(turn.ambiguous());
+  EXPECT_NEAR(turn.at(1).m(0, 0), std::cos(yaw), 1e-14);
+  EXPECT_NEAR(turn.at(1).m(1, 0), std::sin(yaw), 1e-14);
+  EXPECT_GT(turn.at(0.5).m(1, 0), 0.99) << "counterclockwise";
 }
 
 /// A triangle far larger than the other: closest points are rounded to 1e-16 of the larger, and a

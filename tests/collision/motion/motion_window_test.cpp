@@ -226,6 +226,25 @@ TEST(TravelOf, OneTurn) {
 }
 
 /// A slide after a turn turns with it: second order, though neither alone has any along the axis.
+/// The stored rotation vector may be shorter than the real one by the error of the rate: the second
+/// order of the real turn is within the bound all the same.
+TEST(TravelOf, OneTurnWhoseRateIsOff) {
+  for (const double amount : {0.02, 0.1, 0.4})
+    for (const double error : {1e-2 * amount, 1e-3 * amount}) {
+      const ScrewTravel screw{ScrewTravel::Kind::turn, Vec3::UnitZ(), Vec3::Zero(), amount, 0};
+      MotionWindow w;
+      w.screws = {&screw, 1};
+      w.angular = (amount - error) * Vec3::UnitZ();
+      w.angle = w.angular.norm();
+      w.reachError = error;
+      const PointTravel travel = travelOf(w, Vec3::UnitX(), 0);
+      // Towards the axis the point goes by 1 − cos, of which the first order has nothing.
+      const Vec3 n = Vec3::UnitX();
+      EXPECT_GE(travel.bend * n.cross(w.angular).norm() + travel.curvature, 1 - std::cos(amount))
+          << amount << ", rate off by " << error;
+    }
+}
+
 TEST(TravelOf, SlideAfterATurn) {
   using Kind = ScrewTravel::Kind;
   const ScrewTravel screws[] = {{Kind::turn, Vec3::UnitZ(), Vec3::Zero(), 0.1, 0},

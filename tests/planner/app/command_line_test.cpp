@@ -172,12 +172,11 @@ TEST_F(ArmCommandLine, CheckOfStatesTakesAnglesAsTheyAre) {
                "<joint name=\"shoulder\" type=\"continuous\">");
   write("arm.urdf", urdf);
   // The post's middle is at 90 degrees; 1e6 rad are at 166.8 degrees, 1e15 rad at 143.9.
-  write("states.txt",
-        "1.5707963 0\n0.3 0\n1000000 0\n1000000.45 0\n-999998.654 0\n1e15 0\n1e22 0\n");
+  write("states.txt", "1.5707963 0\n0.3 0\n1000000 0\n1000000.45 0\n-999998.7 0\n1e15 0\n1e22 0\n");
   const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
   const auto& states = json["states"];
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const double angle[] = {1.5707963, 0.3, 1000000, 1000000.45, -999998.654, 1e15, 1e22};
+    const double angle[] = {1.5707963, 0.3, 1000000, 1000000.45, -999998.7, 1e15, 1e22};
     // The arm, 2 m long, meets the ball of 0.1 m at 1.5 m where it is within 0.12 rad of the
     // middle.
     const double off =

@@ -141,5 +141,85 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
   EXPECT_GT(sharp, 300) << "the rounding of large coordinates decides";
 }
 
+/// Two branches of one chain: the rounding of both counts.
+TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
+  std::mt19937_64 random(test::testSeed(9));
+  std::uniform_real_distribution<double> real(-1, 1);
+  for (int n = 0; n < 1'000; ++n) {
+    const double size = std::pow(10.0, -4 + n % 2), far = std::pow(10.0, 1 + n % 2);
+    Problem problem;
+    const auto add = [&](std::size_t parent, const Vec3& at) {
+      Coordinate c;
+      c.lower = -3;
+      c.upper = 3;
+      Frame frame;
+      frame.parent = parent;
+      frame.fixed.p = at;
+      frame.joint = Frame::Joint::turn;
+      frame.variable = problem.space.coordinates()[problem.space.add(c)].first;
+      return problem.tree.add(frame);
+    };
+    // Level: all turns are about z, and the heights of tip and floor are those of the file.
+    const auto out = [&] { return Vec3(far * real(random), far * real(random), 0); };
+    const std::size_t left = add(add(add(0, out()), out()), out());
+    const std::size_t right = add(add(add(0, out()), out()), out());
+    const auto numbers = static_cast<Eigen::Index>(problem.space.size());
+    problem.tube = Configuration::Zero(numbers);
+    Configuration from(numbers), to(numbers);
+    for (Eigen::Index i = 0; i < numbers; ++i) {
+      from[i] = 2.5 * real(random);
+      to[i] = from[i] + 0.1 * size / far * real(random);
+    }
+    // The floor is on the left branch, as seen from there below the tip on the right one.
+    const std::vector<Transform> poses = framePoses(problem.tree, from);
+    const Vec3 tip = poses[left].m.transpose() * (poses[right].t - poses[left].t);
+    TriangleMesh floor = floorOf(100 * size);
+    for (Vec3& p : floor.vertices) p = Vec3(p.x() + tip.x(), p.y() + tip.y(), 0);
+    const auto bodies = [&](double gap) {
+      TriangleMesh top = topOf(size);
+      for (Vec3& p : top.vertices) p.z() += gap;
+      PlacedShape under, over;
+      under.mesh.emplace().mesh = floor;
+      over.mesh.emplace().mesh = top;
+      problem.bodies = {{"floor", left, 0, {under}}, {"top", right, 0, {over}}};
+      problem.pairs = {{0, 1, ""}};
+      std::vector<Scene::Placed> placed;
+      placed.push_back({Body("floor", floor), left});
+      placed.push_back({Body("top", top), right});
+      return placed;
+    };
+    bodies(0);
+    MotionOptions options;
+    options.tolerance = defaultTolerance(problem, 1e-7 * size);
+    ASSERT_LT(options.tolerance, 0.01 * size) << "of use";
+    const Scene scene(bodies(options.tolerance * (2.05 + std::abs(real(random)))), {{0, 1}});
+    EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+    motion.set(from, to);
+    QueryContext context;
+    const MotionResult result = scene.certify(motion, options, context);
+    ASSERT_EQ(result.verdict, MotionVerdict::free)
+        << n << ": size " << size << ", far " << far << ", tolerance " << options.tolerance
+        << ", gap " << result.gap << ", reason " << static_cast<int>(result.reason);
+  }
+}
+
+/// A limit that no robot reaches asks for no tolerance of metres.
+TEST(DefaultTolerance, IsNeverMoreThanAThousandTimesTheUsualOne) {
+  Problem problem;
+  Coordinate c;
+  c.lower = -1e16;
+  c.upper = 1e16;
+  Frame frame;
+  frame.joint = Frame::Joint::turn;
+  frame.variable = problem.space.coordinates()[problem.space.add(c)].first;
+  const std::size_t link = problem.tree.add(frame);
+  PlacedShape ball;
+  ball.part = ConvexPart{{Vec3(1, 0, 0)}, 0.1, false};
+  problem.bodies = {{"ball", link, 0, {ball}}, {"post", 0, {}, {ball}}};
+  problem.pairs = {{0, 1, ""}};
+  EXPECT_GT(roundingTolerance(problem), 1);
+  EXPECT_DOUBLE_EQ(defaultTolerance(problem, 1e-8), 1e-5);
+}
+
 }  // namespace
 }  // namespace corridor

@@ -152,7 +152,7 @@ TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndTold) {
   EXPECT_DOUBLE_EQ(p.goals.at(0)[0], 4 - 2 * std::numbers::pi);
   EXPECT_EQ(p.goals.at(0)[1], -3.14159) << "limits are inclusive";
   EXPECT_THAT(p.notes, Contains("start.lift: 3.1416 is read as its limit, 3.14159"));
-  EXPECT_THAT(p.notes, Contains("goal.pan: 4 is read as -2.2831853071795862, which is the same but "
+  EXPECT_THAT(p.notes, Contains("goal.pan: 4 is read as -2.2831853071795867, which is the same but "
                                 "for full turns"));
   const Problem d =
       read(armHead + "start: {pan_deg: -180, lift: 0}\ngoal: {pan_deg: 270, lift: 0}\n");
@@ -282,7 +282,9 @@ TEST_F(ArmProblem, AProblemWithoutPairsSaysSo) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.yaml\nstart: ready\ngoal: ready\nallow: [[base, "
       "finger], [base, thumb], [upper, finger], [upper, thumb]]\n");
-  EXPECT_THAT(p.notes, testing::HasSubstr("no pair of bodies is tested, so nothing can collide"));
+  ASSERT_FALSE(p.notes.empty());
+  EXPECT_THAT(p.notes.front(),
+              testing::HasSubstr("no pair of bodies is tested, so nothing can collide"));
 }
 
 TEST_F(ArmProblem, DigestAndFilesInTheOrderOfNaming) {

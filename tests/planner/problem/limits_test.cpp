@@ -110,9 +110,10 @@ TEST_F(Limits, CfgLines) {
 
 TEST_F(Limits, PairsOfBodies) {
   // 4,600 spheres on joints of a robot's each: above 10^7 pairs.
-  std::string urdf = "<robot name=\"r\">\n<link name=\"l0\"/>\n";
+  std::string urdf = "<robot name=\"r\">\n<link name=\"l0\"/>\n", state;
   for (int i = 1; i <= 4600; ++i) {
     const std::string n = std::to_string(i);
+    state += (i > 1 ? ", j" : "j") + n + ": 0";
     urdf += "<link name=\"l" + n +
             "\"><collision><geometry><sphere radius=\"1\"/></geometry></collision></link>\n"
             "<joint name=\"j" +
@@ -120,7 +121,8 @@ TEST_F(Limits, PairsOfBodies) {
             "\"/></joint>\n";
   }
   write("many.urdf", urdf + "</robot>\n");
-  EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: many.urdf\nstart: {}\ngoal: {}\n"),
+  EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: many.urdf\nstart: {" + state +
+                          "}\ngoal: {" + state + "}\n"),
               HasSubstr("problem.yaml: has 10577700 pairs of bodies, at most 10000000 are handled; "
                         "join shapes that do not move against each other into one body"));
 }

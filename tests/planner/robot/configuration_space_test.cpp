@@ -226,7 +226,8 @@ TEST(ConfigurationSpace, NormaliseBringsAnglesBack) {
   const ConfigurationSpace space = planar();
   Configuration q = values({7, 8, 4});
   space.normalise(q);
-  EXPECT_EQ(q, values({7, 8, 4 - 2 * pi}));
+  EXPECT_EQ(q.head(2), values({7, 8}));
+  EXPECT_NEAR(q[2], 4 - 2 * pi, 1e-15);
   q = values({7, 8, -pi});
   space.normalise(q);
   EXPECT_EQ(q[2], -pi);

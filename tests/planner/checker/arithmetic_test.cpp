@@ -1,0 +1,67 @@
+// Where the processor is set so that no bound holds, the checker answers nothing else than that.
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "planner/checker/checker.h"
+#include "planner/checker/problem_goal.h"
+#include "planner/robot/edge_motion.h"
+#include "tests/support/floating_point.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
+  const Problem problem =
+      readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
+  const Checker checker(problem);
+  const Configuration start = startOf(problem);
+  ASSERT_EQ(checker.state(start).verdict, MotionVerdict::free);
+  for (const auto& setting : test::floatingPointSettings()) {
+    MotionResult state, edge;
+    bool throws = false;
+    const auto query = [&] {
+      const test::WithFloatingPoint set(setting);
+      state = checker.state(start);
+      edge = checker.edge(start, start, true);
+      try {
+        checker.interference(start);
+      } catch (const std::runtime_error&) {
+        throws = true;
+      }
+    };
+    query();  // in a thread that has asked before, and in a new one
+    for (int n = 0; n < 2; ++n, std::thread(query).join()) {
+      EXPECT_EQ(throws, !setting.standard()) << setting.name;
+      for (const MotionResult& result : {state, edge}) {
+        EXPECT_EQ(result.verdict,
+                  setting.standard() ? MotionVerdict::free : MotionVerdict::undecided)
+            << setting.name;
+        if (!setting.standard()) {
+          EXPECT_EQ(result.reason, UndecidedReason::floatingPoint) << setting.name;
+        }
+      }
+    }
+  }
+}
+
+/// A motion that was made in another arithmetic is none afterwards.
+TEST(CheckerArithmetic, MotionsMadeElsewhereAreRefused) {
+  const Problem problem =
+      readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
+  const Scene scene = makeScene(problem);
+  EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+  const Configuration start = startOf(problem);
+  for (const auto& setting : test::floatingPointSettings()) {
+    {
+      const test::WithFloatingPoint set(setting);
+      motion.set(start, start);
+    }
+    EXPECT_EQ(motion.ambiguous(), !setting.standard()) << setting.name;
+  }
+}
+
+}  // namespace
+}  // namespace corridor
