@@ -40,8 +40,8 @@ class Scene {
   /// What a MotionSource has to tell the motion of: the distinct pairs of frames among `pairs()`,
   /// and where both of one move, each of the two as the world sees it.
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
-  /// Metres: 1e-7 of the smallest of the frames' radii (each frame's bodies in one sphere; frames in
-  /// no pair don't count), or what the rounding of rigid motions needs, if that is larger
+  /// Metres: 1e-7 of the smallest of the frames' radii (each frame's bodies in one sphere; frames
+  /// in no pair don't count), or what the rounding of rigid motions needs, if that is larger
   /// (`RigidMotion::roundingTolerance`).
   /// @param farthest  metres; poses of frames are at most so far from the origin.
   double defaultTolerance(double farthest = 0) const;

@@ -35,10 +35,10 @@ TEST_F(ProblemFaults, Files) {
 }
 
 TEST_F(ProblemFaults, AreOfOneLineWithoutControlCharacters) {
-  const std::string text =
-      complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {rock: {mesh: "
-                  "\"a\\e[2J\\nb.obj\"}}\n" +
-                  poses);
+  const std::string text = complaintOf(
+      "format: corridor-problem-1\nrobot: robot.yaml\nworld: {rock: {mesh: "
+      "\"a\\e[2J\\nb.obj\"}}\n" +
+      poses);
   EXPECT_THAT(text, testing::HasSubstr("a?[2J?b.obj: no such file"));
   EXPECT_EQ(text.find('\x1b'), text.npos);
 }

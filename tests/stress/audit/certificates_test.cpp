@@ -19,8 +19,9 @@ using std::numbers::pi;
 constexpr EdgeMethod kMethods[] = {EdgeMethod::certified, EdgeMethod::adaptive,
                                    EdgeMethod::advancement};
 
-/// Whatever evidence claims: where the two are closer than the margin and the reserve, it is not
-/// accepted. And what the query itself says of a free edge is.
+/// Whatever evidence claims: where the two are closer than the margin, it is not accepted. (Of what
+/// a claim says beyond the margin, half is proved.) And what the query itself says of a free edge
+/// is.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   const std::uint64_t seed = test::testSeed(5);
   const long count = countOf(500, 50'000);
@@ -34,8 +35,7 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
     Question question;
     MotionOptions& o = question.options;
     if (!dice.oneIn(3)) o.margin = size * dice.power(-3, -0.5);
-    if (dice.oneIn(4)) o.reserve = size * dice.power(-4, -1);
-    const double keep = o.margin + o.reserve;
+    const double keep = o.margin;
     question.inTube = dice.oneIn(4);
     if (question.inTube) edge.tube.setConstant(std::min(size, 1.0) * dice.power(-6, -2));
     const Graze graze(dice, edge, {size, keep, question.inTube});
