@@ -1,4 +1,4 @@
-# `cmake --install`: the library of collision/ for find_package(corridor), target corridor::collision.
+# `cmake --install` installs the library of collision/ for find_package(corridor): target corridor::collision.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -14,8 +14,8 @@ target_link_options(corridor_collision INTERFACE
 install(TARGETS corridor_collision EXPORT corridor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS corridor_assimp RUNTIME DESTINATION ${helper_dir})
 install(EXPORT corridor NAMESPACE corridor:: FILE corridorTargets.cmake DESTINATION ${package_dir})
-# Not for users: code that is compiled once a SIMD target (-inl.h), and rationals and wide integers (exact_*.h), which
-# would bring Boost along.
+# Not installed: code that is compiled once per SIMD target (-inl.h), and rationals and wide integers (exact_*.h), which
+# would make users need Boost.
 install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corridor/collision
         FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "exact_*.h" EXCLUDE)
 

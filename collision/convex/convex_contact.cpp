@@ -8,17 +8,21 @@ bool convexSetsTouch(const PosedSet& a, const PosedSet& b, Counters& counters) {
   ++counters.triangleTests;
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
   double radii = a.set().ball + b.set().ball;
-  // The sum and the two errors: each projection is below `size`.
+  // The errors of both projections and of their sum; each projection is below `size`.
   const double slack = roundedUp(a.error() + b.error() + 2 * kUnit * size);
   const auto apart = [&](const Vec3& n, double gap) {
     return gap > radii && -b.highest(-n) - a.highest(n) > slack;
   };
-  // `size` is below (1 + √3)·2√3 < 9.5 of the largest coordinates: this is well within the band.
+  // `size` is below (1 + √3)·2√3 < 9.5 times the largest coordinate: `near` is well within the
+  // band.
   double near = radii + 0x1p-49 * size;
   gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
   if (quick.accepted) return false;
   const bool whole = !(a.keepsBall() && b.keepsBall());
-  if (whole) {  // what touches as balls need not as ellipsoids
+  // The search above measures the distance of the cores, and takes the swept spheres' radii as they
+  // are. Where a map makes an ellipsoid of a sphere, this search may report a contact where there
+  // is none. So the search is repeated with the ellipsoids as parts of the cores.
+  if (whole) {
     radii = 0;
     near = 0x1p-49 * size;
     quick = gjk::search<double>(a, b, size, near, apart, whole);

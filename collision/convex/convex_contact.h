@@ -5,12 +5,12 @@
 
 namespace corridor {
 
-/// Do two convex sets, each under its own map, share a point?
+/// Returns whether two convex sets, each under its own affine map, share a point.
 ///
-/// `false` is a proof in real arithmetic on the doubles given, for any finite maps: a direction
-/// along which the two projections, all rounding covered, are apart. `true` outside the band of
-/// 2^-44 of the largest coordinate involved (times ‖M‖, where a map isn't rigid) is right; inside
-/// it may be either way (design: contract 1).
+/// `false` is proved in real arithmetic on the given doubles, for any finite maps: a separating
+/// axis exists, with all rounding covered. `true` is right unless the sets are closer than a band
+/// of 2^-44 of the largest coordinate involved (times ‖M‖ if a map is not rigid). Within the band
+/// either answer is possible for sets that do not touch. (PROMISES.md, promise 1.)
 bool convexSetsTouch(const PosedSet& a, const PosedSet& b, Counters& counters);
 
 }  // namespace corridor

@@ -8,18 +8,22 @@
 #include "collision/convex/gjk.h"
 #include "collision/core/rounding.h"
 
-/// The bounds. With g the points of cores that are closest and d = g_B − g_A, n = d/|d|:
-/// * from above: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, m = Mᵀn, are points of the
-///   sets, whatever n and M are;
-/// * from below: the gap along the direction of GJK's widest, less r_A|m_A| + r_B|m_B|.
-/// Under a rotation they meet where the search does. Under a map of defect η they stay apart by
-/// some 3η·r at most, since the closest points of ellipsoids are not on one line with the cores';
-/// where that is more than asked, the balls join the cores.
+/// The bounds. Let g_A and g_B be the closest points of the cores, d = g_B − g_A, n = d/|d|, and r
+/// the radii of the swept spheres.
+/// * Upper bound: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, with m = Mᵀn, are points of
+/// the sets for any n and M.
+/// * Lower bound: the widest gap that GJK has found, less r_A|m_A| + r_B|m_B| in its direction.
 ///
-/// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` has its
-/// own bound of what is projected; a corner of a simplex is a mapped point with its disc, off by no
-/// more than the same derivation gives (three products and sums a coordinate, the disc's 6u); a
-/// convex combination of three takes 8 roundings; both points: below twice the sets' errors.
+/// Under rotations both bounds agree where the search ends. Under a map of defect η they differ by
+/// up to some 3η·r, because the closest points of ellipsoids are not on the line through those of
+/// the cores. If that exceeds the requested error, the search is repeated with the spheres in the
+/// cores.
+///
+/// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` has its own
+/// bound of projections. A corner of a simplex is a mapped point with its disc, and its error is
+/// within the same derivation (three products and sums per coordinate, 6u for the disc). A convex
+/// combination of three corners has 8 roundings. Both witness points together: below twice the
+/// errors of the sets.
 namespace corridor {
 namespace {
 
@@ -32,10 +36,10 @@ Vec3 rounded(const Vector<Real>& v, double unit) {
 
 template <class Real>
 struct Points {
-  Vector<Real> a, w;  ///< a point of core a, and what leads from it to one of core b
+  Vector<Real> a, w;  ///< a point of core a, and the vector from it to a point of core b
 };
 
-/// The points of a simplex that are closest.
+/// Returns the closest points of the cores that a simplex gives.
 template <class Real>
 Points<Real> closest(const gjk::Simplex<Real>& simplex) {
   const gjk::Corner<Real>* const c = simplex.corner;
@@ -71,6 +75,7 @@ Points<Real> closest(const gjk::Simplex<Real>& simplex) {
   return points;
 }
 
+/// Returns Mᵀn.
 template <class Real>
 Vector<Real> local(const PosedSet& set, const Vector<Real>& n) {
   const Mat3& m = set.pose().m;
@@ -78,8 +83,8 @@ Vector<Real> local(const PosedSet& set, const Vector<Real>& n) {
          Vector<Real>(Vec3(m.row(2))) * n.z;
 }
 
-/// What a ball of radius 1 adds to a point of the core, farthest along n: M m/|m|; nothing where
-/// the map has flattened it along n.
+/// Returns the point of a mapped unit sphere about 0 that is farthest along n: M m/|m| with m =
+/// Mᵀn, or 0 if the map flattens the sphere along n.
 template <class Real>
 Vector<Real> ballPoint(const PosedSet& set, const Vector<Real>& n) {
   const Vector<Real> m = local(set, n);
@@ -91,7 +96,7 @@ Vector<Real> ballPoint(const PosedSet& set, const Vector<Real>& n) {
           dot(Vector<Real>(Vec3(rows.row(2))), unit)};
 }
 
-/// How far the set's ball reaches along n: r|m|.
+/// Returns how far the set's mapped sphere reaches along n: r|Mᵀn|.
 template <class Real>
 Real ballReach(const PosedSet& set, const Vector<Real>& n) {
   return gjk::length(local(set, n)) * Real(set.set().ball);
@@ -104,31 +109,34 @@ class Pair {
         b_(b),
         size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
         radii_(a.set().ball + b.set().ball),
-        // Beside those of the projections: their sum and this bound's own subtraction; and a gap,
-        // below `size`, is one along a direction as long as 1 + 5u.
+        // In addition to the errors of the projections: those of their sum and of subtracting this
+        // bound, and a factor 1 + 5u, because a gap below `size` may be along a direction of that
+        // length.
         error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
 
   double size() const { return size_; }
   double radii() const { return radii_; }
-  /// Cores at most this far apart touch, if the maps leave balls balls (`convexSetsTouch`).
+  /// Returns the core distance up to which the sets touch, if the maps take spheres to spheres
+  /// (`convexSetsTouch`).
   double near() const { return radii_ + 0x1p-49 * size_; }
-  /// What is farther apart than this is so for `convexSetsTouch`, too.
+  /// Returns a distance beyond which `convexSetsTouch` is false, too.
   double band() const { return 0x1p-44 * size_; }
 
-  /// Proved, all rounding covered; metres.
+  /// Returns the gap along n, proved, with all rounding covered; metres.
   double gap(const Vec3& n) const { return -b_.highest(-n) - a_.highest(n) - error_; }
-  /// Of a distance found in double.
+  /// Returns the error bound of a distance computed in double.
   double error() const { return 2 * error_; }
 
-  /// Do the closest points that a simplex has meet, as the search that ended with it says? Not
-  /// where cores overlap by so little that its corners are nearly in one plane: the weights are
-  /// noise.
+  /// Returns whether the closest points of the search's simplex confirm the contact that it found.
+  /// They do not if the cores overlap so little that the four corners are nearly in one plane: the
+  /// weights then are noise.
   template <class Real>
   bool met(const gjk::Search<Real>& search) const {
     return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <= near();
   }
 
-  /// A point that both sets have, as far as can be told.
+  /// Returns the result of sets that touch: a common point, up to rounding.
+  /// @param whole  the search had the spheres in the cores.
   template <class Real>
   ConvexDistance contact(const gjk::Search<Real>& search, bool whole) const {
     ConvexDistance result;
@@ -143,7 +151,7 @@ class Pair {
     return result;
   }
 
-  /// Of sets that are apart. @param whole  the search had the balls in the cores.
+  /// Returns the result of sets that are apart. @param whole  as above.
   template <class Real>
   ConvexDistance apart(const gjk::Search<Real>& search, bool whole) const {
     Points<Real> p = closest(search.simplex);
@@ -165,7 +173,8 @@ class Pair {
     ConvexDistance result;
     result.distance = std::max(search.unit * static_cast<double>(gjk::length(p.w)),
                                std::numeric_limits<double>::min());
-    // Some dozen roundings of 2^-98 of the size each; then to double.
+    // 2^-89 covers some dozen roundings of 2^-98 of the size each. `roundedDown` covers the
+    // rounding to double.
     result.lower = roundedDown(search.unit * static_cast<double>(lower - Real(0x1p-89)));
     result.normal_W = rounded(search.normal, 1);
     result.p_WA = rounded(p.a, search.unit);
@@ -184,12 +193,13 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
                               double absolute, Counters& counters) {
   ++counters.triangleTests;
   const Pair pair(a, b);
-  // Searches end at half of what is allowed, which rounding adds to: 1e-12 > 2^-40, and 2^-51·S,
-  // where ‖M‖|p| + |t| is below 3 S, and `size`, that of both, below 6 S.
+  // Searches end at half of the allowed error; rounding may take the rest. 1e-12 > 2^-40, so the
+  // relative half is 2^-41. Half of 2^-51·S is above 2^-55·`size`: ‖M‖|p| + |t| is below 3 S, and
+  // `size`, the sum over both sets, below 6 S.
   const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
-    return [=](const auto& upper, const auto& lower) {  // in the search's own digits
+    return [=](const auto& upper, const auto& lower) {  // of the search's scalar type
       return static_cast<double>(upper) <= near ||
              static_cast<double>(upper - lower) <=
                  std::max(finest, share * (static_cast<double>(lower) - radii) + least);
@@ -200,7 +210,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   };
 
   gjk::Search<double> quick(a, b, pair.size());
-  // In double, bounds come no closer than this.
+  // 2^-50·size: in double the bounds come no closer.
   const gjk::Answer found = quick.run(
       gjk::Simplex<double>(), agreed(pair.radii(), pair.near(), 0x1p-50 * pair.size()), never);
   const bool met = found.overlap || found.upper <= pair.near();
@@ -253,12 +263,12 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
       });
   if (found.overlap) return {0, 0};
   if (!found.accepted) lower = pair.gap(found.direction);
-  // Points of the cores are points of the sets.
+  // Points of the cores are points of the sets: their distance is an upper bound.
   ConvexRange range{0, found.upper + pair.error()};
   if (lower > pair.band()) range.lower = lower;
   if (search.simplex.count > 0 && found.upper > pair.near())
     range.upper = std::min(range.upper, pair.apart(search, false).distance + pair.error());
-  if (!(range.upper >= 0)) range.upper = HUGE_VAL;  // NaN: nothing is known
+  if (!(range.upper >= 0)) range.upper = HUGE_VAL;  // NaN after overflow: no upper bound
   return range;
 }
 

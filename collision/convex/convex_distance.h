@@ -5,40 +5,50 @@
 
 namespace corridor {
 
-/// How far two convex sets are apart, metres.
+/// The distance of two convex sets, with witness points and a proved lower bound; metres.
 struct ConvexDistance {
-  double distance = 0;           ///< of the two points; 0: they touch
-  double lower = 0;              ///< proved: they are at least this far apart
-  Vec3 normal_W = Vec3::Zero();  ///< the direction that proved it, from a to b: unit, rounded
-  Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
+  double distance = 0;           ///< distance of the witness points; 0: the sets touch
+  double lower = 0;              ///< proved lower bound of the distance
+  Vec3 normal_W = Vec3::Zero();  ///< the direction that proves `lower`, from a to b: unit, rounded
+  Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();  ///< witness points of a and b
 };
 
-/// The distance of two convex sets, each under its own map, and points of either that have it.
+/// Computes the distance of two convex sets, each under its own affine map, and witness points.
 ///
-/// 0 if and only if `convexSetsTouch`; then both points are one that both sets have (in its band:
-/// up to the band; where they overlap by less than 2^-30·S: up to that). Else `distance` is above
-/// the true one by at most relative·true + absolute, and, whatever is asked, by 1e-12·true +
-/// 4·2^-53·S, S the largest Σ|m||p| + |t| of the points mapped, each of the two with its radii (of
-/// maps that aren't rigid: the largest ‖M‖|p| + |t|, ‖M‖ at least 1); `lower` ≤ true is proved in
-/// real arithmetic and tells how well it went. The points are on the sets' surfaces up to 2^-50·S.
-/// Any finite maps: a ball under one that isn't rigid is an ellipsoid, which takes longer.
+/// Let S be the largest Σ|m||p| + |t| over the mapped points p of both sets, radii included. (For
+/// maps that are not rigid: the largest ‖M‖|p| + |t|, with ‖M‖ at least 1.) Guaranteed:
+/// * `distance` is 0 if and only if `convexSetsTouch`. Then both witness points are the same common
+/// point of both sets, up to the band of that predicate, or up to 2^-30·S if the sets overlap by
+/// less than that.
+/// * Otherwise `distance` exceeds the true distance by at most relative·true + absolute +
+/// 1e-12·true + 4·2^-53·S.
+/// * `lower` ≤ the true distance is proved in real arithmetic, and shows how accurate the result
+/// is.
+/// * The witness points are on the surfaces of the sets, up to 2^-50·S.
 ///
-/// GJK in double; where its bounds, all rounding covered, don't agree to what is asked, again in
-/// double-double, beginning with the corners that it found: by default nearly always where they are
-/// closer than a hundredth of the size. On curved surfaces every other direction is a step of
-/// Newton's. In the mean 2 to 5 rounds, with a cylinder 2 to 20, and less than 2 in double-double;
-/// 100 at most in tests down to gaps of 10^-13 (`tests/collision/convex/gjk_test.cpp` prints them).
-/// @param relative, absolute  not negative; metres. 0: the last digits.
+/// Any finite map is allowed. Under a map that is not rigid a sphere is an ellipsoid, which costs
+/// more time.
+///
+/// Method: GJK in double. If its bounds, with all rounding covered, do not agree to the requested
+/// error, the search continues in double-double, from the simplex found. By default this happens
+/// for nearly all sets closer than a hundredth of their size. On curved surfaces every other
+/// direction is a Newton step. Cost: a mean of 2 to 5 rounds in double (2 to 20 with a cylinder),
+/// and less than 2 in double-double. At most 100 in tests with gaps down to 10^-13, which
+/// `tests/collision/convex/gjk_test.cpp` prints.
+/// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. 0, 0: full accuracy.
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
                               double absolute, Counters& counters);
 
-/// A proved range of their distance, in double. lower > 0: they don't touch. Both ends are within
-/// some 2^-45·S of the distance, or 2^-20 of it, but where caps of cylinders face each other or a
-/// ball's map isn't rigid; or it ended as soon as lower exceeded `beyond` or upper was no more than
-/// `near`. @param beyond, near  metres.
+/// A proved range of a distance, metres. If lower > 0, the sets do not touch.
 struct ConvexRange {
   double lower = 0, upper = 0;
 };
+/// Computes a proved range of the distance of two convex sets, in double only.
+///
+/// The search stops as soon as lower exceeds `beyond` or upper is at most `near`. Otherwise both
+/// ends are within some 2^-45·S of the distance, or 2^-20 of it; the range may be wider where caps
+/// of cylinders face each other, or where the map of a sphere is not rigid.
+/// @param beyond, near  metres.
 ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near,
                                 Counters& counters);
 

@@ -8,50 +8,55 @@
 
 namespace corridor {
 
-/// A look at a convex part, or at a triangle, the hull of its corners: a *core* (the hull of the
-/// points, or a cylinder: the segment between two of them swept by a disc) swept by a ball. What it
-/// looks at must stay.
+/// A view of a convex part or of a triangle: a *core* swept by a sphere of radius `ball`. The core
+/// is the hull of `points`, or a cylinder: the segment between two points swept by a disc. The
+/// viewed object must outlive the view. Lengths in metres.
 struct ConvexSet {
   ConvexSet(const ConvexPart& part);    // NOLINT: a part is one
   ConvexSet(const Triangle& triangle);  // NOLINT: a triangle is one
 
   std::span<const Vec3> points;
-  double ball = 0;           ///< radius
-  double disc = 0;           ///< radius; 0: none
-  Vec3 axis = Vec3::Zero();  ///< of the disc: unit, rounded
+  double ball = 0;           ///< radius of the sphere; 0: none
+  double disc = 0;           ///< radius of the disc; 0: none
+  Vec3 axis = Vec3::Zero();  ///< normal of the disc: unit, rounded
 };
 
-/// A convex set under a map, with *certified* projections: whatever direction anyone comes up with,
-/// what is proved along it holds in real arithmetic for the doubles given, any finite map included.
-/// An image's projection onto n is that of the set onto Mᵀn, so no orthogonality is used.
+/// A convex set under an affine map, with *certified* projections: a proof along any direction
+/// holds in real arithmetic on the given doubles, for any finite map. The projection of the image
+/// onto n is that of the set onto Mᵀn, so orthogonality of M is not used.
 ///
-/// Error. Let F = ‖M‖_F, |n|₂ ≤ 1 + 4u, ρ = `reach` ≥ |p| + ball + disc. Mᵀn: three roundings a
-/// component, so off by at most γ3·‖|M|‖₂·|n| < 3.1uF; times |p|: 3.1uFρ. The product with p:
-/// γ3·|Mᵀn||p| < 3.1uFρ; n·t: 3.1u|t|; adding these two and the ball's or the disc's share: 2u(Fρ +
-/// |t|). The ball's share |Mᵀn|: 3.1uF and 4uF. The disc's |Mᵀn × axis|: 3.1uF; the axis is off by
-/// 1u (difference of the points) + 5u (norm and quotient), 6uF; cross product and norm: 2√2·1.1uF +
-/// 4uF: together < 17uF. Points and discs share ρ: all in all below u(20Fρ + 6|t|).
+/// Error of a projection. Let F = ‖M‖_F, |n|₂ ≤ 1 + 4u and ρ ≥ |p| + ball + disc for all points.
+/// * Mᵀn has three roundings per component: off by at most γ3·‖|M|‖₂·|n| < 3.1uF; times
+/// |p|: 3.1uFρ.
+/// * The product with p: γ3·|Mᵀn||p| < 3.1uFρ. The product n·t: 3.1u|t|.
+/// * The sum of these two and of the sphere's or the disc's share: 2u(Fρ + |t|).
+/// * The sphere's share |Mᵀn|: 3.1uF and 4uF.
+/// * The disc's share |Mᵀn × axis|: 3.1uF from Mᵀn. The axis is off by 1u (difference of the
+/// points) + 5u (norm and quotient): 6uF. Cross product and norm: 2√2·1.1uF + 4uF. Together < 17uF.
 ///
-/// Sizes and coordinates are taken to be within 2^±440 m, or 0. Beyond, squares overflow or vanish:
-/// contact queries and distances may then tell contact, or less than there is, never more.
+/// Points and discs share ρ: the total is below u(20Fρ + 6|t|).
+///
+/// Sizes and coordinates should be 0 or within 2^±440 m. Beyond, squares overflow or vanish.
+/// Contact queries may then report a contact that is none, and distances may be too small; neither
+/// errs the other way.
 class PosedSet {
  public:
   PosedSet(const ConvexSet& set, const Transform& X);
 
-  /// max n·x over all points of the image, rounded: off by at most `error()`. |n| ≤ 1 + 4u.
+  /// Returns max n·x over all points x of the image, off by at most `error()`. @pre |n| ≤ 1 + 4u.
   double highest(const Vec3& n) const;
   double error() const { return error_; }
 
-  /// max m·p over the core in the set's own frame.
+  /// Returns max m·p over the points p of the core, in the set's own frame; rounded.
   double coreHighest(const Vec3& m) const;
 
-  /// Does the map leave the ball one, but for 3·2^-48 of its radius?
+  /// True if the map takes the sphere to a sphere, up to 3·2^-48 of its radius.
   bool keepsBall() const;
 
   const ConvexSet& set() const { return set_; }
   const Transform& pose() const { return X_; }
-  /// |p| + ball + disc for all points, in the set's own frame, times ‖M‖_F (at least 1); rounded
-  /// up. Metres.
+  /// Returns the largest |p| + ball + disc over the points p in the set's own frame, times max(1,
+  /// ‖M‖_F); rounded up. Metres.
   double reach() const { return reach_; }
 
  private:

@@ -4,9 +4,12 @@
 
 namespace corridor {
 
-/// An unevaluated sum hi + lo of two doubles, |lo| ≤ u·|hi|: some 104 bits. For candidates that
-/// plain doubles are too coarse to find; nothing is proved with it. Source: Dekker 1971, Knuth
-/// (TAOCP 2, 4.2.2); accurate addition as in Joldes, Muller, Popescu 2017, algorithm 6.
+/// A number of some 104 bits: an unevaluated sum hi + lo of two doubles, |lo| ≤ u·|hi|. Used where
+/// plain doubles are too coarse: to find candidates for separating axes, and for the lower bounds
+/// of distances (convex_distance.cpp covers its rounding).
+///
+/// Sources: Dekker 1971; Knuth, TAOCP 2, 4.2.2; accurate addition as in Joldes, Muller, Popescu
+/// 2017, algorithm 6.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 
@@ -54,7 +57,7 @@ struct DoubleDouble {
     const double q3 = (r - b * DoubleDouble(q2)).hi / b.hi;
     return quickSum(q1, q2) + DoubleDouble(q3);
   }
-  friend DoubleDouble sqrt(const DoubleDouble& a) {  // one step of Newton's on the inverse root
+  friend DoubleDouble sqrt(const DoubleDouble& a) {  // one Newton step from the root of hi
     if (!(a.hi > 0)) return DoubleDouble(std::sqrt(a.hi));
     const double y = std::sqrt(a.hi);
     return DoubleDouble(y) + DoubleDouble((a - product(y, y)).hi / (2 * y));

@@ -11,45 +11,46 @@
 #include "collision/convex/support.h"
 #include "collision/core/rounding.h"
 
-/// The algorithm of Gilbert, Johnson, Keerthi (1988) on the cores of two posed convex sets. It
-/// finds *candidates*: who needs a proof projects both sets along the direction
-/// (`PosedSet::highest`).
+/// The algorithm of Gilbert, Johnson, Keerthi (GJK, 1988) on the cores of two posed convex sets.
+/// Its results are *candidates*, not proofs. A caller that needs a proof projects both sets onto
+/// the direction found (`PosedSet::highest`), or subtracts a bound of all rounding
+/// (convex_distance.cpp, in double-double).
 namespace corridor::gjk {
 
-/// What it found of the distance between two cores.
+/// The result of a search: bounds of the distance of two cores, without rounding; metres.
 struct Answer {
-  bool overlap = false;   ///< the cores meet, by more than rounding can feign
-  bool accepted = false;  ///< `accept` said so
-  double upper = 0;  ///< the distance of two points of the cores: an upper bound but for rounding
-  double lower = -HUGE_VAL;       ///< the widest gap found along a direction, likewise from below
-  Vec3 direction = Vec3::Zero();  ///< that direction, from a to b: unit, rounded
+  bool overlap = false;           ///< the cores overlap by more than rounding can cause
+  bool accepted = false;          ///< `accept` returned true and ended the search
+  double upper = 0;               ///< upper bound: the distance of two points of the cores
+  double lower = -HUGE_VAL;       ///< lower bound: the widest gap found along any direction
+  Vec3 direction = Vec3::Zero();  ///< the direction of that gap, from a to b: unit, rounded
   int rounds = 0;
 };
 
-/// A point of core a, w from it to one of core b, and how to find both again with more digits: the
-/// numbers of the sets' points, and the direction, from a to b, that rims were asked with.
+/// A corner of the GJK simplex: a point of core a and one of core b. It also holds all that is
+/// needed to compute both again with more digits.
 template <class Real>
 struct Corner {
-  Vector<Real> a, w;
-  std::uint32_t pointA = 0, pointB = 0;
-  Vec3 n = Vec3::Zero();
+  Vector<Real> a, w;                     ///< the point of core a; the vector from it to that of b
+  std::uint32_t pointA = 0, pointB = 0;  ///< their numbers in the `points` of the sets
+  Vec3 n = Vec3::Zero();  ///< direction from a to b along which the two points are the extreme ones
 };
 
-/// The corners whose hull has `upper`: up to three, four where the cores overlap; none where the
-/// search met before it began.
+/// The simplex whose closest points give `Answer::upper`: up to three corners, four if the cores
+/// overlap, none if the search found contact before its first corner.
 template <class Real>
 struct Simplex {  // NOLINT(bugprone-reserved-identifier): the compiler's own, of copying the array
   Corner<Real> corner[4];
   int count = 0;
 };
 
-/// Two posed sets, and one search for the least distance of their cores. It works in a power of two
-/// of metres, about `size`, so that squares and cubes neither overflow nor vanish.
+/// One search for the distance of the cores of two posed sets. Its unit of length is a power of
+/// two, about `size`, so that squares and cubes neither overflow nor vanish.
 template <class Real>
 class Search {
  public:
-  /// @param size  metres: above every coordinate involved.
-  /// @param whole  balls are in the cores, as the maps' images of them.
+  /// @param size  metres: larger than every coordinate involved.
+  /// @param whole  the swept spheres, mapped, belong to the cores.
   Search(const PosedSet& a, const PosedSet& b, double size, bool whole = false)
       : unit(powerOfTwo(size)),
         a_(a, 1 / unit, whole),
@@ -57,9 +58,11 @@ class Search {
         noise_(256 * Effort<Real>::unit * size / unit),
         curved_(a_.curved() || b_.curved()) {}
 
-  /// @param from  corners that another search ended with: to begin with.
-  /// @param enough  asked with upper and lower, as Real, whether they agree; true ends the search.
-  /// @param accept  asked with the direction and its gap, whenever the gap is wider than any
+  /// Runs the search.
+  /// @param from  the simplex that another search ended with, to start from; may be empty.
+  /// @param enough  called in every round as enough(upper, lower), in `Real` and metres; true ends
+  /// the search.
+  /// @param accept  called as accept(direction, gap) whenever the gap, in metres, is wider than all
   /// before; true ends the search.
   template <class Other, class Enough, class Accept>
   Answer run(const Simplex<Other>& from, Enough enough, Accept accept) {
@@ -74,12 +77,12 @@ class Search {
       take(nearestCorners(), face, answer);
     } else {
       face = nearest<Real>(b_.somewhere() - a_.somewhere());
-      face.count = 0;  // a direction to begin with, no corner
+      face.count = 0;  // an initial direction, not a corner
     }
     Vector<Real> last;
     for (; answer.rounds < Effort<Real>::rounds; ++answer.rounds) {
       const Real norm = length(face.v);
-      if (!(norm > Real(0))) return answer;  // touching, as far as can be told; or NaN
+      if (!(norm > Real(0))) return answer;  // contact at this precision; or NaN
       Vector<Real> n = face.v * (Real(1) / norm);
       const bool stepped = curved_ && answer.rounds % 2 == 1 && newton(n, face, answer);
       const auto [pa, numberA] = a_(n);
@@ -95,11 +98,11 @@ class Search {
         if ((answer.accepted = accept(answer.direction, lower))) return answer;
       }
       if (enough(upper_, gap)) return answer;
-      bool known = answer.rounds > 0 && corner.w == last;  // it has been of no use
+      bool known = answer.rounds > 0 && corner.w == last;  // the last round found it, too
       for (int i = 0; i < face.count; ++i) known = known || corner.w == face.corner[i];
       last = corner.w;
       if (known && stepped) continue;
-      if (known) return answer;  // nothing new that way
+      if (known) return answer;  // no progress is possible
       known_.corner[known_.count++] = corner;
       take(nearestCorners(), face, answer);
       if (face.count == 4) {
@@ -112,16 +115,17 @@ class Search {
     return answer;
   }
 
-  const double unit;  ///< metres: of the vectors here
+  const double unit;  ///< the unit of length of all vectors here, metres
   Simplex<Real> simplex;
-  Vector<Real> normal;  ///< `Answer::direction` and `lower` with all their digits
-  Real gap{-HUGE_VAL};
+  Vector<Real> normal;  ///< `Answer::direction` with all its digits
+  Real gap{-HUGE_VAL};  ///< `Answer::lower` with all its digits, metres
 
  private:
   static Vec3 rough(const Vector<Real>& v) {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   }
 
+  /// Returns the corner of two given points, extreme in direction n.
   Corner<Real> asked(std::uint32_t pointA, std::uint32_t pointB, const Vector<Real>& n) const {
     const Vector<Real> a = a_.at(pointA, n);
     return {a, b_.at(pointB, -n) - a, pointA, pointB, rough(n)};
@@ -141,7 +145,8 @@ class Search {
     }
   }
 
-  /// Goes on with the face found, of the corners known: those that it has not are dropped.
+  /// Continues with the face found: drops the known corners that it does not have, and updates the
+  /// upper bound.
   void take(const Nearest<Real>& found, Nearest<Real>& face, Answer& answer) {
     using std::sqrt;
     face = found;
@@ -159,7 +164,8 @@ class Search {
     simplex = known_;
   }
 
-  /// The corners known, asked again with n; those of the same two points are samples of one.
+  /// Returns the known corners computed again for direction n. Corners of the same two points
+  /// become one.
   Simplex<Real> sampled(const Vector<Real>& n) const {
     Simplex<Real> samples;
     for (int i = 0; i < known_.count; ++i) {
@@ -172,14 +178,14 @@ class Search {
     return samples;
   }
 
-  /// A step of Newton's from n to where the gap is widest, where surfaces are curved and corners
-  /// are samples of them; the face goes along where that makes it closer. False where there is
-  /// none. It only proposes: whatever the direction is, its gap is one and its corner is one.
+  /// Takes a Newton step from n towards the direction of the widest gap, for curved surfaces. Moves
+  /// the face along if that makes it closer. Returns false if there is no step. The step is only a
+  /// proposal: the gap and the corner of any direction are valid.
   ///
-  /// Corners of the same two points move together with n: w_i(n), and f_i = n·w_i has the gradient
-  /// w_i and the Hessian −H, H that of both sets. To second order in a tangent δ, f_i at n + δ,
-  /// normalised, is f_i + w_i·δ − δᵀ(H + f I)δ/2. The widest gap has the same f_i for all, which
-  /// leaves δ two, one, or no freedom; along what is left, (H + f I)δ = w.
+  /// The corner of the same two points moves with n as w_i(n). Then f_i = n·w_i has the gradient
+  /// w_i and the Hessian −H, where H is that of both sets. To second order in a tangent δ, f_i at
+  /// the normalised n + δ is f_i + w_i·δ − δᵀ(H + f I)δ/2. At the widest gap all f_i are equal,
+  /// which leaves δ two, one or no degrees of freedom. In these, (H + f I)δ = w.
   bool newton(Vector<Real>& n, Nearest<Real>& face, Answer& answer) {
     const Simplex<Real> samples = sampled(n);
     if (samples.count == 0) return false;
@@ -229,13 +235,13 @@ class Search {
   Support<Real> a_, b_;
   Real noise_;
   bool curved_;
-  Simplex<Real> known_;  // the face's corners
+  Simplex<Real> known_;  // the corners of the present face
   Real upper_{HUGE_VAL};
 };
 
-/// A search for verdicts: it ends, too, when upper and lower agree to 2^-50 of the size or a share
-/// (`Effort`) of the distance.
-/// @param near  a distance at which the search ends: closer does not matter.
+/// Runs a search for a verdict. It also ends when upper and lower bound agree, to 2^-50·size or to
+/// the share `Effort::agreed` of the distance, and when upper is at most `near`.
+/// @param size, near  metres.
 template <class Real, class Accept>
 Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept,
               bool whole = false) {

@@ -4,12 +4,12 @@
 
 #include "collision/core/transform.h"
 
-/// The distance sub-algorithm of GJK: the point of a simplex closest to the origin, and a direction
-/// that is good even where the distance is tiny: the normal of the face that the point lies in,
-/// or the origin's offset made orthogonal to the edge, never the difference of near points alone.
+/// The distance sub-algorithm of GJK: the point of a simplex closest to the origin. Its direction
+/// is accurate even for a tiny distance. It is the normal of the face that the point lies in, or
+/// the origin's offset made orthogonal to the edge, never only the difference of two close points.
 namespace corridor::gjk {
 
-/// Three numbers of a scalar type that Eigen doesn't know.
+/// A vector of three numbers of a scalar type that Eigen does not support.
 template <class Real>
 struct Vector {
   Real x{}, y{}, z{};
@@ -41,14 +41,13 @@ Real length(const Vector<Real>& v) {
   return sqrt(dot(v, v));
 }
 
-/// The smallest face of a simplex that holds its point closest to the origin.
+/// The smallest face of a simplex that contains its point closest to the origin.
 template <class Real>
 struct Nearest {
-  Vector<Real> v;          ///< the point, exact in direction above all
-  Real squared = Real(0);  ///< its squared distance
-  /// 4: the origin is inside, by more than rounding can feign.
-  int count = 0;
-  Vector<Real> corner[4];  ///< of that face
+  Vector<Real> v;          ///< the closest point; its direction is more accurate than its length
+  Real squared = Real(0);  ///< its squared distance from the origin
+  int count = 0;           ///< corners; 4: the origin is inside, by more than rounding can cause
+  Vector<Real> corner[4];
 };
 
 template <class Real>
@@ -63,7 +62,7 @@ Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b) {
   if (!(along > Real(0))) return nearest(a);
   if (!(along < square)) return nearest(b);
   Vector<Real> v = a + d * (along / square);
-  v = v - d * (dot(v, d) / square);  // at a right angle to d, whatever was cancelled above
+  v = v - d * (dot(v, d) / square);  // orthogonal to d again, despite cancellation above
   return {v, dot(v, v), 2, {a, b}};
 }
 
@@ -71,13 +70,13 @@ template <class Real>
 Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
   const Vector<Real> ab = b - a, bc = c - b, ca = a - c, n = cross(ab, bc);
   const Real square = dot(n, n), zero(0);
-  // Which edges the origin's foot lies outside of; all of them where there is no plane.
+  // The edges that the foot of the origin is outside of; all edges if the triangle is degenerate.
   const Real areaC = dot(n, cross(a, ab)), areaA = dot(n, cross(b, bc)),
              areaB = dot(n, cross(c, ca));
   const bool outAB = !(areaC > zero), outBC = !(areaA > zero), outCA = !(areaB > zero);
   if (square > zero && !outAB && !outBC && !outCA) {
-    // Its distance from a convex combination, which is a point of the triangle whatever the
-    // rounding of its weights; its direction from the normal.
+    // The distance is that of a convex combination, which is a point of the triangle however its
+    // weights round. The direction is the normal.
     const Vector<Real> foot =
         (a * areaA + b * areaB + c * areaC) * (Real(1) / (areaA + areaB + areaC));
     return {n * (dot(n, a) / square), dot(foot, foot), 3, {a, b, c}};
@@ -94,7 +93,7 @@ Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector
   return best.count > 0 ? best : nearest(a, b);
 }
 
-/// @param noise  metres: rounding of the corners' coordinates; heights of about as much are none.
+/// @param noise  rounding error of the corners' coordinates; heights of this order count as 0.
 template <class Real>
 Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c,
                       const Vector<Real>& d, const Real& noise) {
@@ -104,7 +103,7 @@ Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector
     const Real s = dot(*p, *p);
     if (s > largest) largest = s;
   }
-  const Real unsure = noise * largest;  // of a determinant
+  const Real unsure = noise * largest;  // error of a determinant
   Nearest<Real> best;
   for (int k = 0; k < 4; ++k) {
     const Vector<Real>&p = *corners[(k + 1) % 4], &q = *corners[(k + 2) % 4],

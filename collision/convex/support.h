@@ -13,10 +13,13 @@
 
 namespace corridor::gjk {
 
-/// How far candidates may be off and how long one may try: unit roundoff of the scalar as used,
-/// the share of the distance at which bounds agree (the quick search leaves what is closer to the
-/// other), and rounds. Polytopes need as many as they have faces that face each other; rims, a
-/// hundred at most were seen.
+/// Precision and limits of a search in one scalar type.
+///
+/// `unit` is the relative error assumed per operation (for DoubleDouble more than its format's).
+/// The search ends when upper and lower bound differ by less than `agreed` times the distance. For
+/// closer bounds than those of the search in double, the search in double-double follows. `rounds`
+/// is the maximum number of rounds. Polytopes need about as many rounds as the number of their
+/// faces that face the other polytope. Rims of discs needed at most a hundred in tests.
 template <class Real>
 struct Effort;
 template <>
@@ -30,20 +33,21 @@ struct Effort<DoubleDouble> {
   static constexpr int rounds = 1000;
 };
 
-/// Two directions at a right angle to one, and to each other.
+/// Two unit tangents of a direction: orthogonal to it and to each other.
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
-/// The support points of a posed set's core, in the scalar at hand.
+/// The support function of a posed set's core in a scalar type: the points farthest along a
+/// direction.
 template <class Real>
 class Support {
  public:
   struct Point {
     Vector<Real> x;
-    std::uint32_t number;
+    std::uint32_t number;  ///< index of the point of the set that `x` belongs to
   };
 
-  /// @param scale  a power of two: the image's points come multiplied by it.
-  /// @param whole  the ball counts as part of the core: for maps that don't leave it one.
+  /// @param scale  a power of two that all returned points are multiplied by.
+  /// @param whole  the sphere belongs to the core: for maps that make it an ellipsoid.
   Support(const PosedSet& set, double scale, bool whole = false)
       : set_(set),
         scale_(scale),
@@ -57,22 +61,22 @@ class Support {
     }
   }
 
-  /// The point farthest along n.
+  /// Returns the point of the core farthest along n.
   Point operator()(const Vector<Real>& n) const {
     const Vector<Real> m = row_[0] * n.x + row_[1] * n.y + row_[2] * n.z;
     const std::uint32_t best = farthest(m);
     return {image(best, m), best};
   }
-  /// The one on the given point's disc or ball.
+  /// Returns the point farthest along n on the disc or the sphere about the given point.
   Vector<Real> at(std::uint32_t number, const Vector<Real>& n) const {
     if (!(disc_ > 0 || ball_ > 0)) return image(number, n);
     return image(number, row_[0] * n.x + row_[1] * n.y + row_[2] * n.z);
   }
 
-  /// Is there a curved surface in the core: does the point farthest along n move with n?
+  /// True if the core has a curved surface, on which the point farthest along n moves with n.
   bool curved() const { return disc_ > 0 || ball_ > 0; }
-  /// Adds, for two columns of tangents at n, how it moves: TᵀHT, H the Hessian of max n·x. False
-  /// where it jumps.
+  /// Adds TᵀHT to `sum`, with T the tangents at n and H the Hessian of max n·x over the core.
+  /// Returns false where the farthest point jumps.
   bool addCurvature(const Vec3& n, const Tangents& tangents, Eigen::Matrix2d& sum) const {
     const Mat3& map = set_.pose().m;
     const Vec3 m = map.transpose() * n;
@@ -92,6 +96,7 @@ class Support {
     return true;
   }
 
+  /// Returns some point of the core: the mean of the set's points.
   Vector<Real> somewhere() const {
     Vec3 mean = Vec3::Zero();
     for (const Vec3& p : set_.set().points) mean += p;
@@ -100,8 +105,9 @@ class Support {
   }
 
  private:
-  /// Those that doubles can't tell from the farthest are compared in `Real`: three products and two
-  /// sums are off by less than 4u of |m|₁·max|p|.
+  /// Returns the number of the set's point farthest along m. Points that doubles cannot distinguish
+  /// from the farthest are compared in `Real`: in double three products and two sums are off by
+  /// less than 4u·|m|₁·max|p|.
   std::uint32_t farthest(const Vector<Real>& m) const {
     const auto points = set_.set().points;
     const Vec3 rough(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z));
@@ -133,9 +139,10 @@ class Support {
     return {dot(row_[0], p) + t_.x, dot(row_[1], p) + t_.y, dot(row_[2], p) + t_.z};
   }
 
-  /// m's share at a right angle to the axis, as a unit vector; zero where it has none. Taken twice:
-  /// a small share is mostly rounding at first, of any direction; where the second time takes away
-  /// half of it, it was nothing else.
+  /// Returns the component of m orthogonal to the axis as a unit vector, or zero if there is none.
+  /// The projection is done twice: if the component is small, its value after the first projection
+  /// is mostly rounding error. If the second projection removes half of that value, nothing but
+  /// rounding error was left, and the result is zero.
   Vector<Real> radial(const Vector<Real>& m) const {
     Vector<Real> e = m;
     for (const double least : {Effort<Real>::unit, 0.5}) {

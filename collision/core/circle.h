@@ -7,25 +7,26 @@
 
 namespace corridor {
 
-/// Half turns within this have no shorter way (design: «What an edge is»); radians.
+/// Two angles this close to half a turn apart have no defined shorter way round (PROMISES.md, "What
+/// an edge is"); radians.
 inline constexpr double kHalfTurnBand = 1e-9;
 
-/// The shorter way round a circle, radians, and how far rounding may have taken it off.
+/// The shorter rotation from one angle to another, and a bound on its rounding error; radians.
 struct CircleTurn {
   double angle = 0;  ///< in [−π, π]
   double error = 0;
 
-  /// Within the band, or the rounding of large angles, of a half turn.
+  /// True if the rotation is half a turn, up to the band or the rounding error.
   bool ambiguous() const { return !(std::abs(angle) + error <= std::numbers::pi - kHalfTurnBand); }
 };
 
-/// The shorter way from one angle to another, whatever their sizes; radians.
+/// Returns the shorter rotation from one angle to another, of any size; radians.
 ///
-/// Error, with S = |from| + |to|: the difference rounds once, by 2^-53·S. Each of its turns, at
-/// most S/2π + 1/2 ≤ S/π of them, is 2.5e-16 off 2π in double. Together that is below 2^-52·S;
-/// doubled. Large angles go by their sines and cosines in long double, for which the C library
-/// reduces them by as many digits of π as they need: 2^-58 of error, and the result rounds by
-/// 2^-52.
+/// Error, with S = |from| + |to|: the difference rounds once, by at most 2^-53·S. Then at most S/2π
+/// + 1/2 ≤ S/π whole turns are subtracted, each 2.5e-16 off 2π because 2π is a double. The sum is
+/// below 2^-52·S, which is doubled. Large angles are compared by their sines and cosines in long
+/// double, for which the C library reduces the angles with as many digits of π as they need. That
+/// error is 2^-58, and the result rounds by 2^-52.
 inline CircleTurn circleTurn(double from, double to) {
   if (from == to) return {};
   const double turn = to - from, size = std::abs(from) + std::abs(to);
@@ -37,8 +38,8 @@ inline CircleTurn circleTurn(double from, double to) {
   return {static_cast<double>(std::atan2(s1 * c0 - c1 * s0, c1 * c0 + s1 * s0)), 0x1p-51};
 }
 
-/// An angle less whole turns, in [−π, π]: within 2^-53 of the real one, and rounded. (Up to 1,000
-/// rad are 160 turns, each 2^-62 off 2π in long double.)
+/// Returns the angle minus whole turns, in [−π, π]; radians. Before the last rounding to double it
+/// is within 2^-53 of the real value: 1,000 rad are 160 turns, each 2^-62 off 2π in long double.
 inline double intoCircle(double angle) {
   if (std::abs(angle) <= std::numbers::pi) return angle;
   using Real = long double;

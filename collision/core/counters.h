@@ -6,20 +6,21 @@ namespace corridor {
 
 constexpr std::uint64_t kNoWorkLimit = ~std::uint64_t{0};
 
-/// What queries cost, in the terms of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1):
-/// counts, one set a thread.
+/// Counts of the work of queries, in the terms of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha
+/// 1996, eq. 1). Each thread has its own set.
 struct Counters {
   std::uint64_t boxTests = 0;       ///< N_v: pairs of bounding volumes tested
-  std::uint64_t triangleTests = 0;  ///< N_p: pairs of triangles tested
-  std::uint64_t exactTests =
-      0;                     ///< of these, decided by exact arithmetic because the filter could not
-  std::uint64_t poses = 0;   ///< poses computed along motions
-  std::uint64_t splits = 0;  ///< windows of time that were halved
-  std::uint64_t edges = 0;   ///< motion queries
-  std::uint64_t states = 0;  ///< static queries
+  std::uint64_t triangleTests = 0;  ///< N_p: tested pairs of triangles or convex parts
+  /// The part of `triangleTests` that double could not decide: repeated in exact arithmetic, or in
+  /// double-double for convex parts.
+  std::uint64_t exactTests = 0;
+  std::uint64_t poses = 0;      ///< poses computed along motions
+  std::uint64_t splits = 0;     ///< time intervals halved
+  std::uint64_t edges = 0;      ///< motion queries
+  std::uint64_t states = 0;     ///< static queries
   std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`
 
-  /// Box and triangle tests: what limits of work are about.
+  /// Returns the sum that work limits are compared with: box tests and triangle tests.
   std::uint64_t work() const { return boxTests + triangleTests; }
 
   Counters& operator+=(const Counters& other);

@@ -6,18 +6,18 @@
 
 namespace corridor {
 
-/// One fault of a user's input: where it is, what is wrong, and what would be right.
+/// One fault in a user's input: where it is, what is wrong, and what is right instead.
 struct Fault {
-  std::string file;  ///< as the user named it; empty: no file (a command-line option, say)
-  int line = 0;      ///< from 1; 0: the file as a whole
+  std::string file;  ///< as the user named it; empty: not in a file (a command-line option, say)
+  int line = 0;      ///< counted from 1; 0: the file as a whole
   std::string text;
 
-  /// "file:line: text".
+  /// Returns "file:line: text".
   std::string str() const;
 };
 
-/// Bad input. Carries all faults that were found, `what()` has them one a line (control characters
-/// in their texts become '?'). The program turns it into exit status 2.
+/// The exception for bad input. It carries all faults found; `what()` lists them one per line, with
+/// control characters in their texts replaced by '?'. The program then ends with exit status 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Fault> faults);

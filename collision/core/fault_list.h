@@ -8,17 +8,17 @@
 
 namespace corridor {
 
-/// Collects the faults of an input and of the files that it names, so that its user sees all of
-/// them at once. At the thousandth it gives up: `add` throws all of them.
+/// Collects the faults of an input and of the files that it names, so that the user sees all of
+/// them at once. At the thousandth fault `add` throws all of them.
 class FaultList {
  public:
   static constexpr std::size_t kMost = 1000;
 
-  /// @param mainFile whose faults come first; empty: no file does.
+  /// @param mainFile  its faults are listed first; empty: no file is preferred.
   explicit FaultList(std::string mainFile = {}) : mainFile_(std::move(mainFile)) {}
   void add(std::string file, int line, std::string text);
   void add(const InputError& error);
-  /// Does something that may throw an InputError, and keeps its faults instead.
+  /// Calls `step`; if it throws an InputError, keeps the faults instead.
   template <class Step>
   void collect(const Step& step) {
     try {
@@ -31,8 +31,8 @@ class FaultList {
 
   std::size_t size() const { return faults_.size(); }
 
-  /// @throws InputError with all faults, if there are any: the main file's first, then those of
-  /// others in the order in which they came up, each by line.
+  /// @throws InputError with all faults, if there are any: first the main file's, then those of the
+  /// other files in the order of their first faults; within a file by line.
   void throwIfAny() const;
 
  private:

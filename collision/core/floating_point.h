@@ -1,19 +1,20 @@
 #pragma once
 
-/// What every proof assumes of the processor and of the compiler.
+/// The floating-point arithmetic that every proof assumes, and tests of it.
 ///
-/// Rounding is to nearest, in double and in long double, and long double keeps all of its digits
-/// (the x87 of a program can be set to 53 bits). Every bound counts roundings under that
-/// assumption: in another mode a proof may be wrong. Motion queries, the check of certificates, the
-/// planner's checker and the verifier test it once a call (`standardFloatingPoint`) and answer
-/// `undecided` where it does not hold. Trees and bodies refuse to be built there. Queries of trees
-/// have it as a precondition, which they assert in debug builds.
+/// Assumption: double and long double round to nearest, and long double keeps all of its 64 bits (a
+/// program can set the x87 unit to 53). Every bound counts roundings under this assumption; in
+/// another mode a proof may be wrong.
+/// * Motion queries, the check of certificates, the planner's checker and the verifier test it once
+/// per call (`standardFloatingPoint`). Where it does not hold they answer `undecided`.
+/// * Trees and bodies refuse to be built where it does not hold.
+/// * Queries of trees have it as a precondition, which debug builds assert.
 ///
-/// Flush-to-zero and denormals-are-zero are allowed: every bound has room for what they lose. A
-/// program that is linked with -ffast-math has both set from its start.
+/// Flush-to-zero and denormals-are-zero are allowed: every bound includes the errors that they
+/// cause. A program linked with -ffast-math has both set from its start.
 ///
-/// The headers refuse every option of g++ under which no bound holds. clang defines no macro for
-/// -fassociative-math and -freciprocal-math alone: there it is the caller's to leave them out.
+/// The header refuses every option of g++ under which the bounds do not hold. clang defines no
+/// macro for -fassociative-math or -freciprocal-math alone; its users must not set them.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "Corridor's bounds do not hold under -ffast-math or any part of it: compile without it"
@@ -29,9 +30,10 @@ enum class FloatingPoint {
   precision  ///< long double does not keep all of its digits
 };
 
-/// How the processor computes in this thread. A dozen additions; they raise the flag "inexact".
+/// Returns how the processor computes in this thread. Costs a dozen additions, which raise the flag
+/// "inexact".
 inline FloatingPoint floatingPoint() {
-  // `volatile` keeps the compiler from computing these itself, which it would do to nearest.
+  // `volatile`: otherwise the compiler computes the sums itself, always rounding to nearest.
   volatile double one = 1, little = 0x1p-60;
   if (one + little != 1 || -one - little != -1 || one - little != 1 || little - one != -1)
     return FloatingPoint::rounding;
@@ -48,7 +50,7 @@ inline bool standardFloatingPoint() {
   return floatingPoint() == FloatingPoint::standard;
 }
 
-/// What is wrong, for messages.
+/// Returns a phrase for messages: what is wrong.
 inline const char* described(FloatingPoint state) {
   switch (state) {
     case FloatingPoint::standard:
@@ -61,7 +63,8 @@ inline const char* described(FloatingPoint state) {
   return "floating-point arithmetic is standard";
 }
 
-/// For constructors of what proofs rest on. @throws std::runtime_error
+/// Requires the arithmetic that proofs assume; called by constructors of trees and bodies.
+/// @throws std::runtime_error
 void requireStandardFloatingPoint();
 
 }  // namespace corridor

@@ -6,22 +6,24 @@
 
 namespace corridor {
 
-/// The pair of triangles, by their numbers in two trees, that last answered a query of these trees:
-/// touched, or were the closest. Of bodies that move in small steps it often answers the next one.
+/// The pair of triangles that decided the last query of two trees: they touched, or were the
+/// closest. If bodies move in small steps, the same pair often decides the next query.
 ///
-/// A guess, to be tested as any other pair: nothing that is told rests on it. It is worth a test
-/// once a search has found it twice running, and until it has failed as often as `kTrust`: where
-/// queries have nothing to do with each other, none is spent on it.
+/// The pair is a guess: queries test it as any other pair, and no result relies on it. Distance
+/// queries always start from it. Interference queries test it first only while it is `trusted`: two
+/// searches in a row have found it, and it has not failed `kTrust` times in a row since. Thus
+/// unrelated queries waste no test on it.
 class LastPair {
  public:
-  std::uint32_t a = 0xffffffff, b = 0xffffffff;
+  std::uint32_t a = 0xffffffff, b = 0xffffffff;  ///< numbers of triangles in the two trees
 
-  /// Are these numbers of triangles? Not those of a tree that was larger, and has gone.
+  /// True if both numbers are in range. They may not be: a larger tree, since destroyed, may have
+  /// had the same address.
   bool isIn(std::size_t countA, std::size_t countB) const { return a < countA && b < countB; }
   bool trusted() const { return trust_ > 0; }
-  /// What the test of the guess has told,
+  /// Records the test of the guess: whether this pair decided the query.
   void tested(bool answers) { trust_ = answers ? kTrust : trust_ - 1; }
-  /// or, without it, a search.
+  /// Records the pair that a search has found.
   void found(std::uint32_t s, std::uint32_t t) {
     if (s == a && t == b) trust_ = kTrust;
     a = s;
@@ -33,13 +35,13 @@ class LastPair {
   int trust_ = 0;
 };
 
-/// The last pairs of some pairs of trees, those asked about last: a table of fixed size.
+/// A hash table of fixed size: the last pairs of recently queried pairs of trees.
 class LastPairs {
  public:
-  /// Of two trees, in this order, by their addresses. May be another's: of trees that were there
-  /// before, or that have the same key by chance.
+  /// Returns the last pair of two trees, in this order, given by their addresses. It may belong to
+  /// other trees, which had the same addresses before or have the same key by chance.
   LastPair& of(const void* a, const void* b) {
-    // Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014: its constants.
+    // Constants of Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014.
     const auto address = [](const void* p) {
       return static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(p));
     };

@@ -9,7 +9,7 @@
 namespace corridor {
 namespace {
 
-/// What RLIMIT_DATA counts.
+/// Returns the bytes that RLIMIT_DATA counts; 0 if they are unknown.
 std::size_t dataBytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)

@@ -4,9 +4,9 @@
 
 namespace corridor {
 
-/// Limits what this process, and those that it starts, may allocate from now on, in bytes beyond
-/// what it has (heap, stacks and private mappings: RLIMIT_DATA, which works under sanitizers, too,
-/// as RLIMIT_AS does not). Beyond it allocations fail.
+/// Limits the memory of this process, and of each process that it starts, to the present size plus
+/// `bytes`. Further allocations fail. Counts heap, stacks and private mappings (RLIMIT_DATA, which
+/// works under sanitizers, unlike RLIMIT_AS). Without /proc there is no limit.
 void limitMemory(std::size_t bytes);
 
 }  // namespace corridor

@@ -12,8 +12,9 @@
 
 namespace corridor {
 
-/// Runs `work()` on `threads` threads, this one among them (0 or 1: on this one alone; fewer where
-/// the system has no more), until all have returned. Throws what the first of them threw.
+/// Runs `work()` on `threads` threads and returns when all have returned. The calling thread is one
+/// of them; for 0 or 1 it is the only one. If the system cannot start as many, fewer run. Rethrows
+/// the first exception.
 template <class Work>
 void onThreads(unsigned threads, const Work& work) {
   std::exception_ptr error;
@@ -37,7 +38,7 @@ void onThreads(unsigned threads, const Work& work) {
   if (error) std::rethrow_exception(error);
 }
 
-/// Calls `work(begin, end)` for parts of [0, n) that together are the whole, in no order.
+/// Calls `work(begin, end)` on several threads for subranges that partition [0, n), in any order.
 template <class Work>
 void inParts(unsigned threads, std::size_t n, const Work& work) {
   constexpr std::size_t kPart = 16384;
@@ -58,8 +59,9 @@ void inParts(unsigned threads, std::size_t n, const Work& work) {
   });
 }
 
-/// Tasks that beget tasks: `makeWorker()` is called once a thread, and what it returns is called as
-/// `worker(task, more)` for `first` and for all that any call appended to its `more`, in no order.
+/// Runs a task and all tasks that it creates, on several threads, in any order. Each thread calls
+/// `makeWorker()` once, then calls the result as `worker(task, more)`, which appends new tasks to
+/// `more`.
 template <class Task, class MakeWorker>
 void runTasks(unsigned threads, Task first, const MakeWorker& makeWorker) {
   std::mutex mutex;

@@ -7,83 +7,91 @@
 
 #include "collision/core/counters.h"
 #include "collision/core/last_pairs.h"
-#include "collision/core/swept_ball.h"
+#include "collision/core/swept_sphere.h"
 #include "collision/core/transform.h"
 
 namespace corridor {
 
-/// What a query may write: scratch memory, counters and guesses of one thread. No verdict depends
-/// on what it holds, and no distance beyond the error that it may have; which of several triangles
-/// are named for it may.
+/// All that a query may write: scratch memory, counters and guesses. Each thread has its own. The
+/// contents never change a verdict, nor a distance beyond its error bound. They may change which of
+/// several closest or touching triangles is reported.
 class QueryContext {
  public:
   Counters counters;
 
-  /// A pair of tree nodes, of the pair of bodies numbered `bodies` where several share a list.
+  /// A pair of tree nodes. `bodies` is the number of their pair of bodies if several share a list.
   struct NodePair {
     std::uint32_t a, b, bodies;
   };
-  std::vector<NodePair> stack;  ///< of the traversal under way
-  /// Two nodes of wide trees, the least key of their boxes' pairs, and which of these are asked
-  /// about: bit 4·i + j for a's i-th and b's j-th.
-  struct WideItem {
+  std::vector<NodePair> stack;  ///< node pairs that the current traversal has still to visit
+  /// A pair of nodes of 4-wide trees. `pairs` selects the pairs of their boxes to test: bit 4·i + j
+  /// for the i-th box of a and the j-th of b. `key` is the least key of these pairs, by which a
+  /// traversal orders them.
+  struct NodePair4 {
     std::uint32_t a, b;
     float key;
     std::uint32_t pairs;
   };
-  /// All of two trees.
-  static constexpr WideItem kWholeTrees = {0, 0, -HUGE_VALF, 0xffff};
-  std::vector<WideItem> wideStack;  ///< what a walk begins with, and what it has left
+  /// The pair of both roots.
+  static constexpr NodePair4 kWholeTrees = {0, 0, -HUGE_VALF, 0xffff};
+  std::vector<NodePair4> stack4;  ///< the node pairs that a traversal starts from, and has left
   void startAtRoots() {
-    if (wideStack.empty()) wideStack.resize(1);
-    wideStack[0] = kWholeTrees;
+    if (stack4.empty()) stack4.resize(1);
+    stack4[0] = kWholeTrees;
   }
-  /// The pairs of nodes of its first `count` items on `stack`, for binary trees.
+  /// Copies the first `count` node pairs of `stack4` to `stack`, for binary trees.
   void stackFrom(std::size_t count) {
     stack.clear();
-    for (std::size_t i = 0; i < count; ++i) stack.push_back({wideStack[i].a, wideStack[i].b, 0});
+    for (std::size_t i = 0; i < count; ++i) stack.push_back({stack4[i].a, stack4[i].b, 0});
   }
-  /// Pairs of nodes of one pair of bodies: a range of `pending`.
-  struct PairItems {
+  /// The node pairs of one pair of bodies in a work list: a range of `openPairs`.
+  struct PairWork {
     std::uint32_t bodies;
     std::size_t begin, end;
-    double clearance = 0;  ///< of what longer windows told apart already, metres; where asked for
+    /// Lower bound of the clearance of the node pairs that longer time intervals have separated
+    /// already, metres; only if the query needs it.
+    double clearance = 0;
   };
-  std::vector<WideItem> pending;  ///< what motion queries hand down to shorter windows of time,
-  std::vector<PairItems> groups;  ///< and whose it is
-  /// Balls around the bodies of a scene, as the world sees them in one window of time; each is made
-  /// where it is first asked for.
-  class Balls {
+  /// The work list of a motion query: the node pairs that a time interval leaves to its halves.
+  std::vector<NodePair4> openPairs;
+  std::vector<PairWork> workList;  ///< the ranges of `openPairs`, by pair of bodies
+  /// Swept spheres around the bodies of a scene, in the world frame, for one time interval. Each is
+  /// computed when it is first needed.
+  class SweptSpheres {
    public:
     void makeRoom(std::size_t bodies) {
-      if (balls_.size() < bodies) balls_.resize(bodies);
+      if (spheres_.size() < bodies) spheres_.resize(bodies);
     }
+    /// Discards all, for another time interval.
     void forget() { ++stamp_; }
-    /// @pre room for it. `make` asks for no ball.
+    /// Returns the body's swept sphere, computed by `make` if there is none yet.
+    /// @pre `makeRoom` included the body, and `make` calls no member of this class.
     template <class Make>
-    const SweptBall& of(std::size_t body, const Make& make) {
-      Stamped& known = balls_[body];
+    const SweptSphere& of(std::size_t body, const Make& make) {
+      Stamped& known = spheres_[body];
       if (known.stamp != stamp_) known = {make(), stamp_};
-      return known.ball;
+      return known.sphere;
     }
 
    private:
     struct Stamped {
-      SweptBall ball;
+      SweptSphere sphere;
       std::uint64_t stamp = 0;
     };
-    std::vector<Stamped> balls_;
+    std::vector<Stamped> spheres_;
     std::uint64_t stamp_ = 0;
   };
-  Balls balls;
-  /// What distance queries have left to look at, and pairs of triangles (in leaf order) that may be
-  /// the closest, each with a lower bound of its distance, metres.
+  SweptSpheres spheres;
+  /// A pair of nodes or of leaf primitives (in leaf order), with a lower bound of its distance,
+  /// metres.
   struct BoundedPair {
     std::uint32_t a, b;
     double bound;
   };
+  /// Used by distance queries: `bounded` are the pairs still to test, `candidates` the pairs of
+  /// leaf primitives that may be the closest.
   std::vector<BoundedPair> bounded, candidates;
-  LastPairs lastPairs;  ///< of wide trees: where their queries look first
+  LastPairs lastPairs;  ///< the pairs that queries on 4-wide OBB trees test first
 };
 
 }  // namespace corridor

@@ -40,7 +40,7 @@ std::string whyNotOrdinary(std::filesystem::file_type type) {
   }
 }
 
-/// A file descriptor, closed at its end.
+/// An open file descriptor, closed by the destructor.
 class OpenFile {
  public:
   OpenFile(const std::filesystem::path& file, int flags)
@@ -58,9 +58,9 @@ class OpenFile {
   int descriptor_;
 };
 
-/// As many bytes as come, up to `size`. @returns how many.
+/// Reads the bytes that are available, at most `size`. @returns their number; 0 at the end.
 std::size_t readSome(int descriptor, char* to, std::size_t size, const std::string& name) {
-  constexpr std::size_t most = std::size_t{1} << 30;  // of one call; the system has a limit, too
+  constexpr std::size_t most = std::size_t{1} << 30;  // per call: Linux reads no more than 2 GiB
   while (true) {
     const ssize_t n = ::read(descriptor, to, std::min(size, most));
     if (n >= 0) return static_cast<std::size_t>(n);
@@ -68,10 +68,10 @@ std::size_t readSome(int descriptor, char* to, std::size_t size, const std::stri
   }
 }
 
-/// An ordinary file that is open, and its size.
+/// An open ordinary file, and its size.
 class OrdinaryFile : public OpenFile {
  public:
-  // Should a pipe take the file's place after the first look, nothing waits for its other end.
+  // O_NONBLOCK: if a pipe replaces the file after the first check, opening does not wait for it.
   OrdinaryFile(const std::filesystem::path& file, const std::string& what, std::uint64_t most)
       : OpenFile(looked(file), O_NONBLOCK) {
     const std::string name = file.string();
@@ -81,8 +81,8 @@ class OrdinaryFile : public OpenFile {
     size_ = static_cast<std::uint64_t>(status.st_size);
     if (size_ == 0) fail(name, "is empty; " + what + " is needed");
     if (size_ > most)
-      fail(name, "has " + std::to_string(size_) + " bytes; at most " + std::to_string(most) +
-                     " are read of " + what);
+      fail(name, "has " + std::to_string(size_) + " bytes, more than " + std::to_string(most) +
+                     ", the limit for " + what);
   }
   std::uint64_t size() const { return size_; }
 
@@ -95,7 +95,7 @@ class OrdinaryFile : public OpenFile {
   std::uint64_t size_ = 0;
 };
 
-/// Refuses a byte 0 in `text` from `from` on.
+/// Throws if `text` has a byte 0 at `from` or later.
 void requireText(const std::string& text, std::size_t from, const std::string& name) {
   const auto zero = text.find('\0', from);
   if (zero == text.npos) return;
@@ -104,14 +104,14 @@ void requireText(const std::string& text, std::size_t from, const std::string& n
   fail(name, "is not text: it has a byte 0; UTF-8 is needed", static_cast<int>(1 + lines));
 }
 
-/// @returns the text.
+/// Returns the text; throws if it is blank.
 std::string notBlank(std::string text, const std::string& name, const std::string& what) {
   if (text.find_first_not_of(" \t\r\n") == text.npos)
     fail(name, "is empty; " + what + " is needed");
   return text;
 }
 
-/// All that comes until its end.
+/// Returns all that comes until the end of the pipe.
 std::string readPipe(int descriptor, const std::string& name, const std::string& what) {
   std::vector<char> part(std::size_t{1} << 18);
   std::string text;
@@ -121,8 +121,8 @@ std::string readPipe(int descriptor, const std::string& name, const std::string&
     text.append(part.data(), n);
     if (n == 0) return notBlank(std::move(text), name, what);
     if (text.size() > kMostFileBytes)
-      fail(name, "has more than " + std::to_string(kMostFileBytes) + " bytes, which is the most " +
-                     "that is read of " + what);
+      fail(name,
+           "has more than " + std::to_string(kMostFileBytes) + " bytes, the limit for " + what);
     requireText(text, before, name);
   }
 }

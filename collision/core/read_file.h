@@ -4,36 +4,39 @@
 #include <filesystem>
 #include <string>
 
-/// The one door through which input files are read. It opens ordinary files only, looks at their
-/// size before memory is taken for them, and never waits for a device or a pipe, unless the input
-/// is documented to take one (`readTextStream`).
+/// Reading of input files: all of them are opened here. Only ordinary files are opened, and their
+/// size is tested before memory is allocated. No call waits for a device or a pipe, except
+/// `readTextStream`, for inputs that are documented to take one.
 namespace corridor {
 
-/// 4 GiB: of any one input.
+/// The maximum number of bytes of any input: 4 GiB.
 constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 32;
-/// 256 MiB: of a document that is parsed as a whole (YAML, JSON, XML, .cfg). A solution file of a
-/// million states of seven numbers has 150 MB.
+/// The maximum number of bytes of a document that is parsed as a whole (YAML, JSON, XML, .cfg): 256
+/// MiB. For comparison, a solution file of a million states of seven numbers has 150 MB.
 constexpr std::uint64_t kMostDocumentBytes = std::uint64_t{1} << 28;
 
-/// What keeps a path from being an ordinary file ("no such file …"), or "". Opens nothing.
+/// Returns why a path is not an ordinary file ("no such file", …), or "" if it is. Opens nothing.
 std::string whyNoFile(const std::filesystem::path& file);
 
-/// @param what "a mesh file", for messages. @param most bytes that it may have.
-/// @throws InputError: no such file, not an ordinary one, unreadable, empty, or larger.
+/// Requires a readable, non-empty, ordinary file of at most `most` bytes.
+/// @param what  the kind of input for messages: "a mesh file".
+/// @throws InputError: no such file, not an ordinary file, unreadable, empty, or too large.
 void requireFile(const std::filesystem::path& file, const std::string& what,
                  std::uint64_t most = kMostFileBytes);
 
-/// The bytes of a file. @throws InputError: as `requireFile`.
+/// Returns the bytes of a file. @throws InputError: as `requireFile`.
 std::string readFile(const std::filesystem::path& file, const std::string& what,
                      std::uint64_t most = kMostFileBytes);
 
-/// The text of a document. @param what "a problem", for messages.
-/// @throws InputError: as `requireFile`; also above 256 MiB, only blanks, or not text (a byte 0).
+/// Returns the text of a document. @param what  for messages: "a problem".
+/// @throws InputError: as `requireFile`; also for more than 256 MiB, for blanks only, and for a
+/// byte 0, which no text has.
 std::string readTextFile(const std::filesystem::path& file, const std::string& what);
 
-/// The text of a list that may be long or come from a pipe; "-" and "/dev/stdin" are the standard
-/// input. Waits for the other end of a pipe, as programs do.
-/// @throws InputError: as `requireFile`; also only blanks, or not text (a byte 0, noticed at once).
+/// Returns the text of a list that may be long or come from a pipe; "-" and "/dev/stdin" are the
+/// standard input. Reads a pipe to its end, and waits for its writer.
+/// @throws InputError: as `requireFile`; also for blanks only, and for a byte 0, which ends the
+/// reading of a pipe at once.
 std::string readTextStream(const std::filesystem::path& file, const std::string& what);
 
 }  // namespace corridor

@@ -7,33 +7,34 @@
 
 namespace corridor {
 
-/// Unit roundoff of double: |fl(x∘y) − x∘y| ≤ u·|x∘y| for + − × ÷ √ where nothing under- or
-/// overflows.
+/// Unit roundoff u of double: |fl(x∘y) − x∘y| ≤ u·|x∘y| for + − × ÷ √, without underflow or
+/// overflow.
 inline constexpr double kUnit = 0x1p-53;
 
-/// Below what any underflow of a product of numbers under 2^20 can lose, flush-to-zero on or off;
-/// far below any mesh.
+/// An upper bound of the error that underflow causes in a product of numbers below 2^20, with or
+/// without flush-to-zero. It is far below the coordinates of any mesh.
 inline constexpr double kTiny = 0x1p-1000;
 
-/// A bound made of positive terms by at most 16 roundings, made safe: (1 + u)^16 < 1 + 2^-48.
-/// Monotone, and NaN stays NaN.
+/// Returns an upper bound of the real value of `bound`, if that was computed from positive terms
+/// with at most 16 roundings: (1 + u)^16 < 1 + 2^-48. Monotone; NaN stays NaN.
 inline double roundedUp(double bound) {
   return bound * (1 + 0x1p-48) + kTiny;
 }
 
-/// As above, downwards, for positive numbers.
+/// Returns a lower bound of the real value, likewise.
 inline double roundedDown(double bound) {
   return bound * (1 - 0x1p-48) - kTiny;
 }
 
-/// The root of a sum of squares as a lower bound: 0 where rounding to subnormals may have made it
-/// larger.
+/// Returns a lower bound of the root of a sum of squares, up to the usual relative rounding errors.
+/// Returns 0 for small sums, which rounding to subnormals may have made too large.
 inline double rootFromBelow(double square) {
   return square > 0x1p-960 ? std::sqrt(square) : 0;
 }
 
-/// The largest power of two below `size` > 0, within 2^±1000: a unit in which squares of what is of
-/// that size neither over- nor underflow, exact to scale by.
+/// Returns the largest power of two not above `size` > 0, clamped to 2^±1000. If lengths near
+/// `size` are measured in this unit, their squares neither overflow nor underflow. Scaling by a
+/// power of two is exact.
 inline double powerOfTwo(double size) {
   return std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
 }

@@ -9,25 +9,26 @@ namespace corridor {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-/// The affine map x ↦ m·x + t, named X_AB where it takes coordinates of frame B to frame A.
+/// The affine map x ↦ m·x + t. Named X_AB if it maps coordinates of frame B to frame A.
 ///
-/// The twelve doubles *are* the map: queries answer for them in real arithmetic, whether or not m
-/// is a rotation to the last bit (no matrix of doubles is, but the 24 signed permutations). Lengths
-/// in metres.
+/// The twelve doubles *are* the map: queries use precisely these numbers, in real arithmetic,
+/// whether or not m is exactly a rotation. (No matrix of doubles is, except the 24 signed
+/// permutations.) Lengths in metres.
 struct Transform {
   Mat3 m = Mat3::Identity();
   Vec3 t = Vec3::Zero();
 
-  /// Rounded; who needs the exact point uses predicates/.
+  /// Returns the image of a point, rounded. For the exact point see predicates/.
   Vec3 operator*(const Vec3& p) const { return m * p + t; }
-  /// Rounded.
+  /// Returns the composition, rounded.
   Transform operator*(const Transform& other) const { return {m * other.m, m * other.t + t}; }
 
   bool isFinite() const { return m.allFinite() && t.allFinite(); }
   bool operator==(const Transform& other) const { return m == other.m && t == other.t; }
 };
 
-/// The inverse of a rigid map, up to rounding and to the defect of `X.m`: R ↦ Rᵀ.
+/// Returns the inverse of a rigid map, with Rᵀ for R⁻¹. It is off by rounding, and by the defect of
+/// `X.m` from a rotation.
 inline Transform rigidInverse(const Transform& X) {
   return {X.m.transpose(), -(X.m.transpose() * X.t)};
 }

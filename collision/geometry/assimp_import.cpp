@@ -20,9 +20,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-/// Debian's assimp has its assertions on, and would end the program where a damaged file breaks
-/// one. The program comes before assimp in the order in which assimp's own symbols are looked up,
-/// so that this one is called instead; assimp's importers throw, and clean up, in the same way.
+/// Replaces assimp's handler of failed assertions, which would end the program. Debian's assimp is
+/// built with assertions, and damaged files break some. The dynamic linker finds this definition
+/// first, because the program precedes assimp in the symbol search order. Throwing is safe:
+/// assimp's importers throw errors, and clean up, in the same way.
 namespace Assimp {
 ASSIMP_API void aiAssertViolation(const char* expression, const char*, int) {
   throw std::runtime_error(std::string("assimp's assertion fails: ") + expression);
@@ -63,8 +64,8 @@ void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& pa
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], map, to);
 }
 
-/// The number that was most likely written where assimp keeps a float: the shortest decimal that
-/// rounds to it.
+/// Returns the number that the file most likely had where assimp keeps a float: the shortest
+/// decimal that rounds to it.
 double shortestDecimal(float value) {
   char text[32];
   const char* const end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -73,17 +74,18 @@ double shortestDecimal(float value) {
   return written;
 }
 
-/// Collada's unit and up-axis are in the root's transform. A unit that is 0, or too small for
-/// assimp's floats, would leave nothing of the mesh, a negative one its mirror image; but that may
-/// be a node's by right, which OMPL.app's steps may have merged with the root.
+/// Requires a sound unit in the root's transform, where assimp puts Collada's unit and up-axis. A
+/// unit that is 0, or too small for assimp's floats, would leave nothing of the mesh, and a
+/// negative one its mirror image. Under `OmplApp` a mirror image is accepted: it may be a node's
+/// own, which OMPL.app's import steps may have merged with the root.
 void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
   const double volume = inDoubles(scene.mRootNode->mTransformation).linear().determinant();
   if (!(volume > 0 || (volume < 0 && rules == AssimpRules::OmplApp)))
     throw std::runtime_error("its <unit> is not above 0, or too small");
 }
 
-/// The unit in metres where the format has one. For Collada it is taken out of the root's
-/// transform, where assimp puts it.
+/// Returns the file's unit in metres, or 0 if the format has none. Removes Collada's unit from the
+/// root's transform, where assimp puts it.
 double takeFileUnit(aiScene& scene, const std::string& format) {
   if (format.starts_with("Collada")) {
     aiMatrix4x4& root = scene.mRootNode->mTransformation;
@@ -110,10 +112,11 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-/// A file may name others (a glTF's buffers): those are ordinary files, too, or not there.
+/// Opens ordinary files only, also for files that a file names (a glTF's buffers); any other counts
+/// as missing.
 class OrdinaryFiles : public Assimp::DefaultIOSystem {
  public:
-  bool Exists(const char* file) const override {  // assimp's own opens it
+  bool Exists(const char* file) const override {  // assimp's own version would open the file
     struct stat status {};
     return ::stat(file, &status) == 0 && S_ISREG(status.st_mode);
   }
@@ -122,7 +125,7 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
   }
 };
 
-/// Does an importer read one of our formats?
+/// Returns whether an importer reads one of the formats of `kAssimpFormats` or `kOwnFormats`.
 bool isLetThrough(const aiImporterDesc& description) {
   std::string_view rest = description.mFileExtensions;  // "dae zae"
   while (!rest.empty()) {
@@ -136,8 +139,8 @@ bool isLetThrough(const aiImporterDesc& description) {
   return false;
 }
 
-/// assimp looks into files whose extension it does not know, by all of its importers. Those of
-/// other formats have no business here.
+/// Removes the importers of all other formats. assimp would offer a file of unknown extension to
+/// every importer.
 void removeOtherFormats(Assimp::Importer& importer) {
   std::vector<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)
@@ -153,7 +156,7 @@ void removeOtherFormats(Assimp::Importer& importer) {
 void read(const std::string& file, AssimpRules rules, AssimpImport& result) {
   Assimp::Importer importer;
   removeOtherFormats(importer);
-  importer.SetIOHandler(std::make_unique<OrdinaryFiles>().release());  // which it owns
+  importer.SetIOHandler(std::make_unique<OrdinaryFiles>().release());  // the importer owns it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
                            rules == AssimpRules::Stored);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t kMagic = 0x31706d6973736131;  // "1assimp1"
 
-/// The numbers that come first.
+/// The numbers at the beginning of the bytes.
 struct Head {
   std::uint64_t magic = kMagic;
   std::uint64_t vertices = 0, triangles = 0;  // counts
@@ -56,7 +56,7 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
   Head head;
   if (bytes.size() < sizeof head) return false;
   take(bytes, &head, 1);
-  // Counts first, so that their products cannot overflow.
+  // Counts are limited first, so that their products cannot overflow.
   if (head.magic != kMagic || head.vertices > bytes.size() || head.triangles > bytes.size() ||
       head.format > bytes.size() || head.error > bytes.size() ||
       bytes.size() != head.vertices * sizeof(Vec3) + head.triangles * sizeof(Triangle) +

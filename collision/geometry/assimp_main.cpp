@@ -1,6 +1,6 @@
-// The program corridor_assimp: reads one file by assimp and writes what it found to its standard
-// output, for assimp_process.cpp. A process of its own, so that a damaged file cannot cost more
-// than this process.
+// The program corridor_assimp: reads one file by assimp and writes the import to its standard
+// output, for assimp_process.cpp. It is a process of its own, so that a damaged file can crash
+// nothing else.
 #include <csignal>
 #include <cstdlib>
 #include <new>
@@ -18,7 +18,7 @@ int main(int count, char** words) {
   const std::string file = words[1];
   const auto rules = static_cast<corridor::AssimpRules>(std::atoi(words[2]));
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != std::atoi(words[5])) return 2;  // it died before it could be heard of
+  if (::getppid() != std::atoi(words[5])) return 2;  // the parent died before prctl took effect
   const auto seconds = static_cast<rlim_t>(std::atof(words[3])) + 1;
   const rlimit time{seconds, seconds}, none{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);
@@ -32,5 +32,5 @@ int main(int count, char** words) {
     if (n < 0) ::_exit(1);
     done += static_cast<std::size_t>(n);
   }
-  ::_exit(0);  // whatever assimp would tidy up goes with the process
+  ::_exit(0);  // skips assimp's clean-up, which the end of the process makes needless
 }

@@ -24,11 +24,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Where the program, or the shared library that this code is in, looks for its own libraries.
+/// Returns the folders where the program or shared library that contains this code searches for
+/// libraries.
 std::vector<std::filesystem::path> runPath() {
   std::vector<std::filesystem::path> folders;
   Dl_info info{};
-  void* self = nullptr;  // in glibc, what dlopen returns
+  void* self = nullptr;  // glibc's link map, which is also the handle that dlopen returns
   if (!dladdr1(reinterpret_cast<void*>(&runPath), &info, &self, RTLD_DL_LINKMAP) || !self)
     return folders;
   Dl_serinfo size{};
@@ -42,7 +43,7 @@ std::vector<std::filesystem::path> runPath() {
   return folders;
 }
 
-/// A process that writes to a pipe. Killed and waited for at its end.
+/// A child process that writes to a pipe. The destructor kills it and waits for it.
 class Helper {
  public:
   /// @throws std::system_error
@@ -50,7 +51,8 @@ class Helper {
     int pipe[2];
     if (::pipe2(pipe, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
     pipe_ = pipe[0];
-    ::fcntl(pipe_, F_SETPIPE_SZ, 1 << 20);  // fewer turns of the two; the usual 64 KiB will do, too
+    // A larger pipe saves process switches; failure leaves the usual 64 KiB.
+    ::fcntl(pipe_, F_SETPIPE_SZ, 1 << 20);
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -75,7 +77,8 @@ class Helper {
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
 
-  /// All that it writes until it ends. @returns false: `seconds` are over.
+  /// Reads all that the process writes until it ends. @returns false if it takes longer than
+  /// `seconds`.
   bool readAll(double seconds, std::string& bytes) {
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     std::vector<char> part(std::size_t{1} << 18);
@@ -90,7 +93,7 @@ class Helper {
     }
   }
 
-  /// How it ended, as of waitpid(2). @pre its output has ended
+  /// Returns its status as waitpid(2) gives it. @pre its output has ended.
   int end() { return wait(); }
 
  private:

@@ -8,22 +8,25 @@
 
 namespace corridor {
 
-/// What one file may take of assimp.
+/// Limits of reading one file by assimp, and the helper program that reads it.
 struct AssimpLimits {
-  double seconds = 60;                              ///< from its start to its answer
-  std::uint64_t bytes = std::uint64_t{1} << 32;     ///< of memory
-  std::filesystem::path program = assimpProgram();  ///< empty: there is none
+  double seconds = 60;                              ///< time from the helper's start to its answer
+  std::uint64_t bytes = std::uint64_t{1} << 32;     ///< memory of the helper
+  std::filesystem::path program = assimpProgram();  ///< empty: not found
 
-  /// The helper program corridor_assimp: beside the running program; or in a folder of the run path
-  /// that the library's own program or module has (which an installed library gives to those that
-  /// link it); or where it was built.
+  /// Returns the path of the helper program corridor_assimp, or "" if it is not found. Searches, in
+  /// this order:
+  /// * the folder of the running program;
+  /// * the run path of the program or shared library that contains this code (an installed library
+  /// adds its folder for those that link it);
+  /// * the folder where the helper was built.
   static std::filesystem::path assimpProgram();
 };
 
-/// Reads a file by assimp, in a process of its own that ends with the call, with the caller, and
-/// with its limits. Several threads may call it at a time.
-/// @throws InputError: assimp can't read the file, crashes over it or exceeds its limits; or there
-/// is no helper program.
+/// Reads a file by assimp in a process of its own. The process ends with the call, with the calling
+/// process, or when it reaches a limit. Several threads may call this at a time.
+/// @throws InputError: assimp cannot read the file, crashes, or exceeds a limit; or the helper
+/// program is missing.
 AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
                             const AssimpLimits& limits = {});
 

@@ -7,7 +7,7 @@
 namespace corridor {
 namespace {
 
-/// Blanks what is between `open` and `close`; as many lines as before.
+/// Replaces each text between `open` and `close` by blanks, keeping line ends.
 void blank(std::string& text, std::string_view open, std::string_view close) {
   for (auto from = text.find(open); from != text.npos; from = text.find(open, from)) {
     const auto end = text.find(close, from);
@@ -33,7 +33,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// The value of an attribute in a tag's text; nothing where the tag has none.
+/// Returns the value of an attribute in a tag's text; nullopt if the tag has none.
 std::optional<std::string_view> attributeOf(std::string_view tag, const std::string& name) {
   for (auto at = tag.find(name); at != tag.npos; at = tag.find(name, at + 1)) {
     const std::string_view rest = trimmed(tag.substr(at + name.size()));
@@ -56,8 +56,8 @@ void checkColladaAsset(std::string_view text, MeshFaults& faults) {
     const auto meter = attributeOf(asset.substr(at, asset.find('>', at) - at), "meter");
     double metres = 0;
     if (meter && (parseCoordinate(trimmed(*meter), metres) || !(metres > 0)))
-      faults.add(lineOf(asset, at),
-                 "<unit meter=" + inQuotes(*meter) + ">: a unit is a number of metres above 0");
+      faults.add(lineOf(asset, at), "<unit meter=" + inQuotes(*meter) +
+                                        ">: the unit must be a number of metres above 0");
   }
   if (const auto at = asset.find("<up_axis"); at != asset.npos) {
     const auto begin = std::min(asset.find('>', at), asset.size() - 1) + 1;

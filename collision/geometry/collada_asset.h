@@ -6,10 +6,10 @@
 
 namespace corridor {
 
-/// Of a Collada file: are the `<unit meter="…">` and the `<up_axis>` that it states ones that can
-/// be? assimp takes what it doesn't understand for 1 m and for y, zero for a scale, and a negative
-/// unit for a mirror. Both are optional; what is in comments is none.
-/// @throws InputError where one is not.
+/// Checks the `<unit meter="…">` and the `<up_axis>` of a Collada file. assimp checks neither: it
+/// takes an unknown unit for 1 m and an unknown axis for y, scales by zero, and mirrors by a
+/// negative unit. Both elements are optional. Those in comments and CDATA do not count.
+/// @throws InputError if the unit is not a number above 0, or the axis not X_UP, Y_UP or Z_UP.
 void checkColladaAsset(std::string_view text, MeshFaults& faults);
 
 }  // namespace corridor

@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// One triangle's use of an edge. Sorts by the edge, whichever way it is run.
+/// One triangle's use of an edge.
 struct Use {
-  std::uint64_t edge;
+  std::uint64_t edge;  ///< the same for both directions
   bool forward;
   std::uint32_t triangle;
 };
 
-/// Sets of triangles, each with a root.
+/// Disjoint sets of triangles; each has a root (union-find).
 class Sets {
  public:
   explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -39,7 +39,7 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
   VertexWelder welder(mesh.vertices.size());
   std::vector<Use> uses;
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  std::vector<bool> folded(count);  // two equal corners: no share in watertightness
+  std::vector<bool> folded(count);  // two equal corners: does not count for watertightness
   for (std::uint32_t t = 0; t < count; ++t) {
     std::uint32_t corner[3];
     for (int i = 0; i < 3; ++i) corner[i] = welder.index(mesh.corner(t, i));
@@ -52,7 +52,7 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
   std::sort(uses.begin(), uses.end(), [](const Use& u, const Use& v) { return u.edge < v.edge; });
 
   Sets sets(count);
-  std::vector<std::uint32_t> open;  // triangles at an edge that is not used as it should be
+  std::vector<std::uint32_t> open;  // triangles at an edge that makes its component not watertight
   for (std::size_t i = 0; i < uses.size();) {
     std::size_t end = i;
     int forward = 0, backward = 0;
@@ -66,7 +66,7 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
 
   MeshComponents all;
   all.of.assign(count, kNone);
-  std::vector<std::uint32_t> number(count, kNone);  // of each root
+  std::vector<std::uint32_t> number(count, kNone);  // the component of each root
   for (std::uint32_t t = 0; t < count; ++t) {
     std::uint32_t& n = number[sets.root(t)];
     if (n == kNone) {
@@ -75,7 +75,7 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
     }
     all.of[t] = n;
     MeshComponents::Component& component = all.components[n];
-    component.watertight = component.watertight || !folded[t];  // until an open edge turns up
+    component.watertight = component.watertight || !folded[t];  // unless it has an open edge
     for (int i = 0; i < 3; ++i) {
       component.lower = component.lower.cwiseMin(mesh.corner(t, i));
       component.upper = component.upper.cwiseMax(mesh.corner(t, i));

@@ -7,22 +7,22 @@
 
 namespace corridor {
 
-/// The parts of a mesh that hang together: triangles that share an edge are of one component
-/// (corners are the same where their positions are, whatever the indices).
+/// The connected components of a mesh: triangles that share an edge belong to one component.
+/// Corners are identified by position, not by index.
 struct MeshComponents {
   struct Component {
-    std::uint32_t triangle = 0;  ///< one of its triangles
-    Vec3 corner = Vec3::Zero();  ///< of that triangle
-    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
-    /// Each edge is used by exactly two triangles, in opposite directions (triangles with two equal
-    /// corners aside): it has an inside, whichever way it faces.
+    std::uint32_t triangle = 0;                       ///< one of its triangles
+    Vec3 corner = Vec3::Zero();                       ///< a corner of that triangle
+    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< its bounds
+    /// True if each edge is used by exactly two triangles, in opposite directions (not counting
+    /// triangles with two equal corners). Then the component has an inside, whichever way it faces.
     bool watertight = false;
   };
   std::vector<Component> components;
   std::vector<std::uint32_t> of;  ///< the component of each triangle
 };
 
-/// @pre `checkMesh` has nothing to complain of.
+/// Computes the connected components of a mesh. @pre `checkMesh` reports nothing.
 MeshComponents findComponents(const TriangleMesh& mesh);
 
 }  // namespace corridor

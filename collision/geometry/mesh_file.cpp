@@ -32,16 +32,16 @@ std::string lowerExtension(const std::filesystem::path& file) {
 void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {
   if (options.metresPerUnit &&
       !(std::isfinite(*options.metresPerUnit) && *options.metresPerUnit > 0)) {
-    faults.add(
-        0, "metres per unit are a finite number above 0, not " + shortest(*options.metresPerUnit));
+    faults.add(0, "metres per unit must be a finite number above 0, not " +
+                      shortest(*options.metresPerUnit));
   }
   if (options.up && *options.up != 'x' && *options.up != 'y' && *options.up != 'z') {
-    faults.add(0, "the up-axis is x, y or z, not " + inQuotes(std::string(1, *options.up)));
+    faults.add(0, "the up-axis must be x, y or z, not " + inQuotes(std::string(1, *options.up)));
   }
   faults.throwIfAny();
 }
 
-/// As read: no scale, no turn.
+/// A mesh as read, without scale or rotation.
 struct StoredMesh {
   MeshFile file;
   double fileUnit = 0;  ///< metres; 0: the format has none
@@ -50,7 +50,7 @@ struct StoredMesh {
 
 using Reader = ReadMesh (*)(std::string_view, MeshFaults&);
 
-/// Null: assimp reads it, if anything does.
+/// Returns Corridor's own reader of an extension; null if there is none.
 Reader ownReader(const std::string& extension) {
   return extension == ".obj"   ? readObj
          : extension == ".stl" ? readStl
@@ -67,8 +67,7 @@ StoredMesh readOwn(const std::filesystem::path& file, Reader reader, MeshFaults&
   return stored;
 }
 
-/// Turns the vertices that triangles use into one index each; assimp repeats a vertex for each of
-/// its normals.
+/// Merges equal vertices and drops unused ones. assimp repeats a vertex for each of its normals.
 TriangleMesh welded(const TriangleMesh& mesh) {
   VertexWelder welder(mesh.vertices.size());
   TriangleMesh result;
@@ -94,7 +93,7 @@ bool contains(const std::array<std::string_view, n>& formats, const std::string&
   return std::find(formats.begin(), formats.end(), extension) != formats.end();
 }
 
-/// Of a file with another extension.
+/// Returns the fault of a file with an unknown extension.
 std::string notRead(const std::string& extension) {
   std::string formats;
   for (const std::string_view format : kOwnFormats) formats += std::string(format) + ", ";
@@ -105,13 +104,13 @@ std::string notRead(const std::string& extension) {
                std::string(format);
   return (extension.empty() ? std::string("a name without an extension")
                             : "the extension " + inQuotes(extension)) +
-         " stands for no format that is read; a mesh is needed as " + formats;
+         " is not supported; save the mesh as " + formats;
 }
 
-/// 1 GiB: assimp would take more than its 4 GiB of memory over a larger one.
+/// 1 GiB: for a larger file assimp would need more than its 4 GiB of memory.
 constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
 
-/// What needs no assimp to be known of a file.
+/// Checks that need no assimp: size, kind of file, and Collada's unit and up-axis.
 void requireForAssimp(const std::filesystem::path& file, const std::string& extension,
                       MeshFaults& faults) {
   if (extension == ".dae")
@@ -120,13 +119,13 @@ void requireForAssimp(const std::filesystem::path& file, const std::string& exte
     requireFile(file, kWhat, kMostAssimpBytes);
 }
 
-constexpr const char* floatHint = " (this format is read in float, whose numbers end at 3.4e38)";
+constexpr const char* floatHint = " (this format is read in float, which ends at 3.4e38)";
 
 StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
                        bool unitGiven, MeshFaults& faults) {
   if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
   if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
-    faults.fail(0, "the format has a unit, which assimp does not hand on: state the unit");
+    faults.fail(0, "the format has a unit, which assimp does not report; state the unit");
   }
   requireForAssimp(file, extension, faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
@@ -140,8 +139,8 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   return stored;
 }
 
-/// The rotation that takes the up-axis to z, as Collada has it (its "right" and "in" axes go to x
-/// and -y).
+/// Rotates p so that the up-axis becomes z. As in Collada, its "right" axis becomes x and its "in"
+/// axis -y.
 Vec3 turned(char up, const Vec3& p) {
   switch (up) {
     case 'x':
@@ -155,27 +154,27 @@ Vec3 turned(char up, const Vec3& p) {
 
 std::string unitRule(const MeshFileOptions& options, double fileUnit) {
   if (options.metresPerUnit) {
-    return shortest(*options.metresPerUnit) + " m per unit, as asked" +
+    return shortest(*options.metresPerUnit) + " m per unit, as requested" +
            (fileUnit > 0 ? ", instead of the file's own " + shortest(fileUnit) + " m" : "");
   }
   if (fileUnit > 0) return shortest(fileUnit) + " m per unit, by the file or its format";
-  return "1 m per unit, since the format states none and none was asked for";
+  return "1 m per unit, since neither the format nor the user states one";
 }
 
 std::string upRule(const MeshFileOptions& options, bool isCollada) {
   std::string rule;
   switch (options.up.value_or(' ')) {
     case 'x':
-      rule = "x is up, as asked: turned by (x, y, z) -> (-y, -z, x)";
+      rule = "x is up, as requested: rotated by (x, y, z) -> (-y, -z, x)";
       break;
     case 'y':
-      rule = "y is up, as asked: turned by (x, y, z) -> (x, -z, y)";
+      rule = "y is up, as requested: rotated by (x, y, z) -> (x, -z, y)";
       break;
     case 'z':
-      rule = "z is up, as asked: not turned";
+      rule = "z is up, as requested: not rotated";
       break;
     default:
-      rule = "coordinates as stored, since no up-axis was asked for";
+      rule = "coordinates as stored, since no up-axis was requested";
       break;
   }
   return rule + (isCollada ? "; the file's own <up_axis> is not applied (ROS's rule)" : "");

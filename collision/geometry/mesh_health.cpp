@@ -13,12 +13,12 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The bounds of the corners of triangles, and lengths as shares of their diagonal: whatever the
-/// mesh's size, their squares neither over- nor underflow.
+/// The bounds of the corners of triangles. Lengths relative to their diagonal have squares that
+/// neither overflow nor underflow, whatever the mesh's size.
 struct Bounds {
   Vec3 min, max;
-  double scale = 1;  ///< where the diagonal itself overflows, 1/4. (A subnormal loses bits by it.)
-  double diagonal;   ///< times the scale
+  double scale = 1;  ///< 1/4 if the diagonal overflows. (Always 1/4 would cost subnormals bits.)
+  double diagonal;   ///< times `scale`
 
   explicit Bounds(const TriangleMesh& mesh) : min(mesh.corner(0, 0)), max(min) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -29,6 +29,7 @@ struct Bounds {
     if (!std::isfinite((max - min).stableNorm())) scale = 0.25;
     diagonal = (scale * max - scale * min).stableNorm();
   }
+  /// Returns the vector from `from` to `to`, divided by the diagonal.
   Vec3 share(const Vec3& from, const Vec3& to) const {
     return (scale * to - scale * from) / diagonal;
   }
@@ -50,12 +51,12 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-/// An edge as one number, the same in both directions.
+/// Returns an edge as one number, the same for both directions.
 std::uint64_t undirected(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
 
-/// Calls `use(n)` with the length of each run of equal values. Sorts.
+/// Sorts `values` and calls `use(n)` for each run of n equal values.
 template <class Use>
 void forEachRun(std::vector<std::uint64_t>& values, Use use) {
   std::sort(values.begin(), values.end());
@@ -78,12 +79,12 @@ void countEdges(const std::vector<Triangle>& distinctFair, MeshHealth& health) {
   });
 }
 
-/// The edges of triangles whose corners are three, by how many of these use them.
+/// Counts of edges by how many triangles use them. Triangles with two equal corners do not count.
 struct EdgeUses {
-  std::size_t sound = 0;   ///< two, in opposite directions
-  std::size_t open = 0;    ///< one
-  std::size_t turned = 0;  ///< two, in the same direction
-  std::size_t many = 0;    ///< three or more
+  std::size_t sound = 0;   ///< edges of two triangles, in opposite directions
+  std::size_t open = 0;    ///< edges of one triangle
+  std::size_t turned = 0;  ///< edges of two triangles, in the same direction
+  std::size_t many = 0;    ///< edges of three triangles or more
 
   explicit EdgeUses(const std::vector<Triangle>& triangles) {
     std::vector<std::uint64_t> forward, backward;
@@ -110,7 +111,7 @@ struct EdgeUses {
   bool areWatertight() const { return sound > 0 && open + turned + many == 0; }
 };
 
-/// @pre they are not watertight.
+/// Returns the first reason. @pre the edges are not watertight.
 std::string whyNotWatertight(const EdgeUses& edges, bool repeated) {
   const auto ofEdges = [](std::size_t count) { return std::to_string(count) + " of its edges"; };
   if (edges.open > 0) return ofEdges(edges.open) + " have a triangle on one side only";
@@ -140,7 +141,8 @@ std::size_t countComponents(const std::vector<Triangle>& triangles, std::size_t 
   return components;
 }
 
-/// By the divergence theorem, about the bounds' centre: less cancellation far from the origin.
+/// Returns the volume by the divergence theorem. The reference point is the centre of the bounds,
+/// for less cancellation far from the origin.
 double volumeOf(const std::vector<Triangle>& triangles, const std::vector<Vec3>& points,
                 const Bounds& bounds) {
   const Vec3 centre = bounds.min / 2 + bounds.max / 2;
@@ -174,7 +176,7 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.min = bounds.min + Vec3::Zero();  // no -0
   health.max = bounds.max + Vec3::Zero();
 
-  std::vector<Triangle> all, fair;  // corners sorted; then made distinct
+  std::vector<Triangle> all, fair;  // with sorted corners; below each is kept once
   for (const Triangle& t : triangles) {
     const auto quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], bounds);
     health.degenerateTriangles += quality == TriangleQuality::degenerate;

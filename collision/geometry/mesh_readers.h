@@ -6,14 +6,14 @@
 #include "collision/geometry/mesh_text.h"
 #include "collision/geometry/triangle_mesh.h"
 
-/// Our own readers, one a format. They take the bytes of the file and hand back coordinates as
-/// stored, in double; the limits of each are told in README.md. Every fault goes to `faults`; all
-/// throw InputError where there is one.
+/// Corridor's own mesh readers, one per format. They take the bytes of a file and return
+/// coordinates as stored, in double. README.md lists what each reads and its limits. Every fault
+/// goes to `faults`; a reader throws InputError if there is one.
 namespace corridor {
 
 struct ReadMesh {
   TriangleMesh mesh;
-  std::string format;  ///< for people, e.g. "STL (binary)"
+  std::string format;  ///< name of the format for messages, e.g. "STL (binary)"
 };
 
 ReadMesh readObj(std::string_view text, MeshFaults& faults);

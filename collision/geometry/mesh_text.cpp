@@ -48,10 +48,10 @@ std::optional<std::string> parseCoordinate(std::string_view word, double& value)
       word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::invalid_argument || stop != end) {
-    return complaint(" is not a number; decimal numbers such as -1.25e-3 are");
+    return complaint(" is not a number; write decimal numbers such as -1.25e-3");
   }
   if (error == std::errc::result_out_of_range) {
-    // Too large or too small: streams, unlike from_chars, say which, whatever the exponent.
+    // Too large or too small: from_chars does not report which; a stream does, for any exponent.
     std::istringstream stream(std::string(begin, end));
     stream.imbue(std::locale::classic());
     if (!(stream >> value)) return complaint(" is too large for a double");

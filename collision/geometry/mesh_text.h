@@ -10,25 +10,25 @@
 #include "collision/geometry/mesh_limits.h"
 #include "collision/geometry/triangle_mesh.h"
 
-/// What the mesh readers share: words and numbers in a text, and the faults found.
+/// Helpers of the mesh readers: words and numbers in a text, and the list of faults.
 namespace corridor {
 
-/// For messages: the word, shortened and with unprintable bytes shown as '?'.
+/// Returns the word for a message: at most 32 bytes, unprintable ones shown as '?'.
 std::string printable(std::string_view word);
-/// The same in double quotes.
+/// Returns the same in double quotes.
 std::string inQuotes(std::string_view word);
 
-/// Collects the faults of one mesh file; gives up at the tenth, since the rest rarely says anything
-/// new.
+/// Collects the faults of one mesh file. Throws at the tenth, since the rest rarely adds
+/// information.
 class MeshFaults {
  public:
   explicit MeshFaults(std::string file) : file_(std::move(file)) {}
 
   void add(int line, std::string text);
-  /// For faults that leave a reader without a place to go on from.
+  /// Adds a fault after which the reader cannot go on, and throws all faults.
   [[noreturn]] void fail(int line, std::string text);
   void throwIfAny() const;
-  /// Fails where there are more vertices or triangles (`what`) than are read.
+  /// Fails if `count` of `what` (vertices or triangles) exceeds `kMostOfAMesh`.
   void requireFew(std::uint64_t count, std::string_view what, int line) {
     if (count > kMostOfAMesh) failCount(count, what, line);
   }
@@ -44,14 +44,14 @@ class MeshFaults {
   std::vector<Fault> faults_;
 };
 
-/// Reads a whole word as a finite coordinate. @returns a complaint, or nullopt and `value` set.
-/// Numbers too small for a double become 0, the nearest double.
+/// Reads a whole word as a finite coordinate into `value`. Numbers too small for a double become 0,
+/// the nearest double. @returns a complaint, or nullopt on success.
 std::optional<std::string> parseCoordinate(std::string_view word, double& value);
 
-/// Reads a whole word as a decimal integer of 64 bits; false where it is none.
+/// Reads a whole word as a decimal integer of 64 bits. @returns false if it is none.
 bool parseInteger(std::string_view word, std::int64_t& value);
 
-/// Blanks within a line.
+/// True for the blanks within a line.
 inline bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
@@ -61,12 +61,12 @@ class TextCursor {
  public:
   explicit TextCursor(std::string_view text, int line = 1) : rest_(text), line_(line) {}
 
-  /// The next word of this line; empty at its end.
+  /// Returns the next word of this line; empty at its end.
   std::string_view wordInLine();
-  /// The next word of this or a later line; empty at the end of the text. `line()` is the line that
-  /// it stands in.
+  /// Returns the next word of this or a later line; empty at the end of the text. Then `line()` is
+  /// the word's line.
   std::string_view word();
-  /// Goes to the start of the next line; false at the end of the text.
+  /// Goes to the start of the next line. @returns false at the end of the text.
   bool nextLine();
 
   int line() const { return line_; }
@@ -77,8 +77,8 @@ class TextCursor {
   int line_;
 };
 
-/// A vertex of three coordinates, of words that `next` gives until it gives an empty one; 0 from
-/// the first that is missing or wrong on, with a fault of the line that `cursor` is in.
+/// Reads a vertex of three coordinates from the words that `next` returns; an empty word ends them.
+/// If a coordinate is missing or wrong, adds a fault of the cursor's line and leaves the rest 0.
 template <class Next>
 Vec3 parseVertex(const Next& next, const TextCursor& cursor, MeshFaults& faults) {
   Vec3 vertex = Vec3::Zero();

@@ -18,8 +18,7 @@ class ObjReader {
       } else if (keyword == "f") {
         readFace();
       }
-      // Everything else (normals, groups, materials, lines, points …) says nothing about the
-      // surface.
+      // All other keywords (normals, groups, materials, lines, points …) do not affect the surface.
       faults_.requireFew(mesh_, cursor_.line());
     } while (cursor_.nextLine());
     for (const LateCorner& late : lateCorners_) {
@@ -30,14 +29,15 @@ class ObjReader {
   }
 
  private:
-  struct LateCorner {  ///< refers to a vertex that had not been read yet
+  struct LateCorner {  ///< a corner whose vertex comes later in the file
     std::int64_t number;
     int line;
   };
 
   std::int64_t count() const { return static_cast<std::int64_t>(mesh_.vertices.size()); }
 
-  /// The next word of the logical line: a backslash at a line's end continues it, '#' ends it.
+  /// Returns the next word of the logical line. A backslash at a line's end continues it; '#' ends
+  /// it.
   std::string_view nextWord() {
     std::string_view word = cursor_.wordInLine();
     while (word == "\\" || (word.empty() && continued_)) {
@@ -50,7 +50,7 @@ class ObjReader {
     return word.substr(0, word.starts_with('#') ? 0 : word.npos);
   }
 
-  void readVertex() {  // a faulty one counts, too: the numbers of the others stay right
+  void readVertex() {  // keeps a faulty vertex, too, so that the others keep their numbers
     mesh_.vertices.push_back(parseVertex([&] { return nextWord(); }, cursor_, faults_));
   }
 
@@ -80,12 +80,13 @@ class ObjReader {
       return 0;
     }
     if (number == 0) {
-      faults_.add(cursor_.line(), "face corner 0: vertices count from 1, and back from -1");
+      faults_.add(cursor_.line(),
+                  "face corner 0 is out of range: vertices count from 1, or backwards from -1");
       return 0;
     }
     if (number < -count()) {
       faults_.add(cursor_.line(), "face corner " + std::to_string(number) + " is out of range: " +
-                                      std::to_string(count()) + " vertices stand above it");
+                                      std::to_string(count()) + " vertices come before it");
       return 0;
     }
     if (number < 0) return static_cast<std::uint32_t>(count() + number);
@@ -112,7 +113,8 @@ class ObjReader {
 }  // namespace
 
 ReadMesh readObj(std::string_view text, MeshFaults& faults) {
-  // A byte-order mark would hide the first line's keyword: a vertex lost, all numbers off by one.
+  // A byte-order mark would hide the first keyword. If that is `v`, all vertex numbers would be off
+  // by one.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return ObjReader(text, faults).read();
 }

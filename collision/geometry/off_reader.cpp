@@ -9,8 +9,8 @@
 namespace corridor {
 namespace {
 
-/// Text only: "OFF" or one of its kinds with more numbers a vertex; the counts; a vertex or a face
-/// a line, from which only the coordinates and the corners are read.
+/// A reader of OFF as text. The file has the word "OFF" (or a variant with more numbers per
+/// vertex), the counts, then one vertex or face per line. Only coordinates and corners are read.
 class OffReader {
  public:
   OffReader(std::string_view text, MeshFaults& faults) : cursor_(text), faults_(faults) {}
@@ -18,9 +18,9 @@ class OffReader {
   ReadMesh read() {
     readKeyword();
     const std::int64_t vertices = count("vertices"), faces = count("faces");
-    // In the same line, and nothing after it: else a vertex would be taken for it, or be lost.
+    // The count of edges must end this line. Otherwise a vertex would be taken for it, or be lost.
     if (wordInLine().empty())
-      faults_.fail(cursor_.line(), "the number of edges is missing (any will do)");
+      faults_.fail(cursor_.line(), "the number of edges is missing; any number will do");
     if (const std::string_view more = wordInLine(); !more.empty())
       faults_.fail(cursor_.line(), "the numbers of vertices, faces and edges are followed by " +
                                        inQuotes(more) + "; a new line is needed");
@@ -28,20 +28,20 @@ class OffReader {
     for (std::int64_t i = 0; i < vertices; ++i) readVertex(i, vertices);
     for (std::int64_t i = 0; i < faces; ++i) readFace(i, faces);
     if (const std::string_view more = nextWord(); !more.empty())
-      faults_.add(cursor_.line(), "ends with the last of its " + std::to_string(faces) +
-                                      " faces, and goes on with " + inQuotes(more));
+      faults_.add(cursor_.line(), inQuotes(more) + " comes after the last of the " +
+                                      std::to_string(faces) + " faces: the counts are wrong");
     faults_.throwIfAny();
     return {std::move(mesh_), "OFF"};
   }
 
  private:
-  /// The next word that no comment hides, of this or a later line.
+  /// Returns the next word of this or a later line, skipping comments.
   std::string_view nextWord() {
     std::string_view word = cursor_.word();
     while (word.starts_with('#')) word = cursor_.nextLine() ? cursor_.word() : std::string_view();
     return word;
   }
-  /// The next of this line.
+  /// Returns the next word of this line; empty at its end or at a comment.
   std::string_view wordInLine() {
     const std::string_view word = cursor_.wordInLine();
     return word.substr(0, word.starts_with('#') ? 0 : word.npos);
@@ -61,7 +61,8 @@ class OffReader {
   std::int64_t count(const std::string& what) {
     const std::string_view word = nextWord();
     std::int64_t number = 0;
-    if (word == "BINARY") faults_.fail(cursor_.line(), "is binary, which is not read: text is");
+    if (word == "BINARY")
+      faults_.fail(cursor_.line(), "is binary, which is not supported; save it as text");
     if (!parseInteger(word, number) || number < 0)
       faults_.fail(cursor_.line(), "the number of " + what + " is " + inQuotes(word) +
                                        "; a whole number is needed");
@@ -113,8 +114,8 @@ class OffReader {
     const auto count = static_cast<std::int64_t>(mesh_.vertices.size());
     std::int64_t number = 0;
     if (word.empty()) {
-      faults_.add(cursor_.line(),
-                  "a face of " + std::to_string(corners) + " corners has " + std::to_string(k));
+      faults_.add(cursor_.line(), "a face of " + std::to_string(corners) + " corners lists only " +
+                                      std::to_string(k));
     } else if (!parseInteger(word, number)) {
       faults_.add(cursor_.line(), "face corner " + inQuotes(word) + " is not a whole number");
     } else if (number < 0 || number >= count) {

@@ -38,7 +38,7 @@ class HeaderReader {
       : cursor_(bytes), bytes_(bytes), faults_(faults) {}
 
   PlyHeader read() {
-    if (cursor_.wordInLine() != "ply") fail("a PLY file begins with the line \"ply\"");
+    if (cursor_.wordInLine() != "ply") fail("a PLY file must begin with the line \"ply\"");
     bool hasFormat = false;
     while (cursor_.nextLine()) {
       const std::string_view keyword = cursor_.wordInLine();
@@ -51,15 +51,14 @@ class HeaderReader {
         readProperty();
       } else if (keyword == "end_header") {
         if (!hasFormat) fail("the header has no line \"format\"");
-        // The body begins right after this line's end, whatever its first bytes are.
+        // The body begins right after this line's end, even if its first bytes look like blanks.
         if (!cursor_.nextLine()) fail("the file ends after its header: it is cut short");
         header_.size = bytes_.size() - cursor_.bytesLeft();
         header_.lines = cursor_.line() - 1;
         check();
         return std::move(header_);
       } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-        fail("unknown keyword " + inQuotes(keyword) +
-             "; right are element, property and end_header");
+        fail("unknown keyword " + inQuotes(keyword) + "; expected element, property or end_header");
       }
     }
     fail("the file ends where end_header should come: it is cut short");
@@ -78,10 +77,10 @@ class HeaderReader {
       header_.encoding = PlyEncoding::BigEndian;
     } else {
       fail("unknown format " + inQuotes(word) +
-           "; right are ascii, binary_little_endian and binary_big_endian");
+           "; expected ascii, binary_little_endian or binary_big_endian");
     }
     if (const std::string_view version = cursor_.wordInLine(); version != "1.0") {
-      fail("unknown version " + inQuotes(version) + "; 1.0 is known");
+      fail("unknown version " + inQuotes(version) + "; expected 1.0");
     }
   }
 
@@ -92,13 +91,13 @@ class HeaderReader {
     std::int64_t count = 0;
     if (!parseInteger(word, count) || count < 0) {
       fail("element " + inQuotes(element.name) + ": its count " + inQuotes(word) +
-           " is not an integer from 0");
+           " must be an integer of at least 0");
     }
     element.count = static_cast<std::uint64_t>(count);
     if (header_.elements.size() == mostElements)
       fail("the header has more than " + std::to_string(mostElements) + " elements");
     for (const PlyElement& other : header_.elements) {
-      if (other.name == element.name) fail("element " + inQuotes(element.name) + " is there twice");
+      if (other.name == element.name) fail("element " + inQuotes(element.name) + " appears twice");
     }
     header_.elements.push_back(std::move(element));
   }
@@ -108,19 +107,19 @@ class HeaderReader {
     const auto type = typeOf(word);
     if (!type) {
       fail("unknown type " + inQuotes(word) +
-           "; right are char, uchar, short, ushort, int, uint, float, double, and int8 to float64");
+           "; expected char, uchar, short, ushort, int, uint, float, double, or int8 to float64");
     }
     return *type;
   }
 
   void readProperty() {
-    if (header_.elements.empty()) fail("a property stands before the first element");
+    if (header_.elements.empty()) fail("a property comes before the first element");
     PlyProperty property{};
     TextCursor ahead = cursor_;
     if (ahead.wordInLine() == "list") {
       cursor_ = ahead;
       property.countType = readType();
-      if (!isInteger(*property.countType)) fail("the count of a list is of an integer type");
+      if (!isInteger(*property.countType)) fail("the count of a list must have an integer type");
     }
     property.type = readType();
     property.name = cursor_.wordInLine();
@@ -132,7 +131,7 @@ class HeaderReader {
     properties.push_back(std::move(property));
   }
 
-  /// The element, or a complaint that it is missing.
+  /// Returns the element of that name; fails if it is missing.
   const PlyElement& find(std::string_view name) {
     const auto found =
         std::find_if(header_.elements.begin(), header_.elements.end(),
@@ -161,7 +160,7 @@ class HeaderReader {
     }
   }
 
-  // Every name is compared with all others.
+  // Limits, because the time is quadratic: every name is compared with all others.
   static constexpr std::size_t mostElements = 1000, mostProperties = 1000;
 
   TextCursor cursor_;

@@ -20,8 +20,8 @@ inline bool isInteger(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type;
-  std::optional<PlyType>
-      countType;  ///< set for lists: a count of this type, then so many of `type`
+  /// Set for lists, which store their length in this type before their values of `type`.
+  std::optional<PlyType> countType;
 };
 
 struct PlyElement {
@@ -39,11 +39,10 @@ struct PlyHeader {
   int lines = 0;
 };
 
-/// Reads the header, and checks that there are vertices with scalar x, y, z and faces with a list
-/// of integer indices.
+/// Reads the header. Checks that vertices have scalar x, y, z, and faces a list of integer indices.
 PlyHeader readPlyHeader(std::string_view bytes, MeshFaults& faults);
 
-/// The names that the list of a face's corners goes by.
+/// True for the two common names of the list of a face's corners.
 inline bool isCornerList(const PlyProperty& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }

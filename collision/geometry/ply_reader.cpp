@@ -10,7 +10,7 @@
 namespace corridor {
 namespace {
 
-/// Where a body's reader is, for messages.
+/// The element that is being read, for messages.
 struct Place {
   const PlyElement* element = nullptr;
   std::uint64_t index = 0;
@@ -21,14 +21,15 @@ struct Place {
   }
 };
 
-/// The values of an ASCII body: words.
+/// Reads values from an ASCII body, where each is a word.
 class AsciiBody {
  public:
   AsciiBody(std::string_view body, const PlyHeader& header, MeshFaults& faults)
       : cursor_(body, header.lines + 1), faults_(faults) {}
 
-  static std::uint64_t leastSize(PlyType) { return 2; }  // a digit and a blank
-  /// One more than there are: the last word needs no blank after it.
+  /// Returns the least bytes of a value: a digit and a blank.
+  static std::uint64_t leastSize(PlyType) { return 2; }
+  /// Returns one more than there are: the last word needs no blank after it.
   std::uint64_t bytesLeft() const { return cursor_.bytesLeft() + 1; }
 
   double coordinate(PlyType) {
@@ -73,7 +74,7 @@ class AsciiBody {
   MeshFaults& faults_;
 };
 
-/// The values of a binary body.
+/// Reads values from a binary body.
 class BinaryBody {
  public:
   BinaryBody(std::string_view body, const PlyHeader& header, MeshFaults& faults)
@@ -106,7 +107,7 @@ class BinaryBody {
       case PlyType::Int32:
         return take<std::int32_t>();
       default:
-        return take<std::uint32_t>();  // the header lets no other type through
+        return take<std::uint32_t>();  // the header allows no other type here
     }
   }
 
@@ -175,8 +176,8 @@ class BodyReader {
   }
 
  private:
-  /// Counts are believed (and memory taken for them) only where the file has the bytes for them.
-  /// False for elements without properties: they take no room, whatever their count.
+  /// Requires that the file has enough bytes for an element's count, before memory is allocated for
+  /// it. Returns false for elements without properties, which take no bytes and are skipped.
   bool hasRoom(const PlyElement& element) {
     std::uint64_t size = 0;
     for (const PlyProperty& p : element.properties)
@@ -197,7 +198,7 @@ class BodyReader {
       if (p.countType) {
         const std::int64_t count = body_.integer(*p.countType);
         if (count < 0)
-          body_.fail("a list of " + std::to_string(count) + " items; counts are at least 0");
+          body_.fail("a list of " + std::to_string(count) + " values; a count must be at least 0");
         if (isFace && isCornerList(p)) {
           readCorners(p.type, count);
         } else {

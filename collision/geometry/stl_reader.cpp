@@ -10,8 +10,8 @@
 namespace corridor {
 namespace {
 
-constexpr std::size_t headerSize = 84;  // 80 bytes of anything, then the number of triangles
-constexpr std::size_t facetSize = 50;  // normal, three vertices (4 × 3 floats), 2 bytes of anything
+constexpr std::size_t headerSize = 84;  // 80 bytes of any content, then the number of triangles
+constexpr std::size_t facetSize = 50;   // normal and three vertices (4 × 3 floats), 2 unused bytes
 
 std::uint32_t littleEndian32(const char* bytes) {
   std::uint32_t value = 0;
@@ -45,8 +45,8 @@ ReadMesh readBinary(std::string_view bytes, MeshFaults& faults) {
   return {std::move(mesh), "STL (binary)"};
 }
 
-/// Whether `a` is the keyword (lower-case letters) in any case. Setting bit 5 turns capitals into
-/// small letters and nothing else into a letter.
+/// Returns whether `a` is the keyword (of lower-case letters), ignoring case. Setting bit 5 makes
+/// capitals lower-case, and no other character a letter.
 bool sameWord(std::string_view a, std::string_view keyword) {
   return a.size() == keyword.size() && std::equal(a.begin(), a.end(), keyword.begin(),
                                                   [](char x, char y) { return (x | 0x20) == y; });
@@ -81,7 +81,7 @@ class AsciiStl {
   }
 
   void readFacet() {
-    // The normal is not read: it may be anything, and the corners say more.
+    // Skips the normal, which may be anything; the corners define the triangle.
     for (std::string_view word = cursor_.word(); !sameWord(word, "outer"); word = cursor_.word()) {
       if (word.empty()) cutShort("outer loop");
       if (sameWord(word, "vertex") || sameWord(word, "endfacet") || sameWord(word, "endsolid")) {
@@ -141,19 +141,19 @@ class AsciiStl {
 }  // namespace
 
 ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
-  // The size decides first: many binary files begin with "solid" too.
+  // The size decides first, because many binary files begin with "solid", too.
   const bool hasHeader = bytes.size() >= headerSize;
   const std::uint64_t promised =
       hasHeader ? headerSize + std::uint64_t{facetSize} * littleEndian32(&bytes[80]) : 0;
   if (hasHeader && promised == bytes.size()) return readBinary(bytes, faults);
-  // A text has no zero byte; the count of a binary file has one unless there are 2^24 triangles.
+  // Text has no zero byte. The count of a binary file has one, except for 2^24 triangles or more.
   const std::string_view start = bytes.substr(0, headerSize);
   if (sameWord(TextCursor(start).word(), "solid") && start.find('\0') == start.npos) {
     return AsciiStl(bytes, faults).read();
   }
   if (!hasHeader) {
     faults.fail(0,
-                "is no STL: an ASCII one begins with \"solid\", a binary one has at least 84 "
+                "is not an STL file: ASCII begins with \"solid\", binary has at least 84 "
                 "bytes, found " +
                     std::to_string(bytes.size()));
   }

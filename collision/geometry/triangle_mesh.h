@@ -10,9 +10,9 @@ namespace corridor {
 
 /// A triangle soup: closed triangles over shared vertices, in metres, in the frame of its body.
 ///
-/// Duplicates, holes, non-manifold edges and degenerate triangles are legal and are the point sets
-/// that they are. Not legal: non-finite coordinates, indices out of range (`checkMesh` finds them;
-/// mesh files are checked at reading).
+/// Duplicate triangles, holes, non-manifold edges and degenerate triangles are legal; the mesh is
+/// the union of its triangles as point sets. Coordinates that are not finite and indices out of
+/// range are illegal: `checkMesh` finds them, and readers of mesh files refuse them.
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -5,7 +5,7 @@
 namespace corridor {
 namespace {
 
-std::uint64_t mixed(std::uint64_t h) {  // the finaliser of MurmurHash3
+std::uint64_t mixed(std::uint64_t h) {  // MurmurHash3's finaliser
   h = (h ^ (h >> 33)) * 0xff51afd7ed558ccdULL;
   h = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53ULL;
   return h ^ (h >> 33);

@@ -7,13 +7,13 @@
 
 namespace corridor {
 
-/// Numbers points by exact equality of coordinates (-0 equals 0, and is stored as 0), in order of
-/// first appearance.
+/// Numbers distinct points in order of first appearance. Points are equal if their coordinates are
+/// exactly equal; -0 equals 0, and is stored as 0.
 class VertexWelder {
  public:
   explicit VertexWelder(std::size_t expectedPoints);
 
-  /// The number of this (finite) point, new or seen before.
+  /// Returns the number of a point, new or seen before. @pre the point is finite.
   std::uint32_t index(const Vec3& point);
 
   const std::vector<Vec3>& points() const { return points_; }
@@ -22,12 +22,12 @@ class VertexWelder {
  private:
   static constexpr std::uint32_t none_ = UINT32_MAX;
 
-  std::size_t slotOf(const Vec3& point) const;  ///< where the point is or belongs
+  std::size_t slotOf(const Vec3& point) const;  ///< where the point is or is to be inserted
   void grow();
 
   std::vector<Vec3> points_;
-  std::vector<std::uint32_t>
-      slots_;  ///< open addressing; a power of two of them, at most half of them used
+  /// A hash table with open addressing; its size is a power of two, at most half of it is used.
+  std::vector<std::uint32_t> slots_;
 };
 
 }  // namespace corridor

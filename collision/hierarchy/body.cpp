@@ -17,7 +17,7 @@
 
 namespace corridor {
 
-/// A tree that is built when it is first asked for.
+/// A tree that is built at its first use.
 template <class Tree>
 struct LazyTree {
   std::once_flag once;
@@ -32,7 +32,7 @@ struct Body::Impl {
   TreeParams params;
   mutable std::once_flag once, componentsOnce;
   mutable std::atomic<bool> built = false;
-  mutable std::optional<WideObbTree> tree;
+  mutable std::optional<Obb4Tree> tree;
   mutable std::tuple<LazyTree<VolumeTree<Obb>>, LazyTree<VolumeTree<Aabb>>,
                      LazyTree<VolumeTree<BoundingSphere>>, LazyTree<VolumeTree<Rss>>,
                      LazyTree<VolumeTree<Kdop<14>>>, LazyTree<VolumeTree<Kdop<18>>>,
@@ -41,8 +41,8 @@ struct Body::Impl {
   mutable MeshComponents components;
 };
 
-/// Bounds of balls of radius `grow` about the points that `each` goes through, whose boxes are
-/// `reach` farther than the points along the axes.
+/// Extends the bounds to spheres of radius `grow` about the points that `each` visits. Their
+/// axis-aligned boxes extend `reach` beyond the points.
 template <class Each>
 void Body::Bounds::around(const Each& each, double grow, const Vec3& reach) {
   each([&](const Vec3& p) {
@@ -69,8 +69,7 @@ Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& pa
   if (solid)
     for (const MeshComponents::Component& component : components().components)
       if (!component.watertight)
-        throw std::invalid_argument("body " + impl_->name +
-                                    " is not watertight: it can't be solid");
+        throw std::invalid_argument("body " + impl_->name + " is not watertight; a solid must be");
   impl_->params = params;
   bounds_.around(
       [&](auto take) {
@@ -86,7 +85,7 @@ Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) 
   if (part.flatEnds && part.points.size() != 2)
     throw std::invalid_argument("body " + name + " is a cylinder without two ends");
   if (!(std::isfinite(part.radius) && part.radius >= 0))
-    throw std::invalid_argument("the radius of body " + name + " is to be finite and not negative");
+    throw std::invalid_argument("body " + name + ": the radius must be finite and not negative");
   for (const Vec3& q : part.points)
     if (!q.allFinite())
       throw std::invalid_argument("body " + name + " has a point that is not finite");
@@ -96,15 +95,15 @@ Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) 
   const ConvexPart& p = *impl_->part;
   Vec3 reach = Vec3::Constant(p.radius);
   const Vec3 a = p.flatEnds ? (p.points[1] - p.points[0]).stableNormalized() : Vec3(Vec3::Zero());
-  // A disc of normal a reaches √(1 − a_i²) of its radius along axis i. Where rounding has left no
-  // axis, all of it (as `ConvexSet` has it).
+  // A disc of normal a reaches √(1 − a_i²) of its radius along coordinate axis i. If rounding has
+  // left no axis, all of the radius counts (as in `ConvexSet`).
   if (std::abs(a.norm() - 1) < 0x1p-20) {
     for (int i = 0; i < 3; ++i)
       reach[i] *= std::min(1.0, std::hypot(a[(i + 1) % 3], a[(i + 2) % 3]) + 16 * kUnit);
   }
   double largest = p.radius;
   for (const Vec3& q : p.points) largest = std::max(largest, q.cwiseAbs().maxCoeff());
-  if (p.radius > 0) reach.array() += 4 * kUnit * largest;  // the sums and differences round
+  if (p.radius > 0) reach.array() += 4 * kUnit * largest;  // rounding of the sums and differences
   bounds_.around(
       [&](auto take) {
         for (const Vec3& q : p.points) take(q);
@@ -138,7 +137,7 @@ const MeshComponents& Body::components() const {
   return impl_->components;
 }
 
-const WideObbTree& Body::tree() const {
+const Obb4Tree& Body::tree() const {
   std::call_once(impl_->once, [this] {
     if (impl_->part) {
       impl_->tree.emplace(*impl_->part);

@@ -7,22 +7,22 @@
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_components.h"
 #include "collision/geometry/triangle_mesh.h"
+#include "collision/hierarchy/obb4_tree.h"
 #include "collision/hierarchy/obb_tree.h"
-#include "collision/hierarchy/wide_obb_tree.h"
 
 namespace corridor {
 
-/// A named shape, a mesh or a convex primitive, whose trees are built when a query first needs them
-/// (thread-safe). Immutable otherwise. In the coordinates of the frame that it is fixed to.
+/// A named shape, a mesh or a convex primitive, in the coordinates of the frame that it is fixed
+/// to. Its trees are built when a query first needs them; this is thread-safe. Immutable otherwise.
 class Body {
  public:
-  /// A mesh: its surface, or with `solid` all that it encloses, too.
-  /// @throws std::invalid_argument if the mesh has no triangle, or `checkMesh` complains, or it is
-  /// to be solid and has a component that isn't watertight.
+  /// A mesh: its surface, or with `solid` also all that it encloses.
+  /// @throws std::invalid_argument if the mesh has no triangle, if `checkMesh` finds a fault, or if
+  /// it shall be solid and has a component that isn't watertight.
   Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
-  /// A solid primitive (`checkPrimitive` says what is wrong with one).
-  /// @throws std::invalid_argument if it has no point or one that is not finite, or its radius is
-  /// negative or not finite.
+  /// A solid primitive (`checkPrimitive` finds faults of one).
+  /// @throws std::invalid_argument if it has no point, or one that is not finite; if its radius is
+  /// negative or not finite; or if it has flat ends and not two points.
   Body(std::string name, ConvexPart part);
   ~Body();
   Body(Body&&) noexcept;
@@ -32,22 +32,22 @@ class Body {
   const TriangleMesh& mesh() const;  ///< empty for a primitive
   const ConvexPart* part() const;    ///< null for a mesh
   bool solid() const;                ///< true for primitives
-  const WideObbTree& tree() const;   ///< builds it if nobody has
-  /// The binary tree of any kind of volume; builds it if nobody has.
+  const Obb4Tree& tree() const;      ///< builds it if necessary
+  /// Returns the binary tree of one kind of volume; builds it if necessary.
   template <BoundingVolume Volume>
   const VolumeTree<Volume>& volumeTree() const;
-  /// For the queries that have no wide variant.
+  /// The binary OBB tree, for queries that have no 4-wide variant.
   const ObbTree& binaryTree() const { return volumeTree<Obb>(); }
-  const MeshComponents& components() const;  ///< of a mesh; found if nobody has
-  bool treeBuilt() const;                    ///< any of them
-  /// Radius about the origin of the frame of all points, rounded up.
+  const MeshComponents& components() const;  ///< mesh only; finds them at the first call
+  bool treeBuilt() const;                    ///< true if any tree has been built
+  /// Largest distance of a point from the frame's origin, metres, rounded up.
   double radius() const { return bounds_.radius; }
-  /// A sphere around all points: centre, and radius rounded up.
+  /// A bounding sphere: its centre, and its radius rounded up.
   const Vec3& sphereCenter() const { return bounds_.center; }
   double sphereRadius() const { return bounds_.sphereRadius; }
   const Vec3& lower() const { return bounds_.lower; }  ///< axis-aligned bounds
   const Vec3& upper() const { return bounds_.upper; }
-  /// The sum of the bounds' magnitudes, metres: what roundings of differences to them go by.
+  /// The sum of the bounds' magnitudes, metres: differences with the bounds round relative to it.
   double boundTerms() const { return bounds_.terms; }
 
  private:

@@ -10,7 +10,8 @@ namespace corridor {
 namespace {
 
 constexpr std::size_t kSearch = 10;
-constexpr std::size_t kFewMerges = 16;  // less than one in as many clusters
+/// A round has few merges if it has fewer than one per this many clusters.
+constexpr std::size_t kFewMerges = 16;
 
 struct Extent {
   Vec3 low, high;
@@ -25,7 +26,7 @@ double halfSurface(const Extent& e) {
   return s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
 }
 
-std::uint64_t spread(std::uint64_t x) {  // 21 bits, two zeros between any two of them
+std::uint64_t spread(std::uint64_t x) {  // spreads 21 bits: two zeros between any two of them
   x = (x | x << 32) & 0x1f00000000ffff;
   x = (x | x << 16) & 0x1f0000ff0000ff;
   x = (x | x << 8) & 0x100f00f00f00f00f;
@@ -33,7 +34,7 @@ std::uint64_t spread(std::uint64_t x) {  // 21 bits, two zeros between any two o
   return (x | x << 2) & 0x1249249249249249;
 }
 
-/// Places along a Morton curve through the centres' bounding box.
+/// Returns the boxes in the order of their centres along a Morton curve.
 std::vector<std::uint32_t> mortonOrder(std::span<const Obb> boxes, double unit, const Vec3& low) {
   std::vector<std::uint64_t> codes;
   for (const Obb& box : boxes) {
@@ -58,7 +59,7 @@ std::vector<Cluster> clustered(std::span<const Obb> boxes) {
     low = low.cwiseMin(box.center - box.half);
     high = high.cwiseMax(box.center + box.half);
   }
-  // Coordinates in units of the whole, so that surfaces neither over- nor underflow.
+  // Coordinates are in units of the whole size, so that surfaces neither overflow nor underflow.
   const double size = (high - low).maxCoeff();
   const double unit = size > 0 && size < HUGE_VAL ? size : 1;
 
@@ -78,7 +79,8 @@ std::vector<Cluster> clustered(std::span<const Obb> boxes) {
     chosen.assign(n, 0);
     std::size_t merges = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      // Ties go to the least i xor k: alike for both, and no chain of equals waits for its turn.
+      // Ties go to the least i xor k. Both clusters of a pair then choose alike, and in a chain of
+      // equal ones none has to wait for another.
       auto best = std::tuple(std::numeric_limits<double>::infinity(), n * 2, i);
       for (std::size_t k = i > kSearch ? i - kSearch : 0; k < std::min(n, i + kSearch + 1); ++k)
         if (k != i)

@@ -8,20 +8,20 @@
 
 namespace corridor {
 
-/// A cluster of items: an item, or two earlier clusters merged.
+/// A cluster: one leaf primitive, or two earlier clusters merged.
 struct Cluster {
-  std::uint32_t left = 0, right = 0;  ///< its clusters; unused where it is an item
-  std::uint32_t count = 1;            ///< of items
+  std::uint32_t left = 0, right = 0;  ///< the clusters that it merges; unused for a leaf primitive
+  std::uint32_t count = 1;            ///< number of leaf primitives
 };
 
-/// Agglomerative clustering of axis-aligned boxes: the first n clusters are the boxes, in order,
-/// the last one is the root.
+/// Returns an agglomerative clustering of axis-aligned boxes: the first n clusters are the boxes,
+/// in order, and the last one is the root.
 ///
-/// Parallel locally-ordered clustering (Meister, Bittner, IEEE TVCG 24(3), 2018), on one thread:
-/// clusters are kept in Morton order; in every round each looks for the neighbour, at most
-/// `kSearch` places away, with which it makes the box of least surface, and two that chose each
-/// other merge. Few merges in a round (sizes in a geometric sequence, say) would make it
-/// quadratic: then the rest is paired as it stands. O(n log n).
+/// The method is parallel locally-ordered clustering (Meister, Bittner, IEEE TVCG 24(3), 2018), on
+/// one thread. Clusters are kept in Morton order. In every round each cluster finds the neighbour,
+/// at most `kSearch` places away, with which it makes the box of least surface. Two clusters that
+/// chose each other merge. Rounds with few merges (sizes in a geometric sequence, say) would make
+/// it quadratic. Then neighbours are paired as they stand. The cost is O(n log n).
 std::vector<Cluster> clustered(std::span<const Obb> boxes);
 
 }  // namespace corridor

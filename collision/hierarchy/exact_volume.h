@@ -11,7 +11,7 @@
 #include "collision/volumes/obb.h"
 #include "collision/volumes/rss.h"
 
-/// Volumes as rational sets: what `VolumeTree::check` proves containment with.
+/// Volumes as rational sets, with which `VolumeTree::check` proves containment.
 namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -30,12 +30,13 @@ inline Row minus(const Row& a, const Row& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// Each has `contains(p, r)`: is the closed ball of radius r about p inside?
+/// Each specialisation has `contains(p, r)`, true if the solid sphere of radius r about p is
+/// inside.
 template <class Volume>
 class ExactVolume;
 
-/// {c + U x : |x_i| ≤ e_i}: p is inside if and only if |det(U with column i replaced by p − c)| ≤
-/// e_i·|det U| (Cramer).
+/// The box {c + U x : |x_i| ≤ e_i}. By Cramer's rule p is inside if and only if |det(U with column
+/// i replaced by p − c)| ≤ e_i·|det U| for every i.
 template <>
 class ExactVolume<Obb> {
  public:
@@ -45,9 +46,9 @@ class ExactVolume<Obb> {
     volume_ = abs(dot(u_[0], crosses_[0]));
   }
   bool contains(const Row& p, const Rational& radius) const { return contains(p, radius, {}); }
-  /// With a disc at a right angle to `axis`, where that is not zero, instead of the ball. They
-  /// reach r|g_i|, or r|g_i × d|/|d|, farther, g_i = crosses_i/volume the i-th row of U⁻¹: squared,
-  /// that is rational.
+  /// The same for a disc orthogonal to `axis` instead of the sphere, if `axis` is not zero. Along
+  /// coordinate i a sphere reaches r|g_i| and a disc r|g_i × d|/|d| farther, where d is the axis
+  /// and g_i = crosses_i/volume is row i of U⁻¹. Squared, these conditions are rational.
   bool contains(const Row& p, const Rational& radius, const Row& axis) const {
     const Row d = minus(p, center_);
     for (int k = 0; k < 3; ++k) {
@@ -62,7 +63,7 @@ class ExactVolume<Obb> {
     }
     return volume_ > 0;
   }
-  /// The eight corners: who holds them holds the box.
+  /// The eight corners: a convex set that contains them contains the box.
   std::array<Row, 8> corners() const {
     std::array<Row, 8> all;
     for (int i = 0; i < 8; ++i) {
@@ -109,7 +110,7 @@ class ExactVolume<BoundingSphere> {
   Rational radius_;
 };
 
-/// Slab by slab; a ball reaches r|n| along n: squared.
+/// Tests slab by slab. A sphere reaches r|n| along n; the test is squared, so that it is rational.
 template <int K>
 class ExactVolume<Kdop<K>> {
  public:
@@ -134,8 +135,8 @@ class ExactVolume<Kdop<K>> {
   std::array<Rational, K / 2> low_, high_;
 };
 
-/// By a witness: any point of the rectangle near enough will do; the closest one, as doubles see
-/// it, is tried.
+/// Proves containment by a witness: a point of the rectangle that is near enough to p. Only one is
+/// tried, the closest point as computed in double.
 template <>
 class ExactVolume<Rss> {
  public:

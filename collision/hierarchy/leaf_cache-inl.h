@@ -1,5 +1,4 @@
-// Corners of leaves for the SIMD tests, for every SIMD target: included once per target by
-// foreach_target.h.
+// Corners of leaves for the SIMD tests. Included once per SIMD target by foreach_target.h.
 
 // clang-format off
 #if defined(CORRIDOR_LEAF_CACHE_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -16,26 +15,26 @@
 
 #include "hwy/highway.h"
 
-#include "collision/hierarchy/wide_obb_tree.h"
+#include "collision/hierarchy/obb4_tree.h"
 #include "collision/predicates/triangle_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Corners of a tree's leaves under x ↦ matrix·(p − origin) + offset, those asked for last. The
-/// leaves of a node are together, floats relative to a corner of one of them, so that they are off
-/// by 2^-24 of the node, not of the mesh.
+/// A cache of the corners of a tree's leaves under x ↦ matrix·(p − origin) + offset, for the nodes
+/// that were requested most recently. All leaves of a node are kept as floats relative to a corner
+/// of one of them. So they are off by 2^-24 of the node's size, not of the mesh's.
 class LeafCache {
  public:
-  LeafCache(const WideObbTree& tree, const Mat3& matrix, const Vec3& offset) : tree_(tree) {
+  LeafCache(const Obb4Tree& tree, const Mat3& matrix, const Vec3& offset) : tree_(tree) {
     for (int k = 0; k < 4; ++k)
       for (int c = 0; c < 4; ++c) columns_[k][c] = c == 3 ? 0 : k == 3 ? offset[c] : matrix(c, k);
-    std::fill_n(held_, kSize, WideObbTree::kNone);
+    std::fill_n(held_, kSize, Obb4Tree::kNone);
   }
 
-  /// Of the leaves that are these lanes of a node: the i-th triangle of a lane's is 4·lane + i.
-  /// What else it holds means nothing.
-  const TriangleCorners& get(const WideObbTree::Node& node, unsigned lanes) {
+  /// Returns the corners of the leaves in these lanes of a node (one bit each): the i-th triangle
+  /// of a lane is at index 4·lane + i. All other entries are unspecified.
+  const TriangleCorners& get(const Obb4Tree::Node& node, unsigned lanes) {
     const auto number = static_cast<std::uint32_t>(&node - tree_.nodes().data());
     const std::uint32_t slot = number * 0x9e3779b1U >> (32 - kBits);  // Knuth's multiplicative hash
     if (held_[slot] != number) {
@@ -48,11 +47,11 @@ class LeafCache {
   }
 
  private:
-  void fill(std::uint32_t slot, const WideObbTree::Node& node, unsigned lane) {
+  void fill(std::uint32_t slot, const Obb4Tree::Node& node, unsigned lane) {
     TriangleCorners& corners = corners_[slot];
-    const std::uint32_t first = WideObbTree::leafFirst(node.child[lane]),
-                        count = WideObbTree::leafCount(node.child[lane]);
-    // One point at a time, its coordinates side by side: most leaves have one triangle or two.
+    const std::uint32_t first = Obb4Tree::leafFirst(node.child[lane]),
+                        count = Obb4Tree::leafCount(node.child[lane]);
+    // One point at a time, its coordinates side by side: most leaves have one or two triangles.
     const hn::CappedTag<double, 4> d;
     const hn::Rebind<float, decltype(d)> f;
     const Vec3& o = tree_.origin();
@@ -78,10 +77,10 @@ class LeafCache {
   }
 
   static constexpr int kBits = 4, kSize = 1 << kBits;
-  const WideObbTree& tree_;
-  alignas(32) double columns_[4][4];  // of the matrix, then the offset; the last row is 0
+  const Obb4Tree& tree_;
+  alignas(32) double columns_[4][4];  // columns of the matrix, then the offset; the last row is 0
   std::uint32_t held_[kSize];
-  unsigned filled_[kSize];  // which lanes
+  unsigned filled_[kSize];  // which lanes are filled, one bit each
   TriangleCorners corners_[kSize];
 };
 

@@ -9,7 +9,8 @@
 namespace corridor {
 namespace {
 
-/// [low, high], closed. Cells share their faces exactly: there is no gap for rounding to open.
+/// A closed box [low, high]. Neighbouring cells share their faces exactly, so rounding leaves no
+/// gap between them.
 struct Cell {
   Vec3 low, high;
 
@@ -31,9 +32,9 @@ struct Cell {
   }
 };
 
-/// A cell is left whole where its parts would list a triangle more often than this on average: a
-/// surface crosses four of eight, and then its triangles are small; larger ones would be listed
-/// everywhere.
+/// A cell is not divided if its children would list a triangle more often than this on average. A
+/// surface of small triangles crosses four of eight children; large triangles would be listed in
+/// all.
 constexpr std::size_t kSpread = 3;
 
 Cell boundsOf(const Triangle& t) {

@@ -13,22 +13,21 @@ namespace corridor {
 
 struct OctreeParams {
   std::uint32_t leafTriangles = 8;  ///< cells with more are divided, …
-  std::uint32_t depth = 10;  ///< … down to this level, unless the parts list far more in all
+  std::uint32_t depth = 10;  ///< … down to this level, unless the children list far more in all
 };
 
-/// A tree over space, for comparison with those over objects: a cube around the mesh, divided into
-/// eight where it holds many triangles. A leaf lists all triangles whose box meets its closed cell,
-/// so large triangles are listed often, and cells of one body say nothing of how its surface lies
-/// in them.
+/// A tree over space, for comparison with trees over objects: a cube around the mesh, divided into
+/// eight where it holds many triangles. A leaf lists all triangles whose box meets its closed cell.
+/// So large triangles are listed often, and cells don't follow the surface of the body.
 ///
-/// A point of a triangle is in a cell that lists the triangle: so two bodies touch only in cells
-/// that are not apart. Immutable.
+/// Each point of a triangle is in a cell that lists the triangle. So two bodies touch only in cells
+/// that are not separated. Immutable.
 class Octree {
  public:
   struct Node {
     Aabb box;  ///< contains the cell
     double radius = 0;
-    std::uint32_t first = 0, count = 0;          ///< of a leaf: places in `triangles()`
+    std::uint32_t first = 0, count = 0;          ///< leaf only: its range of `triangles()`
     std::uint32_t firstChild = 0, children = 0;  ///< cells without triangles are left out
     bool isLeaf() const { return children == 0; }
   };
@@ -43,7 +42,7 @@ class Octree {
     const Node& node = nodes_[i];
     for (std::uint32_t c = node.children; c-- > 0;) f(node.firstChild + c);
   }
-  /// By leaf, each triangle as often as it is listed, and its number in the mesh.
+  /// Triangles by leaf, each as often as it is listed; and the number of each in the mesh.
   const std::vector<Triangle>& triangles() const { return triangles_; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return numbers_[i]; }
   const ConvexPart* part(std::uint32_t = 0) const { return nullptr; }

@@ -5,19 +5,21 @@
 
 namespace corridor {
 
-/// The one traversal of two trees that every query uses, from the pairs of nodes on its own stack
-/// (of Query::Item, which has the nodes' numbers as `a` and `b`): no call stack, no allocation once
-/// the stack has grown. The larger of two inner nodes is opened. What is on the stack in the end
-/// was not looked at.
+/// Traverses two trees from the node pairs on `stack`. Every query on binary trees uses it.
+/// Query::Item has the nodes' numbers as `a` and `b`. Uses no call stack, and allocates nothing
+/// once `stack` has grown. For two inner nodes, the one of larger radius is descended. Pairs that
+/// are left on the stack in the end were not visited.
 ///
-/// A query says what is looked at and in which order:
-/// * `bool enter(const Item&, const NodeA&, const NodeB&)`: go on with this pair? The overlap
-///   test, or a look at what has been found since the pair was pushed.
-/// * `bool leaves(const NodeA&, const NodeB&)`: two leaves; true ends the traversal.
-/// * `void push(std::vector<Item>&, std::uint32_t a, std::uint32_t b)` for each pair to go on with,
-///   and `void opened(std::vector<Item>&, std::size_t first)` after all of one node's children
-///   were pushed, the last one first: those from `first` on may be reordered; the top is looked
-///   at first.
+/// A query decides which pairs are visited and in which order:
+/// * `bool enter(const Item&, const NodeA&, const NodeB&)` returns true to continue with this pair.
+///   It is the overlap test, or a test against what has been found since the pair was pushed.
+/// * `bool leaves(const NodeA&, const NodeB&)` handles two leaves, and returns true to end the
+///   traversal.
+/// * `void push(std::vector<Item>&, std::uint32_t a, std::uint32_t b)` pushes a pair to continue
+///   with.
+/// * `void opened(std::vector<Item>&, std::size_t first)` is called after all children of one node
+///   were pushed, the last one first. It may reorder the items from `first` on; the top is visited
+///   first.
 template <class TreeA, class TreeB, class Item, class Query>
 void traverseFrom(const TreeA& a, const TreeB& b, std::vector<Item>& stack, Query& query) {
   while (!stack.empty()) {
@@ -41,7 +43,7 @@ void traverseFrom(const TreeA& a, const TreeB& b, std::vector<Item>& stack, Quer
   }
 }
 
-/// The same from one pair.
+/// The same, starting from one pair.
 template <class TreeA, class TreeB, class Item, class Query>
 void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item>& stack,
               Query& query) {

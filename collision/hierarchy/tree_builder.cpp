@@ -16,9 +16,9 @@ struct Framed {
   Obb box;
 };
 
-Framed framed(const TreeItems& items, std::uint32_t first, std::uint32_t count, bool oriented,
+Framed framed(const TreePrimitives& items, std::uint32_t first, std::uint32_t count, bool oriented,
               ObbFit fit) {
-  if (oriented && count == 1 && !items.parts.empty()) {  // tighter than its balls'
+  if (oriented && count == 1 && !items.parts.empty()) {  // tighter than a box around its spheres
     const Obb box = enclosingObb(items.parts[first]);
     return {{box.center, box.axes}, box};
   }
@@ -28,8 +28,9 @@ Framed framed(const TreeItems& items, std::uint32_t first, std::uint32_t count, 
   });
 }
 
-/// Reorders [first, first + count) so that what lies below the plane comes first; how many.
-std::uint32_t splitAtMean(TreeItems& items, std::uint32_t first, std::uint32_t count,
+/// Reorders [first, first + count) so that the leaf primitives below the plane come first. Returns
+/// how many are below.
+std::uint32_t splitAtMean(TreePrimitives& items, std::uint32_t first, std::uint32_t count,
                           const Vec3& mean, const Vec3& normal) {
   std::uint32_t below = first;
   for (std::uint32_t i = first; i < first + count; ++i)
@@ -37,8 +38,9 @@ std::uint32_t splitAtMean(TreeItems& items, std::uint32_t first, std::uint32_t c
   return below - first;
 }
 
-/// The same with the lower half of the centroids first; 0 where all are the same.
-std::uint32_t splitAtMedian(TreeItems& items, std::uint32_t first, std::uint32_t count,
+/// The same, with the lower half of the centroids first. Returns 0 if all centroids are equally
+/// high.
+std::uint32_t splitAtMedian(TreePrimitives& items, std::uint32_t first, std::uint32_t count,
                             const Vec3& mean, const Vec3& normal) {
   struct Side {
     double value;
@@ -50,7 +52,7 @@ std::uint32_t splitAtMedian(TreeItems& items, std::uint32_t first, std::uint32_t
   const auto [low, high] = std::ranges::minmax(sides, {}, &Side::value);
   if (!(low.value < high.value)) return 0;
   std::ranges::nth_element(sides, sides.begin() + count / 2, {}, &Side::value);
-  // Swap what is on the wrong side of the half with what is on the wrong side of the other.
+  // Swap the leaf primitives that are in the wrong half; there are as many in either.
   const std::uint32_t half = first + count / 2;
   std::vector<std::uint32_t> up, down;
   for (std::uint32_t i = 0; i < count / 2; ++i)
@@ -61,11 +63,11 @@ std::uint32_t splitAtMedian(TreeItems& items, std::uint32_t first, std::uint32_t
   return count / 2;
 }
 
-Skeleton topDown(TreeItems& items, bool oriented, const TreeParams& params) {
+Skeleton topDown(TreePrimitives& items, bool oriented, const TreeParams& params) {
   struct Task {
     std::uint32_t first, count;
-    std::int64_t
-        parent;  // whose `right` this node becomes; −1: a left child, which follows its parent
+    // The node whose `right` this one becomes; −1 for a left child, which follows its parent.
+    std::int64_t parent;
   };
   Skeleton nodes;
   nodes.reserve(2 * items.size());
@@ -94,7 +96,7 @@ Skeleton topDown(TreeItems& items, bool oriented, const TreeParams& params) {
   return nodes;
 }
 
-Skeleton bottomUp(TreeItems& items, bool oriented, const TreeParams& params) {
+Skeleton bottomUp(TreePrimitives& items, bool oriented, const TreeParams& params) {
   std::vector<Obb> boxes;
   boxes.reserve(items.size());
   for (std::uint32_t i = 0; i < items.size(); ++i)
@@ -117,7 +119,7 @@ Skeleton bottomUp(TreeItems& items, bool oriented, const TreeParams& params) {
     if (parent >= 0) nodes[static_cast<std::size_t>(parent)].right = index;
     nodes.push_back({{}, first, c.count, 0});
     if (c.count == 1) {
-      order[first] = cluster;  // clusters [0, n) are the items
+      order[first] = cluster;  // clusters [0, n) are the leaf primitives
       continue;
     }
     tasks.push_back({c.right, first + clusters[c.left].count, index});
@@ -131,12 +133,13 @@ Skeleton bottomUp(TreeItems& items, bool oriented, const TreeParams& params) {
 
 }  // namespace
 
-Obb framingBox(const TreeItems& items, std::uint32_t first, std::uint32_t count, const Mat3& axes) {
+Obb framingBox(const TreePrimitives& items, std::uint32_t first, std::uint32_t count,
+               const Mat3& axes) {
   return items.withContent(first, count,
                            [&](const Content& content) { return enclosingObb(content, axes); });
 }
 
-Skeleton buildSkeleton(TreeItems& items, bool oriented, const TreeParams& params) {
+Skeleton buildSkeleton(TreePrimitives& items, bool oriented, const TreeParams& params) {
   return params.building == TreeBuilding::topDown ? topDown(items, oriented, params)
                                                   : bottomUp(items, oriented, params);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {
@@ -14,7 +14,7 @@ bool has(const Words& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// The volume that a name stands for, or null.
+/// Returns the volume of this name, or null. An empty name is the default.
 const VolumeKind* kindNamed(const std::string& name) {
   if (name.empty()) return &volumeKinds().front();
   for (const VolumeKind& kind : volumeKinds())
@@ -22,20 +22,22 @@ const VolumeKind* kindNamed(const std::string& name) {
   return nullptr;
 }
 
-/// Where a volume doesn't have the word, but others do, these are told.
-std::optional<WrongWord> wrongOf(const VolumeKind& volume, const std::string& key,
-                                 const std::string& word, Words VolumeKind::*variants) {
+/// Returns the complaint about `word`, or nothing. If other volumes have the word, the complaint
+/// names them.
+std::optional<InvalidName> wrongOf(const VolumeKind& volume, const std::string& key,
+                                   const std::string& word, Words VolumeKind::*variants) {
   const Words& own = volume.*variants;
   if (word.empty() || has(own, word)) return std::nullopt;
   Words others;
   for (const VolumeKind& kind : volumeKinds())
     if (has(kind.*variants, word)) others.push_back(kind.name);
-  const std::string there = (own.size() == 1 ? "there is: " : "there are: ") + joined(own);
+  const std::string choices = "; volume " + volume.name + " has: " + joined(own);
   if (!others.empty())
-    return WrongWord{key, quotedWord(word) + " is of volume " + joined(others) + "; of " +
-                              volume.name + " " + there};
-  return WrongWord{key, "unknown " + key + " " + quotedWord(word) + " of " + volume.name +
-                            didYouMean(word, own) + "; " + there};
+    return InvalidName{key, quotedWord(word) +
+                                (others.size() == 1 ? " is for volume " : " is for volumes ") +
+                                joined(others) + choices};
+  return InvalidName{key,
+                     "unknown " + key + " " + quotedWord(word) + didYouMean(word, own) + choices};
 }
 
 }  // namespace
@@ -43,8 +45,8 @@ std::optional<WrongWord> wrongOf(const VolumeKind& volume, const std::string& ke
 const std::vector<VolumeKind>& volumeKinds() {
   static const Words axes = {"triangles", "vertices", "hull"}, none = {"plain"};
   static const std::vector<VolumeKind> kinds = {
-      {"obb", axes, {"sat"}, TreeKind::wideObb},
-      {"obb-binary", axes, {"sat", "gjk", "lp", "edge-face"}, TreeKind::obb},
+      {"obb", axes, {"sat"}, TreeKind::obb4},
+      {"obb-binary", axes, {"sat", "gjk", "lp", "edge-face"}, TreeKind::obbBinary},
       {"aabb", none, {"sat"}, TreeKind::aabb},
       {"sphere", none, {"centers"}, TreeKind::sphere},
       {"rss", axes, {"rectangles"}, TreeKind::rss},
@@ -54,33 +56,33 @@ const std::vector<VolumeKind>& volumeKinds() {
   return kinds;
 }
 
-std::optional<WrongWord> wrongWordIn(const TreeWords& words) {
+std::optional<InvalidName> invalidNameIn(const TreeNames& words) {
   const VolumeKind* volume = kindNamed(words.volume);
   if (!volume) {
     Words names;
     for (const VolumeKind& kind : volumeKinds()) names.push_back(kind.name);
-    return WrongWord{"volume", "unknown volume " + quotedWord(words.volume) +
-                                   didYouMean(words.volume, names) +
-                                   "; there are: " + joined(names)};
+    return InvalidName{"volume", "unknown volume " + quotedWord(words.volume) +
+                                     didYouMean(words.volume, names) +
+                                     "; there are: " + joined(names)};
   }
   if (auto wrong = wrongOf(*volume, "fit", words.fit, &VolumeKind::fits)) return wrong;
   return wrongOf(*volume, "overlap", words.overlap, &VolumeKind::overlaps);
 }
 
-TreeWords spelledOut(const TreeWords& words) {
-  if (const auto wrong = wrongWordIn(words))
+TreeNames withDefaults(const TreeNames& words) {
+  if (const auto wrong = invalidNameIn(words))
     throw std::invalid_argument(wrong->key + ": " + wrong->text);
   const VolumeKind& volume = *kindNamed(words.volume);
   return {volume.name, words.fit.empty() ? volume.fits.front() : words.fit,
           words.overlap.empty() ? volume.overlaps.front() : words.overlap};
 }
 
-TreeChoice treesNamed(const TreeWords& words) {
-  const TreeWords all = spelledOut(words);
+TreeChoice treesNamed(const TreeNames& words) {
+  const TreeNames all = withDefaults(words);
   const VolumeKind& volume = *kindNamed(all.volume);
   const auto overlap = std::find(volume.overlaps.begin(), volume.overlaps.end(), all.overlap);
   const auto after = static_cast<int>(overlap - volume.overlaps.begin());
-  // A volume without axes of its own has one fit, which is no `ObbFit`: any will do.
+  // A volume without axes of its own has one fit, "plain", which is no `ObbFit`: any value will do.
   return {static_cast<TreeKind>(static_cast<int>(volume.trees) + after),
           obbFitNamed(all.fit).value_or(ObbFit::triangles)};
 }

@@ -8,12 +8,12 @@
 
 namespace corridor {
 
-/// Which trees a query walks, and how two volumes of theirs are tested. No verdict depends on it,
-/// only what it costs.
+/// The kind of trees that a query walks, and the overlap test of their volumes. It changes what a
+/// query costs, never its verdict.
 enum class TreeKind {
-  wideObb,  ///< boxes, four a node, sixteen pairs a test (wide_obb_tree.h): the fast one
-  obb,      ///< binary from here on (volume_tree.h): boxes by separating axes, …
-  obbGjk,   ///< … by closest features, …
+  obb4,       ///< 4-wide OBB trees (obb4_tree.h): sixteen pairs per test, the fast one
+  obbBinary,  ///< from here on binary trees (volume_tree.h): boxes by separating axes, …
+  obbGjk,     ///< … by closest features, …
   obbLinearProgram,
   obbEdgeFace,
   aabb,
@@ -24,38 +24,38 @@ enum class TreeKind {
   kdop26,
 };
 
-/// A kind of bounding volume by the name that users write. Of its fits and overlap tests the first
-/// is the default.
+/// A kind of bounding volume under the name that users write, with its fits and overlap tests. The
+/// first of each is the default.
 struct VolumeKind {
   std::string name;
   std::vector<std::string> fits, overlaps;
-  TreeKind trees;  ///< by the first overlap test; those by the others follow in their order
+  /// The kind for the first overlap test. The kinds for the others follow in their order.
+  TreeKind trees;
 };
-/// All of them, the default first.
+/// Returns all kinds of volume, the default first.
 const std::vector<VolumeKind>& volumeKinds();
 
-/// The words that choose trees, as users write them; an empty one stands for the first that there
-/// is.
-struct TreeWords {
+/// The words with which users choose trees. An empty word stands for the default.
+struct TreeNames {
   std::string volume, fit, overlap;
 };
-/// What they choose.
+/// The choice that `TreeNames` name.
 struct TreeChoice {
-  TreeKind trees = TreeKind::wideObb;
+  TreeKind trees = TreeKind::obb4;
   ObbFit fit = ObbFit::triangles;
 };
 
-/// The word that is unknown, or is none of its volume's.
-struct WrongWord {
+/// A word that is unknown, or that its volume doesn't have.
+struct InvalidName {
   std::string key;   ///< "volume", "fit" or "overlap"
-  std::string text;  ///< what is wrong, and what there is
+  std::string text;  ///< what is wrong, and which words are possible
 };
-std::optional<WrongWord> wrongWordIn(const TreeWords& words);
+std::optional<InvalidName> invalidNameIn(const TreeNames& words);
 
-// Both throw std::invalid_argument where there is a wrong word among them.
+// Both throw std::invalid_argument if one of the words is wrong.
 
-TreeChoice treesNamed(const TreeWords& words);
-/// With what the empty ones stand for.
-TreeWords spelledOut(const TreeWords& words);
+TreeChoice treesNamed(const TreeNames& words);
+/// Returns the words with the empty ones replaced by their default names.
+TreeNames withDefaults(const TreeNames& words);
 
 }  // namespace corridor

@@ -4,21 +4,22 @@
 
 namespace corridor {
 
-/// Where a node's items are cut, along the longest axis of its box that separates any: by the
-/// sides on which their centroids lie, …
+/// How a node's leaf primitives are split in two: by the side of a plane on which their centroids
+/// are. The plane is orthogonal to the longest axis of the node's box for which both sides get
+/// some.
 enum class SplitRule {
-  mean,    ///< … of the plane through the mean of the content (as the fit weighs it)
-  median,  ///< … of the median centroid: balanced trees
+  mean,    ///< the plane through the mean of the content (as the fit weighs it)
+  median,  ///< the plane through the median centroid: balanced trees
 };
 
 enum class TreeBuilding {
-  topDown,   ///< by splits
-  bottomUp,  ///< by clustering (hierarchy/cluster.h); one item a leaf
+  topDown,   ///< by splitting
+  bottomUp,  ///< by clustering (hierarchy/cluster.h); one leaf primitive per leaf
 };
 
-/// How a VolumeTree is built. Any choice gives the same answers.
+/// How a `VolumeTree` is built. No choice changes an answer.
 struct TreeParams {
-  ObbFit fit = ObbFit::triangles;  ///< of the axes of oriented volumes
+  ObbFit fit = ObbFit::triangles;  ///< the fit that gives the axes of oriented volumes
   SplitRule split = SplitRule::mean;
   TreeBuilding building = TreeBuilding::topDown;
 };

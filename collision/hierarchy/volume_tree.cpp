@@ -28,7 +28,8 @@ VolumeTree<Volume>::VolumeTree(std::vector<ConvexPart> parts, const TreeParams& 
 template <BoundingVolume Volume>
 void VolumeTree<Volume>::build(const TreeParams& params) {
   requireStandardFloatingPoint();
-  if (items_.numbers.empty()) throw std::invalid_argument("a tree needs a triangle or a part");
+  if (items_.numbers.empty())
+    throw std::invalid_argument("a tree needs at least one triangle or convex part");
   const Skeleton skeleton = buildSkeleton(items_, Volume::kOriented, params);
   nodes_.reserve(skeleton.size());
   for (const SkeletonNode& bone : skeleton)

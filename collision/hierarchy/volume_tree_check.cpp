@@ -22,7 +22,8 @@ bool containsPart(const ExactVolume<Volume>& volume, const ConvexPart& part) {
       if (!volume.contains(row(p), part.radius)) return false;
     return true;
   }
-  // Discs: inside the part's own box, and that inside the volume; an Obb may hold them itself.
+  // Discs are proved to be inside the part's own box, and that box inside the volume. An Obb may
+  // also contain them directly.
   const auto holdsDiscs = [&](const ExactVolume<Obb>& box) {
     const exact::Row axis = exact::minus(row(part.points[1]), row(part.points[0]));
     return box.contains(row(part.points[0]), part.radius, axis) &&
@@ -44,7 +45,7 @@ std::optional<std::string> VolumeTree<Volume>::check() const {
   const std::uint32_t n = items_.size();
   const char* item = items_.parts.empty() ? "triangle" : "part";
   std::vector<int> seen(n, 0), ids(n, 0);
-  if (nodes_[0].first != 0 || nodes_[0].count != n) return "the root does not hold all items";
+  if (nodes_[0].first != 0 || nodes_[0].count != n) return "the root does not hold all primitives";
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     const ExactVolume<Volume> volume(node.box);
@@ -59,7 +60,7 @@ std::optional<std::string> VolumeTree<Volume>::check() const {
         return named("the volume of node", i) + " does not contain " + named(item, meshTriangle(t));
     }
     if (node.box.axisDefect() > bounds_.axisDefect)
-      return named("the axes of node", i) + " exceed axisDefect";
+      return named("the axes of node", i) + " have a larger defect than axisDefect";
     if (node.isLeaf()) {
       for (std::uint32_t t = node.first; t < node.first + node.count; ++t) ++seen[t];
       continue;
@@ -73,7 +74,8 @@ std::optional<std::string> VolumeTree<Volume>::check() const {
   }
   for (std::uint32_t t = 0; t < n; ++t) {
     if (seen[t] != 1) return named(item, meshTriangle(t)) + " is not in exactly one leaf";
-    if (meshTriangle(t) >= n || ids[meshTriangle(t)]++) return "numbers are not a permutation";
+    if (meshTriangle(t) >= n || ids[meshTriangle(t)]++)
+      return "the numbers of the primitives are not a permutation";
   }
   return std::nullopt;
 }

@@ -6,13 +6,13 @@
 
 namespace corridor {
 
-/// Calls `f.operator()<Volume, Overlap>()` of a kind of binary trees: here, once a query, the kind
-/// becomes a type. @pre not `TreeKind::wideObb`.
+/// Calls `f.operator()<Volume, Overlap>()` for a kind of binary trees. This turns the kind into a
+/// type, once per query. @pre not `TreeKind::obb4`.
 template <class F>
 decltype(auto) withVolume(TreeKind trees, const F& f) {
   switch (trees) {
-    case TreeKind::wideObb:
-    case TreeKind::obb:
+    case TreeKind::obb4:
+    case TreeKind::obbBinary:
       break;
     case TreeKind::obbGjk:
       return f.template operator()<Obb, Gjk>();
@@ -37,7 +37,7 @@ decltype(auto) withVolume(TreeKind trees, const F& f) {
 }
 
 /// Calls `query(Overlap{}, tree of a, tree of b)` with the two bodies' binary trees of a kind,
-/// built if nobody has. @pre not `TreeKind::wideObb`.
+/// which are built if necessary. @pre not `TreeKind::obb4`.
 template <class Query>
 decltype(auto) onVolumeTrees(TreeKind trees, const Body& a, const Body& b, const Query& query) {
   return withVolume(trees, [&]<class Volume, class Overlap>() {

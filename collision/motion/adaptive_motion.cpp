@@ -11,22 +11,22 @@
 namespace corridor {
 namespace {
 
-/// Half windows are not halved below 2^-48 of the motion: much below, their middles would no longer
-/// be exact.
+/// Intervals with a half width of 2^-48 of the motion are not halved: much below, their middles
+/// would no longer be exact.
 constexpr double kShortest = 0x1p-48;
 
-/// A window of time of a pair that is not proved yet.
-struct Window {
+/// A time interval of a pair that is not proved yet.
+struct Interval {
   double t0, t1;
-  double need;  ///< metres that its parent's distance fell short by
+  double need;  ///< metres by which the parent's distance fell short
   std::uint32_t pair;
 };
 
-/// A time at which nothing will ever be proved: a contact, or a clearance that leaves no room.
+/// A time at which nothing can ever be proved: a contact, or a clearance that is too small.
 struct Block {
   double time;
   std::uint32_t pair;
-  DistanceSteps::Look look;
+  DistanceSteps::Measurement measured;
 };
 
 class Bisection {
@@ -38,7 +38,7 @@ class Bisection {
       if (!steps_.staysAway(k, 0.5, 0.5)) push({0, 1, HUGE_VAL, k});
     while (!queue_.empty()) {
       std::pop_heap(queue_.begin(), queue_.end(), Later{earliest_});
-      const Window w = queue_.back();
+      const Interval w = queue_.back();
       queue_.pop_back();
       if (block_ && w.t0 >= block_->time - steps_.options().timeTolerance)
         return blocked(std::min(w.t0, block_->time));
@@ -49,58 +49,63 @@ class Bisection {
   }
 
  private:
-  /// Which window comes first? Where the first contact is asked for, the earliest: all before it is
-  /// proved then. For the verdict alone, the one whose parent fell short by the most: a contact, if
-  /// there is one, is likeliest there, and one is enough. A free motion takes the same windows in
-  /// any order.
+  /// The order of the intervals. If the first contact is requested, the earliest comes first:
+  /// everything before it is then proved. If only the verdict is requested, the interval whose
+  /// parent fell short by the most comes first: a contact, if there is one, is likeliest there, and
+  /// one suffices. A free motion needs the same intervals in any order.
   struct Later {
     bool earliest;
-    bool operator()(const Window& a, const Window& b) const {
+    bool operator()(const Interval& a, const Interval& b) const {
       return earliest ? a.t0 > b.t0 : a.need < b.need;
     }
   };
-  void push(const Window& w) {
+  void push(const Interval& w) {
     queue_.push_back(w);
     std::push_heap(queue_.begin(), queue_.end(), Later{earliest_});
   }
 
-  /// Nothing: the window is proved, or halved.
-  std::optional<MotionResult> decide(const Window& w) {
+  /// Tests an interval. Returns nothing if the interval is proved or halved, else the answer of the
+  /// query.
+  std::optional<MotionResult> decide(const Interval& w) {
     const double h = (w.t1 - w.t0) / 2, t = w.t0 + h;  // dyadic: exact
-    const DistanceSteps::Look look = steps_.look(w.pair, t, h, false);
-    if (look.apart()) return std::nullopt;
-    // Half the tolerance: where a reserve of one is kept, a clearance of two is enough then.
-    const bool narrow = look.bound.travel <= steps_.options().tolerance / 2, last = h <= kShortest;
-    if (look.contact && (!earliest_ || last)) return steps_.contact(w.pair, w.t0, t, look);
-    if (!look.contact && (narrow || last || (look.hopeless && !earliest_))) {
-      if (!narrow || !block_ || !block_->look.contact || block_->time != w.t1)
-        return steps_.close(w.pair, w.t0, t, look.gap + look.bound.travel);
+    const DistanceSteps::Measurement measured = steps_.measureAt(w.pair, t, h, false);
+    if (measured.apart()) return std::nullopt;
+    // Half of the tolerance: a clearance of two tolerances then suffices even if the clearance
+    // slack takes one of them.
+    const bool narrow = measured.bound.bound <= steps_.options().tolerance / 2,
+               last = h <= kShortest;
+    if (measured.contact && (!earliest_ || last)) return steps_.contact(w.pair, w.t0, t, measured);
+    if (!measured.contact && (narrow || last || (measured.hopeless && !earliest_))) {
+      if (!narrow || !block_ || !block_->measured.contact || block_->time != w.t1)
+        return steps_.close(w.pair, w.t0, t, measured.gap + measured.bound.bound);
       MotionResult result = blocked(w.t0);
       result.grazing = true;
       return result;
     }
     ++steps_.counters().splits;
-    const double need = look.bound.needed - look.gap;  // the margin, in the former, is all pairs'
+    // `needed` includes the margin, which is the same for all pairs.
+    const double need = measured.bound.needed - measured.gap;
     push({w.t0, t, need, w.pair});
-    // What is after a block doesn't matter any more.
+    // Everything after a block is irrelevant.
     const bool before = !block_ || t < block_->time;
-    if (before && (look.contact || look.hopeless))
-      block_ = Block{t, w.pair, look};
+    if (before && (measured.contact || measured.hopeless))
+      block_ = Block{t, w.pair, measured};
     else if (before)
       push({t, w.t1, need, w.pair});
     return std::nullopt;
   }
 
-  /// All is proved up to t0, and the block is as near to it as was asked for.
+  /// Returns the answer when everything up to t0 is proved, and the block is as close to t0 as
+  /// requested.
   MotionResult blocked(double t0) {
-    const auto& [time, pair, look] = *block_;
-    return look.contact ? steps_.contact(pair, t0, time, look)
-                        : steps_.close(pair, t0, time, HUGE_VAL);
+    const auto& [time, pair, measured] = *block_;
+    return measured.contact ? steps_.contact(pair, t0, time, measured)
+                            : steps_.close(pair, t0, time, HUGE_VAL);
   }
 
   DistanceSteps& steps_;
   bool earliest_;
-  std::vector<Window> queue_;  // a heap
+  std::vector<Interval> queue_;  // a heap
   std::optional<Block> block_;
 };
 

@@ -8,12 +8,12 @@
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/body.h"
 #include "collision/hierarchy/tree_kinds.h"
-#include "collision/motion/motion_window.h"
+#include "collision/motion/relative_motion.h"
 
 namespace corridor {
 
-/// Two bodies that touch, by their indices in the scene, and where: triangles by their numbers in
-/// their meshes; 0 for a primitive.
+/// Two bodies that touch, by their indices in the scene, and the triangles that touch, by their
+/// numbers in the meshes. The number is 0 for a body that is a convex part.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
   std::uint32_t triangleA = 0, triangleB = 0;
@@ -22,60 +22,69 @@ struct Contact {
 enum class MotionVerdict { free, contact, undecided };
 enum class UndecidedReason {
   none,
-  clearance,      ///< the clearance is under twice the tolerance somewhere
-  workLimit,      ///< the query's work limit was reached
-  ambiguous,      ///< a half turn, whose shorter way is not unique, or a way that overflows: the
-                  ///< edge defines no curve
+  clearance,  ///< the clearance is below twice the tolerance somewhere
+  workLimit,  ///< the query reached its work limit
+  /// The edge defines no curve: a half turn, whose shorter way is not unique, or a displacement
+  /// that overflows.
+  ambiguous,
   rounding,       ///< the rounding of large values takes more than half of the tolerance
-  floatingPoint,  ///< the processor is set so that no bound holds (core/floating_point.h)
+  floatingPoint,  ///< no bound holds with these processor settings (core/floating_point.h)
 };
 
-/// The answer of a motion query (design: contract 2). `free` is never wrong. `contact` has an exact
-/// contact at the rounded pose at `contactTime`. `undecided` has a reason.
+/// The answer of a motion query (collision/PROMISES.md, promise 2). `free` is never wrong.
+/// `contact` has an exact contact at the rounded pose at `contactTime`. `undecided` has a reason.
 struct MotionResult {
   MotionVerdict verdict = MotionVerdict::free;
   UndecidedReason reason = UndecidedReason::none;
-  /// [0, certifiedUntil] is proved free (for `free`: 1), but where it is 0, which claims nothing.
-  /// Not asked for: 0.
+  /// The motion is proved free on [0, certifiedUntil]. 1 if the verdict is `free`; 0 if nothing was
+  /// proved, or if the query did not request it (`MotionOptions::earliest`).
   double certifiedUntil = 1;
-  double contactTime =
-      -1;  ///< t1 of `contact`, else −1; for `undecided` the middle of the undecided interval
-  bool grazing = false;  ///< `contact`, and over all of [certifiedUntil, contactTime] the clearance
-                         ///< stays under twice the tolerance, rounding and tube. Not asked for:
-                         ///< false.
-  std::optional<Contact> pair;  ///< of `contact`, and of `undecided` for want of clearance
-  double gap = 0;  ///< `undecided` for want of clearance: distance beyond the margin found at
-                   ///< contactTime, metres
+  /// For `contact` the time of the contact. For `undecided` a time in the interval that could not
+  /// be decided (by the default method its middle). −1 if there is none.
+  double contactTime = -1;
+  /// For `contact`: on all of [certifiedUntil, contactTime] the clearance stays below twice the
+  /// tolerance, rounding and tube. False without `earliest`.
+  bool grazing = false;
+  /// The pair in contact. For `undecided` the pair that could not be decided, if one is known.
+  std::optional<Contact> pair;
+  /// For `undecided` with a `pair`: its distance beyond the margin at `contactTime`, metres.
+  double gap = 0;
 };
 
-/// Parameters of a motion query.
+/// The parameters of a motion query.
 struct MotionOptions {
-  double tolerance = 0;   ///< metres, > 0; below this clearance the answer may be `undecided`
-  double margin = 0;      ///< metres kept from every obstacle; 0: touching is contact
-  double reserve = 0;     ///< metres that `free` leaves beyond margin and tube; less is `undecided`
+  double tolerance = 0;  ///< metres, > 0; below this clearance the answer may be `undecided`
+  double margin = 0;     ///< metres kept from every obstacle; 0: touching is contact
+  /// Clearance slack, metres: `free` leaves this much beyond margin and tube. Less is `undecided`.
+  double clearanceSlack = 0;
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
-  /// Of [0, 1]; how narrow a bracket `earliest` asks for. In that time the bodies should come
-  /// nearer by more than a few tolerances: else the bracket's beginning is closer than can be
-  /// proved free, and a plain contact is `grazing` or `undecided`.
+  /// The width of the bracket [certifiedUntil, contactTime] that `earliest` requests, as a share of
+  /// the motion. In that time the bodies should approach each other by more than a few tolerances.
+  /// Otherwise the beginning of the bracket is too close to be proved free, and a plain contact is
+  /// reported as `grazing` or as `undecided`.
   double timeTolerance = 1.0 / 1024;
-  /// Box and triangle tests, soon after which (a pair of nodes: 16 and 256 at most) the answer is
-  /// `undecided`.
+  /// Number of box and triangle tests after which the answer is `undecided`. The query ends at most
+  /// one node pair later: 16 box tests and 256 triangle tests.
   std::uint64_t workLimit = 20'000'000;
-  /// What is walked. Bodies' own bounds, looked at before any tree, are the same for all kinds.
-  TreeKind trees = TreeKind::wideObb;
+  /// The kind of trees to walk. The bounds of whole bodies, which are tested before any tree, are
+  /// the same for all kinds.
+  TreeKind trees = TreeKind::obb4;
 };
 
-/// The relative motions along an edge, numbered by whoever owns it: as many as there are pairs of
-/// frames that move differently. May keep scratch memory: one thread at a time.
+/// The relative motions along an edge. The owner numbers them: one for each pair of frames that
+/// moves differently. An object may hold scratch memory, so only one thread may use it at a time.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
-  /// Motion `i` in [t − h, t + h], outside of [0, 1] as if it went on. @pre 0 ≤ t ≤ 1, h ≤ 1/2,
-  /// t − h and t + h exact. The span stays good until the next call for the same i.
-  virtual MotionWindow window(std::size_t i, double t, double h) = 0;
-  /// The shorter way is not unique within 1e-9 rad somewhere (half turns), or overflows: no edge.
+  /// Returns motion `i` in [t − h, t + h]; outside [0, 1] the motion is continued. The span in the
+  /// result stays valid until the next call for the same i. @pre 0 ≤ t ≤ 1, h ≤ 1/2, t − h and t +
+  /// h exact.
+  virtual RelativeMotion relativeMotion(std::size_t i, double t, double h) = 0;
+  /// Reports whether no edge is defined: somewhere the shorter way is not unique within 1e-9 rad
+  /// (half turns), or a displacement overflows.
   virtual bool ambiguous() const = 0;
-  /// Nothing moves: one pose stands for all of it (the tube aside).
+  /// Reports whether nothing moves, so that one pose stands for the whole edge (apart from the
+  /// tube).
   virtual bool still() const = 0;
 
  protected:
@@ -84,7 +93,7 @@ class MotionSource {
   MotionSource& operator=(const MotionSource&) = default;
 };
 
-/// Two bodies, b moving as seen from a by `motion`, and their indices in the scene.
+/// A pair of bodies and their indices in the scene. Seen from a, b moves by motion number `motion`.
 struct MotionPair {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
@@ -92,46 +101,53 @@ struct MotionPair {
   const Body* b;
   std::size_t motion = 0;
   std::size_t bodyA = 0, bodyB = 0;
-  /// The motions of a and of b as the world sees them, where they are numbered: pairs that are far
-  /// apart are told by them, once a body instead of once a pair. `worldA` is none where a is at
-  /// rest in the world, and `worldB` is `motion` then; both are none where nothing is known. Where
-  /// they are given, a body's index and its motion are the same in all pairs of a query.
+  /// The motions of a and of b as seen from the world, if they have numbers. With them, pairs that
+  /// are far apart are separated by one swept sphere per body instead of one per pair. If a is at
+  /// rest in the world, `worldA` is `kNone` and `worldB` equals `motion`. If nothing is known, both
+  /// are `kNone`. If they are given, a body has the same index and the same motion in all pairs of
+  /// a query.
   std::size_t worldA = kNone, worldB = kNone;
 };
 
-/// Proved: all through [t0, t1], and for the tube around it, pair `pair` of a query stays at least
-/// `clearance` metres apart. At least margin and reserve; what was asked for is in it.
+/// A proved statement: on all of [t0, t1], and for the whole tube around the motion, pair number
+/// `pair` of a query stays at least `clearance` metres apart. The clearance includes the margin and
+/// the clearance slack that the query requested, so it is at least their sum, rounded
+/// down.
 struct FreeInterval {
   std::size_t pair = 0;
   double t0 = 0, t1 = 0;
   double clearance = 0;
 };
 
-/// Why an answer is what it is. Of a query without `earliest` whose answer isn't `free`: what was
-/// proved until then.
-struct MotionEvidence {
-  /// Of each pair they cover [0, certifiedUntil] without a gap, not in order; and maybe more.
+/// The certificate of an answer. For a query without `earliest` whose answer is not `free`, it
+/// contains what was proved before the query stopped.
+struct MotionCertificate {
+  /// For each pair the intervals cover [0, certifiedUntil] without a gap, in any order. There may
+  /// be more.
   std::vector<FreeInterval> free;
-  /// Of `contact`: a point of body a where the two touch (with a margin: where they are closest),
-  /// in a's frame, metres, at `contactTime`; off by rounding of their coordinates.
+  /// For `contact`: a point of body a where the two touch (with a margin: where they are closest),
+  /// in a's frame at `contactTime`, metres. It is off by the rounding of its coordinates.
   std::optional<Vec3> point_A;
 };
 
-/// Is the motion free of contact of every pair, for all t in [0, 1], for the tube around it, and
-/// with the margin kept? Surfaces of meshes: one inside another touches nothing (`Scene` knows of
-/// solids); primitives are solid. Pairs of one motion, and of these
-/// the ones of one b, are best put side by side.
+/// Decides whether a motion is free of contact: every pair, for all t in [0, 1], with the margin
+/// kept, and for every curve in the tube. Meshes are surfaces here: a body inside a mesh touches
+/// nothing (`Scene` tests solid meshes). Convex parts are solid. The query is fastest if pairs of
+/// one motion are adjacent, and among these the pairs of one b.
 ///
-/// Method (design: «The certified edge»): a window of time is halved where boxes or leaves can't
-/// be told apart (`descend`: descend.h, and, for any volume, descend_volumes.h); each window hands
-/// the undecided pairs of nodes down to its halves. Bodies whose bounds stay apart are never
-/// descended, nor do they get a tree. Where only the verdict is asked for, those whose bounds don't
-/// are tested for contact at the end before any window is walked, and what the first windows leave,
-/// in their middles: most motions that touch anything are done there.
-/// @param evidence  where not null, gets why: `checkEvidence` (check_evidence.h) proves it anew. No
-/// verdict depends on it; it takes half again the time.
+/// Method. A time interval is halved if the boxes, or the triangles and convex parts, of a pair of
+/// bodies cannot be separated in it (`descend`: descend.h; for trees of any volume,
+/// descend_volumes.h). Each interval passes only its unseparated node pairs on to its halves. If
+/// the bounds of two bodies are separated, their trees are neither built nor walked. If only the
+/// verdict is requested, the other pairs are first tested for contact at the end of the motion,
+/// before any interval is walked. Node pairs that the first intervals cannot separate are tested
+/// for contact at the middles of these intervals. Most motions with a contact are decided by these
+/// two tests.
+/// @param certificate if not null, receives the certificate, which `checkCertificate`
+/// (check_certificate.h) can prove again. Recording it never changes the verdict, and makes the
+/// query take half as long again.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,
-                           MotionEvidence* evidence = nullptr);
+                           MotionCertificate* certificate = nullptr);
 
 }  // namespace corridor

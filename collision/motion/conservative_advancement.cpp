@@ -10,22 +10,21 @@
 namespace corridor {
 namespace {
 
-/// Times are whole numbers of 2^-48 of the motion, so that those at which steps end are exact.
+/// Times are multiples of 2^-48 of the motion, so that the ends of steps are exact.
 constexpr double kGrid = 0x1p-48;
-/// What windows are told for, at most, on either side of their middles.
+/// The largest half width of an interval that `MotionSource::relativeMotion` accepts.
 constexpr double kLongest = 0.5;
-/// A step that is too long is shortened to this share of what the room would allow if the travel
-/// were in proportion to the time, which it is for short ones.
+/// A step that is too long is shortened in proportion to what the clearance allows, times this
+/// share. The motion bound of a short step is nearly proportional to time.
 constexpr double kShare = 1 - 0x1p-7;
 
-/// A pair that is proved for all of [0, t].
+/// A pair that is proved on all of [0, t].
 struct Front {
   double t;
   std::uint32_t pair;
 
-  friend bool operator<(const Front& a, const Front& b) {  // the earliest is the top of a heap
-    return a.t > b.t;
-  }
+  // Makes the earliest front the top of a heap.
+  friend bool operator<(const Front& a, const Front& b) { return a.t > b.t; }
 };
 
 class Advancement {
@@ -41,14 +40,15 @@ class Advancement {
       Front& front = fronts.back();
       const auto [t, pair] = front;
       if (steps_.outOfWork()) return steps_.workLimit(t);
-      const DistanceSteps::Look look = steps_.look(pair, t, 0, true);
-      if (look.contact) return steps_.contact(pair, t, t, look);
-      const double step = longestStep(front, look);
+      const DistanceSteps::Measurement measured = steps_.measureAt(pair, t, 0, true);
+      if (measured.contact) return steps_.contact(pair, t, t, measured);
+      const double step = longestStep(front, measured);
       const bool done = t + step == 1;
-      // A clearance of twice the tolerance, of which reserve may be one, leaves more room.
-      const double room = look.lower - look.bound.needed;
+      // With a clearance of twice the tolerance there is more room than this, even if the clearance
+      // slack takes one tolerance.
+      const double room = measured.lower - measured.bound.needed;
       if (!done && (step == 0 || room <= steps_.options().tolerance / 2))
-        return steps_.close(pair, t, t, look.gap);
+        return steps_.close(pair, t, t, measured.gap);
       front.t += step;
       if (done)
         fronts.pop_back();
@@ -59,16 +59,17 @@ class Advancement {
   }
 
  private:
-  /// For how long the distance at t is enough: nearly the longest such time, or 0.
-  double longestStep(const Front& front, const DistanceSteps::Look& look) {
-    if (!look.apart()) return 0;
+  /// Returns nearly the longest time for which the distance at t suffices, or 0.
+  double longestStep(const Front& front, const DistanceSteps::Measurement& measured) {
+    if (!measured.apart()) return 0;
     double h = std::min(kLongest, 1 - front.t);
     for (;;) {
       const double needed = steps_.bound(front.pair, front.t, h).needed;
-      if (look.lower > needed) return h;
+      if (measured.lower > needed) return h;
       const double shorter =
-          kShare * h * ((look.lower - look.bound.needed) / (needed - look.bound.needed));
-      if (!(shorter >= kGrid)) return 0;  // NaN, too
+          kShare * h *
+          ((measured.lower - measured.bound.needed) / (needed - measured.bound.needed));
+      if (!(shorter >= kGrid)) return 0;  // also for NaN
       h = std::floor(shorter / kGrid) * kGrid;
     }
   }

@@ -4,15 +4,15 @@
 
 namespace corridor {
 
-/// `certifyMotion`'s question and promises, by conservative advancement (Mirtich 1996; for links of
-/// a chain Zhang, Redon, Lee, Kim 2007): from t = 0 on, the distance of two bodies at t and a bound
-/// of how far any point of b goes from there allow a step over which they can't meet; and so on,
-/// until the end, or until the distance has gone.
+/// Answers the query of `certifyMotion`, with the same promises, by conservative advancement
+/// (Mirtich 1996; for links of a chain Zhang, Redon, Lee, Kim 2007). Starting at t = 0, the
+/// distance of two bodies at t and a bound of b's motion after t give a step during which the
+/// bodies cannot meet. Steps are repeated until the end, or until no distance is left.
 ///
-/// The pair that is proved up to the earliest time steps next (Mirtich's queue), so that the first
-/// contact is found first, whether it is asked for or not. Close to it steps get shorter by the
-/// same share each; what passes by or slides at a distance d takes steps of the order of d, as for
-/// `certifyByBisection`.
+/// The pair that is proved up to the earliest time makes the next step (Mirtich's queue). The first
+/// contact is therefore found first, whether it is requested or not. Close to a contact, the steps
+/// get shorter by the same factor each. A body that slides along or passes an obstacle at a
+/// distance d needs steps of the order of d, as in `certifyByBisection`.
 MotionResult certifyByAdvancement(MotionSource& motion, std::span<const MotionPair> pairs,
                                   const MotionOptions& options, QueryContext& context);
 

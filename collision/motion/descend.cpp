@@ -6,20 +6,20 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/hierarchy/wide_pose.h"
+#include "collision/hierarchy/obb4_tree_pose.h"
 #include "collision/motion/moving_parts.h"
 #include "collision/motion/moving_triangles.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collision/motion/descend.cpp"
 #include "hwy/foreach_target.h"
-// After foreach_target.h, as Highway asks.
+// Highway requires this include after foreach_target.h.
 #include "hwy/highway.h"
 
-#include "collision/hierarchy/wide_walk-inl.h"
+#include "collision/hierarchy/obb4_walk-inl.h"
+#include "collision/motion/motion_bound4-inl.h"
 #include "collision/motion/moving_triangles-inl.h"
-#include "collision/motion/wide_travel-inl.h"
-#include "collision/queries/wide_leaves-inl.h"
+#include "collision/queries/obb4_leaves-inl.h"
 #include "collision/volumes/overlap_obb4_moving-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,20 +27,20 @@ namespace corridor::HWY_NAMESPACE {
 
 class Moving {
  public:
-  using Item = QueryContext::WideItem;
-  using Node = WideObbTree::Node;
+  using Item = QueryContext::NodePair4;
+  using Node = Obb4Tree::Node;
 
-  Moving(const WideObbTree& a, const WideObbTree& b, const MotionWindow& window,
-         const WidePose& pose, const DescentOptions& options, std::vector<Item>& later,
+  Moving(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
+         const Obb4TreePose& pose, const DescentOptions& options, std::vector<Item>& later,
          Counters& counters)
       : a_(a),
         b_(b),
-        window_(window),
+        relative_(relative),
         pose_(pose),
         options_(options),
         later_(later),
         counters_(counters),
-        travel_(b, window, pose.unitA, options.margin, options.tolerance),
+        bound_(b, relative, pose.unitA, options.margin, options.tolerance),
         leaves_(a, b, pose, counters) {}
 
   static constexpr bool kSorted = false;
@@ -57,11 +57,11 @@ class Moving {
   }
 
   unsigned boxes(const Item& item, const Node& na, const Node& nb, float* keys) {
-    const NodeTravel& travel = travel_.of(nb);
-    const MovingBoxes found = movingBoxes(na, nb, pose_.floats, travel, keys, clearances());
+    const NodeMotionBound& bound = bound_.of(nb);
+    const MovingBoxes found = movingBoxes(na, nb, pose_.floats, bound, keys, clearances());
     noteClearances(item.pairs & ~found.open);
     if (options_.shortest) return found.open;
-    const unsigned coarse = found.coarse & item.pairs & travel.far * 0x1111U;
+    const unsigned coarse = found.coarse & item.pairs & bound.far * 0x1111U;
     leave(item, coarse);
     return found.open & ~coarse;
   }
@@ -87,7 +87,7 @@ class Moving {
   }
 
   float* clearances() { return options_.clearance ? clearances_ : nullptr; }
-  /// Of pairs that were told apart.
+  /// Notes the clearances of these separated pairs, if requested.
   void noteClearances(unsigned pairs) {
     if (!options_.clearance) return;
     for (; pairs; pairs &= pairs - 1)
@@ -105,26 +105,28 @@ class Moving {
       const double margin = options_.margin;
       const ConvexPart *pa = a_.part(), *pb = b_.part();
       const MovingTrianglesAnswer answer =
-          !pa  ? decideMovingParts(a_.triangle(s), *pb, window_, margin, counters_)
-          : pb ? decideMovingParts(*pa, *pb, window_, margin, counters_)
-               : decideMovingParts(*pa, b_.triangle(t), window_, margin, counters_);
+          !pa  ? decideMovingParts(a_.triangle(s), *pb, relative_, margin, counters_)
+          : pb ? decideMovingParts(*pa, *pb, relative_, margin, counters_)
+               : decideMovingParts(*pa, b_.triangle(t), relative_, margin, counters_);
       return take(answer, s, t, leaves, open);
     });
   }
 
   bool triangles(const Node& na, const Node& nb, unsigned leaves, unsigned& open) {
-    LeafPairs pairs(na, nb);
+    NodeLeafPairs pairs(na, nb);
     for (unsigned rest = leaves; rest; rest &= rest - 1)
       pairs.add(static_cast<unsigned>(std::countr_zero(rest)));
-    LeafTravel goes = travel_.ofLeaves(nb, pairs.lanesB());
-    // Where a shorter window is no help, or none is to be had, doubles decide all that is left.
-    const bool last = options_.shortest || !travel_.of(nb).far;
-    // A pair that the filter drops, which knows no distances, would have none either.
-    const float far = options_.clearance ? HUGE_VALF : goes.cap + goes.pad;
+    LeafMotionBound goes = bound_.ofLeaves(nb, pairs.lanesB());
+    // If shorter intervals would not help, or are not allowed, double precision decides all that is
+    // left.
+    const bool last = options_.shortest || !bound_.of(nb).far;
+    // With clearances requested the filter must not drop any pair, since it computes no distances:
+    // an infinite pad keeps all of them.
+    const float far = options_.clearance ? HUGE_VALF : goes.isotropic + goes.pad;
     return leaves_.forEachNearSixteen(
         pairs, [&] { return far; },
         [&](const TriangleCorners& a, const TriangleCorners& b, unsigned first, unsigned near) {
-          travel_.setLinear(goes, b.center, a_.origin());
+          bound_.setLinear(goes, b.center, a_.origin());
           const MovingPairs found =
               movingTriangles(a, b, pairs.from(first), pose_.leafError, goes, clearances());
           noteClearances(near & found.apart);
@@ -138,44 +140,46 @@ class Moving {
             const auto [s, t] = pairs.triangles(first + bit);
             --counters_.triangleTests;  // the filter has counted the pair
             const MovingTrianglesAnswer answer = decideMovingTriangles(
-                a_.triangle(s), b_.triangle(t), window_, options_.margin, counters_);
+                a_.triangle(s), b_.triangle(t), relative_, options_.margin, counters_);
             if (take(answer, s, t, pair, open)) return true;
           }
           return false;
         });
   }
 
-  /// True: enough.
+  /// Returns true if the walk has to end.
   bool take(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t, unsigned leaves,
             unsigned& open) {
-    const LeafPair pair = judged(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
-    if (pair == LeafPair::left) open |= leaves;
-    return pair == LeafPair::last;
+    const LeafOutcome pair =
+        outcomeOf(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
+    if (pair == LeafOutcome::left) open |= leaves;
+    return pair == LeafOutcome::last;
   }
 
-  const WideObbTree &a_, &b_;
-  const MotionWindow& window_;
-  const WidePose& pose_;
+  const Obb4Tree &a_, &b_;
+  const RelativeMotion& relative_;
+  const Obb4TreePose& pose_;
   const DescentOptions& options_;
   std::vector<Item>& later_;
   Counters& counters_;
-  WideTravel travel_;
-  WideLeaves leaves_;
-  unsigned left_ = 0;  // pairs that `later_` has of this window
+  MotionBound4 bound_;
+  Obb4Leaves leaves_;
+  unsigned left_ = 0;  // node pairs of this interval in `later_`
   alignas(64) float clearances_[16];
   Descent result_;
 };
 
-Descent descendWide(const WideObbTree& a, const WideObbTree& b, const MotionWindow& window,
+Descent descendObb4(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
                     const DescentOptions& options, std::size_t count,
-                    std::vector<QueryContext::WideItem>& later, QueryContext& context) {
-  // `travelOf` knows how far b goes; the pose has only to know where it is.
-  const WidePose pose(a, {}, b, window.X_AB, HUGE_VAL);
-  Moving query(a, b, window, pose, options, later, context.counters);
-  const std::size_t left = walkWide(a, b, pose.floats.scale, context, query, count);
+                    std::vector<QueryContext::NodePair4>& later, QueryContext& context) {
+  // The infinite pad keeps `Obb4TreePose` from separating the root bounds: it does not know the
+  // motion.
+  const Obb4TreePose pose(a, {}, b, relative.X_AB, HUGE_VAL);
+  Moving query(a, b, relative, pose, options, later, context.counters);
+  const std::size_t left = walkObb4(a, b, pose.floats.scale, context, query, count);
   if (query.result().kind == Descent::Kind::contact)
-    later.insert(later.end(), context.wideStack.begin(),
-                 context.wideStack.begin() + static_cast<std::ptrdiff_t>(left));
+    later.insert(later.end(), context.stack4.begin(),
+                 context.stack4.begin() + static_cast<std::ptrdiff_t>(left));
   return query.result();
 }
 
@@ -185,12 +189,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace corridor {
 
-HWY_EXPORT(descendWide);
+HWY_EXPORT(descendObb4);
 
-Descent descend(const WideObbTree& a, const WideObbTree& b, const MotionWindow& window,
+Descent descend(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
                 const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::WideItem>& later, QueryContext& context) {
-  return HWY_DYNAMIC_DISPATCH(descendWide)(a, b, window, options, count, later, context);
+                std::vector<QueryContext::NodePair4>& later, QueryContext& context) {
+  return HWY_DYNAMIC_DISPATCH(descendObb4)(a, b, relative, options, count, later, context);
 }
 
 }  // namespace corridor

@@ -6,77 +6,81 @@
 #include <vector>
 
 #include "collision/core/query_context.h"
-#include "collision/hierarchy/wide_obb_tree.h"
-#include "collision/motion/motion_window.h"
+#include "collision/hierarchy/obb4_tree.h"
 #include "collision/motion/moving_triangles.h"
+#include "collision/motion/relative_motion.h"
 
 namespace corridor {
 
-/// What one window of time makes of pairs of nodes of two trees.
+/// The result of one time interval for node pairs of two trees.
 struct Descent {
   enum class Kind {
-    done,       ///< what is not among the leftovers is apart all along the window
-    contact,    ///< `s` and `t` touch at the rounded pose of the window's middle
-    undecided,  ///< of `s` and `t` nothing is known, and no shorter window would tell
-    workLimit,  ///< out of work
+    done,     ///< everything that was not left to shorter intervals is separated throughout
+    contact,  ///< `s` and `t` touch at the rounded pose at the interval's middle
+    /// `s` and `t` are neither separated nor proved to touch, and shorter intervals would not help
+    /// or are not allowed.
+    undecided,
+    workLimit,  ///< the work limit was reached
   };
   Kind kind = Kind::done;
-  std::uint32_t s = 0, t = 0;  ///< by their numbers in their meshes
-  double gap = 0;              ///< `undecided`: metres beyond the margin at the middle
-  bool wide = false;           ///< `undecided`, and b goes farther in the window than the tolerance
-  /// Where asked for: what was told apart is proved to stay at least this much farther apart than
-  /// margin and pads, metres; nothing was: infinite.
+  std::uint32_t s = 0, t = 0;  ///< numbers of the leaf primitives in their meshes
+  double gap = 0;              ///< `undecided`: distance beyond the margin at the middle, metres
+  bool wide = false;           ///< `undecided`, and the motion bound exceeds the tolerance
+  /// If requested: what was separated is proved to stay at least this much farther apart than
+  /// margin and pads, metres. Infinite if nothing was separated.
   double clearance = HUGE_VAL;
 };
 
 struct DescentOptions {
   double margin = 0, tolerance = 0;  ///< metres
-  bool shortest = false;             ///< the window is not to be halved
-  std::uint64_t workEnd = 0;         ///< box and triangle tests of the counters, to stop at
-  unsigned mostLeft = 0;             ///< pairs that may be left to halves before all the rest is
-  bool clearance = false;            ///< asked for: costs time
+  bool shortest = false;             ///< the interval must not be halved
+  std::uint64_t workEnd = 0;  ///< stop when the counters have this many box and triangle tests
+  unsigned mostLeft = 0;      ///< once this many node pairs are left to the halves, all others are
+  bool clearance = false;     ///< whether `Descent::clearance` is requested: costs time
 };
 
-/// What a pair of leaves' items says: they are apart all along the window, left to shorter ones, or
-/// the last that has to be looked at (`Descent::kind` says why).
-enum class LeafPair { apart, left, last };
+/// The result for a pair of leaf primitives. `apart`: separated throughout the interval. `left`:
+/// left to shorter intervals. `last`: ends the walk, for the reason in `Descent::kind`.
+enum class LeafOutcome { apart, left, last };
 
-/// Takes the answer for the items `s` and `t`, by their numbers in their meshes, into the window's.
-inline LeafPair judged(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t,
-                       const DescentOptions& options, Descent& descent) {
+/// Enters the result for the leaf primitives `s` and `t`, by their numbers in their meshes, into
+/// the result of the interval.
+inline LeafOutcome outcomeOf(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t,
+                             const DescentOptions& options, Descent& descent) {
   if (answer.separated) {
     descent.clearance = std::min(descent.clearance, answer.clearance);
-    return LeafPair::apart;
+    return LeafOutcome::apart;
   }
   descent.s = s;
   descent.t = t;
   if (answer.contact) {
     descent.kind = Descent::Kind::contact;
-    return LeafPair::last;
+    return LeafOutcome::last;
   }
-  // Refining does not help, or need not.
-  if (answer.stuck || !(answer.travel > options.tolerance) || options.shortest) {
+  // Shorter intervals would not help, or are not needed or not allowed.
+  if (answer.stuck || !(answer.bound > options.tolerance) || options.shortest) {
     descent.kind = Descent::Kind::undecided;
     descent.gap = answer.gap;
-    descent.wide = answer.travel > options.tolerance;
-    return LeafPair::last;
+    descent.wide = answer.bound > options.tolerance;
+    return LeafOutcome::last;
   }
-  return LeafPair::left;
+  return LeafOutcome::left;
 }
 
-/// Walks the trees below pairs of nodes, b moving as the window says; what the window can't tell
-/// apart goes to `later`, after what that holds.
+/// Walks the trees below the given node pairs, b moving by the relative motion `relative`. Appends
+/// the node pairs that it cannot separate in this interval to `later`.
 ///
-/// Boxes are told apart with what they travel in the whole window (overlap_obb4_moving-inl.h), leaf
-/// pairs along the direction of their closest points (`decideMovingTriangles`,
-/// `decideMovingParts`). Time before space: a pair of boxes that travel farther than they are large
-/// is left to shorter windows.
+/// Boxes are separated by the 15 axes, each with the motion bound along it for the whole interval
+/// (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated along the direction of their
+/// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: a
+/// pair of boxes that move farther than they are large is left to shorter intervals.
 ///
-/// @param count how many items of `context.wideStack` to start from. For `contact` all that was not
-/// looked at, and the pair that touches, are in `later`, too; for `undecided` and `workLimit`
-/// nothing is to be made of it.
-Descent descend(const WideObbTree& a, const WideObbTree& b, const MotionWindow& window,
+/// @param count the number of items of `context.stack4` to start from.
+/// @return If the kind is `contact`, `later` also receives everything that was not tested and the
+/// pair that touches. If it is `undecided` or `workLimit`, the contents appended to `later` have no
+/// meaning.
+Descent descend(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
                 const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::WideItem>& later, QueryContext& context);
+                std::vector<QueryContext::NodePair4>& later, QueryContext& context);
 
 }  // namespace corridor

@@ -8,20 +8,22 @@
 #include "collision/motion/moving_parts.h"
 #include "collision/volumes/pair_tests.h"
 
-/// The pad. Let X̂ be the rounded map at the window's middle, taken as exact, under which volumes
-/// are tested (`PairTest`, with no other error). A point p of b is, anywhere in the window and in
-/// the tube, within cap + pad of X̂p (`PointTravel`, of a ball that holds p). So volumes that are
-/// apart by more than margin + cap + pad under X̂ hold nothing that comes nearer than the margin.
+/// The pad. Let X̂ be the rounded map at the interval's middle, taken as exact, under which volumes
+/// are tested (`PairTest`, with no other error). Anywhere in the interval and in the tube, a point
+/// p of b is within isotropic + pad of X̂p, by the `MotionBound` of a sphere that contains p.
+/// Volumes that are farther apart than margin + isotropic + pad under X̂ therefore contain nothing
+/// that comes nearer than the margin.
 ///
-/// The ball is the volume's own, mapped: its centre c, off by 2u of |c| and the radius, goes to
-/// M c + t, off by less than 8u of its terms a coordinate; 16u of all the terms as a length.
+/// The sphere is the volume's own, mapped. Its centre c is off by 2u of |c| and the radius. It is
+/// mapped to M c + t with an error of less than 8u of its terms per coordinate. 16u of all the
+/// terms, as a length, covers both.
 namespace corridor {
 namespace {
 
-/// Time is split before space where b's volume goes farther than so much of the larger one's
-/// radius. Measured on plans with boxes and k-DOPs; soundness needs no such number. With 1, arms
-/// take three times as many tests, rigid bodies a tenth to a third more; with 1/64 these take twice
-/// as many.
+/// Time is split before space if b's volume moves farther than this share of the larger volume's
+/// radius. Soundness does not depend on the value. Measured on plans with boxes and k-DOPs: with 1,
+/// arms need three times as many tests and rigid bodies a tenth to a third more; with 1/64, rigid
+/// bodies need twice as many.
 constexpr double kTravelOfSize = 0.125;
 
 template <class Volume, class Overlap>
@@ -31,28 +33,28 @@ class MovingVolumes {
   using Node = typename Tree::Node;
   using Item = QueryContext::NodePair;
 
-  MovingVolumes(const Tree& a, const Tree& b, const MotionWindow& window,
-                const DescentOptions& options, std::vector<QueryContext::WideItem>& later,
+  MovingVolumes(const Tree& a, const Tree& b, const RelativeMotion& relative,
+                const DescentOptions& options, std::vector<QueryContext::NodePair4>& later,
                 Counters& counters)
       : a_(a),
         b_(b),
-        window_(window),
-        test_(a.bounds(), b.bounds(), window.X_AB, 0),
+        relative_(relative),
+        test_(a.bounds(), b.bounds(), relative.X_AB, 0),
         options_(options),
         later_(later),
         counters_(counters) {}
 
-  // What `traverse` asks.
+  // The interface of a Query that `traverse` calls.
 
   bool enter(const Item& item, const Node& na, const Node& nb) {
     item_ = item;
     if (outOfWork()) return false;
     if (left_ >= options_.mostLeft) return leave();
     ++counters_.boxTests;
-    const Travel travel = travelOfVolume(item.b, nb);
-    if (apart(na.box, nb.box, travel.pad)) return false;
+    const Travel bound = motionBoundOfVolume(item.b, nb);
+    if (apart(na.box, nb.box, bound.pad)) return false;
     const double size = kTravelOfSize * std::max(na.radius, nb.radius);
-    const bool coarse = travel.far && travel.cap > std::max(size, travel.fixed);
+    const bool coarse = bound.far && bound.isotropic > std::max(size, bound.fixed);
     return coarse && !options_.shortest ? leave() : true;
   }
 
@@ -60,10 +62,10 @@ class MovingVolumes {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
         if (outOfWork()) return true;
-        const LeafPair pair =
-            judged(decide(s, t), a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
-        if (pair == LeafPair::left) return leave();
-        if (pair == LeafPair::last) return true;
+        const LeafOutcome pair =
+            outcomeOf(decide(s, t), a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
+        if (pair == LeafOutcome::left) return leave();
+        if (pair == LeafOutcome::last) return true;
       }
     return false;
   }
@@ -73,8 +75,8 @@ class MovingVolumes {
   }
   void opened(std::vector<Item>&, std::size_t) {}
 
-  /// Leaves the pair that was looked at last to shorter windows. @return false: its nodes are not
-  /// gone into.
+  /// Leaves the node pair tested last to shorter intervals. Returns false: its nodes are not
+  /// opened.
   bool leave() {
     leave(item_);
     ++left_;
@@ -87,25 +89,25 @@ class MovingVolumes {
   const Descent& result() const { return result_; }
 
  private:
-  /// How far b's volume goes in the window. Metres.
+  /// The motion bound of b's volume in the interval, metres.
   struct Travel {
-    double cap = 0;    ///< by the motion: half of it in half of the window
-    double fixed = 0;  ///< tube, rounding and reserve besides: no window has less
-    double pad = 0;    ///< margin and both, rounded up
-    bool far = false;  ///< shorter windows are worth it: more than the tolerance
+    double isotropic = 0;  ///< isotropic motion bound: halves with the interval
+    double fixed = 0;      ///< tube, rounding and clearance slack: the same in every interval
+    double pad = 0;        ///< the margin, `isotropic` and `fixed` together, rounded up
+    bool far = false;      ///< more than the tolerance: shorter intervals may help
   };
 
-  /// Children of a's nodes are tested against one of b's after the other: the last one is kept.
-  const Travel& travelOfVolume(std::uint32_t number, const Node& nb) {
-    if (number == travelNode_) return travel_;
+  /// Several nodes of a are tested against one node of b in succession, so the last result is kept.
+  const Travel& motionBoundOfVolume(std::uint32_t number, const Node& nb) {
+    if (number == travelNode_) return bound_;
     travelNode_ = number;
-    const Vec3 y = window_.X_AB.m * nb.box.ballCenter();
-    const double terms = y.cwiseAbs().sum() + nb.radius + window_.X_AB.t.cwiseAbs().sum();
-    const PointTravel goes =
-        travelOf(window_, y + window_.X_AB.t, roundedUp(nb.radius + 16 * kUnit * terms));
-    travel_ = {goes.cap, goes.pad, roundedUp(options_.margin + goes.cap + goes.pad),
-               goes.cap > options_.tolerance};
-    return travel_;
+    const Vec3 y = relative_.X_AB.m * nb.box.ballCenter();
+    const double terms = y.cwiseAbs().sum() + nb.radius + relative_.X_AB.t.cwiseAbs().sum();
+    const MotionBound goes =
+        motionBound(relative_, y + relative_.X_AB.t, roundedUp(nb.radius + 16 * kUnit * terms));
+    bound_ = {goes.isotropic, goes.pad, roundedUp(options_.margin + goes.isotropic + goes.pad),
+              goes.isotropic > options_.tolerance};
+    return bound_;
   }
 
   bool apart(const Volume& a, const Volume& b, double pad) {
@@ -119,10 +121,10 @@ class MovingVolumes {
   MovingTrianglesAnswer decide(std::uint32_t s, std::uint32_t t) {
     const ConvexPart *pa = a_.part(s), *pb = b_.part(t);
     const double margin = options_.margin;
-    if (pa && pb) return decideMovingParts(*pa, *pb, window_, margin, counters_);
-    if (pa) return decideMovingParts(*pa, b_.triangle(t), window_, margin, counters_);
-    if (pb) return decideMovingParts(a_.triangle(s), *pb, window_, margin, counters_);
-    return decideMovingTriangles(a_.triangle(s), b_.triangle(t), window_, margin, counters_);
+    if (pa && pb) return decideMovingParts(*pa, *pb, relative_, margin, counters_);
+    if (pa) return decideMovingParts(*pa, b_.triangle(t), relative_, margin, counters_);
+    if (pb) return decideMovingParts(a_.triangle(s), *pb, relative_, margin, counters_);
+    return decideMovingTriangles(a_.triangle(s), b_.triangle(t), relative_, margin, counters_);
   }
 
   bool outOfWork() {
@@ -132,15 +134,15 @@ class MovingVolumes {
   }
 
   const Tree &a_, &b_;
-  const MotionWindow& window_;
+  const RelativeMotion& relative_;
   const PairTest<Volume, Overlap> test_;
   const DescentOptions& options_;
-  std::vector<QueryContext::WideItem>& later_;
+  std::vector<QueryContext::NodePair4>& later_;
   Counters& counters_;
-  Item item_{};  // looked at last
+  Item item_{};  // tested last
   std::uint32_t travelNode_ = ~std::uint32_t{0};
-  Travel travel_;      // of that node of b
-  unsigned left_ = 0;  // pairs that `later_` has of this window
+  Travel bound_;       // of that node of b
+  unsigned left_ = 0;  // node pairs of this interval in `later_`
   Descent result_;
 };
 
@@ -148,9 +150,9 @@ class MovingVolumes {
 
 template <class Overlap, BoundingVolume Volume>
 Descent descend(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
-                const MotionWindow& window, const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::WideItem>& later, QueryContext& context) {
-  MovingVolumes<Volume, Overlap> query(a, b, window, options, later, context.counters);
+                const RelativeMotion& relative, const DescentOptions& options, std::size_t count,
+                std::vector<QueryContext::NodePair4>& later, QueryContext& context) {
+  MovingVolumes<Volume, Overlap> query(a, b, relative, options, later, context.counters);
   context.stackFrom(count);
   traverseFrom(a, b, context.stack, query);
   if (query.result().kind == Descent::Kind::contact) {
@@ -160,10 +162,10 @@ Descent descend(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
   return query.result();
 }
 
-#define CORRIDOR_DESCEND(Volume, Overlap)                                                    \
-  template Descent descend<Overlap>(const VolumeTree<Volume>&, const VolumeTree<Volume>&,    \
-                                    const MotionWindow&, const DescentOptions&, std::size_t, \
-                                    std::vector<QueryContext::WideItem>&, QueryContext&);
+#define CORRIDOR_DESCEND(Volume, Overlap)                                                      \
+  template Descent descend<Overlap>(const VolumeTree<Volume>&, const VolumeTree<Volume>&,      \
+                                    const RelativeMotion&, const DescentOptions&, std::size_t, \
+                                    std::vector<QueryContext::NodePair4>&, QueryContext&);
 CORRIDOR_EACH_OVERLAP(CORRIDOR_DESCEND)
 #undef CORRIDOR_DESCEND
 

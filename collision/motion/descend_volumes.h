@@ -5,26 +5,27 @@
 
 namespace corridor {
 
-/// `descend` (descend.h) for binary trees of any volume: the certified edge as one reads of it,
-/// beside the fast one. For a pair of nodes in a window of time:
+/// `descend` (descend.h) for binary trees of any volume: the certified edge in its plainest form,
+/// beside the fast one. For a node pair in a time interval:
 ///
-/// 1. At the window's middle the two volumes are tested with a pad: what is asked for (margin), and
-///    how far b's volume goes in the window, *whatever the direction*, tube and rounding included.
-///    Apart: all below the two are, for all of the window.
-/// 2. Else whatever is coarser is split: time, where b's volume goes far for the size of the larger
-///    one: the pair is left to the window's halves; …
-/// 3. … or space: the larger volume is opened (`traverse`).
-/// 4. Two leaves: their triangles or parts decide, along the direction of their closest points, as
-///    in every other method (`decideMovingTriangles`, `decideMovingParts`).
+/// 1. At the interval's middle the two volumes are tested with a pad: the margin, plus the motion
+///    bound of b's volume *in any direction*, tube and rounding included. If they are separated,
+///    everything below them is, in all of the interval.
+/// 2. Otherwise the coarser of time and space is split. Time, if b's volume moves far for the size
+///    of the larger volume: the node pair is left to the interval's halves.
+/// 3. Else space: the larger volume is opened (`traverse`).
+/// 4. For two leaves, their triangles or convex parts decide, along the direction of their closest
+///    points, as in every other method (`decideMovingTriangles`, `decideMovingParts`).
 ///
-/// The wide trees' `descend` knows more of boxes: how far they go along the very axis that they are
-/// tested along. So it opens fewer; the answers are the same.
+/// `descend` on 4-wide OBB trees has motion bounds for boxes along the very axis tested, and
+/// therefore opens fewer nodes. The answers are the same.
 ///
-/// Of the items of `context.wideStack` and `later` only the pairs of nodes matter.
+/// Only the node pairs in the items of `context.stack4` and `later` matter; their keys have no
+/// meaning.
 /// @param Overlap how two volumes are tested (overlap_obb_obb_variants.h).
 template <class Overlap, BoundingVolume Volume>
 Descent descend(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
-                const MotionWindow& window, const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::WideItem>& later, QueryContext& context);
+                const RelativeMotion& relative, const DescentOptions& options, std::size_t count,
+                std::vector<QueryContext::NodePair4>& later, QueryContext& context);
 
 }  // namespace corridor

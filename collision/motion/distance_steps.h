@@ -7,63 +7,65 @@
 
 namespace corridor {
 
-/// What the methods that prove motions by distances share: adaptive_motion.h and
-/// conservative_advancement.h. A pair of bodies is measured at one time, and how far b goes from
-/// there is bounded whatever the direction.
+/// What the methods that prove motions by distances (adaptive_motion.h, conservative_advancement.h)
+/// have in common: they measure the distance of a pair of bodies at one time, and bound the motion
+/// of b from there in any direction.
 class DistanceSteps {
  public:
-  /// All must outlive the object.
+  /// @pre all arguments outlive the object.
   DistanceSteps(MotionSource& motion, std::span<const MotionPair> pairs,
                 const MotionOptions& options, QueryContext& context);
 
-  /// What a window [t − h, t + h] asks of the distance at t. Metres, rounded up.
+  /// The distance that a time interval [t − h, t + h] needs at t. Metres, rounded up.
   struct Bound {
-    double travel = 0;  ///< no point of b goes farther from where it is at t
-    double needed = 0;  ///< the margin, that, and rounding, tube and reserve
+    double bound = 0;   ///< no point of b moves farther from its place at t
+    double needed = 0;  ///< margin, `bound`, rounding, tube and clearance slack
   };
   Bound bound(std::uint32_t pair, double t, double h);
 
-  /// A pair as measured at t, for a window about it. Metres.
-  struct Look {
+  /// A pair as measured at t, for a time interval about t. Metres.
+  struct Measurement {
     Bound bound;
-    bool contact = false;        ///< at the rounded pose at t: exactly, or proved within the margin
-    double lower = 0;            ///< proved: so far are the two apart, at the rounded pose at t
-    double gap = 0;              ///< distance at t beyond the margin, as measured
-    bool hopeless = false;       ///< no window about t, however short, can be proved
-    std::uint32_t s = 0, t = 0;  ///< the closest triangles, by their numbers in their meshes
+    bool contact = false;  ///< contact at the rounded pose at t: exact, or proved within the margin
+    double lower = 0;      ///< proved lower bound of the distance at the rounded pose at t
+    double gap = 0;        ///< distance at t beyond the margin, as measured
+    bool hopeless = false;       ///< no interval about t, however short, can be proved
+    std::uint32_t s = 0, t = 0;  ///< the closest leaf primitives, by their numbers in their meshes
 
-    /// The window is proved: the margin is kept all along it.
+    /// Reports whether the interval is proved: the margin is kept throughout.
     bool apart() const { return lower > bound.needed; }
   };
-  /// @param exact measures to the last digits; else to a quarter of the travel, which saves looking
-  /// at what is only a little farther away.
-  Look look(std::uint32_t pair, double t, double h, bool exact);
+  /// Measures a pair at t.
+  /// @param exact measure to the last digits; otherwise to a quarter of the bound, which avoids
+  /// testing pairs that are only a little farther apart than the closest.
+  Measurement measureAt(std::uint32_t pair, double t, double h, bool exact);
 
-  /// Do balls and boxes of the two stay apart in [t − h, t + h]? Nothing is measured, no tree is
-  /// built. `true` is a proof.
+  /// Reports whether the swept sphere of b stays apart from a's bounds in [t − h, t + h]. `true` is
+  /// a proof. Measures nothing and builds no tree.
   bool staysAway(std::uint32_t pair, double t, double h);
 
-  /// Too much has been done (`MotionOptions::workLimit`). A look counts as `kLookWork` tests
-  /// besides those that it makes.
+  /// Reports whether `MotionOptions::workLimit` is reached. A measurement counts as `kLookWork`
+  /// tests, in addition to those that it makes.
   bool outOfWork() const;
 
   const MotionOptions& options() const { return options_; }
   Counters& counters() { return context_.counters; }
 
-  // Answers, with [0, t0] proved free where `earliest` is asked for.
+  // Answers. [0, t0] is proved free if `earliest` is requested.
 
-  MotionResult contact(std::uint32_t pair, double t0, double t1, const Look& seen) const;
+  MotionResult contact(std::uint32_t pair, double t0, double t1, const Measurement& seen) const;
   MotionResult workLimit(double t0) const;
-  /// What begins at t0 can't be proved: contact, if one is found soon after, or else undecided.
-  /// @param time the middle or the end of it, to be told.
-  /// @param clearance beyond the margin, at t0, an upper bound.
+  /// Returns the answer if what begins at t0 cannot be proved: contact, if one is found soon after
+  /// t0, else undecided.
+  /// @param time the time to report with `undecided`; the gap is measured there.
+  /// @param clearance an upper bound of the clearance beyond the margin at t0, metres.
   MotionResult close(std::uint32_t pair, double t0, double time, double clearance);
 
  private:
   static constexpr std::uint64_t kLookWork = 256;
 
-  MotionWindow window(std::uint32_t pair, double t, double h);
-  Bound boundOf(std::uint32_t pair, const MotionWindow& window) const;
+  RelativeMotion relativeMotion(std::uint32_t pair, double t, double h);
+  Bound boundOf(std::uint32_t pair, const RelativeMotion& relative) const;
   std::uint64_t work() const;
 
   MotionSource& motion_;

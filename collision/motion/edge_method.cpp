@@ -23,7 +23,7 @@ MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context) {
   switch (method) {
-    case EdgeMethod::certified:
+    case EdgeMethod::directional:
       break;
     case EdgeMethod::adaptive:
       return certifyByBisection(motion, pairs, options, context);

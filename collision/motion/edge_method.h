@@ -9,17 +9,19 @@
 
 namespace corridor {
 
-/// How a motion is proved. All answer the same question with the same promises (`certifyMotion`);
-/// they differ in what they cost, and so in what they leave undecided for want of work.
+/// The methods that prove a motion. All decide the same query with the same promises
+/// (`certifyMotion`). They differ in cost, and therefore in what they leave undecided at the work
+/// limit.
 enum class EdgeMethod {
-  certified,  ///< trees over space and time, travel along directions: certify_motion.h, the default
-  adaptive,   ///< bisection on distances (Schwarzer et al. 2005): adaptive_motion.h
+  /// Trees over space and time, with directional motion bounds: certify_motion.h. The default.
+  directional,
+  adaptive,     ///< bisection on distances (Schwarzer et al. 2005): adaptive_motion.h
   advancement,  ///< conservative advancement on distances: conservative_advancement.h
 };
 
-/// The names of all, in the order of the enumeration: what users write.
+/// Returns the names of all methods as users write them, in the order of the enumeration.
 const std::vector<std::string>& edgeMethodNames();
-/// By its name; nothing where there is no such method.
+/// Returns the method with this name, or nothing if there is none.
 std::optional<EdgeMethod> edgeMethodNamed(std::string_view name);
 
 MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,

@@ -2,23 +2,26 @@
 
 #include <cmath>
 
-#include "collision/core/swept_ball.h"
+#include "collision/core/swept_sphere.h"
 #include "collision/hierarchy/body.h"
-#include "collision/motion/motion_window.h"
+#include "collision/motion/relative_motion.h"
 
 namespace corridor {
 
-/// The ball around b in the window, as a sees it.
-SweptBall sweptBall(const Body& b, const MotionWindow& window);
+/// Returns the swept sphere of b in the interval: its bounding sphere and the motion of the
+/// sphere's centre, as seen from a.
+SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative);
 
-/// How far the ball stays from body a's axis-aligned box at least, metres; 0: nothing is known.
-/// What is more than `enough` may be told as less, but not as less than that.
-double clearanceBound(const Body& a, const SweptBall& ball, double enough = HUGE_VAL);
-/// How far two balls stay apart at least that are seen from the same frame, in the same window.
-double clearanceBound(const SweptBall& a, const SweptBall& b, double enough = HUGE_VAL);
-/// Can the ball come nearer than `margin` to it? `false` is a proof.
-inline bool mayMeet(const Body& a, const SweptBall& ball, double margin) {
-  return !(clearanceBound(a, ball, margin) > margin);
+/// Returns a lower bound of the distance of the swept sphere from body a's axis-aligned box, in
+/// metres; 0 if nothing is known. If the bound exceeds `enough`, the result may be any bound above
+/// `enough`.
+double clearanceBound(const Body& a, const SweptSphere& sphere, double enough = HUGE_VAL);
+/// Returns a lower bound of the distance of two swept spheres that are seen from the same frame in
+/// the same interval.
+double clearanceBound(const SweptSphere& a, const SweptSphere& b, double enough = HUGE_VAL);
+/// Reports whether the swept sphere may come nearer to body a than `margin`. `false` is a proof.
+inline bool mayMeet(const Body& a, const SweptSphere& sphere, double margin) {
+  return !(clearanceBound(a, sphere, margin) > margin);
 }
 
 }  // namespace corridor

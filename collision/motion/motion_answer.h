@@ -4,22 +4,24 @@
 
 namespace corridor {
 
-/// Why a pair of bodies stays undecided in every window about the middle of `window`: its clearance
-/// is small, or the rounding of its pose takes more than half of the tolerance from a gap above it,
-/// or more than a thousandth of the body, so that the gap says nothing.
-/// @param window  without the reserve. @param gap  as measured at the middle, metres.
-inline UndecidedReason reasonOf(const MotionWindow& window, const Body& b, double gap,
+/// Returns why a pair of bodies stays undecided in every time interval about the middle of
+/// `relative`. The reason is `clearance` if the rounding of the pose is at most half of the
+/// tolerance. It is `clearance` as well if the gap is at most the tolerance and the rounding at
+/// most a thousandth of the body's radius. Otherwise the gap says little, and the reason is
+/// `rounding`.
+/// @param relative without the clearance slack. @param gap measured at the middle, metres.
+inline UndecidedReason reasonOf(const RelativeMotion& relative, const Body& b, double gap,
                                 double tolerance) {
-  const double lever = (window.X_AB.m * b.sphereCenter()).norm() + b.sphereRadius();
+  const double lever = (relative.X_AB.m * b.sphereCenter()).norm() + b.sphereRadius();
   const double rounding =
-      window.fixedError - window.fixedTube + (window.reachError - window.reachTube) * lever;
+      relative.fixedError - relative.fixedTube + (relative.reachError - relative.reachTube) * lever;
   const bool sharp =
       rounding <= tolerance / 2 || (gap <= tolerance && rounding <= 1e-3 * b.sphereRadius());
   return sharp ? UndecidedReason::clearance : UndecidedReason::rounding;
 }
 
-/// Counts the query and takes the answer from `run`, unless the edge is ambiguous or the processor
-/// is set so that no bound holds.
+/// Counts the query and returns the answer of `run`. The query is refused, as `undecided`, if the
+/// edge is ambiguous or no bound holds under the processor's floating-point settings.
 template <class Run>
 MotionResult answered(const MotionSource& motion, bool earliest, QueryContext& context,
                       const Run& run) {
@@ -34,10 +36,11 @@ MotionResult answered(const MotionSource& motion, bool earliest, QueryContext& c
   MotionResult result = !standardFloatingPoint() ? refused(UndecidedReason::floatingPoint)
                         : motion.ambiguous()     ? refused(UndecidedReason::ambiguous)
                                                  : run();
-  // What methods know of it besides may have gaps: windows that were to be refined later.
+  // Without `earliest`, the intervals that a method proved may have gaps, which it left for later:
+  // nothing can be claimed about them.
   if (!earliest && result.verdict != MotionVerdict::free) {
     result.certifiedUntil = 0;
-    result.grazing = false;  // which speaks of all the way from there on
+    result.grazing = false;  // speaks of the whole way from `certifiedUntil` on
   }
   context.counters.undecided += result.verdict == MotionVerdict::undecided;
   return result;

@@ -2,24 +2,25 @@
 
 #include "collision/core/counters.h"
 #include "collision/geometry/convex_part.h"
-#include "collision/motion/motion_window.h"
 #include "collision/motion/moving_triangles.h"
+#include "collision/motion/relative_motion.h"
 #include "collision/predicates/triangle.h"
 
 namespace corridor {
 
-/// As `decideMovingTriangles`, for two convex solids a (at rest) and b (moves as the window says).
-/// `contact`: at the rounded pose of the middle the two are within 2^-44 of the largest coordinate
-/// of each other, or within the margin.
+/// Decides a pair of convex parts in a time interval, as `decideMovingTriangles` does a pair of
+/// triangles. a is at rest; b moves by the relative motion `relative`. `contact` means that at the
+/// rounded pose at the middle the parts are closer than 2^-44 of the largest coordinate, or proved
+/// to be within the margin.
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
-                                        const MotionWindow& window, double margin,
+                                        const RelativeMotion& relative, double margin,
                                         Counters& counters);
-/// The same with a triangle (a closed surface patch, no solid) on one side.
+/// The same with a triangle on one side (a closed patch of surface, not a solid).
 MovingTrianglesAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
-                                        const MotionWindow& window, double margin,
+                                        const RelativeMotion& relative, double margin,
                                         Counters& counters);
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,
-                                        const MotionWindow& window, double margin,
+                                        const RelativeMotion& relative, double margin,
                                         Counters& counters);
 
 }  // namespace corridor

@@ -14,42 +14,46 @@
 
 #include "hwy/highway.h"
 
-#include "collision/motion/wide_travel-inl.h"
+#include "collision/motion/motion_bound4-inl.h"
 #include "collision/queries/triangle_distances-inl.h"
 #include "collision/volumes/overlap_obb4_obb4-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Of sixteen pairs, a bit each.
+/// The result for sixteen pairs, one bit each.
 struct MovingPairs {
-  unsigned apart = 0;  ///< proved farther apart than `pad`, all along the window
-  unsigned later = 0;  ///< apart at the middle by more than `pad`, but clearly not all along: not
-                       ///< for lack of digits
+  unsigned apart = 0;  ///< proved farther apart than `pad` throughout the interval
+  /// Farther apart than `pad` at the middle, but clearly not throughout: more digits would not
+  /// help.
+  unsigned later = 0;
 };
 
-/// Along the line n through the closest points at the middle (any direction is legal): b's corner k
-/// is at n·t_k, and goes by s·h_k, h_k = n·linear + (n × angular)·p_k, p_k from the point that it
-/// is relative to, and a remainder; or by `cap` at most.
+/// Decides sixteen pairs of triangles in a time interval, in float. Let n be the direction of the
+/// closest points at the middle (any direction is valid). Along n, b's corner k is at n·t_k. It
+/// moves by s·h_k and a remainder, where h_k = n·linear + (n × angular)·p_k and p_k is the corner
+/// relative to the point whose velocity is `linear`. Corner k moves by at most `isotropic` in any
+/// case.
 ///
-/// Rounding, u = 2^-24: `triangleDistances` has that of n·t_k, in `off`. p_k = t_k − away is off by
-/// 4u·D a coordinate, and below 2D; n × angular by 2u|n||ω|; so h_k by less than u|n|(6|linear|₁ +
-/// 32|ω|₁D), the rounding of `linear` and `angular` themselves (u of each) included.
+/// Rounding, u = 2^-24. `triangleDistances` has the error of n·t_k, in `off`. p_k = t_k − away is
+/// off by 4u·D per coordinate and below 2D. n × angular is off by 2u|n||ω|. Therefore h_k is off by
+/// less than u|n|(6|linear|₁ + 32|ω|₁D), including the rounding of `linear` and `angular`
+/// themselves (u of each).
 ///
-/// @param clearances where not null, gets how much farther apart than `pad` each pair that is told
-/// apart is proved to be all along the window, in a's unit.
+/// @param clearances if not null, receives for each separated pair how much farther apart than
+/// `pad` it is proved to be throughout the interval, in a's unit.
 HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleCorners& b,
                                        const TriangleNumbers& numbers, float error,
-                                       const LeafTravel& travel,
+                                       const LeafMotionBound& bound,
                                        float* HWY_RESTRICT clearances = nullptr) {
   const LaneTag d;
   using V = LaneFloat;
   const auto set = [&](float x) { return hn::Set(d, x); };
   const V zero = hn::Zero(d);
-  const LaneVec linear{set(travel.linear[0]), set(travel.linear[1]), set(travel.linear[2])},
-      angular{set(travel.angular[0]), set(travel.angular[1]), set(travel.angular[2])};
-  const V pad = set(travel.pad);
-  // What corners are off at the middle, and for that along the way.
+  const LaneVec linear{set(bound.linear[0]), set(bound.linear[1]), set(bound.linear[2])},
+      angular{set(bound.angular[0]), set(bound.angular[1]), set(bound.angular[2])};
+  const V pad = set(bound.pad);
+  // The error of corners at the middle, and the error of the motion that follows from it.
   const V reach = hn::Mul(hn::Add(set(1 + 0x1p-20F), sum(angular)), set(error));
   MovingPairs found;
   for (std::size_t at = 0; at < 16; at += kTriangleLanes) {
@@ -65,7 +69,7 @@ HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleC
       moving[k] =
           hn::Sub(still[k], hn::Abs(hn::Add(along, dot(spin, sub(pairs.t[k], pairs.away)))));
     }
-    // Gaps in terms of a unit vector: the quotient and the root round by less than 4u.
+    // Gaps along a unit vector: the quotient and the root round by less than 4u.
     const V per = hn::Div(set(1), length);
     const auto gapOf = [&](const V(&x)[3]) {
       return hn::Mul(hn::Sub(min3(x[0], x[1], x[2]), highest), per);
@@ -76,8 +80,8 @@ HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleC
     const V more = hn::Mul(set(32 * 0x1p-24F),
                            hn::MulAdd(sum(angular), D, hn::Add(sum(linear), hn::Abs(middle))));
     const V lost = hn::Add(off, more);
-    const V isotropic = hn::Sub(middle, set(travel.cap)),
-            directional = hn::Sub(gapOf(moving), set(travel.remainder));
+    const V isotropic = hn::Sub(middle, set(bound.isotropic)),
+            directional = hn::Sub(gapOf(moving), set(bound.remainder));
     const V gap = hn::Sub(hn::Max(isotropic, directional), pad);
     const auto known = hn::And(hn::Lt(D, set(0x1p50F)), hn::Gt(length, set(0x1p-50F)));
     const auto apart = hn::And(known, hn::Gt(gap, lost));

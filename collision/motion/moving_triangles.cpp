@@ -13,48 +13,50 @@
 namespace corridor {
 namespace {
 
-/// The corners of b, and what each of them does in the window whatever the direction.
+/// The corners of b and the motion bound of each of them in the interval.
 struct MovingCorners {
-  Triangle posed, first;  ///< in a's frame; displacement to first order
-  PointTravel travel[3];
-  /// Where a single turn is all that bends the motion (`bend`), its second and third order in full:
-  /// displacements of at most (½)ω × (ω × d) and α²/6 ω × d, d from the axis.
+  Triangle posed, first;  ///< corners in a's frame; their first-order displacements
+  MotionBound bound[3];
+  /// True if a single rotation causes the whole remainder (`secondOrderAcross`). Then its second
+  /// and third order are available in full: displacements of at most (½)ω × (ω × d) and α²/6 ω × d,
+  /// with d the lever from the axis.
   bool turns = false;
   Triangle second, third;
   Vec3 loose;  ///< rounding of the terms above
 
-  MovingCorners(const Triangle& b, const MotionWindow& window) {
+  MovingCorners(const Triangle& b, const RelativeMotion& relative) {
     for (int i = 0; i < 3; ++i) {
-      const Vec3 lever = window.X_AB.m * b[i];
-      posed[i] = lever + window.X_AB.t;
-      first[i] = window.linear + window.angular.cross(lever);
-      travel[i] = travelOf(window, posed[i], 0);
-      // Products' own rounding, relative to their terms.
-      loose[i] = 32 * kUnit * (window.speed + window.angle * lever.norm());
+      const Vec3 lever = relative.X_AB.m * b[i];
+      posed[i] = lever + relative.X_AB.t;
+      first[i] = relative.linear + relative.angular.cross(lever);
+      bound[i] = motionBound(relative, posed[i], 0);
+      // The rounding of the products, relative to their terms.
+      loose[i] = 32 * kUnit * (relative.speed + relative.angle * lever.norm());
     }
-    turns = travel[0].bend > 0 || travel[1].bend > 0 || travel[2].bend > 0;
+    turns = bound[0].secondOrderAcross > 0 || bound[1].secondOrderAcross > 0 ||
+            bound[2].secondOrderAcross > 0;
     if (!turns) return;
     Vec3 point = Vec3::Zero();
-    for (const ScrewTravel& screw : window.screws)
-      if (screw.kind == ScrewTravel::Kind::turn && screw.amount > 0) point = screw.point;
+    for (const ScrewMotion& screw : relative.screws)
+      if (screw.kind == ScrewMotion::Kind::revolute && screw.amount > 0) point = screw.point;
     for (int i = 0; i < 3; ++i) {
       const Vec3 d = posed[i] - point;
-      const Vec3 spin = window.angular.cross(d);
-      second[i] = 0.5 * window.angular.cross(spin);
-      third[i] = window.angle * window.angle / 6 * spin;
-      loose[i] += 32 * kUnit * window.angle * (1 + window.angle * window.angle) *
-                  (d.norm() + posed[i].cwiseAbs().sum() + window.X_AB.t.cwiseAbs().sum());
+      const Vec3 spin = relative.angular.cross(d);
+      second[i] = 0.5 * relative.angular.cross(spin);
+      third[i] = relative.angle * relative.angle / 6 * spin;
+      loose[i] += 32 * kUnit * relative.angle * (1 + relative.angle * relative.angle) *
+                  (d.norm() + posed[i].cwiseAbs().sum() + relative.X_AB.t.cwiseAbs().sum());
     }
   }
 };
 
-/// How far apart the triangles are along a direction: all along the window, at the middle's rounded
-/// pose, and at the middle with rounding and tube.
+/// The gap of the triangles along a direction: its least value in the interval, its value at the
+/// middle at the rounded pose, and its value at the middle less rounding and tube.
 struct Gaps {
   double moving = std::numeric_limits<double>::infinity(), middle = moving, still = moving;
 };
 
-/// Keeps NaN, which std::min may drop.
+/// Replaces `least` by a smaller x or by NaN, which std::min may drop.
 void lower(double& least, double x) {
   if (!(x >= least) && !std::isnan(least)) least = x;
 }
@@ -63,22 +65,23 @@ Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
   Gaps gaps;
   const double highest = std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
   for (int i = 0; i < 3; ++i) {
-    const PointTravel& travel = b.travel[i];
-    // One turn: (1 − cos)|n·(k × (k × d))| + (α − sin)|n·(k × d)|, sharper than its bound by
-    // `bend`.
+    const MotionBound& bound = b.bound[i];
+    // A single rotation: (1 − cos)|n·(k × (k × d))| + (α − sin)|n·(k × d)|. This is sharper than
+    // the bound by `secondOrderAcross`.
     const double beyond = b.turns ? std::abs(n.dot(b.second[i])) + std::abs(n.dot(b.third[i])) : 0;
-    const double directional = std::abs(n.dot(b.first[i])) + beyond + travel.curvature + b.loose[i];
-    const double most = roundedUp(std::min(travel.cap, directional));
+    const double directional =
+        std::abs(n.dot(b.first[i])) + beyond + bound.secondOrder + b.loose[i];
+    const double most = roundedUp(std::min(bound.isotropic, directional));
     const double along = n.dot(b.posed[i]);
-    lower(gaps.moving, along - most - travel.pad - highest);
+    lower(gaps.moving, along - most - bound.pad - highest);
     lower(gaps.middle, along - highest);
-    lower(gaps.still, along - travel.pad - highest);
+    lower(gaps.still, along - bound.pad - highest);
   }
   return gaps;
 }
 
-/// v at unit length, |n| ≤ 1 + 4u; NaN, which separates nothing, where squares leave the range in
-/// which that holds (flush-to-zero on or off).
+/// Returns v at unit length, |n| ≤ 1 + 4u. Returns NaN, which separates nothing, if squares leave
+/// the range in which that holds (flush-to-zero on or off).
 Vec3 unit(const Vec3& v) {
   const double square = v.squaredNorm();
   if (!(square > 0x1p-900 && square < 0x1p900))
@@ -86,10 +89,11 @@ Vec3 unit(const Vec3& v) {
   return v / std::sqrt(square);
 }
 
-/// Directions that are right to a few ulp whatever the triangles' sizes, on the side of `n`: the
-/// closest points are rounded to u times a triangle's size L, so that their difference is tilted by
-/// uL/d, and across L that takes uL²/d off a gap of d. Normals of faces, common normals of edges,
-/// and n made orthogonal to an edge again are orthogonal to what they touch.
+/// Offers directions that are right to a few ulp, whatever the sizes of the triangles, on the side
+/// of `n`. The closest points are rounded to u times a triangle's size L. Their difference is
+/// therefore tilted by uL/d, which across L takes uL²/d off a gap of d. The normals of faces, the
+/// common normals of edges, and n made orthogonal to an edge again are orthogonal to the features
+/// that they separate.
 template <class Try>
 void offerFeatureDirections(const Triangle& a, const Triangle& b, const Vec3& n, Try attempt) {
   const auto offer = [&](const Vec3& v) {
@@ -116,42 +120,43 @@ MovingTrianglesAnswer apart(double moving, double needed) {
 }  // namespace
 
 MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
-                                            const MotionWindow& window, double margin,
+                                            const RelativeMotion& relative, double margin,
                                             Counters& counters) {
   ++counters.triangleTests;
-  const MovingCorners corners(b, window);
+  const MovingCorners corners(b, relative);
   const Triangle& posed = corners.posed;
   double largest = 0;
   for (int i = 0; i < 3; ++i)
     largest = std::max(
-        {largest, (posed[i] - window.X_AB.t).cwiseAbs().maxCoeff(), a[i].cwiseAbs().maxCoeff()});
-  const double size = 2 * window.X_AB.t.cwiseAbs().maxCoeff() + largest;
-  // With |n|₁ ≤ √3(1 + 4u) and S = `size` above every coordinate: n·p has three products, 3·√3·uS
-  // < 5.2uS on either side; a posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS, √3 of it along
-  // n: 21.3uS; the difference rounds 4uS more. Together < 36uS.
+        {largest, (posed[i] - relative.X_AB.t).cwiseAbs().maxCoeff(), a[i].cwiseAbs().maxCoeff()});
+  const double size = 2 * relative.X_AB.t.cwiseAbs().maxCoeff() + largest;
+  // With |n|₁ ≤ √3(1 + 4u) and S = `size` above every coordinate: n·p has three products, 3·√3·uS <
+  // 5.2uS on either side. A posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS, along n √3 of
+  // that: 21.3uS. The difference rounds by 4uS. Together: < 36uS.
   const double slack = 64 * kUnit * size + kTiny;
-  // |n| ≤ 1 + 4u: the margin and errors, lengths along a unit vector, shrink by less than `slack`
-  // covers of their size.
+  // |n| ≤ 1 + 4u: margin and errors are lengths along a unit vector. They shrink by less than the
+  // part of their size that `slack` covers.
   const double needed = margin + slack + 4 * kUnit * margin;
 
   const ClosestPoints closest = closestFeaturePoints(a, posed);
   const double distance = std::sqrt(closest.squaredDistance);
-  const Vec3 n = unit(closest.b - closest.a);  // NaN where they meet: nothing is separated then
+  const Vec3 n = unit(closest.b - closest.a);  // NaN if they meet: separates nothing
 
   MovingTrianglesAnswer answer;
   Gaps gaps = gapsAlong(n, a, corners);
   if (gaps.moving > needed) return apart(gaps.moving, needed);
-  answer.travel = std::max({corners.travel[0].cap, corners.travel[1].cap, corners.travel[2].cap});
+  answer.bound = std::max(
+      {corners.bound[0].isotropic, corners.bound[1].isotropic, corners.bound[2].isotropic});
   answer.gap = std::max(0.0, distance - margin);
   if (margin > 0 && distance + slack <= margin) {
     answer.contact = true;
-  } else if (!(gaps.middle > slack)) {  // else a proof for the rounded pose itself
-    answer.contact = trianglesTouch(a, {}, b, window.X_AB, counters);
+  } else if (!(gaps.middle > slack)) {  // otherwise n proves it for the rounded pose
+    answer.contact = trianglesTouch(a, {}, b, relative.X_AB, counters);
     --counters.triangleTests;  // the same pair
   }
   if (answer.contact) return answer;
 
-  // A quarter of the gap lost to the tilt of n: look for a better direction before giving up.
+  // The tilt of n loses a quarter of the gap or more: try better directions before giving up.
   if (gaps.middle - margin < 0.75 * (distance - margin)) {
     offerFeatureDirections(a, posed, n, [&](const Vec3& m) {
       const Gaps other = gapsAlong(m, a, corners);

@@ -1,29 +1,32 @@
 #pragma once
 
 #include "collision/core/counters.h"
-#include "collision/motion/motion_window.h"
+#include "collision/motion/relative_motion.h"
 #include "collision/predicates/triangle.h"
 
 namespace corridor {
 
-/// What a window of time says of a triangle a at rest and a triangle b that moves.
+/// The result of one time interval for a triangle a at rest and a triangle b that moves.
 struct MovingTrianglesAnswer {
-  bool separated = false;  ///< proved farther apart than the margin, all along the window
-  double clearance = 0;    ///< `separated`: by how much, proved; metres
-  bool contact =
-      false;  ///< at the rounded pose of the middle: exactly touching, or proved within the margin
-  bool stuck = false;  ///< neither, and rounding and the tube alone forbid a proof at the middle:
-                       ///< no shorter window has one
-  double travel = 0;   ///< bound of how far a corner of b goes from the middle, metres
-  double gap =
-      0;  ///< distance at the middle beyond the margin, where neither; rounded, for reports
+  bool separated = false;  ///< proved farther apart than the margin, throughout
+  double clearance = 0;    ///< `separated`: proved distance beyond the margin, metres
+  /// At the rounded pose at the middle: touching, exactly, or proved to be within the margin.
+  bool contact = false;
+  /// Neither, and rounding and the tube alone prevent a proof at the middle: shorter intervals
+  /// would not help.
+  bool stuck = false;
+  double bound = 0;  ///< bound of the motion of b's corners from the middle, metres
+  /// If neither separated nor in contact: distance at the middle beyond the margin, metres.
+  /// Rounded, for reports only.
+  double gap = 0;
 };
 
-/// Separation along the direction of the closest points at the middle: any direction is legal, so
-/// that rounding in finding it costs power, never soundness. Each corner goes along it by its own
-/// directional bound.
+/// Decides a pair of triangles in a time interval, b moving by the relative motion `relative`. It
+/// tries to separate them along the direction of their closest points at the middle; each corner of
+/// b has its own directional motion bound. Any direction is valid: its rounding may cost a proof,
+/// but never makes one wrong. If they are not separated, contact at the middle is decided exactly.
 MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
-                                            const MotionWindow& window, double margin,
+                                            const RelativeMotion& relative, double margin,
                                             Counters& counters);
 
 }  // namespace corridor

@@ -10,23 +10,26 @@
 namespace corridor {
 namespace {
 
-/// How far the computed rotation, and the half-window's rotation vector, may be from the real ones,
-/// as an operator norm (so metres of displacement per metre of lever). With u the unit roundoff:
-///   normalising a quaternion: norm (sum of squares, root) and quotient < 5u relative, so |q̂ − q| <
-///   6u; the relative quaternion: 2·6u from its factors and 2·4u from four products a component: <
-///   20u; it enters the angle
-///     θ = 2·atan2(s, w) by twice that and a rounding of at most 4u: < 48u; and the axis by 20u/s +
-///     3u, whose effect on a rotation by φ ≤ θ is at most φ times that, with θ/s ≤ π (s = sin(θ/2)
-///     ≥ θ/π): < 63u + 10u;
-///   R0 from q̂0: 12u + 10u; K R0 and K² R0, norms of entrywise errors (3 and 6 roundings, factor
-///   3): 12u + 20u; φ = tθ, sine and cosine
-///     (libm: 1 ulp): 4u + 2·2u; the sum of three matrices: 12u.
-/// Together below 200u < 2^-45. The rotation vector adds h·(48u + 73u) ≤ 61u < 2^-47. Both below
-/// 2^-44; doubled, to be generous with libm.
+/// Bound of the error of the computed rotation, and of half of the interval's rotation vector, as
+/// an operator norm: metres of displacement per metre of lever. Its terms, with u the unit
+/// roundoff:
+/// * normalising a quaternion: the norm (sum of squares, root) and the quotient are off by less
+///   than 5u, relatively, so |q̂ − q| < 6u;
+/// * the relative quaternion: 2·6u from its factors, 2·4u from four products per component: < 20u;
+/// * the angle θ = 2·atan2(s, w): twice that, and a rounding of at most 4u: < 48u;
+/// * the axis: 20u/s + 3u. Its effect on a rotation by φ ≤ θ is at most φ times that, and θ/s ≤ π
+///   since s = sin(θ/2) ≥ θ/π: < 63u + 10u;
+/// * R0 from q̂0: 12u + 10u;
+/// * K R0 and K² R0, norms of entrywise errors (3 and 6 roundings, factor 3): 12u + 20u;
+/// * φ = tθ, and sine and cosine (libm: 1 ulp): 4u + 2·2u;
+/// * the sum of three matrices: 12u.
+///
+/// Together they are below 200u < 2^-45. The rotation vector adds h·(48u + 73u) ≤ 61u < 2^-47. Both
+/// are below 2^-44; this is doubled to leave room for libm.
 constexpr double kRotationError = 0x1p-43;
 
-/// Metres, in every error: squares under 2^-1022 vanish, lengths under 2^-511 with them. Above what
-/// that takes off any bound, for levers below 2^100 m.
+/// A term of every error, in metres. Squares below 2^-1022 underflow, and with them lengths below
+/// 2^-511. This term exceeds what that takes off any bound, for levers below 2^100 m.
 constexpr double kLeastError = 0x1p-400;
 
 }  // namespace
@@ -50,8 +53,8 @@ void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle, do
 }
 
 RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, const Tube& tube) {
-  // Dividing by the largest coefficient first keeps norms of extreme quaternions finite; it is one
-  // more rounding.
+  // Dividing by the largest coefficient first keeps the norms of extreme quaternions finite. It
+  // costs one more rounding.
   const auto normalised = [](const Eigen::Quaterniond& q) {
     const double largest = q.coeffs().cwiseAbs().maxCoeff();
     const Eigen::Vector4d scaled = q.coeffs() / largest;
@@ -67,9 +70,9 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
   const bool turns = !equal && s > 0;
   m.setRotation(q0.toRotationMatrix(), turns ? Vec3(turn.vec() / s) : Vec3::Zero(),
                 turns ? 2 * std::atan2(s, turn.w()) : 0, 0);
-  // p = p0 + t·δ: δ, t·δ and the sum round |δ| ≤ 2P, 2P and P once each, below 7uP a coordinate;
-  // the half displacement h·δ below 2uP more: 9√3·uP < 16uP. The tube moves each coordinate by
-  // `position`.
+  // p = p0 + t·δ: the values δ, t·δ and the sum are at most 2P, 2P and P, and each rounds once:
+  // below 7uP per coordinate. Half of the interval's displacement, h·δ, adds less than 2uP. As a
+  // length this is 9√3·uP < 16uP. The tube moves each coordinate by `position`.
   const double P = std::max(from.p.cwiseAbs().maxCoeff(), to.p.cwiseAbs().maxCoeff());
   m.fixedTube_ = std::sqrt(3.0) * tube.position;
   m.reachTube_ = tube.rotation;
@@ -98,12 +101,13 @@ RigidMotion RigidMotion::planar(const Vec3& from, const Vec3& to, const Tube& tu
 
 Transform RigidMotion::at(double t) const {
   const double phi = t * angle_;
-  // 1 − cos φ cancels for small φ, but only its absolute error counts.
+  // 1 − cos φ cancels for small φ, but only its absolute error matters.
   return {R0_ + std::sin(phi) * KR0_ + (1 - std::cos(phi)) * KKR0_, from_ + t * delta_};
 }
 
-MotionWindow RigidMotion::window(double t, double h, std::span<ScrewTravel, 2> screws) const {
-  MotionWindow w;
+RelativeMotion RigidMotion::relativeMotion(double t, double h,
+                                           std::span<ScrewMotion, 2> screws) const {
+  RelativeMotion w;
   w.X_AB = at(t);
   w.linear = h * delta_;
   w.angular = (h * angle_) * axis_;
@@ -111,8 +115,8 @@ MotionWindow RigidMotion::window(double t, double h, std::span<ScrewTravel, 2> s
   w.angle = h * angle_ == 0 ? 0 : roundedUp(h * angle_);
   std::size_t count = 0;
   if (w.speed > kTiny)
-    screws[count++] = {ScrewTravel::Kind::slide, direction_, Vec3::Zero(), w.speed, 0};
-  if (w.angle > kTiny) screws[count++] = {ScrewTravel::Kind::turn, axis_, w.X_AB.t, w.angle, 0};
+    screws[count++] = {ScrewMotion::Kind::prismatic, direction_, Vec3::Zero(), w.speed, 0};
+  if (w.angle > kTiny) screws[count++] = {ScrewMotion::Kind::revolute, axis_, w.X_AB.t, w.angle, 0};
   w.screws = screws.first(count);
   w.fixedError = fixedError_;
   w.reachError = reachError_;

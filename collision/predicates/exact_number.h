@@ -15,12 +15,13 @@
 #include "collision/predicates/small_int.h"
 #include "collision/predicates/triangle.h"
 
-/// Doubles and what affine maps make of them, as integers on a common power-of-two grid. Signs of
-/// polynomials in them are exact; the grid's scale is dropped, since signs don't see it.
+/// Points under affine maps as integers on a common power-of-two grid. The integers are exact, and
+/// so are the signs of polynomials in them. The grid's scale is dropped, since it does not change
+/// signs.
 namespace corridor::exact {
 
-/// Signed integers of a fixed width that live on the stack. Products that need more bits than
-/// `Bits` would wrap: `gridFor` picks a width that holds them.
+/// Signed integers of a fixed width, on the stack. Results of more than `Bits` bits would wrap:
+/// `withIntegersFor` picks a width that holds them.
 template <unsigned Bits>
 using FixedInt = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<Bits, Bits, boost::multiprecision::signed_magnitude,
@@ -37,7 +38,7 @@ struct Vector {
   }
   bool isZero() const { return x.is_zero() && y.is_zero() && z.is_zero(); }
 };
-/// Products may be of another type than their factors (small_int.h).
+/// The product may have another type than the factors (small_int.h).
 template <class A, class B>
 auto dot(const Vector<A>& a, const Vector<B>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -55,7 +56,7 @@ template <class Int>
 const Int& coordinate(const Vector<Int>& v, int i) {
   return i == 0 ? v.x : i == 1 ? v.y : v.z;
 }
-/// An axis along which a plane with normal n ≠ 0 can be projected without folding.
+/// Returns an axis along which a plane with normal n ≠ 0 can be projected one to one.
 template <class Int>
 int dropAxis(const Vector<Int>& n) {
   return !n.x.is_zero() ? 0 : !n.y.is_zero() ? 1 : 2;
@@ -64,7 +65,8 @@ int dropAxis(const Vector<Int>& n) {
 template <class Int>
 using Points = std::array<Vector<Int>, 3>;
 
-/// mantissa · 2^exponent, |mantissa| < 2^53, odd (so that grids stay coarse); zero: mantissa 0.
+/// A double as mantissa · 2^exponent with |mantissa| < 2^53. The mantissa is odd, to keep grids
+/// coarse, or 0 for zero.
 struct Dyadic {
   std::int64_t mantissa = 0;
   int exponent = 0;
@@ -80,11 +82,11 @@ inline Dyadic dyadic(double value) {
   return {bits >> 63 ? -odd : odd, std::max(field, 1) - 1075 + zeros};
 }
 
-/// Corners and the map that they are under, as dyadic numbers.
+/// Up to three points and the affine map that they are under, as dyadic numbers.
 struct MappedCorners {
   std::array<std::array<Dyadic, 3>, 3> m, corners;
   std::array<Dyadic, 3> t;
-  std::size_t count;  ///< of the corners
+  std::size_t count;  ///< number of points
 
   MappedCorners(const Transform& X, std::span<const Vec3> points) : count(points.size()) {
     for (int i = 0; i < 3; ++i) {
@@ -96,9 +98,9 @@ struct MappedCorners {
   }
 };
 
-/// The exponents that occur among the terms (products m·v, and t) of mapped points.
+/// The range of exponents among the terms (products m·v, and t) of mapped points.
 struct Grid {
-  int low = std::numeric_limits<int>::max();
+  int low = std::numeric_limits<int>::max();   ///< every term is a multiple of 2^low
   int high = std::numeric_limits<int>::min();  ///< every term is below 2^high in magnitude
 
   void include(const Dyadic& a, const Dyadic& b) {
@@ -115,18 +117,21 @@ struct Grid {
         for (int i = 0; i < 3; ++i) include(points.m[i][k], points.corners[p][k]);
     for (int i = 0; i < 3; ++i) include(points.t[i], {1, 0});
   }
-  /// Bits of a coordinate (4 terms, sum below 2^(high + 2)).
+  /// Returns the bits of a mapped coordinate: a sum of 4 terms, below 2^(high + 2).
   int coordinateBits() const { return high <= low ? 3 : high + 2 - low; }
 };
 
-/// What `run.template operator()<Int>()` returns for the fastest integers that hold orientations of
-/// points of that grid: with coordinates below 2^k, differences are below 2^(k+1), cross products
-/// below 2^(2k+3), orientations below 2^(3k+6) (3·2^(k+1)·2^(2k+3)): that many bits hold every
-/// intermediate value.
+/// Calls `run.template operator()<Int>()` with the fastest integers that hold orientations of
+/// points of the grid, and returns its result.
+///
+/// Bits: with coordinates below 2^k, differences are below 2^(k+1), cross products below 2^(2k+3),
+/// and orientations below 3·2^(k+1)·2^(2k+3) < 2^(3k+6). So 3k + 6 bits hold every intermediate
+/// value.
 template <class Run>
 auto withIntegersFor(const Grid& grid, const Run& run) {
   const int k = grid.coordinateBits(), bits = 3 * k + 6;
-  if (k <= 61) return run.template operator()<Int64>();  // 2^62, 2^125, 2^189
+  // Int64: differences below 2^62, cross products below 2^125, orientations below 2^189.
+  if (k <= 61) return run.template operator()<Int64>();
   if (bits <= 512) return run.template operator()<FixedInt<512>>();
   if (bits <= 1024) return run.template operator()<FixedInt<1024>>();
   return run.template operator()<BigInt>();
@@ -141,7 +146,7 @@ Int term(const Dyadic& a, const Dyadic& b, const Grid& grid) {
   return value;
 }
 
-/// The p-th corner under its map on the grid, exactly.
+/// Returns the p-th point under its map, exactly, in units of the grid.
 template <class Int>
 Vector<Int> mapped(const MappedCorners& points, std::size_t p, const Grid& grid) {
   std::array<Int, 3> c;
@@ -152,7 +157,7 @@ Vector<Int> mapped(const MappedCorners& points, std::size_t p, const Grid& grid)
   return {c[0], c[1], c[2]};
 }
 
-/// All three corners of a triangle.
+/// Returns all three corners of a triangle likewise.
 template <class Int>
 Points<Int> mapped(const MappedCorners& triangle, const Grid& grid) {
   return {mapped<Int>(triangle, 0, grid), mapped<Int>(triangle, 1, grid),

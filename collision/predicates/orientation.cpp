@@ -31,14 +31,14 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
   for (int i = 0; i < 4; ++i) {
     const auto& [X, v] = *points[i];
     mapped[i] = X * v;
-    // Three products and a translation: four roundings on the longest path.
+    // A sum of three products and a translation has four roundings on its longest path.
     error =
         std::max(error, 4.1 * kUnit *
                             (X.m.cwiseAbs().rowwise().sum().maxCoeff() * v.cwiseAbs().maxCoeff() +
                              X.t.cwiseAbs().maxCoeff()));
   }
   const Vec3 a = mapped[1] - mapped[0], b = mapped[2] - mapped[0], c = mapped[3] - mapped[0];
-  // The bound of `trianglesTouch`' filter: entries below D, each off by e.
+  // The bound of the filter in triangle_contact.cpp: entries below D, each off by at most e.
   const double d =
       std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
   const double e = 2 * roundedUp(error) + kUnit * d, D = d + e;

@@ -4,15 +4,16 @@
 
 namespace corridor {
 
-/// A point under a map; the map must stay.
+/// A point under an affine map. It refers to the map, which must outlive it.
 struct MappedPoint {
   const Transform& X;
   Vec3 p;
 };
 
-/// Sign of det(q − p, r − p, s − p) in real arithmetic on the doubles given: on which side of the
-/// plane through p, q, r is s? A filter in double first, integers where it can't tell.
-/// @pre all numbers finite.
+/// Returns the sign of det(q − p, r − p, s − p): the side of the plane through p, q, r that s is
+/// on. Exact, in real arithmetic on the given doubles: a filter in double decides most cases,
+/// integers the rest.
+/// @pre all numbers are finite.
 int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoint& r,
                     const MappedPoint& s);
 

@@ -3,17 +3,17 @@
 #include <compare>
 #include <cstdint>
 
-/// Signed integers that grow with the degree of an expression: coordinates of 64 bits, whose
-/// products have 128, whose products with coordinates have 192. They hold every orientation of
-/// points on a grid of 61 bits; all that touches by construction (boxes, CAD parts under quarter
-/// turns) is on such a one. Ten times faster than integers that are as wide throughout. Results
-/// that need more bits wrap (of `Int53`: are rounded).
+/// Signed integers whose width grows with the degree of an expression. Coordinates have 64 bits,
+/// their products 128, and products of these with coordinates 192. This holds every orientation of
+/// points on a grid of 61 bits. Shapes that touch by construction (boxes, CAD models under
+/// rotations by 90°) are on such a grid. Ten times faster than integers of one large width. Results
+/// that need more bits wrap; those of `Int53` are rounded.
 namespace corridor::exact {
 
 __extension__ using SignedPair = __int128;
 __extension__ using UnsignedPair = unsigned __int128;
 
-/// Integers, or integers times one power of two, as doubles: exact below 2^53.
+/// Integers stored as doubles, or integers times one common power of two. Exact below 2^53.
 class Int53 {
  public:
   Int53() = default;
@@ -30,7 +30,7 @@ class Int53 {
   double value_ = 0;
 };
 
-/// Degree three: h·2^64 + l.
+/// Values of degree three: h·2^64 + l.
 class Int192 {
  public:
   Int192() = default;
@@ -50,7 +50,7 @@ class Int192 {
 
 class Int64;
 
-/// Degree two.
+/// Values of degree two.
 class Int128 {
  public:
   Int128() = default;
@@ -67,7 +67,7 @@ class Int128 {
   SignedPair value_ = 0;
 };
 
-/// Degree one.
+/// Values of degree one.
 class Int64 {
  public:
   Int64() = default;
@@ -75,7 +75,7 @@ class Int64 {
 
   bool is_zero() const { return value_ == 0; }  // NOLINT: Boost's name
   std::int64_t value() const { return value_; }
-  /// Of results that have 64 bits.
+  /// @pre the product fits into 64 bits.
   Int64& operator*=(Int64 other) {
     value_ *= other.value_;
     return *this;
@@ -84,7 +84,7 @@ class Int64 {
     value_ += other.value_;
     return *this;
   }
-  Int64& operator<<=(unsigned bits) {  // of a negative number, too: a product in C++20
+  Int64& operator<<=(unsigned bits) {  // C++20 defines it for negative values, too
     value_ <<= bits;
     return *this;
   }

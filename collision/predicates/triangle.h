@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// The corners of a closed triangle: the convex hull of three points, which may coincide or lie on
-/// a line.
+/// The corners of a closed triangle: the convex hull of three points, which may be collinear or
+/// coincide.
 using Triangle = std::array<Vec3, 3>;
 
 }  // namespace corridor

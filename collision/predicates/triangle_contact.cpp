@@ -8,11 +8,11 @@
 namespace corridor {
 namespace {
 
-/// World corners of both triangles, rounded, with one bound for the error of any orientation
-/// determinant of four of them.
+/// The corners of both triangles in the world frame, rounded, with one error bound for every
+/// orientation determinant of four of them.
 struct Filter {
   Triangle a, b;
-  double bound;  ///< NaN or infinite where the filter may not be used
+  double bound;  ///< NaN or infinite if the filter must not decide
 
   Filter(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB) {
     const double errorA = apply(a0, X_WA, a), errorB = apply(b0, X_WB, b);
@@ -24,19 +24,21 @@ struct Filter {
         high = high.cwiseMax(p);
       }
     const double d = (high - low).maxCoeff();
-    // A matrix entry is a difference of two rounded coordinates, off by at most e = 2·error + u·d.
-    // A 3×3 determinant of entries ≤ D = d + e has six products of three: perturbing them changes
-    // it by at most 6·3·e·D²; evaluating it (two roundings a product, three for the sums) by at
-    // most 6·D³·γ5 < 31·u·D³. Underflow, also of inputs that are flushed to zero, loses less than
-    // 2^-1000·D², which 9·u·D³ covers for D > 2^-250; D < 2^250 keeps all products finite.
+    // An entry of the determinant is a difference of two rounded coordinates, off by at most e =
+    // 2·error + u·d. With entries ≤ D = d + e, a 3×3 determinant has six products of three. Their
+    // perturbation changes it by at most 6·3·e·D². Its evaluation (two roundings per product, three
+    // for the sums) adds at most 6·D³·γ5 < 31·u·D³. Underflow, also of inputs flushed to zero,
+    // loses less than 2^-1000·D², which 9·u·D³ covers for D > 2^-250. D < 2^250 keeps all products
+    // finite.
     const double e = 2 * std::max(errorA, errorB) + kUnit * d;
     const double D = d + e;
     const bool usable = D > 0x1p-250 && D < 0x1p250;
     bound = usable ? roundedUp((18 * e + 40 * kUnit * D) * D * D) : HUGE_VAL;
   }
 
-  /// Maps the corners; returns a bound for the error of each coordinate: a sum of three products
-  /// and a translation has four roundings on its longest path, so γ4·(Σ|m||v| + |t|) < 4.1·u·(…).
+  /// Maps the corners and returns an error bound for each coordinate. A sum of three products and a
+  /// translation has four roundings on its longest path: γ4·(Σ|m||v| + |t|) < 4.1·u·(Σ|m||v| +
+  /// |t|).
   static double apply(const Triangle& from, const Transform& X, Triangle& to) {
     double reach = 0;
     for (int i = 0; i < 3; ++i) {
@@ -49,7 +51,7 @@ struct Filter {
     return roundedUp(4.1 * kUnit * (rowSum * reach + X.t.cwiseAbs().maxCoeff()));
   }
 
-  /// Sign of det(q − p, r − p, s − p); 0: not known.
+  /// Returns the sign of det(q − p, r − p, s − p), or 0 if it is not certain.
   int orientation(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) const {
     const double ax = q[0] - p[0], ay = q[1] - p[1], az = q[2] - p[2];
     const double bx = r[0] - p[0], by = r[1] - p[1], bz = r[2] - p[2];
@@ -59,23 +61,23 @@ struct Filter {
     return det > bound ? 1 : det < -bound ? -1 : 0;
   }
 
-  /// 1 contact, 0 none, −1 not known.
+  /// Returns 1 for contact, 0 for none, −1 if undecided.
   int decide() const {
-    int sideB[3], sideA[3];  // of b's corners of a's plane, and the other way round
+    int sideB[3], sideA[3];  // sides of b's corners with respect to a's plane, and vice versa
     for (int i = 0; i < 3; ++i) sideB[i] = orientation(a[0], a[1], a[2], b[i]);
     if (sideB[0] != 0 && sideB[0] == sideB[1] && sideB[0] == sideB[2]) return 0;
     for (int i = 0; i < 3; ++i) sideA[i] = orientation(b[0], b[1], b[2], a[i]);
     if (sideA[0] != 0 && sideA[0] == sideA[1] && sideA[0] == sideA[2]) return 0;
     for (int i = 0; i < 3; ++i)
       if (sideA[i] == 0 || sideB[i] == 0) return -1;
-    // General position, each triangle crosses the other's plane. Number the corners so that p1 is
-    // alone on its side of b's plane, p2 alone of a's, and turn each triangle so that p1 and p2 are
-    // on the positive side of the other.
+    // General position: each triangle crosses the other's plane. Corners are numbered so that p1 is
+    // alone on its side of b's plane, and p2 on its side of a's. Each triangle is oriented so that
+    // p1 and p2 are on the positive side of the other.
     const int i = alone(sideA), j = alone(sideB);
     const Vec3 &p1 = a[i], &p2 = b[j];
     const Vec3 *q1 = &a[(i + 1) % 3], *r1 = &a[(i + 2) % 3], *q2 = &b[(j + 1) % 3],
                *r2 = &b[(j + 2) % 3];
-    // Turning b flips the side of p1, turning a that of p2.
+    // Reversing b flips the side of p1; reversing a flips that of p2.
     if (sideA[i] < 0) std::swap(q2, r2);
     if (sideB[j] < 0) std::swap(q1, r1);
     const int first = orientation(p1, *q1, p2, *q2);
@@ -85,6 +87,7 @@ struct Filter {
     return first < 0 && second < 0 ? 1 : -1;
   }
 
+  /// Returns the corner that is alone on its side.
   static int alone(const int (&side)[3]) {
     return side[0] == side[1] ? 2 : side[0] == side[2] ? 1 : 0;
   }

@@ -5,21 +5,21 @@
 
 namespace corridor {
 
-/// Do two closed triangles, each under its own affine map, share a point?
+/// Returns whether two closed triangles, each under its own affine map, share a point.
 ///
-/// Exact: the answer is that of real arithmetic on the doubles given, for any finite coordinates
-/// and maps and for degenerate triangles (the segments or points that they are). Touching is
-/// contact. A filter in double with a proven error bound decides first; integers decide the rest
+/// Exact: the answer is that of real arithmetic on the given doubles, for any finite coordinates
+/// and maps. Degenerate triangles count as the segments or points that they are. Touching is
+/// contact. A filter in double with a proved error bound decides first; integers decide the rest
 /// (`counters.exactTests`).
 ///
 /// Method: signs of orientation determinants as in Guigue, Devillers, "Fast and robust
 /// triangle-triangle overlap test using orientation predicates", JGT 8(1), 2003; degenerate
 /// positions by segment-triangle tests.
-/// @pre all numbers finite.
+/// @pre all numbers are finite.
 bool trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
                     const Transform& X_WB, Counters& counters);
 
-/// The same by integers alone: the oracle's path, and the fallback of the filter.
+/// The same without the filter in double: its fallback, and an independent path for tests.
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 

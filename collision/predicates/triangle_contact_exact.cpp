@@ -19,7 +19,7 @@ using exact::Points;
 using exact::sign;
 using exact::Vector;
 
-/// Twice the signed area of (p, q, r) seen along axis `drop`.
+/// Returns the sign of the area of (p, q, r) projected along axis `drop`.
 template <class Int>
 int orientation2(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r, int drop) {
   return sign(coordinate(cross(q - p, r - p), drop));
@@ -30,14 +30,14 @@ bool rangesMeet(const Int& a, const Int& b, const Int& c, const Int& d) {
   return std::max(a, b) >= std::min(c, d) && std::max(c, d) >= std::min(a, b);
 }
 
-/// Closed segments pq and rs, each possibly a point.
+/// Tests two closed segments pq and rs; either may be a point.
 template <class Int>
 bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r,
                    const Vector<Int>& s) {
   const Vector<Int> d = q - p, e = s - r, f = r - p;
   const auto n = cross(d, e);
-  if (!n.isZero()) {  // not parallel: they meet only in their common plane, and there as their
-                      // projections do
+  // Segments that are not parallel meet if and only if they are coplanar and their projections do.
+  if (!n.isZero()) {
     if (sign(dot(n, f)) != 0) return false;
     const int drop = dropAxis(n);
     return orientation2(p, q, r, drop) * orientation2(p, q, s, drop) <= 0 &&
@@ -45,17 +45,16 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
   }
   const Vector<Int>& line = d.isZero() ? e : d;
   if (!cross(line, f).isZero()) return false;
-  // On one line (or two points): closed boxes of collinear segments meet if and only if the
-  // segments do.
+  // On one line (or two points): collinear segments meet if and only if their boxes do.
   return rangesMeet(p.x, q.x, r.x, s.x) && rangesMeet(p.y, q.y, r.y, s.y) &&
          rangesMeet(p.z, q.z, r.z, s.z);
 }
 
-/// Closed segment pq against the closed triangle t with normal n (zero if degenerate).
+/// Tests the closed segment pq against the closed triangle t with normal n (zero if degenerate).
 template <class Int, class Product>
 bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t,
                             const Vector<Product>& n) {
-  if (n.isZero()) {  // a segment or a point: the union of its edges
+  if (n.isZero()) {  // t is a segment or a point: the union of its edges
     for (int i = 0; i < 3; ++i)
       if (segmentsTouch(p, q, t[i], t[(i + 1) % 3])) return true;
     return false;
@@ -71,7 +70,7 @@ bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Po
       if (orientation2(t[i], t[(i + 1) % 3], p, drop) * turn < 0) return false;
     return true;
   }
-  // The line crosses the plane in one point, which is in the triangle unless it is left of one edge
+  // The segment crosses the plane in one point. It is in the triangle unless it is left of one edge
   // and right of another.
   bool positive = false, negative = false;
   const Vector<Int> d = q - p;
@@ -91,9 +90,9 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Product>& n,
          s == sign(dot(n, points[2] - plane[0]));
 }
 
-/// Two convex sets of dimension two or less meet if and only if an edge of one meets the other: an
-/// extreme point of their intersection lies on the rim of one of them. (A degenerate triangle is
-/// all rim.)
+/// Tests two triangles. They meet if and only if an edge of one meets the other: an extreme point
+/// of their intersection lies on the boundary of one of them. (A degenerate triangle is all
+/// boundary.)
 template <class Int>
 bool touch(const Points<Int>& a, const Points<Int>& b) {
   const auto nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
@@ -110,8 +109,8 @@ bool touch(const exact::MappedCorners& a, const exact::MappedCorners& b, const e
   return touch<Int>(exact::mapped<Int>(a, grid), exact::mapped<Int>(b, grid));
 }
 
-/// Are two arrays the same but for signs? By bits: where subnormals are flushed, == takes them for
-/// zeros.
+/// Returns whether two arrays are equal up to signs. Compares bits, because == takes subnormals for
+/// zeros if the processor flushes them.
 template <class Array>
 bool sameSizes(const Array& x, const Array& y) {
   std::uint64_t different = 0;
@@ -120,8 +119,8 @@ bool sameSizes(const Array& x, const Array& y) {
   return different << 1 == 0;
 }
 
-/// Triangles on a grid so coarse that doubles decide, under signed permutations: most that touch by
-/// construction do so. Whether they do; nothing where they aren't of that kind.
+/// Tests triangles under signed permutations on a grid so coarse that doubles are exact; nullopt if
+/// they are not of this kind. Most triangles that touch by construction are.
 std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                    const Transform& X_WB) {
   double size = 0;
@@ -131,11 +130,12 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
   }
   for (const Triangle* t : {&a, &b})
     for (const Vec3& p : *t) size = std::max(size, p.cwiseAbs().maxCoeff());
-  // Entries are 0 or ±1. With corners and translations that are whole multiples, below 2^13, of a
-  // power of two, mapped corners are below 2^15 of it, differences below 2^16, and orientations
-  // below 6·2^48 < 2^51: all exact, sums on the way included, and none underflows.
+  // Entries of m are 0 or ±1. Let corners and translations be whole multiples, below 2^13, of a
+  // power of two. In this unit mapped corners are below 2^15, differences below 2^16, and
+  // orientations below 6·2^48 < 2^51. All of them are exact, with every partial sum, and nothing
+  // underflows.
   if (!(size > 0x1p-250 && size < 0x1p250)) return std::nullopt;
-  // Adding and subtracting 3·2^51 such units rounds to whole ones.
+  // Adding and subtracting 3·2^51 units rounds to whole units.
   const double rounder = std::ldexp(3.0, std::ilogb(size) - 12 + 51);
   const auto whole = [&](const Vec3& p) {
     return sameSizes<Vec3>((p.array() + rounder) - rounder, p);

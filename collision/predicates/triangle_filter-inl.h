@@ -1,4 +1,4 @@
-// Four triangles against four, for every SIMD target: included once per target by foreach_target.h.
+// A filter for sixteen pairs of triangles; foreach_target.h includes it once per SIMD target.
 
 // clang-format off
 #if defined(CORRIDOR_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -20,25 +20,28 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Which of sixteen pairs of triangles may touch, a bit each. A cleared bit is a proof that the two
-/// are farther apart than `error`, the distance that the corners given may be off by, both sides
-/// together. By the separating-axis theorem: both planes and the nine cross products of edges.
+/// Tests sixteen pairs of triangles and returns one bit per pair: set if the pair may touch. A
+/// clear bit proves that the triangles are more than `error` + `pad` apart.
+/// @param error  how far the given corners may be off, both triangles together.
+/// @param pad a clearance to prove in addition. Both lengths are in the unit of the corners.
 ///
-/// Rounding, u = 2^-24: corners are off by 3u·D a coordinate (`TrianglePairs`, D its size). Any
-/// vector L separates if the projections do: two projections are off by less than 2(3u +
-/// 3u)·|L|₁·D, and `error` adds |L|₂·error. What is taken for equal (L·e for an edge e of L = e ×
-/// f, 0 but for the rounding of L, |δL| ≤ 2u|e||f| a coordinate) is off by 2√3·u|e||f|·√3D. With
-/// |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 28u·D), and for normals
-/// likewise. Lengths enter as |e|₁ ≥ |e|₂. Products that underflow lose less than 2^-124, flushed
-/// or not, times an edge below 2^30.
+/// Method: separating axes: the normals of both triangles and the nine cross products of their
+/// edges.
 ///
-/// `pad`: the triangles shall be farther apart by that, too; it scales with the axes' true lengths.
+/// Rounding, u = 2^-24: corners are off by 3u·D per coordinate (`TrianglePairs`, D its size). A
+/// vector L of any direction separates the triangles if their projections onto it are disjoint. Two
+/// projections are off by less than 2(3u + 3u)·|L|₁·D, and `error` adds |L|₂·error. Both ends of an
+/// edge e are taken to project alike onto L = e × f. Their difference L·e is 0 except for the
+/// rounding of L, |δL| ≤ 2u|e||f| per coordinate: off by 2√3·u|e||f|·√3D. With |L|₁ ≤ √3|L|₂ and
+/// |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 28u·D), and for normals likewise; the
+/// code takes 40u. Lengths enter as |e|₁ ≥ |e|₂. Products that underflow lose less than 2^-124,
+/// flushed or not, times an edge below 2^30. `pad` is multiplied by the true length of each axis.
 HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCorners& b,
                                       const TriangleNumbers& numbers, float error, float pad = 0) {
   const LaneTag d;
   using V = LaneFloat;
   using Vec = LaneVec;
-  // pad·|L|, rounded up: below 2^-63 squares vanish.
+  // Returns pad·|L|, rounded up. 2^-60 is added because squares of lengths below 2^-63 vanish.
   const bool padded = pad > 0;
   const auto padding = [&](const Vec& L) {
     return hn::Mul(hn::Set(d, pad * (1 + 0x1p-20F)),
@@ -57,7 +60,7 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
       le[i] = sum(ea[i]);
       lf[i] = sum(fb[i]);
     }
-    // Products of three such numbers are far from overflow.
+    // D < 2^30: products of three such numbers are far from overflow.
     const V D = pairs.size;
     const V per = hn::IfThenElse(hn::Lt(D, hn::Set(d, 0x1p30F)),
                                  hn::MulAdd(hn::Set(d, 40 * 0x1p-24F), D, hn::Set(d, error)),
@@ -70,7 +73,7 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
     V margin = hn::MulAdd(per, hn::Mul(le[0], le[2]), tiny);
     if (padded) margin = hn::Add(margin, padding(na));
     auto open = hn::Not(hn::Gt(gap, margin));
-    // That of b.
+    // The plane of b.
     const Vec nb = cross(f1, f2);
     const V h = dot(nb, p0), t1 = dot(nb, e1), t2 = dot(nb, e2);
     gap = hn::Max(hn::Sub(min3(zero, t1, t2), h), hn::Sub(h, max3(zero, t1, t2)));
@@ -78,8 +81,8 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
     if (padded) margin = hn::Add(margin, padding(nb));
     open = hn::AndNot(hn::Gt(gap, margin), open);
     if (!hn::AllFalse(d, open)) {
-      // Of edge i of a and j of b: the ends of an edge project alike, so one of them and the corner
-      // opposite are all.
+      // Axis from edge i of a and edge j of b: both ends of an edge project alike, so one end and
+      // the opposite corner give the whole projection.
       for (int i = 0; i < 3; ++i) {
         const V reach = hn::Mul(per, le[i]);
         for (int j = 0; j < 3; ++j) {

@@ -1,5 +1,4 @@
-// Pairs of triangles as SIMD lanes, for every SIMD target: included once per target by
-// foreach_target.h.
+// Pairs of triangles, one per SIMD lane; foreach_target.h includes it once per SIMD target.
 
 // clang-format off
 #if defined(CORRIDOR_TRIANGLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -19,18 +18,19 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Corners of up to sixteen triangles, relative to a point: [corner][coordinate][triangle].
+/// The corners of up to sixteen triangles relative to the point `center`.
 struct alignas(64) TriangleCorners {
-  float x[3][3][16];
-  double center[4];  ///< and a 0
+  float x[3][3][16];  ///< [corner][coordinate][triangle]
+  double center[4];   ///< the fourth number is 0
 };
 
 using LaneTag = hn::CappedTag<float, 16>;
 using LaneFloat = hn::Vec<LaneTag>;
 inline constexpr std::size_t kTriangleLanes = hn::MaxLanes(LaneTag());
-static_assert(kTriangleLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
+static_assert(kTriangleLanes % 4 == 0,
+              "rows of four lanes are needed; Highway's target SCALAR has too few");
 
-/// A vector a lane.
+/// One vector per lane.
 struct LaneVec {
   LaneFloat x, y, z;
 };
@@ -54,7 +54,7 @@ HWY_INLINE LaneFloat max3(LaneFloat x, LaneFloat y, LaneFloat z) {
   return hn::Max(hn::Max(x, y), z);
 }
 
-/// The elements of sixteen floats that the lanes ask for.
+/// Returns in each lane the float that its index selects from sixteen.
 HWY_INLINE LaneFloat lookedUp(const float* HWY_RESTRICT sixteen,
                               hn::Vec<hn::RebindToSigned<LaneTag>> index) {
   const LaneTag d;
@@ -71,23 +71,23 @@ HWY_INLINE LaneFloat lookedUp(const float* HWY_RESTRICT sixteen,
   }
 }
 
-/// Pairs of triangles, one a lane: of each the number in `a` and in `b`, below 16.
+/// The pairs to test: for each pair the numbers, below 16, of its triangles in `a` and in `b`.
 struct TriangleNumbers {
-  const std::uint8_t *a, *b;  ///< sixteen readable each
+  const std::uint8_t *a, *b;  ///< sixteen readable numbers each
 };
 
-/// The pairs of lanes at, at + 1, …: corners of both relative to the first one of a's, which is s_0
-/// = 0.
+/// The corners of the pairs `at`, `at` + 1, …, one pair per lane. All corners are relative to a's
+/// first corner, so that one, s_0, is 0.
 ///
-/// Rounding, u = 2^-24. With o that corner, b's are t = b.x + (ΔC − o), ΔC the difference of the
-/// points that `a` and `b` are relative to, in floats rounded at each step. b.x, o, ΔC, w = ΔC − o
-/// and t are off by u of themselves, |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w|, and w = t_0 − b.x_0:
-/// together less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size a coordinate (b.x alone may be
-/// far larger than t: small triangles far from that point).
+/// Rounding, u = 2^-24. Let o be a's first corner and ΔC the difference of the two `center`s. The
+/// corners of b are t = b.x + (ΔC − o), in floats rounded at each step. b.x, o, ΔC, w = ΔC − o and
+/// t are each off by u of themselves. With |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w| and w = t_0 − b.x_0
+/// the error is less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size per coordinate. (Bounds by
+/// |b.x| would be worse: for small triangles far from `center` it is much larger than t.)
 struct TrianglePairs {
   LaneVec s1, s2, t[3];
-  LaneVec away;    ///< from what b's corners are relative to, to o: t = b.x + away
-  LaneFloat size;  ///< the sum of all those sizes, in |.|₁; not a maximum, which could lose a NaN
+  LaneVec away;    ///< from o to the center of b: t = b.x + away
+  LaneFloat size;  ///< the sum of |o|₁, |s|₁, |b.x_0|₁ and |t|₁; a maximum could lose a NaN
 
   HWY_INLINE TrianglePairs(const TriangleCorners& a, const TriangleCorners& b,
                            const TriangleNumbers& numbers, std::size_t at) {

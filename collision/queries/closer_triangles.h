@@ -7,24 +7,27 @@
 
 namespace corridor {
 
-/// The triangles' side of a tolerance query, whatever the trees: are two of them at most d apart?
+/// Tests whether two triangles are at most `d` apart: the leaf test of tolerance queries, for any
+/// kind of tree. Keeps references to both maps.
 class CloserTriangles {
  public:
-  /// For triangles within `reachA`, `reachB` of their frames' origins; d in metres.
+  /// @param reachA, reachB  metres: each triangle lies within this distance of its frame's origin.
+  /// @param d  metres.
   CloserTriangles(const Transform& X_WA, double reachA, const Transform& X_WB, double reachB,
                   double d)
       : X_WA_(X_WA), X_WB_(X_WB), bounds_(X_WA, reachA, X_WB, reachB), d_(d) {}
 
-  /// Bounds in double first, contact next, double-double last (`closerThan` tells the exactness).
+  /// Tries bounds in double first, then contact, then double-double. `closerThan` (distance.h)
+  /// states how exact the answer is.
   bool operator()(const Triangle& a, const Triangle& b, Counters& counters) const {
     const DistanceRange range = bounds_(a, b);
     if (range.lower > d_) return false;
     if (range.upper <= d_) return true;
-    Counters own;  // who shows a pair has counted it
+    Counters own;  // the caller has already counted this pair
     const bool touches = trianglesTouch(a, X_WA_, b, X_WB_, own);
     counters.exactTests += own.exactTests;
     if (touches) return true;
-    const WitnessPoints w = closestPoints(a, X_WA_, b, X_WB_);
+    const WitnessPoints w = witnessPoints(a, X_WA_, b, X_WB_);
     return w.distance <= roundedUp(d_ + w.error);
   }
 

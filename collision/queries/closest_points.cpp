@@ -31,16 +31,17 @@ Real clamped(const Real& x) {
   return x > Real(0) ? (x < Real(1) ? x : Real(1)) : Real(0);
 }
 
-/// The point of the segment p + s·d next to q; p where d vanishes.
+/// Returns the parameter s in [0, 1] of the point p + s·d that is closest to q; 0 if d vanishes.
 Real nearest(const Point& p, const Point& d, const Point& q) {
   const Real square = dot(d, d);
   return square > Real(0) ? clamped(dot(d, q - p) / square) : Real(0);
 }
 
-/// Of two edges: either end and its foot on the other, and the points that the common perpendicular
-/// meets. Cross products, since a·c − b² of nearly parallel edges has lost all digits: here the
-/// point on the first is off by 2^-98/sin of their angle, and the distance, its foot taken next, by
-/// 2^-98 of the coordinates.
+/// Offers, for two edges, each end with its foot on the other edge, and the two points where their
+/// common perpendicular meets them. Uses cross products, because a·c − b² of nearly parallel edges
+/// has lost all digits. With cross products the point on the first edge is off by 2^-98/sin of the
+/// angle between the edges. The distance is off by 2^-98 of the coordinates, because the foot of
+/// that point is taken next.
 void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, const Point& q1) {
   const Point d = p1 - p, e = q1 - q;
   const Point n = cross(d, e);
@@ -53,9 +54,9 @@ void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, con
   for (const Point& end : {q, q1}) best.offer(p + d * nearest(p, d, end), end);
 }
 
-/// The foot of p in the plane of t, where it is inside; likewise by cross products, and once more
-/// from where that leads, so that a sliver's is off by a share of the height and not of the
-/// coordinates.
+/// Computes the foot of p in the plane of t; returns whether it lies inside t. Uses cross products,
+/// as `offerEdges` does, and repeats the step once from the point found. The error for a sliver is
+/// therefore relative to its height, not to the coordinates.
 bool foot(const Point& p, const Corners& t, Point& found) {
   const Point u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   const Real square = dot(n, n);
@@ -71,14 +72,16 @@ bool foot(const Point& p, const Corners& t, Point& found) {
   return !(x < Real(0)) && !(y < Real(0)) && !(x + y > Real(1));
 }
 
-/// q, where it is over the face of t. `swapped`: q is of the second triangle.
+/// Offers q and its foot in t if the foot lies inside t. `swapped`: q belongs to the second
+/// triangle.
 void offerFoot(Best& best, const Point& q, const Corners& t, bool swapped) {
   Point found;
   if (!foot(q, t, found)) return;
   swapped ? best.offer(found, q) : best.offer(q, found);
 }
 
-/// Where edges of p go through the face of t: triangles that cross.
+/// Offers the points where edges of p pass through the face of t: there are some if the triangles
+/// cross.
 void offerCrossings(Best& best, const Corners& p, const Corners& t, bool swapped) {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
   Real height[3];
@@ -103,16 +106,17 @@ Corners mapped(const Triangle& t, const Transform& X, double unit) {
   return corners;
 }
 
-/// What is taken for nothing, of the unit, which is at most the largest coordinate.
+/// Distances below kLost units count as 0. The unit is at most the largest coordinate.
 constexpr double kLost = 0x1p-56;
 
 bool isNothing(const Best& best) {
   return best.square < Real(kLost * kLost);
 }
 
-/// The features that plain doubles, relative to one of the corners, find closest; where their
-/// points are the triangles' by proof: both triangles' projections onto the line through them are
-/// as far apart.
+/// Offers the closest points of the two features that plain doubles, relative to one of the
+/// corners, find closest. Returns true if these points are proved to be the closest of the
+/// triangles: the projections of both triangles onto the line through them are as far apart as the
+/// points, up to kLost.
 bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   Triangle a, b;
   for (int i = 0; i < 3; ++i) {
@@ -129,16 +133,16 @@ bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   } else {
     offerFoot(best, s[feature - 12], t, false);
   }
-  if (!(best.square.hi < HUGE_VAL)) return false;  // no foot in the face after all
+  if (!(best.square.hi < HUGE_VAL)) return false;  // the foot is not in the face after all
   if (isNothing(best)) return true;
   const Point n = best.b - best.a;
-  const Real most = sqrt(best.square) * Real(kLost / 2);  // of either side, times |n|
+  const Real most = sqrt(best.square) * Real(kLost / 2);  // tolerance on each side, times |n|
   for (int i = 0; i < 3; ++i)
     if (!(dot(n, s[i] - best.a) < most) || !(-most < dot(n, t[i] - best.b))) return false;
   return true;
 }
 
-/// The largest Σ|m||v| + |t| of the corners mapped.
+/// Returns the largest Σ|m||v| + |t| of the mapped corners.
 double largestTerms(const Triangle& t, const Transform& X) {
   double size = 0;
   for (const Vec3& p : t)
@@ -152,7 +156,7 @@ Vec3 rounded(const Point& p, double unit) {
 
 }  // namespace
 
-WitnessPoints closestPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
+WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
                             const Transform& X_WB) {
   const double unit = powerOfTwo(std::max(largestTerms(a, X_WA), largestTerms(b, X_WB)));
   const Corners s = mapped(a, X_WA, unit), t = mapped(b, X_WB, unit);
@@ -169,15 +173,17 @@ WitnessPoints closestPoints(const Triangle& a, const Transform& X_WA, const Tria
       for (int k = 0; k < 3; ++k) offerEdges(best, s[i], s[(i + 1) % 3], t[k], t[(k + 1) % 3]);
     }
   }
-  // What the proof lets pass, or double-double loses (2^-90 of the unit), and rounding.
+  // The error bound covers what the proof lets pass, what double-double loses (2^-90 of the unit),
+  // and the final rounding.
   const double distance = unit * sqrt(best.square).hi;
   return {rounded(best.a, unit), rounded(best.b, unit), distance,
           roundedUp(2 * kLost * unit + 2 * kUnit * distance)};
 }
 
-// A mapped corner: 7 roundings with that of `unit` at most, of terms below S = ‖M‖_F·reach + |t|,
-// so 8u·√3·S < 14u·S. Both corners of a difference: 14u(S_A + S_B); a projection onto n of what is
-// below S_A + S_B, with n's own 4u, and the quotient: 10u more. Likewise a distance.
+// A mapped corner takes at most 7 roundings, the division by `unit` included, of terms below S =
+// ‖M‖_F·reach + |t|. It is off by 8u·√3·S < 14u·S. The difference of two corners is off by 14u(S_A
+// + S_B). A projection onto n of a vector below S_A + S_B, with n's own 4u, and the quotient add
+// 10u. The same holds for a distance.
 TriangleDistances::TriangleDistances(const Transform& X_WA, double reachA, const Transform& X_WB,
                                      double reachB)
     : X_WA_(X_WA), X_WB_(X_WB) {
@@ -199,7 +205,7 @@ DistanceRange TriangleDistances::operator()(const Triangle& a, const Triangle& b
   const double gap = std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])}) -
                      std::max({n.dot(s[0]), n.dot(s[1]), n.dot(s[2])});
   DistanceRange range{0, unit_ * length + error_};
-  // Far below the unit squares vanish, and all that is known is `error_`.
+  // Far below the unit, squares underflow; then only the lower bound 0 is certain.
   if (length > 0x1p-400) range.lower = std::max(0.0, unit_ * (gap / length) - error_);
   if (!(range.upper >= 0)) range.upper = HUGE_VAL;  // NaN: nothing is known
   return range;

@@ -4,30 +4,33 @@
 
 namespace corridor {
 
-/// Points of two triangles that are closest to each other, and their distance, metres.
+/// Two points, one of each triangle, that are closest to each other, and their distance in metres.
 struct WitnessPoints {
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
   double distance = 0;
-  double error = 0;  ///< the most that it may be off by
+  double error = 0;  ///< upper bound of the error of `distance`, metres
 };
 
-/// Of two triangles under their maps, in double-double on a power-of-two unit of their size: for
-/// results. The distance is off by less than u·(S/4 + 2·distance), S the largest Σ|m||v| + |t| of
-/// the corners mapped; the points, rounded to doubles, by u·S a coordinate. Crossing triangles have
-/// distances of rounding size.
-WitnessPoints closestPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
+/// Computes the closest points of two triangles under their maps, in double-double on a
+/// power-of-two unit of their size: precise enough to be reported.
+///
+/// The distance is off by less than u·(S/4 + 2·distance), where S is the largest Σ|m||v| + |t| of
+/// the mapped corners and u = 2^-53. The points are rounded to doubles and off by less than u·S per
+/// coordinate. The distance of crossing triangles is of the size of rounding errors, not exactly 0.
+WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Triangle& b,
                             const Transform& X_WB);
 
-/// The distance lies in [lower, upper], proved; 0 and above.
+/// A proved range of a distance, metres: lower ≤ distance ≤ upper, and both are at least 0.
 struct DistanceRange {
   double lower = 0, upper = 0;
 };
 
-/// Bounds distances of triangles under two maps, in double: the closest points of their features
-/// bound from above, projections onto the line between these from below.
+/// Bounds the distance of two triangles under two maps, in double. The upper bound is the distance
+/// of the closest points of their features. The lower bound is the gap between the projections onto
+/// the line through these points.
 class TriangleDistances {
  public:
-  /// For triangles within `reachA`, `reachB` of their frames' origins.
+  /// @param reachA, reachB  metres: each triangle lies within this distance of its frame's origin.
   TriangleDistances(const Transform& X_WA, double reachA, const Transform& X_WB, double reachB);
   DistanceRange operator()(const Triangle& a, const Triangle& b) const;
 

@@ -1,11 +1,13 @@
 #include "collision/queries/containment.h"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
 
+#include "collision/core/floating_point.h"
 #include "collision/core/rounding.h"
 #include "collision/predicates/orientation.h"
 #include "collision/queries/relative_pose.h"
@@ -16,8 +18,9 @@ namespace {
 
 using Component = MeshComponents::Component;
 
-/// Rays that meet an edge or lie in a plane are cast again, in another direction. Directions are
-/// spread over the sphere (a spiral by the golden angle), none of them special to any mesh.
+/// A ray that meets an edge or lies in a triangle's plane is cast again in another direction. The
+/// directions are spread over the sphere (a spiral by the golden angle) and are not special to any
+/// mesh.
 constexpr int kCasts = 64;
 Vec3 direction(int cast) {
   const double z = std::remainder(0.1234567 + 0.7548776662 * cast, 1.0) * 2,
@@ -27,10 +30,11 @@ Vec3 direction(int cast) {
 
 enum class Crossing { none, one, degenerate };
 
-/// Does the segment from q to the far end, which is on no triangle, cross the triangle?
+/// Tests whether the segment from q to `end` crosses the triangle. @pre `end` is on no triangle.
 Crossing crossing(const MappedPoint& q, const MappedPoint& end, const Triangle& t,
                   const Transform& X_WS) {
-  if (t[0] == t[1] && t[1] == t[2]) return Crossing::none;  // a point: nothing closed needs it
+  if (t[0] == t[1] && t[1] == t[2])
+    return Crossing::none;  // a point: the surface is closed without it
   const MappedPoint v[3] = {{X_WS, t[0]}, {X_WS, t[1]}, {X_WS, t[2]}};
   int sum = 0, zeros = 0;
   for (int i = 0; i < 3; ++i) {
@@ -38,14 +42,16 @@ Crossing crossing(const MappedPoint& q, const MappedPoint& end, const Triangle& 
     sum += side;
     zeros += side == 0;
   }
-  if (std::abs(sum) + zeros < 3) return Crossing::none;  // left of one edge, right of another
+  if (std::abs(sum) + zeros < 3)
+    return Crossing::none;  // passes left of one edge and right of another
   if (zeros > 0) return Crossing::degenerate;
   return orientationSign(v[0], v[1], v[2], q) == orientationSign(v[0], v[1], v[2], end)
              ? Crossing::none
              : Crossing::one;
 }
 
-/// How often the segment crosses component `k`; nullopt where it can't be told.
+/// Returns how often the segment crosses component `k`, or nullopt if it meets an edge or lies in a
+/// triangle's plane. `q_S` is the segment's start in the solid's frame, off by at most `error`.
 std::optional<int> crossings(const MeshBody& solid, std::uint32_t k, const Transform& X_WS,
                              const MappedPoint& q, const Vec3& q_S, double error, const Vec3& end_S,
                              QueryContext& context) {
@@ -89,9 +95,10 @@ std::optional<int> crossings(const MeshBody& solid, std::uint32_t k, const Trans
 
 std::optional<std::uint32_t> containing(const MeshBody& solid, const Transform& X_WS, const Vec3& p,
                                         const Transform& X_WP, QueryContext& context) {
+  assert(standardFloatingPoint());
   const Transform X_SP = rigidInverse(X_WS) * X_WP;
   const Vec3 q_S = X_SP * p;
-  // The product's own rounding: 4.1u of its terms a coordinate, √3 of it.
+  // The second term covers the rounding of the product: 4.1u of its terms per coordinate, times √3.
   const double error = roundedUp(relativePoseError(X_WS, X_SP, X_WP, roundedUp(p.stableNorm())) +
                                  8 * kUnit * (X_SP.m.norm() * p.stableNorm() + X_SP.t.norm()));
   for (std::uint32_t k = 0; k < solid.components.components.size(); ++k) {
@@ -107,7 +114,8 @@ std::optional<std::uint32_t> containing(const MeshBody& solid, const Transform& 
     for (int cast = 0; cast < kCasts && !count; ++cast)
       count =
           crossings(solid, k, X_WS, {X_WP, p}, q_S, error, center + far * direction(cast), context);
-    if (!count || *count % 2 == 1) return component.triangle;  // not told: better in than out
+    if (!count || *count % 2 == 1)
+      return component.triangle;  // undecided counts as inside: the safe answer
   }
   return std::nullopt;
 }
@@ -140,7 +148,7 @@ std::optional<TrianglePair> enclosed(const Body& solid, const Transform& X_WS, c
 std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
                                             const Transform& X_WB, QueryContext& context) {
   if (!X_WA.isFinite() || !X_WB.isFinite())
-    throw std::invalid_argument("the pose of a body is to be finite");
+    throw std::invalid_argument("the pose of a body must be finite");
   if (const auto hit = enclosed(a, X_WA, b, X_WB, context)) return hit;
   if (const auto hit = enclosed(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
   return std::nullopt;

@@ -16,13 +16,15 @@
 namespace corridor {
 namespace {
 
-/// Volumes are told apart in frame A, where
-/// distances are at most 1/shrink of those in the world: |Mx| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|.
+/// Returns the factor that turns a lower bound of a distance in frame A, where volumes are tested,
+/// into one in the world: |Mx| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|, with η the matrix's
+/// `orthonormalityDefect`.
 double shrinkOf(const Transform& X_WA) {
   return std::max(0.0, roundedDown(1 - 3 * orthonormalityDefect(X_WA.m)));
 }
 
-/// What leaves hold: triangles in both trees, or parts in one at least.
+/// The leaf tests by what the leaves hold: triangles in both trees, or convex parts in at least
+/// one.
 struct Triangles {
   using Nearest = NearestTriangles;
   using Closer = CloserTriangles;
@@ -62,7 +64,7 @@ class Nearest {
     const double bound = volumes_.distanceBound(a_.node(i).box, b_.node(k).box) * shrink_;
     if (nearest_.canImprove(bound)) stack.push_back({i, k, bound});
   }
-  void opened(std::vector<Item>& stack, std::size_t first) {  // the nearest first
+  void opened(std::vector<Item>& stack, std::size_t first) {  // visit the nearest pair first
     std::ranges::sort(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end(),
                       std::ranges::greater(), &Item::bound);
   }

@@ -4,16 +4,17 @@
 
 namespace corridor {
 
-/// Points of two triangles that are closest to each other as far as features go: of all pairs of
-/// edges and of corner and face. Where the triangles don't cross, these are the closest points, up
-/// to rounding; where they do, it says nothing. Never a proof by itself: a caller verifies what he
-/// takes from it (a direction, say) by projections. Source: Ericson, Real-Time Collision Detection,
+/// The closest points over all pairs of features of two triangles: two edges, or a corner and a
+/// face. If the triangles don't cross, these are their closest points up to rounding; if they
+/// cross, the result means nothing. It is never a proof by itself: the caller verifies what it
+/// uses, for example a direction, by projections. Source: Ericson, Real-Time Collision Detection,
 /// 2005, sections 5.1.5 and 5.1.9.
 struct ClosestPoints {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   double squaredDistance = 0;
-  /// Whose they are: 3·i + k for edges i of a and k of b (from that corner to the next), 9 + k for
-  /// b's corner k over a's face, 12 + i for a's corner i over b's.
+  /// The pair of features that the points belong to: 3·i + k for edge i of a and edge k of b (each
+  /// from the corner of that number to the next), 9 + k for b's corner k over a's face, 12 + i for
+  /// a's corner i over b's face.
   int feature = 0;
 };
 ClosestPoints closestFeaturePoints(const Triangle& a, const Triangle& b);

@@ -6,7 +6,7 @@
 namespace corridor {
 namespace {
 
-/// Below the pairs of nodes that `context.stack` holds.
+/// Finds the first contact below the node pairs in `context.stack`.
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
 std::optional<TrianglePair> firstContactBelow(const TreeA& a, const Transform& X_WA, const TreeB& b,
                                               const Transform& X_WB, QueryContext& context,

@@ -11,27 +11,30 @@
 
 namespace corridor {
 
-/// The items' side of a distance query, whatever trees and items: keeps the pairs that may be the
-/// closest by ranges of their distances, to be measured again with all digits.
+/// The leaf side of a distance query, for any trees and leaf primitives. Keeps the pairs that may
+/// be the closest, each with a proved range of its distance, and in the end measures them with all
+/// digits.
 class NearestPairs {
  public:
-  /// Its list is the context's.
+  /// Clears `context.candidates` and keeps its list there.
   NearestPairs(const DistanceOptions& options, QueryContext& context)
       : options_(options), relative_(options.relative + kGiven), candidates_(context.candidates) {
     candidates_.clear();
   }
 
-  /// An upper bound of the distance so far, metres.
+  /// Returns the least upper bound of the distance so far, metres.
   double upper() const { return upper_; }
 
-  /// Might something at least `bound` away be closer than the best by more than the options allow?
-  /// What may touch always might, so that only contact is 0; and so might a NaN.
+  /// Returns whether a pair at least `bound` apart may be closer than the best by more than the
+  /// options allow. Always true for a pair that may touch (bound 0), so that only contact gives 0,
+  /// and for a NaN.
   bool canImprove(double bound) const {
     return bound == 0 || !(bound * (1 + relative_) + options_.absolute >= upper_);
   }
 
  protected:
-  /// A pair of items, in leaf order, and a proved range of its distance.
+  /// Keeps a pair of leaf primitives, numbered in leaf order, with a proved range of its distance,
+  /// unless it can't improve the result.
   void keep(std::uint32_t s, std::uint32_t t, double lower, double upper) {
     if (!canImprove(lower)) return;
     if (upper < upper_) {
@@ -40,14 +43,14 @@ class NearestPairs {
     }
     candidates_.push_back({s, t, lower});
   }
-  /// A pair that touches: nothing can be closer.
+  /// Keeps only this pair, which touches: no other can be closer.
   void keepContact(std::uint32_t s, std::uint32_t t) {
     candidates_.assign(1, {s, t, 0});
     contact_ = true;
   }
   bool contact() const { return contact_; }
 
-  /// The closest of all by `measure(s, t)`, which gives `distance`, `p_WA` and `p_WB`.
+  /// Returns the closest of the pairs kept. `measure(s, t)` returns `distance`, `p_WA` and `p_WB`.
   template <class TreeA, class TreeB, class Measure>
   Distance closest(const TreeA& a, const TreeB& b, const Measure& measure) {
     Distance best;
@@ -61,15 +64,16 @@ class NearestPairs {
       if (!(w.distance < best.distance)) continue;
       best = {w.distance, w.p_WA, w.p_WB, a.meshTriangle(s), b.meshTriangle(t)};
     }
-    // Only contact is 0, and what is not contact is not.
+    // The result is 0 for contact, and only for contact.
     best.distance = contact_ ? 0 : std::max(best.distance, std::numeric_limits<double>::min());
     return best;
   }
 
  private:
-  /// Of the 1e-12·d that distance.h grants: pairs that tie but for that, as all triangles about one
-  /// corner do, are measured once. Twice, since what ruled a pair out may be left unmeasured
-  /// itself; where it is measured, `convexDistance` takes 2^-41. Both leave room for rounding.
+  /// A share of the error 1e-12·d that distance.h allows. Pairs that tie within this share, as all
+  /// triangles around one corner do, are measured only once. The share is spent twice, because the
+  /// pair that ruled out another may itself be left unmeasured. If that pair is measured,
+  /// `convexDistance` spends 2^-41 instead. Both sums leave room for rounding.
   static constexpr double kGiven = 0.49e-12;
 
   const DistanceOptions& options_;

@@ -8,7 +8,8 @@
 
 namespace corridor {
 
-/// The side of convex parts, or of parts and triangles, in a distance query, as `NearestTriangles`.
+/// The leaf side of a distance query on convex parts, or on convex parts and triangles, as
+/// `NearestTriangles` is for triangles.
 class NearestParts : public NearestPairs {
  public:
   NearestParts(const Transform& X_WA, double reachA, const Transform& X_WB, double reachB,
@@ -16,16 +17,16 @@ class NearestParts : public NearestPairs {
       : NearestPairs(options, context),
         X_WA_(X_WA),
         X_WB_(X_WB),
-        // Twice the band of `convexSetsTouch`, at least.
+        // At least twice the band of `convexSetsTouch`.
         band_(0x1p-42 *
               (X_WA.m.norm() * reachA + X_WA.t.norm() + X_WB.m.norm() * reachB + X_WB.t.norm())),
         context_(context) {}
 
-  /// Looks at a pair, by its numbers in leaf order; true where it touches.
+  /// Bounds a pair of leaf primitives, numbered in leaf order; returns whether it touches.
   bool look(std::uint32_t s, const ConvexSet& a, std::uint32_t t, const ConvexSet& b,
             Counters& counters) {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);
-    Counters own;  // who shows a pair has counted it
+    Counters own;  // the caller has already counted this pair
     const ConvexRange range = convexDistanceRange(posedA, posedB, upper(), 0, own);
     const bool touches = range.lower == 0 && convexSetsTouch(posedA, posedB, own);
     counters.exactTests += own.exactTests;
@@ -36,8 +37,8 @@ class NearestParts : public NearestPairs {
     return touches;
   }
 
-  /// The closest of all. In the band of `convexSetsTouch`, where the volumes that another order of
-  /// queries looks at may decide, it is `interference` that says what is contact.
+  /// Returns the closest pair. Within the band of `convexSetsTouch` the verdict may depend on which
+  /// volumes are tested first; there `interference` decides whether there is contact.
   template <class Tree>
   Distance result(const Tree& a, const Tree& b) {
     const auto measure = [&](std::uint32_t s, std::uint32_t t) {
@@ -49,7 +50,7 @@ class NearestParts : public NearestPairs {
     };
     Distance best = closest(a, b, measure);
     if (!contact() && best.distance > band_) return best;
-    --context_.counters.states;  // one query to its caller
+    --context_.counters.states;  // the caller counts this as one query
     const bool touches = interference(a, X_WA_, b, X_WB_, context_).has_value();
     best.distance = touches ? 0 : std::max(best.distance, std::numeric_limits<double>::min());
     return best;
@@ -61,13 +62,14 @@ class NearestParts : public NearestPairs {
   QueryContext& context_;
 };
 
-/// Likewise in a tolerance query: are two of them at most d apart?
+/// Tests whether two leaf primitives are at most d apart: the leaf test of tolerance queries on
+/// convex parts, or on convex parts and triangles.
 class CloserParts {
  public:
   CloserParts(const Transform& X_WA, double, const Transform& X_WB, double, double d)
       : X_WA_(X_WA), X_WB_(X_WB), d_(d) {}
 
-  /// `false` is a proof.
+  /// `false` is a proof that they are farther apart than d.
   bool operator()(const ConvexSet& a, const ConvexSet& b, Counters& counters) const {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);
     Counters own;

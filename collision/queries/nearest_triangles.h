@@ -6,11 +6,11 @@
 
 namespace corridor {
 
-/// The triangles' side of a distance query: bounds the pairs that it is shown, in double, and
-/// measures those that may be the closest again in double-double.
+/// The leaf side of a distance query on triangles. Bounds each pair in double, and in the end
+/// measures those that may be the closest in double-double.
 class NearestTriangles : public NearestPairs {
  public:
-  /// For triangles within `reachA`, `reachB` of their frames' origins.
+  /// @param reachA, reachB  metres: each triangle lies within this distance of its frame's origin.
   NearestTriangles(const Transform& X_WA, double reachA, const Transform& X_WB, double reachB,
                    const DistanceOptions& options, QueryContext& context)
       : NearestPairs(options, context),
@@ -18,8 +18,8 @@ class NearestTriangles : public NearestPairs {
         X_WB_(X_WB),
         bounds_(X_WA, reachA, X_WB, reachB) {}
 
-  /// Looks at a pair, by its numbers in leaf order; true where it is a contact: nothing can be
-  /// closer.
+  /// Bounds a pair of triangles, numbered in leaf order. Returns true if it touches: then no other
+  /// pair can be closer.
   bool look(std::uint32_t s, const Triangle& a, std::uint32_t t, const Triangle& b,
             Counters& counters) {
     const DistanceRange range = bounds_(a, b);
@@ -31,17 +31,18 @@ class NearestTriangles : public NearestPairs {
     return false;
   }
 
-  /// The closest of all; `triangle(i)`, `meshTriangle(i)` give corners and numbers in the mesh.
+  /// Returns the closest pair. The trees' `triangle(i)` returns corners, `meshTriangle(i)` the
+  /// number in the mesh.
   template <class TreeA, class TreeB>
   Distance result(const TreeA& a, const TreeB& b) {
     return closest(a, b, [&](std::uint32_t s, std::uint32_t t) {
-      return closestPoints(a.triangle(s), X_WA_, b.triangle(t), X_WB_);
+      return witnessPoints(a.triangle(s), X_WA_, b.triangle(t), X_WB_);
     });
   }
 
  private:
   bool touch(const Triangle& a, const Triangle& b, Counters& counters) const {
-    Counters own;  // who shows a pair has counted it
+    Counters own;  // the caller has already counted this pair
     const bool touches = trianglesTouch(a, X_WA_, b, X_WB_, own);
     counters.exactTests += own.exactTests;
     return touches;

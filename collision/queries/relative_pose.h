@@ -4,9 +4,9 @@
 
 namespace corridor {
 
-/// How far X_WA·(X_AB·p) may be from X_WB·p for |p| ≤ reach, brought back to frame A, metres: a
-/// contact in W is, in A, a pair of points at most this far apart, so that boxes farther apart have
-/// none. Infinite where X_WA is far from rigid.
+/// Returns an upper bound of the distance between X_WA·(X_AB·p) and X_WB·p for |p| ≤ reach,
+/// measured in frame A; metres. Two points that coincide in W are at most this far apart in A. So
+/// boxes that are farther apart in A have no contact. Infinite if X_WA is far from rigid.
 double relativePoseError(const Transform& X_WA, const Transform& X_AB, const Transform& X_WB,
                          double reach);
 

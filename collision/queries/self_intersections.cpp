@@ -14,7 +14,7 @@
 namespace corridor {
 namespace {
 
-/// A triangle's corners, those first that it shares with another one.
+/// A triangle's corners; those that it shares with another triangle come first.
 struct Corners {
   Triangle t;
   int shared = 0;
@@ -28,7 +28,7 @@ Corners sharedFirst(const Triangle& t, const Triangle& other) {
   return c;
 }
 
-/// Do the convex hulls of up to three points each touch?
+/// Tests whether the convex hulls of up to three points each touch.
 bool touch(const Triangle& a, const Triangle& b, Counters& counters) {
   return trianglesTouch(a, {}, b, {}, counters);
 }
@@ -36,7 +36,7 @@ Triangle edge(const Vec3& p, const Vec3& q) {
   return {p, q, q};
 }
 
-/// Do the corners lie on a line? Exactly: then every component of the normal is 0.
+/// Tests exactly whether the corners lie on a line: then every component of the normal is 0.
 bool onALine(const Triangle& t) {
   const Transform here;
   for (int k = 0; k < 3; ++k) {
@@ -46,41 +46,44 @@ bool onALine(const Triangle& t) {
   return true;
 }
 
-/// Does a triangle meet another one, of which it shares a corner or more, beyond what they share?
-/// Neither has its corners on a line.
+/// Tests whether two triangles that share one or two corners meet anywhere beyond what they share.
+/// @pre Neither has its corners on a line.
 bool meetBeyond(const Corners& a, const Corners& b, Counters& counters) {
   const auto& [s, count] = a;
   const Triangle& t = b.t;
-  // What they have in common is convex. If it is more than one shared corner, it goes on from there
-  // until it leaves one of them, through that one's edge opposite the corner.
+  // Their intersection is convex. If it is more than the one shared corner, it extends from there
+  // until it leaves one of the triangles through the edge opposite that corner.
   if (count == 1)
     return touch(edge(s[1], s[2]), t, counters) || touch(edge(t[1], t[2]), s, counters);
-  // If it is more than a shared edge, they overlap in one plane, on the same side of that edge: one
-  // holds the other's third corner, or edges to these cross.
+  // If their intersection is more than the shared edge, they overlap in one plane, on the same side
+  // of that edge. Then one triangle contains the other's third corner, or edges to the third
+  // corners cross.
   const Vec3 &p = s[0], &q = s[1], &c = s[2], &d = t[2];
   return touch(edge(c, c), t, counters) || touch(edge(d, d), s, counters) ||
          touch(edge(c, p), edge(d, q), counters) || touch(edge(c, q), edge(d, p), counters);
 }
 
-/// What `traverse` asks: the tree against itself, each pair of leaves in one order only.
+/// The query that `traverse` runs on a tree against itself. It tests each pair of leaves in one
+/// order only.
 class SelfPairs {
  public:
   using Item = QueryContext::NodePair;
   using Tree = VolumeTree<Aabb>;
   using Node = Tree::Node;
 
-  /// @param qualities  by the mesh's numbers.
+  /// @param qualities  indexed by a triangle's number in the mesh.
   SelfPairs(const Tree& tree, const std::vector<TriangleQuality>& qualities, Counters& counters)
       : tree_(tree), test_(pairTestOf<Aabb>(tree, {}, tree, {})), counters_(counters) {
-    // What is degenerate is so for people: beside a large mesh, a small part of it. Their bound is
-    // 1e-12 of the squared diagonal, where rounding is below 1e-15 of it: all on a line are among.
+    // `degenerate` is a bound for people and includes small triangles of a large mesh. It is 1e-12
+    // of the squared diagonal, where rounding is below 1e-15 of it. So it includes every triangle
+    // whose corners lie on a line, and the exact test finds these.
     for (std::uint32_t s = 0; s < qualities.size(); ++s)
       onALine_.push_back(qualities[tree.meshTriangle(s)] == TriangleQuality::degenerate &&
                          onALine(tree.triangle(s)));
   }
 
   bool enter(const Item&, const Node& na, const Node& nb) {
-    if (na.first >= nb.first + nb.count) return false;  // its mirror image is looked at
+    if (na.first >= nb.first + nb.count) return false;  // the mirrored pair is tested instead
     ++counters_.boxTests;
     return !test_.separated(na.box, nb.box, 0);
   }
@@ -113,7 +116,7 @@ class SelfPairs {
   const Tree& tree_;
   PairTest<Aabb, StandardOverlap> test_;
   Counters& counters_;
-  std::vector<bool> onALine_;  // by the tree's numbers
+  std::vector<bool> onALine_;  // indexed by a triangle's number in the tree
   std::vector<TrianglePair> found_;
 };
 

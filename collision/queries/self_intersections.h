@@ -8,15 +8,15 @@
 
 namespace corridor {
 
-/// All pairs of triangles of a mesh (a < b, in that order) that intersect anywhere but in the
-/// corners and edges that they share. Exact. Corners are the same where their positions are,
-/// whatever their indices. A corner that touches a triangle without being one of its corners
-/// counts.
+/// Returns all pairs of triangles of a mesh (a < b, in that order) that intersect anywhere except
+/// in the corners and edges that they share. Exact. Corners are the same if their positions are
+/// equal, whatever their indices. A corner that touches a triangle without being one of its corners
+/// counts as an intersection.
 ///
-/// Left aside: triangles whose corners lie on a line, and pairs with the same three corners, which
-/// `inspectMesh` counts as degenerate and repeated. About a microsecond for each of the some
-/// twelve neighbours that a triangle has.
-/// @pre `checkMesh` has nothing to complain of.
+/// Skipped: triangles whose corners lie on a line, and pairs with the same three corners.
+/// `inspectMesh` counts these as degenerate and as repeated. Costs about a microsecond for each of
+/// the roughly twelve neighbours of a triangle.
+/// @pre `checkMesh` finds no fault.
 std::vector<TrianglePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context);
 
 }  // namespace corridor

@@ -4,23 +4,26 @@
 
 #include "collision/core/rounding.h"
 #include "collision/hierarchy/with_volume.h"
-#include "collision/queries/distance_wide.h"
+#include "collision/queries/distance_obb4.h"
 
 namespace corridor {
 namespace {
 
-/// Calls `query` with both bodies' trees.
+/// Calls `query` with both bodies' trees of the kind `trees`; binary trees of OBBs replace 4-wide
+/// ones where a body is a convex part.
 template <class Query>
 auto onTrees(TreeKind trees, const Body& a, const Body& b, const Query& query) {
-  if (trees == TreeKind::wideObb && !a.part() && !b.part()) return query(a.tree(), b.tree());
-  return onVolumeTrees(trees == TreeKind::wideObb ? TreeKind::obb : trees, a, b,
+  if (trees == TreeKind::obb4 && !a.part() && !b.part()) return query(a.tree(), b.tree());
+  return onVolumeTrees(trees == TreeKind::obb4 ? TreeKind::obbBinary : trees, a, b,
                        [&](auto, const auto& ta, const auto& tb) { return query(ta, tb); });
 }
 
-/// What a distance told may be off by, beside a share `kShare` of it: 4u·S by its promise, S the
-/// largest Σ|m||v| + |t|, at most √3(|v| + |t|) of one body where maps are nearly rigid; and
-/// 3·2^-48 of a ball's radius, where its map is not a rotation bit for bit. Metres.
-constexpr double kShare = 2e-12;  // twice the promised 1e-12, for the roundings here
+/// A reported distance is off by at most this share of it plus `errorOf`. The share is twice the
+/// guaranteed 1e-12, to cover the roundings here.
+constexpr double kShare = 2e-12;
+/// Returns the absolute error of a reported distance, metres. It covers the guaranteed 4u·S, where
+/// S is the largest Σ|m||v| + |t|: at most √3(|v| + |t|) of one body if the maps are nearly rigid.
+/// It also covers 3·2^-48 of a swept sphere's radius, if its map is not a rotation bit for bit.
 double errorOf(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB) {
   return roundedUp(0x1p-45 *
                    (a.radius() + X_WA.t.cwiseAbs().sum() + b.radius() + X_WB.t.cwiseAbs().sum()));

@@ -13,7 +13,7 @@
 
 namespace corridor {
 
-/// How the volumes of two trees are tested under two maps.
+/// Returns the test of two trees' volumes under two maps.
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
 PairTest<Volume, Overlap> pairTestOf(const TreeA& a, const Transform& X_WA, const TreeB& b,
                                      const Transform& X_WB) {
@@ -22,16 +22,17 @@ PairTest<Volume, Overlap> pairTestOf(const TreeA& a, const Transform& X_WA, cons
   return {a.bounds(), b.bounds(), X_AB, relativePoseError(X_WA, X_AB, X_WB, b.reach())};
 }
 
-/// An item of a tree, in leaf order: a convex part, or a triangle, which is convex, too.
+/// Returns a tree's leaf primitive, numbered in leaf order, as a convex set. It is a convex part,
+/// or a triangle, which is convex, too.
 template <class Tree>
 ConvexSet convexSetOf(const Tree& tree, std::uint32_t item) {
   return tree.part(item) ? ConvexSet(*tree.part(item)) : ConvexSet(tree.triangles()[item]);
 }
 
-/// What `traverse` (hierarchy/traverse.h) asks, for items of two trees that touch: a pair whose
-/// volumes are apart is dropped, and `Found(s, t)`, in leaf order, is told each pair of items in
-/// contact, until it returns true. Ends, as if there were no more, once the counted tests reach
-/// `workEnd`.
+/// The query that `traverse` (hierarchy/traverse.h) runs to find touching leaf primitives of two
+/// trees. It drops node pairs whose volumes are separated, and calls `Found(s, t)`, numbered in
+/// leaf order, for each touching pair until that returns true. It ends, as if there were no more
+/// pairs, once the counted tests reach `workEnd`.
 template <class TreeA, class TreeB, class Test, class Found>
 class TouchingPairs {
  public:
@@ -54,7 +55,6 @@ class TouchingPairs {
     ++counters_.boxTests;
     return !test_.separated(na.box, nb.box, 0);
   }
-  /// All of one leaf's items against all of the other's.
   bool leaves(const typename TreeA::Node& na, const typename TreeB::Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t)
@@ -64,7 +64,7 @@ class TouchingPairs {
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
     stack.push_back({i, k, 0});
   }
-  void opened(std::vector<Item>& stack, std::size_t first) {  // the first child first
+  void opened(std::vector<Item>& stack, std::size_t first) {  // visit the first child first
     std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end());
   }
 

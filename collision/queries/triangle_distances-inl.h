@@ -1,5 +1,5 @@
-// Distances of four triangles from four, for every SIMD target: included once per target by
-// foreach_target.h.
+// Distances of sixteen pairs of triangles, for every SIMD target: foreach_target.h includes this
+// file once per target.
 
 // clang-format off
 #if defined(CORRIDOR_TRIANGLE_DISTANCES_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -21,8 +21,9 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Between the closest points of an edge or corner of a's and one of b's, or of a corner and a
-/// face, of pairs of triangles (Ericson 2005, 5.1.5, 5.1.9): a vector and its square.
+/// For each lane's pair of triangles, the vector from a point of a to a point of b, and its square.
+/// The points are the closest ones of an edge or corner of a and one of b, or of a corner and a
+/// face (Ericson 2005, 5.1.5, 5.1.9).
 struct ClosestLanes {
   LaneVec n;
   LaneFloat square;
@@ -38,7 +39,7 @@ HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
     return Vec{hn::Mul(p.x, s), hn::Mul(p.y, s), hn::Mul(p.z, s)};
   };
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0F);
-  // In [0, 1] whatever x is, NaN too.
+  // Returns a value in [0, 1] whatever x is, also for NaN.
   const auto clamped = [&](V x) {
     return hn::IfThenElse(hn::Gt(x, zero), hn::IfThenElse(hn::Lt(x, one), x, one), zero);
   };
@@ -74,7 +75,8 @@ HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
       const V z = clamped(hn::Mul(hn::Add(hn::Mul(ef, y), er), perE[i]));
       offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kTriangleLanes));
     }
-  // Corners over the face at `at0`, whose edges there are u and v, less their feet in it.
+  // Offers the corners `ps` less their feet in a face. The face has the corner `at0`, and u and v
+  // are its edges from there.
   const auto faces = [&](const Vec* ps, const Vec& at0, const Vec& u, const Vec& v, V uu, V vv,
                          bool flip) {
     const V uv = dot(u, v);
@@ -96,22 +98,24 @@ HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
   return {n, least};
 }
 
-/// Of sixteen pairs of triangles the distance of two points, at least the distance, and the gap
-/// along the line through them, at most the distance: each with all rounding in it, `error`
-/// included, the distance that the corners given may be off by, both sides together. Crossing
-/// triangles' are not told (upper is right, and lower 0). Where nothing can be told, [0, inf].
+/// Bounds the distances of sixteen pairs of triangles. `upper` is the distance of two points of the
+/// triangles, so at least their distance. `lower` is the gap along the line through these points,
+/// so at most their distance. Both include all rounding, and `error`, the distance by which the
+/// given corners may be off, both sides together. For crossing triangles `upper` is right and
+/// `lower` is 0. Where nothing can be proved, the range is [0, inf].
 ///
-/// The points are the closest of two edges, or of a corner and a face (Ericson 2005, 5.1.5, 5.1.9):
-/// whichever they are, they are points of the triangles but for rounding, and any direction bounds
-/// from below, so that nothing depends on how well they were found.
+/// The points are the closest of two edges, or of a corner and a face (Ericson 2005, 5.1.5, 5.1.9).
+/// They are points of the triangles up to rounding, and any direction bounds from below. So the
+/// proof does not depend on how well they were found.
 ///
-/// Rounding, u = 2^-24; all is relative to a corner of a's triangle, and each corner is off by 3u·D
-/// a coordinate (`TrianglePairs`, D its size). A point of an edge or a face is
-/// evaluated with less than 6u·D more, and parameters that add up to 1 + u put it out by u·D: two
-/// points, their difference and its length are off by √3(2·10 + 2)u·D < 40u·D. A direction's
-/// projections: 3u + √3·3u of |n|·D on each side, and a quotient: 20u·D. Products that underflow,
-/// flushed or not, lose less than 2^-124 a sum: 2^-62 of a length where nothing else is left, 2^-25
-/// of it above 2^-50, and of a projection onto such an n less than u·|n|·D; below, `lower` is 0.
+/// Rounding, u = 2^-24: all coordinates are relative to a corner of a's triangle, and each corner
+/// is off by 3u·D a coordinate (D is the pair's size in `TrianglePairs`). A point of an edge or a
+/// face is evaluated with less than 6u·D more, and parameters that add up to 1 + u move it by u·D.
+/// Two points, their difference and its length are therefore off by √3(2·10 + 2)u·D < 40u·D. A
+/// direction's projections are off by 3u + √3·3u of |n|·D on each side, with the quotient 20u·D.
+/// Products that underflow, flushed or not, lose less than 2^-124 per sum. That is a length of
+/// 2^-62 where nothing else is left, 2^-25 of a length above 2^-50, and less than u·|n|·D of a
+/// projection onto such an n. Below 2^-50, `lower` is 0.
 HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorners& b,
                                   const TriangleNumbers& numbers, float error,
                                   float* HWY_RESTRICT lower, float* HWY_RESTRICT upper) {
@@ -125,7 +129,8 @@ HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorner
     const LaneVec* const t = pairs.t;
     const auto [n, least] = closestLanes(pairs);
     const V D = pairs.size;
-    // Squares don't overflow; their products, in parameters, may: NaN, clamped or not inside.
+    // Squares don't overflow. Their products in the parameters may: a NaN, which is clamped or not
+    // inside.
     const auto known = hn::Lt(D, hn::Set(d, 0x1p50F));
     const V off = hn::Add(hn::Set(d, error), hn::Mul(hn::Set(d, 48 * 0x1p-24F), D));
     const V length = hn::Sqrt(least);

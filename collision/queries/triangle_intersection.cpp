@@ -27,11 +27,11 @@ Double2 determinant(const Vector2& a, const Vector2& b, const Vector2& c) {
 
 /// Two triangles in general position, in double-double.
 ///
-/// With v = 2^-106, S the largest Σ|m||v| + |t|: a mapped coordinate (three exact products, three
-/// additions of relative error 3v) is off by at most 10·v·S, a difference by e = 26·v·S. With D the
-/// largest difference, D ≤ 2.1·S: a determinant moves by at most 18·e·D² under that, and its
-/// evaluation (two products of 7v and three sums of 3v a term, six terms) loses at most
-/// 6·23·v·D³ ≤ 290·v·S·D²; together below 2^10·v·S·D², and twice that is the bound B.
+/// Error bound, with v = 2^-106 and S the largest Σ|m||v| + |t|: a mapped coordinate (three exact
+/// products, three additions of relative error 3v) is off by at most 10·v·S, a difference by e =
+/// 26·v·S. Let D be the largest difference, D ≤ 2.1·S. These errors move a determinant by at most
+/// 18·e·D². Its evaluation (two products of 7v and three sums of 3v a term, six terms) loses at
+/// most 6·23·v·D³ ≤ 290·v·S·D². The sum is below 2^10·v·S·D²; twice that is the bound B.
 class Crossing {
  public:
   Crossing(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB) {
@@ -52,15 +52,17 @@ class Crossing {
     bound_ = 0x1p-95 * S_ * D_ * D_;
   }
 
-  /// None where this arithmetic can't tell.
+  /// Returns the common segment, or nullopt if this arithmetic can't decide.
   std::optional<Segment> segment() const {
-    // Products of three differences, and the error of each, stay well within the range of doubles.
+    // Within these limits, products of three differences and their errors stay in the range of
+    // doubles.
     if (!(D_ > 0x1p-200 && S_ < 0x1p200)) return std::nullopt;
     std::array<Vector2, 4> ends;
     if (!crossings(a_, b_, &ends[0]) || !crossings(b_, a_, &ends[2])) return std::nullopt;
-    // All four are on one line, each triangle has the part between its two; they touch, so the two
-    // in the middle are the ends of the common part. The axis along which the four spread most
-    // orders them up to their error, and points in the wrong order are apart by that only.
+    // All four points lie on one line, and each triangle has the segment between its two. The
+    // triangles touch, so the two points in the middle are the ends of the common segment. The axis
+    // along which the four spread most orders them up to their error. Points in the wrong order are
+    // apart only by that error.
     int axis = 0;
     double spread = -1;
     for (int k = 0; k < 3; ++k) {
@@ -78,7 +80,7 @@ class Crossing {
       s.p[k] = ends[1][k].hi;
       s.q[k] = ends[2][k].hi;
     }
-    // So short that it may be a point: integers tell.
+    // So short that it may be a point: integers decide.
     if ((s.q - s.p).cwiseAbs().maxCoeff() < 0x1p-48 * S_) return std::nullopt;
     return s;
   }
@@ -97,7 +99,8 @@ class Crossing {
     return to;
   }
 
-  /// Where two edges of t cross the plane of `plane`.
+  /// Computes where two edges of t cross the plane of `plane`. Returns false if they don't, or if
+  /// double-double can't decide or is not precise enough.
   bool crossings(const Corners& t, const Corners& plane, Vector2* to) const {
     const Vector2 u = plane[1] - plane[0], v = plane[2] - plane[0];
     std::array<Double2, 3> side;
@@ -111,8 +114,8 @@ class Crossing {
     for (const std::size_t step : {1u, 2u}) {
       const std::size_t other = (alone + step) % 3;
       if (above[alone] == above[other]) return false;
-      // p + (q − p)·t, t = x/(x + y) with x, y > 0 each off by B: t is off by B/(x + y) and less
-      // than that again, the point by D times as much.
+      // The point is p + (q − p)·t with t = x/(x + y), where x, y > 0 are each off by B. Then t is
+      // off by B/(x + y) and less than that again, and the point by D times as much.
       const Double2 whole = side[alone] - side[other];
       if (!(D_ * bound_ <= 0x1p-56 * S_ * std::abs(whole.hi))) return false;
       const Double2 share = side[alone] / whole;

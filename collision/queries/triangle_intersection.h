@@ -9,18 +9,19 @@ struct Segment {
   Vec3 p = Vec3::Zero(), q = Vec3::Zero();
 };
 
-/// The longest segment within what two triangles, each under its map, share: of triangles that
-/// cross, all of it; of coplanar ones, between the two corners of their common polygon that are
-/// farthest apart (a tie, or a difference below rounding, goes to either); a point: both ends
-/// equal, bit for bit.
+/// Computes the longest segment within the intersection of two triangles, each under its map. For
+/// triangles that cross it is the whole intersection. For coplanar ones it joins the two corners of
+/// their common polygon that are farthest apart; a tie, or a difference below rounding, may go to
+/// either. For a single point both ends are equal, bit for bit.
 ///
-/// Each coordinate of an end is off the true one by at most 2^-50·S, S the largest Σ|m||v| + |t| of
-/// the corners mapped. Double-double arithmetic where it proves that of itself, integers elsewhere.
-/// @pre they touch (`trianglesTouch`); all numbers finite.
+/// Each coordinate of an end is off by at most 2^-50·S, where S is the largest Σ|m||v| + |t| of the
+/// mapped corners. Double-double arithmetic is used where it proves that bound itself, integers
+/// elsewhere.
+/// @pre The triangles touch (`trianglesTouch`); all numbers are finite.
 Segment triangleIntersection(const Triangle& a, const Transform& X_WA, const Triangle& b,
                              const Transform& X_WB);
 
-/// The same by integers alone: ends are the true ones rounded to the nearest doubles.
+/// The same by integers alone: the ends are the true ones, rounded to the nearest doubles.
 Segment triangleIntersectionExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                   const Transform& X_WB);
 

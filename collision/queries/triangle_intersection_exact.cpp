@@ -18,15 +18,16 @@ using exact::Points;
 using exact::sign;
 using exact::Vector;
 
-/// numerator/denominator·2^exponent to the nearest double, so that equal values give equal doubles.
+/// Returns numerator/denominator·2^exponent rounded to the nearest double, so that equal values
+/// give equal doubles.
 template <class Int>
 double roundedQuotient(Int numerator, Int denominator, int exponent) {
   if (numerator.is_zero()) return 0;
   const bool negative = (numerator.sign() < 0) != (denominator.sign() < 0);
   numerator = abs(numerator);
   denominator = abs(denominator);
-  // A quotient of 63 or 64 bits; what the division leaves is told by its last bit, which is below
-  // half an ulp of the 53 that stay.
+  // The quotient has 63 or 64 bits. Its last bit also records whether a remainder is left; that bit
+  // is below half an ulp of the 53 bits that stay.
   const int shift = 63 - (static_cast<int>(msb(numerator)) - static_cast<int>(msb(denominator)));
   if (shift > 0)
     numerator <<= static_cast<unsigned>(shift);
@@ -39,8 +40,8 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   return negative ? -value : value;
 }
 
-/// Corners of what two triangles share, found as the ends of each edge's part in the other
-/// triangle.
+/// The corners of the intersection of two triangles, found as the ends of each edge's piece inside
+/// the other triangle.
 template <class Int>
 class Corners {
  public:
@@ -52,7 +53,7 @@ class Corners {
     }
   }
 
-  /// The two that are farthest apart.
+  /// Returns the two corners that are farthest apart.
   Segment longest() const {
     Segment best{found_.at(0), found_.at(0)};
     double length = 0;
@@ -66,7 +67,7 @@ class Corners {
   }
 
  private:
-  /// The point p + (q − p)·numerator/denominator.
+  /// Adds the point p + (q − p)·numerator/denominator.
   void add(const Vector<Int>& p, const Vector<Int>& q, const Int& numerator,
            const Int& denominator) {
     const Vector<Int> d = q - p;
@@ -78,7 +79,7 @@ class Corners {
   }
   void add(const Vector<Int>& p) { add(p, p, Int(0), Int(1)); }
 
-  /// On one line: is x between r and s?
+  /// Tests whether x is between r and s. @pre All three are on one line.
   static bool between(const Vector<Int>& x, const Vector<Int>& r, const Vector<Int>& s) {
     for (int i = 0; i < 3; ++i) {
       const Int &c = coordinate(x, i), &d = coordinate(r, i), &e = coordinate(s, i);
@@ -87,13 +88,14 @@ class Corners {
     return true;
   }
 
-  /// Closed segments, each possibly a point.
+  /// Adds the ends of the intersection of the closed segments pq and rs; each segment may be a
+  /// point.
   void meet(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>& r,
             const Vector<Int>& s) {
     const Vector<Int> d = q - p, e = s - r, f = r - p, n = cross(d, e);
     if (!n.isZero()) {
       if (sign(dot(n, f)) != 0) return;
-      // p + d·t = r + e·u: t·n = f × e, u·n = f × d. All three are parallel to n.
+      // p + d·t = r + e·u gives t·n = f × e and u·n = f × d. All three vectors are parallel to n.
       const int k = dropAxis(n);
       const Int& whole = coordinate(n, k);
       const Int t = coordinate(cross(f, e), k), u = coordinate(cross(f, d), k);
@@ -111,19 +113,20 @@ class Corners {
       if (between(*x, p, q)) add(*x);
   }
 
-  /// The part of the segment pq in the triangle t of normal n (zero: degenerate).
+  /// Adds the ends of the piece of the segment pq inside the triangle t of normal n (zero if t is
+  /// degenerate).
   void clip(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t,
             const Vector<Int>& n) {
     const Int sideP = dot(n, p - t[0]), sideQ = dot(n, q - t[0]);
     if (sign(sideP) * sign(sideQ) > 0) return;
-    if (sideP.is_zero() && sideQ.is_zero()) {  // in its plane, or it is all rim
+    if (sideP.is_zero() && sideQ.is_zero()) {  // pq is in the plane of t, or t is degenerate
       for (int i = 0; i < 3; ++i) meet(p, q, t[i], t[(i + 1) % 3]);
       for (const Vector<Int>* x : {&p, &q})
         if (!n.isZero() && inside(*x, n, t)) add(*x);
       return;
     }
-    // The line crosses the plane in one point, which is in the triangle unless it is left of one
-    // edge and right of another.
+    // The line crosses the plane in one point. That point is in the triangle unless the line passes
+    // left of one edge and right of another.
     const Vector<Int> d = q - p;
     bool positive = false, negative = false;
     for (int i = 0; i < 3; ++i) {
@@ -134,7 +137,7 @@ class Corners {
     if (!(positive && negative)) add(p, q, sideP, Int(sideP - sideQ));
   }
 
-  /// Of a point in the plane of a triangle that is none.
+  /// Tests whether x, a point in the plane of t, is inside t. @pre t is not degenerate.
   static bool inside(const Vector<Int>& x, const Vector<Int>& n, const Points<Int>& t) {
     const int k = dropAxis(n);
     for (int i = 0; i < 3; ++i) {
@@ -164,9 +167,10 @@ Segment triangleIntersectionExact(const Triangle& a, const Transform& X_WA, cons
   exact::Grid grid;
   grid.include(cornersA);
   grid.include(cornersB);
-  // With coordinates below 2^k, signed volumes are below 2^(3k+6) (triangle_contact_exact.cpp), a
-  // point's numerators below 2^(4k+9); the division shifts by at most 64 + 4k + 9 − 0 bits more
-  // only where the numerator is that much shorter than the denominator, so to at most 3k + 72.
+  // Let coordinates be below 2^k. Then signed volumes are below 2^(3k+6)
+  // (triangle_contact_exact.cpp), and a point's numerators below 2^(4k+9). The division shifts a
+  // numerator up only if the numerator has few bits compared with the denominator. The shifted
+  // numerator has at most 3k + 72 bits.
   const int bits = 4 * grid.coordinateBits() + 80;
   if (bits <= 1024) return longestSegment<exact::FixedInt<1024>>(cornersA, cornersB, grid);
   return longestSegment<exact::BigInt>(cornersA, cornersB, grid);

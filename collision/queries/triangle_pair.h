@@ -4,7 +4,8 @@
 
 namespace corridor {
 
-/// Two triangles that touch, by their numbers in the meshes, or convex parts, by theirs.
+/// A pair of triangles, or of convex parts, by their numbers in the meshes or lists, or in leaf
+/// order where a query says so.
 struct TrianglePair {
   std::uint32_t a = 0, b = 0;
 };

@@ -8,13 +8,13 @@
 namespace corridor {
 namespace {
 
-constexpr int kSteps = 16;  // the excess over the smallest sphere falls like 1/steps
+constexpr int kSteps = 16;  // more steps shrink the sphere only slowly
 
 }  // namespace
 
 BoundingSphere BoundingSphere::around(const Obb& box, const Content& content) {
-  // In a power-of-two unit near the size, so that squares neither over- nor underflow: exact to
-  // undo.
+  // Lengths are in a power-of-two unit near the size, so that squares neither overflow nor
+  // underflow. Scaling by it is exact.
   const double largest = box.half.maxCoeff();
   const double unit = powerOfTwo(largest);
   BoundingSphere best{box.center, HUGE_VAL};
@@ -29,7 +29,7 @@ BoundingSphere BoundingSphere::around(const Obb& box, const Content& content) {
       farthest = reach;
       towards = d;
     });
-    // The difference, three squares, two sums, the root and the sum with r: 8 roundings.
+    // Eight roundings: the difference, three squares, two sums, the root, and the sum with r.
     const double size = roundedUp(farthest * unit);
     if (size < best.size) best = {center, size};
     center += unit / (step + 1) * towards;

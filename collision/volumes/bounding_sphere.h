@@ -11,8 +11,8 @@ struct BoundingSphere {
   double size = 0;  ///< its radius
 
   static constexpr bool kOriented = false;
-  /// Near the smallest one: some steps of Bădoiu and Clarkson's iteration ("Smaller core-sets for
-  /// balls", SODA 2003) from the centre of the box, the best of them kept.
+  /// Returns a sphere near the smallest one: the best of some steps of Bădoiu and Clarkson's
+  /// iteration ("Smaller core-sets for balls", SODA 2003), which starts at the centre of the box.
   static BoundingSphere around(const Obb& box, const Content& content);
   Mat3 frameAxes() const { return Mat3::Identity(); }
   double axisDefect() const { return 0; }

@@ -8,25 +8,26 @@
 
 namespace corridor {
 
-/// A closed ball; a point where the radius is 0. Metres.
+/// A solid sphere: all points at most `radius` from `center`. A point if the radius is 0. Metres.
 struct Ball {
   Vec3 center = Vec3::Zero();
   double radius = 0;
 };
 
-/// What a volume is put around: the hull of triangles, or of balls. A look; what it looks at must
-/// stay. Not empty.
+/// The set that a volume must contain: the convex hull of triangles, or of solid spheres (`Ball`).
+/// Never empty. A non-owning view: the triangles or spheres must outlive it.
 struct Content {
   std::span<const Triangle> triangles;
   std::span<const Ball> balls;
 
   Content(std::span<const Triangle> t) : triangles(t) {}  // NOLINT: triangles are content
-  Content(std::span<const Ball> b) : balls(b) {}          // NOLINT: balls are content
+  Content(std::span<const Ball> b) : balls(b) {}          // NOLINT: spheres are content
 
   Content(const std::vector<Triangle>& t) : triangles(t) {}  // NOLINT
   Content(const std::vector<Ball>& b) : balls(b) {}          // NOLINT
 
-  /// f(point, radius) of all corners and balls: a convex set that holds these holds all.
+  /// Calls f(point, radius) for every corner (radius 0) and every sphere. A convex set that
+  /// contains all of these contains the content.
   template <class F>
   void forEach(F&& f) const {
     for (const Triangle& t : triangles)

@@ -11,8 +11,8 @@ extern "C" {
 namespace corridor {
 namespace {
 
-/// A Qhull run, freed whatever happens. Qhull reports its complaints to a FILE; nobody reads them,
-/// since every failure has the same answer: no hull, use another fit.
+/// One run of Qhull, whose memory is always freed. Qhull writes its messages to a FILE. They are
+/// discarded, because every failure has the same consequence: no hull, so another fit is used.
 class Hull {
  public:
   explicit Hull(std::vector<double>& xyz) : sink_(std::fopen("/dev/null", "w"), &std::fclose) {

@@ -9,13 +9,15 @@
 
 namespace corridor {
 
-/// The directions of a k-DOP's K/2 slabs, not of unit length: the axes; then, of 18 and 26, the six
-/// diagonals of faces; of 14 and 26, the four of the cube. Entries are −1, 0 or 1.
+/// Returns the directions of a k-DOP's K/2 slabs, not of unit length. The three coordinate axes
+/// come first. K = 18 and K = 26 add the six diagonals of faces of the cube; K = 14 and K = 26 add
+/// its four space diagonals. Entries are −1, 0 or 1.
 template <int K>
 const std::array<Vec3, K / 2>& slabDirections();
 
 /// A discrete oriented polytope (Klosowski et al., IEEE TVCG 4(1), 1998) in the frame of its mesh:
-/// {x : low_i ≤ n_i·x ≤ high_i} for the K/2 directions n_i. Metres times |n_i|.
+/// {x : low_i ≤ n_i·x ≤ high_i} for the K/2 directions n_i. `low` and `high` are in metres times
+/// |n_i|.
 template <int K>
 struct Kdop {
   static_assert(K == 14 || K == 18 || K == 26);
@@ -25,7 +27,7 @@ struct Kdop {
 
   static constexpr bool kOriented = false;
   static Kdop around(const Obb& box, const Content& content);
-  /// Around both; as tight as a fit.
+  /// Returns a k-DOP around both, as tight as a new fit.
   static Kdop merged(const Kdop& a, const Kdop& b) {
     Kdop both;
     for (std::size_t i = 0; i < kSlabs; ++i) {
@@ -38,7 +40,7 @@ struct Kdop {
   double axisDefect() const { return 0; }
   double centerReach() const;
   double radius() const;
-  /// Of the slabs along the axes.
+  /// Returns the centre of the slabs along the coordinate axes.
   Vec3 ballCenter() const {
     const Vec3 from(low[0], low[1], low[2]), to(high[0], high[1], high[2]);
     return from + 0.5 * (to - from);

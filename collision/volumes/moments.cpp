@@ -9,8 +9,9 @@
 namespace corridor {
 namespace {
 
-/// Coordinates about a local origin and in a power-of-two unit near their size: offsets of 10^6
-/// don't cancel, and squares neither over- nor underflow. Both are exact to undo.
+/// Maps points to coordinates about a local origin, in a power-of-two unit near the mesh's size.
+/// Large offsets (10^6, say) then don't cancel, and squares neither overflow nor underflow. Scaling
+/// by the unit is exact.
 struct LocalUnit {
   Vec3 origin;
   double unit = 1;

@@ -7,23 +7,25 @@
 
 namespace corridor {
 
-/// Mean and covariance of a point distribution; `weight` 0 where there is none.
+/// Mean and covariance of a distribution of points. The covariance is in an internal unit, since
+/// only its axes are used. A `weight` of 0 means that there is no distribution.
 struct Moments {
   double weight = 0;
   Vec3 mean = Vec3::Zero();
   Mat3 covariance = Mat3::Zero();
 };
 
-/// Of the triangles' corners, each as often as it occurs.
+/// Returns the moments of the triangles' corners, each counted as often as it occurs.
 Moments vertexMoments(std::span<const Triangle> triangles);
 
-/// Of the triangles' surface: with areas A_i, centroids c_i, A = ΣA_i, corners p, q, r:
-/// μ = ΣA_i c_i/A, C = (1/12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ, about a local origin.
-/// Weight 0 if all areas are.
+/// Returns the area-weighted moments of the triangles' surface. With areas A_i, centroids c_i,
+/// A = ΣA_i, and corners p, q, r, about a local origin:
+/// μ = ΣA_i c_i/A,  C = (1/12A) Σ A_i (9 c_i c_iᵀ + ppᵀ + qqᵀ + rrᵀ) − μμᵀ.
+/// The weight is 0 if all areas are 0.
 Moments surfaceMoments(std::span<const Triangle> triangles);
 
-/// Of the surface of their convex hull (by Qhull); weight 0 where the hull is flat or Qhull
-/// refuses.
+/// Returns the moments of the surface of the triangles' convex hull (by Qhull). The weight is 0 if
+/// the hull is flat or Qhull fails.
 Moments hullMoments(std::span<const Triangle> triangles);
 
 }  // namespace corridor

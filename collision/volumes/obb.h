@@ -9,9 +9,9 @@
 
 namespace corridor {
 
-/// An oriented box: the set {center + axes·x : |x_i| ≤ half_i} for the doubles stored. `axes` is
-/// orthonormal to a few ulp; its defect is in `half` (containment) and in the margins of
-/// `obbsSeparated`. Metres.
+/// An oriented box: the set {center + axes·x : |x_i| ≤ half_i}, in real arithmetic on the doubles
+/// stored. `axes` is orthonormal to a few ulp. Its defect is covered twice: by `half` for
+/// containment, and by the margins of `obbsSeparated`. Metres.
 struct Obb {
   Vec3 center = Vec3::Zero();
   Mat3 axes = Mat3::Identity();
@@ -27,31 +27,35 @@ struct Obb {
   const Vec3& ballCenter() const { return center; }
 };
 
-/// Which points' covariance gives a box its axes (Gottschalk, Lin, Manocha 1996, section 4).
+/// The distribution of points whose covariance gives a box its axes (Gottschalk, Lin, Manocha 1996,
+/// section 4).
 enum class ObbFit {
-  vertices,   ///< of the corners: quick, misled by uneven tessellation
+  vertices,   ///< the triangles' corners: quick, but misled by uneven tessellation
   triangles,  ///< area-weighted moments of the triangles
-  hull,  ///< area-weighted moments of the surface of their convex hull: no inner geometry misleads
-         ///< it
+  /// Area-weighted moments of the surface of the triangles' convex hull: not misled by inner
+  /// geometry.
+  hull,
 };
-/// By its name here; nothing where there is no such fit.
+/// Returns the fit of this name, or nothing if there is none.
 std::optional<ObbFit> obbFitNamed(std::string_view name);
 
-/// Axes and mean of a content.
+/// Mean and principal axes of a content.
 struct ObbFrame {
   Vec3 mean = Vec3::Zero();
-  Mat3 axes =
-      Mat3::Identity();  ///< columns, longest spread first; right-handed, orthonormal to a few ulp
+  /// Columns, largest variance first; right-handed, orthonormal to a few ulp.
+  Mat3 axes = Mat3::Identity();
 };
+/// Returns the frame of a content by `fit`. Spheres count as points at their centres. Where a hull
+/// has no volume its triangles are used, and where these have no area their corners.
 ObbFrame fitFrame(const Content& content, ObbFit fit);
-/// The same with the frame's own axes: the identity, and the mean of all corners or balls.
+/// Returns the mean of all corners or sphere centres, with the identity as axes.
 ObbFrame alignedFrame(const Content& content);
 
-/// The smallest box with these axes around the content, rounded outward: contains it in real
-/// arithmetic.
+/// Returns the smallest box with these axes around the content, rounded outward: it contains the
+/// content in real arithmetic.
 Obb enclosingObb(const Content& content, const Mat3& axes);
 
-/// ‖MᵀM − I‖_max, rounded up: how far M is from orthonormal.
+/// Returns ‖MᵀM − I‖_max, rounded up: the defect of M from an orthonormal matrix.
 double orthonormalityDefect(const Mat3& m);
 
 }  // namespace corridor

@@ -6,8 +6,9 @@
 
 namespace corridor {
 
-/// Axis-aligned boxes, each in its own mesh's frame, are oriented ones to each other: the 15 axes
-/// and the margins of `obbsSeparated` with identity axes, whose rotation is the same for all pairs.
+/// Tests axis-aligned boxes, each in the frame of its own mesh. Seen from each other they are
+/// oriented boxes whose relative rotation is the same for all pairs. So this is the test of
+/// `obbsSeparated`, with its 15 axes and margins, for identity axes.
 template <>
 class PairTest<Aabb> {
  public:

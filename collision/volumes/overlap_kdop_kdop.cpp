@@ -3,7 +3,7 @@
 namespace corridor::internal {
 namespace {
 
-/// The slab of ±d, and the sign.
+/// Returns the slab whose direction is d or −d, and the sign; sign 0 if there is none.
 template <int K>
 std::pair<std::size_t, double> slabOf(const Vec3& d) {
   const auto& n = slabDirections<K>();
@@ -19,8 +19,9 @@ struct Term {
   std::array<int, 3> direction;  // along the largest, the middle and the least |component|
 };
 
-/// For x ≥ y ≥ z ≥ 0; other vectors are mirrored and permuted into this cone, and slab directions
-/// with them. The directions of each case span the cone, and its weights are ≥ 0 in it.
+/// Returns the terms for x ≥ y ≥ z ≥ 0. Other vectors are mirrored and permuted into this cone, and
+/// slab directions with them. In each case the three directions span the part of the cone that
+/// holds the vector, and the weights are ≥ 0 there.
 template <int K>
 std::array<Term, 3> cone(double x, double y, double z) {
   if constexpr (K == 14)
@@ -49,7 +50,8 @@ SlabSum slabSum(const Vec3& n) {
     sum.weight[k] = sign * terms[k].weight;
     left -= terms[k].weight * d;
   }
-  // The three differences of each component: 3u of what is taken off or left; √3 of it.
+  // Each component takes three differences, which lose 3u of what is subtracted or left: as a
+  // vector, √3 times that.
   sum.error = roundedUp(left.norm() + 8 * kUnit * (n.cwiseAbs().sum() + sum.size()));
   return sum;
 }

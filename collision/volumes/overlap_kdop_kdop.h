@@ -8,14 +8,15 @@
 #include "collision/volumes/kdop.h"
 #include "collision/volumes/volume.h"
 
-/// k-DOP against k-DOP under any affine map: the slab directions of either one are the axes asked.
+/// Tests k-DOP against k-DOP under any affine map, along the slab directions of either.
 ///
-/// Derivation. Points x of b are at M x + t in frame A. Along L in A they are at m·x + L·t, m =
-/// MᵀL. Were m = Σ w_k d_k with slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where w_k > 0,
-/// else low_k), and ≥ with the other ends; what is left over, m − Σ w_k d_k, adds at most its
-/// length times the largest |x| (`VolumeBounds::reach`). So any three weights give a proof; those
-/// of the cone of slab directions that holds m bound best, and are the same for all nodes: found
-/// once a query, three products an axis and node.
+/// Derivation. Points x of b are at M x + t in frame A. Their projections on L are m·x + L·t with
+/// m = MᵀL. If m = Σ w_k d_k for slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where w_k > 0,
+/// else low_k), and m·x ≥ the same sum over the other ends. The remainder m − Σ w_k d_k adds at
+/// most its length times the largest |x| (`VolumeBounds::reach`). So any three weights give a
+/// proof. The weights of the cone of slab directions that holds m give the best bound. They are the
+/// same for all nodes: they are computed once per query, and an axis then takes three products per
+/// node.
 namespace corridor {
 
 namespace internal {
@@ -24,7 +25,7 @@ namespace internal {
 struct SlabSum {
   std::array<std::size_t, 3> slab;
   std::array<double, 3> weight;
-  double error;  ///< |n − Σ| at most, rounded up
+  double error;  ///< upper bound of |n − Σ|
 
   template <class Dop>
   double highest(const Dop& dop) const {
@@ -43,7 +44,7 @@ struct SlabSum {
   double size() const { return std::abs(weight[0]) + std::abs(weight[1]) + std::abs(weight[2]); }
 };
 
-/// By the cone of slab directions that holds n.
+/// Returns the decomposition of n in the cone of slab directions that holds it.
 template <int K>
 SlabSum slabSum(const Vec3& n);
 
@@ -58,7 +59,7 @@ class PairTest<Kdop<K>> {
       ofA_[i] = axis(n[i], X_AB, a, b, error);
       ofA_[i].other = internal::slabSum<K>(X_AB.m.transpose() * n[i]);
       ofA_[i].slack += spill(ofA_[i].other, b.reach);
-      // Here m is a direction of b itself, but for what M lacks to a rotation.
+      // Here m is a slab direction of b itself, except for M's defect from a rotation.
       const Vec3 L = X_AB.m * n[i];
       ofB_[i] = axis(L, X_AB, a, b, error);
       ofB_[i].other = internal::slabSum<K>(L);
@@ -86,16 +87,17 @@ class PairTest<Kdop<K>> {
  private:
   static constexpr std::size_t kSlabs = Kdop<K>::kSlabs;
   struct Axis {
-    internal::SlabSum other;  ///< of the body whose slab it is not
+    internal::SlabSum other;  ///< along the body that has no slab in this direction
     double offset = 0, length = 0, slack = 0;
   };
 
   static bool apart(double gap, double pad) { return gap > pad && gap < HUGE_VAL; }
 
-  /// The slack that every axis L needs: the caller's error, and rounding. |L|₁ ≤ 3F, F = ‖M‖_F ≥
-  /// |L|/√3 or L a slab direction: weights sum up to at most 9(1 + F)² for either body, and slab
-  /// ends are below 4·reach (|n_i| ≤ √3, of cylinders the box's corners). A gap takes ten sums and
-  /// products; L·t, and mᵀL against what `SlabSum::error` was measured with, take 4u each.
+  /// Returns axis L with the slack that every axis needs: the caller's error, and rounding. With
+  /// F = ‖M‖_F, |L|₁ ≤ 3F and F ≥ |L|/√3, or L is a slab direction. So the weights of either body
+  /// sum up to at most 9(1 + F)². Slab ends are below 4·reach, since |n_i| ≤ √3 and a cylinder's
+  /// slabs are around the corners of its box. A gap takes ten sums and products. L·t takes 4u, and
+  /// so does the rounding of MᵀL, from which `SlabSum::error` was computed.
   static Axis axis(const Vec3& L, const Transform& X_AB, const VolumeBounds& a,
                    const VolumeBounds& b, double error) {
     Axis made;

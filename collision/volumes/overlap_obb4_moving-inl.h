@@ -1,4 +1,4 @@
-// Four oriented boxes against four that move, for every SIMD target: included once per target by
+// Tests four oriented boxes against four that move. Included once per SIMD target by
 // foreach_target.h.
 
 // clang-format off
@@ -17,14 +17,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Sixteen pairs of boxes of which b's move: how far these go along the axes that are tested.
+/// Sixteen pairs of boxes of which those of b move, with the motion bound of b's box along each
+/// axis tested.
 struct MovingBoxPairs : BoxPairs {
-  V v[3], w[3], wB[3];  // in coordinates of a's box: V, W; and W·R_j
-  V bend, curvature, cap;
-  V rounding;  // the slack but for what the motion itself may be off
+  V v[3], w[3], wB[3];  // V and W in coordinates of a's box; and W·R_j
+  V secondOrderAcross, secondOrder, isotropic;
+  V rounding;  // the slack without `pad`
 
   HWY_INLINE MovingBoxPairs(const Obb4& na, const Obb4& nb, const PosedBoxes& posed,
-                            const Obb4Pose& pose, const Obb4Travel& travel, std::size_t at)
+                            const Obb4Pose& pose, const Obb4MotionBound& bound, std::size_t at)
       : BoxPairs(na, nb, posed, pose, at) {
     const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
     const auto second = [&](const float* four) { return hn::LoadDup128(d, four); };
@@ -33,36 +34,37 @@ struct MovingBoxPairs : BoxPairs {
         return hn::TableLookupLanes(hn::LoadDup128(d, na.vectors[k][i]), rows);
       };
       const V u0 = axis(0), u1 = axis(1), u2 = axis(2);
-      v[i] = dot(u0, u1, u2, second(travel.linear[0]), second(travel.linear[1]),
-                 second(travel.linear[2]));
-      w[i] =
-          dot(u0, u1, u2, set(travel.angular[0]), set(travel.angular[1]), set(travel.angular[2]));
+      v[i] = dot(u0, u1, u2, second(bound.linear[0]), second(bound.linear[1]),
+                 second(bound.linear[2]));
+      w[i] = dot(u0, u1, u2, set(bound.angular[0]), set(bound.angular[1]), set(bound.angular[2]));
     }
     for (int j = 0; j < 3; ++j) wB[j] = dot(w[0], w[1], w[2], R[0][j], R[1][j], R[2][j]);
-    bend = second(travel.bend);
-    curvature = second(travel.curvature);
-    cap = second(travel.cap);
-    const V pad = second(travel.pad);
+    secondOrderAcross = second(bound.secondOrderAcross);
+    secondOrder = second(bound.secondOrder);
+    isotropic = second(bound.isotropic);
+    const V pad = second(bound.pad);
     const V turn = sum3(hn::Abs(w[0]), hn::Abs(w[1]), hn::Abs(w[2]));
-    const V size = hn::Add(sum3(b[0], b[1], b[2]), bend);
+    const V size = hn::Add(sum3(b[0], b[1], b[2]), secondOrderAcross);
     const V terms = hn::Add(sum3(hn::Abs(v[0]), hn::Abs(v[1]), hn::Abs(v[2])),
-                            hn::MulAdd(hn::Add(turn, turn), size, hn::Add(curvature, pad)));
+                            hn::MulAdd(hn::Add(turn, turn), size, hn::Add(secondOrder, pad)));
     rounding = hn::MulAdd(set(pose.relative), terms, slack);
     slack = hn::Add(pad, rounding);
   }
 
-  /// At least √(x² + y²), 9 % above it at most.
+  /// Returns an upper bound of √(x² + y²), at most 9 % above it.
   V length(V x, V y) const {
     x = hn::Abs(x);
     y = hn::Abs(y);
     return hn::MulAdd(set(0.41422F), hn::Min(x, y), hn::Max(x, y));
   }
-  /// The cap and the directional bound: each is a proof, so that a NaN of either may be lost.
-  V least(V directional) const { return hn::Min(directional, cap); }
+  /// Returns the smaller of the isotropic and the directional bound. Each is a proof by itself, so
+  /// the minimum may drop a NaN of either.
+  V least(V directional) const { return hn::Min(directional, isotropic); }
 
   V alongFaceA(int i) const {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-    V sum = hn::Add(hn::Abs(v[i]), hn::MulAdd(bend, length(w[i1], w[i2]), curvature));
+    V sum =
+        hn::Add(hn::Abs(v[i]), hn::MulAdd(secondOrderAcross, length(w[i1], w[i2]), secondOrder));
     for (int k = 0; k < 3; ++k) {
       const V spin = hn::NegMulAdd(R[i1][k], w[i2], hn::Mul(R[i2][k], w[i1]));
       sum = hn::MulAdd(b[k], hn::Abs(spin), sum);
@@ -72,7 +74,7 @@ struct MovingBoxPairs : BoxPairs {
   V alongFaceB(int j) const {
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
     const V linear = hn::Abs(dot(v[0], v[1], v[2], R[0][j], R[1][j], R[2][j]));
-    V sum = hn::Add(linear, hn::MulAdd(bend, length(wB[j1], wB[j2]), curvature));
+    V sum = hn::Add(linear, hn::MulAdd(secondOrderAcross, length(wB[j1], wB[j2]), secondOrder));
     sum = hn::MulAdd(b[j1], hn::Abs(wB[j2]), hn::MulAdd(b[j2], hn::Abs(wB[j1]), sum));
     return least(sum);
   }
@@ -81,35 +83,40 @@ struct MovingBoxPairs : BoxPairs {
     const V linear = hn::Abs(hn::NegMulAdd(v[i1], R[i2][j], hn::Mul(v[i2], R[i1][j])));
     const V turn = hn::Abs(wB[j]);
     // |n × W| = |R_j W_i − e_i (W·R_j)|
-    V sum = hn::Add(linear, hn::MulAdd(bend, hn::Add(hn::Abs(w[i]), turn), curvature));
+    V sum =
+        hn::Add(linear, hn::MulAdd(secondOrderAcross, hn::Add(hn::Abs(w[i]), turn), secondOrder));
     sum = hn::MulAdd(b[j], hn::Abs(hn::NegMulAdd(R[i][j], wB[j], w[i])), sum);
     sum = hn::MulAdd(turn, hn::MulAdd(b[j1], Q[i][j1], hn::Mul(b[j2], Q[i][j2])), sum);
     return least(sum);
   }
 };
 
-/// What a window of time says of sixteen pairs.
+/// The answer for sixteen pairs over a time interval.
 struct MovingBoxes {
-  unsigned open = 0;    ///< not proved apart: a cleared bit is a proof for all of the window
-  unsigned coarse = 0;  ///< b's box goes farther in the window than both boxes are large
+  /// Pairs not proved separated. A cleared bit proves separation over the whole interval.
+  unsigned open = 0;
+  /// Open pairs for which b's box moves far in the interval, relative to the sizes of both boxes.
+  unsigned coarse = 0;
 };
 
-/// When a shorter window is worth more than smaller boxes: measured, soundness needs neither.
+/// Thresholds above which a shorter interval pays more than smaller boxes: of the isotropic bound,
+/// and of the remainder beyond first order (as 1/32), relative to the boxes' size. They are
+/// measured; soundness doesn't depend on them.
 constexpr float kTravelOfSize = 1, kRemainderOfSize = 32;
 
-/// `keys` gets the largest gap along a face normal of each pair, less what b travels along it.
-/// (obb4.h has the derivation.)
-/// @param clearances where not null, gets how much farther apart than the pad each pair that is
-/// told apart is proved to be all along the window, in a's unit (axes are no longer than 1 + 2^-20,
-/// and the difference rounds by 2^-24 of itself).
+/// Tests the sixteen pairs over a time interval (obb4.h has the derivation). `keys` gets the
+/// largest gap along a face normal of each pair, less the motion bound of b along it.
+/// @param clearances if not null, gets for each separated pair a lower bound of its distance beyond
+/// `pad`, valid over the whole interval, in a's unit. The factor 1 − 2^-18 covers axes of length up
+/// to 1 + 2^-20, and the difference, which rounds by 2^-24 of itself.
 HWY_INLINE MovingBoxes movingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
-                                   const Obb4Travel& travel, float* HWY_RESTRICT keys,
+                                   const Obb4MotionBound& bound, float* HWY_RESTRICT keys,
                                    float* HWY_RESTRICT clearances = nullptr) {
   const hn::CappedTag<float, 16> d;
   const PosedBoxes posed(b, pose);
   MovingBoxes found;
   for (std::size_t at = 0; at < 16; at += BoxPairs::kLanes) {
-    const MovingBoxPairs pairs(a, b, posed, pose, travel, at);
+    const MovingBoxPairs pairs(a, b, posed, pose, bound, at);
     auto gap = hn::Sub(pairs.faceOfA(0), pairs.alongFaceA(0));
     for (int i = 1; i < 3; ++i) gap = hn::Max(gap, hn::Sub(pairs.faceOfA(i), pairs.alongFaceA(i)));
     for (int j = 0; j < 3; ++j) gap = hn::Max(gap, hn::Sub(pairs.faceOfB(j), pairs.alongFaceB(j)));
@@ -125,11 +132,11 @@ HWY_INLINE MovingBoxes movingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose&
     if (clearances)
       hn::Store(hn::Mul(pairs.set(1 - 0x1p-18F), hn::Sub(gap, pairs.slack)), d, clearances + at);
     const auto turn = BoxPairs::sum3(hn::Abs(pairs.w[0]), hn::Abs(pairs.w[1]), hn::Abs(pairs.w[2]));
-    const auto remainder = hn::MulAdd(pairs.bend, turn, pairs.curvature);
-    // Boxes that rounding makes large are not told apart by shorter windows.
+    const auto remainder = hn::MulAdd(pairs.secondOrderAcross, turn, pairs.secondOrder);
+    // A shorter interval does not separate boxes for which rounding exceeds their sizes.
     const auto size = hn::Max(hn::Max(pairs.a[0], pairs.b[0]), pairs.rounding);
     const auto coarse = hn::Or(hn::Gt(hn::Mul(pairs.set(kRemainderOfSize), remainder), size),
-                               hn::Gt(pairs.cap, hn::Mul(pairs.set(kTravelOfSize), size)));
+                               hn::Gt(pairs.isotropic, hn::Mul(pairs.set(kTravelOfSize), size)));
     found.coarse |= bitsOf(d, coarse, at);
   }
   found.coarse &= found.open;

@@ -1,5 +1,4 @@
-// Four oriented boxes against four, for every SIMD target: included once per target by
-// foreach_target.h.
+// Tests four oriented boxes against four. Included once per SIMD target by foreach_target.h.
 
 // clang-format off
 #if defined(CORRIDOR_OVERLAP_OBB4_OBB4_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
@@ -21,12 +20,13 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lane l is the pair (l / 4, l % 4): b's are a row of four, repeated; a's element kRowOfLane[l] of
-/// its row.
+/// Lane l is the pair (l / 4, l % 4). Rows of b's four boxes are repeated; of a's row, lane l takes
+/// element kRowOfLane[l].
 alignas(64) inline constexpr std::int32_t kRowOfLane[16] = {0, 0, 0, 0, 1, 1, 1, 1,
                                                             2, 2, 2, 2, 3, 3, 3, 3};
 
-/// Axes and centres (but for the scale and the offset) of b's boxes in a's frame: as in `Obb4`.
+/// Axes and centres of b's boxes, rotated into a's frame, laid out as in `Obb4`. Scale and offset
+/// are not yet applied.
 struct PosedBoxes {
   alignas(64) float vectors[3][4][4];
 
@@ -44,16 +44,17 @@ struct PosedBoxes {
   }
 };
 
-/// Sixteen pairs of boxes in a's boxes' frames: what every test of them starts from.
+/// Sixteen pairs of boxes, each in the frame of a's box: the input of every test.
 struct BoxPairs {
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<hn::CappedTag<float, 16>>;
   static constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
   static_assert(kLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
 
-  V T[3], R[3][3], Q[3][3];  // the centre and the axes of b's box in coordinates of a's, and |R|
-  V a[3], b[3];              // half extents
-  V slack;                   // what all gaps have to exceed: rounding, and the pose's ball
+  // Centre and axes of b's box in coordinates of a's box, and |R|.
+  V T[3], R[3][3], Q[3][3];
+  V a[3], b[3];  // half extents
+  V slack;       // every gap must exceed this: rounding, and the pose's `ball`
 
   V set(float x) const { return hn::Set(d, x); }
   static V sum3(V x, V y, V z) { return hn::Add(hn::Add(x, y), z); }
@@ -64,7 +65,7 @@ struct BoxPairs {
     return hn::MulAdd(x2, y2, hn::MulAdd(x1, y1, hn::MulAdd(x0, y0, sum)));
   }
 
-  /// Pairs `at` and the following ones, as many as there are lanes.
+  /// Loads pair `at` and the following ones, as many as there are lanes.
   HWY_INLINE BoxPairs(const Obb4& na, const Obb4& nb, const PosedBoxes& posed, const Obb4Pose& pose,
                       std::size_t at) {
     const auto rows = hn::SetTableIndices(d, kRowOfLane + at);
@@ -95,8 +96,8 @@ struct BoxPairs {
     slack = hn::MulAdd(set(pose.relative), sizes, set(pose.ball));
   }
 
-  /// Gaps along a's axes, b's, and the cross product of a's i-th and b's j-th (which is no unit
-  /// vector).
+  /// Gaps along axis i of a, along axis j of b, and along the cross product of the two (which is
+  /// not a unit vector).
   V faceOfA(int i) const {
     return hn::Sub(hn::Abs(T[i]), dotAnd(a[i], b[0], b[1], b[2], Q[i][0], Q[i][1], Q[i][2]));
   }
@@ -110,9 +111,10 @@ struct BoxPairs {
         hn::Abs(hn::NegMulAdd(T[i1], R[i2][j], hn::Mul(T[i2], R[i1][j]))),
         dotAnd(hn::Mul(a[i1], Q[i2][j]), a[i2], b[j1], b[j2], Q[i1][j], Q[i][j2], Q[i][j1]));
   }
-  /// The square of the gap along T, from centre to centre, shrunk for rounding: of boxes far apart
-  /// beside their sizes close to that of their distance. (|T|² − Σ a_i|T_i| − Σ b_j|T·R_j|)/|T|
-  /// takes no axes at right angles, and the roundings that `slack` has per unit of |T|₁.
+  /// Returns a lower bound of the squared gap along T, the line between the centres. For boxes that
+  /// are far apart relative to their sizes it is close to the squared distance. The gap (|T|² − Σ
+  /// a_i|T_i| − Σ b_j|T·R_j|)/|T| needs no orthogonal axes, and its rounding is below `slack` per
+  /// unit of |T|₁.
   V squareAlongCenters() const {
     const V squared = dot(T[0], T[1], T[2], T[0], T[1], T[2]);
     V apart = hn::NegMulAdd(slack, sum3(hn::Abs(T[0]), hn::Abs(T[1]), hn::Abs(T[2])), squared);
@@ -120,7 +122,8 @@ struct BoxPairs {
       const V along = dot(T[0], T[1], T[2], R[0][k], R[1][k], R[2][k]);
       apart = hn::NegMulAdd(a[k], hn::Abs(T[k]), hn::NegMulAdd(b[k], hn::Abs(along), apart));
     }
-    // Divided first: a square of apart, which is one of lengths, would overflow from |T| = 2^32 on.
+    // Divide first: `apart` is a squared length, and its own square would overflow from |T| = 2^32
+    // on.
     return hn::IfThenElseZero(hn::Gt(apart, hn::Zero(d)), hn::Mul(hn::Div(apart, squared), apart));
   }
   V largestEdgeGap(V gap) const {
@@ -130,7 +133,7 @@ struct BoxPairs {
   }
 };
 
-/// The bits of a mask of pairs `at` and the following ones.
+/// Returns the bits of a mask, placed for pair `at` and the following ones.
 template <class M>
 HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t at) {
   std::uint8_t bits[8] = {};  // StoreMaskBits may write up to eight bytes
@@ -138,14 +141,14 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
   return (static_cast<unsigned>(bits[0]) | static_cast<unsigned>(bits[1]) << 8) << at;
 }
 
-/// Which of the sixteen pairs of two nodes' boxes may touch: bit 4·i + j for a's i-th and b's j-th.
-/// A cleared bit is a proof that they are farther apart than `pose.ball` was asked to cover
-/// (obb4.h has the derivation). `gaps` gets the largest gap along a face normal of each pair:
-/// the less, the deeper they overlap.
+/// Returns which of the sixteen pairs of two nodes' boxes may touch: bit 4·i + j for box i of a and
+/// box j of b. A cleared bit proves that they are farther apart than the error that `pose.ball`
+/// covers (obb4.h has the derivation). `gaps` gets the largest gap along a face normal of each
+/// pair: the smaller it is, the deeper they overlap.
 ///
-/// In one order, and fused wherever the target can: all that can decide alike (SSE can't: a box
-/// more or less is opened there, for the same answer). Each axis alone is a proof: a NaN on one of
-/// them may be lost in a maximum, but it never separates.
+/// Operations have a fixed order and are fused on every target that can, so that those targets
+/// decide alike. SSE cannot: it may open a box more or less, for the same answer. Each axis alone
+/// is a proof. A maximum may drop the NaN of one axis, but a NaN never separates.
 HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                      float* HWY_RESTRICT gaps) {
   const hn::CappedTag<float, 16> d;
@@ -164,17 +167,18 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
   return mask;
 }
 
-/// Which of the sixteen pairs may be at most `limit` apart (a's unit); a cleared bit is a proof
-/// that they are not. `squares` gets a proven lower bound of each pair's squared distance.
+/// Returns which of the sixteen pairs may be at most `limit` apart (a's unit). A cleared bit proves
+/// that they are farther apart. `squares` gets a proven lower bound of each pair's squared
+/// distance.
 ///
-/// Gaps along three axes u_i at right angles bound the distance by √Σ gap_i²: for any vector d,
-/// Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and b's (R̂) where the map is rigid, η < 2^-17: 1 − 2^-14
-/// covers that and the rounding of the sum. Of a map that is less so, `relative` took 10η·(|T|₁ +
-/// Σa + Σb) ≥ 9η·|u_i·d| off each gap, and (1 − 9η)²(1 + 3η) < 1. So does the gap along the
-/// centres.
+/// Gaps along three orthogonal axes u_i bound the distance by √Σ gap_i²: for any vector d,
+/// Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and for b's (R̂) if the map is rigid, η < 2^-17. The
+/// factor 1 − 2^-14 covers that and the rounding of the sum. For a less rigid map `relative` has
+/// taken 10η·(|T|₁ + Σa + Σb) ≥ 9η·|u_i·d| off each gap, and (1 − 9η)²(1 + 3η) < 1. The same holds
+/// for the gap along the line between the centres.
 ///
-/// `kFar`: along the line between the centres, too, which says more of boxes far apart beside their
-/// sizes, and takes a fifth longer.
+/// `kFar` adds that line as an axis. It is the best one for boxes that are far apart relative to
+/// their sizes, and takes a fifth longer.
 template <bool kFar>
 HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
                               float* HWY_RESTRICT squares) {
@@ -193,7 +197,7 @@ HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose
     }
     auto square = hn::Max(ofA, ofB);
     if constexpr (kFar) square = hn::Max(square, pairs.squareAlongCenters());
-    // An overflow or a NaN bounds nothing.
+    // Where a bound overflows or is NaN it becomes 0.
     square = hn::Mul(square, pairs.set(1 - 0x1p-14F));
     square = hn::IfThenElseZero(hn::Lt(square, pairs.set(0x1p120F)), square);
     hn::Store(square, d, squares + at);

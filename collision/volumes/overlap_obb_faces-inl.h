@@ -1,4 +1,4 @@
-// One oriented box against one, by their faces, for every SIMD target: included once per target by
+// Tests one oriented box against one by their face normals. Included once per SIMD target by
 // foreach_target.h.
 
 // clang-format off
@@ -19,9 +19,9 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Does a face normal of either box separate them by more than `pose.ball` was asked to cover, and
-/// by `beyond`, of a's unit? True is a proof: what obb4.h derives holds, in these lanes, too; lane
-/// j is b's axis j, and lane 3 its centre.
+/// Returns true if a face normal of either box separates them by more than `beyond` (in a's unit)
+/// and the error that `pose.ball` covers. True is a proof: the derivation in obb4.h holds for these
+/// lanes, too. Lane j is b's axis j, and lane 3 its centre.
 HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose, float beyond) {
   const hn::CappedTag<float, 4> d;
   const auto set = [&](float x) { return hn::Set(d, x); };
@@ -41,7 +41,7 @@ HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose
   };
   const auto p0 = posed(0), p1 = posed(1), p2 = posed(2);
   const auto halfB = hn::Mul(set(pose.scale), hn::Load(d, b.half));
-  // Row i: a's axis i in terms of b's axes, and the centres' distance along it.
+  // Row i: a's axis i in terms of b's axes; lane 3 is the centres' distance along it.
   const auto row = [&](int i) {
     return hn::MulAdd(set(a.vectors[2][i]), p2,
                       hn::MulAdd(set(a.vectors[1][i]), p1, hn::Mul(set(a.vectors[0][i]), p0)));

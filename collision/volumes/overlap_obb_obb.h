@@ -8,63 +8,64 @@
 #include "collision/volumes/volume.h"
 
 /// Box against box by the separating-axis theorem, 15 axes (Gottschalk, Lin, Manocha 1996, section
-/// 5), with every rounding error inside the margins: `true` is a proof that the boxes, as the point
-/// sets in real arithmetic that `Obb` says, are apart by more than the margin asked for; `false`
-/// says nothing.
+/// 5). `true` is a proof that the boxes, as the sets that `Obb` defines in real arithmetic, are
+/// apart by more than the requested margin. `false` proves nothing. Every rounding error is inside
+/// the margins.
 ///
-/// Derivation. Let frame A be that of box a, and x ↦ M x + t the map from b's frame (doubles, taken
+/// Derivation. Let A be the frame of box a, and x ↦ M x + t the map from b's frame (doubles, taken
 /// as exact). In coordinates y = U_Aᵀ(x − c_A) box a is {U_AᵀU_A x}, inside the axis-aligned box of
 /// half extents a + η_A·Σa. Box b is {T + R x} with T = U_Aᵀ(M c_B + t − c_A), R = U_Aᵀ M U_B in
-/// real arithmetic; the computed T, R differ from it by at most ε_T and ε_R per coordinate, so box
-/// b is inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. Moving that growth from b to a, the
-/// question is whether an exactly axis-aligned box and an exact parallelepiped given by doubles are
-/// apart. Any direction L may be asked:
+/// real arithmetic. The computed T̂, R̂ are off by at most ε_T and ε_R per coordinate. So box b is
+/// inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. That growth is moved from b to a. It
+/// remains to test whether an exactly axis-aligned box and an exact parallelepiped, given by
+/// doubles, are apart. Any direction L may be used:
 ///   L = e_i:        radius of a: a_i; of b: Σ b_k |R̂_ik|, both as written, no orthogonality used.
 ///   L = R̂_j:        of a: Σ a_i |R̂_ij|; of b: Σ b_k |R̂_j·R̂_k| ≤ b_j + η_R Σ b_k.
-///   L = e_i × R̂_j:  of a: as written; of b: Σ b_k |e_i·(R̂_j × R̂_k)|, where R̂_j × R̂_k = ±R̂_l but
-///   for 3η_R.
-/// with η_R = ‖R̂ᵀR̂ − I‖_max ≤ 3(η_A + η_B + η_M) + 64u up to second order: RᵀR = U_BᵀMᵀ(U_A U_Aᵀ)M
-/// U_B, each defect E enters as xᵀE y ≤ ‖E‖₂ ≤ 3‖E‖_max for unit x, y, and ε_R adds 2·√3·12u.
-/// Growth by a ball of radius ρ adds ρ|L|. Evaluating a projection and its radius takes fewer than
+///   L = e_i × R̂_j:  of a: as written; of b: Σ b_k |e_i·(R̂_j × R̂_k)|, where R̂_j × R̂_k = ±R̂_l up to
+///                   3η_R.
+/// Here η_R = ‖R̂ᵀR̂ − I‖_max ≤ 3(η_A + η_B + η_M) + 64u up to second order. For RᵀR = U_BᵀMᵀ(U_A
+/// U_Aᵀ)M U_B, each defect E enters as xᵀE y ≤ ‖E‖₂ ≤ 3‖E‖_max for unit x, y, and ε_R adds
+/// 2·√3·12u. Growth by a sphere of radius ρ adds ρ|L|. A projection and its radius take fewer than
 /// 12 roundings of numbers below |T|₁ + Σa + Σb (|R̂_ij| < 1 + 2^-20): 16u of that sum. All of this
-/// is `BoxPairMargins`, computed once a query.
+/// is in `BoxPairMargins`, computed once per query.
 namespace corridor {
 
-/// Bounds that hold for all pairs of boxes of two trees under one relative map.
+/// Margins that hold for all pairs of boxes of two trees under one relative map.
 struct BoxPairMargins {
-  double relative = 0;  ///< times (|T|₁ + Σa + Σb): absolute slack of every axis
-  double absolute =
-      0;  ///< metres: ε_T and what the caller adds (pose errors), as the radius of a ball
+  double relative = 0;  ///< slack of every axis, as a factor of (|T|₁ + Σa + Σb)
+  /// Metres: ε_T and what the caller adds (pose errors), as the radius of a sphere.
+  double absolute = 0;
 };
 
-/// For trees whose axes have defects ηA, ηB, whose box centres lie within reachA, reachB of their
-/// frames' origins, and the map X_AB.
+/// Returns the margins of two trees under the map X_AB. `defectA` and `defectB` bound the defects
+/// of their axes, `reachA` and `reachB` the distances of their box centres from their frames'
+/// origins (metres).
 inline BoxPairMargins boxPairMargins(double defectA, double reachA, double defectB, double reachB,
                                      const Transform& X_AB) {
-  // ε_R: an entry of R̂ is two nested sums of three products of unit vectors' entries: 6 roundings,
-  // Σ|·||·| ≤ √3: 12u. ε_T: M c_B + t − c_A has at most 5 roundings of terms below S = reachB + |t|
-  // + reachA per coordinate, the product with U_Aᵀ 3 more: (5√3 + 3)·u·S·1.01 < 12u·S per
-  // coordinate, ×√3 as a ball: 24u·S.
+  // ε_R: an entry of R̂ is two nested sums of three products of unit vectors' entries. It takes 6
+  // roundings with Σ|·||·| ≤ √3: 12u. ε_T: M c_B + t − c_A has at most 5 roundings of terms below
+  // S = reachB + |t| + reachA per coordinate, and the product with U_Aᵀ 3 more. That is
+  // (5√3 + 3)·u·S·1.01 < 12u·S per coordinate, and ×√3 as a sphere's radius: 24u·S.
   const double defectM = orthonormalityDefect(X_AB.m);
   const double defectR = 3 * (defectA + defectB + defectM) + 64 * kUnit;
   BoxPairMargins margins;
-  // η_A·Σa and ε_R·Σb of the growth (as balls: ×√3 < 2), 3η_R·Σb, rounding.
+  // In order: η_A·Σa and ε_R·Σb of the growth (as spheres: ×√3 < 2), 3η_R·Σb, rounding.
   margins.relative = roundedUp(2 * defectA + 24 * kUnit + 4 * defectR + 16 * kUnit);
   margins.absolute = roundedUp(24 * kUnit * (reachA + reachB + X_AB.t.cwiseAbs().sum()));
-  // Far from rigid, the second-order terms that were dropped are not small: no box is ever
-  // separated.
+  // Far from rigid, the dropped second-order terms are not small. Then no box is ever separated.
   if (!(defectR < 0x1p-10)) margins.absolute = HUGE_VAL;
   return margins;
 }
 
 namespace internal {
 
-/// std::hypot guards against overflow at ten times the price; the entries here are of rotations.
+/// `std::hypot` would guard against overflow at ten times the cost; the entries here are of
+/// rotations.
 inline double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
-/// The pair in the coordinates of box a.
+/// A pair of boxes in the coordinates of box a.
 struct BoxPair {
   Mat3 R, absR;
   Vec3 T;
@@ -74,7 +75,8 @@ struct BoxPair {
         T(a.axes.transpose() * ((X_AB.m * b.center + X_AB.t) - a.center)) {}
 };
 
-/// `Pair` has R, absR and T of a BoxPair.
+/// Returns true if the boxes are proved to be more than `pad` apart. `Pair` has the members R, absR
+/// and T of `BoxPair`.
 template <class Pair>
 bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMargins& margins,
                double pad) {
@@ -105,10 +107,11 @@ bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMarg
   return false;
 }
 
-/// A lower bound of the distance of two boxes: the gaps along the three axes of either box are
-/// those of a frame but for the defects, so the root of their squares is one; along an edge axis
-/// the gap alone. In the coordinates of box a distances are those of frame A times (1 ± 1.5η_A),
-/// along the R̂_j times (1 ± 1.5η_R): less than `relative`. Every gap is computed as in `separated`.
+/// Returns a lower bound of the distance of two boxes. The three axes of either box are orthogonal
+/// up to their defects, so the root of the summed squares of the gaps along them is a lower bound.
+/// Along an edge axis the gap alone is one. In the coordinates of box a distances are those of
+/// frame A times (1 ± 1.5η_A), and along the R̂_j times (1 ± 1.5η_R); both changes are less than
+/// `relative`. Every gap is computed as in `separated`.
 template <class Pair>
 double boxDistanceBound(const Pair& pair, const Vec3& a, const Vec3& b,
                         const BoxPairMargins& margins) {
@@ -132,7 +135,7 @@ double boxDistanceBound(const Pair& pair, const Vec3& a, const Vec3& b,
     for (int j = 0; j < 3; ++j) {
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const double l = length(R(i1, j), R(i2, j));
-      if (l < 0x1p-20) continue;  // near the face axes, whose gaps are better known
+      if (l < 0x1p-20) continue;  // nearly parallel edges: the face axes give better bounds
       const double gap =
           std::abs(T[i2] * R(i1, j) - T[i1] * R(i2, j)) -
           (a[i1] * Q(i2, j) + a[i2] * Q(i1, j) + b[j1] * Q(i, j2) + b[j2] * Q(i, j1)) - slack;
@@ -145,7 +148,7 @@ double boxDistanceBound(const Pair& pair, const Vec3& a, const Vec3& b,
 
 }  // namespace internal
 
-/// Apart by more than `pad` metres?
+/// Returns true if the boxes are proved to be more than `pad` metres apart.
 inline bool obbsSeparated(const Obb& a, const Obb& b, const Transform& X_AB,
                           const BoxPairMargins& margins, double pad) {
   return internal::separated(internal::BoxPair(a, b, X_AB), a.half, b.half, margins, pad);

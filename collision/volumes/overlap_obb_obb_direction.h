@@ -6,14 +6,16 @@
 
 namespace corridor::internal {
 
-/// A pair of boxes and one proof for whoever comes up with a direction, however he found it.
+/// A pair of boxes, with one proof of separation along any direction, however the direction was
+/// found.
 ///
-/// In the coordinates of box a (overlap_obb_obb.h) the question is whether an axis-aligned box and
-/// the exact parallelepiped {T + R y, |y_j| ≤ b_j} are more than `margin` apart: `ball`, and
-/// `slack` for all growth and rounding. For any L the gap |L·T| − Σ a_i|L_i| − Σ b_j|L·R_j| uses no
-/// orthogonality; growth by a ball of radius ρ costs ρ|L|, and evaluating it 11 roundings of terms
-/// whose sum is below |L|(|T|₁ + Σa + Σb): `slack` has 16u of that. L is scaled to a largest entry
-/// of 1, so that kTiny covers underflow; the scaled one, as rounded, is the direction.
+/// In the coordinates of box a (overlap_obb_obb.h) the test is whether an axis-aligned box and the
+/// exact parallelepiped {T + R y, |y_j| ≤ b_j} are more than `margin` apart. `margin` is the
+/// absolute margin plus `slack`, which covers all growth and rounding. For any L the gap |L·T| − Σ
+/// a_i|L_i| − Σ b_j|L·R_j| uses no orthogonality. Growth by a sphere of radius ρ costs ρ|L|.
+/// Evaluating the gap takes 11 roundings of terms whose sum is below |L|(|T|₁ + Σa + Σb): `slack`
+/// has 16u of that. L is scaled to a largest entry of 1, so that kTiny covers underflow. The proof
+/// is for the scaled direction as rounded.
 struct DirectedBoxes : BoxPair {
   const Vec3 &a, &b;
   double slack, margin;
@@ -28,7 +30,8 @@ struct DirectedBoxes : BoxPair {
 
   double size() const { return T.cwiseAbs().sum() + a.sum() + b.sum(); }
 
-  /// @param L  largest entry ±1. @param along  Rᵀ L
+  /// @param L  its largest entry is ±1
+  /// @param along  Rᵀ L
   bool apartAlong(const Vec3& L, const Vec3& along) const {
     const double gap = std::abs(L.dot(T)) - L.cwiseAbs().dot(a) - along.cwiseAbs().dot(b);
     return gap > margin && gap > margin * (L.norm() * (1 + 4 * kUnit));  // |L| ≥ 1
@@ -37,7 +40,7 @@ struct DirectedBoxes : BoxPair {
     const Vec3 L = direction / direction.cwiseAbs().maxCoeff();
     return apartAlong(L, R.transpose() * L);
   }
-  /// Along any of the 15: for the few that rounding has led astray.
+  /// Tries all 15 axes: for the few pairs whose search was led astray by rounding.
   bool apartAlongAny() const {
     for (int i = 0; i < 3; ++i)
       if (apartAlong(Vec3::Unit(i)) || apartAlong(R.col(i))) return true;

@@ -1,22 +1,23 @@
 #include "collision/volumes/overlap_obb_obb_direction.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
 
-/// Two closed boxes that share a point either have an edge of one that meets a face of the other,
-/// or one is in the other: if not, their surfaces meet, so do two faces, and a corner of what these
-/// share is on an edge of one of them. (A flat box is its own surface.)
+/// If two closed boxes share a point, an edge of one meets a face of the other, or one box is
+/// inside the other. Proof: if neither is inside the other, their surfaces meet, so two faces do,
+/// and a corner of the faces' intersection is on an edge of one of them. (A flat box is its own
+/// surface.)
 ///
-/// Here these are A, box a grown by `margin` along its axes, which holds what overlap_obb_obb.h
-/// asks about, and the exact parallelepiped B = {T + R y, |y_j| ≤ b_j}. Everything is told in
-/// coordinates x of A, or z = Rᵀ(x − T), where a point of B, z = RᵀR y, is off y by at most η_R·Σb.
-/// An edge's ends in either coordinates have fewer than 12 roundings of terms below |T|₁ + Σa + Σb.
-/// Faces are taken `slack` thicker and wider, which is more than both.
+/// The two boxes here are A and B. A is box a grown by `margin` along its axes; it contains the
+/// grown box a of overlap_obb_obb.h. B is the exact parallelepiped {T + R y, |y_j| ≤ b_j}. Points
+/// are in coordinates x of A, or z = Rᵀ(x − T). There a point of B, z = RᵀR y, is off y by at most
+/// η_R·Σb. In either coordinates an edge's ends have fewer than 12 roundings of terms below
+/// |T|₁ + Σa + Σb. Faces are taken `slack` thicker and wider, which is more than both errors.
 namespace corridor {
 namespace {
 
-/// A segment {q + t·d, low ≤ t ≤ high}, cut to where |q_i + t·d_i| ≤ e.
+/// A segment {q + t·d, low ≤ t ≤ high}, clipped to |q_i + t·d_i| ≤ e.
 ///
-/// The quotient, as rounded, is the exact one of an e that is off by 2.1u(e + |q|): `slack`.
-/// Comparisons let a NaN stay in.
+/// The quotient, as rounded, is the exact one for an e that is off by 2.1u(e + |q|), which `slack`
+/// covers. A NaN clips nothing.
 struct Cut {
   double low = -1, high = 1;
   void slab(double q, double d, double e) {
@@ -31,7 +32,7 @@ struct Cut {
   bool empty() const { return low > high; }
 };
 
-/// Does the segment {q + t·d, |t| ≤ 1} meet the face x_i = s of the box |x| ≤ e?
+/// Returns true if the segment {q + t·d, |t| ≤ 1} meets the face x_i = s of the box |x| ≤ e.
 bool meetsFace(const Vec3& q, const Vec3& d, int i, double s, const Vec3& e, double slack) {
   if (std::abs(q[i] - s) > std::abs(d[i]) + slack) return false;
   Cut cut;
@@ -43,7 +44,7 @@ bool meetsFace(const Vec3& q, const Vec3& d, int i, double s, const Vec3& e, dou
   return true;
 }
 
-/// Does any of the edges of the box {centre + axes·y, |y_j| ≤ half_j} meet any face of |x| ≤ e?
+/// Returns true if an edge of the box {center + axes·y, |y_j| ≤ half_j} meets a face of |x| ≤ e.
 bool edgesMeetFaces(const Vec3& center, const Mat3& axes, const Vec3& half, const Vec3& e,
                     double slack) {
   for (int j = 0; j < 3; ++j) {
@@ -70,8 +71,8 @@ bool EdgeFace::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB
                          const BoxPairMargins& margins, double pad) {
   const internal::DirectedBoxes pair(boxA, boxB, X_AB, margins, pad);
   const Vec3 a = pair.a.array() + pair.margin;
-  const double slack = pair.slack + 4 * margins.relative * pair.margin;  // a's sum has grown by 3
-  const Vec3 centerA = -(pair.R.transpose() * pair.T);                   // in z
+  const double slack = pair.slack + 4 * margins.relative * pair.margin;  // Σa has grown by 3·margin
+  const Vec3 centerA = -(pair.R.transpose() * pair.T);                   // in coordinates z
   return outside(pair.T, a, slack) && outside(centerA, pair.b, slack) &&
          !edgesMeetFaces(pair.T, pair.R, pair.b, a, slack) &&
          !edgesMeetFaces(centerA, pair.R.transpose(), a, pair.b, slack);

@@ -5,8 +5,8 @@
 namespace corridor {
 namespace {
 
-/// Beyond what pairs of boxes need, but for flat ones so near that the simplices go in circles (one
-/// in a million of those that the tests make).
+/// More rounds than pairs of boxes need, except flat boxes so close that the simplices cycle (one
+/// in a million of the pairs in the tests).
 constexpr int kRounds = 32;
 
 double signOf(double x) {
@@ -15,16 +15,17 @@ double signOf(double x) {
 
 }  // namespace
 
-/// The search is over the difference b − a, whose point closest to the origin it closes in on; each
-/// direction on the way is tried for a proof, so that its own rounding does no harm.
+/// Searches for the point of the difference b − a that is closest to the origin. Each direction on
+/// the way is tried for a proof, so rounding in the search does no harm.
 bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
                     const BoxPairMargins& margins, double pad) {
   using gjk::nearest;
   using Point = gjk::Vector<double>;
   const internal::DirectedBoxes pair(boxA, boxB, X_AB, margins, pad);
   const double size = pair.size();
-  if (!(size > kTiny && size < HUGE_VAL)) return false;  // nothing is proved of these
-  // The search multiplies up to five lengths, some 2^-50 of others: kept from under- and overflow.
+  if (!(size > kTiny && size < HUGE_VAL)) return false;  // no proof for such sizes
+  // The search multiplies up to five lengths, some of which are 2^-50 of others. `scale` avoids
+  // underflow and overflow.
   double scale = 1;
   if (!(size > 0x1p-60 && size < 0x1p60)) scale = std::ldexp(1.0, -std::ilogb(size));
   const double noise = 256 * kUnit * size * scale, near = pair.margin * scale;
@@ -34,13 +35,13 @@ bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
     const Vec3 L = direction / direction.cwiseAbs().maxCoeff();
     const Vec3 along = pair.R.transpose() * L;
     if (pair.apartAlong(L, along)) return true;
-    Vec3 corner = pair.T;  // of b − a, the one farthest against L
+    Vec3 corner = pair.T;  // the corner of b − a that is farthest against L
     for (int j = 0; j < 3; ++j) corner -= signOf(along[j]) * pair.b[j] * pair.R.col(j);
     for (int i = 0; i < 3; ++i) corner[i] -= signOf(L[i]) * pair.a[i];
     const Point w(Vec3(corner * scale));
     const Point* const c = face.corner;
     for (int i = 0; i < face.count; ++i)
-      if (w == c[i]) return pair.apartAlongAny();  // nothing nearer
+      if (w == c[i]) return pair.apartAlongAny();  // no nearer point is left
     switch (face.count) {
       case 0:
         face = nearest(w);

@@ -6,11 +6,12 @@
 #include "collision/volumes/overlap_obb_obb_variants.h"
 
 /// R. Seidel, Small-dimensional linear programming and convex hulls made easy, Discrete &
-/// Computational Geometry 6 (1991): half-spaces are added one by one; where the best point so far
-/// is outside the new one, the best is on its plane: the same problem with one variable less.
+/// Computational Geometry 6 (1991). Half-spaces are added one by one. Where the best point so far
+/// is outside the new one, the next best point is on its plane: the same problem with one variable
+/// less.
 ///
-/// Here the variables are bounded, |x_i| ≤ reach_i: these are the six half-spaces of box a, and the
-/// best point to begin with is a corner.
+/// Here the variables are bounded, |x_i| ≤ reach_i. These are the six half-spaces of box a, and the
+/// first best point is a corner of it.
 namespace corridor {
 namespace {
 
@@ -22,7 +23,7 @@ template <std::size_t D>
 struct HalfSpace {
   Point<D> normal;
   double offset;
-  int face;  ///< which of the boxes' axes it is a face across: 0 to 2 of a, 3 to 5 of b
+  int face;  ///< the box axis across which it is a face: 0 to 2 of a, 3 to 5 of b
 };
 
 /// |x_i| ≤ reach_i.
@@ -32,7 +33,7 @@ struct Bounds {
   std::array<int, D> face;
 };
 
-/// The axes whose faces leave no point, as bits.
+/// The axes whose faces leave no common point, as bits.
 struct Conflict {
   unsigned faces = 0;
   void add(int face) { faces |= 1U << face; }
@@ -45,7 +46,7 @@ double dot(const Point<D>& a, const Point<D>& b) {
   return sum;
 }
 
-/// Without its k-th entry.
+/// Returns the array without its k-th entry.
 template <class T, std::size_t D>
 std::array<T, D - 1> without(const std::array<T, D>& all, std::size_t k) {
   std::array<T, D - 1> rest;
@@ -54,8 +55,8 @@ std::array<T, D - 1> without(const std::array<T, D>& all, std::size_t k) {
   return rest;
 }
 
-/// Puts the point of the bounds and half-spaces that is farthest along `goal` into x. False: there
-/// is none, and `conflict` gets the faces that say so.
+/// Sets x to the point within the bounds and half-spaces that is farthest along `goal`. Returns
+/// false if there is none; `conflict` then gets the faces that prove it.
 bool solve(const Bounds<1>& bounds, const HalfSpace<1>* list, std::size_t count,
            const Point<1>& goal, Point<1>& x, Conflict& conflict) {
   double low = -bounds.reach[0], high = bounds.reach[0];
@@ -85,7 +86,7 @@ bool solve(const Bounds<D>& bounds, const HalfSpace<D>* list, std::size_t count,
   for (std::size_t i = 0; i < count; ++i) {
     const HalfSpace<D>& plane = list[i];
     if (!(dot(plane.normal, x) > plane.offset)) continue;
-    // x_k = share − Σ slope_j x_j on its plane, for the k that its normal says most about.
+    // On the plane, x_k = share − Σ slope_j x_j, for the k of the normal's largest entry.
     std::size_t k = 0;
     for (std::size_t j = 1; j < D; ++j)
       if (std::abs(plane.normal[j]) > std::abs(plane.normal[k])) k = j;
@@ -97,7 +98,8 @@ bool solve(const Bounds<D>& bounds, const HalfSpace<D>* list, std::size_t count,
     Point<D - 1> slope = without(plane.normal, k);
     for (double& s : slope) s /= plane.normal[k];
     std::array<HalfSpace<D - 1>, 8>
-        rest;  // six in three variables: at most seven in two, eight in one
+        // Six in three variables become at most seven in two, and eight in one.
+        rest;
     for (std::size_t j = 0; j < i; ++j) {
       const double n = list[j].normal[k];
       rest[j] = {without(list[j].normal, k), list[j].offset - n * share, list[j].face};
@@ -123,14 +125,16 @@ bool solve(const Bounds<D>& bounds, const HalfSpace<D>* list, std::size_t count,
 
 }  // namespace
 
-/// No point: by Helly's theorem four of the half-spaces have none in common, and by Farkas' lemma
-/// their normals have weights ≥ 0 that sum up to zero, and the offsets to less. The share of one
-/// box's normals is then a direction along which the boxes are apart; with one normal of a it is
-/// that; with two of either, e_i, e_j, R_k, R_l, it is in the span of both pairs: (e_i × e_j) ×
-/// (R_k × R_l). So the dual solution is one of the 15 axes, and is proved as they are. It separates
-/// box a grown by `margin` and by another `slack` for the rounding of what is proved; of this
-/// algorithm's own rounding nothing need be known: edges that are parallel but for rounding make it
-/// name a wrong one for some in 10,000 pairs of such boxes; then all are tried.
+/// If the boxes share no point, then by Helly's theorem four of the half-spaces have none in
+/// common. By Farkas' lemma their normals have weights ≥ 0 that sum up to zero, while the weighted
+/// offsets sum up to less than zero. The weighted sum of one box's normals is then a direction
+/// along which the boxes are apart. With one normal of a, it is that normal. With two of either
+/// box, e_i, e_j, R_k, R_l, it is in the span of both pairs: (e_i × e_j) × (R_k × R_l). So the dual
+/// solution is one of the 15 axes, and is proved as they are.
+///
+/// The problem separates box a grown by `margin`, and by another `slack` for the rounding of the
+/// proof. The algorithm's own rounding needs no bound. For edges that are parallel up to rounding
+/// it names a wrong axis for some in 10,000 pairs of such boxes; then all 15 are tried.
 bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
                               const BoxPairMargins& margins, double pad) {
   const internal::DirectedBoxes pair(boxA, boxB, X_AB, margins, pad);
@@ -142,7 +146,7 @@ bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform&
     const double grown = pair.margin + pair.slack, along = axis.dot(pair.T);
     bounds.reach[i] = pair.a[static_cast<Eigen::Index>(i)] + grown;
     bounds.face[i] = static_cast<int>(i);
-    // Seidel takes them at random, for the sake of many. Of these few, those that face box a
+    // Seidel adds half-spaces in random order, which pays for many. Here the few that face box a
     // come first: they are the ones that may leave no point.
     const double half = pair.b[static_cast<Eigen::Index>(i)] + pair.slack, toA = along > 0 ? -1 : 1;
     for (const std::size_t far : {std::size_t{0}, std::size_t{3}}) {

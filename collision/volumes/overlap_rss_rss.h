@@ -9,15 +9,15 @@
 
 namespace corridor {
 
-/// Rectangles farther apart than their balls reach. First as flat boxes by the 15 axes, which
-/// settles faces and crossing edges; then along the line between their closest points, found by
-/// alternating projections (Cheney, Goldstein, Proc. AMS 10, 1959). Where those have not converged
-/// the direction is as legal as any other, only less good: what counts is that both are projected
-/// onto it.
+/// Tests whether two rectangles are farther apart than the sum of their spheres' radii. The first
+/// test treats them as flat boxes with 15 axes, which decides faces and crossing edges. The second
+/// is along the line between their closest points, found by alternating projections (Cheney,
+/// Goldstein, Proc. AMS 10, 1959). If these have not converged the direction is still valid, only
+/// less tight: the proof is the projection of both rectangles onto it.
 ///
-/// Derivation. As for boxes (overlap_obb_obb.h) in the coordinates of rectangle a, for a direction
-/// n: the gap of the cores less the radii times |n|. In these coordinates the balls have radius
-/// ≤ r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A + 2η_M): less than `relative` more.
+/// Derivation. As for boxes (overlap_obb_obb.h), in the coordinates of rectangle a, for a direction
+/// n: the gap of the cores less the radii times |n|. In these coordinates the swept spheres have
+/// radii ≤ r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A + 2η_M): less than `relative` more.
 template <>
 class PairTest<Rss> {
  public:
@@ -46,16 +46,16 @@ class PairTest<Rss> {
  private:
   static constexpr int kSteps = 8;
 
-  /// The best gap along the directions that the projections come by, or 0; stops at one above
-  /// `enough`, and where the rectangles are seen to be within radii + pad.
+  /// Returns the best gap along the directions that the projections produce, or 0. Stops at a gap
+  /// above `enough`, or as soon as the rectangles are found to be within radii + pad.
   double alongClosest(const internal::BoxPair& pair, const Vec3& a, const Vec3& b, double radii,
                       double pad, double enough) const {
     const double slack = margins_.relative * (pair.T.cwiseAbs().sum() + a.sum() + b.sum() + radii) +
                          margins_.absolute + radii + kTiny;
-    // Far from rigid: a factor below 0 would turn the sign of the gap.
+    // Far from rigid, 1 − relative could be negative and would reverse the sign of the gap.
     if (!(slack < HUGE_VAL && margins_.relative < 1)) return 0;
     double best = 0;
-    Vec3 q = pair.T;  // on b
+    Vec3 q = pair.T;  // a point of b
     for (int step = 0; step < kSteps; ++step) {
       const Vec3 p = q.cwiseMax(-a).cwiseMin(a);
       const Vec3 y = pair.R.transpose() * (p - pair.T);

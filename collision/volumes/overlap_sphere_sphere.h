@@ -9,9 +9,12 @@
 
 namespace corridor {
 
-/// Derivation. In frame A the image of sphere b lies within r_b(1 + 2η) of M c_B + t, η =
-/// ‖MᵀM − I‖_max: ‖M‖₂² ≤ 1 + 3η. The computed d = M c_B + t − c_A is off by less than the 24u·S of
-/// `boxPairMargins`, |d| by 4u more of itself; `relative` there is over 12η + 200u.
+/// Tests the distance of the centres against the radii.
+///
+/// Derivation. In frame A the image of sphere b is within r_b(1 + 2η) of M c_B + t, with
+/// η = ‖MᵀM − I‖_max, since ‖M‖₂² ≤ 1 + 3η. The computed d = M c_B + t − c_A is off by less than
+/// the 24u·S of `boxPairMargins`, and |d| by 4u more of itself; `relative` there is over
+/// 12η + 200u.
 template <>
 class PairTest<BoundingSphere> {
  public:

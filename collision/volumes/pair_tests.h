@@ -1,6 +1,6 @@
 #pragma once
 
-/// `PairTest` of every volume.
+/// Includes `PairTest` of every volume.
 #include "collision/volumes/overlap_aabb_aabb.h"
 #include "collision/volumes/overlap_kdop_kdop.h"
 #include "collision/volumes/overlap_obb_obb.h"
@@ -8,8 +8,7 @@
 #include "collision/volumes/overlap_rss_rss.h"
 #include "collision/volumes/overlap_sphere_sphere.h"
 
-// What templates over bounding volumes are instantiated for: every volume, and every volume with
-// every test of overlap.
+// Lists for explicit instantiation: every volume, and every volume with each of its overlap tests.
 // clang-format off
 #define CORRIDOR_EACH_VOLUME(F) \
   F(Obb) F(Aabb) F(BoundingSphere) F(Rss) F(Kdop<14>) F(Kdop<18>) F(Kdop<26>)

@@ -9,8 +9,8 @@
 namespace corridor {
 namespace {
 
-/// Orthonormal axes that begin with u and go on towards v; the identity where u vanishes, any
-/// completion where v adds nothing.
+/// Returns orthonormal axes that begin with u and continue towards v. Returns the identity if u
+/// vanishes, and any completion if v adds nothing.
 Mat3 axesAlong(const Vec3& u, const Vec3& v) {
   const Vec3 x = u.stableNormalized();
   if (!(std::abs(x.norm() - 1) < 0x1p-20)) return Mat3::Identity();
@@ -24,7 +24,7 @@ Mat3 axesAlong(const Vec3& u, const Vec3& v) {
   return axes.allFinite() && orthonormalityDefect(axes) < 0x1p-40 ? axes : Mat3::Identity();
 }
 
-/// The least sum of half extents: right for flat sets, too, whose volume is none.
+/// Returns the box of smaller sum of half extents. That also compares flat sets, whose volume is 0.
 const Obb& smaller(const Obb& a, const Obb& b) {
   return a.half.sum() <= b.half.sum() ? a : b;
 }
@@ -43,9 +43,10 @@ Obb enclosingObb(const ConvexPart& part) {
     box = smaller(box, enclosingObb(corners, fitFrame(corners, ObbFit::hull).axes));
   if (part.radius == 0) return box;
 
-  // A ball of radius r reaches r|g_i| along axis i, g_i the rows of U⁻¹; a disc across d̂ reaches
-  // r|g_i × d̂|. With η the axes' defect |g_i − u_i| ≤ 4η (U⁻¹ = (UᵀU)⁻¹Uᵀ, |UᵀU − I|₂ ≤ 3η), and
-  // |u_i| ≤ 1 + η; rounding d̂ and the cross product takes less than 16u.
+  // A sphere of radius r reaches r|g_i| along axis i, where g_i are the rows of U⁻¹. A disc
+  // orthogonal to d̂ reaches r|g_i × d̂|. With η the axes' defect, |g_i − u_i| ≤ 4η (U⁻¹ =
+  // (UᵀU)⁻¹Uᵀ, |UᵀU − I|₂ ≤ 3η), and |u_i| ≤ 1 + η. Rounding of d̂ and of the cross product takes
+  // less than 16u.
   const double loose = 6 * orthonormalityDefect(box.axes) + 16 * kUnit;
   const Vec3 d = edge(1).stableNormalized();
   const bool discs = part.flatEnds && std::abs(d.norm() - 1) < 0x1p-20;
@@ -63,7 +64,7 @@ std::vector<Ball> ballsOf(const ConvexPart& part) {
     return balls;
   }
   const Obb box = enclosingObb(part);
-  // A corner c ± Σ half_k u_k takes 6 roundings of numbers below |c|₁ + 2·Σhalf a coordinate.
+  // Each coordinate of a corner c ± Σ half_k u_k takes 6 roundings of numbers below |c|₁ + 2·Σhalf.
   const double error = roundedUp(16 * kUnit * (box.center.cwiseAbs().sum() + 2 * box.half.sum()));
   for (int i = 0; i < 8; ++i) {
     const Vec3 x(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);

@@ -7,13 +7,14 @@
 
 namespace corridor {
 
-/// A tight box around a convex part, rounded outward: contains it in real arithmetic. Along the
-/// axis of a capsule or a cylinder; along the edges at its first corner, or by the moments of the
-/// hull's surface, whichever is smaller, around other points (a box's own axes, then).
+/// Returns a tight box around a convex part, rounded outward: it contains the part in real
+/// arithmetic. Capsules and cylinders get a box along their axis. Other point sets get the smaller
+/// of two: along the edges at the first corner (a box's own axes, then), or by the moments of the
+/// hull's surface.
 Obb enclosingObb(const ConvexPart& part);
 
-/// Balls whose hull holds the part: its points with its radius; of a cylinder, whose discs no ball
-/// fits, the corners of its box.
+/// Returns solid spheres whose hull contains the part: its points with its radius. The discs of a
+/// cylinder are no spheres, so a cylinder gets the corners of its box.
 std::vector<Ball> ballsOf(const ConvexPart& part);
 
 }  // namespace corridor

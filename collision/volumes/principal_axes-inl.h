@@ -1,4 +1,4 @@
-// Eigenvectors of eight covariances at once, for every SIMD target: included once per target by
+// Computes the eigenvectors of eight covariances at once. Included once per SIMD target by
 // foreach_target.h.
 
 // clang-format off
@@ -19,7 +19,7 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Eight symmetric matrices, and their `principalAxes` (principal_axes.h).
+/// Eight symmetric matrices, and their axes as `principalAxes` (principal_axes.h) defines them.
 struct alignas(64) Covariances8 {
   double entry[6][8];  ///< xx, xy, xz, yy, yz, zz
 };
@@ -27,10 +27,12 @@ struct alignas(64) Axes8 {
   double axes[3][3][8];  ///< [j][k]: component k of axis j
 };
 
-/// Eberly, A Robust Eigensolver for 3x3 Symmetric Matrices, 2014: the eigenvalue that is farther
-/// from the middle one, its vector by the largest cross product of two rows, the others in the
-/// plane orthogonal to it. That eigenvalue is ±p·x, x in [√3, 2] the largest root of x³ − 3x = 2h,
-/// by Newton's method, since there the cubic is steep: 1e-3, 1e-6, 1e-12 off.
+/// Computes the axes of eight covariances as in Eberly, A Robust Eigensolver for 3x3 Symmetric
+/// Matrices, 2014. The first eigenvalue computed is the largest or the smallest: the one that is
+/// farther from the eigenvalue between them. Its eigenvector is the largest cross product of two
+/// rows. The other two eigenvectors are found in the plane orthogonal to it. The first eigenvalue
+/// is ±p·x, where x in [√3, 2] is the largest root of x³ − 3x = 2h. Newton's method finds x, since
+/// the cubic is steep there: errors are 1e-3, 1e-6, 1e-12.
 HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
   const hn::CappedTag<double, 8> d;
   using V = hn::Vec<decltype(d)>;
@@ -54,8 +56,9 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
                  hn::IfThenElse(mask, p.z, q.z)};
   };
   const V zero = hn::Zero(d), one = set(1), third = set(1.0 / 3);
-  // Spreads that differ less are alike: sums of floats are off by some 2^-22. Then axes are the
-  // coordinates', where noise would turn a cube's.
+  // Eigenvalues that differ by less than `even` (relative) count as equal, since sums of floats are
+  // off by some 2^-22. The axes are then those of the coordinates: noise would rotate the axes of a
+  // cube.
   const V even = set(0x1p-20);
   for (std::size_t at = 0; at < 8; at += hn::Lanes(d)) {
     const auto load = [&](int k) { return hn::Load(d, c.entry[k] + at); };
@@ -74,7 +77,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
     const V determinant = dot(row0, cross(row1, row2));
     const auto largest = hn::Ge(determinant, zero);
     const V p3 = hn::Mul(p2, p);
-    // 2h, at most 2 but for rounding; 0 / 0 of a ball's ends as the identity.
+    // 2h is at most 2, except for rounding. Where all spreads are equal it is 0/0; the result is
+    // then the identity.
     const V h2 = hn::Min(hn::Div(hn::Abs(determinant), p3), set(2));
     V x =
         hn::Add(set(1.7320508), hn::Mul(h2, hn::Sub(set(0.1606942), hn::Mul(h2, set(0.0133598)))));
@@ -95,7 +99,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
       square = hn::IfThenElse(larger, otherSquare, square);
     }
     w = times(hn::Div(one, hn::Sqrt(square)), w);
-    // A basis of the plane: Duff et al., Building an Orthonormal Basis, Revisited, 2017.
+    // An orthonormal basis s, t of the plane orthogonal to w: Duff et al., Building an Orthonormal
+    // Basis, Revisited, 2017.
     const V sign = hn::CopySign(one, w.z);
     const V a = hn::Neg(hn::Div(one, hn::Add(sign, w.z)));
     const V b = hn::Mul(hn::Mul(w.x, w.y), a);
@@ -117,9 +122,10 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
     sine = hn::IfThenElse(turned, hn::Mul(sine, shorten), zero);
     const Vec3V us = times(cosine, s), ut = times(sine, t);
     const Vec3V u = {hn::Add(us.x, ut.x), hn::Add(us.y, ut.y), hn::Add(us.z, ut.z)};
-    const Vec3V v = cross(w, u);  // the plane's larger and smaller; w × u = v, so that u × v = w
+    // The larger and the smaller axis of the plane; w × u = v, so that u × v = w.
+    const Vec3V v = cross(w, u);
     const Vec3V axes[3] = {select(largest, w, u), select(largest, u, v), select(largest, v, w)};
-    // Orthonormal, and no NaN: then it is an answer.
+    // The axes are used only if they are orthonormal and not NaN; else the result is the identity.
     const V limit = set(0x1p-41);
     auto good = hn::And(
         hn::Gt(p, even),

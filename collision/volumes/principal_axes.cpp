@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collision/volumes/principal_axes.cpp"
 #include "hwy/foreach_target.h"
-// After foreach_target.h, as Highway asks.
+// Highway requires this include after foreach_target.h.
 #include "hwy/highway.h"
 
 #include "collision/volumes/principal_axes-inl.h"
@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// One matrix, in the first lane.
+/// Computes the axes of one matrix, in the first lane.
 void principalAxes1(const Mat3& m, Mat3& axes) {
   Covariances8 c = {};
   int at = 0;

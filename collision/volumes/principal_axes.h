@@ -4,9 +4,10 @@
 
 namespace corridor {
 
-/// Eigenvectors of a covariance, as columns, of the largest eigenvalue first: right-handed,
-/// orthonormal to 2^-40, and as good as axes of a box need be. Eigenvalues that differ by less than
-/// 2^-20 of them count as equal; the identity where all are (a ball's, a cube's), 0 or not finite.
+/// Returns the eigenvectors of a covariance as columns, the eigenvector of the largest eigenvalue
+/// first: right-handed, orthonormal to 2^-40, and accurate enough for the axes of a box.
+/// Eigenvalues that differ by less than 2^-20 of their size count as equal. Returns the identity if
+/// all are equal (as for a sphere or a cube), 0, or not finite.
 Mat3 principalAxes(const Mat3& covariance);
 
 }  // namespace corridor

@@ -4,11 +4,11 @@
 
 namespace corridor {
 
-/// A rectangle swept by a ball (Larsen, Gottschalk, Lin, Manocha, "Fast proximity queries with
+/// A rectangle swept by a sphere (Larsen, Gottschalk, Lin, Manocha, "Fast proximity queries with
 /// swept sphere volumes", 1999): the points at most `size` from the flat box `core`. Metres.
 struct Rss {
   Obb core;         ///< half[2] is 0
-  double size = 0;  ///< radius of the ball
+  double size = 0;  ///< radius of the swept sphere
 
   static constexpr bool kOriented = true;
   static Rss around(const Obb& box, const Content& content);

@@ -6,7 +6,7 @@
 #include "collision/hierarchy/with_volume.h"
 #include "collision/queries/containment.h"
 #include "collision/queries/interference.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/queries/surface_distance.h"
 
 namespace corridor {
@@ -14,15 +14,15 @@ namespace {
 
 void require(const Transform& X_WA, const Transform& X_WB) {
   if (!X_WA.isFinite() || !X_WB.isFinite())
-    throw std::invalid_argument("the pose of a body is to be finite");
+    throw std::invalid_argument("the pose of a body must be finite");
 }
 
 void require(double x, const char* what) {
   if (!(std::isfinite(x) && x >= 0))
-    throw std::invalid_argument(std::string(what) + " is to be finite and not negative");
+    throw std::invalid_argument(std::string(what) + " must be finite and not negative");
 }
 
-/// A point of what `enclosed` found.
+/// Returns a point of the part of `inner` that `enclosed` found.
 Vec3 pointOf(const Body& inner, std::uint32_t number, const Transform& X_WI) {
   return X_WI * (inner.part() ? inner.part()->points[0] : inner.mesh().corner(number, 0));
 }
@@ -34,7 +34,7 @@ std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, c
                                          TreeKind trees) {
   require(X_WA, X_WB);
   const auto hit =
-      trees == TreeKind::wideObb
+      trees == TreeKind::obb4
           ? interference(a.tree(), X_WA, b.tree(), X_WB, context)
           : onVolumeTrees(trees, a, b, [&](auto overlap, const auto& ta, const auto& tb) {
               return interference<decltype(overlap)>(ta, X_WA, tb, X_WB, context);

@@ -9,33 +9,34 @@
 
 namespace corridor {
 
-/// Queries of two bodies, whatever they are: surfaces of meshes, `solid` meshes with all that they
-/// enclose, and primitives, solid and never tessellated; in all pairs, each under its own map.
+/// Queries of two bodies of any kind, each under its own map: surfaces of meshes, `solid` meshes
+/// with everything that they enclose, and convex parts, which are solid and never tessellated.
 ///
-/// With a primitive, sizes and coordinates are to be within 2^±440 m, or 0: beyond, bodies may be
-/// called closer than they are, or in contact, never farther apart.
+/// With a convex part, sizes and coordinates must be within 2^±440 m, or 0. Beyond that the queries
+/// may report bodies as closer than they are, or in contact, but never as farther apart.
 ///
-/// They build the trees that they need, of the kind `trees` (what is inside a solid mesh is asked
-/// of the binary tree of boxes, whatever the kind), throw std::invalid_argument for maps that are
-/// not finite and numbers that are not finite or negative, and may be called in parallel, with one
-/// context a thread.
+/// The queries build the trees that they need, of the kind `trees`. Containment in a solid mesh
+/// always uses the binary tree of boxes. They throw std::invalid_argument for maps that are not
+/// finite, and for numbers that are not finite or negative. Threads may call them in parallel, with
+/// one context per thread.
 
-/// Do they share a point? The first pair found of triangles or parts that touch, or the triangle of
-/// a solid around and one of what is inside; none where they are apart: exact for meshes, in the
-/// band of `convexSetsTouch` where there is a primitive.
+/// Returns a pair of triangles or convex parts that touch, or a triangle of a solid mesh and one of
+/// the body inside it. Returns nothing if the bodies are separated. Exact for meshes; with a convex
+/// part, in the band of `convexSetsTouch` the answer may be contact.
 std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
                                          const Transform& X_WB, QueryContext& context,
-                                         TreeKind trees = TreeKind::wideObb);
+                                         TreeKind trees = TreeKind::obb4);
 
-/// How far are they apart, with points that have it (`queries/distance.h` has the errors)? 0 if and
-/// only if `interference` says contact; of a body in a solid mesh both points are one of the
-/// former.
+/// Returns the distance with a pair of witness points; the errors are those of queries/distance.h.
+/// The distance is 0 if and only if `interference` reports contact. If one body is inside a solid
+/// mesh, both witness points are the same point of the body inside.
 Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
                   const DistanceOptions& options, QueryContext& context,
-                  TreeKind trees = TreeKind::wideObb);
+                  TreeKind trees = TreeKind::obb4);
 
-/// The tolerance query: are they at most d metres apart? `false` is a proof that they are farther.
+/// The tolerance query: reports whether the bodies are at most d metres apart. `false` is a proof
+/// that they are farther apart.
 bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                double d, QueryContext& context, TreeKind trees = TreeKind::wideObb);
+                double d, QueryContext& context, TreeKind trees = TreeKind::obb4);
 
 }  // namespace corridor

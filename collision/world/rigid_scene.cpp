@@ -9,7 +9,7 @@ namespace corridor {
 namespace {
 
 Scene sceneOf(std::vector<Body> moving, std::vector<Body> fixed) {
-  if (moving.empty()) throw std::invalid_argument("a scene needs a moving body");
+  if (moving.empty()) throw std::invalid_argument("a rigid scene needs at least one moving body");
   std::vector<Scene::Placed> bodies;
   for (Body& body : fixed) bodies.push_back({std::move(body), 0});
   for (Body& body : moving) bodies.push_back({std::move(body), 1});
@@ -21,20 +21,20 @@ Scene sceneOf(std::vector<Body> moving, std::vector<Body> fixed) {
 
 void require(const RigidPose& pose) {
   if (!pose.p.allFinite() || !pose.q.coeffs().allFinite() || pose.q.coeffs().isZero(0))
-    throw std::invalid_argument("a pose is to be finite, its quaternion not zero");
+    throw std::invalid_argument("a pose must be finite, and its quaternion not zero");
 }
 
 void require(const Vec3& xyYaw) {
-  if (!xyYaw.allFinite()) throw std::invalid_argument("a pose is to be finite");
+  if (!xyYaw.allFinite()) throw std::invalid_argument("a pose must be finite");
 }
 
 void require(const Tube& tube) {
   for (const double x : {tube.position, tube.rotation})
     if (!(x >= 0 && std::isfinite(x)))
-      throw std::invalid_argument("a tube is to be finite and not negative");
+      throw std::invalid_argument("a tube must be finite and not negative");
 }
 
-/// Counted as a state, not as an edge.
+/// Counts the query as a state, not as an edge.
 MotionResult asState(const MotionResult& result, QueryContext& context) {
   --context.counters.edges;
   ++context.counters.states;

@@ -5,11 +5,13 @@
 
 namespace corridor {
 
-/// The simple door to a `Scene`: one rigid body of several bodies, `moving`, among `fixed` ones,
-/// which are at the identity. As `Scene`: const after construction, a QueryContext a thread.
+/// A `Scene` of one rigid body, made of the bodies `moving`, among the bodies `fixed`, whose frame
+/// is the world. Like `Scene` it is const after construction, and threads may share it with a
+/// `QueryContext` each.
 class RigidScene {
  public:
   /// In `scene()` the fixed bodies come first, on frame 0; the moving ones follow, on frame 1.
+  /// @throws std::invalid_argument if `moving` is empty.
   RigidScene(std::vector<Body> moving, std::vector<Body> fixed);
 
   const Scene& scene() const { return scene_; }
@@ -17,23 +19,26 @@ class RigidScene {
   std::span<const Scene::Placed> moving() const {
     return std::span(scene_.bodies()).subspan(fixedCount_);
   }
-  /// @param farthest  metres; the poses of edges are at most so far from the origin.
+  /// Returns `Scene::defaultTolerance`.
+  /// @param farthest metres; the poses of edges are at most this far from the origin.
   double defaultTolerance(double farthest = 0) const { return scene_.defaultTolerance(farthest); }
 
   /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
   /// numbers that are not finite or out of range.
 
-  /// Exact, for the moving bodies under X_WB.
+  /// Returns a contact of the moving bodies under X_WB, or nothing. Exact: see
+  /// `Scene::interference`.
   std::optional<Contact> interference(const Transform& X_WB, QueryContext& context) const;
 
-  /// Is the motion from `from` to `to` free: straight line and slerp by the shorter arc (design:
-  /// «What an edge is»)? @param tube what the proof covers beside the nominal curve.
+  /// Decides whether the motion from `from` to `to` is free: a straight line, and slerp along the
+  /// shorter arc (collision/PROMISES.md, "What an edge is").
+  /// @param tube what the proof covers around the nominal curve.
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context, const Tube& tube = {}) const;
-  /// The same in the plane: (x, y, yaw), metres and radians, the shorter way round, z = 0.
+  /// The same in the plane z = 0: (x, y, yaw), metres and radians, the yaw the shorter way round.
   MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
                                  QueryContext& context, const Tube& tube = {}) const;
-  /// An edge of zero length.
+  /// Decides whether a state is free: an edge of zero length.
   MotionResult certifyState(const RigidPose& pose, const MotionOptions& options,
                             QueryContext& context, const Tube& tube = {}) const;
   MotionResult certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,

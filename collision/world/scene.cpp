@@ -13,30 +13,32 @@
 #include "collision/core/rounding.h"
 #include "collision/motion/may_meet.h"
 #include "collision/motion/rigid_motion.h"
+#include "collision/queries/surface_distance.h"
 #include "collision/world/body_queries.h"
 
 namespace corridor {
 namespace {
 
-/// A frame at rest under any map, as the world sees it, and as another does under any map of its
-/// own: windows for `sweptBall`.
-MotionWindow atRest(const Transform& X_WB) {
-  // No matrix of doubles is a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|.
+/// Relative motions of zero length for `sweptSphere`, under any maps: of a frame as seen from the
+/// world, and of a frame as seen from another one.
+RelativeMotion atRest(const Transform& X_WB) {
+  // No matrix of doubles is exactly a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|.
   const double defect = orthonormalityDefect(X_WB.m);
-  MotionWindow still;
+  RelativeMotion still;
   still.X_AB = X_WB;
   still.reachError = 3 * defect;
-  // Far from rigid, M·centre may cancel and be small beside its rounding: nothing is skipped then.
+  // Far from a rotation, the terms of M·centre may cancel, so that rounding dominates. No pair is
+  // skipped then.
   if (!(defect < 0x1p-10)) still.fixedError = HUGE_VAL;
   return still;
 }
-MotionWindow atRest(const Transform& X_WA, const Transform& X_WB) {
+RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
   const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
-  MotionWindow still;
+  RelativeMotion still;
   still.X_AB = rigidInverse(X_WA) * X_WB;
-  // What X_AB is off from M_A⁻¹(X_WB x − t_A): M_A⁻¹ = M_Aᵀ + (1 − M_AᵀM_A)M_A⁻¹, the latter below
-  // 3η_A(1 + 4η_A) < 4η_A; and less than 32u of all terms. The sphere's radius grows by 3η_B, and
-  // by M_A's defect.
+  // The error of X_AB as M_A⁻¹(X_WB x − t_A). Write M_A⁻¹ = M_Aᵀ + (1 − M_AᵀM_A)M_A⁻¹: the second
+  // term is below 3η_A(1 + 4η_A) < 4η_A. Rounding adds less than 32u of all terms. The sphere's
+  // radius grows by 3η_B and by the defect of M_A.
   still.reachError = 5 * (defectA + defectB) + 32 * kUnit;
   still.fixedError =
       (4 * defectA + 32 * kUnit) * (X_WA.t.cwiseAbs().sum() + X_WB.t.cwiseAbs().sum());
@@ -48,17 +50,18 @@ bool isSolidMesh(const Body& body) {
   return body.solid() && !body.part();
 }
 
-/// The one door for numbers of motion queries: a negative margin, say, would prove too much.
+/// Checks the numbers of every motion query. With a negative margin, for example, `free` would be
+/// possible although bodies touch.
 void require(const MotionOptions& options) {
   const auto finite = [](double x, bool zeroToo) {
     return std::isfinite(x) && (zeroToo ? x >= 0 : x > 0);
   };
   if (!finite(options.tolerance, false))
-    throw std::invalid_argument("the tolerance of a motion query is to be positive and finite");
-  if (!finite(options.margin, true) || !finite(options.reserve, true))
-    throw std::invalid_argument("margin and reserve are to be finite and not negative");
+    throw std::invalid_argument("the tolerance of a motion query must be positive and finite");
+  if (!finite(options.margin, true) || !finite(options.clearanceSlack, true))
+    throw std::invalid_argument("margin and clearance slack must be finite and not negative");
   if (!finite(options.timeTolerance, false))
-    throw std::invalid_argument("the time tolerance is to be positive and finite");
+    throw std::invalid_argument("the time tolerance must be positive and finite");
 }
 
 }  // namespace
@@ -70,7 +73,7 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
   motionOf.reserve(pairs_.size());
   for (Pair& pair : pairs_) {
     if (pair.a >= bodies_.size() || pair.b >= bodies_.size())
-      throw std::invalid_argument("a pair of bodies that the scene doesn't have");
+      throw std::invalid_argument("a pair names a body that the scene does not have");
     if (bodies_[pair.b].frame < bodies_[pair.a].frame) std::swap(pair.a, pair.b);
     const FramePair frames{bodies_[pair.a].frame, bodies_[pair.b].frame};
     const auto [found, added] = motions.try_emplace({frames.a, frames.b}, framePairs_.size());
@@ -116,39 +119,40 @@ double Scene::defaultTolerance(double farthest) const {
     radius = std::min(radius, 0.5 * (side.upper - side.lower).norm());
     size = std::max(size, farthest + side.lower.cwiseAbs().cwiseMax(side.upper.cwiseAbs()).norm());
   }
-  if (sides.empty()) radius = 1;  // nothing is ever asked of it
+  if (sides.empty()) radius = 1;  // no query uses it
   // A single point has no radius; any positive number will do.
   return std::max(1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8),
                   RigidMotion::roundingTolerance(size));
 }
 
-/// Visits the pairs of bodies whose bounds don't keep them farther apart than `within` metres,
-/// which may fall on the way, until the visitor returns true.
+/// Visits the pairs of bodies whose bounds do not prove them farther apart than `within` metres,
+/// until the visitor returns true. The visitor may lower `within`.
 template <class Visit>
 void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
                          QueryContext& context, Visit visit) const {
   for (const FramePair& pair : framePairs_)
     for (const std::size_t frame : {pair.a, pair.b})
       if (frame >= X_WF.size() || !X_WF[frame].isFinite())
-        throw std::invalid_argument("every frame is to have a finite pose");
-  context.balls.makeRoom(bodies_.size());
-  context.balls.forget();
-  const auto worldBall = [&](std::size_t body) -> const SweptBall& {
+        throw std::invalid_argument("every frame must have a finite pose");
+  context.spheres.makeRoom(bodies_.size());
+  context.spheres.forget();
+  const auto worldSphere = [&](std::size_t body) -> const SweptSphere& {
     const Placed& placed = bodies_[body];
-    return context.balls.of(body,
-                            [&] { return sweptBall(placed.body, atRest(X_WF[placed.frame])); });
+    return context.spheres.of(body,
+                              [&] { return sweptSphere(placed.body, atRest(X_WF[placed.frame])); });
   };
   for (const MotionPair& pair : motionPairs_) {
     const FramePair& frames = framePairs_[pair.motion];
     const Transform &X_WA = X_WF[frames.a], &X_WB = X_WF[frames.b];
     if (X_WA == Transform()) {
-      if (!mayMeet(*pair.a, worldBall(pair.bodyB), within)) continue;
+      if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) continue;
     } else {
-      if (clearanceBound(worldBall(pair.bodyA), worldBall(pair.bodyB), within) > within) continue;
-      // The ball and the box are told in A's frame, whose map need not keep lengths.
+      if (clearanceBound(worldSphere(pair.bodyA), worldSphere(pair.bodyB), within) > within)
+        continue;
+      // The sphere and the box are measured in A's frame, whose map need not preserve lengths.
       const double inA =
           within > 0 ? roundedUp(within * (1 + 4 * orthonormalityDefect(X_WA.m))) : within;
-      if (!mayMeet(*pair.a, sweptBall(*pair.b, atRest(X_WA, X_WB)), inA)) continue;
+      if (!mayMeet(*pair.a, sweptSphere(*pair.b, atRest(X_WA, X_WB)), inA)) continue;
     }
     if (visit(pair, X_WA, X_WB)) return;
   }
@@ -178,28 +182,57 @@ double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context,
   return least;
 }
 
+namespace {
+
+/// Returns a relative pose at a time in [0, until] at which the surfaces of the two bodies are
+/// farther apart than the pose's rounding and tube. Returns nothing if they are not at any of the
+/// times tried. Nearly all motions have such a pose at t = 0.
+std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion, double until,
+                                   QueryContext& context) {
+  for (const double t : {0.0, until, until / 2, until / 4, until / 8}) {
+    const RelativeMotion relative = motion.relativeMotion(pair.motion, t, 0);
+    const double reach = (relative.X_AB.m * pair.b->sphereCenter()).norm() + pair.b->sphereRadius();
+    const double error = roundedUp(relative.fixedError + relative.reachError * roundedUp(reach));
+    if (!surfacesCloserThan(*pair.a, {}, *pair.b, relative.X_AB, error, context))
+      return relative.X_AB;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
                                  const MotionOptions& options, QueryContext& context,
-                                 EdgeMethod method, MotionEvidence* evidence) const {
-  MotionResult result = evidence ? certifyMotion(motion, pairs, options, context, evidence)
-                                 : certifyMotionBy(method, motion, pairs, options, context);
+                                 EdgeMethod method, MotionCertificate* certificate) const {
+  MotionResult result = certificate ? certifyMotion(motion, pairs, options, context, certificate)
+                                    : certifyMotionBy(method, motion, pairs, options, context);
   if (!solidMeshes_) return result;
   if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
-  // Surfaces that stay apart at t = 0 by more than all rounding: the rounded pose decides for the
-  // real one, and for all of what is certified.
+  const double until = result.verdict == MotionVerdict::free ? 1 : result.certifiedUntil;
+  // The surfaces do not meet on [0, until], so one pose there decides containment for the whole of
+  // it. It must be a pose whose rounding cannot carry a point through a surface.
   for (const MotionPair& pair : pairs) {
-    // A convex part has looked at what is inside it when it looked for contacts.
+    // A convex part is solid itself: the motion query finds what is inside it.
     if (!isSolidMesh(*pair.a) && !isSolidMesh(*pair.b)) continue;
-    const MotionWindow start = motion.window(pair.motion, 0, 0);
-    if (!mayMeet(*pair.a, sweptBall(*pair.b, start), 0)) continue;
-    const auto hit = insideEachOther(*pair.a, {}, *pair.b, start.X_AB, context);
-    if (!hit) continue;
+    if (!mayMeet(*pair.a, sweptSphere(*pair.b, motion.relativeMotion(pair.motion, 0, 0)), 0))
+      continue;
+    const auto X_AB = poseApart(pair, motion, until, context);
+    const auto hit = X_AB ? insideEachOther(*pair.a, {}, *pair.b, *X_AB, context) : std::nullopt;
+    if (X_AB && !hit) continue;
     context.counters.undecided -= result.verdict == MotionVerdict::undecided;
-    if (evidence) *evidence = {};
+    if (certificate) *certificate = {};
     result = {};
-    result.verdict = MotionVerdict::contact;
-    result.certifiedUntil = result.contactTime = 0;
-    result.pair = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
+    result.certifiedUntil = 0;
+    if (hit) {
+      result.verdict = MotionVerdict::contact;
+      result.contactTime = 0;
+      result.pair = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
+    } else {
+      result.verdict = MotionVerdict::undecided;
+      result.reason = UndecidedReason::rounding;
+      result.pair = Contact{pair.bodyA, pair.bodyB, 0, 0};
+      ++context.counters.undecided;
+    }
     break;
   }
   return result;
@@ -212,9 +245,10 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
 }
 
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
-                            QueryContext& context, MotionEvidence& evidence) const {
+                            QueryContext& context, MotionCertificate& certificate) const {
   require(options);
-  return certifyPairs(motionPairs_, motion, options, context, EdgeMethod::certified, &evidence);
+  return certifyPairs(motionPairs_, motion, options, context, EdgeMethod::directional,
+                      &certificate);
 }
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,
@@ -224,7 +258,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   results.resize(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     results[order_[i]] =
-        certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::certified);
+        certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::directional);
   return results;
 }
 

@@ -13,10 +13,13 @@
 
 namespace corridor {
 
-/// Bodies on frames that move, and which of them are tested against which. Frame 0 is the world. It
-/// knows nothing of why frames move: a `MotionSource` says how each pair of frames does, or a list
-/// of transforms where they are. All const after construction, trees apart (built at first need):
-/// with one QueryContext (and one MotionSource) a thread every query may be called in parallel.
+/// Bodies on frames that move, and the pairs of bodies that are tested. Frame 0 is the world.
+///
+/// A scene does not know why frames move. Queries of a state take the transform of each frame.
+/// Queries of a motion take a `MotionSource`, which describes how the two frames of each pair move
+/// relative to each other. A scene is const after construction, except for trees, which are built
+/// when first needed. Threads may run any query in parallel, with one `QueryContext` (and one
+/// `MotionSource`) per thread.
 class Scene {
  public:
   struct Placed {
@@ -26,72 +29,76 @@ class Scene {
   struct Pair {
     std::size_t a = 0, b = 0;  ///< bodies, by index
   };
-  /// Of frames; b is seen from a. The index in `framePairs()` is the motion's number.
+  /// A pair of frames; b is seen from a. Its index in `framePairs()` is the number of its motion.
   struct FramePair {
     std::size_t a = 0, b = 0;
   };
 
-  /// Only `pairs` are ever tested. Within a pair the order is kept where the frames differ in rank:
-  /// a is on the frame of lower index.
+  /// Only `pairs` are ever tested. In `pairs()`, a is the body on the frame of lower index: the
+  /// constructor exchanges the two bodies of a pair if necessary.
+  /// @throws std::invalid_argument if a pair names a body that does not exist.
   Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
 
   const std::vector<Placed>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
-  /// What a MotionSource has to tell the motion of: the distinct pairs of frames among `pairs()`,
-  /// and where both of one move, each of the two as the world sees it.
+  /// Returns the pairs of frames whose motions a `MotionSource` has to supply: the distinct pairs
+  /// of frames among `pairs()`, and each moving frame of these as seen from the world.
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
-  /// Metres: 1e-7 of the smallest of the frames' radii (each frame's bodies in one sphere; frames
-  /// in no pair don't count), or what the rounding of rigid motions needs, if that is larger
-  /// (`RigidMotion::roundingTolerance`).
-  /// @param farthest  metres; poses of frames are at most so far from the origin.
+  /// Returns a tolerance in metres: 1e-7 of the smallest radius of the frames, or what the rounding
+  /// of rigid motions needs if that is larger (`RigidMotion::roundingTolerance`). The radius of a
+  /// frame is that of one sphere around its bodies; frames in no pair do not count.
+  /// @param farthest metres; the poses of frames are at most this far from the origin.
   double defaultTolerance(double farthest = 0) const;
 
-  /// All queries throw std::invalid_argument for transforms that are not finite (the world's, frame
-  /// 0's, and those of frames in pairs) and options that are not finite or out of range; they build
-  /// the trees that they need.
+  /// All queries throw std::invalid_argument for options that are not finite or out of range. They
+  /// also throw it if the transform of the world (frame 0), or of a frame in a pair, is missing or
+  /// not finite. They build the trees that they need.
 
-  /// Exact for meshes under the maps X_WF of the frames (contract 1), in the band of 2^-44 for
-  /// primitives; solids included. First contact found.
-  /// @param trees  which are walked; of motions, `MotionOptions::trees`. Bodies whose bounds are
-  /// apart have none walked, whatever the kind.
+  /// Returns the first contact found under the maps X_WF of the frames, or nothing. Exact for
+  /// meshes (collision/PROMISES.md, promise 1); with a convex part, contact may be reported for
+  /// gaps below 2^-44 of the largest coordinate. A body inside a solid one is in contact with it.
+  /// @param trees the kind of trees to walk (motion queries take `MotionOptions::trees`). The trees
+  /// of bodies whose bounds are separated are not walked.
   std::optional<Contact> interference(std::span<const Transform> X_WF, QueryContext& context,
-                                      TreeKind trees = TreeKind::wideObb) const;
+                                      TreeKind trees = TreeKind::obb4) const;
 
-  /// The least distance of all pairs, metres: 0 if and only if `interference` says contact; else
-  /// with the errors of `queries/distance.h`. Infinite without pairs.
+  /// Returns the least distance over all pairs, metres. It is 0 if and only if `interference`
+  /// reports contact; otherwise its errors are those of queries/distance.h. Infinite without pairs.
   double clearance(std::span<const Transform> X_WF, QueryContext& context,
-                   TreeKind trees = TreeKind::wideObb) const;
+                   TreeKind trees = TreeKind::obb4) const;
 
-  /// Is the motion free? (`certifyMotion`, by any method; a solid that has another body inside is a
-  /// contact at t = 0.) `motion` numbers its motions as `framePairs()`.
+  /// Decides whether the motion is free, by any method (`certifyMotion`). If a body is inside a
+  /// solid one, the answer is a contact at t = 0. Motion number i of `motion` is that of
+  /// `framePairs()[i]`.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
-                       EdgeMethod method = EdgeMethod::certified) const;
-  /// The same by the method `certified`, and why: `checkEvidence` (motion/check_evidence.h) proves
-  /// it anew with `motionPairs()`. Of surfaces: a solid that has another body inside needs no
-  /// evidence.
+                       EdgeMethod method = EdgeMethod::directional) const;
+  /// The same, by the method `EdgeMethod::directional`, with a certificate. `checkCertificate`
+  /// (motion/check_certificate.h) can prove the certificate again, given `motionPairs()`. The
+  /// certificate is about surfaces: it is empty if the verdict follows from containment in a solid
+  /// mesh.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
-                       MotionEvidence& evidence) const;
-  /// `pairs()` as motion queries take them, in another order; evidence numbers its pairs by it.
-  /// Good as long as the scene, and as long as that is not moved.
+                       MotionCertificate& certificate) const;
+  /// Returns `pairs()` in the form and order in which motion queries take them. A certificate
+  /// numbers its pairs in this order. Valid as long as the scene exists and is not moved.
   std::span<const MotionPair> motionPairs() const { return motionPairs_; }
-  /// What `certify` says of each pair of bodies on its own, in the order of `pairs()`.
+  /// Returns the answer of `certify` for each pair of bodies on its own, in the order of `pairs()`.
   std::vector<MotionResult> certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                             QueryContext& context) const;
 
  private:
   MotionResult certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
                             const MotionOptions& options, QueryContext& context, EdgeMethod method,
-                            MotionEvidence* evidence = nullptr) const;
+                            MotionCertificate* certificate = nullptr) const;
   template <class Visit>
   void forNearPairs(std::span<const Transform> X_WF, const double& within, QueryContext& context,
                     Visit visit) const;
 
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;
-  std::vector<std::size_t> order_;       // of the pairs: those of one motion together,
-  std::vector<MotionPair> motionPairs_;  // and in that order
+  std::vector<std::size_t> order_;       // indices of `pairs_`, pairs of one motion together
+  std::vector<MotionPair> motionPairs_;  // in that order
   std::vector<FramePair> framePairs_;
-  bool solidMeshes_ = false;  // any in a pair: then what is inside them matters
+  bool solidMeshes_ = false;  // some pair has one: containment must be decided
 };
 
 }  // namespace corridor

@@ -11,13 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/fault_list.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_yaml.h"
-#include "planner/benchmark/peers.h"
+#include "planner/benchmark/competitors.h"
 #include "planner/benchmark/report.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
@@ -31,15 +31,16 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What isn't UTF-8 of the verifier's words, as of names in files, is shown as such.
+/// Bytes that are not UTF-8, such as those of names in files, become U+FFFD in the JSON.
 constexpr auto kReplace = ordered_json::error_handler_t::replace;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& why) {
   throw InputError(Fault{option, 0, why});
 }
 
-/// The words of an option that takes several, comma separated. CLI11's own delimiter drops empty
-/// ones: "$A,certified" of a variable that isn't set would be another comparison.
+/// Splits the values of an option at commas; refuses empty entries. CLI11's own delimiter drops
+/// these: then "$A,certified" with an unset variable would silently run another comparison.
+/// @throws InputError
 std::vector<std::string> wordsOf(const std::string& option, const std::vector<std::string>& lists) {
   std::vector<std::string> words;
   for (const std::string& list : lists) {
@@ -49,15 +50,15 @@ std::vector<std::string> wordsOf(const std::string& option, const std::vector<st
       const auto begin = word.find_first_not_of(' ');
       words.push_back(
           begin == word.npos ? "" : word.substr(begin, word.find_last_not_of(' ') + 1 - begin));
-      if (words.back().empty()) refuse(option, "of " + quotedWord(list) + " an entry is empty");
+      if (words.back().empty()) refuse(option, "an entry of " + quotedWord(list) + " is empty");
     }
   }
   return words;
 }
 
-/// The peers, opened only where a variant names one, or nothing that there is.
-/// @throws InputError for one that can't take part.
-std::vector<BenchmarkPeer> peersOf(const std::vector<std::string>& variants) {
+/// Returns the competitors that can take part. Their modules are opened only if a variant names a
+/// competitor or something unknown. @throws InputError if a variant names one that can't take part.
+std::vector<BenchmarkCompetitor> peersOf(const std::vector<std::string>& variants) {
   const std::vector<std::string>& edges = problemChoices().at("checker.edges");
   bool needed = false;
   for (const std::string& word : variants) {
@@ -65,18 +66,18 @@ std::vector<BenchmarkPeer> peersOf(const std::vector<std::string>& variants) {
     needed = needed || std::find(edges.begin(), edges.end(), name) == edges.end();
     if (std::find(peerNames().begin(), peerNames().end(), name) == peerNames().end()) continue;
     if (const std::string why = whyNoPeer(name); !why.empty())
-      refuse("--variants", "no " + name + ": " + why);
+      refuse("--variants", name + " can't take part: " + why);
   }
-  return needed ? peersHere() : std::vector<BenchmarkPeer>();
+  return needed ? peersHere() : std::vector<BenchmarkCompetitor>();
 }
 
-/// Reads problems and words; all faults at once.
+/// Makes a campaign of problems and options. @throws InputError with all faults.
 Campaign campaignOfProblems(const BenchmarkArguments& a) {
   Campaign campaign;
   FaultList faults;
   std::vector<std::string> variants = wordsOf("--variants", a.variants);
   if (variants.empty()) variants = {"certified", "discrete:0.01"};
-  std::vector<BenchmarkPeer> peers;
+  std::vector<BenchmarkCompetitor> peers;
   faults.collect([&] { peers = peersOf(variants); });
   faults.throwIfAny();
   for (const std::string& word : variants)
@@ -96,7 +97,7 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
   return campaign;
 }
 
-/// What there is to run: a campaign's file, or problems; and what the options say over it.
+/// Reads the campaign's file, or makes one of problems; options override what it says.
 Campaign campaignOf(const BenchmarkArguments& a) {
   const auto file = std::find_if(a.files.begin(), a.files.end(),
                                  [](const std::string& name) { return isCampaignFile(name); });
@@ -158,7 +159,8 @@ std::string clockText(double seconds) {
   return text;
 }
 
-/// A line that is written over: "[####······] 41 of 240, 2:10 left: piano, certified, RRT, seed 2".
+/// Prints a line over the line before:
+/// "[####······] 41 of 240, 2:10 left: piano, certified, RRT, seed 2".
 void showProgress(const Campaign& campaign, const CampaignProgress& p) {
   constexpr std::uint64_t kWidth = 20;
   const std::uint64_t full = p.done * kWidth / p.total;
@@ -172,15 +174,16 @@ void showProgress(const Campaign& campaign, const CampaignProgress& p) {
                std::to_string(p.seed).c_str());
 }
 
-/// Peers test for contact alone: their paths may be refuted for what they were never told.
+/// Returns a note if a competitor plans a problem with a margin, else "". Competitors test for
+/// contact only, so the verifier may refute their paths for the margin alone.
 std::string marginNote(const Campaign& campaign) {
   const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
                                   [](const Problem& p) { return p.margin > 0; });
   for (const Variant& variant : campaign.variants)
     if (margin && variant.peer)
       return variant.peer->name +
-             " knows no margin, and paths of it are refuted that keep none: least_distance_m in "
-             "runs.csv tells which of them collide";
+             " tests for contact without the margin, so its paths may be refuted for the margin "
+             "alone; least_distance_m in runs.csv shows which of them collide";
   return "";
 }
 
@@ -197,7 +200,7 @@ bool anyRun(const std::vector<CampaignCell>& cells) {
                      [](const CampaignCell& cell) { return !cell.runs.empty(); });
 }
 
-/// In the order in which they came.
+/// Returns each commit once, in the order of the sessions.
 std::vector<std::string> commitsOf(const std::vector<CampaignSession>& sessions) {
   std::vector<std::string> commits;
   for (const CampaignSession& session : sessions)
@@ -209,15 +212,15 @@ std::vector<std::string> commitsOf(const std::vector<CampaignSession>& sessions)
 }  // namespace
 
 int benchmarkCommand(const BenchmarkArguments& a) {
-  if (a.resume && !a.output) refuse("--resume", "say by -o which folder the campaign is in");
+  if (a.resume && !a.output) refuse("--resume", "needs -o with the folder of the campaign");
   Campaign campaign = campaignOf(a);
-  for (std::size_t i = campaign.problems.size(); i-- > 0;)  // before all other notes
+  for (std::size_t i = campaign.problems.size(); i-- > 0;)  // these notes come first
     if (nothingIsTested(campaign.problems[i]))
       campaign.notes.insert(campaign.notes.begin(),
                             campaign.problemNames[i] + ": " + kNothingTested);
   for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
-  // From here on there are files to tidy up.
+  // From here on the command makes files, which it must finish or remove on a signal.
   const std::atomic<bool>& interrupted = listenForInterrupts();
   const bool made = a.output && makeReportFolder(*a.output, campaign);
   std::vector<CampaignCell> cells = cellsOf(campaign);
@@ -237,8 +240,8 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
   const bool any = anyRun(result.cells);
-  // Neither the files nor the table are lost where the other can't be written: a folder that is
-  // gone, a pipe that is closed.
+  // A file that can't be written, such as in a folder that is gone, must not lose the table on
+  // stdout: its error is kept, and thrown after the table.
   std::exception_ptr unwritten;
   std::vector<CampaignSession> sessions;
   try {
@@ -247,7 +250,7 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     unwritten = std::current_exception();
   }
   if (const std::vector<std::string> builds = commitsOf(sessions); builds.size() > 1) {
-    campaign.notes.push_back("the runs are of several builds, which may differ in time: commits " +
+    campaign.notes.push_back("the runs are from several builds, whose times may differ: commits " +
                              joined(builds));
     warn(campaign.notes.back());
   }
@@ -256,14 +259,14 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     warn(note);
   }
   if (const std::set<std::string> hosts = hostsOf(result.cells); hosts.size() > 1) {
-    campaign.notes.push_back("the runs are of several machines, which differ in time: " +
+    campaign.notes.push_back("the runs are from several machines, whose times differ: " +
                              joined(std::vector<std::string>(hosts.begin(), hosts.end())));
     warn(campaign.notes.back());
   }
   if (result.interrupted)
     warn(!any       ? "interrupted before the first run was done; nothing is written"
-         : a.output ? "interrupted: what follows is of the runs that were done; --resume goes on"
-                    : "interrupted: what follows is of the runs that were done");
+         : a.output ? "interrupted: the results cover the finished runs; --resume continues"
+                    : "interrupted: the results cover the finished runs");
   try {
     if (a.output && any) {
       writeReports(campaign, result, *a.output);

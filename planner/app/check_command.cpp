@@ -20,17 +20,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A state of a file, and what is wrong with it.
+/// What is wrong with a state of a file.
 struct CheckedState {
   bool valid = false;
-  std::vector<std::string> pairs;        ///< "hand~table": not free
-  std::vector<std::string> outOfBounds;  ///< names of coordinates
-  /// Rounding leaves pairs undecided; the angle that is too large, or "": coordinates are too far
-  /// out.
+  std::vector<std::string> pairs;        ///< pairs that are not free: "hand~table"
+  std::vector<std::string> outOfBounds;  ///< names of coordinates and of joints that mimic
+  /// Set if rounding leaves a pair undecided: the name of the largest angle, or "" if coordinates
+  /// in metres are too large.
   std::optional<std::string> tooLarge;
 };
 
-/// The largest angle beyond a turn, or "" where none is: then coordinates in metres round too much.
+/// Returns the name of the largest angle beyond 2π, or "" if there is none: then the rounding is
+/// that of coordinates in metres.
 std::string largestAngle(const ConfigurationSpace& space, const Configuration& q) {
   const Coordinate* largest = nullptr;
   const auto size = [&](const Coordinate& c) {
@@ -45,7 +46,7 @@ std::string largestAngle(const ConfigurationSpace& space, const Configuration& q
   return largest ? largest->name : "";
 }
 
-/// The state as it is: a full circle takes any angle, and no number is wrapped.
+/// Checks a state as it is: a continuous joint takes any angle, and no angle is wrapped.
 CheckedState checkState(const Checker& checker, Configuration q, std::vector<std::string>& notes) {
   CheckedState checked;
   for (const Coordinate& c : checker.space().coordinates()) {
@@ -68,7 +69,7 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
   return checked;
 }
 
-/// As a field of a CSV line, RFC 4180: names are their users' choice.
+/// Quotes text as a field of a CSV line (RFC 4180): bodies' names may contain any characters.
 std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quoted = "\"";
@@ -104,11 +105,11 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
     if (state.tooLarge)
       why += ";too_large" + (state.tooLarge->empty() ? "" : ":" + *state.tooLarge);
     std::cout << i << ',' << state.valid << ',' << csvField(why) << '\n';
-    if (!std::cout) requireResultsWritten();  // in vain from here on
+    if (!std::cout) requireResultsWritten();  // ends the command: no more is written
   }
   if (noted)
     warn(*a.states + ": in " + counted(noted, "state") +
-         ", values a rounding beyond a limit were taken for the limit");
+         ", values beyond a limit by no more than rounding were set to the limit");
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},

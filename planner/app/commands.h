@@ -7,8 +7,8 @@
 
 namespace corridor::app {
 
-/// Exit status (documented by --help and in the README): the same for all commands. One that is
-/// stopped by a signal has 128 and its number (`interruptedStatus`).
+/// Exit statuses of all commands, documented by --help and in the README. A command that a signal N
+/// stopped ends with 128 + N instead (`interruptedStatus`).
 enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3 };
 
 struct SolveArguments {
@@ -24,11 +24,12 @@ int solveCommand(const SolveArguments& arguments);
 
 struct BenchmarkArguments {
   std::vector<std::string> files;  ///< a campaign, or problems
-  /// Of problems, each comma separated; none: the defaults.
+  /// Only with problems, not with a campaign. Each string is a comma-separated list; empty: the
+  /// defaults.
   std::vector<std::string> variants, planners;
   std::optional<std::uint64_t> runs, seed;
-  std::optional<double> time;    ///< seconds a run
-  std::optional<double> memory;  ///< MB a run
+  std::optional<double> time;    ///< limit of a run, seconds
+  std::optional<double> memory;  ///< limit of a run, MB
   std::uint64_t jobs = 1;
   std::optional<std::string> output;
   bool resume = false, json = false;
@@ -37,7 +38,7 @@ int benchmarkCommand(const BenchmarkArguments& arguments);
 
 struct VerifyArguments {
   std::string problem, solution;
-  bool ignoreDigest = false;  ///< verify a solution that was made for other files
+  bool ignoreDigest = false;  ///< verify a solution although its digest is not the problem's
   bool json = false, quiet = false;
 };
 int verifyCommand(const VerifyArguments& arguments);
@@ -46,40 +47,40 @@ struct ViewArguments {
   std::string problem;
   std::optional<std::string> solution;
   std::optional<std::string> output, image, size;
-  bool ignoreDigest = false;  ///< as of verify
+  bool ignoreDigest = false;  ///< as in `VerifyArguments`
   bool quiet = false;
 };
 int viewCommand(const ViewArguments& arguments);
 
 struct CheckArguments {
   std::string problem;
-  std::optional<std::string> states;  ///< a file of states, one a line
+  std::optional<std::string> states;  ///< a file of states, one per line
   bool json = false;
 };
 int checkCommand(const CheckArguments& arguments);
 
 struct InspectArguments {
   std::string file;
-  std::optional<std::string> unit, up;  ///< of a mesh file
-  bool selfIntersections = false;       ///< of a mesh file: look for them
-  bool pairs = false;                   ///< of a problem: every pair
-  std::optional<std::string> against;   ///< another mesh file: what queries of the two cost
-  std::optional<std::string> poses;     ///< of `against`: a file of poses, one a line
+  std::optional<std::string> unit, up;  ///< how to read a mesh file
+  bool selfIntersections = false;       ///< mesh files: compute self-intersections
+  bool pairs = false;                   ///< problems: list every pair of bodies
+  std::optional<std::string> against;   ///< a second mesh file: measure queries of the two
+  std::optional<std::string> poses;     ///< file with poses of the second mesh, one per line
   bool json = false;
 };
 int inspectCommand(const InspectArguments& arguments);
 
 struct QueryArguments {
   std::string meshA, meshB;
-  std::optional<std::string> poses;               ///< a file of poses, one a line
+  std::optional<std::string> poses;               ///< a file of poses, one per line
   std::optional<std::string> grid, lower, upper;  ///< "10x10x5", "x,y,z"
-  std::optional<std::uint64_t> rotations, seed;   ///< of a grid
-  std::optional<std::string> savePoses;           ///< of a grid: a file for its poses
-  std::optional<std::string> motions;        ///< instead of poses: a file of motions, one a line
-  std::optional<std::string> edges;          ///< of motions: the method; unset: the first
-  std::optional<std::string> query, volume;  ///< of poses; unset: the first
-  std::optional<std::string> fit, overlap;   ///< unset: the volume's first
-  std::optional<double> tolerance;           ///< metres, of the tolerance query and of motions
+  std::optional<std::uint64_t> rotations, seed;   ///< with `grid` only
+  std::optional<std::string> savePoses;           ///< with `grid` only: write its poses here
+  std::optional<std::string> motions;        ///< instead of poses: a file of motions, one per line
+  std::optional<std::string> edges;          ///< with `motions` only: the method; unset: the first
+  std::optional<std::string> query, volume;  ///< `query` with poses only; unset: the first
+  std::optional<std::string> fit, overlap;   ///< unset: the first that the volume has
+  std::optional<double> tolerance;           ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
 };
 int queryCommand(const QueryArguments& arguments);

@@ -6,18 +6,18 @@
 #include "planner/app/commands.h"
 #include "planner/robot/placed_shape.h"
 
-/// What `corridor inspect` tells, by kind of file.
+/// The parts of `corridor inspect`, one per kind of file, and what they share.
 namespace corridor::app {
 
 int inspectProblem(const InspectArguments& arguments);
-int inspectRobot(const InspectArguments& arguments);  ///< a URDF, or robot.yaml
-int inspectCost(const InspectArguments& arguments);   ///< a mesh against another
+int inspectRobot(const InspectArguments& arguments);  ///< a URDF or a robot.yaml
+int inspectCost(const InspectArguments& arguments);   ///< two meshes (--against)
 
-/// A mesh file in the unit and with the up-axis that were asked for.
+/// Reads a mesh file with the unit and the up-axis that the arguments name.
 MeshFile meshFileAsked(const std::string& file, const InspectArguments& arguments);
 nlohmann::ordered_json meshJson(const MeshFile& file);
 nlohmann::ordered_json shapeJson(const PlacedShape& shape);
-/// "36 triangles, piano.obj"; "box".
+/// Returns a shape in words: "36 triangles, piano.obj"; "box".
 std::string shapeText(const PlacedShape& shape);
 
 }  // namespace corridor::app

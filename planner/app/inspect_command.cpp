@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/fault_list.h"
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/obb4_tree.h"
 #include "collision/hierarchy/obb_tree.h"
-#include "collision/hierarchy/wide_obb_tree.h"
 #include "collision/queries/self_intersections.h"
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
@@ -66,7 +66,8 @@ ordered_json meshJson(const MeshFile& file) {
 
 namespace {
 
-/// Of the tree that queries of the mesh use, built here.
+/// Figures of the 4-wide OBB tree, the one that queries use by default, and the depth of a binary
+/// one.
 struct TreeFigures {
   std::size_t nodes = 0, bytes = 0, depth = 0;
   double buildMs = 0;
@@ -74,7 +75,7 @@ struct TreeFigures {
 std::optional<TreeFigures> treeOf(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return std::nullopt;
   const auto start = std::chrono::steady_clock::now();
-  const WideObbTree tree(mesh);
+  const Obb4Tree tree(mesh);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   return TreeFigures{tree.nodes().size(), tree.bytes(), ObbTree(mesh).depth(), took.count()};
 }
@@ -128,13 +129,13 @@ int inspectMeshFile(const InspectArguments& a) {
     out.line("tree",
              counted(tree->nodes, "node") + " of four boxes, " +
                  rounded(static_cast<double>(tree->bytes) / static_cast<double>(health.triangles)) +
-                 " bytes a triangle, built in " + rounded(tree->buildMs) + " ms; a binary one is " +
-                 grouped(tree->depth) + " deep");
+                 " bytes per triangle, built in " + rounded(tree->buildMs) +
+                 " ms; a binary tree has depth " + grouped(tree->depth));
   if (a.selfIntersections) {
     const std::vector<TrianglePair> pairs = selfIntersectionsOf(file);
     std::string text = grouped(pairs.size());
     if (!pairs.empty())
-      text += ", the first of triangles " + std::to_string(pairs[0].a) + " and " +
+      text += ", the first between triangles " + std::to_string(pairs[0].a) + " and " +
               std::to_string(pairs[0].b) + " (from 0)";
     out.line("self-intersections", text);
   }
@@ -150,8 +151,9 @@ bool isRobotFile(const std::string& file) {
   });
 }
 
-/// The robot of a folder without a problem: its robot.yaml, or its only URDF; "" for what is no
-/// folder, or one with a problem.
+/// Returns the robot of a folder: its robot.yaml, else its only URDF. Returns "" for a folder that
+/// holds a problem, and for anything that is not a folder.
+/// @throws InputError if a folder holds no problem, no robot.yaml and not exactly one URDF.
 std::string robotInFolder(const std::filesystem::path& folder) {
   std::error_code none;
   if (!std::filesystem::is_directory(folder, none) ||
@@ -170,7 +172,7 @@ std::string robotInFolder(const std::filesystem::path& folder) {
                                               joined(robots)});
 }
 
-/// @param a of a folder with a robot: the robot's file.
+/// @param inFolder true if `a.file` is the robot that `robotInFolder` found.
 int inspectFile(const InspectArguments& a, bool inFolder) {
   const std::string extension = std::filesystem::path(a.file).extension().string();
   const bool yaml = extension == ".yaml" || extension == ".yml";
@@ -178,24 +180,24 @@ int inspectFile(const InspectArguments& a, bool inFolder) {
   const bool problem = yaml || std::filesystem::is_directory(a.file) || extension == ".cfg" ||
                        a.file.find(".json") != a.file.npos;
   if (a.poses && !a.against)
-    throw InputError(Fault{"--poses", 0, "is of --against, which is not given"});
+    throw InputError(Fault{"--poses", 0, "needs --against, which is not given"});
   if (a.against) {
     if (robot || problem)
-      throw InputError(Fault{
-          "--against", 0,
-          "two meshes are compared, and " + a.file + " is a " + (robot ? "robot" : "problem")});
+      throw InputError(
+          Fault{"--against", 0,
+                "needs two meshes, and " + a.file + " is a " + (robot ? "robot" : "problem")});
   }
   const std::string kind = robot ? "robot" : problem ? "problem" : "mesh";
   const auto isOf = [&](const char* option, bool given, const std::string& what) {
     if (given && kind != what)
-      throw InputError(Fault{option, 0, "is of a " + what + ", and " + a.file + " is a " + kind});
+      throw InputError(Fault{option, 0, "needs a " + what + ", and " + a.file + " is a " + kind});
   };
   isOf("--pairs", a.pairs, "problem");
   isOf("--unit", a.unit.has_value(), "mesh");
   isOf("--up", a.up.has_value(), "mesh");
   isOf("--self-intersections", a.selfIntersections, "mesh");
   if (a.against && a.selfIntersections)
-    throw InputError(Fault{"--self-intersections", 0, "is not of --against"});
+    throw InputError(Fault{"--self-intersections", 0, "can't be used with --against"});
   if (a.against) return inspectCost(a);
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);
 }

@@ -20,15 +20,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Of a pose the median of so many passes counts.
+/// The time of a pose is the median of this many passes.
 constexpr int kPasses = 5;
 
-/// A bounding volume's line: means over the poses that count; the prediction over every second of
-/// them, with costs that the others told.
+/// One line of the table: the cost of queries with one bounding volume. N_v and N_p are means over
+/// the poses that count. T is a mean over every second of them, predicted from the other half.
 struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
-  double callNs = 0;                       ///< of a query that the first test decides
+  double callNs = 0;                       ///< time of a query that its first test decides
   CostModel cost;                          ///< C_v, C_p
   double measuredNs = 0, predictedNs = 0;  ///< T
   double low = 0, middle = 0, high = 0;    ///< predicted/measured: quantiles 0.05, 0.5, 0.95
@@ -36,13 +36,17 @@ struct CostRow {
   std::size_t bytes = 0;                   ///< both trees
 };
 
-/// Costs are told within queries: a test's share of walking the tree is in them, and trees that
-/// test sixteen pairs at once are measured as the others are. A prediction that had seen what it
-/// predicts would prove nothing, so one half of the poses tells the costs and the other half is
-/// predicted.
+/// Computes the line of one volume.
 ///
-/// What a query takes apart from its tests is not in the model; it is measured where B is far away
-/// (the answers after the first `count`), kept out of the costs, and told beside them.
+/// The costs C_v and C_p are fitted to whole queries. So they include a test's share of walking the
+/// tree, and trees that test sixteen node pairs at once are measured like the others. A prediction
+/// must not be fitted to the times that it predicts: the costs come from one half of the poses, and
+/// the other half is predicted.
+///
+/// The model leaves out what a query costs besides its tests. This is measured with B far away,
+/// subtracted before the fit, and reported as `callNs`.
+/// @param count the number of poses; the answers after these are those with B far away.
+/// @param kept the poses that count.
 CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t count,
                 const std::vector<std::size_t>& kept) {
   CostRow row;
@@ -80,7 +84,8 @@ std::string twoDecimals(double x) {
   return text;
 }
 
-/// And those of the first few poses with B moved off, where the first test tells the two apart.
+/// Returns the poses, followed by copies of the first few with B so far away that the first test
+/// separates the meshes.
 std::vector<Transform> withFarPoses(std::vector<Transform> poses, const TriangleMesh& a,
                                     const TriangleMesh& b) {
   double far = 1;
@@ -135,8 +140,9 @@ int inspectCost(const InspectArguments& a) {
   for (const VolumeKind& volume : volumeKinds())
     results.push_back(runPoses({meshA.mesh, meshB.mesh, asked, Asked::interference,
                                 treesNamed({volume.name, "", ""}), 0, kPasses}));
-  // What the first test decides tells what a call costs, not what a test does. All volumes are
-  // compared on the same poses: those that the roots of oriented boxes let pass.
+  // A query that its first test decides measures the cost of a call, not of a test, so its pose
+  // does not count. All volumes are compared at the same poses: those where the root boxes of the
+  // binary OBB trees overlap.
   std::size_t reference = 0;
   while (volumeKinds()[reference].name != "obb-binary") ++reference;
   std::vector<std::size_t> kept;
@@ -149,8 +155,8 @@ int inspectCost(const InspectArguments& a) {
   if (kept.size() < 2)
     throw InputError(
         Fault{a.poses.value_or("--against"), 0,
-              "poses at which the meshes' bounding boxes meet are needed, two or more; "
-              "they meet at " +
+              "at least two poses are needed at which the meshes' bounding boxes overlap; "
+              "they overlap at " +
                   std::to_string(kept.size()) + " of " + counted(poses.size(), "pose")});
   std::vector<CostRow> rows;
   for (std::size_t i = 0; i < results.size(); ++i)
@@ -173,11 +179,11 @@ int inspectCost(const InspectArguments& a) {
   const Lines out(false);
   out.line("meshes", a.file + ", " + counted(meshA.mesh.triangles.size(), "triangle") + "; " +
                          *a.against + ", " + counted(meshB.mesh.triangles.size(), "triangle"));
-  out.line("poses", grouped(poses.size()) + ", of these " + counted(hits, "contact") + " and " +
+  out.line("poses", grouped(poses.size()) + ", " + counted(hits, "contact") + ", " +
                         grouped(poses.size() - kept.size()) +
-                        " that the root boxes tell apart, which don't count below");
-  out.line("simd", std::string(simdTarget()) + ", of obb");
-  out.line("costs", "one half of the poses tells them, the other half is predicted");
+                        " separated by the root boxes (these don't count below)");
+  out.line("simd", std::string(simdTarget()) + ", used by obb");
+  out.line("costs", "fitted to one half of the poses; the other half is predicted");
   out.blank();
   printTable(rows);
   return kDone;

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A problem as it is told, in lines or as JSON.
+/// Reports a problem, as lines or as JSON.
 class ProblemReport {
  public:
   ProblemReport(const Problem& problem, const InspectArguments& a)
@@ -60,7 +60,7 @@ class ProblemReport {
         text += rounded(c.lower) + " to " + rounded(c.upper) + " " + unit;
       } else {
         j["kind"] = c.kind == Coordinate::Kind::circle ? "circle" : "rotation";
-        text += c.kind == Coordinate::Kind::circle ? "all round" : "any";
+        text += c.kind == Coordinate::Kind::circle ? "continuous" : "any rotation";
       }
       json_["coordinates"].push_back(j);
       out_.line(rigid.empty() ? "joint" : "coordinate", text);
@@ -121,7 +121,7 @@ class ProblemReport {
               tested ? Tone::plain : Tone::bad);
     if (far)
       out_.line("of them out of reach",
-                grouped(far) + (far == tested ? ": nothing can be in the way" : ""),
+                grouped(far) + (far == tested ? ": no contact is possible" : ""),
                 far == tested ? Tone::bad : Tone::plain);
     for (const auto& [reason, count] : skipped)
       out_.line("pairs skipped", grouped(count) + ": " + reason);
@@ -154,13 +154,13 @@ class ProblemReport {
     }
     json_["trees_built"] = built;
     out_.line("trees built", std::to_string(built) + " of " + std::to_string(meshes) +
-                                 ", for start and goal; the others at first need");
+                                 ", for start and goal; the others when first needed");
   }
 
-  /// Where time will go, by some random edges.
+  /// Reports which pairs of bodies take the time of random edges.
   void tellCosts() {
     constexpr std::size_t kEdges = 200, kShown = 5;
-    constexpr double kSeconds = 2;  // who inspects doesn't wait
+    constexpr double kSeconds = 2;  // keeps `inspect` quick
     const EdgeCosts costs = sampleEdgeCosts(problem_, checker_, kEdges, kSeconds, problem_.seed);
     json_["random_edges"] = {{"edges", costs.edges},
                              {"free", costs.free},
@@ -184,7 +184,7 @@ class ProblemReport {
         out_.line("time goes to",
                   a + "~" + b + ": " + std::to_string(std::lround(100 * pair.share)) + " %, " +
                       grouped(pair.boxTests / costs.edges) + " box and " +
-                      grouped(pair.triangleTests / costs.edges) + " triangle tests an edge");
+                      grouped(pair.triangleTests / costs.edges) + " triangle tests per edge");
     }
   }
 

@@ -21,7 +21,7 @@ std::string jointText(const RobotModel& model, const JointModel& joint) {
     text += ", " + rounded(joint.lower) + " to " + rounded(joint.upper) +
             (joint.type == JointType::prismatic ? " m" : " rad");
   if (joint.mimic)
-    text += ", " + rounded(joint.mimic->multiplier) + " of " +
+    text += ", " + rounded(joint.mimic->multiplier) + " times " +
             model.joints[joint.mimic->joint].name + " + " + rounded(joint.mimic->offset);
   return text;
 }
@@ -48,7 +48,7 @@ std::string shapesText(const LinkModel& link) {
   return text;
 }
 
-/// Metres, from the link's origin.
+/// Returns the largest distance of a point of the link from the link's origin, metres.
 double radiusOf(const LinkModel& link) {
   double radius = 0;
   for (const PlacedShape& shape : link.shapes)
@@ -57,8 +57,9 @@ double radiusOf(const LinkModel& link) {
   return radius;
 }
 
-/// Metres that a joint moves what is behind it, at most. One that mimics another goes where that
-/// one's range takes it: its own limits need not hold it there.
+/// Returns the largest distance that a joint translates its child link, metres; infinite without
+/// limits. For a joint that mimics another, the other joint's range decides: its own limits need
+/// not restrict it.
 double slideOf(const RobotModel& model, const JointModel& joint) {
   if (joint.type == JointType::planar || joint.type == JointType::floating)
     return std::numeric_limits<double>::infinity();
@@ -66,13 +67,14 @@ double slideOf(const RobotModel& model, const JointModel& joint) {
   const auto farther = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
   if (!joint.mimic) return farther(joint.lower, joint.upper);
   const auto [leader, multiplier, offset] = *joint.mimic;
-  if (multiplier == 0) return std::abs(offset);  // of whatever, without limits, too
+  if (multiplier == 0) return std::abs(offset);  // even if the leader has no limits: 0·∞ is NaN
   const JointModel& other = model.joints[leader];
   return farther(multiplier * other.lower + offset, multiplier * other.upper + offset);
 }
 
-/// How far from the root's origin each link's points can be at most: with the chain stretched out,
-/// sliding joints at their farther ends. Infinite behind joints without limits of where they go.
+/// Returns, for each link, an upper bound of the distance of its points from the root's origin:
+/// the chain stretched out, prismatic joints at their farther limits. Infinite behind a planar or
+/// floating joint, or a prismatic joint without limits.
 std::vector<double> reachOfLinks(const RobotModel& model) {
   std::vector<double> origin(model.links.size(), 0), reach;
   for (const JointModel& joint : model.joints)  // parents before children
@@ -135,10 +137,10 @@ int inspectRobot(const InspectArguments& a) {
   }
   const auto farthest = std::max_element(reach.begin(), reach.end());
   if (!std::isfinite(*farthest))
-    out.line("reach", "no limit: some joint goes as far as a problem's bounds let it");
+    out.line("reach", "no limit: the range of some joint is set by a problem's bounds");
   else if (!model.joints.empty())
     out.line("reach", "at most " + rounded(*farthest) + " m from the origin of " +
-                          model.links[model.root].name + ": of " +
+                          model.links[model.root].name + ": link " +
                           model.links[static_cast<std::size_t>(farthest - reach.begin())].name);
   for (const AllowedPair& pair : model.allowed)
     j["allowed"].push_back({{"a", pair.a}, {"b", pair.b}, {"reason", pair.reason}});

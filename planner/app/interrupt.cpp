@@ -7,14 +7,15 @@
 namespace corridor::app {
 namespace {
 
-// All that a signal handler can reach.
+// Globals, because a signal handler gets no argument except the signal's number.
 std::atomic<bool> interruptAsked = false, secondEnds = true;
-std::atomic<int> signalTaken = 0;       // the first
-std::atomic<std::int64_t> askedAt = 0;  // milliseconds; 0: not yet
+std::atomic<int> signalTaken = 0;       // number of the first signal
+std::atomic<std::int64_t> askedAt = 0;  // time of the first signal, milliseconds; 0: none yet
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);
 
-/// One interrupt may come twice: timeout(1) sends it to the program, then to its group.
+/// Milliseconds within which a second signal counts as the same interrupt: timeout(1) sends its
+/// signal twice, to the program and then to its process group.
 constexpr std::int64_t kSameMs = 500;
 
 void onInterrupt(int signal) {
@@ -25,7 +26,7 @@ void onInterrupt(int signal) {
   if (askedAt.compare_exchange_strong(first, ms)) {
     signalTaken = signal;
     interruptAsked = true;
-  } else if (secondEnds && ms - first > kSameMs) {  // who asks again wants no more waiting
+  } else if (secondEnds && ms - first > kSameMs) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -37,7 +38,7 @@ const std::atomic<bool>& listenForInterrupts(SecondInterrupt second) {
   secondEnds = second == SecondInterrupt::ends;
   struct sigaction action {};
   action.sa_handler = onInterrupt;
-  action.sa_flags = SA_RESTART;  // who reads a pipe meanwhile, such as a plot's, isn't disturbed
+  action.sa_flags = SA_RESTART;  // reading a pipe, such as that of a plot, goes on
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   struct sigaction hangUp {};

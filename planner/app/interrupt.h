@@ -4,18 +4,18 @@
 
 namespace corridor::app {
 
-/// What a signal does that comes more than half a second after the first.
+/// What a second signal does, if it comes more than half a second after the first.
 enum class SecondInterrupt {
-  ends,      ///< the program, as always
-  isIgnored  ///< for what stops soon, and has to tidy up
+  ends,      ///< it ends the program at once
+  isIgnored  ///< nothing: for work that stops soon by itself and must remove its files
 };
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP asks to stop, by the flag returned. (SIGHUP
-/// stays ignored where it is, as under nohup.)
+/// Installs signal handlers and returns the flag that the first SIGINT, SIGTERM or SIGHUP sets. The
+/// caller polls the flag and stops. SIGHUP stays ignored if it was ignored, as under nohup.
 const std::atomic<bool>& listenForInterrupts(SecondInterrupt second = SecondInterrupt::ends);
 
-/// The exit status of a program that stopped because of that signal, as shells count: 128 and the
-/// signal's number, 130 for SIGINT and 143 for SIGTERM. @pre the flag is set.
+/// Returns the exit status of a program that the first signal N stopped: 128 + N, as shells report
+/// it (130 for SIGINT, 143 for SIGTERM). @pre the flag of `listenForInterrupts` is set.
 int interruptedStatus();
 
 }  // namespace corridor::app

@@ -63,7 +63,7 @@ Amounts largestParts(const ConfigurationSpace& space, const Configuration& tube)
   return parts;
 }
 
-/// Metres and radians, or what there is of them in the space.
+/// Returns metres and radians, without the unit that no coordinate of the space has.
 std::string amountText(const ConfigurationSpace& space, const Amounts& amounts,
                        const char* between) {
   bool lengths = false, angles = false;
@@ -125,7 +125,8 @@ void requireFolderFor(const std::optional<std::string>& file, const char* option
     throw InputError(Fault{option, 0, *file + " is a folder; a file's name is needed"});
   if (!std::filesystem::is_directory(folder, none))
     throw InputError(Fault{option, 0, "there is no folder " + folder.string()});
-  // A device or a pipe is written to where it is.
+  // A regular file is replaced by a new one, made in its folder. A device or a pipe is written to
+  // directly, so its folder need not be writable.
   const bool takesItsPlace =
       !std::filesystem::exists(path, none) || std::filesystem::is_regular_file(path, none);
   if (takesItsPlace && ::access(folder.c_str(), W_OK | X_OK) != 0)
@@ -139,7 +140,9 @@ void requireNotRead(const std::optional<std::string>& file, const char* option,
   std::error_code none;
   for (const std::filesystem::path& other : read)
     if (file && std::filesystem::equivalent(*file, other, none))
-      throw InputError(Fault{option, 0, *file + " is of " + what + " itself; name another file"});
+      throw InputError(
+          Fault{option, 0,
+                *file + " belongs to " + what + " and would be overwritten; name another file"});
 }
 
 nlohmann::ordered_json numbersJson(const Configuration& q) {

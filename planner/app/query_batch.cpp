@@ -9,9 +9,9 @@
 #include "collision/hierarchy/with_volume.h"
 #include "collision/motion/rigid_motion.h"
 #include "collision/queries/contacts.h"
-#include "collision/queries/distance_wide.h"
+#include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "planner/app/query_timing.h"
 
 namespace corridor::app {
@@ -22,10 +22,10 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-/// All poses of a batch in memory, asked one after the other, `passes` times over: passes over all
-/// poses rather than repeats of each, so that a query finds the caches that other poses left.
-/// `ask(pose number, context)` of the two trees at these addresses is all that is timed. What is
-/// told of a pose is its own: nothing is remembered of the answers to others.
+/// Runs and measures `ask(pose number, context)` for `count` poses, `passes` times. A pass runs
+/// over all poses, instead of repeating each: so a query finds the processor's caches as other
+/// poses left them. The remembered last pair of the trees at addresses `a` and `b` is cleared
+/// before each query: so cost and answer of a pose do not depend on the poses before it.
 template <class Ask>
 std::vector<Answer> timed(std::size_t count, int passes, const void* a, const void* b,
                           const Ask& ask) {
@@ -56,10 +56,11 @@ std::vector<Answer> timed(std::size_t count, int passes, const void* a, const vo
   return answers;
 }
 
-/// The first contact and all of them. The wide tree has one overlap test, its own.
+/// Returns whether the trees touch; `allContacts` returns all contacts. The 4-wide OBB tree has a
+/// single overlap test, so `Overlap` is unused for it.
 template <class Overlap, class Tree>
 bool touching(const Tree& a, const Tree& b, const Transform& X, QueryContext& context) {
-  if constexpr (std::is_same_v<Tree, WideObbTree>)
+  if constexpr (std::is_same_v<Tree, Obb4Tree>)
     return interference(a, {}, b, X, context).has_value();
   else
     return interference<Overlap>(a, {}, b, X, context).has_value();
@@ -67,13 +68,13 @@ bool touching(const Tree& a, const Tree& b, const Transform& X, QueryContext& co
 template <class Overlap, class Tree>
 std::vector<TriangleContact> allContacts(const Tree& a, const Tree& b, const Transform& X,
                                          QueryContext& context) {
-  if constexpr (std::is_same_v<Tree, WideObbTree>)
+  if constexpr (std::is_same_v<Tree, Obb4Tree>)
     return contacts(a, {}, b, X, context);
   else
     return contacts<Overlap>(a, {}, b, X, context);
 }
 
-/// Builds both trees (`make(mesh)`) and asks them.
+/// Builds both trees by `make(mesh)` and runs the batch on them.
 template <class Overlap, class Make>
 BatchResult runOn(const Batch& batch, const Make& make) {
   BatchResult result;
@@ -123,18 +124,18 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   return result;
 }
 
-/// A body's tree, built here.
+/// A body's tree, and what building it took.
 struct BuiltTree {
   const void* at = nullptr;
   std::size_t bytes = 0;
-  double ms = 0;  ///< that it took
+  double ms = 0;  ///< time to build it
 };
 BuiltTree builtTree(const Body& body, TreeKind trees) {
   const auto start = std::chrono::steady_clock::now();
   const auto told = [&](const auto& tree) {
     return BuiltTree{&tree, tree.bytes(), millisecondsSince(start)};
   };
-  if (trees == TreeKind::wideObb) return told(body.tree());
+  if (trees == TreeKind::obb4) return told(body.tree());
   return withVolume(trees,
                     [&]<class Volume, class Overlap>() { return told(body.volumeTree<Volume>()); });
 }
@@ -144,9 +145,9 @@ BuiltTree builtTree(const Body& body, TreeKind trees) {
 BatchResult runPoses(const Batch& batch) {
   const auto [trees, fit] = batch.trees;
   const TreeParams params{fit};
-  if (trees == TreeKind::wideObb)
+  if (trees == TreeKind::obb4)
     return runOn<StandardOverlap>(
-        batch, [&](const TriangleMesh& mesh) { return WideObbTree(mesh, params.fit); });
+        batch, [&](const TriangleMesh& mesh) { return Obb4Tree(mesh, params.fit); });
   return withVolume(trees, [&]<class Volume, class Overlap>() {
     return runOn<Overlap>(
         batch, [&](const TriangleMesh& mesh) { return VolumeTree<Volume>(mesh, params); });
@@ -172,7 +173,8 @@ BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
   options.tolerance =
       tolerance.value_or(std::max(1e-7 * std::min(a.sphereRadius(), b.sphereRadius()),
                                   RigidMotion::roundingTolerance(farthest)));
-  if (!(options.tolerance > 0)) options.tolerance = 1e-300;  // a single point; any will do
+  if (!(options.tolerance > 0))
+    options.tolerance = 1e-300;  // both bodies are single points: any tolerance will do
   options.earliest = true;
   options.trees = trees.trees;
   result.tolerance = options.tolerance;

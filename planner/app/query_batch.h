@@ -12,65 +12,65 @@
 #include "collision/queries/distance.h"
 #include "planner/app/query_poses.h"
 
-/// What `corridor query` can ask (of which trees: hierarchy/tree_kinds.h), and the batch that is
-/// timed.
+/// The queries of `corridor query`, and the batches of them that are timed. Volumes and overlap
+/// tests are those of hierarchy/tree_kinds.h.
 namespace corridor::app {
 
-/// What is asked of every pose.
+/// The query that is run at every pose.
 enum class Asked { interference, contacts, distance, tolerance };
-/// Does it ask whether volumes overlap, so that `Batch::overlap` is a choice? The others ask how
-/// far apart they are.
+/// Returns true if the query tests whether volumes overlap, so that the choice of an overlap test
+/// matters. The other queries compute how far volumes are apart.
 bool testsOverlap(Asked asked);
 struct QueryKind {
   std::string name;
   Asked asked;
-  std::string header;  ///< of its CSV
+  std::string header;  ///< the first line of its CSV
 };
 const std::vector<QueryKind>& queryKinds();
 
-/// What a batch is: two meshes, poses of b with a at the identity, and the trees that are asked.
+/// One query of two meshes at many poses of b, with a at the identity.
 struct Batch {
   const TriangleMesh &a, &b;
   const std::vector<Transform>& poses;
   Asked asked = Asked::interference;
   TreeChoice trees;
-  double tolerance = 0;  ///< metres, of `Asked::tolerance`
-  int repeat = 1;
+  double tolerance = 0;  ///< metres, for `Asked::tolerance` only
+  int repeat = 1;        ///< passes over all poses
 };
 
-/// A pose's answer and cost.
+/// The answer and the cost of one pose or motion.
 struct Answer {
   bool hit = false;
   std::uint64_t boxTests = 0, triangleTests = 0;
-  double ns = 0;  ///< the median of the repeats
+  double ns = 0;  ///< the median of the passes
 };
-/// One contact of a pose.
+/// One pair of triangles that touch at a pose, and the segment p, q that they share.
 struct ContactRow {
   std::size_t pose;
   std::uint32_t a, b;
   Vec3 p, q;
 };
-/// A motion's answer.
+/// The answer for one motion.
 struct MotionAnswer {
   MotionResult result;
-  std::uint64_t splits = 0;  ///< windows of time that were halved
+  std::uint64_t splits = 0;  ///< time intervals that were halved
 };
 struct BatchResult {
-  std::vector<Answer> answers;        ///< by pose; a hit is a contact, or closer than the tolerance
-  std::vector<Distance> distances;    ///< by pose, of `Asked::distance`
-  std::vector<ContactRow> contacts;   ///< of `Asked::contacts`
-  std::vector<MotionAnswer> motions;  ///< by motion
-  double tolerance = 0;               ///< metres, of motions
+  std::vector<Answer> answers;  ///< per pose or motion; hit: contact, or closer than the tolerance
+  std::vector<Distance> distances;    ///< per pose, only for `Asked::distance`
+  std::vector<ContactRow> contacts;   ///< only for `Asked::contacts`
+  std::vector<MotionAnswer> motions;  ///< per motion
+  double tolerance = 0;               ///< metres, for motions: the one used
   double buildMsA = 0, buildMsB = 0;
   std::size_t bytesA = 0, bytesB = 0;
 };
 
-/// Builds the trees and asks them.
+/// Builds both trees and runs the query at all poses, measuring each.
 BatchResult runPoses(const Batch& batch);
 
-/// The first contact of motions of b, a at rest.
-/// @param tolerance metres; unset: 1e-7 of the smaller one's radius, or what the
-/// rounding of the poses needs, if that is larger.
+/// Computes the first contact along each motion of b, with a at rest, and measures it.
+/// @param tolerance metres; unset: the larger of 1e-7 of the smaller bounding sphere's radius and
+/// `RigidMotion::roundingTolerance`.
 BatchResult runMotions(TriangleMesh a, TriangleMesh b, const std::vector<PoseMotion>& motions,
                        const TreeChoice& trees, std::optional<double> tolerance, int repeat,
                        EdgeMethod method);

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
 #include "collision/core/simd_target.h"
+#include "collision/core/spelling.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/output.h"
@@ -17,11 +17,11 @@
 namespace corridor::app {
 namespace {
 
-/// A time is kept of each: 8 bytes.
+/// The maximum number of queries of one command, all passes counted: each stores its time, 8 bytes.
 constexpr std::uint64_t kMostQueries = 1'000'000'000;
 
-/// The query whose name was given, the first where none was. @throws InputError with those that
-/// there are.
+/// Returns the query of this name, or the first if no name is given.
+/// @throws InputError for an unknown name; it lists the names.
 const QueryKind& queryNamed(const std::optional<std::string>& name) {
   if (!name) return queryKinds().front();
   std::vector<std::string> names;
@@ -34,21 +34,23 @@ const QueryKind& queryNamed(const std::optional<std::string>& name) {
                              "; there are: " + joined(names)});
 }
 
-/// The trees that were asked for by name. @throws InputError, which tells what there is.
-TreeWords treesAsked(const QueryArguments& a) {
-  const TreeWords words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or("")};
-  if (const auto wrong = wrongWordIn(words))
+/// Returns the volume, fit and overlap test that the arguments name, defaults filled in.
+/// @throws InputError for an unknown name; it lists the names.
+TreeNames treesAsked(const QueryArguments& a) {
+  const TreeNames words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or("")};
+  if (const auto wrong = invalidNameIn(words))
     throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
-  return spelledOut(words);
+  return withDefaults(words);
 }
 
-/// The overlap test of these trees isn't the only one, and what is asked has no use for it.
-/// @throws InputError
-void requireUsualOverlap(const TreeWords& trees, const std::string& of, const std::string& asked) {
-  if (trees.overlap == spelledOut({trees.volume, "", ""}).overlap) return;
+/// Refuses an --overlap other than the volume's default, for a query that computes distances
+/// between volumes and so has no use for it. @throws InputError
+/// @param of what takes an overlap test. @param asked the query that does not.
+void requireUsualOverlap(const TreeNames& trees, const std::string& of, const std::string& asked) {
+  if (trees.overlap == withDefaults({trees.volume, "", ""}).overlap) return;
   throw InputError(Fault{"--overlap", 0,
-                         quotedWord(trees.overlap) + " is of " + of + "; " + asked +
-                             " asks how far volumes are apart"});
+                         quotedWord(trees.overlap) + " needs " + of + "; " + asked +
+                             " computes distances between volumes"});
 }
 
 std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& meshA,
@@ -63,27 +65,28 @@ std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& mesh
   return gridPoses(grid, meshA, meshB);
 }
 
-/// What CLI11 can't check of options in pairs. @throws InputError
+/// Checks which options go together, which CLI11 can't. @throws InputError
 void checkOptions(const QueryArguments& a) {
   if (a.motions) {
     const auto ofPoses = [&](const char* option, bool given) {
-      if (given) throw InputError(Fault{option, 0, "is of poses; --motions has none"});
+      if (given)
+        throw InputError(Fault{option, 0, "applies to poses, not to --motions; leave it out"});
     };
     ofPoses("--poses", a.poses.has_value());
     ofPoses("--grid", a.grid.has_value());
     ofPoses("--query", a.query.has_value());
     if (a.tolerance && !(*a.tolerance > 0))
-      throw InputError(Fault{"--tolerance", 0, "of --motions it is to be above 0"});
+      throw InputError(Fault{"--tolerance", 0, "must be above 0 with --motions"});
   }
   if (a.poses && a.grid)
-    throw InputError(Fault{"--grid", 0, "the poses are told by --poses; one of the two is needed"});
+    throw InputError(Fault{"--grid", 0, "can't be used with --poses; give one of the two"});
   if (!a.poses && !a.grid && !a.motions)
     throw InputError(Fault{"--poses", 0, "a file of poses is needed, or --grid, or --motions"});
   const auto ofGrid = [&](const char* option, bool given) {
-    if (given && !a.grid) throw InputError(Fault{option, 0, "is of --grid, which is not given"});
+    if (given && !a.grid) throw InputError(Fault{option, 0, "needs --grid, which is not given"});
   };
   if (a.edges && !a.motions)
-    throw InputError(Fault{"--edges", 0, "is of --motions, which is not given"});
+    throw InputError(Fault{"--edges", 0, "needs --motions, which is not given"});
   ofGrid("--lower", a.lower.has_value());
   ofGrid("--upper", a.upper.has_value());
   ofGrid("--rotations", a.rotations.has_value());
@@ -91,7 +94,8 @@ void checkOptions(const QueryArguments& a) {
   ofGrid("--save-poses", a.savePoses.has_value());
 }
 
-/// One write for all: millions of lines are quick, and stdout and stderr don't mix.
+/// Prints all lines in a single write: quick for millions of lines, and stdout and stderr don't
+/// mix.
 void printCsv(const QueryKind& kind, const BatchResult& result) {
   std::string text = kind.header + "\n";
   char line[256];
@@ -123,7 +127,8 @@ void printCsv(const QueryKind& kind, const BatchResult& result) {
   requireResultsWritten();
 }
 
-/// `words`: what was asked and what is told of all answers; then come the times.
+/// Prints the summary on stderr: `words`, which describe the query and count its answers, then
+/// times, mean counts, and the trees' build times and sizes.
 void printSummary(const BatchResult& result, const std::vector<std::string>& words) {
   std::vector<double> ns;
   double boxTests = 0, triangleTests = 0, sum = 0;
@@ -134,7 +139,7 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& wor
     triangleTests += static_cast<double>(answer.triangleTests);
   }
   const auto count = static_cast<double>(ns.size());
-  // The least number that 95 % of them do not exceed.
+  // The smallest time that at least 95 % of the times do not exceed.
   const std::size_t rank = (95 * ns.size() + 99) / 100 - 1;
   const double middle = median(ns);
   std::nth_element(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(rank), ns.end());
@@ -199,8 +204,8 @@ EdgeMethod methodNamed(const std::string& name) {
 int queryMotions(const QueryArguments& a) {
   const std::string edges = a.edges.value_or(edgeMethodNames().front());
   const EdgeMethod method = methodNamed(edges);
-  const TreeWords trees = treesAsked(a);
-  if (method != EdgeMethod::certified) requireUsualOverlap(trees, "--edges certified", edges);
+  const TreeNames trees = treesAsked(a);
+  if (method != EdgeMethod::directional) requireUsualOverlap(trees, "--edges certified", edges);
   MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<PoseMotion> motions = readMotions(*a.motions);
   checkRepeats(a, motions.size(), "motion");
@@ -229,13 +234,14 @@ int queryCommand(const QueryArguments& a) {
   requireFolderFor(a.savePoses, "--save-poses");
   if (a.motions) return queryMotions(a);
   const QueryKind& query = queryNamed(a.query);
-  const TreeWords trees = treesAsked(a);
+  const TreeNames trees = treesAsked(a);
   if (query.asked == Asked::tolerance && !a.tolerance)
-    throw InputError(Fault{"--tolerance", 0, "the tolerance query needs a distance in metres"});
+    throw InputError(
+        Fault{"--tolerance", 0, "is needed with --query tolerance: a distance in metres"});
   if (query.asked != Asked::tolerance && a.tolerance)
-    throw InputError(Fault{"--tolerance", 0, "is of --query tolerance, which is not asked"});
+    throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
   if (!testsOverlap(query.asked))
-    requireUsualOverlap(trees, "--query interference and contacts", query.name);
+    requireUsualOverlap(trees, "--query interference or contacts", query.name);
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
   checkRepeats(a, poses.size(), "pose");

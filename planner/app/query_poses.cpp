@@ -14,9 +14,9 @@
 #include <Eigen/SVD>
 
 #include "collision/core/fault_list.h"
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
 #include "collision/core/rounding.h"
+#include "collision/core/spelling.h"
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"
 #include "planner/problem/yaml_reader.h"
@@ -25,15 +25,17 @@
 namespace corridor::app {
 namespace {
 
-/// A file in another format has a fault in every line: so many are told, and the last.
+/// The maximum number of faulty lines that are reported, besides the last one: a file in another
+/// format has a fault in every line.
 constexpr int kFaultsTold = 10;
 
-/// What keeps R from being a rotation, or "".
+/// Returns why R is not a rotation, or "" if it is.
 std::string whyNoRotation(const Mat3& R) {
   const double defect = orthonormalityDefect(R);
   const double determinant = R.determinant();
-  // Six products of a number from each column, with five roundings at most, two and a division in
-  // Eigen's order. Where they overflow there is no telling, but that it is no rotation.
+  // The determinant is a sum of six products of one number from each column, each at most the
+  // product of the columns' largest entries. With at most five roundings in each, the error is
+  // below 64u times that. If it overflows, only the defect decides: R is not a rotation.
   const double error = 64 * kUnit * R.colwise().lpNorm<Eigen::Infinity>().prod();
   if (std::abs(determinant) <= error && std::isfinite(error))
     return "the matrix is singular (determinant " + rounded(determinant) +
@@ -41,26 +43,28 @@ std::string whyNoRotation(const Mat3& R) {
   if (determinant < 0 && std::isfinite(determinant))
     return "the matrix mirrors (determinant " + rounded(determinant) + "); a rotation is needed";
   if (!(defect <= kRotationDefect))
-    return "the matrix is no rotation: RᵀR is off the identity by " + rounded(defect) +
-           ", at most " + rounded(kRotationDefect) + " is taken for rounding";
+    return "the matrix is not a rotation: RᵀR differs from the identity by " + rounded(defect) +
+           "; at most " + rounded(kRotationDefect) + " counts as rounding";
   return "";
 }
 
-/// Of a line.
+/// The numbers of one line of a file.
 using Numbers = std::vector<double>;
 
-/// The `parse` functions say what is wrong, or "".
+// The `parse` functions return what is wrong, or "".
+
 std::string parsePose(const double* values, Transform& X) {
   X.m = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values);
   X.t = Eigen::Map<const Vec3>(values + 9);
   return whyNoRotation(X.m);
 }
 
-/// The rotation nearest to a matrix, as a unit quaternion q, and a bound of |M − R(q)| in the
-/// operator norm: Frobenius' norm of the difference, and 40u for the rounding of R(q) and of it.
+/// Returns the rotation nearest to a matrix M, as a unit quaternion q, and an upper bound of
+/// |M − R(q)| in the operator norm: the Frobenius norm of the difference, plus 40u for the rounding
+/// of R(q) and of that norm. @pre M does not mirror.
 std::pair<Eigen::Quaterniond, double> nearestRotation(const Mat3& M) {
   const Eigen::JacobiSVD<Mat3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Mat3 R = svd.matrixU() * svd.matrixV().transpose();  // no mirror: M is none
+  const Mat3 R = svd.matrixU() * svd.matrixV().transpose();  // a rotation, as M does not mirror
   const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
   return {q, roundedUp((M - q.toRotationMatrix()).norm() + 40 * kUnit)};
 }
@@ -74,14 +78,14 @@ std::string parsePose(const Numbers& values, Transform& X) {
 
 std::string parseMotion(const Numbers& values, PoseMotion& motion) {
   if (values.size() != 24)
-    return "a motion has 24 numbers (the pose where it begins, r00 r01 r02 r10 r11 r12 r20 r21 r22 "
-           "tx ty tz, and the one where it ends), not " +
+    return "a motion has 24 numbers (its first pose, r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz, "
+           "and its last), not " +
            std::to_string(values.size());
   for (const bool last : {false, true}) {
     Transform X;
     if (const std::string complaint = parsePose(values.data() + (last ? 12 : 0), X);
         !complaint.empty())
-      return (last ? "where it ends " : "where it begins ") + complaint;
+      return (last ? "last pose: " : "first pose: ") + complaint;
     RigidPose& pose = last ? motion.to : motion.from;
     const auto [q, defect] = nearestRotation(X.m);
     pose = {X.t, q};
@@ -90,7 +94,7 @@ std::string parseMotion(const Numbers& values, PoseMotion& motion) {
   return "";
 }
 
-/// The numbers of a line, or what is wrong with it.
+/// Reads the numbers of a line into `values`. Returns what is wrong, or "".
 std::string numbersOf(std::string_view line, Numbers& values) {
   while (true) {
     constexpr std::string_view kBlanks = " \t\r,";
@@ -105,16 +109,17 @@ std::string numbersOf(std::string_view line, Numbers& values) {
   }
 }
 
-/// What `parse(numbers, made)` makes of the lines of a file; `what` they are.
+/// Reads a file of lines, each by `parse(numbers, made)`. `what` names the lines in messages.
+/// Blank lines and comments are skipped. @throws InputError with the faults.
 template <class Made, class Parse>
 std::vector<Made> readLines(const std::filesystem::path& file, const std::string& what,
                             const Parse& parse) {
   const std::string name = file.string();
   FaultList faults(name);
   std::vector<Made> all;
-  const std::string text = readTextStream(file, "a file of " + what + ", one a line,");
+  const std::string text = readTextStream(file, "a file of " + what + ", one per line,");
   int number = 0, faulty = 0, lastFaulty = 0;
-  // Some editors put a mark in front that nobody sees.
+  // Skips the byte order mark of UTF-8, which some editors write.
   for (std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line(text.data() + begin, end - begin);
@@ -136,7 +141,7 @@ std::vector<Made> readLines(const std::filesystem::path& file, const std::string
   if (faulty > kFaultsTold)
     faults.add(name, lastFaulty,
                "and so on: " + counted(static_cast<std::uint64_t>(faulty), "line") +
-                   " are at fault, this is the last");
+                   " are faulty, this is the last");
   if (all.empty() && faulty == 0) faults.add(name, 0, "no " + what);
   faults.throwIfAny();
   return all;
@@ -156,7 +161,8 @@ Bounds boundsOf(const TriangleMesh& mesh) {
   return bounds;
 }
 
-/// Uniform over all rotations: four normal numbers are a quaternion of uniform direction.
+/// Returns a rotation, uniform over all rotations: four normal numbers are a quaternion of uniform
+/// direction.
 Mat3 randomRotation(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   Eigen::Quaterniond q;
@@ -166,7 +172,7 @@ Mat3 randomRotation(std::mt19937_64& random) {
   return q.normalized().toRotationMatrix();
 }
 
-/// Every one of some words must be a whole number above 0.
+/// Reads a whole number above 0; returns false if the word is anything else.
 bool parseCount(std::string_view word, std::size_t& count) {
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), count);
   return error == std::errc{} && stop == word.data() + word.size() && count > 0;
@@ -200,7 +206,7 @@ std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,
   const Vec3 lower = grid.lower.value_or(boundsA.low - grown);
   const Vec3 upper = grid.upper.value_or(boundsA.high + grown);
   if (!(lower.array() <= upper.array()).all()) {
-    // What the user gave is at fault, and what was not given is a default.
+    // The message names the option that the user gave; the other bound may be a default.
     if (!grid.lower)
       throw InputError(Fault{
           "--upper", 0, rounded(upper) + " is not above --lower, by default " + rounded(lower)});
@@ -212,7 +218,8 @@ std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,
   for (const std::size_t count : {grid.counts[0], grid.counts[1], grid.counts[2], grid.rotations}) {
     if (count > kMostPoses / total)
       throw InputError(
-          Fault{"--grid", 0, "more than " + grouped(kMostPoses) + " poses are asked for"});
+          Fault{"--grid", 0,
+                "more than " + grouped(kMostPoses) + " poses; use fewer points or rotations"});
     total *= count;
   }
   const auto along = [&](int axis, std::size_t i) {

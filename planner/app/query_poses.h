@@ -13,56 +13,59 @@
 
 namespace corridor::app {
 
-/// Poses of mesh B, with A at the identity, one a line: 12 numbers, r00 r01 r02 r10 … r22 tx ty tz,
-/// blank or comma separated; a point b of B is at R·b + t. From `#` on a line is a comment. The
-/// file may be a pipe; "-" is the standard input.
+/// Reads poses of mesh B, with A at the identity, one per line: 12 numbers, r00 r01 r02 r10 … r22
+/// tx ty tz, blank or comma separated. A point b of B is at R·b + t. The rest of a line from `#` on
+/// is a comment. The file may be a pipe; "-" is the standard input.
 ///
-/// Verdicts are those of the 12 doubles as they stand, rotation or not; but what is far from a
-/// rotation is a mistake: of ‖RᵀR − I‖_max at most `kRotationDefect` is let pass, and no mirror.
-/// @throws InputError with all faults; a file without poses is one.
+/// Verdicts are exact for these 12 doubles, even if R is not quite a rotation. A matrix that is far
+/// from a rotation is refused as a mistake: if ‖RᵀR − I‖_max exceeds `kRotationDefect`, or if R
+/// mirrors or is singular.
+/// @throws InputError with all faults; a file without poses is a fault.
 std::vector<Transform> readPoses(const std::filesystem::path& file);
 
-/// Two poses of B, where a motion begins and where it ends, 24 numbers a line; the rest as
-/// `readPoses`. What moves is the rotation nearest to each matrix, as a unit quaternion. How far
-/// the two matrices are from those is a tube around the motion: what is proved free is free for the
-/// maps in the file, too.
+/// A motion of B: its first and its last pose. `readMotions` reads 24 numbers per line, otherwise
+/// as `readPoses`. Each matrix M is replaced by the nearest rotation R, as a unit quaternion;
+/// `defect` bounds |M − R|. Used as the tube of the motion, it makes `free` valid for the maps in
+/// the file, too.
 struct PoseMotion {
   RigidPose from, to;
-  double defect = 0;  ///< rounded up; the larger |M − R|, metres per metre of lever
+  double defect = 0;  ///< the larger |M − R|, rounded up; metres per metre of lever
 };
 std::vector<PoseMotion> readMotions(const std::filesystem::path& file);
 
-/// A rotation written with four decimals has entries off by 0.5e-4, and an entry of RᵀR that is off
-/// by up to 2·√3·0.5e-4 = 1.8e-4. It is, too, what boxes still prune under (`boxPairMargins`
-/// takes defects up to 2^-10/3); with more, each query would be all triangles against all.
+/// The largest ‖RᵀR − I‖_max that counts as rounding. A rotation written with four decimals has
+/// entries off by up to 0.5e-4, so entries of RᵀR are off by up to 2·√3·0.5e-4 < 1.8e-4. The limit
+/// also keeps queries fast: where the defects of map and trees add up to 2^-10/3 or more,
+/// `boxPairMargins` lets no box test separate, and a query tests all pairs of triangles.
 inline constexpr double kRotationDefect = 2e-4;
 
-/// A lattice of positions and, at each, rotations.
+/// A lattice of positions, repeated for each of several rotations.
 struct PoseGrid {
   std::array<std::size_t, 3> counts{};  ///< along x, y, z
   std::size_t rotations = 1;
   std::uint64_t seed = 1;
-  std::optional<Vec3> lower, upper;  ///< metres; unset: as `gridPoses` says
+  std::optional<Vec3> lower, upper;  ///< metres; defaults: see `gridPoses`
 };
 
-/// At most so many poses, of a grid: what fits in memory anywhere.
+/// The maximum number of poses that a grid may have: together they take 960 MB.
 inline constexpr std::size_t kMostPoses = 10'000'000;
 
-/// The poses of a grid: the centre of B's bounds is put on every point of the lattice from `lower`
-/// to `upper` in A's frame (one point along an axis: the middle), B turned about it by the first
-/// rotation, then all again with the next one; x changes first. The first rotation is none, the
-/// others are random, uniform, from the seed. Unset, the box is that of A's bounds grown by half
-/// the diagonal of B's: beyond it nothing can touch.
-/// @throws InputError: lower above upper, too many poses.
+/// Returns the poses of a grid. They put the centre of B's bounds on every point of the lattice
+/// from `lower` to `upper` in A's frame, x changing first. An axis with one point takes the middle.
+/// The lattice is repeated for each rotation of B about that centre: first the identity, then
+/// uniformly random rotations from the seed. By default `lower` and `upper` are A's bounds, grown
+/// by half the diagonal of B's bounds: beyond these nothing can touch.
+/// @throws InputError if `lower` is above `upper`, or for more than `kMostPoses` poses.
 std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,
                                  const TriangleMesh& b);
 
-/// "10x10x5". @throws InputError
+/// Reads "10x10x5". @throws InputError
 std::array<std::size_t, 3> parseCounts(const std::string& text);
-/// "x,y,z" in metres. @throws InputError that begins with `option`
+/// Reads "x,y,z", metres. @throws InputError that begins with `option`
 Vec3 parsePoint(const std::string& option, const std::string& text);
 
-/// The file appears whole or not at all. @throws InputError: can't be written.
+/// Writes poses as `readPoses` reads them. The file appears whole or not at all.
+/// @throws InputError if it can't be written.
 void writePoses(const std::filesystem::path& file, const std::vector<Transform>& poses);
 
 }  // namespace corridor::app

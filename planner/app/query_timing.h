@@ -8,16 +8,18 @@
 
 namespace corridor::app {
 
-/// Nanoseconds that one call takes.
+/// Returns the nanoseconds that one call takes.
 ///
-/// Reading the clock costs some 30 ns, so a call that is quicker than `kLongEnough` is repeated
-/// between two readings until that much has passed, and the mean of those repeats is taken: below
-/// 1 % of it is the clock's. A query of several µs is asked just once. Of one that took so long
-/// that the system may have run another program meanwhile (`kMaybeParted`), only the thread's own
-/// time counts; its clock is too slow to read for the quick ones.
+/// Reading the clock costs some 30 ns. A call shorter than `kLongEnough` nanoseconds is therefore
+/// repeated between two readings until that much time has passed, and the mean of the repeats is
+/// returned: the clock's share of it is below 1 %. A longer call runs once. During a call of
+/// `kMaybeParted` nanoseconds or more the system may have run another program: the result is then
+/// the smaller of the elapsed time and the thread's own processor time. (For short calls, reading
+/// the clock of processor time takes too long.)
 ///
-/// @param ask the first call. @param again what is asked again; it must do the same work, so it
-/// drops what an earlier answer left in a cache.
+/// @param ask the first call.
+/// @param again the repeated call. It must do the same work as the first, so it must clear what an
+/// earlier call left in a cache.
 inline constexpr double kLongEnough = 5'000, kMaybeParted = 100'000;
 template <class Ask, class Again>
 double nanosecondsOf(Ask&& ask, Again&& again) {
@@ -42,7 +44,7 @@ double nanosecondsOf(Ask&& ask, Again&& again) {
   return since(batch) / times;
 }
 
-/// The middle one of some numbers, or the mean of the two in the middle. @pre not empty.
+/// Returns the median: the middle number, or the mean of the two middle ones. @pre not empty.
 template <class Numbers>
 double median(Numbers numbers) {
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
@@ -24,12 +24,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What the command line says over what the problem says. @returns which keys, and by which option.
+/// Replaces settings of the problem by those of the command line.
+/// @returns the keys that were set, each with its option. @throws InputError
 std::map<std::string, std::string> applyArguments(const SolveArguments& a, Problem& problem) {
   std::map<std::string, std::string> set;
   if (a.planner && *a.planner != problem.planner.name) {
     problem.planner.name = *a.planner;
-    problem.planner.params.clear();  // they were another planner's
+    problem.planner.params.clear();  // they belong to the planner in the problem
     set["planner.name"] = "--planner";
   }
   if (a.sampler) {
@@ -50,13 +51,13 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   if (a.stop) problem.planner.stopAtFirst = *a.stop == "first";
   if (a.seed) problem.seed = *a.seed;
   if (a.edges) problem.checker.edges = *a.edges;
-  if (const auto wrong = wrongWordIn(problem.checker))
+  if (const auto wrong = invalidNameIn(problem.checker))
     throw InputError(
         Fault{"--edges", 0, "the problem's checker." + wrong->key + ": " + wrong->text});
   if (a.resolution) {
     if (problem.checker.edges != "discrete")
       throw InputError(Fault{"--resolution", 0,
-                             "is of --edges discrete, and edges are " + problem.checker.edges});
+                             "needs --edges discrete, and edges are " + problem.checker.edges});
     problem.checker.resolution = *a.resolution;
     set["checker.resolution"] = "--resolution";
   }
@@ -88,8 +89,8 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   for (const std::string& note : p.notes) out.line("note", note);
   out.line("planner", r.planner);
   out.line("seed", std::to_string(r.seed));
-  out.line("time", rounded(r.time) + " s, of it " + rounded(r.planningTime) +
-                       " s until the planner was done");
+  out.line("time", rounded(r.time) + " s, of which " + rounded(r.planningTime) +
+                       " s until the planner ended");
   out.line("states checked", grouped(r.counters.states));
   out.line("edges checked", grouped(r.counters.edges));
   out.line("undecided", grouped(r.counters.undecided));
@@ -194,7 +195,7 @@ int solveCommand(const SolveArguments& a) {
       if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNo});
     } catch (const InputError& error) {
       if (a.problems.size() == 1) throw;
-      std::cerr << error.what() << '\n';  // the others may be sound
+      std::cerr << error.what() << '\n';  // the other problems are still solved
       if (a.json)
         results.push_back({{"problem", file}, {"result", "bad input"}, {"why", error.what()}});
       status = kBadInput;

@@ -11,7 +11,8 @@ namespace corridor::app {
 void openStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // It gets the lowest free number, which is this one; opened so that its use fails.
+    // open() returns the lowest free number, which is this one. The access mode is the opposite of
+    // what the stream needs, so that using it fails.
     [[maybe_unused]] const int same =
         ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }

@@ -2,12 +2,14 @@
 
 namespace corridor::app {
 
-/// Gives closed standard streams a file, before any other file is opened: else that would get the
-/// number of stdout, and the results with it. Using such a stream is still an error.
+/// Opens /dev/null on every standard stream that is closed. Without this, the next file that is
+/// opened would get the number of stdout, and the results would be written into it. Using a stream
+/// that was closed still fails. @pre no other file is open yet.
 void openStandardStreams();
 
-/// A full disk behind `>` shows only when all has been printed, and half of a result is none.
-/// @throws InputError if what was printed on stdout could not be written.
+/// Flushes stdout. A full disk behind `>` may show only when the buffer is flushed, and half of a
+/// result must not end with exit status 0.
+/// @throws InputError if something printed on stdout could not be written.
 void requireResultsWritten();
 
 }  // namespace corridor::app

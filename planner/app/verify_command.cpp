@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// "shelf" (triangle 3); parts have no triangles.
+/// Returns "shelf" (triangle 3), without the triangle if the body is made of convex parts.
 std::string sideText(const std::string& name, std::uint32_t triangle, const Problem& problem) {
   bool meshes = false;
   for (const ProblemBody& body : problem.bodies)

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
@@ -16,7 +16,7 @@
 namespace corridor::app {
 namespace {
 
-/// "bookshelf_1.html": a name of a problem may have any characters.
+/// Returns "bookshelf_1.html", safe as a file's name: a problem's name may have any characters.
 std::string pageName(const Problem& problem) {
   std::string name = problem.name;
   for (char& c : name)
@@ -24,7 +24,8 @@ std::string pageName(const Problem& problem) {
   return (name.empty() || name[0] == '.' ? "view" + name : name) + ".html";
 }
 
-/// "a.jpg" with a PNG in it helps nobody; a name without an extension promises nothing.
+/// Refuses a file whose extension names another format. A name without an extension is accepted.
+/// @throws InputError
 void requireExtension(const std::optional<std::string>& file, const char* option,
                       const std::string& kind, const std::vector<std::string>& extensions) {
   if (!file) return;
@@ -44,7 +45,7 @@ int viewCommand(const ViewArguments& a) {
   requireFolderFor(a.image, "--image");
   requireExtension(a.output, "--output", "pages are HTML", {".html", ".htm"});
   requireExtension(a.image, "--image", "pictures are PNG", {".png"});
-  if (a.size && !a.image) throw InputError(Fault{"--size", 0, "is of --image, and there is none"});
+  if (a.size && !a.image) throw InputError(Fault{"--size", 0, "needs --image, which is not given"});
   const PictureSize size = a.size ? pictureSize(*a.size, "--size") : PictureSize();
   const std::optional<std::filesystem::path> browser =
       a.image ? std::optional(requireBrowser("--image")) : std::nullopt;
@@ -77,7 +78,7 @@ int viewCommand(const ViewArguments& a) {
     out.line("page", *pageFile);
   }
   if (a.image) {
-    // The browser and its folder are gone in a moment: nobody has to ask twice.
+    // A second signal is ignored: on the first, the browser and its folder are removed in a moment.
     const std::atomic<bool>& interrupted = listenForInterrupts(SecondInterrupt::isIgnored);
     if (!writePicture(page, *browser, size, *a.image, interrupted)) return interruptedStatus();
     out.line("image", *a.image);

@@ -17,7 +17,7 @@ namespace corridor {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-// How a run comes from its process.
+// The fields that the child process sends to its parent, as JSON.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counters, boxTests, triangleTests, exactTests, poses, splits,
                                    edges, states, undecided)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathLength, metres, radians)
@@ -32,13 +32,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, sol
 
 namespace {
 
-/// Seconds beyond a planner's time for what doesn't look at the clock: setting up, and some steps
-/// of some planners.
+/// Seconds beyond a planner's time limit for work that doesn't check the clock: set-up, and some
+/// steps of some planners.
 constexpr double kPatience = 60;
 
-/// What OMPL's Benchmark takes for the planner: it plans, simplifies and certifies as `solve` does.
-/// OMPL's own simplifying (of Benchmark::Request) would replace the planner's path before anyone
-/// could take it.
+/// The planner as OMPL's Benchmark sees it: plans, simplifies and certifies as `solve` does. OMPL's
+/// own simplification (in Benchmark::Request) is not used: it would replace the planner's path
+/// before this code could read it.
 class WholeSolve final : public ob::Planner {
  public:
   WholeSolve(Solve& solve, const CheckingTally& checking, BenchmarkRun& run)
@@ -58,11 +58,11 @@ class WholeSolve final : public ob::Planner {
       status = solve_.plan(stop);
     } catch (const std::bad_alloc&) {
       run_.failure = "out of memory";
-    } catch (const std::exception& error) {  // Benchmark would print it and go on
+    } catch (const std::exception& error) {  // Benchmark would print it and continue
       run_.failure = error.what();
     }
     solve_.clock().pause();
-    // Now: to fill its columns, OMPL then tests the planner's path, twice.
+    // Read the counters now: OMPL tests the planner's path twice afterwards, to fill its columns.
     run_.checkingTime = checking_.seconds() + solve_.report().certificationTime;
     run_.states = checking_.states;
     run_.edges = checking_.motions;
@@ -80,8 +80,8 @@ class WholeSolve final : public ob::Planner {
   bool begun_ = false;
 };
 
-/// What OMPL's Benchmark takes a problem from. SimpleSetup's own `print` measures the space by
-/// thousands of random states and motions: it would take longer than many runs, count as tests,
+/// The problem as OMPL's Benchmark sees it. SimpleSetup's own `print` measures the space with
+/// thousands of random states and motions. That would take longer than many runs, count as tests,
 /// and change the planner's random numbers.
 class PlainSetup final : public og::SimpleSetup {
  public:
@@ -170,7 +170,7 @@ void checkRun(const Problem& planned, const std::map<std::string, std::string>& 
   solve.setUpEnds();
 }
 
-BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkPeer>& peer,
+BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkCompetitor>& peer,
                           double memory, Path& path) {
   CheckingTally checking;
   SolveOptions options;
@@ -199,7 +199,8 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkP
   benchmark.benchmark(request);
 
   take(solve.report(), run);
-  // It plans in a thread of its own, and goes on where that one finds no memory for its stack.
+  // Benchmark plans in a thread of its own, and continues if there is no memory for that thread's
+  // stack.
   if (!planner->begun()) run.failure = "no memory for the thread that plans";
   if (!run.failure.empty()) run.result = "failed";
   const auto& experiment = benchmark.getRecordedExperimentData();
@@ -225,7 +226,8 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
 }
 
 RunProcess::RunProcess(const Problem* problem, const Problem& planned,
-                       const std::optional<BenchmarkPeer>& peer, const BenchmarkLimits& limits)
+                       const std::optional<BenchmarkCompetitor>& peer,
+                       const BenchmarkLimits& limits)
     : seed_(planned.seed),
       process_(
           [&](const auto& send) {
@@ -236,7 +238,8 @@ RunProcess::RunProcess(const Problem* problem, const Problem& planned,
             if (run.solved && problem) verifyRun(*problem, path, run);
             send(text(run));
           },
-          // OMPL stops the planner at limits.memory, if it asks; this is for all else.
+          // OMPL stops a planner at limits.memory if the planner checks its termination condition;
+          // the larger limit here holds for everything else.
           {{2 * planned.planner.time + kPatience, limits.patience},
            static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)}) {}
 
@@ -248,9 +251,9 @@ BenchmarkRun RunProcess::run() const {
   if (end.messages.empty()) {
     run.result = "failed";
     run.failure = end.failure;
-  } else if (!end.failure.empty() && run.solved) {  // while verifying
+  } else if (!end.failure.empty() && run.solved) {  // the process ended while verifying
     run.verdict = "undecided";
-    run.failure = "the verifier was " + end.failure;
+    run.failure = "the verifier failed: " + end.failure;
   }
   return run;
 }

@@ -13,82 +13,93 @@
 
 namespace corridor {
 
-/// What OMPL's Benchmark recorded of one run: its structures, of plain texts.
+/// The record that OMPL's Benchmark keeps of one run: the fields of OMPL's own structures, as
+/// strings.
 struct OmplRecord {
   std::string planner;                            ///< "geometric_RRTConnect"
-  std::string setup, host, cpu;                   ///< of the experiment
-  std::map<std::string, std::string> settings;    ///< of the planner
-  std::map<std::string, std::string> properties;  ///< "time REAL" → "0.1"
+  std::string setup, host, cpu;                   ///< the experiment's
+  std::map<std::string, std::string> settings;    ///< the planner's parameters
+  std::map<std::string, std::string> properties;  ///< name and SQL type: "time REAL" → "0.1"
   std::vector<std::string> progressNames;         ///< "best cost REAL", …
   std::vector<std::map<std::string, std::string>> progress;
 };
 
-/// One planner on one problem with one variant and one seed. Seconds, metres, radians.
+/// One run: one planner on one problem with one variant and one seed. Units: seconds, metres,
+/// radians.
 struct BenchmarkRun {
   std::uint64_t seed = 0;
-  /// What kept the run from its end ("killed by signal 11 …"), or its path from being verified; "":
-  /// nothing did.
+  /// Why the run did not end normally ("killed by signal 11 …"), or why its path was not verified.
+  /// Empty if neither happened.
   std::string failure;
   std::string result;  ///< "solved", "not found", "approximate only", or "failed"
-  std::string why;     ///< where not solved: one line
+  /// One line: why the run is not solved. Empty if it is.
+  std::string why;
   bool solved = false, certified = false;
-  /// The verifier's, where solved: "proved", "refuted", "undecided"; else "".
+  /// The verifier's verdict if the run is solved: "proved", "refuted" or "undecided". Else empty.
   std::string verdict;
-  std::string finding;  ///< where not proved: the first, one line
-  /// The verifier's, metres, margin not taken off: all of the path, tube included, is proved to
-  /// keep at least the former; the latter is the least distance that it met. −1: there is none
-  /// (nothing in the way, or no verdict).
+  /// One line: the verifier's first finding, if the path is not proved.
+  std::string finding;
+  /// Computed by the verifier, in metres, without subtracting the margin. The whole path, tube
+  /// included, is proved to keep a distance of at least `provenClearance`. `leastDistance` is the
+  /// least distance that the verifier met along the path. −1: none (no obstacle, or no verdict).
   double provenClearance = -1, leastDistance = -1;
 
-  /// All that `corridor solve` does but reading files; see SolveReport. `time` is the sum of
-  /// setUpTime, plannerTime, simplificationTime and certificationTime.
+  /// Everything that `corridor solve` does except reading files; see SolveReport. `time` is the sum
+  /// of setUpTime, plannerTime, simplificationTime and certificationTime. `processorTime` adds up
+  /// all threads.
   double time = 0, processorTime = 0;
-  double searchProcessorTime = 0;  ///< of processorTime: planner and simplifier
+  double searchProcessorTime = 0;  ///< the part of processorTime in planner and simplifier
   double setUpTime = 0, plannerTime = 0, simplificationTime = 0, certificationTime = 0;
-  double checkingTime = 0;  ///< of `time` after set-up: in tests of states and motions
+  /// The part of `time` spent in tests of states and motions and in the final certification. Set-up
+  /// is not counted.
+  double checkingTime = 0;
   double verificationTime = 0;
-  /// What planner and simplifier asked for: states tested, samples of edges included, and edges.
+  /// Queries by planner and simplifier: states tested, including the samples of edges, and edges.
   std::uint64_t states = 0, edges = 0;
-  Counters counters;  ///< of Corridor's checker; a peer's own tests aren't counted
-  std::size_t rawStates = 0, pathStates = 0;  ///< of the planner's path, and of the one returned
+  Counters counters;  ///< counted by Corridor's checker; a competitor's own tests are not counted
+  /// Numbers of states of the planner's path and of the returned path.
+  std::size_t rawStates = 0, pathStates = 0;
   PathLength rawLength, length;
   OmplRecord ompl;
 };
 
 struct BenchmarkLimits {
-  double memory = 4096;   ///< MB a run, beyond what reading the problems took
-  double patience = 600;  ///< seconds, for verifying a path
+  double memory = 4096;   ///< MB per run, beyond what reading the problems took
+  double patience = 600;  ///< seconds for verifying one path
 };
 
-/// A run as one line of JSON, and back.
+/// Writes a run as one line of JSON, and reads it back.
 std::string text(const BenchmarkRun& run);
 BenchmarkRun readRun(const std::string& text);
 
-/// Sets a run up, and no more. @throws InputError as solveProblem.
+/// Sets a run up without running it, to find its faults. @throws InputError as solveProblem.
 /// @param setElsewhere as SolveOptions::setElsewhere.
 void checkRun(const Problem& planned, const std::map<std::string, std::string>& setElsewhere);
 
-/// Runs a planner once under OMPL's Benchmark, in this process: sets it up, plans, simplifies and
+/// Runs a planner once under OMPL's Benchmark, in this process: sets up, plans, simplifies and
 /// certifies as solveProblem does, with the same random numbers.
 /// @param planned the problem with the variant, planner, seed and time of the run.
 /// @param memory MB, at which OMPL stops the planner.
-/// @param path is set where solved.
+/// @param path receives the path if the run is solved.
 /// @throws InputError as solveProblem.
-BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkPeer>& peer,
+BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkCompetitor>& peer,
                           double memory, Path& path);
 
-/// Has the independent verifier judge a run's path: sets verdict, finding and verificationTime.
-/// @param problem as its file has it: one judge for all variants.
+/// Verifies a run's path with the independent verifier: sets verdict, finding, verificationTime,
+/// provenClearance and leastDistance.
+/// @param problem as its file has it, without the variant, so that all variants are verified alike.
 void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 
-/// Both, in a process of its own: a crash, endless work or a lack of memory there is told as the
-/// run's failure. Planning may take twice planner.time and a minute.
+/// Runs and verifies in a process of its own: a crash, an endless loop or a lack of memory there
+/// becomes the failure of this run only. Planning is stopped after twice planner.time plus a
+/// minute.
 /// @pre the caller has one thread.
 class RunProcess {
  public:
-  /// Begins it. @param problem as its file has it, which judges; null: nobody does.
+  /// Starts the process. @param problem as its file has it, for verifying the path; null: the path
+  /// is not verified.
   RunProcess(const Problem* problem, const Problem& planned,
-             const std::optional<BenchmarkPeer>& peer, const BenchmarkLimits& limits);
+             const std::optional<BenchmarkCompetitor>& peer, const BenchmarkLimits& limits);
   ChildProcess& process() { return process_; }
   /// @pre the process is over.
   BenchmarkRun run() const;

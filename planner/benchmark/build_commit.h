@@ -2,8 +2,8 @@
 
 namespace corridor {
 
-/// What was built: "1a2b3c4", with "-dirty" where files had been changed; "unknown" where it wasn't
-/// built from a clone.
+/// Returns the commit that this program was built from: "1a2b3c4", with "-dirty" if files had been
+/// changed, or "unknown" if it was not built from a clone.
 const char* buildCommit();
 
 }  // namespace corridor

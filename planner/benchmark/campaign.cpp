@@ -6,16 +6,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {
 
-/// Seconds for setting up one run while checking: goals are sampled, trees are built.
+/// Seconds for setting up one run while checking it: goals are sampled and trees are built.
 constexpr double kCheckPatience = 120;
-/// All results are kept in memory, some kilobytes a run.
+/// All results are kept in memory, some kilobytes per run.
 constexpr std::uint64_t kMostRuns = 1'000'000;
-constexpr std::uint64_t kLastSeed = 0xffffffff;  // OMPL takes 32 bits
+constexpr std::uint64_t kLastSeed = 0xffffffff;  // OMPL's seeds have 32 bits
 
 std::string placeOf(const Campaign& campaign, const std::string& what) {
   const auto place = campaign.places.find(what);
@@ -26,7 +26,7 @@ std::string placeOf(const Campaign& campaign, const CampaignPlanner& planner) {
   return planner.place.empty() ? placeOf(campaign, "planners") : planner.place;
 }
 
-/// Names of variants or planners, and where they stand.
+/// Collects names of variants or planners, and adds a fault for a repeated one.
 class Names {
  public:
   explicit Names(std::vector<Fault>& faults) : faults_(faults) {}
@@ -40,7 +40,8 @@ class Names {
   std::set<std::string> seen_;
 };
 
-/// A folder's name may have any bytes: UTF-8 in one line, which tables, plots and JSON can show.
+/// A folder's name may contain any bytes: returns it as UTF-8 in one line, so that tables, plots
+/// and JSON can show it.
 std::string printable(const std::string& name) {
   const auto replace = nlohmann::json::error_handler_t::replace;
   std::string text =
@@ -50,8 +51,8 @@ std::string printable(const std::string& name) {
   return text;
 }
 
-/// What is wrong with the cells, each fault once, in order. OMPL has one stream of random numbers a
-/// process: setting up here would leave a mark on it.
+/// Returns the faults of all cells, each once, in order. Cells are set up in a child process: OMPL
+/// has one random number stream per process, which setting up here would advance.
 std::vector<Fault> faultsInChild(const Campaign& campaign) {
   const std::vector<CampaignCell> cells = cellsOf(campaign);
   const auto work = [&](const auto& send) {
@@ -77,7 +78,7 @@ std::vector<Fault> faultsInChild(const Campaign& campaign) {
   };
   const ChildEnd end = inChild(work, {{kCheckPatience * static_cast<double>(cells.size())}, 0});
   if (end.messages.empty())
-    throw std::runtime_error("setting up the problems, to check them, was " + end.failure);
+    throw std::runtime_error("setting up the problems to check them failed: " + end.failure);
   std::vector<Fault> faults;
   for (const auto& f : nlohmann::json::parse(end.messages[0]))
     faults.push_back({f[0].get<std::string>(), f[1].get<int>(), f[2].get<std::string>()});
@@ -116,7 +117,7 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
   if (cell.planner.params)
     problem.planner.params = *cell.planner.params;
   else if (cell.planner.name != problem.planner.name)
-    problem.planner.params.clear();  // they were another planner's
+    problem.planner.params.clear();  // they belong to another planner
   problem.planner.name = cell.planner.name;
   problem.planner.time = campaign.time.value_or(problem.planner.time);
   problem.simplify = campaign.simplify.value_or(problem.simplify);

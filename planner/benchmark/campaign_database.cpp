@@ -10,18 +10,18 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/ompl_log.h"
 
 namespace corridor {
 namespace {
 
-/// "corr": marks files of ours (PRAGMA application_id), and the version of our tables.
+/// "corr" marks our files (PRAGMA application_id); the second number is the version of our tables.
 constexpr int kApplication = 0x636f7272, kVersion = 2;
 
-/// OMPL's tables, word for word those of `ompl_benchmark_statistics` 1.5.2 (its columns of runs are
-/// added as they come), and ours.
+/// OMPL's tables, word for word as `ompl_benchmark_statistics` 1.5.2 creates them, and ours. OMPL's
+/// columns of runs are added when a run first has them.
 constexpr const char* kTables = R"(
 CREATE TABLE experiments (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
   totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER, version VARCHAR(128),
@@ -49,7 +49,7 @@ std::string quotedName(const std::string& name) {
   return quoted + "\"";
 }
 
-/// "graph states INTEGER": a column graph_states, of type INTEGER.
+/// A column from OMPL's words: "graph states INTEGER" is the column graph_states of type INTEGER.
 struct ColumnName {
   std::string name, type;
   explicit ColumnName(const std::string& words) {
@@ -78,7 +78,7 @@ class CampaignDatabase::Tables {
                                                  SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
       base_->exec("PRAGMA locking_mode = EXCLUSIVE");
       base_->exec("PRAGMA foreign_keys = ON");
-      // Nobody else reads or writes from here on.
+      // From here on no other process can read or write the file.
       base_->exec("BEGIN EXCLUSIVE");
       if (!there || isEmpty())
         makeTables();
@@ -106,7 +106,7 @@ class CampaignDatabase::Tables {
 
   void add(std::size_t cell, const BenchmarkRun& run) {
     told([&] {
-      columns_.clear();  // an earlier run's may have been taken back
+      columns_.clear();  // a failed transaction may have removed columns again
       SQLite::Transaction transaction(*base_);
       const CampaignCell& of = cells_[cell];
       SQLite::Statement known(*base_,
@@ -134,23 +134,24 @@ class CampaignDatabase::Tables {
     throw InputError(Fault{file_.string(), 0, why});
   }
 
-  /// Faults of SQLite as the user's: a disk that is full, a file that is none of its.
+  /// Turns SQLite's exceptions into InputError: a full disk or a foreign file is the user's to
+  /// mend.
   template <class Step>
   void told(const Step& step) const {
     try {
       step();
-    } catch (const nlohmann::json::exception& error) {  // of what it holds
+    } catch (const nlohmann::json::exception& error) {  // the stored JSON is damaged
       refuse("is damaged: " + std::string(error.what()));
     } catch (const SQLite::Exception& error) {
-      const std::string kept = "what was measured before is kept, --resume goes on";
+      const std::string kept = "finished runs are kept; continue with --resume";
       switch (error.getErrorCode()) {
         case SQLITE_NOTADB:
-          refuse("is no database of a campaign");
+          refuse("is not a campaign database");
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
           refuse("is in use by another process");
         case SQLITE_CANTOPEN:
-          refuse("can't be made or opened");
+          refuse("can't be created or opened");
         case SQLITE_READONLY:
           refuse("can't be written to");
         case SQLITE_FULL:
@@ -166,13 +167,12 @@ class CampaignDatabase::Tables {
     }
   }
 
-  /// What keeps files from growing, where something does: SQLite doesn't tell it from a disk that
-  /// fails.
+  /// Returns a note on the limit of file sizes, or "" if there is none: SQLite's error code is the
+  /// same for that limit and for a failing disk.
   static std::string sizeLimit() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
-    return " (no file may be larger than " + std::to_string(limit.rlim_cur) +
-           " bytes here: ulimit -f)";
+    return " (no file may be larger than " + std::to_string(limit.rlim_cur) + " bytes: ulimit -f)";
   }
 
   template <class... Values>
@@ -199,20 +199,20 @@ class CampaignDatabase::Tables {
 
   void checkTables(Mode mode) {
     if (base_->execAndGet("PRAGMA application_id").getInt() != kApplication)
-      refuse("is a database, but none of a campaign");
+      refuse("is a database, but not of a campaign");
     if (const int version = base_->execAndGet("PRAGMA user_version").getInt(); version != kVersion)
-      refuse("is of version " + std::to_string(version) + " of campaigns' databases; this is " +
-             std::to_string(kVersion) + ": name another folder");
+      refuse("is a campaign database of version " + std::to_string(version) +
+             "; this program needs version " + std::to_string(kVersion) + "; name another folder");
     if (const std::string check = base_->execAndGet("PRAGMA quick_check(1)").getString();
         check != "ok")
       refuse("is damaged: " + check);
     const int runs = base_->execAndGet("SELECT count(*) FROM corridor_runs").getInt();
     if (mode == Mode::fresh && runs > 0)
-      refuse("holds " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
-             " already: go on with it by --resume, or name another folder");
+      refuse("contains " + std::to_string(runs) + (runs == 1 ? " run" : " runs") +
+             " already; continue with --resume, or name another folder");
   }
 
-  /// The cells of the file are those of the campaign, and hand over their runs.
+  /// Compares the file's cells with the campaign's, and moves the file's runs into `cells`.
   void matchCells(std::vector<CampaignCell>& cells) {
     std::set<std::int64_t> ids;
     for (CampaignCell& cell : cells) {
@@ -234,7 +234,7 @@ class CampaignDatabase::Tables {
       readRuns(id, cell);
       if (was == spec) continue;
       if (!cell.runs.empty())
-        refuse(cellName(cell) + " was measured as something else: " + difference(was, spec) +
+        refuse(cellName(cell) + " was measured with other settings: " + difference(was, spec) +
                "; name another folder");
       known.reset();
       execute("UPDATE corridor_cells SET spec = ? WHERE id = ?", spec, id);
@@ -244,7 +244,7 @@ class CampaignDatabase::Tables {
                              "WHERE EXISTS (SELECT 1 FROM corridor_runs WHERE cellid = c.id)");
     while (others.executeStep())
       if (!ids.count(others.getColumn(0).getInt64()))
-        refuse("holds runs of " + others.getColumn(1).getString() + ", " +
+        refuse("contains runs of " + others.getColumn(1).getString() + ", " +
                others.getColumn(2).getString() + ", " + others.getColumn(3).getString() +
                ", which the campaign doesn't have; name another folder");
   }
@@ -255,8 +255,8 @@ class CampaignDatabase::Tables {
     while (runs.executeStep()) {
       BenchmarkRun run = readRun(runs.getColumn(0).getString());
       if (run.seed < campaign_.seed || run.seed >= campaign_.seed + campaign_.runs)
-        refuse("holds a run of seed " + std::to_string(run.seed) + " of " + cellName(cell) +
-               ", which the campaign doesn't ask for; name another folder");
+        refuse("contains a run of seed " + std::to_string(run.seed) + " of " + cellName(cell) +
+               ", which the campaign doesn't have; name another folder");
       cell.runs.push_back(std::move(run));
     }
   }
@@ -264,13 +264,13 @@ class CampaignDatabase::Tables {
     return campaign_.problemNames[cell.problem] + ", " + campaign_.variants[cell.variant].name +
            ", " + cell.planner.label;
   }
-  /// The first key whose values differ.
+  /// Returns a text on the first key whose values differ.
   static std::string difference(const std::string& was, const std::string& is) {
     const auto a = nlohmann::json::parse(was), b = nlohmann::json::parse(is);
     for (const auto& [key, value] : b.items())
       if (!a.contains(key) || a[key] != value)
-        return key + " " + (a.contains(key) ? a[key].dump() : "nothing") + ", and is " +
-               value.dump() + " now";
+        return key + " was " + (a.contains(key) ? a[key].dump() : "not set") + " and is now " +
+               value.dump();
     return was;
   }
 
@@ -283,8 +283,8 @@ class CampaignDatabase::Tables {
   }
 
   std::int64_t addExperiment(const CampaignCell& cell, const BenchmarkRun& run) {
-    // Another planner's of the same problem and variant. Not told by its name: "one pct" and
-    // "one_pct" have the same.
+    // Another planner may have added the experiment of this problem and variant. Experiments are
+    // not found by name, since "one pct" and "one_pct" have the same name in OMPL's tables.
     SQLite::Statement known(*base_,
                             "SELECT experimentid FROM corridor_cells WHERE problem = ? AND "
                             "variant = ? AND experimentid IS NOT NULL");
@@ -313,7 +313,7 @@ class CampaignDatabase::Tables {
     return id;
   }
 
-  /// An experiment's that there isn't yet: "NAME-2".
+  /// Returns a name that no experiment has yet: NAME or "NAME-2".
   std::string freeName(const std::string& name) {
     SQLite::Statement taken(*base_, "SELECT 1 FROM experiments WHERE name = ?");
     std::string free = name;
@@ -342,7 +342,7 @@ class CampaignDatabase::Tables {
                   {{"experimentid", experiment}, {"plannerid", planner}});
   }
   void addProgress(const BenchmarkRun& run, std::int64_t runId) {
-    std::set<std::string> times;  // the first of each, as OMPL's script does it
+    std::set<std::string> times;  // the first sample of each time is kept, as by OMPL's script
     for (const auto& sample : run.ompl.progress)
       if (const auto time = sample.find("time REAL");
           time == sample.end() || times.insert(time->second).second)
@@ -365,7 +365,7 @@ class CampaignDatabase::Tables {
     for (const auto& [name, id] : ids) row.bind(++at, id);
     for (const auto& [words, value] : properties) {
       ++at;
-      if (!isNothing(value)) row.bind(at, value);  // the column's type makes a number of it
+      if (!isNothing(value)) row.bind(at, value);  // SQLite converts it to the column's type
     }
     row.exec();
     return base_->getLastInsertRowid();
@@ -385,7 +385,7 @@ class CampaignDatabase::Tables {
   const std::vector<CampaignCell> cells_;  // without runs
   std::unique_ptr<SQLite::Database> base_;
   std::int64_t session_ = 0;
-  std::set<std::pair<std::string, std::string>> columns_;  // known to be there
+  std::set<std::pair<std::string, std::string>> columns_;  // columns that exist, by table
 };
 
 CampaignDatabase::CampaignDatabase(const std::filesystem::path& file, Mode mode,

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
-#include "planner/benchmark/peers.h"
+#include "collision/core/spelling.h"
+#include "planner/benchmark/competitors.h"
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
@@ -19,15 +19,15 @@ namespace {
 constexpr const char* kFormat = "corridor-campaign-1";
 constexpr std::size_t kMostOfARange = 1000, kMostVariants = 1000;
 constexpr WholeRange kRuns{1, 1'000'000, "1 to 1,000,000"};
-constexpr WholeRange kSeeds{1, 0xffffffff, "1 to 2^32 - 1"};  // OMPL takes 32 bits
+constexpr WholeRange kSeeds{1, 0xffffffff, "1 to 2^32 - 1"};  // OMPL's seeds have 32 bits
 
-/// A checker of the file, and what of its lists a variant has.
+/// One variant of a checker of the file: one value of each of its lists.
 struct Expanded {
-  std::string suffix;  ///< " 0.01"; "" where the file's has no list
+  std::string suffix;  ///< the chosen values, " 0.01"; "" if the checker has no list
   YamlValue map;
 };
 
-/// One for each combination of what its lists hold, in the order in which they stand there.
+/// Returns one variant for each combination of the lists' values, in the order of the file.
 std::vector<Expanded> expanded(const YamlValue& checker) {
   std::vector<Expanded> all{{"", checker}};
   for (std::size_t i = 0; i < checker.entries.size(); ++i) {
@@ -45,7 +45,7 @@ std::vector<Expanded> expanded(const YamlValue& checker) {
   return all;
 }
 
-/// How many that is, as far as `kMostVariants` + 1.
+/// Returns the number of combinations, or `kMostVariants` + 1 if there are more.
 std::size_t countExpanded(const YamlValue& checker) {
   std::size_t count = 1;
   for (const YamlValue::Entry& entry : checker.entries)
@@ -55,7 +55,7 @@ std::size_t countExpanded(const YamlValue& checker) {
   return count;
 }
 
-/// Of digits alone, nine at most.
+/// Reads a number of digits only, nine at most.
 std::optional<std::size_t> problemNumber(const std::string& digits) {
   std::size_t number = 0;
   const char* const end = digits.data() + digits.size();
@@ -64,14 +64,15 @@ std::optional<std::size_t> problemNumber(const std::string& digits) {
   return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
 }
 
-/// A name that tables, plots and logs can have: in one line.
+/// Returns whether a text can be a name in tables, plots and logs: not empty, in one line.
 bool isName(const std::string& text) {
   return !text.empty() && std::none_of(text.begin(), text.end(),
                                        [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
-/// The keys of a checker that make a difference, where it says itself how edges are checked: a
-/// resolution is of samples, a tolerance of all else; a peer takes the place of trees.
+/// Returns the keys of a checker that have an effect. A resolution has none on edges that are not
+/// sampled, a tolerance none on sampled ones, and a competitor uses none of the keys on trees.
+/// Without the key `edges` the problem's edges apply, so both resolution and tolerance count.
 std::string effectOf(const YamlValue& checker) {
   std::map<std::string, std::string> keys;
   for (const YamlValue::Entry& entry : checker.entries) keys[entry.key] = entry.value.text;
@@ -84,7 +85,7 @@ std::string effectOf(const YamlValue& checker) {
   return text;
 }
 
-/// Without the keys that are not a problem's.
+/// Returns the map without `peer`, which problem files don't have.
 YamlValue withoutPeer(YamlValue map) {
   std::erase_if(map.entries, [](const YamlValue::Entry& entry) { return entry.key == "peer"; });
   return map;
@@ -132,7 +133,7 @@ class CampaignReader {
     for (const std::string& word : *words)
       faults_.collect([&] {
         for (const std::string& name : problemsOf(word)) {
-          // Its line here, and what is wrong there.
+          // The fault has the line of this file, and what is wrong at that path.
           const std::filesystem::path at = path_.parent_path() / name.substr(0, name.find('#'));
           std::error_code ignored;
           if (!std::filesystem::exists(at, ignored))
@@ -147,7 +148,7 @@ class CampaignReader {
     const YamlValue* value = file.find("planners");
     if (!value) return;
     if (value->kind == YamlValue::Kind::List && value->items.empty()) {
-      file.fault("planners", "at least one is needed; without this key each problem has its own");
+      file.fault("planners", "at least one is needed; without this key each problem uses its own");
       return;
     }
     if (value->kind != YamlValue::Kind::List) {
@@ -167,7 +168,7 @@ class CampaignReader {
       map.require("name", "OMPL's, such as RRTConnect");
       if (!name) continue;
       CampaignPlanner planner{map.text("label").value_or(*name), *name, {}};
-      if (!isName(planner.label)) map.fault("label", "a word or more are needed, in one line");
+      if (!isName(planner.label)) map.fault("label", "must be one line of text, not empty");
       if (const YamlValue* params = map.find("params")) {
         planner.params.emplace();
         const YamlMap of(*params, "planners[].params", nullptr, source_);
@@ -210,21 +211,21 @@ class CampaignReader {
     for (const YamlValue::Entry& key : entry.value.entries)
       if (key.value.kind == YamlValue::Kind::List && !listOfWords(key.value)) {
         source_.fault(key.line,
-                      path + "." + key.key + ": of a list, one or more single values are needed");
+                      path + "." + key.key + ": a list must have one or more single values");
         return;
       }
     if (!isName(entry.key)) {
-      source_.fault(entry.line, "checkers: a checker's name is to be a word or more, in one line");
+      source_.fault(entry.line, "checkers: a checker's name must be one line of text, not empty");
       return;
     }
     expanded_ = std::min(expanded_ + countExpanded(entry.value), kMostVariants + 1);
     if (expanded_ > kMostVariants) {
-      source_.fault(entry.line, path + ": with its lists there are more than " +
+      source_.fault(entry.line, path + ": the lists of the checkers make more than " +
                                     std::to_string(kMostVariants) + " variants");
       return;
     }
-    std::set<std::string> told;               // what is wrong with several of its variants
-    std::map<std::string, std::string> same;  // what has an effect, and the variant that has it
+    std::set<std::string> told;  // faults that were already added for another of its variants
+    std::map<std::string, std::string> same;  // keys that have an effect → the variant's suffix
     for (const Expanded& one : expanded(entry.value)) {
       FaultList faults;
       YamlSource source{path_.string(), faults, {}};
@@ -267,11 +268,12 @@ class CampaignReader {
       return false;
     }
     if (checker.edges != "discrete") {
-      map.fault("peer", name + " tests states: say edges: discrete");
+      map.fault("peer", name + " tests states only; set edges: discrete");
       return false;
     }
     if (const std::string why = whyNoPeer(name); !why.empty()) {
-      campaign_.notes.push_back(variant.name + " is left out: no " + name + ": " + why);
+      campaign_.notes.push_back(variant.name + " is left out: " + name +
+                                " is not available: " + why);
       return false;
     }
     variant.peer = peerNamed(name);
@@ -291,7 +293,7 @@ class CampaignReader {
   std::filesystem::path path_;
   FaultList faults_;
   YamlSource source_;
-  std::size_t expanded_ = 0;  // variants, with those that are left out
+  std::size_t expanded_ = 0;  // variants so far, including those left out
   Campaign campaign_;
 };
 
@@ -306,7 +308,7 @@ bool isCampaignFile(const std::filesystem::path& file) {
     const YamlValue document = parseYaml(file.string(), readTextFile(file, "a campaign"));
     return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
       return (entry.key == "format" && entry.value.text.rfind("corridor-campaign", 0) == 0) ||
-             entry.key == "checkers";  // without its format, to be told so
+             entry.key == "checkers";  // a campaign without its format: reading it reports that
     });
   } catch (const InputError&) {
     return false;
@@ -343,7 +345,7 @@ std::vector<std::string> problemsOf(const std::string& text) {
   if (!first || !last) return {text};
   if (*last < *first || *last - *first >= kMostOfARange)
     throw InputError(Fault{file, 0,
-                           quotedWord(text.substr(hash)) + " is no range of 1 to " +
+                           quotedWord(text.substr(hash)) + " is not a range of 1 to " +
                                std::to_string(kMostOfARange) + " problems, such as #1-10"});
   std::vector<std::string> problems;
   for (std::size_t i = *first; i <= *last; ++i) problems.push_back(file + "#" + std::to_string(i));

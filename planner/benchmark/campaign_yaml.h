@@ -9,21 +9,23 @@
 
 namespace corridor {
 
-/// Is this file a campaign (`format: corridor-campaign-1`, or one that has lost that line)? False
-/// for what can't be read as YAML.
+/// Returns whether a file is a campaign: it has `format: corridor-campaign-…`, or the key
+/// `checkers` without any format. Returns false for a file that can't be read as YAML.
 bool isCampaignFile(const std::filesystem::path& file);
 
 /// Reads a campaign file, and the problems that it names, relative to its folder. Every key:
-/// planner/benchmark/README.md. A key of a checker may be a list; then there is a variant for each
-/// combination (1,000 in all at most). Peers that can't take part here are left out, with a note.
+/// planner/benchmark/README.md. A key of a checker may have a list of values; then each combination
+/// is a variant (1,000 variants at most). Competitors that are not available here are left out,
+/// with a note.
 /// @throws InputError with all faults of the file and its problems at once.
 Campaign readCampaign(const std::filesystem::path& file);
 
-/// The keys of every map of a campaign file, by the map's path (as problemKeys).
+/// Returns the keys of every map of a campaign file, by the map's path (as problemKeys).
 const std::map<std::string, MapKeys>& campaignKeys();
 
-/// "set.json#3-5" is three problems, "set.json#3" and all else is itself.
-/// @throws InputError for a range that ends before it begins, or of more than 1,000.
+/// Expands a range of problems: "set.json#3-5" gives three names. Any other text, such as
+/// "set.json#3", gives itself.
+/// @throws InputError for a range that ends before it begins, or has more than 1,000 problems.
 std::vector<std::string> problemsOf(const std::string& text);
 
 }  // namespace corridor

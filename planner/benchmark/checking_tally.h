@@ -10,17 +10,17 @@ class SpaceInformation;
 
 namespace corridor {
 
-/// What OMPL asked the checkers of states and motions, of all threads together.
+/// Counts and times OMPL's calls of the state and motion checkers, of all threads together.
 struct CheckingTally {
-  std::atomic<std::uint64_t> states = 0;  ///< tested, samples of motions included
+  std::atomic<std::uint64_t> states = 0;  ///< states tested, including the samples of motions
   std::atomic<std::uint64_t> motions = 0;
-  std::atomic<std::int64_t> nanoseconds = 0;  ///< a state within a motion counts once
+  std::atomic<std::int64_t> nanoseconds = 0;  ///< a state tested within a motion is timed once
 
   double seconds() const { return 1e-9 * static_cast<double>(nanoseconds); }
 };
 
-/// Counts and times what the checkers of `si` are asked, and changes nothing else. It costs some
-/// 50 ns a test. @pre `tally` outlives them.
+/// Wraps the checkers of `si` so that their calls are counted and timed; changes nothing else.
+/// Costs about 50 ns per test. @pre `tally` outlives the checkers.
 void tallyChecks(const std::shared_ptr<ompl::base::SpaceInformation>& si, CheckingTally& tally);
 
 }  // namespace corridor

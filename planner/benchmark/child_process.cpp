@@ -24,9 +24,9 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// How often the parent looks whether it was interrupted.
+/// Milliseconds between the parent's tests of `interrupted`.
 constexpr int kLookMs = 200;
-// What a line of the child's is.
+// The first byte of each line that the child sends.
 constexpr char kMessage = 'm', kFailure = 'f';
 
 std::system_error systemError(const char* what) {
@@ -43,8 +43,8 @@ void writeAll(int pipe, const std::string& text) {
 
 [[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before it could be heard of
-  // The parent decides what a signal to the whole group means, as one from the terminal.
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before the line above took effect
+  // A signal from the terminal reaches the whole group; the parent alone decides what it means.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
   if (bytes > 0) limitMemory(bytes);
   std::string failure;
@@ -74,10 +74,10 @@ std::string endOf(int status) {
 ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
     : patience_(limits.patience), since_(std::chrono::steady_clock::now()) {
   int pipe[2];
-  // Programs that the child starts shall not keep it open.
+  // O_CLOEXEC: programs that the child starts must not keep the pipe open.
   if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw systemError("pipe");
   std::cout.flush();
-  std::fflush(nullptr);  // what is buffered would be written twice
+  std::fflush(nullptr);  // else the child would write buffered output a second time
   const pid_t parent = ::getpid();
   id_ = ::fork();
   if (id_ < 0) {
@@ -88,7 +88,7 @@ ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
   }
   if (id_ == 0) {
     ::close(pipe[0]);
-    ::fcntl(pipe[1], F_SETFL, 0);  // the child may wait until its parent has read
+    ::fcntl(pipe[1], F_SETFL, 0);  // the child's end blocks: it waits until its parent has read
     child(pipe[1], work, limits.bytes, parent);
   }
   ::close(pipe[1]);
@@ -113,7 +113,8 @@ void ChildProcess::stop(const std::string& reason) {
   finish(true);
 }
 
-/// A line of those read; all was said with it, or it says why not all: then the child is over.
+/// Takes one line of the text read, if there is a whole one. The child is over after its last
+/// message, or after a line that reports a failure.
 bool ChildProcess::takeLine() {
   const auto at = text_.find('\n');
   if (at == std::string::npos) return false;

@@ -10,42 +10,43 @@
 namespace corridor {
 
 struct ChildLimits {
-  /// Seconds that the parent waits for the first message, for the next … Where the last one came,
-  /// the child's work is done.
+  /// Seconds that the parent waits for the first message, for the second, and so on. The child's
+  /// work is done once the last of these messages has arrived.
   std::vector<double> patience;
-  /// What the child may allocate beyond what its parent has; 0: no limit.
+  /// Memory that the child may allocate beyond what its parent has; 0: no limit.
   std::size_t bytes = 0;
 };
 
-/// What became of a child process.
+/// How a child process ended.
 struct ChildEnd {
-  std::vector<std::string> messages;  ///< as far as they came
-  std::string failure;                ///< why not all: "killed by signal 11 (Segmentation fault)"
+  std::vector<std::string> messages;  ///< those that arrived
+  /// Why messages are missing: "killed by signal 11 (Segmentation fault)". Empty if none is.
+  std::string failure;
 };
 
-/// Some work in a process of its own: a crash, endless work or a lack of memory there costs that
-/// work only. The child has a copy of all that the caller has; what it changes is lost, but for the
-/// messages that it sends (any text without line breaks, as many as `patience` has). It ends
-/// without running destructors, and when its parent does.
+/// Work in a process of its own: a crash, an endless loop or a lack of memory there costs that work
+/// only. The child has a copy of all of the caller's memory. Its changes are lost, except for the
+/// messages that it sends: any text without line breaks, one for each number in `patience`. The
+/// child ends without running destructors. It is killed when its parent ends.
 class ChildProcess {
  public:
   using Work = std::function<void(const std::function<void(const std::string&)>& send)>;
 
-  /// Begins the work. @pre the caller has one thread.
-  /// @throws std::system_error where there can be no further process or pipe.
+  /// Starts the work. @pre the caller has one thread.
+  /// @throws std::system_error if no further process or pipe can be created.
   ChildProcess(const Work& work, const ChildLimits& limits);
-  ~ChildProcess();  ///< kills it, if it isn't over
+  ~ChildProcess();  ///< kills the child if it is still running
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Takes what it has sent meanwhile, and looks at the clock. @returns whether it is over.
+  /// Reads the messages sent so far, and kills the child if its time is over. @returns `over()`.
   bool advance();
-  /// Kills it; `reason` is its failure, unless it was over.
+  /// Kills the child, with `reason` as its failure. Does nothing if it is over.
   void stop(const std::string& reason);
   bool over() const { return id_ < 0; }
   const ChildEnd& end() const { return end_; }  ///< @pre over
 
-  /// Until one of them has something to say, or for a short while (milliseconds).
+  /// Waits until one of the children has sent something or ended, for at most `milliseconds`.
   static void waitForAny(const std::vector<ChildProcess*>& children, int milliseconds);
 
  private:
@@ -53,14 +54,14 @@ class ChildProcess {
   void finish(bool kill);
 
   std::vector<double> patience_;
-  std::chrono::steady_clock::time_point since_;  ///< the last message
+  std::chrono::steady_clock::time_point since_;  ///< time of the last message
   int pipe_ = -1, id_ = -1;
   std::string text_;
   ChildEnd end_;
 };
 
-/// Does the work, and waits for its end.
-/// @param interrupted where it becomes true, the child is killed; failure: "interrupted".
+/// Does the work in a child process, and waits for its end.
+/// @param interrupted kills the child when it becomes true, with the failure "interrupted".
 /// @pre, @throws as ChildProcess.
 ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
                  const std::atomic<bool>* interrupted = nullptr);

@@ -10,15 +10,16 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Metres, or where nothing moves as a whole radians, before and after simplifying.
+/// Length after simplifying over length before: in metres, or in radians if the path has no length
+/// in metres.
 double lengthShare(const BenchmarkRun& run) {
   return run.rawLength.metres > 0    ? run.length.metres / run.rawLength.metres
          : run.rawLength.radians > 0 ? run.length.radians / run.rawLength.radians
                                      : kNone;
 }
 
-/// How well costs tell a run's time is judged by runs that they don't come from: each half of the
-/// runs by the other half's. None of fewer than four.
+/// Fits the costs of tests. Their quality is judged on runs that were not fitted: each half of the
+/// runs is predicted with the other half's costs. No quality for fewer than four runs.
 VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   VariantScore::Cost cost{fittedCosts(queries), kNone, kNone, kNone};
   if (queries.size() < 4) return cost;
@@ -38,7 +39,8 @@ VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   return cost;
 }
 
-/// What `runs` solved, in the time of another variant's run of the same seed.
+/// Appends the time of each run over that of the reference variant's run with the same seed, where
+/// both are solved.
 void addRatios(const CampaignCell& cell, const CampaignCell& reference,
                std::vector<double>& ratios) {
   for (const BenchmarkRun& run : cell.runs)
@@ -76,7 +78,7 @@ std::vector<VariantScore> scoresOf(const Campaign& campaign,
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const CampaignCell& cell = cells[c];
       if (cell.variant != v) continue;
-      // A problem's and planner's variants are neighbours.
+      // cellsOf puts the variants of a problem and planner next to each other.
       addRatios(cell, cells[c - v + reference], ratios);
       for (const BenchmarkRun& run : cell.runs) {
         ++score.runs;

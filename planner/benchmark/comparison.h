@@ -8,45 +8,47 @@
 
 namespace corridor {
 
-/// The variant in whose time that of the others is told: the first that solved anything, else the
-/// first.
+/// Returns the index of the variant whose times are the unit of the others': the first variant that
+/// solved anything, else the first.
 std::size_t referenceVariant(const std::vector<CampaignCell>& cells);
 
-/// How a variant did over all problems, planners and seeds of a campaign.
+/// The results of a variant over all problems, planners and seeds of a campaign.
 struct VariantScore {
   std::size_t variant = 0;  ///< index
   std::size_t runs = 0, failed = 0, solved = 0;
-  std::size_t certified = 0, proved = 0, refuted = 0, undecided = 0;  ///< of those solved
-  Interval solvedShare;                                               ///< of the runs
-  Interval refutedShare;  ///< of the paths that were judged: proved, refuted, undecided
-  /// Processor time as a multiple of the reference variant's, in pairs of runs of one problem,
-  /// planner and seed that both solved: the median, and how sure it is. NaN without pairs.
+  std::size_t certified = 0, proved = 0, refuted = 0, undecided = 0;  ///< numbers of solved runs
+  Interval solvedShare;   ///< the share of runs that are solved
+  Interval refutedShare;  ///< the share of verified paths that are refuted
+  /// Processor time as a multiple of the reference variant's: the median and its interval, over
+  /// pairs of runs of the same problem, planner and seed that both variants solved. NaN without
+  /// pairs.
   std::size_t pairs = 0;
   double timeRatio = 0;
   Interval timeRatioInterval;
-  /// What a test costs within its runs, by least squares of N_v·C_v + N_p·C_p against the time that
-  /// went into checking; how well that tells a run's: quantiles of measured over predicted, each
-  /// half of the runs by the costs of the other (NaN of fewer than four). None of peers, which
-  /// count nothing.
+  /// The cost of a test: least squares of N_v·C_v + N_p·C_p against the time that the variant's
+  /// runs spent in checking. The quantiles of measured over predicted time show how well that
+  /// predicts a run. Each half of the runs is predicted with the costs of the other half; NaN for
+  /// fewer than four runs. Unset for competitors, whose tests are not counted.
   struct Cost {
     CostModel model;
     double ratioP5 = 0, ratioMedian = 0, ratioP95 = 0;
   };
   std::optional<Cost> cost;
-  /// The share of the time that went into checking, and of the planner's path length that was left
-  /// after simplifying: medians over the runs that were solved; NaN of none.
+  /// Medians over the solved runs; NaN without any. `checkingShare`: the share of the time that was
+  /// spent in checking. `lengthShare`: the path's length after simplifying over that before.
   double checkingShare = 0, lengthShare = 0;
 
   std::size_t judged() const { return proved + refuted + undecided; }
 };
 
-/// Ranked: variants of which no path was refuted, the quickest first; then the others, by the share
-/// of paths refuted, and then by time.
+/// Returns the variants in order of rank: first those without a refuted path, the quickest first;
+/// then the others by the share of paths refuted, then by time. Variants that solved nothing are
+/// last.
 std::vector<VariantScore> scoresOf(const Campaign& campaign,
                                    const std::vector<CampaignCell>& cells);
 
-/// The time of a run that went into checking, nanoseconds, and its tests; nothing where it has none
-/// of either.
+/// Returns the time that a run spent in checking, in nanoseconds, and its tests; nothing if either
+/// is 0.
 std::optional<QueryCost> checkingCost(const BenchmarkRun& run);
 
 }  // namespace corridor

@@ -5,17 +5,17 @@
 #include <cstddef>
 #include <vector>
 
-/// T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1): what queries cost, told from
-/// counts.
+/// The cost model of queries, T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1), fitted
+/// to measured queries.
 namespace corridor {
 
-/// What a query did and how long it took.
+/// The numbers of tests of a query, and the time that it took.
 struct QueryCost {
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
   double ns = 0;                           ///< T, above 0
 };
 
-/// Nanoseconds that a test takes within a query: with its share of walking the trees.
+/// Nanoseconds of one test within a query, including its share of the tree traversal.
 struct CostModel {
   double box = 0, triangle = 0;  ///< C_v, C_p
   double predicted(const QueryCost& c) const {
@@ -23,9 +23,10 @@ struct CostModel {
   }
 };
 
-/// The costs ≥ 0 that these queries bear out best: least squares of the errors, each over √T, since
-/// what is a sum of many tests varies so. (Weighed alike, the few longest queries would tell all;
-/// relative to T, the shortest.) Where the counts are proportional box tests take it all.
+/// Returns the costs ≥ 0 that fit the queries best. Least squares of the errors, each divided by
+/// √T, since the error of a sum of many tests grows so. (Without weights the few longest queries
+/// would decide; with errors relative to T, the shortest.) If N_v and N_p are proportional, box
+/// tests get the whole cost.
 /// @param call  nanoseconds of each T that no test takes. @pre queries not empty.
 inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call = 0) {
   // Normal equations of Σ (N_v·C_v + N_p·C_p + call − T)²/T.
@@ -42,14 +43,17 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
     const CostModel both{(v * pp - p * vp) / det, (p * vv - v * vp) / det};
     if (both.box >= 0 && both.triangle >= 0) return both;
   }
-  // The better one alone: the sum falls by v²/vv, or p²/pp.
+  // One of the two costs would be negative, or the two can't be separated: use the single cost that
+  // fits better. It lowers the sum of squares by v²/vv, or p²/pp.
   const CostModel boxes{vv > 0 ? std::max(v / vv, 0.0) : 0, 0};
   const CostModel triangles{0, pp > 0 ? std::max(p / pp, 0.0) : 0};
-  // Equal, but for the rounding of the sums, where the counts are proportional.
+  // If the counts are proportional, both fit equally well up to the rounding of the sums; prefer
+  // box tests.
   return boxes.box * v >= (1 - 1e-12) * triangles.triangle * p ? boxes : triangles;
 }
 
-/// The number that a share of the numbers do not exceed. @pre not empty, 0 ≤ share ≤ 1.
+/// Returns the element at rank share·(n − 1), rounded, of the sorted numbers. @pre not empty, 0 ≤
+/// share ≤ 1.
 inline double quantile(std::vector<double> numbers, double share) {
   const std::ptrdiff_t rank = std::lround(share * static_cast<double>(numbers.size() - 1));
   std::nth_element(numbers.begin(), numbers.begin() + rank, numbers.end());

@@ -1,14 +1,15 @@
-// A module of its own: see peers.h. It uses nothing of Corridor's that isn't in headers.
+// A shared library of its own, opened at run time: see competitors.h. It uses only those parts of
+// Corridor that are in headers.
 #include <fcl/config.h>
 
+#include "planner/benchmark/competitors.h"
 #include "planner/benchmark/fcl_scene.h"
-#include "planner/benchmark/peers.h"
 
 namespace {
 
-class FclPeer final : public corridor::PeerScene {
+class FclCompetitor final : public corridor::CompetitorScene {
  public:
-  explicit FclPeer(const corridor::Checker& checker) : scene_(checker) {}
+  explicit FclCompetitor(const corridor::Checker& checker) : scene_(checker) {}
   bool touches(const std::vector<corridor::Transform>& X_WF) override {
     return scene_.touches(X_WF);
   }
@@ -19,8 +20,8 @@ class FclPeer final : public corridor::PeerScene {
 
 }  // namespace
 
-corridor::PeerScene* corridor::corridorFclScene(const Checker& checker) {
-  return std::make_unique<FclPeer>(checker).release();
+corridor::CompetitorScene* corridor::corridorFclScene(const Checker& checker) {
+  return std::make_unique<FclCompetitor>(checker).release();
 }
 
 const char* corridor::corridorFclVersion() {

@@ -17,8 +17,9 @@
 
 #include "planner/checker/checker.h"
 
-/// FCL as its users have it: a BVHModel<OBBRSS> a mesh and its own primitives, their boxes compared
-/// first, the first contact only. Poses are by Corridor's kinematics.
+/// A problem's scene in FCL, set up as FCL's users do: a BVHModel<OBBRSS> per mesh, FCL's own
+/// primitives, AABBs compared first, and only the first contact. Poses come from Corridor's
+/// kinematics.
 namespace corridor::bench {
 
 using FclGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
@@ -34,7 +35,8 @@ std::shared_ptr<fcl::BVHModel<Volume>> fclMesh(const TriangleMesh& mesh) {
   return model;
 }
 
-/// A shape in the frame of its body. Convex hulls aren't compared: no scene here has one.
+/// A shape in the frame of its body. @throws std::runtime_error for convex hulls: no problem that
+/// is compared has one.
 struct FclShape {
   FclGeometry geometry;
   std::size_t frame = 0;
@@ -58,18 +60,18 @@ inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
   else if (const auto* cylinder = std::get_if<Cylinder>(&*shape.primitive))
     made.geometry = std::make_shared<fcl::Cylinderd>(cylinder->radius, cylinder->length);
   else
-    throw std::runtime_error("FCL is given no convex hulls");
+    throw std::runtime_error("convex hulls are not supported with FCL");
   return made;
 }
 
-/// The problem's shapes as FCL has them, the same pairs.
+/// The problem's shapes in FCL, and the same tested pairs as Corridor's.
 class FclScene {
  public:
   explicit FclScene(const Checker& checker) : pairs_(checker.scene().pairs()) {
     for (const ProblemBody& body : checker.problem().bodies)
       for (const PlacedShape& shape : body.shapes) shapes_.push_back(fclShape(shape, body.frame));
   }
-  /// Of meshes only.
+  /// @pre all bodies of the scene are meshes.
   explicit FclScene(const Scene& scene) : pairs_(scene.pairs()) {
     for (const Scene::Placed& placed : scene.bodies())
       shapes_.push_back({fclMesh(placed.body.mesh()), placed.frame});

@@ -21,17 +21,18 @@ namespace {
 
 using ompl::tools::Benchmark;
 
-/// Where a run's setup stops speaking of the problem and begins to speak of the planner.
+/// The line of a run's setup between its part on the problem and its part on the planner.
 constexpr const char* kPlannersBegin = "Properties of benchmarked planners:\n";
 
-/// OMPL's writer, of an experiment that wasn't made in this process.
+/// OMPL's writer, for an experiment that was not run in this process.
 class Log final : public Benchmark {
  public:
   explicit Log(og::SimpleSetup& unused) : Benchmark(unused) {}
   CompleteExperiment& experiment() { return exp_; }
 };
 
-/// OMPL's list of a planner's runs. A planner that reports progress has a list of it for each run.
+/// Returns OMPL's list of a planner's runs. A planner that reports progress has a list of samples
+/// for each run.
 Benchmark::PlannerExperiment plannerOf(const Campaign& campaign, const CampaignCell& cell) {
   Benchmark::PlannerExperiment planner;
   planner.name = omplPlannerName(cell, {});
@@ -155,7 +156,8 @@ std::string omplLog(const Campaign& campaign, const CampaignResult& result, std:
   std::ostringstream text;
   log.saveResultsToStream(text);
   std::string all = text.str();
-  // Debian's OMPL 1.5.2 has an empty OMPL_VERSION, and its readers then take "version" for it.
+  // Debian's OMPL 1.5.2 has an empty OMPL_VERSION; OMPL's readers would then read "version" as the
+  // number.
   const std::string unversioned = "OMPL version \n";
   if (all.rfind(unversioned, 0) == 0)
     all.replace(0, unversioned.size(), "OMPL version " + versionOfOmpl() + "\n");

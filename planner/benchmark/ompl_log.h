@@ -9,33 +9,34 @@
 
 namespace corridor {
 
-/// The runs of a problem with a variant, of all planners, as the log that OMPL's own Benchmark
-/// writes (of OMPL 1.5): `ompl_benchmark_statistics` and Planner Arena read it. OMPL's properties
-/// of a run, and every count and measure of `runRow` under its name there. A run that failed is a
-/// row of status "Crash".
+/// Returns a log as OMPL's own Benchmark (OMPL 1.5) writes it, for the runs of a problem with a
+/// variant and all planners. `ompl_benchmark_statistics` and Planner Arena can read it. A run has
+/// OMPL's properties, and every count and measure of `runRow` under its name there. A failed run is
+/// a row with the status "Crash".
 std::string omplLog(const Campaign& campaign, const CampaignResult& result, std::size_t problem,
                     std::size_t variant);
 
-// Its parts, as the database has them, too (campaign_database.h).
+// Parts of the log, which the database (campaign_database.h) also stores.
 
-/// Of a run: "time REAL" → "0.1"; a name in words, and a type of SQL's.
+/// Returns a run's properties: "time REAL" → "0.1". A key is a name in words and an SQL type.
 std::map<std::string, std::string> omplProperties(const Campaign& campaign,
                                                   const CampaignCell& cell,
                                                   const BenchmarkRun& run);
-/// What an experiment, a problem with a variant, is called, and what is said of it:
-/// "resolution REAL" → "0.01".
+/// Returns the name and the parameters ("resolution REAL" → "0.01") of an experiment: a problem
+/// with a variant.
 std::string omplExperimentName(const Campaign& campaign, const CampaignCell& cell);
 std::map<std::string, std::string> omplParameters(const Campaign& campaign,
                                                   const CampaignCell& cell);
-/// The planner's, and its runs' own where there are any: "geometric_RRTConnect".
+/// Returns the planner's label if it has one of its own, else the name that OMPL recorded,
+/// "geometric_RRTConnect".
 std::string omplPlannerName(const CampaignCell& cell, const OmplRecord& record);
-/// Of a run's setup: what speaks of the problem, and what of the planner.
+/// Splits a run's setup text into its part on the problem and its part on the planner.
 std::pair<std::string, std::string> omplSetup(const std::string& setup);
-/// OMPL's names of how runs end; a run's `status` is an index.
+/// Returns OMPL's names of how a run can end; a run's `status` is an index into them.
 std::vector<std::string> omplStatusNames();
 /// "1.5.2"
 std::string versionOfOmpl();
-/// Whitespace made underscores: OMPL's readers take the last word of a line.
+/// Replaces whitespace by underscores: OMPL's readers take only the last word of a line.
 std::string oneWord(std::string text);
 
 }  // namespace corridor

@@ -17,7 +17,7 @@
 namespace corridor {
 namespace {
 
-/// What gnuplot would take for syntax, in the shape of what it was: names are users' own.
+/// Replaces the characters that gnuplot or SVG would take for syntax: names are the users' own.
 std::string plain(std::string text) {
   for (char& c : text)
     if (c == '"' || c == '\'' || c == '\\' || c == '<' || c == '>' || c == '&' || c == '`')
@@ -25,13 +25,13 @@ std::string plain(std::string text) {
   std::replace(text.begin(), text.end(), '\r', ' ');
   return text;
 }
-/// In double quotes, line breaks as gnuplot reads them.
+/// Returns a text in double quotes, with line breaks as gnuplot reads them.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : plain(text)) out += c == '\n' ? std::string("\\n") : std::string(1, c);
   return out + "\"";
 }
-/// Of a name what a key has room for; whole characters of UTF-8.
+/// Shortens a name for the legend, at a boundary of UTF-8 characters.
 std::string shortened(const std::string& name) {
   constexpr std::size_t kMost = 60;
   if (name.size() <= kMost) return name;
@@ -63,7 +63,7 @@ class Script {
     for (std::size_t i = 0; i < plot.shapes.size() && !drawn.empty(); ++i)
       drawn += ", NaN with points" + pointOf(i, 0.9) + " lc rgb \"#64748b\" title " +
                quoted(shortened(plot.shapes[i]));
-    // gnuplot has no picture of nothing.
+    // gnuplot fails on a plot without data.
     out_ << (drawn.empty() ? "set xrange [1:2]\nset yrange [1:2]\nset label \"no data\" at graph "
                              "0.5,0.5 center\nplot NaN notitle\n"
                            : "plot " + drawn.substr(2) + "\n");
@@ -80,7 +80,8 @@ class Script {
       out_ << "set " << name << "range [" << number(range->first) << ":" << number(range->second)
            << "]\n";
   }
-  /// 1, 2 and 5 of each decade: of a narrow range more than one number is to be read.
+  /// Labels 1, 2 and 5 of each decade: with powers of ten alone a narrow range could have a single
+  /// label.
   void labelHalfDecades(char name, const std::pair<double, double>& range) {
     std::string tics;
     const int last = static_cast<int>(std::ceil(std::log10(range.second)));
@@ -95,7 +96,8 @@ class Script {
     return std::isfinite(p.x) && std::isfinite(p.y) && (!plot_.logX || p.x > 0) &&
            (!plot_.logY || p.y > 0);
   }
-  /// Its data, and how it is drawn: a part for each shape of its points.
+  /// Writes the data of a series, one block per shape of its points, and returns how gnuplot is to
+  /// draw it.
   std::string series(std::size_t i) {
     const PlotSeries& s = plot_.series[i];
     const std::string color = " lc rgb \"" + plotColor(s.color) + "\"";
@@ -136,7 +138,8 @@ class Script {
     return drawn + ", " + block + " using 1:2:7 with labels hypertext point" + pointOf(shape, 0.7) +
            color + " notitle";
   }
-  /// Round, square, triangle up and down, diamond, pentagon; then the same, hollow.
+  /// gnuplot's point types: round, square, triangle up, triangle down, diamond, pentagon; then the
+  /// same, hollow.
   static std::string pointOf(std::size_t shape, double size) {
     static constexpr std::array<int, kPlotShapes> kTypes{7, 5, 9, 11, 13, 15, 6, 4, 8, 10, 12, 14};
     std::ostringstream text;
@@ -156,17 +159,18 @@ void replaceAll(std::string& text, const std::string& what, const std::string& b
 std::string runGnuplot(const std::string& script) {
   std::string file = (std::filesystem::temp_directory_path() / "corridor_plot_XXXXXX").string();
   const int made = ::mkstemp(file.data());
-  if (made < 0) throw std::runtime_error("no file for a plot can be made: " + file);
+  if (made < 0) throw std::runtime_error("can't create a file for a plot: " + file);
   ::close(made);
   if (!(std::ofstream(file) << script << std::flush)) {
     std::filesystem::remove(file);
-    throw std::runtime_error("a plot's file can't be written: " + file);
+    throw std::runtime_error("can't write a plot's file: " + file);
   }
   std::string out;
   int status = -1;
-  std::string word = file;  // of a shell's: TMPDIR is the user's
+  std::string word = file;  // quoted for the shell: TMPDIR may contain any characters
   replaceAll(word, "'", "'\\''");
-  // Without the user's own settings (~/.gnuplot); a signal to the whole group is its parent's.
+  // -d: without the user's own settings (~/.gnuplot). The trap: only the parent decides what a
+  // signal to the whole group means.
   const std::string command = "trap '' INT TERM HUP; exec gnuplot -d '" + word + "' 2>&1";
   if (FILE* const pipe = ::popen(command.c_str(), "r")) {
     std::array<char, 65536> part;

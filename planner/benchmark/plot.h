@@ -6,47 +6,49 @@
 #include <utility>
 #include <vector>
 
-/// Plots of reports, drawn by gnuplot.
+/// Plots for reports, drawn by gnuplot.
 namespace corridor {
 
 struct PlotPoint {
   double x = 0, y = 0;
-  /// Where they are told: bars from … to. NaN: none.
+  /// The ends of the error bars; NaN: no bar.
   double fromX = std::numeric_limits<double>::quiet_NaN(), toX = fromX, fromY = fromX, toY = fromX;
-  std::string text = {};  ///< of a point: shown where a pointer rests on it
-  std::size_t shape = 0;  ///< of a point: round, square … (index of `Plot::shapes`)
+  std::string text = {};  ///< shown where a pointer rests on the point
+  std::size_t shape = 0;  ///< index into `Plot::shapes`
 };
 
 struct PlotSeries {
   enum class Style { points, line, dashes };
-  std::string name;       ///< in the key; "" leaves it out
-  std::size_t color = 0;  ///< series of one colour belong together
+  std::string name;       ///< name in the legend; "": not in the legend
+  std::size_t color = 0;  ///< index of `plotColor`; related series have the same
   Style style = Style::points;
   std::vector<PlotPoint> points;
 };
 
 struct Plot {
-  std::string name;  ///< of its files: "time_and_error.piano"
+  std::string name;  ///< name of its files: "error.piano"
   std::string title, xLabel, yLabel;
-  bool logX = false, logY = false;  ///< what is not above 0 is left out then
+  bool logX = false, logY = false;  ///< a logarithmic axis leaves out values ≤ 0
   std::optional<std::pair<double, double>> rangeX = {}, rangeY = {};
   std::vector<PlotSeries> series = {};
-  std::vector<std::string> shapes = {};  ///< what points' shapes mean; none: all are round
+  std::vector<std::string> shapes = {};  ///< meanings of points' shapes; none: all are round
 };
 
-/// Colours by number, the same in plots and tables: "#0072b2". The first six can be told apart by
-/// those who see no red and green (Okabe, Ito 2008); after `kPlotColors` they begin anew.
+/// Returns a colour by its number, the same in plots and tables: "#0072b2". The first six are
+/// distinct for readers with red-green colour blindness (Okabe, Ito 2008). The colours repeat after
+/// `kPlotColors`.
 std::string plotColor(std::size_t number);
 constexpr std::size_t kPlotColors = 18;
-/// After so many shapes of points these begin anew.
+/// The number of shapes of points; they repeat after that.
 constexpr std::size_t kPlotShapes = 12;
 
-/// Is gnuplot there (Debian's gnuplot-nox)?
+/// Returns whether gnuplot (Debian's gnuplot-nox) is installed.
 bool canPlot();
-/// As SVG, of so many units (which scale). Ids in it begin with the plot's name, so that several
-/// may stand in one page. @throws std::runtime_error with what gnuplot says. @pre canPlot.
+/// Draws a plot as scalable SVG; width and height are in SVG units. Its ids begin with the plot's
+/// name, so that several plots can be in one page. @throws std::runtime_error with gnuplot's
+/// message. @pre canPlot.
 std::string svgOf(const Plot& plot, int width = 560, int height = 380);
-/// Its data: series,x,y,from_x,to_x,from_y,to_y,text.
+/// Returns a plot's data as CSV: series,x,y,from_x,to_x,from_y,to_y,text.
 std::string csvOf(const Plot& plot);
 
 }  // namespace corridor

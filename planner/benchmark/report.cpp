@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using view::escapedHtml;
 
-/// So many problems' plots and tables stand open; a reader of more looks for one.
+/// Plots and tables of up to this many problems are shown at once; with more they are folded.
 constexpr std::size_t kMostAtOnce = 8;
 
 /// "1 problem", "2 problems"
@@ -25,13 +25,14 @@ std::string counted(std::size_t number, const std::string& noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
-/// Of a plot's picture, in its units: a key of many names takes none of the plot's room.
+/// Size of a plot in SVG units. The height grows with the legend, so that a long legend does not
+/// shrink the plot.
 constexpr int kWidth = 560;
 int heightOf(const Plot& plot) {
   const auto names = plot.shapes.size() + static_cast<std::size_t>(std::count_if(
                                               plot.series.begin(), plot.series.end(),
                                               [](const PlotSeries& s) { return !s.name.empty(); }));
-  // Names that are longer stand below each other, not in two columns.
+  // gnuplot lists longer names below each other, not in two columns.
   constexpr std::size_t kLong = 20;
   const bool twoColumns = std::all_of(plot.series.begin(), plot.series.end(),
                                       [](const PlotSeries& s) { return s.name.size() <= kLong; }) &&
@@ -57,7 +58,7 @@ class Report {
     fs::create_directory(folder_ / "plots", failure);
     if (failure)
       throw InputError(
-          Fault{(folder_ / "plots").string(), 0, "can't be made: " + failure.message()});
+          Fault{(folder_ / "plots").string(), 0, "can't be created: " + failure.message()});
     std::string error, solved, clearance;
     if (campaign_.problems.size() > 1) {
       if (campaign_.verify) error = figures(figure(errorOfAll(campaign_, cells_, scores_)));
@@ -67,7 +68,7 @@ class Report {
       error += figuresOfEach(timeAgainstError);
       clearance = figuresOfEach(clearances);
     } else {
-      error = clearance = "<p>Paths were not judged.</p>";
+      error = clearance = "<p>Paths were not verified.</p>";
     }
     solved += figuresOfEach(solvedOverTime);
     const std::string name = campaign_.name.empty() ? "Comparison" : campaign_.name;
@@ -118,31 +119,31 @@ class Report {
     if (runs() < all) text += " of " + std::to_string(all) + " (not finished)";
     text += ": " + std::to_string(solved) + " returned a path";
     return judged == 0 ? text + "."
-                       : text + "; of " + std::to_string(judged) + " that were judged " +
-                             std::to_string(refuted) + " are refuted.";
+                       : text + "; " + std::to_string(refuted) + " of " + std::to_string(judged) +
+                             " verified paths are refuted.";
   }
   std::string notes() const {
     std::vector<std::string> notes = campaign_.notes;
     if (!canPlot())
-      notes.push_back("gnuplot is not installed (Debian's gnuplot-nox): there are no plots.");
+      notes.push_back("gnuplot is not installed (Debian's gnuplot-nox), so there are no plots.");
     if (campaign_.variants.size() > kPlotColors)
-      notes.push_back("There are more variants than colours: the " +
-                      std::to_string(kPlotColors + 1) + "th has the first one’s again.");
+      notes.push_back("There are more variants than colours: from the " +
+                      std::to_string(kPlotColors + 1) + "th on the colours repeat.");
     if (campaign_.planners.size() > kPlotShapes)
-      notes.push_back("There are more planners than shapes of points: the " +
-                      std::to_string(kPlotShapes + 1) + "th has the first one’s again.");
-    if (!campaign_.verify) notes.push_back("Paths were not judged (verify: false).");
+      notes.push_back("There are more planners than shapes of points: from the " +
+                      std::to_string(kPlotShapes + 1) + "th on the shapes repeat.");
+    if (!campaign_.verify) notes.push_back("Paths were not verified (verify: false).");
     if (notes.empty()) return "";
     std::string list = "<ul class=\"notes\">";
     for (const std::string& note : notes) list += "<li>" + escapedHtml(note) + "</li>";
     return list + "</ul>";
   }
 
-  /// What is said of each problem: where there are many, behind a line to be opened.
+  /// Returns the HTML on each problem; with many problems behind a line that opens it.
   std::string ofEach(const std::string& what, const std::string& html) const {
     const std::size_t count = campaign_.problems.size();
     if (count <= kMostAtOnce) return html;
-    return "<details><summary>" + what + " of each of the " + std::to_string(count) +
+    return "<details><summary>" + what + " of all " + std::to_string(count) +
            " problems</summary>\n" + html + "</details>\n";
   }
   static std::string figures(const std::string& all) {
@@ -153,29 +154,30 @@ class Report {
     std::string all;
     for (std::size_t p = 0; p < campaign_.problems.size(); ++p)
       all += figure(plot(campaign_, cells_, p));
-    return ofEach("The plot", figures(all));
+    return ofEach("Plots", figures(all));
   }
   std::string cellTables() const {
     std::string html;
     for (std::size_t p = 0; p < campaign_.problems.size(); ++p)
       html += "<h3>" + escapedHtml(campaign_.problemNames[p]) + "</h3>\n" +
               cellTable(campaign_, cells_, p);
-    return ofEach("The table", html);
+    return ofEach("Tables", html);
   }
 
-  /// Files of the plot, and the figure for the page. Without a picture there is the data all the
-  /// same: what was measured isn't lost to a gnuplot that fails.
+  /// Writes a plot's files, and returns the figure for the page. The data is written even if
+  /// gnuplot fails, so that no measurement is lost.
   std::string figure(Plot plot) {
     const std::string name = fileName(plot.name);
     plot.name = name;
-    for (int i = 2; !plots_.insert(plot.name).second; ++i)  // "a b" and "a-b"
+    // "a b" and "a-b" have the same file name.
+    for (int i = 2; !plots_.insert(plot.name).second; ++i)
       plot.name = name + "-" + std::to_string(i);
     const fs::path base = folder_ / "plots" / plot.name;
     writeWhole(base.string() + ".csv", csvOf(plot));
     files_.push_back(base.string() + ".csv");
     const auto none = [&](const std::string& why) {
       std::error_code ignored;
-      fs::remove(base.string() + ".svg", ignored);  // an earlier report's
+      fs::remove(base.string() + ".svg", ignored);  // left by an earlier report
       return "<figure><p>" + escapedHtml(plot.title + ": no plot" + why) + "</p></figure>\n";
     };
     if (!canPlot()) return none("");
@@ -198,7 +200,7 @@ class Report {
   std::vector<VariantScore> scores_;
   std::size_t reference_;
   std::vector<fs::path> files_;
-  std::set<std::string> plots_;  // names
+  std::set<std::string> plots_;  // names that are taken
 };
 
 }  // namespace

@@ -9,17 +9,18 @@
 
 namespace corridor {
 
-/// Writes a campaign's report into a folder: `report.html`, which loads nothing, and its plots as
-/// `plots/NAME.svg` and their data as `plots/NAME.csv`; what is there of these names is replaced.
-/// Without gnuplot there are no plots, and the page says so.
-/// @param sessions as of the campaign's database, for the page to tell.
-/// @returns the files, the page first. @throws InputError where one can't be written.
+/// Writes a campaign's report into a folder: `report.html`, which loads no other file, its plots as
+/// `plots/NAME.svg`, and their data as `plots/NAME.csv`. Existing files of these names are
+/// replaced. Without gnuplot there are no plots, and the page says so.
+/// @param sessions of the campaign's database, to be listed in the page.
+/// @returns the files, the page first. @throws InputError if a file can't be written.
 std::vector<std::filesystem::path> writeReport(const Campaign& campaign,
                                                const std::vector<CampaignCell>& cells,
                                                const std::filesystem::path& folder,
                                                const std::vector<CampaignSession>& sessions = {});
 
-/// The text of a file of planner/benchmark/page/, by its name: embedded by CMakeLists.txt.
+/// Returns the text of a file of planner/benchmark/page/ by its name; CMakeLists.txt embeds them in
+/// the program.
 std::string_view reportFile(std::string_view name);
 
 }  // namespace corridor

@@ -8,9 +8,9 @@
 namespace corridor {
 namespace {
 
-/// Of shares, so that points at 0 and at 1 are seen whole.
+/// The range of shares, so that points at 0 and at 1 are drawn whole.
 constexpr std::pair kShares{-0.03, 1.03};
-/// Seconds: no time is told finer.
+/// Seconds: smaller times count as this, so that ratios are finite.
 constexpr double kClockTick = 1e-9;
 
 std::string digits(double value) {
@@ -19,14 +19,14 @@ std::string digits(double value) {
   return text;
 }
 
-/// Of a problem and a variant: f(cell) for each planner.
+/// Calls f(cell) for each planner of a problem and a variant.
 void forCells(const std::vector<CampaignCell>& cells, std::size_t problem, std::size_t variant,
               const std::function<void(const CampaignCell&)>& f) {
   for (const CampaignCell& cell : cells)
     if (cell.problem == problem && cell.variant == variant) f(cell);
 }
 
-/// Steps up by 1/of at each value, from the lower to the upper end of the plot.
+/// Returns a step function that rises by 1/of at each value, over [first, last].
 std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double first,
                              double last) {
   std::sort(values.begin(), values.end());
@@ -40,7 +40,8 @@ std::vector<PlotPoint> steps(std::vector<double> values, std::size_t of, double 
   return points;
 }
 
-/// The decades around values above 0, one at least: gnuplot has no picture of an empty range.
+/// Returns the range of whole decades around the values above 0, at least one decade: gnuplot fails
+/// on an empty range.
 std::pair<double, double> decades(const std::vector<double>& values) {
   double least = HUGE_VAL, most = 0;
   for (const double v : values)
@@ -74,7 +75,8 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
       }
     });
   plot.rangeX = decades(times);
-  // Not a decade beyond what runs were given, but all that they took.
+  // End the time axis at the time limit, or at the longest run if that took more, not at the next
+  // decade.
   if (!times.empty()) {
     const double limit = campaign.time.value_or(campaign.problems[problem].planner.time);
     const double most = std::max(limit, *std::max_element(times.begin(), times.end()));
@@ -148,12 +150,12 @@ Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells
            name + "\n" + std::to_string(s.refuted) + " of " + std::to_string(s.judged()) +
                " paths refuted\n" + digits(s.timeRatio) + " times the time"}}});
   }
-  plot.rangeX = {least / 1.5, most * 1.5};  // no point on an axis
+  plot.rangeX = {least / 1.5, most * 1.5};  // keeps points off the axes
   return plot;
 }
 
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  // What every variant has run: else who ran alone would be the quickest.
+  // Count only what every variant has run: a variant that ran alone would always be the quickest.
   const std::size_t variants = campaign.variants.size();
   std::size_t runs = 0;
   std::vector<std::vector<double>> ratios(variants);
@@ -179,7 +181,7 @@ Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cel
     }
   Plot plot{"profile",
             "All problems, the " + std::to_string(runs) + " runs that every variant has made",
-            "processor time, multiples of the quickest one", "share of runs", true};
+            "processor time, multiples of the quickest variant", "share of runs", true};
   plot.rangeX = {1, std::max(10.0, decades(all).second)};
   plot.rangeY = {0, 1.02};
   for (std::size_t v = 0; v < variants && runs > 0; ++v)
@@ -215,9 +217,9 @@ Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells
 Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                    const std::vector<VariantScore>& scores) {
   Plot plot{"cost",
-            "All problems, a point a run",
+            "All problems, one point per run",
             "predicted, Nᵥ·Cᵥ + Nₚ·Cₚ, s",
-            "time in checking, s",
+            "time spent in checking, s",
             true,
             true};
   std::vector<double> both;

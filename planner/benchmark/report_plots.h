@@ -5,30 +5,31 @@
 #include "planner/benchmark/comparison.h"
 #include "planner/benchmark/plot.h"
 
-/// The plots of a campaign's report. Variants have the colour of their number.
+/// The plots of a campaign's report. A variant has the colour of its number.
 namespace corridor {
 
-/// Runs of a problem, all planners together: the share that is solved by a time, and with that of
-/// the returned paths that hold (dashed: those that were refuted count, too).
+/// For a problem and all planners: the share of runs that have a path by a given time. Solid lines
+/// count paths that are not refuted; dashed lines count all paths.
 Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                     std::size_t problem);
-/// Of a problem, a point a planner (its shape) and variant: median time against the share of
-/// returned paths that are refuted, with what both are sure to.
+/// For a problem, one point per planner (its shape) and variant (its colour): median time against
+/// the share of returned paths that are refuted, with confidence intervals of both.
 Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem);
-/// The same of all problems, a point a variant: time as a multiple of the reference variant's, as
-/// the ranking has it.
+/// For all problems, one point per variant: the same, with time as a multiple of the reference
+/// variant's, as in the ranking.
 Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                 const std::vector<VariantScore>& scores);
-/// Performance profile (Dolan, Moré 2002) of the problems, planners and seeds that every variant
-/// has run: the share of these of which it returned a path that is not refuted, within x times what
-/// the quickest variant took for one.
+/// Performance profile (Dolan, Moré 2002) over the problems, planners and seeds that every variant
+/// has run. It shows the share of these for which a variant returned a path that is not refuted,
+/// within x times the time of the quickest variant with such a path.
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells);
-/// Of a problem, the share of returned paths whose least distance is at most x; those in collision
-/// have 0, and where the lines begin.
+/// For a problem, the share of returned paths whose least distance to an obstacle is at most x.
+/// Paths in collision have the distance 0, so that a line begins at their share.
 Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                 std::size_t problem);
-/// A point a run, of all problems: what N_v·C_v + N_p·C_p tells against what was measured.
+/// One point per run, for all problems: the time predicted by N_v·C_v + N_p·C_p against the
+/// measured time.
 Plot predictedCost(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                    const std::vector<VariantScore>& scores);
 

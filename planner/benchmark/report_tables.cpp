@@ -15,7 +15,7 @@ namespace {
 
 using view::escapedHtml;
 
-/// Three digits; of large numbers all, in groups.
+/// Three significant digits; numbers of four and more digits are whole, in groups of three.
 std::string digits(double value) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return "∞";
@@ -42,7 +42,7 @@ std::string interval(const Interval& of, std::string (*text)(double)) {
 std::string count(std::size_t hits, std::size_t of) {
   return std::to_string(hits) + " of " + std::to_string(of);
 }
-/// One is bad news.
+/// One refuted path is enough for the mark `bad`.
 std::string refuted(std::size_t hits, std::size_t judged) {
   if (judged == 0) return "–";
   return std::string("<span class=\"") + (hits ? "bad" : "good") + "\">" + count(hits, judged) +
@@ -80,7 +80,7 @@ std::vector<std::string> cellRow(const Campaign& campaign, const CampaignCell& c
     edges.push_back(static_cast<double>(run.edges));
     boxes.push_back(static_cast<double>(run.counters.boxTests));
     triangles.push_back(static_cast<double>(run.counters.triangleTests));
-    // Metres, or of what only turns radians.
+    // Metres, or radians if the path has no length in metres.
     const bool metres = run.rawLength.metres > 0;
     raw.push_back(metres ? run.rawLength.metres : run.rawLength.radians);
     length.push_back(metres ? run.length.metres : run.length.radians);
@@ -105,9 +105,9 @@ std::string checkerText(const Variant& variant) {
   for (const YamlValue::Entry& entry : variant.checker.entries)
     text += (text.empty() ? "" : ", ") + entry.key + ": " + entry.value.text;
   if (variant.peer) text += ", peer: " + variant.peer->name;
-  return text.empty() ? "as each problem says" : text;
+  return text.empty() ? "each problem’s own" : text;
 }
-/// Of what `lscpu` says: its "Model name:".
+/// Returns the "Model name:" of the output of `lscpu`, or its first line.
 std::string processorOf(const std::string& cpu) {
   const std::string key = "Model name:";
   const auto at = cpu.find(key);
@@ -117,9 +117,10 @@ std::string processorOf(const std::string& cpu) {
 }
 std::string plannerText(const CampaignPlanner& planner) {
   std::string text = planner.name;
-  if (!planner.params) return text + ", with a problem’s own parameters, if it is the problem’s";
+  if (!planner.params)
+    return text + ", with the problem’s parameters where the problem names this planner";
   for (const auto& [key, value] : *planner.params) text += ", " + key + ": " + value;
-  return planner.params->empty() ? text + ", by OMPL’s defaults" : text;
+  return planner.params->empty() ? text + ", with OMPL’s defaults" : text;
 }
 std::string peerVersions(const Campaign& campaign) {
   std::string text;
@@ -140,8 +141,8 @@ std::string variantHtml(const Campaign& campaign, std::size_t variant) {
 std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                          const std::vector<VariantScore>& scores) {
   const std::size_t reference = referenceVariant(cells);
-  Table table(
-      {"variant", "refuted", "share refuted", "solved", "time", "in checking", "length left"});
+  Table table({"variant", "refuted", "share refuted", "solved", "time", "share of checking",
+               "length left"});
   for (const VariantScore& s : scores) {
     const double share =
         s.judged() ? static_cast<double>(s.refuted) / static_cast<double>(s.judged()) : NAN;
@@ -200,9 +201,9 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
   table.row({"seeds", std::to_string(campaign.seed) + " to " +
                           std::to_string(campaign.seed + campaign.runs - 1)});
   table.row(
-      {"limits", (campaign.time ? digits(*campaign.time) + " s" : "time as each problem says") +
-                     ", " + digits(campaign.limits.memory) + " MB a run"});
-  table.row({"simplified", !campaign.simplify   ? "as each problem says"
+      {"limits", (campaign.time ? digits(*campaign.time) + " s" : "each problem’s time limit") +
+                     ", " + digits(campaign.limits.memory) + " MB per run"});
+  table.row({"simplified", !campaign.simplify   ? "each problem’s setting"
                            : *campaign.simplify ? "yes"
                                                 : "no"});
   table.row({"verified", campaign.verify ? "yes" : "no"});

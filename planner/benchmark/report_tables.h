@@ -9,20 +9,20 @@
 /// The tables of a campaign's report, as HTML.
 namespace corridor {
 
-/// A line a variant, as ranked: refuted, solved, time, share of checking, length left.
+/// One row per variant in order of rank: refuted, solved, time, share of checking, length left.
 std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                          const std::vector<VariantScore>& scores);
-/// A line a variant that counts its tests: C_v, C_p, and how well they predict.
+/// One row per variant whose tests are counted: C_v, C_p, and how well they predict.
 std::string costTable(const Campaign& campaign, const std::vector<VariantScore>& scores);
-/// Of a problem, a line a planner and variant.
+/// For a problem, one row per planner and variant.
 std::string cellTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem);
-/// What somebody needs who wants to have the same figures: machine, program, sessions, limits,
-/// planners, variants, problems.
+/// What a reader needs to reproduce the figures: machine, program, sessions, limits, planners,
+/// variants, problems.
 std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                           const std::vector<CampaignSession>& sessions);
 
-/// A variant's name behind its colour.
+/// Returns a variant's name after a swatch of its colour.
 std::string variantHtml(const Campaign& campaign, std::size_t variant);
 
 }  // namespace corridor

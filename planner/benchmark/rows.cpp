@@ -48,7 +48,8 @@ std::string csvText(const RowValue& value) {
 std::string tableText(const RowValue& value) {
   if (const auto* number = std::get_if<double>(&value)) {
     char text[32];
-    // Counts, whose medians may be halves, without an exponent.
+    // Whole numbers are written without an exponent. So are numbers from 1000: counts, whose
+    // medians may be halves.
     const bool whole =
         (*number == std::floor(*number) || std::abs(*number) >= 1000) && std::abs(*number) < 0x1p53;
     std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", *number);
@@ -58,7 +59,7 @@ std::string tableText(const RowValue& value) {
   return text.empty() ? "-" : text;
 }
 
-/// Letters, not bytes: of UTF-8.
+/// Counts characters of UTF-8, not bytes.
 std::size_t widthOf(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often the parent looks whether it was interrupted.
+/// Milliseconds between the parent's tests of `interrupted`.
 constexpr int kLookMs = 200;
 
 struct Task {
@@ -17,7 +17,7 @@ struct Task {
   std::uint64_t seed = 0;
 };
 
-/// Runs in the order in which they are to begin.
+/// Returns the runs to make, in the order in which they begin.
 std::deque<Task> tasksOf(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
   std::deque<Task> tasks;
   const std::size_t variants = campaign.variants.size();
@@ -25,7 +25,7 @@ std::deque<Task> tasksOf(const Campaign& campaign, const std::vector<CampaignCel
     return std::any_of(cells[cell].runs.begin(), cells[cell].runs.end(),
                        [&](const BenchmarkRun& run) { return run.seed == seed; });
   };
-  // A problem's and a planner's variants are neighbours.
+  // cellsOf puts the variants of a problem and planner next to each other.
   for (std::size_t first = 0; first < cells.size(); first += variants)
     for (std::uint64_t i = 0; i < campaign.runs; ++i)
       for (std::size_t v = 0; v < variants; ++v)
@@ -33,7 +33,7 @@ std::deque<Task> tasksOf(const Campaign& campaign, const std::vector<CampaignCel
   return tasks;
 }
 
-/// What runs take, as far as it is known, to tell how long is left.
+/// Mean durations of finished runs, to estimate the time left.
 class Durations {
  public:
   explicit Durations(std::size_t cells) : cells_(cells) {}
@@ -41,7 +41,8 @@ class Durations {
     cells_[cell].seconds += seconds, ++cells_[cell].runs;
     all_.seconds += seconds, ++all_.runs;
   }
-  /// Of these tasks, one after the other; a cell's own mean, or that of all. Negative: unknown.
+  /// Returns the estimated seconds of the tasks, one after the other: each takes the mean of its
+  /// cell, or of all runs if its cell has none. Negative: unknown.
   double of(const std::deque<Task>& tasks) const {
     if (all_.runs == 0) return -1;
     double sum = 0;
@@ -76,7 +77,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   const std::uint64_t total = cells.size() * campaign.runs;
   std::uint64_t done = total - tasks.size();
   Durations durations(cells.size());
-  std::list<Running> running;  // given up where something is thrown
+  std::list<Running> running;  // an exception kills these runs
 
   const auto begin = [&] {
     const Task task = tasks.front();
@@ -105,7 +106,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   const auto interrupted = [&] { return options.interrupted && options.interrupted->load(); };
   while (!(tasks.empty() && running.empty())) {
     while (!tasks.empty() && running.size() < options.jobs && !interrupted()) begin();
-    if (interrupted()) break;  // what is under way is given up, however near its end
+    if (interrupted()) break;  // runs under way are killed, however near their end
     std::vector<ChildProcess*> children;
     for (Running& one : running) children.push_back(&one.run.process());
     ChildProcess::waitForAny(children, kLookMs);

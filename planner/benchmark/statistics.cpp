@@ -28,8 +28,9 @@ Interval medianInterval(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   if (n == 0) return {-infinity, infinity};
-  // How many values are below the median is binomial; the largest k with P(fewer than k) small
-  // enough gives the k-th value from below, and from above.
+  // The number of values below the median is binomial. k is the largest rank with P(fewer than k
+  // below) ≤ (1 − kConfidence)/2; the interval is from the k-th value from below to the k-th from
+  // above.
   const boost::math::binomial_distribution<double> below(static_cast<double>(n), 0.5);
   std::size_t k = 0;
   while (k < n / 2 && cdf(below, static_cast<double>(k)) <= (1 - kConfidence) / 2) ++k;
@@ -42,7 +43,8 @@ Interval shareInterval(std::size_t hits, std::size_t of) {
   const double z = quantile(boost::math::normal_distribution<double>(), (1 + kConfidence) / 2);
   const double scale = 1 / (1 + z * z / n), middle = scale * (p + z * z / (2 * n));
   const double half = scale * z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  // None seen: the bound is 0 but for rounding, as of all it is 1.
+  // With no hits the lower bound is exactly 0, and with only hits the upper one is exactly 1: avoid
+  // the rounding.
   return {hits == 0 ? 0 : middle - half, hits == of ? 1 : middle + half};
 }
 

@@ -3,26 +3,29 @@
 #include <cstddef>
 #include <vector>
 
-/// What a report says of many runs.
+/// Medians, quantiles and confidence intervals for reports.
 namespace corridor {
 
-/// The middle one, or the mean of the two in the middle; of a share p of the values none is larger
-/// than the quantile (the nearest rank: of ten values, 0.95 is the largest). NaN of no values.
+/// `medianOf` returns the middle value, or the mean of the two in the middle. `quantileOf` returns
+/// the smallest value v such that at least a share p of the values are ≤ v (the nearest rank: for
+/// ten values, 0.95 gives the largest). NaN without values.
 double medianOf(std::vector<double> values);
 double quantileOf(std::vector<double> values, double p);
 
-/// From … to, with which a true value is held, as often as `kConfidence` says.
+/// A confidence interval: holds the true value with probability `kConfidence`.
 struct Interval {
   double from = 0, to = 0;
 };
 constexpr double kConfidence = 0.95;
 
-/// Of the median of what the values are drawn from, whatever that is: between two of the values,
-/// whose ranks are so that the binomial distribution gives no more than (1 − kConfidence)/2 to
-/// either side. Infinite where there are too few values (fewer than six).
+/// Returns an interval for the median of the distribution that the values are drawn from, whatever
+/// it is. The interval is between two of the values, with ranks so that the binomial distribution
+/// gives each side a probability of at most (1 − kConfidence)/2. Infinite if there are too few
+/// values (fewer than six).
 Interval medianInterval(std::vector<double> values);
 
-/// Of a share, of which `hits` of `of` were seen: Wilson's score interval (1927). [0, 1] of none.
+/// Returns Wilson's score interval (1927) for the probability of an event that was observed in
+/// `hits` of `of` trials. Returns [0, 1] if `of` is 0.
 Interval shareInterval(std::size_t hits, std::size_t of);
 
 }  // namespace corridor

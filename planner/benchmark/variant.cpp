@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/yaml_reader.h"
@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-/// As of `corridor solve --resolution`.
+/// The same limit as in `corridor solve --resolution`.
 constexpr double kFinestResolution = 1e-9;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -35,14 +35,14 @@ YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& key
   return map;
 }
 
-Variant readVariant(const std::string& text, const std::vector<BenchmarkPeer>& peers) {
+Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& peers) {
   const auto colon = text.find(':');
   const std::string name = text.substr(0, colon);
   std::vector<std::string> names = problemChoices().at("checker.edges");
   Variant variant{text, {}, {}};
   std::string edges = name;
   bool known = std::find(names.begin(), names.end(), name) != names.end();
-  for (const BenchmarkPeer& peer : peers) {
+  for (const BenchmarkCompetitor& peer : peers) {
     names.push_back(peer.name);
     if (peer.name != name) continue;
     known = true;

@@ -19,45 +19,48 @@ namespace corridor {
 
 struct BenchmarkRun;
 
-/// Another test of states, of edges, or of both, to compare with.
-struct BenchmarkPeer {
+/// A competitor: another test of states, of edges, or of both, to compare with Corridor's.
+struct BenchmarkCompetitor {
   template <class Made>
   using Make = std::function<std::shared_ptr<Made>(
       const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>;
 
   std::string name;
-  Make<ompl::base::StateValidityChecker> states;        ///< null: as by `edges`
-  Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: as by `edges`
-  /// Of checker.edges, what the peer takes the place of. By "discrete", edges are sampled by OMPL's
-  /// rule, and `states` is asked.
+  Make<ompl::base::StateValidityChecker> states;        ///< null: Corridor's, by `edges`
+  Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: Corridor's, by `edges`
+  /// The value of checker.edges that the competitor replaces. With "discrete", edges are sampled by
+  /// OMPL's rule, and `states` tests the samples.
   std::string edges = "discrete";
-  /// Makes a run, where there is more to do than runUnderOmpl, and as that. It has a process of its
-  /// own. @throws what becomes the run's failure.
+  /// Makes a whole run in place of runUnderOmpl, with the same result; null: runUnderOmpl. Runs in
+  /// a process of its own. @throws to make the run fail, with that text.
   std::function<BenchmarkRun(const Problem& planned, double memory,
                              std::vector<Configuration>& path)>
       run = nullptr;
   std::string version = {};  ///< "FCL 0.7.0"
 };
 
-/// A checker, as a benchmark compares it with others.
+/// A checker that a benchmark compares with others.
 struct Variant {
   std::string name;
-  /// A map: what it sets of a problem's `checker:`, read without a fault (`readCheckerKeys`).
+  /// The keys that it sets in a problem's `checker:`, as a map that `readCheckerKeys` reads without
+  /// a fault.
   YamlValue checker;
-  std::optional<BenchmarkPeer> peer;
+  std::optional<BenchmarkCompetitor> peer;
 
-  /// A problem's checker, changed to this one: what it doesn't set stays the problem's.
-  /// @throws InputError where the two don't go together (an overlap test of another volume).
+  /// Applies the variant to a problem's checker: keys that the variant doesn't set keep the
+  /// problem's values.
+  /// @throws InputError if the two don't go together (an overlap test of another volume).
   void apply(Problem::CheckerSpec& checker) const;
 };
 
-/// A map for `Variant::checker`. @pre the values are legal ones of these keys.
+/// Returns a map for `Variant::checker`. @pre the values are legal for these keys.
 YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& keys);
 
-/// NAME or NAME:KNOB, where NAME is a value of `checker: {edges: …}` or a peer's; the knob is, of
-/// one that samples, its resolution (OMPL's longest_valid_segment_fraction), else the tolerance in
-/// metres. @throws InputError: unknown name (lists what there is), a knob that is no number or out
+/// Reads NAME or NAME:KNOB, where NAME is a value of `checker: {edges: …}` or a competitor's name.
+/// The knob of edges that are sampled is the resolution (OMPL's longest_valid_segment_fraction);
+/// that of all others is the tolerance in metres.
+/// @throws InputError: unknown name (lists the known ones), or a knob that is not a number or out
 /// of range (a resolution from 1e-9 to below 1, a tolerance above 0).
-Variant readVariant(const std::string& text, const std::vector<BenchmarkPeer>& peers = {});
+Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& peers = {});
 
 }  // namespace corridor

@@ -18,19 +18,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether files can be made in a folder: by making one, since permissions don't tell of a file
-/// system that can't be written to.
-/// @returns why not; "" if so.
+/// Tests whether files can be created in a folder, by creating one: permissions don't show a file
+/// system that is read-only.
+/// @returns why not; "" if they can.
 std::string whyNoFiles(const fs::path& folder) {
   std::string probe = (folder / ".corridor-benchmark-XXXXXX").string();
-  const int file = ::mkstemp(probe.data());  // none that is there
+  const int file = ::mkstemp(probe.data());  // a new file, never an existing one
   if (file < 0) return std::string("can't be written to: ") + std::strerror(errno);
   ::close(file);
   ::unlink(probe.c_str());
   return "";
 }
 
-/// The logs' files, whether there are runs for them or not: by problem, then variant.
+/// Returns the logs' files, whether there are runs for them or not, in order of problem, then
+/// variant.
 std::vector<fs::path> logFiles(const Campaign& campaign, const fs::path& folder) {
   std::vector<fs::path> files;
   std::set<std::string> taken;
@@ -44,7 +45,7 @@ std::vector<fs::path> logFiles(const Campaign& campaign, const fs::path& folder)
   return files;
 }
 
-/// What would keep the reports from being written into a folder that is there.
+/// Returns what would prevent writing the reports into an existing folder.
 std::vector<Fault> inTheWay(const Campaign& campaign, const fs::path& folder) {
   std::vector<Fault> faults;
   std::error_code none;
@@ -54,16 +55,16 @@ std::vector<Fault> inTheWay(const Campaign& campaign, const fs::path& folder) {
     files.push_back(folder / name);
   for (const fs::path& file : files)
     if (fs::is_directory(file, none))
-      faults.push_back({file.string(), 0, "is a folder, where a file is to be written"});
+      faults.push_back({file.string(), 0, "is a folder; a file is to be written here"});
   const fs::path plots = folder / "plots";
   if (fs::is_directory(plots, none)) {
     if (const std::string why = whyNoFiles(plots); !why.empty())
       faults.push_back({plots.string(), 0, why});
-    // Of whatever name: those of the plots are the report's.
+    // Any .csv or .svg: the report chooses the names of its plots later.
     for (const auto& entry : fs::directory_iterator(plots, none))
       if (const auto kind = entry.path().extension();
           (kind == ".csv" || kind == ".svg") && entry.is_directory(none))
-        faults.push_back({entry.path().string(), 0, "is a folder, where a file may be written"});
+        faults.push_back({entry.path().string(), 0, "is a folder; a file may be written here"});
   } else if (fs::exists(fs::symlink_status(plots, none))) {
     faults.push_back({plots.string(), 0, "is a file; a folder is needed"});
   }
@@ -76,7 +77,7 @@ std::string fileName(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
       [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; }, '-');
-  // File systems take 255 bytes, of which callers want some.
+  // File systems allow 255 bytes; callers add prefixes and endings.
   constexpr std::size_t kLongest = 120;
   return text.substr(0, kLongest);
 }
@@ -86,7 +87,8 @@ bool makeReportFolder(const fs::path& folder, const Campaign& campaign) {
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     throw InputError(Fault{folder.string(), 0, "is a file; a folder is needed"});
   const bool made = fs::create_directory(folder, failure);
-  if (failure) throw InputError(Fault{folder.string(), 0, "can't be made: " + failure.message()});
+  if (failure)
+    throw InputError(Fault{folder.string(), 0, "can't be created: " + failure.message()});
   if (std::vector<Fault> faults = inTheWay(campaign, folder); !faults.empty()) {
     if (made) fs::remove(folder, ignored);
     throw InputError(std::move(faults));

@@ -12,7 +12,7 @@
 namespace corridor {
 namespace {
 
-/// Of each shape of `makeScene`: its body.
+/// Returns the body of each shape of `makeScene`.
 std::vector<std::size_t> bodiesOfShapes(const Problem& problem) {
   std::vector<std::size_t> owner;
   for (std::size_t b = 0; b < problem.bodies.size(); ++b)
@@ -20,7 +20,7 @@ std::vector<std::size_t> bodiesOfShapes(const Problem& problem) {
   return owner;
 }
 
-/// No bound holds here: nothing is computed.
+/// The answer where the floating-point mode makes the bounds invalid; nothing is computed.
 MotionResult refused() {
   MotionResult result;
   result.verdict = MotionVerdict::undecided;
@@ -54,13 +54,13 @@ Scene makeScene(const Problem& problem) {
   return Scene(std::move(placed), std::move(pairs));
 }
 
-/// What a thread writes to.
+/// The memory that one thread's queries write to.
 struct Checker::Workspace {
   QueryContext context;
   EdgeMotion motion;
 };
 
-/// One workspace a thread, made when a thread first asks. No state outlives the pool.
+/// One workspace per thread, created by the thread's first query.
 class Checker::Pool {
  public:
   Workspace& mine(const Checker& checker) {
@@ -90,13 +90,13 @@ Checker::Checker(const Problem& problem)
     : problem_(problem),
       scene_(makeScene(problem)),
       bodyOf_(bodiesOfShapes(problem)),
-      method_(edgeMethodNamed(problem.checker.edges).value_or(EdgeMethod::certified)),
+      method_(edgeMethodNamed(problem.checker.edges).value_or(EdgeMethod::directional)),
       pool_(std::make_unique<Pool>()) {
-  if (const auto wrong = wrongWordIn(problem.checker))
+  if (const auto wrong = invalidNameIn(problem.checker))
     throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
   options_.tolerance =
       problem.checker.tolerance.value_or(defaultTolerance(problem, scene_.defaultTolerance()));
-  options_.reserve = options_.tolerance;
+  options_.clearanceSlack = options_.tolerance;
   options_.margin = problem.margin;
   options_.trees = treesNamed(problem.checker.trees()).trees;
 }
@@ -146,7 +146,7 @@ std::optional<Contact> Checker::interference(const Configuration& q) const {
   const std::uint64_t before = context.counters.states;
   const std::optional<Contact> contact =
       scene_.interference(framePoses(problem_.tree, q), context, options_.trees);
-  context.counters.states = before + 1;  // the scene counts pairs of bodies
+  context.counters.states = before + 1;  // a state, not pairs of bodies
   return contact;
 }
 
@@ -155,7 +155,7 @@ double Checker::clearance(const Configuration& q) const {
   QueryContext& context = mine().context;
   const std::uint64_t before = context.counters.states;
   const double least = scene_.clearance(framePoses(problem_.tree, q), context, options_.trees);
-  context.counters.states = before + 1;  // the scene counts pairs of bodies
+  context.counters.states = before + 1;  // a state, not pairs of bodies
   return least - options_.margin;
 }
 
@@ -189,7 +189,7 @@ bool Checker::certifiedState(const Configuration& q) const {
 
 bool Checker::certifiedEdge(const Configuration& from, const Configuration& to) const {
   return inBounds(from) && inBounds(to) &&
-         edge(from, to, false, EdgeMethod::certified).verdict == MotionVerdict::free;
+         edge(from, to, false, EdgeMethod::directional).verdict == MotionVerdict::free;
 }
 
 }  // namespace corridor

@@ -6,26 +6,33 @@
 
 #include "collision/core/rounding.h"
 
-/// Derivation. With u = 2^-53, V_j the largest angle of joint j in radians, and S the lengths of
-/// both chains from the world to the farthest points of two bodies, stretched and added,
-/// `EdgeMotion` states rotation and position errors, each at most u·S times the sum over the joints
-/// of both of
-///   103 + 12·V_j  for a turn     (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
-///                                 an axis 40),
-///   51            for a slide or a shift  (value and sum 24 + 12, product 10 + 11 of S),
-///   575           for a rotation  (2^-44 = 512, and the products).
-/// The pose has both, turned into one body's frame: twice that; so have points and axes of joints:
-/// four times that together, of which w_j below has two, and the sum the factor 2. Leaf triangles
-/// and parts are compared with an error of 64u·(2|t| + L) ≤ 64u·3S: 300. With E = u·S·(300 + 2·Σ
-/// w_j), a clearance of 2τ is proved where a window's travel is under τ, the direction of the
-/// closest points is tilted by at most a quarter of the gap, and so 0.75·2τ > τ + 2E: τ = 4E.
+/// Derivation. Let u = 2^-53. Let V_j be the largest angle of joint j in radians. Let S be the sum
+/// of the lengths of both stretched chains, from the world to the farthest points of the two
+/// bodies.
+///
+/// `EdgeMotion` returns errors of rotation and position. Each is at most u·S times a sum over the
+/// joints of both chains:
+///   revolute: 103 + 12·V_j  (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
+///     an axis 40)
+///   prismatic, translation: 51  (value and sum 24 + 12, product 10 + 11 of S)
+///   rotation: 575  (2^-44 = 512, and the products)
+///
+/// A pose has both errors, transformed into one body's frame: twice that sum. So have points and
+/// axes of joints. Together four times the sum: w_j below contains two, and the factor 2 in E the
+/// other two.
+///
+/// Leaf triangles and parts are compared with an error of 64u·(2|t| + L) ≤ 64u·3S, which gives 300.
+///
+/// With E = u·S·(300 + 2·Σ w_j), a clearance of 2τ is proved in a time interval whose motion bound
+/// is below τ. The direction of the closest points is tilted by at most a quarter of the gap. So
+/// 0.75·2τ > τ + 2E is needed: τ = 4E.
 namespace corridor {
 namespace {
 
 constexpr double kLeaves = 300;
 constexpr double kTurn = 250, kPerRadian = 30, kSlide = 110, kRotation = 1250;
 
-/// The largest magnitude of a number of a configuration.
+/// Returns the largest magnitude of a number of a configuration.
 double largestOf(const ConfigurationSpace& space, std::size_t number) {
   for (const Coordinate& c : space.coordinates()) {
     if (c.first > number || number >= c.first + c.size()) continue;
@@ -35,7 +42,7 @@ double largestOf(const ConfigurationSpace& space, std::size_t number) {
   return 0;
 }
 
-/// What a frame adds to the length and to the roundings of the chains that it is in.
+/// What a frame adds to the length and to the roundings of its chain.
 struct Share {
   double length = 0, roundings = 0;
 };
@@ -49,29 +56,40 @@ Share shareOf(const Problem& problem, const Frame& frame) {
   switch (frame.joint) {
     case Frame::Joint::none:
       break;
-    case Frame::Joint::turn:
+    case Frame::Joint::revolute:
       if (!held) share.roundings = kTurn + kPerRadian * value;
       break;
-    case Frame::Joint::slide:
+    case Frame::Joint::prismatic:
       share.length += value;
       break;
-    case Frame::Joint::shift:
+    case Frame::Joint::translation:
       for (std::size_t k = 0; k < frame.count; ++k)
         share.length += largestOf(problem.space, frame.variable + k);
       break;
-    case Frame::Joint::rotate:
+    case Frame::Joint::rotation:
       share.roundings = kRotation;
       break;
   }
   return share;
 }
 
+/// Returns the largest distance of a vertex from the origin, metres.
+double farthestVertex(const std::vector<Vec3>& vertices) {
+  double square = 0;
+  for (const Vec3& p : vertices) square = std::max(square, p.squaredNorm());
+  // Squares of such lengths neither overflow nor vanish.
+  if (0x1p-400 < square && square < 0x1p1000) return std::sqrt(square);
+  double farthest = 0;
+  for (const Vec3& p : vertices) farthest = std::max(farthest, p.stableNorm());
+  return farthest;
+}
+
 double farthestPoint(const ProblemBody& body) {
   double farthest = 0;
   for (const PlacedShape& shape : body.shapes) {
+    const auto& vertices = shape.part ? shape.part->points : shape.mesh->mesh.vertices;
     const double radius = shape.part ? shape.part->radius : 0;
-    for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
-      farthest = std::max(farthest, p.stableNorm() + radius);
+    farthest = std::max(farthest, farthestVertex(vertices) + radius);
   }
   return farthest;
 }

@@ -4,16 +4,17 @@
 
 namespace corridor {
 
-/// A tolerance for the motions of a problem below which rounding may leave edges undecided; metres.
-/// At this tolerance, or a larger one, a free edge with a clearance above twice the tolerance is
-/// proved, however large coordinates are beside the bodies (design: contract 2).
+/// Returns the tolerance, metres, that the rounding of a problem's motions needs. At this tolerance
+/// or a larger one, every free edge with a clearance above twice the tolerance is proved. This
+/// holds even if coordinates are large compared with the bodies.
 ///
-/// Angles of full circles count as π: larger ones lie outside of this promise.
+/// Angles of circles count as π; larger ones are outside of this guarantee.
 double roundingTolerance(const Problem& problem);
 
-/// The default tolerance of a problem: `usual`, 1e-7 of the bodies' size, or what rounding needs;
-/// but never more than 1000 times the former. (Limits of 10^16 rad would ask for kilometres; values
-/// that large are undecided, and all others are proved.)
+/// Returns a problem's default tolerance, metres: the larger of `usual` (1e-7 of the bodies' size)
+/// and roundingTolerance(), but at most 1000 times `usual`. Without that limit, joint limits of
+/// 10^16 rad would need kilometres. With it, edges with values that large are undecided, and all
+/// others are proved.
 double defaultTolerance(const Problem& problem, double usual);
 
 }  // namespace corridor

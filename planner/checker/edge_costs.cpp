@@ -65,7 +65,7 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
     const Configuration from = randomState(problem.space, random);
     ways.emplace_back(
         from, problem.space.interpolate(from, randomState(problem.space, random), kShareOfTheWay));
-    // The first to need a tree builds it, which is no edge's time.
+    // A query builds the trees that it needs first. That time must not count for an edge.
     motion.set(from, ways.back().second);
     scene.certify(motion, checker.options(), context);
   }

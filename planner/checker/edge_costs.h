@@ -7,21 +7,23 @@
 
 namespace corridor {
 
-/// Where the time of a problem's edges goes, as a sample of them tells it.
+/// Which pairs of bodies take the time of a problem's edges, measured on a sample of edges.
 struct EdgeCosts {
-  std::size_t edges = 0, free = 0;           ///< looked at; free of them
-  double freeSeconds = 0, otherSeconds = 0;  ///< medians of an edge; 0 where there is none
+  std::size_t edges = 0, free = 0;  ///< numbers of tested edges, and of free ones among them
+  double freeSeconds = 0, otherSeconds = 0;  ///< medians per edge; 0 if there is none
   struct OfPair {
-    std::size_t a = 0, b = 0;                       ///< bodies of the problem
-    double share = 0;                               ///< of the time of all pairs, each by itself
-    std::uint64_t boxTests = 0, triangleTests = 0;  ///< of all edges
+    std::size_t a = 0, b = 0;  ///< bodies of the problem
+    double share = 0;          ///< share of the time of all pairs, each certified alone
+    std::uint64_t boxTests = 0, triangleTests = 0;  ///< over all edges
   };
-  std::vector<OfPair> pairs;  ///< those that take any time, the dearest first
+  std::vector<OfPair> pairs;  ///< pairs that take any time, the most expensive first
 };
 
-/// Certifies random edges: from a random state within the bounds a fifth of the way to another, as
-/// planners with OMPL's usual range do. For people: times are the machine's of the moment.
-/// @param edges,seconds at most so many, and none more after so long; one at least.
+/// Certifies random edges. Each goes from a random state within the bounds a fifth of the way to
+/// another, as do planners with OMPL's usual range. The result is for display only: times depend on
+/// the machine and its load.
+/// @param edges the maximum number of edges to certify; at least one is certified.
+/// @param seconds after this time no further edge is begun.
 EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::size_t edges,
                           double seconds, std::uint64_t seed);
 

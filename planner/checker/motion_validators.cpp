@@ -22,7 +22,7 @@ void CountingMotionValidator::write(const Configuration& q, ob::State* state) co
 }
 
 bool CountingMotionValidator::count(bool valid) const {
-  // OMPL reads these as plain numbers, and its planners with threads call us from all of them.
+  // OMPL reads these as plain numbers, and its multi-threaded planners call this from all threads.
   std::atomic_ref(valid ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);
   return valid;
 }
@@ -59,9 +59,9 @@ std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastF
   if (!checker_.inBounds(to)) return Progress{};
   const MotionResult result = checker_.edge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
-  // The tube covers the rounding of a state on the edge, so the first try nearly always holds; but
-  // [0, t0] may be proved with a clearance that leaves nothing for a second proof (`advancement`
-  // goes as near as it can). So a little less is tried, then twice as much.
+  // The tube covers the rounding of a state on the edge, so the first try nearly always succeeds.
+  // But [0, t0] may be proved with a clearance that is too small for a second proof: `advancement`
+  // goes as close as it can. So the loop moves back by a little, then by twice as much each time.
   const double least = checker_.options().timeTolerance;
   for (double back = 0; result.certifiedUntil - back >= least; back = back > 0 ? 2 * back : least) {
     const double t = result.certifiedUntil - back;
@@ -72,7 +72,7 @@ std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastF
 }
 
 bool DiscreteMotionValidator::isValid(const Configuration& state) const {
-  // Through OMPL, so that edges and states are judged by one rule.
+  // Uses OMPL's state validity checker, so that the same rule applies to states and edges.
   ob::ScopedState<> scoped(si_->getStateSpace());
   write(state, scoped.get());
   return si_->isValid(scoped.get());
@@ -88,8 +88,8 @@ unsigned DiscreteMotionValidator::steps(const Configuration& from, const Configu
 bool DiscreteMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
   if (checker_.space().ambiguous(from, to) || !isValid(to)) return false;
   const unsigned n = steps(from, to);
-  // Middles first: contacts are found sooner there (OMPL's order).
-  std::queue<std::pair<unsigned, unsigned>> parts;  // steps first … last are yet to be asked
+  // Middles first, as in OMPL, because contacts are found sooner there.
+  std::queue<std::pair<unsigned, unsigned>> parts;  // untested steps, first to last
   if (n > 1) parts.emplace(1, n - 1);
   for (; !parts.empty(); parts.pop()) {
     const auto [first, last] = parts.front();
@@ -113,7 +113,7 @@ std::optional<CountingMotionValidator::Progress> DiscreteMotionValidator::lastFr
     if (i == n) return std::nullopt;
     last = {t, at};
   }
-  // The shorter edge has other samples; it counts only if they are free too.
+  // The shorter edge has other samples, which must be free, too.
   while (last.t > 0 && !isFree(from, last.state)) {
     last.t = last.t > 1.0 / n ? last.t / 2 : 0;
     last.state = checker_.space().interpolate(from, to, last.t);

@@ -9,31 +9,33 @@
 
 namespace corridor {
 
-/// What both validators share: counting, and the writing of `lastValid`.
-///
-/// The contract, of which OMPL's own classes break parts: on failure lastValid.second = t0 and
-/// lastValid.first, where given, is a state such that the edge from s1 to it is valid by this very
-/// validator (t0 = 0: s1 itself, bit for bit); on success neither is touched. lastValid.first may
-/// be s1 or s2: both are read before anything is written. As everywhere in OMPL, s1 is taken to be
-/// valid. Safe for many threads at once.
+/// Base of the motion validators: counts motions and writes `lastValid`. It guarantees OMPL's
+/// contract of `lastValid`, parts of which OMPL's own classes break:
+/// - On success neither member of `lastValid` is written.
+/// - On failure lastValid.second = t0, the time up to which this validator finds the edge free.
+///   If lastValid.first is given, it becomes a state such that this validator finds the edge from
+///   s1 to it valid. For t0 = 0 it is s1 itself, bit for bit.
+/// - lastValid.first may be s1 or s2: both are read before anything is written.
+/// As everywhere in OMPL, s1 is assumed to be valid. Safe for several threads at once.
 class CountingMotionValidator : public ompl::base::MotionValidator {
  public:
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const final;
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                    std::pair<ompl::base::State*, double>& lastValid) const final;
-  /// As getCheckedMotionCount, which isn't safe to call while motions are checked.
+  /// The sum of OMPL's counts, safe to call while motions are checked; getCheckedMotionCount() is
+  /// not.
   std::uint64_t checkedMotions() const;
 
  protected:
   CountingMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker);
 
-  /// How far a motion that isn't valid can be followed.
+  /// How far a motion that is not valid is free.
   struct Progress {
     double t = 0;
-    Configuration state;  ///< at t > 0
+    Configuration state;  ///< at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
-  /// nullopt: the motion is free.
+  /// Returns nullopt if the motion is free.
   virtual std::optional<Progress> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 
@@ -45,7 +47,7 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
   bool count(bool valid) const;
 };
 
-/// Valid is: certified free for the whole continuous edge.
+/// Calls a motion valid if the whole continuous edge is certified free.
 class CertifiedMotionValidator final : public CountingMotionValidator {
  public:
   CertifiedMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker)
@@ -57,10 +59,10 @@ class CertifiedMotionValidator final : public CountingMotionValidator {
                                    const Configuration& to) const override;
 };
 
-/// OMPL's rule, as a yardstick: the space's `validSegmentCount` says into how many steps an edge is
-/// cut (of longest_valid_segment_fraction of each subspace's extent at most), and the states
-/// between the steps are asked for contact, exactly. What lies between two of them is not looked
-/// at.
+/// Calls a motion valid if the sampled states on it are valid: OMPL's rule, as a baseline. The
+/// space's `validSegmentCount` cuts the edge into steps of at most longest_valid_segment_fraction
+/// of each subspace's extent. The state at the end of each step is tested by the state validity
+/// checker, whose contact test is exact. Nothing is tested between two such states.
 class DiscreteMotionValidator final : public CountingMotionValidator {
  public:
   DiscreteMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

@@ -12,8 +12,8 @@ namespace {
 
 bool inRegion(const Problem& problem, const Configuration& goal, const Configuration& q,
               double grow) {
-  // Normalising a quaternion is off by less than 4u a component, an angle of two such by less than
-  // 32u, and finding it by as much.
+  // Normalising a quaternion is off by less than 4u a component. The angle of two such quaternions
+  // is off by less than 32u, and computing it adds as much.
   const double same = 64 * kUnit;
   const Problem::GoalRegion& region = *problem.goalRegion;
   for (const CoordinateGroup& group : problem.space.groups()) {

@@ -4,18 +4,19 @@
 
 namespace corridor {
 
-/// Quaternions normalised, angles of circles in [−π, π].
+/// The problem's start and goals, with normalised quaternions and the angles of circles in [−π, π].
 Configuration startOf(const Problem& problem);
 std::vector<Configuration> goalsOf(const Problem& problem);
 
-/// Is the configuration in the goal: in the region of one of `goals`, or within the .cfg's
-/// threshold, or else a goal itself but for the rounding of its quaternion?
-/// @param slack of a length or an angle, as a fraction: > 0 forgives, < 0 is strict.
+/// Returns whether q is in the goal: in the goal region about one of `goals`; or, if the problem
+/// has none, within the .cfg's threshold; or else equal to a goal up to the rounding of its
+/// quaternion.
+/// @param slack enlarges (> 0) or shrinks (< 0) the region or threshold by this fraction.
 bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, const Configuration& q,
             double slack = 0);
 
-/// How far a configuration is outside of the goal region: of each group of coordinates, in metres
-/// and radians, weights as in distances; the least of all goals. @pre problem.goalRegion.
+/// Returns how far a configuration is outside of the nearest goal region: the sum over the groups
+/// of coordinates, in metres and radians, weighted as in distances. @pre problem.goalRegion.
 double outsideGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
                          const Configuration& q);
 

@@ -27,7 +27,7 @@ static_assert(alignof(Lines) <= alignof(double) && alignof(Circle) <= alignof(do
               sizeof(Circle) % alignof(double) == 0 && sizeof(Rotation) % alignof(double) == 0);
 using Group = CoordinateGroup::Kind;
 
-/// The group that a coordinate belongs to, by index.
+/// Returns the index of each coordinate's group.
 std::vector<std::size_t> groupsOfCoordinates(const ConfigurationSpace& space) {
   std::vector<std::size_t> owner(space.coordinates().size(), 0);
   for (std::size_t g = 0; g < space.groups().size(); ++g)
@@ -36,13 +36,13 @@ std::vector<std::size_t> groupsOfCoordinates(const ConfigurationSpace& space) {
 }
 
 double rangeOf(const Coordinate& c) {
-  // Of a rotation the quaternion's angle, as in distances.
+  // The range of a rotation is measured in quaternion angle, as in distances.
   return c.kind == Kind::line     ? c.upper - c.lower
          : c.kind == Kind::circle ? std::numbers::pi
                                   : std::numbers::pi / 2;
 }
 
-/// Some numbers of a configuration as they are.
+/// The projection onto some numbers of a configuration.
 class Numbers : public ob::ProjectionEvaluator {
  public:
   Numbers(const ProblemStateSpace& space, std::vector<const Coordinate*> coordinates)
@@ -91,7 +91,7 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
       continue;
     }
     std::size_t end = i;
-    double weight = 0;  // tells samplers how near is near, here and in the other parts
+    double weight = 0;  // scales the samplers' neighbourhoods in each subspace
     while (end < coordinates.size() && coordinates[end].kind == Kind::line &&
            groups[end] == groups[i])
       weight = std::max(weight, coordinates[end++].weight);
@@ -106,14 +106,14 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
     parts_.push_back({Kind::line, first.first, end - i});
     i = end;
   }
-  // What OMPL's informed samplers know how to sample.
+  // OMPL's informed samplers accept these two types.
   const bool alone =
       space.groups().size() == 1 && parts_.size() == 2 && coordinates.front().weight == 1;
   if (alone && space.groups()[0].kind == Group::planar) type_ = ob::STATE_SPACE_SE2;
   if (alone && space.groups()[0].kind == Group::floating) type_ = ob::STATE_SPACE_SE3;
   lock();
-  // The compound state, where its parts are, the parts, and the numbers of those that keep them
-  // apart. All are as aligned as a pointer is.
+  // Layout: the compound state, the pointers to its subspaces' states, these states, each with its
+  // numbers after it. All have the alignment of a pointer.
   bytes_ = sizeof(StateType) + parts_.size() * sizeof(ob::State*);
   for (Part& part : parts_) {
     part.offset = bytes_;
@@ -144,7 +144,7 @@ ob::State* ProblemStateSpace::allocState() const {
 }
 
 void ProblemStateSpace::freeState(ob::State* state) const {
-  ::operator delete(state->as<StateType>());  // none of its parts' destructors does anything
+  ::operator delete(state->as<StateType>());  // destructors of states do nothing
 }
 
 void ProblemStateSpace::read(const ob::State* state, double* q) const {
@@ -154,7 +154,7 @@ void ProblemStateSpace::read(const ob::State* state, double* q) const {
     double* numbers = q + part.first;
     if (part.kind == Kind::line) {
       const double* values = compound->as<Lines>(i)->values;
-      // Mostly two or three: a call that copies would cost more.
+      // Most often there are two or three numbers; calling a copy function would cost more.
       if (part.count == 3) {
         numbers[0] = values[0], numbers[1] = values[1], numbers[2] = values[2];
       } else {
@@ -200,7 +200,7 @@ void ProblemStateSpace::interpolate(const ob::State* from, const ob::State* to, 
 }
 
 double ProblemStateSpace::distance(const ob::State* a, const ob::State* b) const {
-  // Planners ask for more distances than for anything else: no allocation where few numbers do.
+  // Planners compute distances more often than anything else. Small spaces need no allocation.
   constexpr std::size_t kFew = 32;
   if (space_.size() > kFew) return space_.distance(read(a), read(b));
   double numbersA[kFew], numbersB[kFew];

@@ -10,49 +10,52 @@
 
 namespace corridor {
 
-/// A ConfigurationSpace as OMPL's compound space: consecutive lines of one group are a
-/// RealVectorStateSpace, circles SO2, rotations SO3. `interpolate`, `distance` and `equalStates`
-/// are Corridor's: OMPL 1.5.2's own return `from` for rotations under 9e-5 rad, even at t = 1, take
-/// them for distance 0, and flip the way near half turns on a last bit. OMPL's samplers (a single
-/// rigid body is sampled as by SE2StateSpace and SE3StateSpace), bounds and `validSegmentCount`
-/// (the largest of the subspaces') are kept.
+/// A ConfigurationSpace as an OMPL compound space. Consecutive lines of one group are a
+/// RealVectorStateSpace, circles are SO2, rotations are SO3.
+///
+/// `interpolate`, `distance` and `equalStates` are Corridor's. OMPL 1.5.2's own treat rotations
+/// under 9e-5 rad as distance 0 and return `from` for them, even at t = 1; near half turns a last
+/// bit flips their direction.
+///
+/// OMPL's samplers, bounds and `validSegmentCount` (the largest of the subspaces') are kept. A
+/// single rigid body is sampled as by SE2StateSpace and SE3StateSpace.
 class ProblemStateSpace : public ompl::base::CompoundStateSpace {
  public:
   /// `space` must outlive the object.
-  /// @throws ompl::Exception at setup where a bound isn't lower < upper.
+  /// @throws ompl::Exception at setup unless all bounds have lower < upper.
   explicit ProblemStateSpace(const ConfigurationSpace& space);
 
   const ConfigurationSpace& configurations() const { return space_; }
   Configuration read(const ompl::base::State* state) const;
   void write(const Configuration& q, ompl::base::State* state) const;
 
-  /// All is read before anything is written: `state` may be either end.
+  /// `state` may be either end: both are read before anything is written.
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
-  /// A state is one piece of memory: planners look at very many for a moment each.
+  /// Allocates a state as one block of memory, because planners allocate many short-lived ones.
   ompl::base::State* allocState() const override;
   void freeState(ompl::base::State* state) const override;
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
-  /// Of that distance.
+  /// Largest possible value of `distance`.
   double getMaximumExtent() const override;
-  /// The default one is the position of the first planar or floating joint, else the first joints,
-  /// at most three: they move the most.
+  /// Registers the default projection: the position of the first planar or floating joint. Without
+  /// one, the first joints, at most three, because they move the most.
   void registerProjections() override;
 
  private:
   struct Part {
     Coordinate::Kind kind;
     std::size_t first, count;  ///< numbers of a Configuration
-    std::size_t offset = 0;    ///< of its state from the compound one's beginning, bytes
+    std::size_t offset = 0;    ///< bytes, from the beginning of the compound state
   };
 
-  /// @param q gets as many numbers as a Configuration has.
+  /// @param q memory for all numbers of a Configuration.
   void read(const ompl::base::State* state, double* q) const;
 
   const ConfigurationSpace& space_;
-  std::vector<Part> parts_;  // of each subspace
-  std::size_t bytes_ = 0;    // of a state
+  std::vector<Part> parts_;  // one per subspace
+  std::size_t bytes_ = 0;    // size of a state
 };
 
 /// @pre the space of `si` is a ProblemStateSpace.

@@ -11,15 +11,16 @@
 namespace corridor {
 namespace {
 
-/// Where a frame's origin may be, and how it may be turned: by R alone, by R and then about the
-/// world's z, or in any way.
+/// Where a frame's origin may be, and which orientations it may have: R only, R followed by a
+/// rotation about the world's z, or any.
 struct FrameReach {
   ReachBox origin;
   Mat3 R = Mat3::Identity();
   enum class Turned { no, aboutZ, any } turned = Turned::no;
 };
 
-/// The places, as seen from the frame's origin, of what is in a box of its coordinates.
+/// Returns a box, relative to the frame's origin and along the world's axes, of where the points of
+/// a box in the frame's coordinates may be.
 ReachBox around(const FrameReach& frame, const ReachBox& box) {
   const Vec3 c = frame.R * (box.lower + box.upper) / 2,
              h = frame.R.cwiseAbs() * (box.upper - box.lower) / 2;
@@ -40,7 +41,7 @@ ReachBox operator+(const ReachBox& a, const ReachBox& b) {
   return {a.lower + b.lower, a.upper + b.upper};
 }
 
-/// The range of a number of a configuration.
+/// Returns the bounds of a number of a configuration.
 std::pair<double, double> rangeOf(const ConfigurationSpace& space, std::size_t number) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const Coordinate& c : space.coordinates())
@@ -57,7 +58,7 @@ FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame
   switch (frame.joint) {
     case Frame::Joint::none:
       break;
-    case Frame::Joint::turn:
+    case Frame::Joint::revolute:
       if (frame.variable == Frame::noVariable)
         reach.R = reach.R * Eigen::AngleAxisd(frame.offset, axis).toRotationMatrix();
       else if (reach.turned == Turned::any || (reach.R * axis).head<2>().norm() > 1e-9)
@@ -65,7 +66,7 @@ FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame
       else
         reach.turned = Turned::aboutZ;
       break;
-    case Frame::Joint::slide: {
+    case Frame::Joint::prismatic: {
       double low = frame.offset, high = frame.offset;
       if (frame.variable != Frame::noVariable) {
         const auto [lower, upper] = rangeOf(problem.space, frame.variable);
@@ -76,7 +77,7 @@ FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame
       reach.origin = reach.origin + around(reach, {a.cwiseMin(b), a.cwiseMax(b)});
       break;
     }
-    case Frame::Joint::shift: {
+    case Frame::Joint::translation: {
       ReachBox box;
       for (std::size_t k = 0; k < frame.count; ++k) {
         const auto i = static_cast<Eigen::Index>(k);
@@ -85,7 +86,7 @@ FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame
       reach.origin = reach.origin + around(reach, box);
       break;
     }
-    case Frame::Joint::rotate:
+    case Frame::Joint::rotation:
       reach.turned = Turned::any;
       break;
   }
@@ -121,7 +122,7 @@ std::vector<ReachBox> reachOf(const Problem& problem) {
 bool outOfReach(const Problem& problem, const ReachBox& a, const ReachBox& b) {
   const Vec3 gap = (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(Vec3::Zero());
   const double size = (a.upper - a.lower).norm() + (b.upper - b.lower).norm();
-  // A tube moves no point farther than its lengths, and its angles times the sizes.
+  // A tube displaces a point by at most the sum of its lengths, plus its angles times the sizes.
   const double pad = problem.margin + problem.tube.sum() * (1 + size) + 1e-9 * size;
   return gap.norm() > pad;
 }

@@ -11,11 +11,11 @@ struct ReachBox {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
 };
 
-/// For each body a box that it never leaves, whatever the configuration within the bounds; rough,
-/// for telling people what is out of reach, never for verdicts. Metres, in the world.
+/// Returns for each body a box that it never leaves in any configuration within the bounds. Metres,
+/// in the world. The boxes are rough and not proved: for display only, never for verdicts.
 std::vector<ReachBox> reachOf(const Problem& problem);
 
-/// Do the boxes stay apart by more than margin and tube?
+/// Returns whether two bodies in these boxes keep more than margin and tube from each other.
 bool outOfReach(const Problem& problem, const ReachBox& a, const ReachBox& b);
 
 }  // namespace corridor

@@ -6,10 +6,9 @@
 
 namespace corridor {
 
-/// What both checkers share: `clearance`, which samplers and objectives of OMPL ask for. It is
-/// `Checker::clearance`, in metres of the workspace: positive is beyond the margin; minus the
-/// margin where bodies touch, since nobody measures how deep; −∞ of what isn't finite. Bounds don't
-/// count.
+/// Base of the state validity checkers: provides `clearance` for OMPL's samplers and objectives. It
+/// is `Checker::clearance`, metres: positive beyond the margin, 0 − margin if bodies touch (no
+/// depth is computed), −∞ for a state that is not finite. Bounds are ignored.
 class ClearanceChecker : public ompl::base::StateValidityChecker {
  public:
   double clearance(const ompl::base::State* state) const final;
@@ -20,8 +19,8 @@ class ClearanceChecker : public ompl::base::StateValidityChecker {
   const Checker& checker_;
 };
 
-/// Valid is: in bounds, and certified free with tolerance, margin and tube (an edge of zero
-/// length). Undecided is not valid.
+/// Calls a state valid if it is in bounds and certified free, with tolerance, margin and tube.
+/// Undecided is not valid.
 class CertifiedStateValidityChecker : public ClearanceChecker {
  public:
   CertifiedStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)
@@ -29,8 +28,8 @@ class CertifiedStateValidityChecker : public ClearanceChecker {
   bool isValid(const ompl::base::State* state) const override;
 };
 
-/// For the discrete yardstick. Valid is: in bounds, and nothing touches, exactly. Where a margin
-/// is asked for, it is kept, and certified.
+/// Calls a state valid if it is in bounds and nothing touches, by an exact test. With a margin the
+/// state must be certified instead. For the discrete baseline.
 class ExactStateValidityChecker : public ClearanceChecker {
  public:
   ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

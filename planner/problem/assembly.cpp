@@ -18,7 +18,8 @@ RigidPose operator*(const RigidPose& a, const RigidPose& b) {
   return {a.p + a.q.normalized() * b.p, a.q * b.q};
 }
 
-/// Turns z to the axis, the shorter way: a planar joint's shift is in x and y of this frame.
+/// Returns the smallest rotation that takes z to `axis`. A planar joint translates in x and y of
+/// the rotated frame.
 Eigen::Quaterniond fromZ(const Vec3& axis) {
   const Vec3 n = axis.stableNormalized();
   if (n.x() == 0 && n.y() == 0)
@@ -57,7 +58,7 @@ class RobotAssembly {
     return found == setup_.jointWeights.end() ? 1 : found->second;
   }
 
-  /// The coordinates of a planar or floating joint, or of a rigid robot (no name).
+  /// Adds the coordinates of a planar or floating joint, or of a rigid robot (`joint` is empty).
   void addWhole(const std::string& joint, JointType type) {
     const std::string in = prefix_ + (joint.empty() ? "" : joint + "/");
     const bool planar = type == JointType::planar;
@@ -68,7 +69,7 @@ class RobotAssembly {
     for (const char* axis : planar ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
       group.coordinates.push_back(
           problem_.space.add({Kind::line, in + axis, 0, unknown, unknown, false, weight}));
-    // A rotation counts by its quaternion's angle, half of its own.
+    // The space measures a rotation by its quaternion's angle, half the rotation angle: hence 2 ×.
     group.coordinates.push_back(problem_.space.add(
         planar ? Coordinate{Kind::circle, in + "yaw", 0, -pi, pi, true, setup_.rotationWeight}
                : Coordinate{Kind::rotation, in + "rotation", 0, 0, 0, true,
@@ -93,9 +94,10 @@ class RobotAssembly {
     jointCoordinates.push_back(setup_.freedoms.back().coordinate);
   }
 
-  const Freedom* freedomOf(const std::string& joint) const {
-    const auto found = std::find_if(setup_.freedoms.begin(), setup_.freedoms.end(),
-                                    [&](const Freedom& freedom) { return freedom.name == joint; });
+  const DegreeOfFreedom* freedomOf(const std::string& joint) const {
+    const auto found =
+        std::find_if(setup_.freedoms.begin(), setup_.freedoms.end(),
+                     [&](const DegreeOfFreedom& freedom) { return freedom.name == joint; });
     return found == setup_.freedoms.end() ? nullptr : &*found;
   }
   std::size_t variableOf(std::size_t coordinate) const {
@@ -112,25 +114,27 @@ class RobotAssembly {
     return problem_.tree.add(std::move(frame));
   }
 
-  /// A joint that moves as a whole: a shift, then a turn. @returns the frame that it moves.
-  std::size_t addWholeFrames(const std::string& name, const Freedom& freedom, std::size_t parent,
-                             const RigidPose& X_PJ, const Vec3& axis) {
+  /// Adds the frames of a planar or floating joint: a translation, then a rotation.
+  /// @returns the frame of the link that the joint moves.
+  std::size_t addWholeFrames(const std::string& name, const DegreeOfFreedom& freedom,
+                             std::size_t parent, const RigidPose& X_PJ, const Vec3& axis) {
     const bool planar = freedom.type == JointType::planar;
     const Eigen::Quaterniond plane = planar ? fromZ(axis) : Eigen::Quaterniond::Identity();
     const std::size_t first = variableOf(freedom.coordinate);
     const std::size_t shift =
         addFrame(prefix_ + (freedom.name.empty() ? "position" : freedom.name), parent,
-                 X_PJ * RigidPose{Vec3::Zero(), plane}, Frame::Joint::shift);
+                 X_PJ * RigidPose{Vec3::Zero(), plane}, Frame::Joint::translation);
     problem_.tree.frames[shift].variable = first;
     problem_.tree.frames[shift].count = planar ? 2 : 3;
     const std::size_t turn = addFrame(name, shift, {Vec3::Zero(), plane.conjugate()},
-                                      planar ? Frame::Joint::turn : Frame::Joint::rotate);
+                                      planar ? Frame::Joint::revolute : Frame::Joint::rotation);
     problem_.tree.frames[turn].variable = first + (planar ? 2 : 3);
     problem_.tree.frames[turn].axis = axis;
     return turn;
   }
 
-  /// Where a planar or floating joint that is held puts its link.
+  /// Returns the pose of the child link in the parent link of a planar or floating joint that is
+  /// held at `pose`.
   static RigidPose heldAt(const JointModel& joint, const RigidPose& pose) {
     if (joint.type == JointType::floating) return joint.X_PJ * pose;
     const Eigen::Quaterniond plane = fromZ(joint.axis);
@@ -155,13 +159,13 @@ class RobotAssembly {
     if (joint.type == JointType::fixed) {
       child = addFrame(name, parent, joint.X_PJ);
     } else if (isWhole(joint.type)) {
-      const Freedom* freedom = freedomOf(joint.name);
+      const DegreeOfFreedom* freedom = freedomOf(joint.name);
       child = freedom ? addWholeFrames(name, *freedom, parent, joint.X_PJ, joint.axis)
                       : addFrame(name, parent, heldAt(joint, setup_.heldPoses.at(j)));
     } else {
-      child =
-          addFrame(name, parent, joint.X_PJ,
-                   joint.type == JointType::prismatic ? Frame::Joint::slide : Frame::Joint::turn);
+      child = addFrame(
+          name, parent, joint.X_PJ,
+          joint.type == JointType::prismatic ? Frame::Joint::prismatic : Frame::Joint::revolute);
       drive(problem_.tree.frames[child], j);
     }
   }
@@ -172,7 +176,7 @@ class RobotAssembly {
     const std::size_t source = joint.mimic ? joint.mimic->joint : j;
     const double multiplier = joint.mimic ? joint.mimic->multiplier : 1;
     frame.offset = joint.mimic ? joint.mimic->offset : 0;
-    const Freedom* freedom = freedomOf(model_.joints[source].name);
+    const DegreeOfFreedom* freedom = freedomOf(model_.joints[source].name);
     if (freedom && multiplier != 0) {
       frame.variable = variableOf(freedom->coordinate);
       frame.multiplier = multiplier;

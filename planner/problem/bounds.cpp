@@ -10,7 +10,7 @@ namespace corridor {
 namespace {
 
 void include(const ConvexPart& part, Corners& box) {
-  // A ball of the radius; at the ends of a cylinder a disc at a right angle to its axis.
+  // The points are swept by a sphere, or for a cylinder by a disc at a right angle to its axis.
   Vec3 reach = Vec3::Constant(part.radius);
   if (part.flatEnds) {
     const Vec3 along = (part.points.back() - part.points.front()).stableNormalized();

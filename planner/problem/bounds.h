@@ -6,42 +6,45 @@
 
 #include "planner/problem/problem.h"
 
-/// Bounds of what moves as a whole: of the position of rigid robots, planar and floating joints.
+/// Bounds on the positions of rigid robots and of planar and floating joints. Each of these has a
+/// `CoordinateGroup`, of kind planar or floating.
 namespace corridor {
 
-/// Lower and upper corner; of what moves in the plane, z isn't used.
+/// Lower and upper corner of a box, metres. For planar motion z is not used.
 struct Corners {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
 };
 
-/// The bounding box of the world's bodies. nullopt: there are none.
+/// Returns the bounding box of the obstacles, or nullopt if there are none.
 std::optional<Corners> boundsOfWorld(const Problem& problem);
 
-/// Of the group's position in the problem's space.
+/// Returns the bounds of the group's position; NaN while they are not set.
 Corners boundsOf(const Problem& problem, const CoordinateGroup& group);
 void setBounds(Problem& problem, const CoordinateGroup& group, const Corners& corners);
 
 /// Enlarges the bounds of the group to contain start and goals. @returns whether that was needed.
 bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
-/// What is wrong with the bounds themselves, or "".
+/// Returns what is wrong with the bounds (a lower one not below its upper one, an infinite range),
+/// or "".
 std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 
-/// Why the group's position in a configuration is no legal one ("outside of the bounds: x = 9 is
-/// not in [0, 1]"), or "".
+/// Returns why the group's position in `q` is illegal ("outside of the bounds: x = 9 is not in
+/// [0, 1]"), or "".
 std::string whyOutside(const Problem& problem, const CoordinateGroup& group,
                        const Configuration& q);
 
-/// A joint with limits that mimics a full circle, and is outside of them.
+/// A joint that mimics a continuous joint and has left its own limits.
 struct FollowerOutside {
   std::string name;  ///< "s", "left/s"
   double value = 0, lower = 0, upper = 0;
 };
-/// Where angles of full circles are taken as they are, beyond a turn, what mimics them may leave
-/// its own limits. Values within a rounding of a limit are within it.
+/// Returns the joints that mimic a continuous joint and are outside of their own limits in `q`.
+/// This happens only where an angle of `q` is beyond a full turn, since the reader narrows the
+/// range of a mimicked joint. Limits are widened by rounding, 2^-40 of value and offset.
 std::vector<FollowerOutside> followersOutside(const Problem& problem, const Configuration& q);
 
-/// 2 or 3.
+/// Returns 2 for a planar group, 3 for a floating one.
 std::size_t dimensionsOf(const CoordinateGroup& group);
 
 }  // namespace corridor

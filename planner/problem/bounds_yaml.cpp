@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-const CoordinateGroup& groupOf(const Problem& problem, const Freedom& freedom) {
+const CoordinateGroup& groupOf(const Problem& problem, const DegreeOfFreedom& freedom) {
   std::size_t g = 0;
   while (problem.space.groups()[g].coordinates.front() != freedom.coordinate) ++g;
   return problem.space.groups()[g];
@@ -21,7 +21,7 @@ const char* form(std::size_t dimensions) {
   return dimensions == 3 ? "at: [[x, y, z], [x, y, z]]" : "at: [[x, y], [x, y]]";
 }
 
-/// {at: [[lower corner], [upper corner]]}.
+/// Reads {at: [[lower corner], [upper corner]]}.
 void readCorners(const YamlValue& value, const std::string& path, const CoordinateGroup& group,
                  Problem& problem, YamlSource& source) {
   const YamlMap map(value, path, &problemKeys().at("bounds"), source);
@@ -46,9 +46,9 @@ void readCorners(const YamlValue& value, const std::string& path, const Coordina
     setBounds(problem, group, corners);
 }
 
-/// A single joint's [lower, upper].
-void narrow(const YamlMap& map, const std::string& key, bool degrees, const Freedom& freedom,
-            Problem& problem) {
+/// Narrows a single joint's limits to the [lower, upper] that is given for `key`.
+void narrow(const YamlMap& map, const std::string& key, bool degrees,
+            const DegreeOfFreedom& freedom, Problem& problem) {
   const auto given = map.numbers(key, 2);
   if (!given) return;
   const double unit = degrees ? std::numbers::pi / 180 : 1;
@@ -57,7 +57,7 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees, const Free
   if (!(lower < upper) || !std::isfinite(upper - lower))
     return map.fault(key, "the lower bound first, then the upper one: " + shortest((*given)[0]) +
                               " is not below " + shortest((*given)[1]));
-  if (c.kind == Coordinate::Kind::circle) {  // and then it doesn't go round any more
+  if (c.kind == Coordinate::Kind::circle) {  // with bounds, a continuous joint is no circle
     c.kind = Coordinate::Kind::line;
     c.lower = lower;
     c.upper = upper;
@@ -75,7 +75,7 @@ void readOfJoints(const YamlValue& value, const std::string& path, const RobotSe
                   const RobotModel& model, Problem& problem, YamlSource& source) {
   const YamlMap map(value, path, nullptr, source);
   readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
-    for (const Freedom& freedom : setup.freedoms) {
+    for (const DegreeOfFreedom& freedom : setup.freedoms) {
       if (freedom.name != model.joints[j].name) continue;
       if (isWhole(freedom.type))
         readCorners(entry.value, map.pathOf(entry.key), groupOf(problem, freedom), problem, source);
@@ -83,16 +83,16 @@ void readOfJoints(const YamlValue& value, const std::string& path, const RobotSe
         narrow(map, entry.key, degrees, freedom, problem);
       return;
     }
-    map.fault(entry.key, "is not planned for, and needs no bounds");
+    map.fault(entry.key, "is not planned for; remove its bounds");
   });
 }
 
-/// Planar and floating joints have no limits of their own.
+/// Adds a fault for each planar or floating joint without bounds: these joints have no limits.
 void requireBounds(const YamlMap& file, const std::vector<RobotSetup>& robots,
                    const Problem& problem) {
   for (std::size_t r = 0; r < robots.size(); ++r) {
     if (problem.robots[r].model.mount != JointType::fixed) continue;
-    for (const Freedom& freedom : robots[r].freedoms) {
+    for (const DegreeOfFreedom& freedom : robots[r].freedoms) {
       if (!isWhole(freedom.type)) continue;
       const CoordinateGroup& group = groupOf(problem, freedom);
       if (!std::isnan(boundsOf(problem, group).lower.x())) continue;

@@ -15,7 +15,7 @@ void readCheckerKeys(const YamlMap& map, Problem::CheckerSpec& checker) {
   checker.fit = map.choice("fit", words.at("checker.fit")).value_or(checker.fit);
   checker.overlap = map.choice("overlap", words.at("checker.overlap")).value_or(checker.overlap);
   if (map.source().faults.size() > faults) return;
-  if (const auto wrong = wrongWordIn(checker)) map.fault(wrong->key, wrong->text);
+  if (const auto wrong = invalidNameIn(checker)) map.fault(wrong->key, wrong->text);
 }
 
 }  // namespace corridor

@@ -5,7 +5,8 @@
 
 namespace corridor {
 
-/// Sets what a `checker:` map says, and leaves the rest as it is. Faults go to the map's source.
+/// Sets the values that a `checker:` map has, and leaves the others as they are. Faults go to the
+/// map's source.
 void readCheckerKeys(const YamlMap& map, Problem::CheckerSpec& checker);
 
 }  // namespace corridor

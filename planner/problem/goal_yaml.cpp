@@ -26,7 +26,7 @@ std::string example(const std::string& what, const std::vector<RobotSetup>& robo
   } else if (first.model.mount == JointType::planar) {
     state = "{at: [0, 0], yaw_deg: 90}";
   } else {
-    const Freedom& freedom = robots.front().freedoms.front();
+    const DegreeOfFreedom& freedom = robots.front().freedoms.front();
     state = first.model.states.empty()
                 ? "{" + freedom.name +
                       (freedom.type == JointType::planar     ? ": {at: [0, 0]}, …}"
@@ -34,9 +34,10 @@ std::string example(const std::string& what, const std::vector<RobotSetup>& robo
                                                              : ": 0.5, …}")
                 : first.model.states.begin()->first;
   }
-  return (first.model.mount == JointType::fixed ? "where its joints are, such as "
-                                                : "the robot's pose, such as ") +
-         what + ": " + (first.name.empty() ? state : "{" + first.name + ": " + state + ", …}");
+  return (first.model.mount == JointType::fixed ? "the robot's joint values at the " + what
+                                                : std::string("the robot's pose")) +
+         ", such as " + what + ": " +
+         (first.name.empty() ? state : "{" + first.name + ": " + state + ", …}");
 }
 
 void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
@@ -44,16 +45,19 @@ void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
   const bool joints = hasJoints(problem), wholes = hasWholes(problem);
   for (const char* key : {"at", "angle", "angle_deg"})
     if (!wholes && map.find(key))
-      map.fault(key, "nothing moves as a whole here; say joints (rad, or m where they slide)");
+      map.fault(key,
+                "there is no rigid body and no planar or floating joint here; use joints (rad, or "
+                "m for prismatic joints)");
   for (const char* key : {"joints", "joints_deg"})
-    if (!joints && map.find(key)) map.fault(key, "there are no joints here; say at and angle");
+    if (!joints && map.find(key))
+      map.fault(key, "there are no revolute or prismatic joints here; use at and angle");
   problem.goalRegion = Problem::GoalRegion{map.number("at", Range::NotNegative).value_or(0),
                                            map.angle("angle", Range::NotNegative).value_or(0),
                                            map.angle("joints", Range::NotNegative).value_or(0)};
 }
 
-/// A list of goals; for a rigid robot that is alone, a list of anything but maps is a pose written
-/// wrong.
+/// Returns whether the value is a list of goals. For a single rigid robot, a list with anything
+/// other than maps is a pose in the wrong form instead.
 bool isListOfGoals(const YamlValue& value, const Problem& problem) {
   if (value.kind != YamlValue::Kind::List) return false;
   if (problem.robots.size() > 1 || problem.robots.front().model.mount == JointType::fixed)
@@ -76,8 +80,9 @@ void readGoalList(const YamlValue& list, const std::string& path, StateReader& r
     const std::string name = path + "[" + std::to_string(i) + "]";
     source.lines.emplace("goal[" + std::to_string(i) + "]", item.line);
     if (const YamlValue* within = entryOf(item, "within")) {
-      source.fault(within->line,
-                   name + ".within: several goals share one: goal: {any: […], within: {…}}");
+      source.fault(
+          within->line,
+          name + ".within: several goals share one region; write goal: {any: […], within: {…}}");
       continue;
     }
     if (auto goal = reader.read(item, name)) problem.goals.push_back(std::move(*goal));

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {

@@ -9,8 +9,8 @@
 
 namespace corridor {
 
-/// An INI file as OMPL.app reads it: `[section]`, `key = value`, `#` begins a comment, blanks
-/// around words don't count.
+/// An INI file as OMPL.app reads it: lines `[section]` and `key = value`. `#` begins a comment;
+/// blanks around words are ignored.
 class IniFile {
  public:
   struct Entry {
@@ -19,13 +19,13 @@ class IniFile {
     int line = 0;
   };
 
-  /// Lines that are neither of the above go to `faults`.
+  /// Adds a fault to `faults` for each line of another form. `faults` must outlive the object.
   IniFile(std::string file, const std::string& text, FaultList& faults);
 
   const std::vector<Entry>& entries() const { return entries_; }
-  /// The first entry of that name.
+  /// Returns the first entry with that key ("section.key"), or nullptr.
   const Entry* find(const std::string& key) const;
-  /// Its value as a number; faults one that is none. nullopt: absent or faulted.
+  /// Returns the value of that key as a number, or nullopt if it is absent or faulted.
   std::optional<double> number(const std::string& key, Range range = Range::Any) const;
   void fault(const Entry& entry, const std::string& text) const;
   void fault(int line, const std::string& text) const { faults_->add(file_, line, text); }

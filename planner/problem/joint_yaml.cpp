@@ -1,6 +1,6 @@
 #include "planner/problem/joint_yaml.h"
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/keys.h"
 
 namespace corridor {
@@ -53,8 +53,9 @@ void readJointValues(const YamlMap& map, const RobotModel& model,
       map.fault(key, "say " + name + " (radians) or " + key + " (degrees), not both");
     else if (const JointType type = model.joints[*j].type;
              type != JointType::revolute && type != JointType::continuous)
-      map.fault(key, name + (type == JointType::prismatic ? " slides: say " + name + ", in metres"
-                                                          : " does not turn by one angle"));
+      map.fault(key,
+                name + (type == JointType::prismatic ? " is prismatic; use " + name + ", in metres"
+                                                     : " takes a pose, not one angle"));
     else
       read(*j, *entry, true);
   }

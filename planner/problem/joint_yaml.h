@@ -9,33 +9,34 @@
 #include "planner/problem/placement.h"
 #include "planner/robot/robot_model.h"
 
-/// Maps of joint values, as `start`, `goal`, `states` and `hold` have them.
+/// Readers of maps of joint values, as in `start`, `goal`, `states`, `hold` and `bounds`.
 namespace corridor {
 
 std::optional<std::size_t> findJoint(const RobotModel& model, const std::string& name);
 
-/// Planar and floating joints: they take a pose, {at: …, yaw_deg: …}.
+/// Returns whether the joint is planar or floating: it then takes a pose, {at: …, yaw_deg: …}.
 bool isWhole(JointType type);
 
-/// For messages: `there is no joint "pam"; did you mean "pan"?`.
+/// Returns a message such as `there is no joint "pam"; did you mean "pan"?`.
 std::string noSuchJoint(const std::string& name, const RobotModel& model);
-/// Why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
+/// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
 std::string whyNotActive(const RobotModel& model, std::size_t joint);
 std::string outsideLimits(double value, double lower, double upper);
 
-/// Calls `read` for each entry of the map whose key is a joint, or a joint and "_deg" (degrees),
-/// and faults all other keys but those of `others`.
+/// Calls `read` for each entry of the map whose key is a joint's name, or that name and "_deg"
+/// (`degrees` is then true). Adds a fault for every other key except `others`.
 void readJointValues(
     const YamlMap& map, const RobotModel& model,
     const std::function<void(std::size_t joint, const YamlValue::Entry& entry, bool degrees)>& read,
     const std::set<std::string>& others = {});
 
-/// The pose of a planar or floating joint. nullopt: faulted.
+/// Reads the pose of a planar or floating joint. Returns nullopt if it is faulted.
 std::optional<PlanarOrSpatialPose> readJointPose(const YamlValue& value, const std::string& path,
                                                  const JointModel& joint, YamlSource& source,
                                                  std::vector<std::string>& notes);
 
-/// Its numbers, by their names in states: "base/x", "base/y", "base/yaw"; "body/x" … "body/qw".
+/// Returns the numbers of a planar or floating joint's pose by their names in states: "base/x",
+/// "base/y", "base/yaw", or "body/x" … "body/qw".
 std::map<std::string, double> numbersOf(const JointModel& joint, const PlanarOrSpatialPose& pose);
 
 }  // namespace corridor

@@ -23,7 +23,7 @@ const Words shapeKeys =
 
 using Keys = std::map<std::string, MapKeys>;
 
-/// A shape at `path`, with more keys of its own.
+/// Adds the keys of a shape at `path`, and `more` keys beside them.
 void addShape(Keys& keys, const std::string& path, const Words& more) {
   keys[path] = {shapeKeys + more, {}};
   keys[path + ".sphere"] = {{"radius"}, {}};
@@ -73,7 +73,7 @@ Words volumeNames() {
   return names;
 }
 
-/// The fits, or the overlap tests, that some volume has, each once.
+/// Returns the fits, or the overlap tests, of all volumes together, each once.
 Words ofAnyVolume(Words VolumeKind::*variants) {
   Words all;
   for (const VolumeKind& kind : volumeKinds())

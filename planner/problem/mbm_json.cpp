@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/shape_yaml.h"
@@ -19,11 +19,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Limits of a set. A list has a beginning and an end, an object's value a key and itself.
+/// Limits of a set, which keep a damaged or hostile file from taking all memory or the stack. The
+/// parser reports two events for a list or an object (begin, end) and for a value in an object
+/// (key, value), so the limit is at least 10^7 keys and values.
 constexpr std::size_t kMostEvents = 20'000'000;
 constexpr int kMostDepth = 64;
 
-/// A set being read. Its faults have no lines, but say where: "problems[2].start".
+/// Reads a set. Its faults have no lines, except for JSON errors; their text names the key or the
+/// object instead ("goals[2]", "box1.size").
 class MbmReader {
  public:
   MbmReader(const std::filesystem::path& file, const std::string& index)
@@ -64,8 +67,8 @@ class MbmReader {
       if (++values > kMostEvents)
         stop("has more than " + std::to_string(kMostEvents / 2) + " values; split the set");
       if (depth > kMostDepth)
-        stop("has lists and objects more than " + std::to_string(kMostDepth) +
-             " deep in each other; a set needs no more than six");
+        stop("has lists and objects nested more than " + std::to_string(kMostDepth) +
+             " deep; a set needs no more than six");
       return true;
     };
     try {
@@ -81,7 +84,7 @@ class MbmReader {
     }
   }
 
-  /// The problem of that index.
+  /// Returns the problem whose index is `index_`.
   const Json& choose(const Json& set) const {
     if (!set.is_object() || set.value("format", Json()) != Json("mbm-scene-1"))
       stop("a set of problems (format: mbm-scene-1) is needed");
@@ -97,7 +100,7 @@ class MbmReader {
          "; there are " + ranges(indices));
   }
 
-  /// "1 to 50", or all of them.
+  /// Returns "1 to 50" for indices without gaps, else the first of them, listed.
   static std::string ranges(const std::vector<std::string>& indices) {
     bool inRow = indices.size() > 2;
     for (std::size_t i = 0; i < indices.size() && inRow; ++i)
@@ -134,7 +137,7 @@ class MbmReader {
     return result;
   }
 
-  /// In the nearest folder above the file that has it.
+  /// Returns the file that `key` names, in the nearest folder above the set that holds it.
   std::filesystem::path dataFile(const Json& set, const char* key) const {
     const std::string name = word(set, key);
     std::filesystem::path folder = std::filesystem::absolute(file_).lexically_normal();

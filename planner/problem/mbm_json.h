@@ -7,10 +7,10 @@
 
 namespace corridor {
 
-/// Reads one problem of a MotionBenchMaker set (format mbm-scene-1, JSON). URDF and SRDF are looked
-/// for in the folders above the file, the nearest first.
-/// @param index as `problems[].index` has it; empty: none was given, and the fault tells which
-/// there are.
+/// Reads one problem of a MotionBenchMaker set (format mbm-scene-1, JSON). URDF and SRDF are
+/// searched for in the folders above the file, the nearest first.
+/// @param index a value of `problems[].index` in the set. If it is empty, the fault lists the
+/// values that the set has.
 /// @throws InputError.
 Problem readMbmProblem(const std::filesystem::path& file, const std::string& index);
 

@@ -4,11 +4,13 @@
 
 namespace corridor {
 
-/// Is no pair of bodies tested? Every state and every edge of such a problem counts as free, and
-/// every path as proved: a missing obstacle or an `allow` too many looks like success.
+/// Returns whether no pair of bodies is tested. Every state and edge of such a problem counts as
+/// free, and every path as proved, so that a missing obstacle or a wrong `allow` looks like
+/// success.
 bool nothingIsTested(const Problem& problem);
 
-/// The note on that, the first of Problem::notes. Commands say it before anything else.
+/// The note on such a problem, the first of Problem::notes. Commands print it before any other
+/// output.
 inline constexpr const char* kNothingTested =
     "no pair of bodies is tested, so nothing can collide and every state counts as free; corridor "
     "inspect --pairs lists the reasons";

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/ini_file.h"
@@ -28,7 +28,8 @@ const Keys spatialOnlyKeys{"start.z", "start.axis.x", "start.axis.y", "start.axi
 /// OMPL.app's default of `threshold`, in the state space's distance.
 constexpr double kThreshold = 1e-6;
 
-/// Those of `keys` that section `problem` has or, with `present` false, lacks.
+/// Returns those of `keys` that the section `problem` has, or with `present` false those that it
+/// lacks.
 Keys select(const IniFile& ini, const Keys& keys, bool present) {
   Keys result;
   for (const std::string& key : keys)
@@ -36,7 +37,8 @@ Keys select(const IniFile& ini, const Keys& keys, bool present) {
   return result;
 }
 
-/// OMPL.app's rule. nullopt: faulted.
+/// Returns planar or floating by OMPL.app's rule: planar where the file has only x, y and theta,
+/// floating where it has z and axis, too. nullopt: faulted.
 std::optional<JointType> spaceOf(const IniFile& ini) {
   const Keys missing = select(ini, planarKeys, false),
              missing3 = select(ini, spatialOnlyKeys, false);
@@ -79,7 +81,7 @@ Configuration readPose(const IniFile& ini, const std::string& what, Problem& pro
   const double yaw = wrappedYaw(theta);
   if (yaw != theta)
     problem.notes.push_back(what + ".theta: " + shortest(theta) + " is read as " + shortest(yaw) +
-                            ", which is the same but for full turns");
+                            ", the same angle up to full turns");
   return (Configuration(3) << x, y, yaw).finished();
 }
 
@@ -94,9 +96,8 @@ void readVolume(const IniFile& ini, Problem& problem) {
       any |= given;
     }
   if (!all) {
-    problem.notes.push_back(
-        std::string("bounds: those of the world") +
-        (any ? ", since volume is not given whole" : ", since no volume is given"));
+    problem.notes.push_back(std::string("bounds: those of the world") +
+                            (any ? ", since volume is incomplete" : ", since no volume is given"));
     setBounds(problem, group, boundsOfWorld(problem).value());
   } else {
     problem.lines["bounds"] = ini.find("problem.volume.min.x")->line;
@@ -121,7 +122,7 @@ struct CfgMesh {
   PlacedShape shape;
 };
 
-/// A mesh of the key `robot` or `world`. nullopt: faulted.
+/// Reads the mesh that the key `robot` or `world` names. Returns nullopt if it is faulted.
 std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Problem& problem,
                                 FaultList& faults) {
   const IniFile::Entry* entry = ini.find("problem." + key);
@@ -146,7 +147,7 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
     file.format =
         path.extension().string().substr(path.has_extension() ? 1 : 0) + ", as OMPL.app reads it";
     file.unitRule = "1 m per unit (OMPL.app knows no units)";
-    file.upRule = "turned to y up by assimp's rule, as OMPL.app has it";
+    file.upRule = "rotated to y up by assimp's rule, as in OMPL.app";
     file.floatVertices = true;
     return mesh;
   } catch (const InputError& error) {
@@ -155,8 +156,8 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
 }
 
-/// The robot of one mesh, recentred; one without shapes stands in for a mesh that could not be
-/// read.
+/// Makes a robot of one mesh, recentred. From an empty `mesh`, for a file that could not be read,
+/// it makes a robot whose poses can still be checked.
 RobotSetup robotOf(CfgMesh mesh, JointType type) {
   Vec3 centre = mesh.read.vertexAverage;
   if (type == JointType::planar) centre.z() = 0;
@@ -203,7 +204,8 @@ void faultDuplicates(const IniFile& ini) {
                                 ", first on line " + std::to_string(ini.find(entry.key)->line));
 }
 
-/// Keys that are neither read above nor without effect by their nature.
+/// Notes the keys that are not read. `turningradius` is left out: it only matters for the state
+/// spaces that `rejectDynamics` refuses.
 void noteUnused(const IniFile& ini, Problem& problem) {
   std::set<std::string> used{"problem.name",
                              "problem.robot",
@@ -267,7 +269,7 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
   auto robot = readMesh(ini, "robot", problem, faults);
   auto world = readMesh(ini, "world", problem, faults);
   if (space) {
-    // Poses are read even where a mesh is faulted: their faults count, too.
+    // Poses are read even if a mesh has a fault, so that all faults are reported at once.
     std::vector<RobotSetup> robots{robotOf(robot ? std::move(*robot) : CfgMesh{}, *space)};
     assembleRobots(robots, problem);
     if (world) addObstacle(problem, world->shape.name, {std::move(world->shape)});

@@ -4,12 +4,12 @@
 #include <cctype>
 #include <map>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {
 
-/// OMPL.app's names, and OMPL's.
+/// OMPL's names of planners, by OMPL.app's.
 const std::map<std::string, std::string>& omplNames() {
   static const std::map<std::string, std::string> names{{"rrt", "RRT"},
                                                         {"rrtconnect", "RRTConnect"},
@@ -47,7 +47,7 @@ struct Instance {
   std::string name;  ///< OMPL.app's
   int line = 0;
   std::map<std::string, const IniFile::Entry*> params,
-      problem;  ///< its own, and the problem's that it overrides
+      problem;  ///< its own parameters, and the keys of the problem that it overrides
 };
 
 std::string lowered(std::string text) {

@@ -5,9 +5,9 @@
 
 namespace corridor {
 
-/// Reads the section `planner` of an OMPL.app file. Where it names exactly one planner that OMPL
-/// has, once, that one is planned with, with its parameters; otherwise the default stays, and a
-/// note says so.
+/// Reads the section `planner` of an OMPL.app file. If it names exactly one planner that OMPL has,
+/// and names it once, the problem gets this planner and its parameters. Otherwise the default
+/// stays; notes list the planners if there are several, and those that OMPL does not have.
 void readOmplAppPlanners(const IniFile& ini, Problem& problem);
 
 }  // namespace corridor

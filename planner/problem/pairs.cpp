@@ -12,8 +12,8 @@ namespace {
 
 constexpr const char* kNeverMove = "never move against each other";
 
-/// For each frame the nearest one above it (itself included) that a variable moves, or the world:
-/// two frames move against each other where theirs differ.
+/// Returns for each frame the nearest one that a variable moves, among the frame itself and those
+/// above it, or else the world. Two frames move against each other if theirs differ.
 std::vector<std::size_t> movers(const KinematicTree& tree) {
   std::vector<std::size_t> mover(tree.frames.size(), 0);
   for (std::size_t i = 1; i < tree.frames.size(); ++i)
@@ -30,9 +30,10 @@ LinkPair sorted(const std::string& a, const std::string& b) {
   return a < b ? LinkPair{a, b} : LinkPair{b, a};
 }
 
-/// Why pairs of links of a robot are not tested: what SRDF and robot.yaml allow, and links that are
-/// joined by a joint, directly or through links without shapes. Of the joints between them one may
-/// turn or slide: two, or a planar or floating one, let them come together anywhere.
+/// Returns the pairs of a robot's links that are not tested, with the reasons: pairs that SRDF and
+/// robot.yaml allow, and adjacent links. Links are adjacent if one is above the other in the tree
+/// and no link between them has shapes. At most one joint between them is not fixed, and it is
+/// neither planar nor floating: over two joints, or one of these, links can meet anywhere.
 std::map<LinkPair, std::string> allowedLinks(const RobotModel& model,
                                              const std::set<std::string>& withShapes) {
   std::map<LinkPair, std::string> reasons;
@@ -54,7 +55,7 @@ std::map<LinkPair, std::string> allowedLinks(const RobotModel& model,
   return reasons;
 }
 
-/// "a ~ b, c ~ d and 3 more".
+/// Returns for example "a ~ b, c ~ d, e ~ f, g ~ h and 3 more".
 std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t most = 4;
   std::string text;
@@ -63,7 +64,7 @@ std::string listed(const std::vector<std::string>& words) {
                               : text + " and " + std::to_string(words.size() - most) + " more";
 }
 
-/// The name of a body's link in its own robot.
+/// Returns the name of the body's link without the robot's prefix.
 std::string linkOf(const Problem& problem, const ProblemBody& body) {
   const ProblemRobot& robot = problem.robots[*body.robot];
   return robot.name.empty() || body.name == robot.name ? body.name
@@ -72,7 +73,7 @@ std::string linkOf(const Problem& problem, const ProblemBody& body) {
 
 /// @throws InputError
 void requireFewPairs(const Problem& problem) {
-  constexpr double most = 1e7;  // some 500 MB of them
+  constexpr double most = 1e7;  // takes some 500 MB
   const auto bodies = static_cast<double>(problem.bodies.size());
   const auto still = static_cast<double>(
       std::count_if(problem.bodies.begin(), problem.bodies.end(),

@@ -17,7 +17,8 @@ SineCosine ofRadians(double angle) {
   return {std::sin(angle), std::cos(angle)};
 }
 
-/// Exact at multiples of 90 degrees, and with equal doubles at odd multiples of 45.
+/// Exact at multiples of 90 degrees. At odd multiples of 45 degrees, sine and cosine are equal but
+/// for the sign.
 SineCosine ofDegrees(double degrees) {
   int quarters = 0;
   const double rest = std::remquo(degrees, 90, &quarters);  // exact; |rest| ≤ 45
@@ -43,14 +44,15 @@ Mat3 matrix(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   return aboutZ * (aboutY * aboutX);
 }
 
-/// From the half angles.
+/// Takes the sines and cosines of the half angles.
 Eigen::Quaterniond quaternion(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   return Eigen::Quaterniond(z.cosine, 0, 0, z.sine) * Eigen::Quaterniond(y.cosine, 0, y.sine, 0) *
          Eigen::Quaterniond(x.cosine, x.sine, 0, 0);
 }
 
-/// How far from 1 the norm of a typed quaternion may be: three digits after the point give 0.001 at
-/// most (four components, each off by at most 0.0005, change the norm by at most 0.0005·√4).
+/// The largest deviation from 1 of the norm of a typed quaternion. Rounding to three digits after
+/// the point causes 0.001 at most: four components, each off by at most 0.0005, change the norm by
+/// at most 0.0005·√4.
 constexpr double normSlack = 1e-3;
 
 std::optional<Orientation> readQuaternion(const YamlMap& map) {
@@ -59,7 +61,7 @@ std::optional<Orientation> readQuaternion(const YamlMap& map) {
   const Eigen::Quaterniond q((*xyzw)[3], (*xyzw)[0], (*xyzw)[1], (*xyzw)[2]);
   const double norm = q.coeffs().stableNorm();
   if (norm == 0) {
-    map.fault("quat_xyzw", "a quaternion of zeros is no rotation; [0, 0, 0, 1] turns nothing");
+    map.fault("quat_xyzw", "a quaternion of zeros is no rotation; [0, 0, 0, 1] is the identity");
     return std::nullopt;
   }
   if (!(std::abs(norm - 1) <= normSlack)) {
@@ -93,7 +95,7 @@ bool isWrongKind(const YamlValue& value, const PoseForm& form) {
   return !hasLegal;
 }
 
-/// nullopt: faulted.
+/// Reads `yaw` or `yaw_deg`, in radians; 0 if both are absent. Returns nullopt if it is faulted.
 std::optional<double> readYaw(const YamlMap& map, std::vector<std::string>& notes) {
   if (!map.find("yaw") && !map.find("yaw_deg")) return 0;
   if (map.find("yaw") && map.find("yaw_deg")) return map.angle("yaw");
@@ -104,7 +106,7 @@ std::optional<double> readYaw(const YamlMap& map, std::vector<std::string>& note
   const double used = degrees ? wrappedYawDegrees(*given) : wrappedYaw(*given);
   if (used != *given)
     notes.push_back(map.pathOf(key) + ": " + shortest(*given) + " is read as " + shortest(used) +
-                    ", which is the same but for full turns");
+                    ", the same angle up to full turns");
   return degrees ? used * (std::numbers::pi / 180) : used;
 }
 
@@ -135,8 +137,8 @@ std::optional<Orientation> readOrientation(const YamlMap& map) {
     if (map.find(key)) given.push_back(key);
   if (given.empty()) return Orientation{};
   if (given.size() > 1) {
-    map.fault(given[1],
-              std::string("one rotation is needed, and ") + given[0] + " says it already");
+    map.fault(given[1], std::string("one rotation is needed, and ") + given[0] +
+                            " is given already; leave one out");
     return std::nullopt;
   }
   const std::string key = given[0];

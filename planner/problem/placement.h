@@ -3,58 +3,61 @@
 #include <optional>
 #include <string>
 
-#include "collision/motion/rigid_motion.h"
+#include "collision/core/rigid_pose.h"
 #include "planner/problem/yaml_reader.h"
 
-/// Poses as problem and robot files write them.
+/// Readers of poses in problem and robot files.
 namespace corridor {
 
-/// A rotation in both forms that are needed: as given, and as the map that turns a mesh's vertices.
+/// A rotation in two forms: the quaternion as given (its norm need not be 1), and the matrix that
+/// is applied to a mesh's vertices.
 struct Orientation {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   Mat3 R = Mat3::Identity();
 };
 
-/// Rotation about the fixed axes x (roll), then y (pitch), then z (yaw), as in URDF. Multiples of
-/// 90 degrees are exact in R.
+/// Returns the rotation about the fixed axes x (roll), then y (pitch), then z (yaw), as in URDF.
+/// R is exact where all three angles are multiples of 90 degrees.
 Orientation fromRpyDegrees(const Vec3& degrees);
 Orientation fromRpy(const Vec3& radians);
 
-/// `yaw` brought into (-π, π] (the doubles of that interval).
+/// Returns the angle brought into (-π, π], to a double in that interval.
 double wrappedYaw(double radians);
+/// Returns the angle brought into (-180, 180] degrees, without rounding.
 double wrappedYawDegrees(double degrees);
 
-/// The orientation that a map gives by at most one of rpy_deg, rpy, quat_xyzw; none: no rotation.
-/// nullopt: faulted.
+/// Reads the orientation that a map gives by at most one of rpy_deg, rpy and quat_xyzw. If none of
+/// them is there, it is the identity. Returns nullopt after a fault.
 std::optional<Orientation> readOrientation(const YamlMap& map);
 
-/// Where a frame or a shape is put, in both forms.
+/// The pose of a frame or a shape in two forms: as written, and as a map of points.
 struct Placement {
   RigidPose pose;
   Transform X;
 
   bool isIdentity() const { return X == Transform{}; }
 };
-/// Rounded.
+/// Returns the composition a · b, rounded.
 Placement operator*(const Placement& a, const Placement& b);
 
-/// Of a map's `at` and rotation, both optional. nullopt: faulted.
+/// Reads a map's `at` and its rotation, both optional. Returns nullopt if one is faulted.
 std::optional<Placement> readPlacement(const YamlMap& map);
 
-/// A pose of what moves as a whole.
+/// The pose of a rigid robot, or of a planar or floating joint.
 struct PlanarOrSpatialPose {
   RigidPose pose;  ///< planar: z = 0 and the rotation by `yaw`
-  double yaw = 0;  ///< planar, in (-π, π]
+  double yaw = 0;  ///< planar only, in (-π, π]
 };
-/// How a pose is to be read.
+/// The form in which a pose is expected.
 struct PoseForm {
-  bool spatial = true;  ///< else planar
-  std::string mover;    ///< for messages: "the robot moves in SE3 (rigid: SE3)"
-  const MapKeys* keys = nullptr;
+  bool spatial = true;            ///< false: planar
+  std::string mover;              ///< for messages: "the robot moves in SE3 (rigid: SE3)"
+  const MapKeys* keys = nullptr;  ///< the legal keys
 };
+/// Reads a pose. Returns nullopt if it is faulted; a planar pose instead of a spatial one, or the
+/// other way round, gives the single fault "goal of the wrong kind: …".
 /// @param path of the value: "start", "goal[0].left".
 /// @param notes gets a line where a yaw is wrapped.
-/// nullopt: faulted ("goal of the wrong kind: …" where it is a pose of another kind).
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,
                                             const PoseForm& form, YamlSource& source,
                                             std::vector<std::string>& notes);

@@ -3,8 +3,8 @@
 #include <system_error>
 
 #include "collision/core/fault_list.h"
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/mbm_json.h"
 #include "planner/problem/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
@@ -17,7 +17,7 @@ Problem readProblem(const std::filesystem::path& path) {
   if (const auto hash = text.rfind(".json#"); hash != text.npos)
     return readMbmProblem(text.substr(0, hash + 5), text.substr(hash + 6));
   if (path.extension() == ".json") return readMbmProblem(path, "");
-  std::error_code none;  // what can't be looked at is faulted by who reads it
+  std::error_code none;  // ignored: the reader reports a file that can't be accessed
   if (!std::filesystem::is_directory(path, none))
     return path.extension() == ".cfg" ? readOmplAppCfg(path) : readProblemYaml(path);
   const std::filesystem::path file = path / "problem.yaml";
@@ -34,14 +34,14 @@ Fault Problem::faultAt(std::string_view key, std::string text) const {
   }
 }
 
-std::optional<WrongWord> wrongWordIn(const Problem::CheckerSpec& checker) {
-  if (auto wrong = wrongWordIn(checker.trees())) return wrong;
+std::optional<InvalidName> invalidNameIn(const Problem::CheckerSpec& checker) {
+  if (auto wrong = invalidNameIn(checker.trees())) return wrong;
   const bool measures = checker.edges == "adaptive" || checker.edges == "advancement";
-  const std::string first = spelledOut({checker.volume, "", ""}).overlap;
+  const std::string first = withDefaults({checker.volume, "", ""}).overlap;
   if (!measures || checker.overlap.empty() || checker.overlap == first) return std::nullopt;
-  return WrongWord{"overlap", quotedWord(checker.overlap) +
-                                  " is of edges certified and discrete; " + checker.edges +
-                                  " asks how far volumes are apart"};
+  return InvalidName{"overlap", quotedWord(checker.overlap) +
+                                    " is for edges certified and discrete; " + checker.edges +
+                                    " measures distances between volumes: leave overlap out"};
 }
 
 std::string digestOfFiles(const std::vector<std::filesystem::path>& files) {

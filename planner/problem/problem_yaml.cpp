@@ -22,7 +22,8 @@ const std::vector<std::string>& wordsOf(const char* key) {
   return problemChoices().at(key);
 }
 
-/// Robots by their files: one that is named twice is read once.
+/// Reads robot files. A file that several robots name is read once, so that its faults are listed
+/// once.
 class RobotFiles {
  public:
   explicit RobotFiles(FaultList& faults) : faults_(faults) {}
@@ -53,11 +54,12 @@ void readBase(const YamlMap& map, std::optional<RobotSetup>& robot) {
       readPlacement(YamlMap(*value, map.pathOf("base"), keysOf("base"), map.source()));
   if (!robot || !base) return;
   if (robot->isRigid())
-    map.fault("base", "a rigid robot moves freely: start and goal say where it is; leave it out");
+    map.fault("base", "a rigid robot has no base: start and goal give its pose; leave base out");
   robot->robot.base = base->pose;
 }
 
-/// `robot`, or `robots`. Empty: there are none, or not all of them are known.
+/// Reads `robot` or `robots`. Returns nothing if there are none, or if one of them is not known
+/// well enough to read its start.
 std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::path& folder) {
   std::vector<RobotSetup> robots;
   RobotFiles files(file.source().faults);
@@ -103,16 +105,20 @@ TubeSpec readTube(const YamlMap& file, const Problem& problem, bool known) {
   if (!known) return tube;
   for (const char* key : {"joints", "joints_deg"})
     if (map.find(key) && !hasJoints(problem))
-      map.fault(key, "rigid bodies have position (m) and rotation or rotation_deg");
+      map.fault(key,
+                "there are no revolute or prismatic joints here; use position (m) and rotation or "
+                "rotation_deg");
   for (const char* key : {"position", "rotation", "rotation_deg"})
     if (map.find(key) && !hasWholes(problem))
-      map.fault(key, "nothing moves as a whole here; say joints (rad, or m where they slide)");
+      map.fault(key,
+                "there is no rigid body and no planar or floating joint here; use joints (rad, or "
+                "m for prismatic joints)");
   if (map.find("joints_deg"))
     for (const CoordinateGroup& group : problem.space.groups())
       for (const std::size_t i : group.coordinates)
         if (const Coordinate& c = problem.space.coordinates()[i];
             group.kind == CoordinateGroup::Kind::joints && !c.angular)
-          map.fault("joints_deg", c.name + " slides: say joints, in radians and metres");
+          map.fault("joints_deg", c.name + " is prismatic; use joints, in radians and metres");
   return tube;
 }
 
@@ -162,7 +168,7 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   if (const YamlValue* checker = map.find("checker"))
     readCheckerKeys(YamlMap(*checker, "checker", keysOf("checker"), source), problem.checker);
   problem.seed = map.wholeNumber("seed").value_or(problem.seed);
-  if (known) {  // what states and bounds look like depends on it
+  if (known) {  // the form of states and bounds depends on the robots
     readBounds(map, robots, problem);
     readStartAndGoals(map, robots, problem);
     if (faults.size() == 0) setDefaultBounds(problem, source);

@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// Reads a file of the format corridor-problem-1, with its robot file and meshes. @throws
-/// InputError with all their faults.
+/// Reads a file of the format corridor-problem-1, with its robot files and meshes.
+/// @throws InputError with the faults of all these files.
 Problem readProblemYaml(const std::filesystem::path& file);
 
 }  // namespace corridor

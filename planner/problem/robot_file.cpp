@@ -12,8 +12,8 @@
 namespace corridor {
 namespace {
 
-/// The average of the distinct positions of corners and of the points of primitives, however often
-/// they are repeated.
+/// Returns the average of the distinct positions of triangle corners and of primitives' points.
+/// Repeated positions count once.
 Vec3 centroid(const std::vector<PlacedShape>& shapes) {
   std::vector<std::array<double, 3>> points;
   const auto add = [&](const Vec3& p) { points.push_back({p.x(), p.y(), p.z()}); };
@@ -63,7 +63,7 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
     }
 }
 
-/// nullopt: not even how it moves is known.
+/// Returns nullopt if `rigid` (SE2 or SE3) is faulted.
 std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
                                     const std::filesystem::path& folder, RobotSetup setup) {
   for (const char* key : {"srdf", "packages", "group", "joints", "hold", "states", "allow"})
@@ -113,10 +113,9 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   if (!hasFormat(document, "corridor-robot-1", source)) return std::nullopt;
   const YamlMap map(document, "", &robotKeys().at(""), source);
   const std::string name = map.text("name").value_or(nameOfFile(file, "robot"));
-  const auto kind =
-      map.requireOne({"rigid", "urdf"}, "one of rigid and urdf",
-                     "rigid: SE3 (moves and turns freely), rigid: SE2 (moves in x and y, turns "
-                     "about z), or urdf: arm.urdf (has joints)");
+  const auto kind = map.requireOne({"rigid", "urdf"}, "one of rigid and urdf",
+                                   "rigid: SE3 (moves and rotates freely), rigid: SE2 (moves in x "
+                                   "and y, rotates about z), or urdf: arm.urdf (has joints)");
   if (kind == "urdf") return readUrdfRobot(map, name, file.parent_path(), std::move(setup));
   if (kind == "rigid") return readRigid(map, name, file.parent_path(), std::move(setup));
   return std::nullopt;

@@ -63,7 +63,7 @@ void Sha256::update(std::string_view bytes) {
 
 std::array<std::uint8_t, 32> Sha256::finish() {
   const std::uint64_t bits = 8 * length_;
-  std::string padding(1 + (119 - length_ % 64) % 64, '\0');  // to 56 modulo 64
+  std::string padding(1 + (119 - length_ % 64) % 64, '\0');  // pads the length to 56 modulo 64
   padding[0] = '\x80';
   for (int shift = 56; shift >= 0; shift -= 8)
     padding += static_cast<char>(static_cast<std::uint8_t>(bits >> shift));

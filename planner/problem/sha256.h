@@ -8,12 +8,13 @@
 
 namespace corridor {
 
-/// SHA-256 of bytes given in any portions (NIST FIPS 180-4). For digests of input files, not for
-/// secrets.
+/// Computes SHA-256 (NIST FIPS 180-4) of bytes that are given in portions of any size. For digests
+/// of input files, not for secrets.
 class Sha256 {
  public:
   void update(std::string_view bytes);
-  /// The digest of all bytes so far: 32 bytes, big endian. Ends this object's use.
+  /// Returns the digest of all bytes so far: 32 bytes, big endian. The object can't be used
+  /// afterwards.
   std::array<std::uint8_t, 32> finish();
 
  private:
@@ -25,10 +26,10 @@ class Sha256 {
   std::uint64_t length_ = 0;  ///< bytes so far
 };
 
-/// The digest of `bytes` in 64 lower-case hexadecimal digits.
+/// Returns the digest of `bytes` in 64 lower-case hexadecimal digits.
 std::string sha256Hex(std::string_view bytes);
 
-/// 32 bytes in hexadecimal.
+/// Returns 32 bytes as 64 lower-case hexadecimal digits.
 std::string toHex(const std::array<std::uint8_t, 32>& digest);
 
 }  // namespace corridor

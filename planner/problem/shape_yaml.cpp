@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "collision/geometry/mesh_health.h"
 #include "planner/problem/keys.h"
 
@@ -28,7 +28,7 @@ MeshFileOptions readMeshOptions(const YamlMap& map) {
   return options;
 }
 
-/// The file that `key` names. nullopt: faulted.
+/// Reads the mesh file that `key` names, and adds it to `files`. Returns nullopt if it is faulted.
 std::optional<MeshFile> readMesh(const YamlMap& map, const char* key,
                                  const std::filesystem::path& folder, std::filesystem::path& file,
                                  std::vector<std::filesystem::path>& files) {
@@ -55,7 +55,7 @@ std::optional<Primitive> readBox(const YamlMap& map) {
   return Box{{(*size)[0], (*size)[1], (*size)[2]}};
 }
 
-/// `sphere: 0.1`, or `sphere: {radius: 0.1}`.
+/// Reads `sphere: 0.1`, or `sphere: {radius: 0.1}`.
 std::optional<Primitive> readSphere(const YamlMap& map) {
   const YamlValue& value = *map.find("sphere");
   std::optional<double> radius;
@@ -70,7 +70,7 @@ std::optional<Primitive> readSphere(const YamlMap& map) {
   return Sphere{*radius};
 }
 
-/// Capsule or Cylinder.
+/// Reads a Capsule or a Cylinder. @param length what the length means, for messages.
 template <class Round>
 std::optional<Primitive> readRound(const YamlMap& map, const char* key, const char* length) {
   const YamlMap inner(*map.find(key), map.pathOf(key), keysOf(key), map.source());
@@ -110,12 +110,12 @@ std::optional<Primitive> readPrimitive(const YamlMap& map, const std::string& ki
   if (kind == "box") return readBox(map);
   if (kind == "sphere") return readSphere(map);
   if (kind == "capsule")
-    return readRound<Capsule>(map, "capsule", "metres along z, between the centres of its balls");
+    return readRound<Capsule>(map, "capsule", "metres along z, between the centres of its spheres");
   if (kind == "cylinder") return readRound<Cylinder>(map, "cylinder", "metres along z");
   return readConvex(map, place, file, files);
 }
 
-/// Keys that say nothing of this kind of shape.
+/// Adds a fault for each key that does not apply to this kind of shape.
 void faultMisplacedKeys(const YamlMap& map, const std::string& kind) {
   const bool isFile =
       kind == "mesh" || (kind == "convex" && map.find("convex")->kind == YamlValue::Kind::Scalar);
@@ -124,7 +124,7 @@ void faultMisplacedKeys(const YamlMap& map, const std::string& kind) {
       if (map.find(key))
         map.fault(key, "is for mesh files; lengths of a " + kind + " are in metres");
   if (kind != "mesh" && map.find("solid"))
-    map.fault("solid", "is for meshes; a " + kind + " always is solid");
+    map.fault("solid", "is for meshes; a " + kind + " is always solid");
 }
 
 bool moveMesh(TriangleMesh& mesh, const Transform& X) {
@@ -138,12 +138,12 @@ bool isFinite(const ConvexPart& part) {
                      [](const Vec3& point) { return point.allFinite(); });
 }
 
-/// A mesh that can't be solid. @returns whether it can.
+/// Returns whether the mesh can be solid, that is, watertight. If it can't, adds a fault.
 bool checkSolid(const YamlMap& map, const PlacedShape& shape) {
   const MeshHealth health = inspectMesh(shape.mesh->mesh);
   if (health.watertight) return true;
   map.fault("solid", "needs a watertight mesh, and " + shape.file.string() +
-                         " is none: " + health.whyNotWatertight);
+                         " is not watertight: " + health.whyNotWatertight);
   return false;
 }
 

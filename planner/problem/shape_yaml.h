@@ -8,32 +8,34 @@
 #include "planner/problem/placement.h"
 #include "planner/robot/placed_shape.h"
 
-/// Shapes of robots and worlds, as problem and robot files write them.
+/// Readers of the shapes of robots and obstacles in problem and robot files.
 namespace corridor {
 
-/// Where a shape belongs.
+/// The context in which a shape is read.
 struct ShapePlace {
-  std::string name;              ///< the shape's
-  std::filesystem::path folder;  ///< that file names start from
-  Placement outer = {};          ///< of the group that it is in
+  std::string name;              ///< the shape's name
+  std::filesystem::path folder;  ///< the folder that file names are relative to
+  Placement outer = {};          ///< placement of the obstacle that lists the shape in `shapes`
 };
 
-/// A mesh or a primitive with everything applied. nullopt: faulted.
+/// Reads a mesh or a primitive, with unit, up-axis and placement applied. Returns nullopt if it is
+/// faulted.
 /// @param files gets the shape's file, if it has one.
 std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place,
                                      std::vector<std::filesystem::path>& files);
 
-/// The list `shapes` of a robot or an obstacle. The shapes are called `place.name` where there is
-/// one, else "name/their own" or "name/number". What is faulted is left out.
-/// @param keys of one of them.
+/// Reads the list `shapes` of a robot or an obstacle. A single shape gets the name `place.name`;
+/// one of several gets that name, a slash, and its own name or its number from 1. Faulted shapes
+/// are left out. @pre the map has `shapes`.
+/// @param keys the legal keys of one shape.
 std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
                                     const ShapePlace& place,
                                     std::vector<std::filesystem::path>& files);
 
-/// Moves a shape. @returns false: out of the range of doubles.
+/// Translates a shape. @returns whether all its coordinates are still finite.
 bool shift(PlacedShape& shape, const Vec3& by);
 
-/// Adds a file, unless it has been named before.
+/// Adds a file to the list, unless it is there already.
 void addFile(std::vector<std::filesystem::path>& files, const std::filesystem::path& file);
 
 }  // namespace corridor

@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
@@ -13,7 +13,8 @@
 
 namespace corridor {
 
-/// Numbers by their names in the robot ("pan", "base/yaw"), and where they come from.
+/// The numbers of one robot's state by their names in the robot ("pan", "base/yaw"), each with its
+/// line and path for messages.
 struct StateReader::Given {
   struct Number {
     double value = 0;
@@ -31,7 +32,7 @@ std::optional<double> coordinateValue(const Coordinate& coordinate, double value
     double wrapped = wrappedYaw(value);
     if (wrapped <= -std::numbers::pi) wrapped = std::numbers::pi;
     notes.push_back(path + ": " + shortest(value) + " is read as " + shortest(wrapped) +
-                    ", which is the same but for full turns");
+                    ", the same angle up to full turns");
     return wrapped;
   }
   const auto within = withinLimits(value, coordinate.lower, coordinate.upper, path, notes);
@@ -96,7 +97,7 @@ bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std
                 &problemKeys().at(others.contains("within") ? "goal" : "start")};
   const auto pose = readPose(value, path, form, source_, problem_.notes);
   if (!pose) return false;
-  const Freedom& freedom = robots_[robot].freedoms.front();
+  const DegreeOfFreedom& freedom = robots_[robot].freedoms.front();
   const auto first =
       static_cast<Eigen::Index>(problem_.space.coordinates()[freedom.coordinate].first);
   if (spatial)
@@ -115,7 +116,7 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
     for (const auto& [key, values] : model.states) known.push_back(key);
     source_.fault(
         line, path + ": there is no state " + quotedWord(name) + didYouMean(name, known) +
-                  (known.empty() ? " (neither robot.yaml nor SRDF name any)" : knownWords(known)));
+                  (known.empty() ? " (neither robot.yaml nor SRDF names any)" : knownWords(known)));
     return false;
   }
   for (const auto& [number, value] : state->second) {
@@ -145,9 +146,10 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
           return map.fault(entry.key, why);
         if (const auto held = setup.held.find(j); held != setup.held.end())
           return map.fault(entry.key, "is held at " + shortest(held->second) +
-                                          ", and not planned for (robot.yaml says which are)");
+                                          ", and not planned for; robot.yaml chooses the joints");
         if (setup.heldPoses.contains(j))
-          return map.fault(entry.key, "is held, and not planned for (robot.yaml says which are)");
+          return map.fault(entry.key,
+                           "is held, and not planned for; robot.yaml chooses the joints");
         if (isWhole(joint.type)) {
           const auto pose = readJointPose(entry.value, path, joint, source_, problem_.notes);
           if (!pose) return;
@@ -161,7 +163,7 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
           if (joint.type == JointType::continuous && wrappedYawDegrees(*number) != *number) {
             const double wrapped = wrappedYawDegrees(*number);
             problem_.notes.push_back(path + ": " + shortest(*number) + " is read as " +
-                                     shortest(wrapped) + ", which is the same but for full turns");
+                                     shortest(wrapped) + ", the same angle up to full turns");
             number = wrapped;
           }
           *number *= std::numbers::pi / 180;
@@ -182,7 +184,7 @@ bool StateReader::apply(std::size_t robot, const Given& given, int line, const s
     missing.push_back(name);
     return nullptr;
   };
-  for (const Freedom& freedom : robots_[robot].freedoms) {
+  for (const DegreeOfFreedom& freedom : robots_[robot].freedoms) {
     if (!isWhole(freedom.type)) {
       if (const auto* number = find(freedom.name))
         sound &= setSingle(freedom, number->value, number->line, number->path, q);
@@ -204,13 +206,13 @@ bool StateReader::apply(std::size_t robot, const Given& given, int line, const s
       missing.resize(before), missing.push_back(freedom.name);
   }
   if (missing.empty()) return sound;
-  source_.fault(line, path + ": says nothing of " + joined(missing) +
-                          "; all joints that are planned for need a value");
+  source_.fault(line, path + ": has no value for " + joined(missing) +
+                          "; all joints that are planned for need one");
   return false;
 }
 
-bool StateReader::setSingle(const Freedom& freedom, double value, int line, const std::string& path,
-                            Configuration& q) {
+bool StateReader::setSingle(const DegreeOfFreedom& freedom, double value, int line,
+                            const std::string& path, Configuration& q) {
   const Coordinate& coordinate = problem_.space.coordinates()[freedom.coordinate];
   std::string why;
   const auto stored = coordinateValue(coordinate, value, path, problem_.notes, why);
@@ -221,7 +223,7 @@ bool StateReader::setSingle(const Freedom& freedom, double value, int line, cons
   return stored.has_value();
 }
 
-bool StateReader::isInBounds(const Freedom& freedom, const Configuration& q, int line,
+bool StateReader::isInBounds(const DegreeOfFreedom& freedom, const Configuration& q, int line,
                              const std::string& path) const {
   for (const CoordinateGroup& group : problem_.space.groups()) {
     if (group.coordinates.front() != freedom.coordinate) continue;

@@ -9,20 +9,21 @@
 
 namespace corridor {
 
-/// Reads states of all robots of a problem, as `start` and `goal` write them.
+/// Reads states as in `start` and `goal`: one configuration of all robots of a problem.
 class StateReader {
  public:
-  /// All must outlive the object. @param problem assembled, its explicit bounds set.
+  /// All arguments must outlive the object.
+  /// @param problem assembled, with the bounds that its file gives.
   StateReader(const std::vector<RobotSetup>& robots, Problem& problem, YamlSource& source)
       : robots_(robots), problem_(problem), source_(source) {}
 
-  /// @param path of the value, for messages: "start", "goal[1]".
-  /// @param others keys that are not for this reader: "within".
-  /// nullopt: faulted.
+  /// Returns the configuration, or nullopt after adding a fault.
+  /// @param path the value's place in the file, for messages: "start", "goal[1]".
+  /// @param others legal keys that another reader reads: "within".
   std::optional<Configuration> read(const YamlValue& value, const std::string& path,
                                     const std::set<std::string>& others = {});
 
-  /// One robot, whose states are not under its name.
+  /// Returns whether the problem has one robot by `robot: …`: its states are then not under a name.
   bool isAlone() const { return robots_.size() == 1 && problem_.robots.front().name.empty(); }
 
  private:
@@ -37,9 +38,9 @@ class StateReader {
                   const std::set<std::string>& others);
   bool apply(std::size_t robot, const Given& given, int line, const std::string& path,
              Configuration& q);
-  bool setSingle(const Freedom& freedom, double value, int line, const std::string& path,
+  bool setSingle(const DegreeOfFreedom& freedom, double value, int line, const std::string& path,
                  Configuration& q);
-  bool isInBounds(const Freedom& freedom, const Configuration& q, int line,
+  bool isInBounds(const DegreeOfFreedom& freedom, const Configuration& q, int line,
                   const std::string& path) const;
 
   const std::vector<RobotSetup>& robots_;
@@ -47,9 +48,10 @@ class StateReader {
   YamlSource& source_;
 };
 
-/// A value as it is stored in a coordinate: a circle's wrapped into (−π, π], a line's within its
-/// limits, or so but for rounding; both with a note. @param path for the note and for `why`.
-/// nullopt: outside of the limits; `why` says it.
+/// Returns the value to store in a coordinate. A circle's angle is wrapped into (−π, π]; a line's
+/// value beyond a limit by at most `limitSlack` becomes the limit. Both add a note. Returns
+/// nullopt, and sets `why`, if the value is outside of the limits.
+/// @param path the value's place in the file, for the note and for `why`.
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
                                       const std::string& path, std::vector<std::string>& notes,
                                       std::string& why);

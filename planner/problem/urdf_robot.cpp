@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
@@ -18,7 +18,7 @@ void addAll(FaultList& faults, const std::vector<Fault>& found) {
   for (const Fault& fault : found) faults.add(fault.file, fault.line, fault.text);
 }
 
-/// The path that a key names. nullopt: faulted, or no such key.
+/// Returns the path that a key names, or nullopt if the key is absent or faulted.
 std::optional<std::filesystem::path> readFileName(const YamlMap& map, const char* key,
                                                   const std::filesystem::path& folder) {
   const auto name = map.text(key);
@@ -47,7 +47,7 @@ PackageMap readPackages(const YamlMap& file, const std::filesystem::path& folder
   return packages;
 }
 
-/// URDF and SRDF. nullopt: faulted.
+/// Reads URDF and SRDF. Returns nullopt if one of them is faulted.
 std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const PackageMap& packages,
                                     const std::optional<std::filesystem::path>& srdf,
                                     FaultList& faults, std::vector<std::filesystem::path>& files) {
@@ -65,7 +65,7 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Pac
 
 using Joints = std::vector<std::size_t>;
 
-/// Not held by its own limits.
+/// Returns whether the joint has a value of its own, and its limits leave it more than one.
 bool canMove(const JointModel& joint) {
   return movesItself(joint) && joint.lower != joint.upper;
 }
@@ -78,9 +78,7 @@ Joints readGroup(const YamlMap& map, const RobotModel& model) {
   std::vector<std::string> known;
   for (const auto& [key, value] : model.groups) known.push_back(key);
   if (!map.find("srdf")) {
-    map.fault("group",
-              "groups are those of an SRDF, and none is given: srdf: FILE, or say "
-              "joints: [NAME, …]");
+    map.fault("group", "a group needs an SRDF; add srdf: FILE, or use joints: [NAME, …]");
   } else if (group == model.groups.end()) {
     map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
                            didYouMean(*name, known) + knownWords(known));
@@ -115,7 +113,7 @@ Joints readJointList(const YamlMap& map, const RobotModel& model) {
   return active;
 }
 
-/// `hold` into `setup`.
+/// Reads `hold` into `setup`.
 void readHold(const YamlMap& file, RobotSetup& setup) {
   const YamlValue* value = file.find("hold");
   if (!value) return;
@@ -143,7 +141,7 @@ void readHold(const YamlMap& file, RobotSetup& setup) {
   });
 }
 
-/// `states`: named, each a map of joint values, over those of the SRDF.
+/// Reads `states`: maps of joint values by name, which replace the SRDF's states of these names.
 void readStates(const YamlMap& file, RobotModel& model) {
   const YamlValue* value = file.find("states");
   if (!value) return;
@@ -163,7 +161,7 @@ void readStates(const YamlMap& file, RobotModel& model) {
       }
     });
     if (model.states.contains(named->key))
-      model.notes.push_back("state " + named->key + ": that of robot.yaml, not of the SRDF");
+      model.notes.push_back("state " + named->key + ": robot.yaml's is used, not the SRDF's");
     model.states[named->key] = std::move(state);
     model.stateGroup.erase(named->key);
   }
@@ -214,7 +212,7 @@ void readWeights(const YamlMap& file, RobotSetup& setup) {
   }
 }
 
-/// All that move by themselves, but for those with a value in `hold`.
+/// Returns all joints that can move, except those with a value in `hold`.
 Joints allMoving(const RobotSetup& setup) {
   Joints all;
   for (std::size_t j = 0; j < setup.robot.model.joints.size(); ++j)
@@ -289,7 +287,8 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
     map.fault("urdf", "has no joint that moves by itself");
   for (const std::size_t j : active)
     if (setup.held.contains(j) || setup.heldPoses.contains(j))
-      map.fault("hold", setup.robot.model.joints[j].name + " is planned for, and can't be held");
+      map.fault("hold", setup.robot.model.joints[j].name +
+                            " is planned for, and can't be held; remove it from hold");
   if (map.source().faults.size() != before) return std::nullopt;
   chooseJoints(setup, active);
   return setup;

@@ -8,28 +8,31 @@
 
 namespace corridor {
 
-/// A robot of joints: what robot.yaml says of it, and the URDF and SRDF that it names.
-/// @param setup with `file` and `files` set. nullopt: faulted.
+/// Reads a robot with joints: the keys of its robot.yaml, and the URDF and SRDF that it names.
+/// Returns nullopt if one of them is faulted.
+/// @param setup with `robot.file` and `files` set.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::filesystem::path& folder, RobotSetup setup);
 
-/// A URDF without more: all its moving joints are planned for, adjacent links aren't tested.
+/// Reads a URDF without a robot.yaml: all its moving joints are planned for. Returns nullopt if it
+/// is faulted.
 std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults);
 
-/// Sets the joints that are planned for, and holds all others at 0, or at the value nearest to it
-/// within their limits; that is noted.
+/// Sets the joints that are planned for. Other joints without a value in `hold` are held at the
+/// value nearest to 0 within their limits, planar and floating ones at the identity, with a note.
 void chooseJoints(RobotSetup& setup, const std::vector<std::size_t>& active);
 
-/// Moves by itself: not fixed, not a mimic.
+/// Returns whether the joint has a value of its own: it is neither fixed nor a mimic.
 bool movesItself(const JointModel& joint);
 
-/// Values so little beyond a limit are taken for it, with a note: limits and values are written
-/// with π rounded to four digits or more (3.1416 is 7.4e-6 above it, 3.14159 2.7e-6 below). Rad or
-/// m.
+/// A value beyond a limit by at most this is taken for the limit, with a note; rad or m. Limits and
+/// values are often written with π rounded to four digits or more: 3.1416 is 7.4e-6 above π,
+/// 3.14159 is 2.7e-6 below it.
 inline constexpr double limitSlack = 1e-5;
 
-/// A value that is within [lower, upper], or was so but for rounding.
-/// @param path for the note: "start.pan". nullopt: it is not, and that is for the caller to tell.
+/// Returns the value if it is in [lower, upper], the limit if it is beyond it by at most
+/// `limitSlack` (with a note), or nullopt. The caller adds the fault.
+/// @param path for the note: "start.pan".
 std::optional<double> withinLimits(double value, double lower, double upper,
                                    const std::string& path, std::vector<std::string>& notes);
 

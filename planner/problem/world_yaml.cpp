@@ -2,19 +2,18 @@
 
 #include <unordered_map>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
 
 namespace corridor {
 namespace {
 
-/// An obstacle of several shapes: {shapes: […], at: …}.
+/// Reads an obstacle of several shapes: {shapes: […], at: …}.
 std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, Problem& problem) {
   for (const char* key :
        {"mesh", "box", "sphere", "capsule", "cylinder", "convex", "unit", "up", "solid"})
-    if (map.find(key))
-      map.fault(key, "stands with one shape, and shapes lists several; say it there");
+    if (map.find(key)) map.fault(key, "belongs to one shape; put it into the items of shapes");
   const auto outer = readPlacement(map);
   place.outer = outer.value_or(Placement{});
   return readShapes(map, problemKeys().at("world.*.shapes[]"), place, problem.files);
@@ -26,8 +25,8 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Problem& pr
                                       const BodiesByName& bodies) {
   std::vector<std::size_t> found;
   if (const auto same = bodies.find(name); same != bodies.end()) found = same->second;
-  // A robot that is alone has no prefix; with that of its own name, a link is its, whatever the
-  // obstacles are called.
+  // Links of a single robot have no prefix. The robot's name before a link's name is accepted, and
+  // distinguishes the link from an obstacle of the same name.
   const ProblemRobot& first = problem.robots.front();
   const std::string own = first.model.name + "/";
   if (!first.name.empty() || !name.starts_with(own)) return found;
@@ -37,7 +36,8 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Problem& pr
   return found;
 }
 
-/// A link that has no shapes: nothing to allow, and no mistake.
+/// Returns whether this is the name of a link. A link that is no body has no shapes, so that a pair
+/// with it needs no permission; naming it is no mistake.
 bool isBareLink(const std::string& name, const Problem& problem) {
   for (const ProblemRobot& robot : problem.robots)
     for (const LinkModel& link : robot.model.links)
@@ -100,7 +100,7 @@ AllowedBodies readAllow(const YamlMap& file, const Problem& problem) {
       if (found.size() == 1)
         bodies.push_back(found.front());
       else if (found.size() > 1)
-        fault(quotedWord(name) + " is a link and an obstacle; call the obstacle otherwise");
+        fault(quotedWord(name) + " names a link and an obstacle; rename the obstacle");
       else if (!isBareLink(name, problem))
         fault("there is no body " + quotedWord(name) + didYouMean(name, names) + knownWords(names));
     }

@@ -5,11 +5,12 @@
 
 namespace corridor {
 
-/// Reads `world` and adds its obstacles to the problem. @param needed a problem without obstacles
-/// is faulted.
+/// Reads `world` and adds its obstacles to the problem.
+/// @param needed whether a problem without obstacles is faulted.
 void readWorld(const YamlMap& file, bool needed, Problem& problem);
 
-/// Reads `allow`, pairs of names of bodies. @pre the problem has all its bodies.
+/// Reads `allow`, a list of pairs of bodies' names. A pair with a link that has no shapes is left
+/// out. @pre the problem has all its bodies.
 AllowedBodies readAllow(const YamlMap& file, const Problem& problem);
 
 }  // namespace corridor

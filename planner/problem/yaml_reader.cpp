@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 
@@ -39,7 +39,7 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
   const auto [stop, error] = std::from_chars(begin, end, number);
   if (stop != end || error == std::errc::invalid_argument)
     return "a number is needed, not " + quotedWord(text);
-  // Too large or too small: strtod, unlike from_chars, says which.
+  // from_chars does not report whether the number is too large or too small; strtod does.
   if (error == std::errc::result_out_of_range)
     number = std::strtod(std::string(begin, end).c_str(), nullptr);
   if (!std::isfinite(number)) return "a finite number is needed, not " + quotedWord(text);
@@ -47,7 +47,7 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
     return "must be 0 or more, not " + std::string(text);
   if (range == Range::Positive && !(number > 0)) return "must be above 0, not " + std::string(text);
   if (range == Range::Fraction && !(number > 0 && number < 1))
-    return "must lie between 0 and 1, not at " + std::string(text);
+    return "must be between 0 and 1, not " + std::string(text);
   value = number;
   return "";
 }
@@ -76,7 +76,7 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
         explainsMissing_ = true;
         continue;
       }
-      if (const auto near = nearest(entry.key, keys->legal)) missed_.insert(*near);
+      if (const auto near = mostSimilar(entry.key, keys->legal)) missed_.insert(*near);
       source.fault(entry.line, "unknown key " + quotedWord(entry.key) + in +
                                    didYouMean(entry.key, keys->legal) +
                                    " (known: " + joined(keys->legal) + ")");
@@ -124,7 +124,7 @@ std::optional<std::string> YamlMap::requireOne(const std::vector<std::string>& k
     if (find(key)) given.push_back(key);
   if (given.size() == 1) return given.front();
   if (given.size() > 1) {
-    fault(given[1], what + " is needed, and " + given[0] + " says it already");
+    fault(given[1], what + " is needed, and " + given[0] + " is given already; leave one out");
     return std::nullopt;
   }
   const bool missed = std::any_of(keys.begin(), keys.end(),
@@ -137,7 +137,7 @@ std::optional<std::string> YamlMap::requireOne(const std::vector<std::string>& k
 
 namespace {
 
-/// A complaint, or "" and `number` set.
+/// Returns a complaint, or "" and sets `number`.
 std::string parseNumber(const YamlValue& value, Range range, double& number) {
   return value.kind == YamlValue::Kind::Scalar && value.isPlain
              ? parseNumber(value.text, range, number)
@@ -239,7 +239,7 @@ std::optional<std::vector<std::string>> readWords(const YamlValue& value, const 
     if (item.kind == YamlValue::Kind::Scalar && !item.text.empty()) words.push_back(item.text);
   if (value.kind == YamlValue::Kind::List && words.size() == value.items.size()) return words;
   source.fault(value.line, path + ": a list of names is needed, " + form + ", not " +
-                               (value.kind == YamlValue::Kind::List ? "one with other things in it"
+                               (value.kind == YamlValue::Kind::List ? "one with other values in it"
                                                                     : described(value)));
   return std::nullopt;
 }

@@ -14,112 +14,117 @@
 #include "collision/core/fault_list.h"
 #include "planner/problem/yaml_value.h"
 
-/// A strict reader of YAML files: every fault is noted with its line, and reading goes on, so that
-/// a user sees all at once.
+/// A strict reader of YAML files. It adds every fault to a list with its line, and reads on, so
+/// that a user sees all faults at once.
 namespace corridor {
 
-/// A key that a later version will read.
+/// A key that is not supported.
 struct LaterKey {
   std::string key;
-  std::string instead;  ///< what is supported: the end of a sentence
+  std::string instead;  ///< what to do instead: the end of the message
 };
 
-/// What a map may hold.
+/// The keys of a map: legal ones, and ones with a fault of their own.
 struct MapKeys {
   std::vector<std::string> legal;
   std::vector<LaterKey> later;
 };
 
-/// A file being read: where faults go, and where its keys stand.
+/// A file while it is read: the list of its faults, and the lines of its keys.
 struct YamlSource {
   std::string file;
   FaultList& faults;
-  std::map<std::string, int> lines;  ///< "checker.edges" → line, of every legal key that was met
+  /// The line of every legal key that was read, by its path ("checker.edges").
+  std::map<std::string, int> lines;
 
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };
 
-/// What numbers a key takes.
-enum class Range { Any, NotNegative, Positive, Fraction /**< above 0 and under 1 */ };
+/// The numbers that are legal as the value of a key.
+enum class Range { Any, NotNegative, Positive, Fraction /**< above 0 and below 1 */ };
 
-/// What whole numbers a key takes, both ends included.
+/// The whole numbers that are legal as the value of a key, both ends included.
 struct WholeRange {
   std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
-  const char* words = "0 to 2^64 - 1";  ///< for the message
+  const char* words = "0 to 2^64 - 1";  ///< text of the range in messages
 };
 
-/// A whole text as a decimal number. @returns a complaint ("a number is needed, not …"), or "" and
-/// `value` set. Numbers too small for a double become the nearest, those too large (and nan, inf)
-/// are not finite.
+/// Parses the whole text as a decimal number. Returns "" and sets `value`, or returns a complaint
+/// ("a number is needed, not …"). A number too small for a double becomes the nearest double; one
+/// too large counts as not finite, and so do nan and inf: each is a fault.
 std::string parseNumber(std::string_view text, Range range, double& value);
 
 /// One map of a file.
 class YamlMap {
  public:
-  /// Faults what is no map, and unknown, unsupported and repeated keys. The first of repeated keys
-  /// counts.
+  /// Adds a fault if the value is no map, and one for each unknown, unsupported or repeated key. If
+  /// a key is repeated, its first value is used. `value` and `source` must outlive the object.
   /// @param path of the map in its file: "", "planner", "planner.params".
-  /// @param keys nullptr: any key is legal.
+  /// @param keys the legal keys; nullptr: any key is legal.
   YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source);
 
   const std::vector<const YamlValue::Entry*>& entries() const { return entries_; }
   YamlSource& source() const { return *source_; }
   int line() const { return line_; }
   std::string pathOf(std::string_view key) const;
-  void fault(std::string_view key,
-             const std::string& text) const;  ///< at that key's line: "path: text"
+  /// Adds the fault "path: text" at the key's line, or at the map's if the key is absent.
+  void fault(std::string_view key, const std::string& text) const;
 
-  const YamlValue* find(std::string_view key) const;  ///< nullptr: not there
-  /// As `find`; faults a key that is not there, unless the map's own faults say so already.
-  /// @param purpose what it should hold, for the message.
+  const YamlValue* find(std::string_view key) const;  ///< nullptr: absent
+  /// Returns the same as `find`. Adds a fault if the key is absent, unless an earlier fault
+  /// explains its absence: the value is no map, or an unknown key is probably this one with a
+  /// typing error.
+  /// @param purpose what the key should hold, for the message.
   const YamlValue* require(std::string_view key, const std::string& purpose) const;
 
-  /// Which one of `keys` is there; faults several, and (as `require`) none.
-  /// @param what they say: "one shape", for the message of several.
+  /// Returns the one of `keys` that is present. Adds a fault if several are, and, like `require`,
+  /// if none is.
+  /// @param what the keys describe, for messages: "one shape".
   std::optional<std::string> requireOne(const std::vector<std::string>& keys,
                                         const std::string& what, const std::string& purpose) const;
 
-  // Each faults a value of the wrong kind. nullopt: absent or faulted.
+  // Each returns nullopt if the key is absent, and adds a fault if the value is of the wrong kind.
   std::optional<double> number(std::string_view key, Range range = Range::Any) const;
   std::optional<std::uint64_t> wholeNumber(std::string_view key,
                                            const WholeRange& range = {}) const;
   std::optional<bool> boolean(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& of) const;
-  /// A list of exactly `count` numbers.
+  /// Returns a list of exactly `count` numbers.
   std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const;
-  /// An angle in radians, given as `key` or as `key_deg`.
+  /// Returns an angle in radians, given as `key` or, in degrees, as `key_deg`.
   std::optional<double> angle(const std::string& key, Range range = Range::Any) const;
 
  private:
   std::string path_;
   YamlSource* source_;
   int line_ = 0;
-  const YamlValue::Entry* entryOf(std::string_view key) const;  ///< nullptr: not there
+  const YamlValue::Entry* entryOf(std::string_view key) const;  ///< nullptr: absent
 
   std::vector<const YamlValue::Entry*> entries_;
-  std::unordered_map<std::string_view, const YamlValue::Entry*> index_;  ///< the same, by key
-  std::set<std::string> missed_;  ///< legal keys that an unknown one may have meant
-  bool explainsMissing_ = false;  ///< no map, or it has a key of a later version
+  std::unordered_map<std::string_view, const YamlValue::Entry*> index_;  ///< `entries_` by key
+  std::set<std::string> missed_;  ///< legal keys that an unknown key resembles
+  bool explainsMissing_ = false;  ///< it is no map, or has a key that is not supported
 };
 
-/// A number. @param path for messages. nullopt: faulted.
+/// Returns a number, or nullopt if it is faulted. @param path for messages.
 std::optional<double> readNumber(const YamlValue& value, Range range, const std::string& path,
                                  const YamlSource& source);
 
-/// A list of words. @param form for the message: "[arm, hand]". nullopt: faulted.
+/// Returns a list of words, or nullopt if it is faulted.
+/// @param form an example for the message: "such as [arm, hand]".
 std::optional<std::vector<std::string>> readWords(const YamlValue& value, const std::string& form,
                                                   const std::string& path,
                                                   const YamlSource& source);
 
-/// A list of `count` numbers. @param path for messages.
+/// Returns a list of `count` numbers, or nullopt if it is faulted. @param path for messages.
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
                                                const std::string& path, const YamlSource& source);
 
-/// For messages: `"text"`, `a list`, `a map`, `nothing`.
+/// Returns a value's description for messages: `"text"`, `a list`, `a map` or `nothing`.
 std::string described(const YamlValue& value);
 
-/// For messages and notes: the shortest digits that read back as this number.
+/// Returns the shortest decimal digits that read back as this double, for messages and notes.
 std::string shortest(double value);
 
 }  // namespace corridor

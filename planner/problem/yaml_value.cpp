@@ -13,7 +13,7 @@
 namespace corridor {
 namespace {
 
-/// Builds the tree from the parser's events: yaml-cpp's own nodes would hide repeated keys.
+/// Builds the document from the parser's events, since yaml-cpp's own nodes hide repeated keys.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(std::string file, const YamlLimits& limits)
@@ -50,7 +50,7 @@ class TreeBuilder : public YAML::EventHandler {
  private:
   struct Open {
     YamlValue value;
-    bool keyIsNext = true;  ///< Map: what comes is a key
+    bool keyIsNext = true;  ///< Map: the next value is a key
   };
 
   YamlValue value(YamlValue::Kind kind, const YAML::Mark& mark) {
@@ -71,8 +71,9 @@ class TreeBuilder : public YAML::EventHandler {
     requireNoKey(value);
     if (open_.size() == limits_.depth)
       throw InputError(Fault{file_, value.line,
-                             "has lists and maps more than " + std::to_string(limits_.depth) +
-                                 " deep in each other; no file that is read here needs so many"});
+                             "has lists and maps nested more than " +
+                                 std::to_string(limits_.depth) +
+                                 " deep; no valid file needs more"});
     open_.push_back({std::move(value), true});
   }
 
@@ -122,7 +123,7 @@ YamlValue parseYaml(const std::string& file, const std::string& text, const Yaml
     TreeBuilder first(file, limits), second(file, limits);
     parser.HandleNextDocument(first);
     if (parser.HandleNextDocument(second))
-      throw InputError(Fault{file, 0, "has more than one YAML document (---); one is read"});
+      throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
     return first.take();
   } catch (const YAML::Exception& error) {
     throw InputError(Fault{file, error.mark.line + 1, "is not YAML: " + error.msg});

@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// A YAML document as it stands in its file: repeated keys are kept, and everything knows its line
-/// (from 1).
+/// A value of a YAML document, with everything in it. Repeated keys are kept, and each value and
+/// key has its line in the file, from 1.
 struct YamlValue {
   enum class Kind { Null, Scalar, List, Map };
   struct Entry;
@@ -26,17 +26,17 @@ struct YamlValue::Entry {
   YamlValue value;
 };
 
-/// Limits of a document: 1.4 GB of memory, and no stack to speak of. There are no aliases, so none
-/// can multiply what stands in the file.
+/// Limits of a document, which keep it below 1.4 GB of memory and its nesting small. Aliases are
+/// faulted, since nested aliases can expand a small file without bound.
 struct YamlLimits {
   std::size_t nodes = 10'000'000;  ///< keys and values
-  std::size_t depth = 64;          ///< of lists and maps in each other
+  std::size_t depth = 64;          ///< how deep lists and maps may be nested
 };
 
 /// Parses one YAML document.
 /// @param file for messages.
-/// @throws InputError: syntax error, more than one document, aliases, a key that is no word, or
-/// beyond the limits.
+/// @throws InputError for a syntax error, more than one document, an alias, a key that is no word,
+/// or a document beyond the limits.
 YamlValue parseYaml(const std::string& file, const std::string& text,
                     const YamlLimits& limits = {});
 

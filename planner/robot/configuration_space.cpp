@@ -26,21 +26,22 @@ Quaterniond nearer(const Quaterniond& a, const Quaterniond& b) {
 Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
   const Quaterniond a = unitQuaternion(from), b = nearer(a, unitQuaternion(to));
   const double angle = quaternionAngle(a, b);
-  // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): under 2^-27 it is t to half an ulp.
+  // sin(tθ)/sin θ = t(1 + θ²(1 − t²)/6 + …): for θ < 2^-27 this is t to half an ulp.
   const bool tiny = angle < 0x1p-27;
   const double wa = tiny ? 1 - t : std::sin((1 - t) * angle) / std::sin(angle);
   const double wb = tiny ? t : std::sin(t * angle) / std::sin(angle);
   return Quaterniond(Eigen::Vector4d(wa * a.coeffs() + wb * b.coeffs())).normalized();
 }
 
-/// The root of the sum of squares, for numbers whose squares under- or overflow, too.
+/// Euclidean norm, also of numbers whose squares overflow or underflow.
 template <class Vector>
 double lengthOf(const Vector& v) {
   const double norm = v.norm();
   return norm > 1e-150 && norm < HUGE_VAL ? norm : v.stableNorm();
 }
 
-/// How far b is from a in one coordinate, ≥ 0; of rotations the quaternions' angle.
+/// Returns how far b is from a in one coordinate, ≥ 0. For a rotation this is the quaternion angle,
+/// half of the rotation's.
 double differenceOf(const Coordinate& c, const double* a, const double* b) {
   if (c.kind == Coordinate::Kind::rotation)
     return quaternionAngle(Quaterniond(a + c.first), Quaterniond(b + c.first));
@@ -145,12 +146,13 @@ double ConfigurationSpace::distance(const double* a, const double* b) const {
       const double length = lengthTimes(1);
       if (length > 1e-150 && length < HUGE_VAL) {
         sum += length;
-      } else {  // squares under- or overflow
+      } else {  // the squares overflow or underflow
         const double scale = length > 1 ? 0x1p-600 : 0x1p600;
         sum += lengthTimes(scale) / scale;
       }
     } else {
-      Vec3 away = Vec3::Zero();  // lines; the last of the group is the angle
+      // The difference of the lines. The group's last coordinate is the angle.
+      Vec3 away = Vec3::Zero();
       for (std::size_t k = 0; k + 1 < members.size(); ++k) {
         const std::size_t i = coordinates_[members[k]].first;
         away[static_cast<Eigen::Index>(k)] = b[i] - a[i];
@@ -165,10 +167,11 @@ double ConfigurationSpace::distance(const double* a, const double* b) const {
 
 bool ConfigurationSpace::equal(const Configuration& a, const Configuration& b) const {
   return std::all_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& c) {
-    // OMPL normalises quaternions and wraps angles in passing (enforceBounds), and means the same
-    // state: 64u of angle. A quaternion's norm (sum of squares, root) and quotient are within 5u,
-    // so that two of them differ by at most 12u in angle, and the angle told is off by 8u; an angle
-    // in [−π, π] by its ulp, 2u·π.
+    // OMPL normalises quaternions and wraps angles in passing (enforceBounds), and treats the
+    // result as the same state. So rotations may differ by 64u, u = 2^-53. A quaternion's norm (sum
+    // of squares, root) and quotient are within 5u, so two normalised quaternions differ by at most
+    // 12u in angle; the angle computed here is off by 8u. An angle in [−π, π] is off by its ulp,
+    // 2u·π.
     const double off = differenceOf(c, a, b);
     return off <= (c.kind == Coordinate::Kind::line ? 0 : 32 * kUnit);
   });

@@ -13,37 +13,39 @@
 namespace corridor {
 namespace {
 
-/// Metres, in every error: squares under 2^-1022 vanish, lengths under 2^-500 with them. Above what
-/// that takes off any bound, for levers below 2^99 m.
+/// Metres; part of every stated error. Squares below 2^-1022 underflow, and with them lengths below
+/// 2^-500. For levers below 2^99 m this covers what underflow can take from any bound.
 constexpr double kLeastError = 0x1p-400;
 
-constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: a frame seen from itself
+constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: the frame itself
 
-/// A bound fixed + reach·|y| metres at lever y from b's origin.
+/// The bound fixed + reach·|y| metres for a point at lever y from b's origin.
 struct LeverError {
   double fixed = 0, reach = 0;
 };
 
 }  // namespace
 
-/// Poses are cached in *views*: frame f as seen from an ancestor of it, once per t for all pairs
-/// whose lowest common ancestor that is. So nothing of what two frames have in common is computed,
-/// nor its rounding counted; and a pair on one chain costs one product of poses.
+/// Poses are cached in *views*: the pose of a frame f in one of its ancestors. A view is computed
+/// once per t for all pairs with this lowest common ancestor. So the common part of two chains is
+/// never computed and its rounding never counted. A pair of frames on one chain needs one product
+/// of poses.
 struct EdgeMotion::Impl {
-  struct Place {  // of a frame on its parent, frames that do not move each by itself left out
+  struct Place {  // pose of a frame in the nearest ancestor that isn't folded
     MovingJoint joint;
     Transform X;
-    std::uint64_t stamp = 0;  // of the t that X is for
+    std::uint64_t stamp = 0;  // identifies the t that X was computed for
   };
   struct View {
-    std::size_t parent = kItself;  // the parent, seen from the same ancestor; kItself: that is it
+    std::size_t parent = kItself;  // the parent's view; kItself: the parent is the ancestor
     std::size_t place = 0;
     Transform X;
-    Vec3 axis = Vec3::UnitX();  // of its joint, in the ancestor's frame
+    Vec3 axis = Vec3::UnitX();  // axis of the frame's joint, in the ancestor's coordinates
     std::uint64_t stamp = 0;
-    // Of the edge: errors of X as operator norm and in metres.
+    // Valid for the edge numbered `edge`: bounds of the errors of X, as an operator norm and in
+    // metres.
     std::uint64_t edge = 0;
-    double rotationError = 0, shiftError = 0, reach = 0;  // reach: no less than |X.t|
+    double rotationError = 0, shiftError = 0, reach = 0;  // reach: upper bound of |X.t|
   };
   struct Step {
     std::size_t view;
@@ -52,9 +54,9 @@ struct EdgeMotion::Impl {
   struct Path {
     std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
     std::vector<Step> steps;               // from a's side to b's
-    std::vector<ScrewTravel> screws;
-    // Of the edge, where somebody has asked for the motion: the error of the pose and of the axes,
-    // and that of the twist per unit of h.
+    std::vector<ScrewMotion> screws;
+    // Valid for the edge numbered `edge`, and computed when the motion is first queried: the error
+    // of the pose and of the axes, and the error of the twist per unit of h.
     std::uint64_t edge = 0;
     LeverError still, rate;
   };
@@ -64,7 +66,7 @@ struct EdgeMotion::Impl {
   std::vector<View> views;  // parents first
   std::vector<Path> paths;
   std::uint64_t stamp = 0;
-  double t = 0;  // of the stamp
+  double t = 0;  // the t of the stamp
   std::uint64_t edge = 0;
   bool ambiguous = false, still = false;
 
@@ -88,7 +90,7 @@ bool moves(const Frame& frame) {
 }
 
 bool turns(Frame::Joint joint) {
-  return joint == Frame::Joint::turn || joint == Frame::Joint::rotate;
+  return joint == Frame::Joint::revolute || joint == Frame::Joint::rotation;
 }
 
 Coordinate::Kind kindOf(const ConfigurationSpace& space, std::size_t variable) {
@@ -104,7 +106,8 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     : space(moved) {
   requireStandardFloatingPoint();
   const std::size_t count = tree.frames.size();
-  // Frames that are seen, look on, or move by themselves; the rest is put into their fixed poses.
+  // Keep the frames that are in pairs, their common ancestors, and those that move by themselves.
+  // All others are folded into the fixed poses of their descendants.
   std::vector<char> kept(count);
   for (std::size_t f = 0; f < count; ++f) kept[f] = f == 0 || moves(tree.frames[f]);
   std::vector<std::size_t> ancestors;
@@ -129,7 +132,7 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
                       0});
     places.back().X = places.back().joint.at(0);
   }
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // ancestor, frame
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // by ancestor and frame
   const auto viewOf = [&](const auto& self, std::size_t ancestor, std::size_t f) -> std::size_t {
     if (f == ancestor) return kItself;
     if (const auto found = known.find({ancestor, f}); found != known.end()) return found->second;
@@ -188,25 +191,30 @@ const EdgeMotion::Impl::View& EdgeMotion::Impl::viewWithErrors(std::size_t index
   return view;
 }
 
-/// With u the unit roundoff, ρ an error of a rotation (operator norm), τ of a position, and every
-/// computed matrix within 2^-20 of norm 1 (products of errors are left out here, `window` adds
-/// them):
-///   a view, X·Y by products and sums in threes: ρ_X + ρ_Y + 3u·√3·√3; τ_X + τ_Y + ρ_X·|Y.t| +
-///     4u(√3|Y.t| + |X.t + …|);
-///   the relative pose X_LA⁻¹·X_LB of two branches, |t| < T the length of the path: ρ_A + ρ_B + 9u;
-///     τ_A + τ_B + ρ_A·T + 7uT.
-/// The screws: an axis is off by ρ, its own 32u and 6u for the product, its point by τ; both are
-/// turned into A on two branches. A point at lever y from b's origin is seen off by the pose's
-/// error, and its lever from an axis at L from there by e(y) = pose(y) + τ + axis error·(|y| + L),
-/// which its distance from the axis in `travelOf` is off by, too. The joint moves it by at most
-/// w = h·rate, so that the twist is off by Σ w·e(y), by the rate's own error, and by some (16 +
-/// steps)·u of w(|y| + L) for its arithmetic. `window` states the largest e(y) and the twist's.
+/// Computes the error bounds of a path for the current edge. Notation: u is the unit roundoff, ρ
+/// the error of a rotation (operator norm), τ that of a position. Every computed matrix is within
+/// 2^-20 of norm 1. Products of errors are left out here; `relativeMotion` adds them.
+///
+/// Poses. Each entry of a product is a sum of three products.
+/// - A view X·Y: ρ_X + ρ_Y + 3u·√3·√3, and τ_X + τ_Y + ρ_X·|Y.t| + 4u(√3|Y.t| + |X.t + …|).
+/// - The relative pose X_LA⁻¹·X_LB of two branches, with |t| < T, the length of the path: ρ_A + ρ_B
+///   + 9u, and τ_A + τ_B + ρ_A·T + 7uT.
+///
+/// Screws. An axis is off by ρ, by its own 32u, and by 6u for the product; its point is off by τ.
+/// With two branches both are transformed into A. Consider a point at lever y from b's origin, and
+/// an axis at distance L from that origin. The point is off by pose(y), the error of the pose. Its
+/// lever from the axis is off by e(y) = pose(y) + τ + axis error·(|y| + L), and so is its distance
+/// from the axis in `motionBound`.
+///
+/// Twist. The joint moves the point by at most w = h·rate. So the twist is off by Σ w·e(y), by the
+/// error of the rate, and by about (16 + steps)·u of w(|y| + L) for its arithmetic.
+/// `relativeMotion` returns the largest e(y) plus the error of the twist.
 void EdgeMotion::Impl::setErrors(Path& path) {
   if (path.edge == edge) return;
   path.edge = edge;
   double length = 0;
   for (const Step& step : path.steps) length += places[views[step.view].place].joint.length();
-  LeverError turned;  // of what is seen from A when that is not the ancestor
+  LeverError turned;  // error of what is transformed into A, if A is not the ancestor
   LeverError pose, axes;
   if (path.b != kItself) {
     const View& b = viewWithErrors(path.b);
@@ -220,7 +228,7 @@ void EdgeMotion::Impl::setErrors(Path& path) {
   }
   path.rate = {};
   const double arithmetic = (16 + static_cast<double>(path.steps.size())) * kUnit;
-  double lever = 0;  // L, no less than the distance from a joint's origin to b's
+  double lever = 0;  // L, an upper bound of the distance from the joint's origin to b's
   for (auto step = path.steps.rbegin(); step != path.steps.rend(); ++step) {
     const View& view = viewWithErrors(step->view);
     const MovingJoint& joint = places[view.place].joint;
@@ -266,7 +274,7 @@ void EdgeMotion::set(const Configuration& from, const Configuration& to) {
   ++m.edge;
 }
 
-MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
+RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) {
   Impl& m = *impl_;
   if (t != m.t) {
     m.t = t;
@@ -274,7 +282,7 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
   }
   Impl::Path& path = m.paths[pair];
   m.setErrors(path);
-  MotionWindow w;
+  RelativeMotion w;
   if (path.b != kItself) w.X_AB = m.viewAt(path.b).X;
   Transform X_LA;
   const bool branches = path.a != kItself;
@@ -289,7 +297,7 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
     const double rate = std::abs(joint.rate()) + joint.rateError();
     const bool rests = rate == 0 || h == 0;
     if (joint.joint() == Frame::Joint::none || (rests && joint.tube() == 0)) continue;
-    ScrewTravel screw;
+    ScrewMotion screw;
     screw.axis = view.axis;
     screw.point = view.X.t;
     if (branches) {
@@ -303,11 +311,11 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
       w.angular += motion;
       w.linear += motion.cross(w.X_AB.t - screw.point);
     } else {
-      screw.kind = ScrewTravel::Kind::slide;
+      screw.kind = ScrewMotion::Kind::prismatic;
       w.linear += motion;
     }
-    if (joint.joint() == Frame::Joint::rotate) {
-      ScrewTravel ball{ScrewTravel::Kind::ball, screw.axis, screw.point, 0, screw.tube};
+    if (joint.joint() == Frame::Joint::rotation) {
+      ScrewMotion ball{ScrewMotion::Kind::spherical, screw.axis, screw.point, 0, screw.tube};
       screw.tube = 0;
       if (ball.tube != 0) path.screws.push_back(ball);
     }
@@ -316,7 +324,7 @@ MotionWindow EdgeMotion::window(std::size_t pair, double t, double h) {
   w.screws = path.screws;
   w.speed = lengthFromAbove(w.linear);
   w.angle = lengthFromAbove(w.angular);
-  // Products of errors, which are below 2^-20 of the errors.
+  // Covers the products of errors, which are below 2^-20 of the errors.
   constexpr double more = 1 + 0x1p-20;
   w.fixedError = roundedUp(more * (path.still.fixed + h * path.rate.fixed)) + kLeastError;
   w.reachError = roundedUp(more * (path.still.reach + h * path.rate.reach)) + kLeastError;

@@ -9,26 +9,29 @@
 
 namespace corridor {
 
-/// The motions of the frames of a tree along an edge of its configuration space, as `Scene` asks
-/// for them. Poses are computed where they are asked for, at most once a window; relative motions
-/// run over the joints between the two frames only (numerics: «Relative motion»). All rounding
-/// (interpolation, sine, kinematics) is a bound per frame, kept as a running error along the chain.
+/// The relative motions of the frames of a kinematic tree along one edge of its configuration
+/// space, as `Scene` queries them. A relative motion runs over the joints between its two frames
+/// only. All rounding (interpolation, sine, kinematics) is included: each frame has an error bound,
+/// accumulated along the chain.
 ///
-/// One object a thread; `set` for every edge, without allocating after the first.
+/// Poses are computed on demand, at most once per time interval. Use one object per thread. Call
+/// `set` for every edge; after the first edge it doesn't allocate.
 class EdgeMotion final : public MotionSource {
  public:
-  /// All must outlive the object. @param tube for each number of a Configuration, how far it may
-  /// stray (metres; radians; of a rotation the first of its four numbers counts, radians), ≥ 0.
-  /// @throws std::runtime_error where the processor is set so that no bound holds
+  /// `tree` and `space` must outlive the object.
+  /// @param pairs frames whose relative motions are queried; motion i is that of pairs[i].
+  /// @param tube for each number of a Configuration, how far it may deviate from the edge, ≥ 0
+  /// (metres or radians). For a rotation the first of its four numbers counts, radians.
+  /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h).
   EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,
              std::span<const Scene::FramePair> pairs, const Configuration& tube);
   ~EdgeMotion() override;
 
-  /// @pre finite, of the space's size; quaternions not zero.
+  /// Sets the edge. @pre finite, of the space's size; quaternions not zero.
   void set(const Configuration& from, const Configuration& to);
 
-  MotionWindow window(std::size_t pair, double t, double h) override;
+  RelativeMotion relativeMotion(std::size_t pair, double t, double h) override;
   bool ambiguous() const override;
   bool still() const override;
 

@@ -9,7 +9,7 @@
 
 namespace corridor {
 
-/// As URDF calls them.
+/// Joint types by the names that URDF gives them; nullopt for an unknown name.
 std::string nameOf(JointType type);
 std::optional<JointType> jointType(std::string_view name);
 std::vector<std::string> jointTypeNames();

@@ -13,19 +13,19 @@ Transform jointPose(const Frame& frame, const Configuration& q) {
   switch (frame.joint) {
     case Frame::Joint::none:
       break;
-    case Frame::Joint::turn:
+    case Frame::Joint::revolute:
       X.m = Eigen::AngleAxisd(value, frame.axis.stableNormalized()).toRotationMatrix();
       break;
-    case Frame::Joint::slide:
+    case Frame::Joint::prismatic:
       X.t = value * frame.axis.stableNormalized();
       break;
-    case Frame::Joint::shift:
+    case Frame::Joint::translation:
       if (!held) {
         const auto count = static_cast<Eigen::Index>(frame.count);
         X.t.head(count) = q.segment(first, count);
       }
       break;
-    case Frame::Joint::rotate:
+    case Frame::Joint::rotation:
       if (!held) X.m = unitQuaternion(Eigen::Quaterniond(q.data() + first)).toRotationMatrix();
       break;
   }

@@ -5,38 +5,42 @@
 #include <string>
 #include <vector>
 
-#include "collision/motion/rigid_motion.h"
+#include "collision/core/rigid_pose.h"
 #include "planner/robot/configuration_space.h"
 
 namespace corridor {
 
-/// A frame of a kinematic tree: where it stands in its parent's, by a fixed pose and one elementary
-/// joint after it, X_PF(q) = fixed · joint(q), in real arithmetic on these doubles (quaternions and
-/// axes normalised in real arithmetic). Joints of several freedoms are several frames (planar:
-/// shift, then turn; floating: shift, then rotate).
+/// A frame of a kinematic tree. Its pose in the parent's frame is a fixed pose followed by one
+/// elementary joint: X_PF(q) = fixed · joint(q). This holds in real arithmetic on the stored
+/// doubles, with quaternions and axes normalised in real arithmetic.
+///
+/// A joint with several degrees of freedom is a chain of frames. Planar: `translation`, then
+/// `revolute`. Floating: `translation`, then `rotation`.
 struct Frame {
   enum class Joint {
     none,
-    turn,    ///< by an angle about `axis`
-    slide,   ///< by a length along `axis`
-    shift,   ///< by a vector of two (x, y) or three numbers
-    rotate,  ///< by a quaternion
+    revolute,     ///< revolute, by an angle about `axis`
+    prismatic,    ///< prismatic, by a length along `axis`
+    translation,  ///< translation by a vector of two (x, y) or three numbers
+    rotation,     ///< free rotation, by a quaternion
   };
   static constexpr std::size_t noVariable = SIZE_MAX;
 
-  std::string name;  ///< of the link, "left/hand"; of inner frames: the joint's
+  std::string name;  ///< the link's name, such as "left/hand"; for an inner frame, the joint's
   std::size_t parent = 0;
   RigidPose fixed;  ///< X_P0
   Joint joint = Joint::none;
   Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; any length but 0
-  /// Index of the first number in a Configuration; noVariable: a turn or slide held at `offset`.
+  /// Index of the first number in a Configuration. With `noVariable` a `revolute` or `prismatic`
+  /// joint is held at `offset`.
   std::size_t variable = noVariable;
-  std::size_t count = 1;              ///< numbers of a shift: 2 or 3
-  double multiplier = 1, offset = 0;  ///< turn, slide: value = multiplier·q + offset
+  std::size_t count = 1;              ///< `translation` only: how many numbers, 2 or 3
+  double multiplier = 1, offset = 0;  ///< `revolute`, `prismatic`: value = multiplier·q + offset
 };
 
-/// All that moves, and the world that it stands in: frame 0 is the world, parents come before their
-/// children. Plain data, read by the planner's kinematics and by the verifier's own.
+/// The frames of everything that moves, and of the world. Frame 0 is the world; parents come before
+/// their children. Plain data: the planner's kinematics and the verifier's independent kinematics
+/// both read it.
 struct KinematicTree {
   std::vector<Frame> frames{Frame{}};
 
@@ -46,7 +50,7 @@ struct KinematicTree {
   }
 };
 
-/// The pose of every frame in the world, rounded.
+/// Returns the pose of every frame in the world, rounded to double.
 std::vector<Transform> framePoses(const KinematicTree& tree, const Configuration& q);
 
 }  // namespace corridor

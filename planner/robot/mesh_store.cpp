@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {
@@ -43,9 +43,10 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& entry : packages_) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);
-  return {beside, "package " + quotedWord(package) + " has no folder" +
-                      (near.empty() ? " (robot.yaml: packages: {" + package + ": FOLDER})" : near) +
-                      ", and " + beside.string() + " is no file"};
+  return {beside,
+          beside.string() + " is not a file, and package " + quotedWord(package) +
+              " has no folder" +
+              (near.empty() ? "; add robot.yaml: packages: {" + package + ": FOLDER}" : near)};
 }
 
 MeshStore::Place MeshStore::locate(const std::string& name) const {

@@ -15,19 +15,19 @@ namespace corridor {
 /// The mesh files that a URDF names, each read once.
 class MeshStore {
  public:
-  /// Where a URDF's mesh may be.
+  /// The file that a URDF's mesh name stands for.
   struct Place {
     std::filesystem::path file;
-    std::string complaint;  ///< "": found, and read; or unreadable, and told before
+    std::string complaint;  ///< empty if the file was read, or if its fault was reported before
   };
 
-  /// @param files gets each file when it is first named, found or not.
+  /// @param files receives each file when it is first named, whether it exists or not.
   MeshStore(const std::filesystem::path& urdf, const PackageMap& packages,
             std::vector<std::filesystem::path>& files);
 
-  /// Finds and reads what a URDF calls `name`.
+  /// Finds and reads the mesh that the URDF calls `name`.
   Place add(const std::string& name);
-  /// @pre added, without complaint.
+  /// @pre `file` was returned by add(), and it was readable.
   const MeshFile& get(const std::filesystem::path& file) const { return *meshes_.at(file); }
 
  private:
@@ -37,7 +37,7 @@ class MeshStore {
   std::filesystem::path folder_;
   const PackageMap& packages_;
   std::vector<std::filesystem::path>& files_;
-  std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;  // none: unreadable
+  std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;  // nullopt: unreadable
 };
 
 }  // namespace corridor

@@ -22,29 +22,40 @@ LongPose::Vec unitAxis(const Vec3& axis) {
   return axis.cast<Scalar>().stableNormalized();
 }
 
-/// sin φ·K and (1 − cos φ)·K² of a rotation, by the axis.
+/// Returns K and K² for K = axis×. The rotation by φ is 1 + sin φ·K + (1 − cos φ)·K².
 std::pair<LongPose::Mat, LongPose::Mat> rodrigues(const LongPose::Vec& axis) {
   const LongPose::Mat K = crossMatrix(axis);
   return {K, K * K};
 }
 
-// With u the unit roundoff, and norms of matrices from errors of entries by Frobenius' norm:
-//   a long double pose rounded to double: 2^-53·√3 < 2u a matrix of norm-1 rows; what each pose
-//     that was put together loses in long double (2^-64 a rounding, some 30 of them) is < 2^-58.
-//   fixed + sin φ·FK + (1 − cos φ)·FK²: the three constants √3 + √2 + 2√2 < 6u; sine and cosine
-//     within 1 ulp, doubled to be generous with libm, 4u each, and 1 − cos rounds: 9u; the sum, 3
-//     roundings of terms of norms √3, √2, 2√2: 18u. Below 40u, to which the error of φ is added.
+// Error constants, with u the unit roundoff. The norm of a matrix error is bounded by Frobenius'
+// norm of its entries' errors.
+//
+// Constant poses. A long double pose rounded to double: 2^-53·√3 < 2u for a matrix with rows of
+// norm 1. Each pose that was multiplied in loses < 2^-58 in long double (some 30 roundings of
+// 2^-64).
+//
+// Revolute joint, fixed + sin φ·FK + (1 − cos φ)·FK²:
+// - the three constant matrices: √3 + √2 + 2√2 < 6u;
+// - sine and cosine within 1 ulp, doubled to be generous with libm, 4u each, and the rounding of 1
+//   − cos: 9u;
+// - the sum, 3 roundings of terms with norms √3, √2, 2√2: 18u.
+// Together below 40u. The error of φ comes in addition.
 constexpr double kFoldError = 0x1p-58;
 constexpr double kTurnError = 40 * kUnit;
-// A free rotation (as in rigid_motion.cpp, where the steps are counted): normalising, 6u a
-// quaternion; the relative one, 20u; its angle θ = 2·atan2(s, w), 48u; its axis, 20u/s + 3u, where
-// θ/s ≤ π: a rotation vector within 48u + 73u; the matrices and their sum with sine and cosine, in
-// all below 200u for the orientation. Each of the three matrices (norms √3, √2, 2√2) times `fixed`:
-// 3u·√3·6 + 6·2u < 44u. Below 2^-44 = 512u, and the vector below 2^-45.
+// Free rotation (rigid_motion.cpp counts the steps):
+// - normalising: 6u per quaternion; the relative quaternion: 20u;
+// - its angle θ = 2·atan2(s, w): 48u; its axis: 20u/s + 3u, where θ/s ≤ π. The rotation vector is
+//   therefore within 48u + 73u, below 2^-45.
+// - the matrices, and their sum with sine and cosine: below 200u for the orientation;
+// - the product of `fixed` with each of the three matrices (norms √3, √2, 2√2): 3u·√3·6 + 6·2u <
+//   44u.
+// The orientation is within 2^-44 = 512u.
 constexpr double kFreeTurnError = 0x1p-44;
 constexpr double kFreeRateError = 0x1p-45;
 
-/// What squares of are normal numbers; motions below it vanish in EdgeMotion's least error.
+/// Squares of values from here on are normal numbers. Smaller motions are covered by EdgeMotion's
+/// least error.
 constexpr double kLeastMotion = 0x1p-500;
 
 }  // namespace
@@ -57,11 +68,11 @@ LongPose LongPose::then(const Frame& frame) const {
   next.m = m * q.toRotationMatrix();
   next.length = roundedUp(length + frame.fixed.p.norm());
   if (frame.variable == Frame::noVariable) {
-    if (frame.joint == Frame::Joint::turn) {
+    if (frame.joint == Frame::Joint::revolute) {
       const auto [K, KK] = rodrigues(unitAxis(frame.axis));
       const Scalar value = frame.offset;
       next.m += next.m * (std::sin(value) * K + (1 - std::cos(value)) * KK);
-    } else if (frame.joint == Frame::Joint::slide) {
+    } else if (frame.joint == Frame::Joint::prismatic) {
       next.t += next.m * (frame.offset * unitAxis(frame.axis));
       next.length = roundedUp(next.length + std::abs(frame.offset));
     }
@@ -75,7 +86,8 @@ MovingJoint::MovingJoint(const LongPose& fixed)
     : fixed_(fixed.m.cast<double>()),
       shift_(fixed.t.cast<double>()),
       fixedError_(fixed.error),
-      // The sum rounds to double once, and every pose's own vector is turned in long double.
+      // Rounding the sum to double costs 2u·length. In long double each pose rotates its own
+      // vector, which costs less than 2^-5 of that.
       fixedShiftError_(2 * kUnit * fixed.length * (1 + 0x1p-5 * fixed.poses)),
       fixedLength_(fixed.length),
       still_(fixed_),
@@ -93,15 +105,15 @@ MovingJoint::MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::
   multiplier_ = frame.multiplier;
   offset_ = frame.offset;
   tube_ = tube[variable_];
-  if (joint_ == Frame::Joint::shift) {
+  if (joint_ == Frame::Joint::translation) {
     count_ = static_cast<Eigen::Index>(frame.count);
     tube_ = tube.segment(variable_, count_).norm();
-  } else if (joint_ != Frame::Joint::rotate) {
+  } else if (joint_ != Frame::Joint::rotation) {
     tube_ *= std::abs(multiplier_);
     const LongPose::Vec axis = unitAxis(frame.axis);
     axis_ = axis.cast<double>();
     slideAxis_ = (fixed.m * axis).cast<double>();
-    if (joint_ == Frame::Joint::turn) {
+    if (joint_ == Frame::Joint::revolute) {
       const auto [K, KK] = rodrigues(axis);
       sine_ = (fixed.m * K).cast<double>();
       versine_ = (fixed.m * KK).cast<double>();
@@ -112,9 +124,9 @@ MovingJoint::MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::
 
 Transform MovingJoint::at(double t) const {
   Transform X{still_, from_};
-  if (joint_ == Frame::Joint::turn || joint_ == Frame::Joint::rotate) {
+  if (joint_ == Frame::Joint::revolute || joint_ == Frame::Joint::rotation) {
     const double phi = angle_ + t * rate_;
-    // 1 − cos φ cancels for small φ, but only its absolute error counts.
+    // 1 − cos φ cancels for small φ, but only its absolute error matters.
     X.m += std::sin(phi) * sine_ + (1 - std::cos(phi)) * versine_;
   } else {
     X.t += t * delta_;
@@ -123,9 +135,9 @@ Transform MovingJoint::at(double t) const {
 }
 
 void MovingJoint::set(const Configuration& from, const Configuration& to) {
-  if (joint_ == Frame::Joint::shift) setShift(from, to);
-  if (joint_ == Frame::Joint::rotate) setRotation(from, to);
-  if (joint_ == Frame::Joint::turn || joint_ == Frame::Joint::slide) setValue(from, to);
+  if (joint_ == Frame::Joint::translation) setShift(from, to);
+  if (joint_ == Frame::Joint::rotation) setRotation(from, to);
+  if (joint_ == Frame::Joint::revolute || joint_ == Frame::Joint::prismatic) setValue(from, to);
 }
 
 void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
@@ -134,27 +146,30 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
   ambiguous_ = false;
   if (kind_ == Coordinate::Kind::circle) {
     const CircleTurn turn = circleTurn(q0, q1);
-    // Beyond the seam, a value that doesn't come round with the circle would jump.
-    const bool comesRound = joint_ == Frame::Joint::turn && multiplier_ == std::trunc(multiplier_);
+    // A joint that mimics a circle by a whole multiplier returns to the same pose after a full turn
+    // of the circle. Any other joint would jump where the edge crosses the seam at ±π.
+    const bool comesRound =
+        joint_ == Frame::Joint::revolute && multiplier_ == std::trunc(multiplier_);
     ambiguous_ = turn.ambiguous() || (!comesRound && turn.angle != delta);
     delta = turn.angle;
     deltaError = std::abs(multiplier_) * turn.error;
   }
   const double value = multiplier_ * q0 + offset_;
   rate_ = multiplier_ * delta;
-  // With V = |m|·max|q| + |o|: m·q0 + o is within 2uV, m·Δ (|Δ| ≤ 2·max|q|, rounded) within 4uV,
-  // t times it rounds by 2uV, and the sum, at most V (a circle's 3V: beyond the seam), by 3uV:
-  // 11uV, and 12uV with the products of roundings.
+  // Let V = |m|·max|q| + |o|. Errors: m·q0 + o, 2uV; m·Δ (|Δ| ≤ 2·max|q|, rounded), 4uV; its
+  // product with t, 2uV; the sum, 3uV. (The sum is at most V, or 3V where a circle crosses its
+  // seam.) Together 11uV, and 12uV with the products of roundings.
   const double V = std::abs(multiplier_) * std::max(std::abs(q0), std::abs(q1)) + std::abs(offset_);
   const double valueError = 12 * kUnit * V + deltaError;
   rateError_ = q0 == q1 ? 0 : roundedUp(2 * kUnit * std::abs(rate_) + deltaError);
-  if (joint_ == Frame::Joint::turn) {
+  if (joint_ == Frame::Joint::revolute) {
     angle_ = value;
     rotationError_ = roundedUp(kTurnError + fixedError_ + valueError);
     return;
   }
-  // The slide's axis is within 2u, and value·axis, t times the way, and the sums round by u each of
-  // at most V, V, 2V and |p|: 13u + 2·2u + 2·1u + 4u < 24u of V besides `valueError`.
+  // Errors besides `valueError`: the slide axis is within 2u, and value·axis, t times the
+  // displacement, and the sums round by u each of at most V, V, 2V and |p|. Together 13u + 2·2u +
+  // 2·1u + 4u < 24u of V.
   from_ = shift_ + value * slideAxis_;
   delta_ = rate_ * slideAxis_;
   shiftError_ =
@@ -173,9 +188,9 @@ void MovingJoint::setShift(const Configuration& from, const Configuration& to) {
   rate_ = delta.norm();
   rateError_ = 8 * kUnit * rate_;
   axis_ = rate_ > 0 ? Vec3(delta / rate_) : Vec3::UnitX();
-  // With S the length of the largest coordinates: fixed·p0 and fixed·Δ (|Δ| ≤ 2S) round by 3√3u and
-  // take 2u from `fixed`: 8uS + 16uS; Δ and t times the way round by 2uS each, the sums by u(S +
-  // |p|) each: < 32uS + 4u|p|.
+  // Let S be the length of the vector of the largest coordinates. fixed·p0 and fixed·Δ (|Δ| ≤ 2S)
+  // round by 3√3u and inherit 2u from `fixed`: 8uS + 16uS. Δ and its product with t round by 2uS
+  // each, the sums by u(S + |p|) each. Together < 32uS + 4u|p|.
   const double S = p0.cwiseAbs().cwiseMax(p1.cwiseAbs()).norm();
   shiftError_ =
       roundedUp(fixedShiftError_ + 32 * kUnit * S + 4 * kUnit * fixedLength_ + S * fixedError_);

@@ -7,7 +7,8 @@
 
 namespace corridor {
 
-/// A pose in long double: what doesn't move is put together in it, and rounded once.
+/// A constant pose in long double. Consecutive constant poses are multiplied in long double and
+/// rounded to double once.
 struct LongPose {
   using Scalar = long double;
   static_assert(std::numeric_limits<Scalar>::digits >= 64);
@@ -15,20 +16,24 @@ struct LongPose {
   using Vec = Eigen::Matrix<Scalar, 3, 1>;
   Mat m = Mat::Identity();
   Vec t = Vec::Zero();
-  double error = 0;   ///< of m, as an operator norm
-  double length = 0;  ///< metres, the sum of the lengths of what was put together
-  int poses = 0;      ///< and how many
+  double error = 0;   ///< bound of the error of m, as an operator norm
+  double length = 0;  ///< metres: the sum of the lengths of the poses multiplied so far
+  int poses = 0;      ///< number of these poses
 
-  /// `frame` after this: its fixed pose, and its joint where that is held.
+  /// Returns this pose followed by the fixed pose of `frame` and, if its joint is held, by that
+  /// joint.
   LongPose then(const Frame& frame) const;
 };
 
-/// A frame's place in the one that it is seen from, X(t) = fixed · joint(t), along an edge: what is
-/// constant on the edge is computed once, and its rounding is a bound for the whole of it.
+/// The pose X(t) = fixed · joint(t) of a frame in its parent's frame, along an edge. Everything
+/// that is constant on the edge is computed once per edge. One rounding bound holds for the whole
+/// edge.
 class MovingJoint {
  public:
-  /// The pose `fixed` (which includes the frame's own) and after it the frame's joint.
-  /// @param kind of the coordinate that moves it. @param tube of all numbers of a Configuration.
+  /// The constant pose `fixed`, which includes the frame's own fixed pose, followed by the frame's
+  /// joint.
+  /// @param kind of the coordinate that moves the joint.
+  /// @param tube for all numbers of a Configuration, as in EdgeMotion.
   MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::Kind kind,
               const Configuration& tube);
   /// A constant pose.
@@ -38,17 +43,19 @@ class MovingJoint {
 
   Transform at(double t) const;
 
-  Frame::Joint joint() const { return joint_; }  ///< `none`: constant
+  Frame::Joint joint() const { return joint_; }  ///< `none`: a constant pose
   double tube() const { return tube_; }          ///< metres or radians
 
-  // Of the edge:
+  // Properties of the current edge:
   bool ambiguous() const { return ambiguous_; }
   bool still() const { return rate_ == 0; }
-  const Vec3& axis() const { return axis_; }  ///< unit, in the frame itself
-  /// What the joint does per unit of t, about or along the axis; signed. rad or m.
+  const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame itself
+  /// Signed speed of the joint per unit of t, about or along the axis; rad or m.
   double rate() const { return rate_; }
-  /// Bounds: of |rate·axis − the real one| (`axis` may besides be off by 32u), of the matrix (as an
-  /// operator norm) and the vector (metres) of `at`, and of the real vector's length.
+  /// Upper bounds, valid on the whole edge. `rateError`: |rate·axis − the real one|; the direction
+  /// of `axis` may be off by another 32u. `rotationError`: error of the matrix of `at`, as an
+  /// operator norm. `shiftError`: error of the vector of `at`, metres. `length`: length of the real
+  /// vector, metres.
   double rateError() const { return rateError_; }
   double rotationError() const { return rotationError_; }
   double shiftError() const { return shiftError_; }
@@ -59,7 +66,7 @@ class MovingJoint {
   void setShift(const Configuration& from, const Configuration& to);
   void setRotation(const Configuration& from, const Configuration& to);
 
-  // Of the model. A turn's matrix is fixed·(1 + sin φ·K + (1 − cos φ)·K²), K = axis×.
+  // Constant. The matrix of a revolute joint is fixed·(1 + sin φ·K + (1 − cos φ)·K²), K = axis×.
   Frame::Joint joint_ = Frame::Joint::none;
   Coordinate::Kind kind_ = Coordinate::Kind::line;
   Eigen::Index variable_ = 0, count_ = 1;
@@ -70,7 +77,7 @@ class MovingJoint {
   double fixedError_ = 0, fixedShiftError_ = 0, fixedLength_ = 0;
   Vec3 slideAxis_ = Vec3::Zero();  // fixed·axis
 
-  // Of the edge.
+  // Set for each edge.
   Mat3 still_, sine_ = Mat3::Zero(), versine_ = Mat3::Zero();
   double angle_ = 0;  // at t = 0
   Vec3 from_, delta_ = Vec3::Zero();

@@ -4,23 +4,24 @@
 #include <optional>
 #include <string>
 
+#include "collision/core/rigid_pose.h"
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_file.h"
-#include "collision/motion/rigid_motion.h"
 
 namespace corridor {
 
-/// A shape in the coordinates of its link (or of the world): scale, up-axis turn, local pose and
-/// the shift to a rigid robot's reference point are already in its vertices or points.
+/// A shape in the coordinates of its link, or of the world. Its vertices or points already include
+/// the scale, the up-axis rotation, the local pose, and the translation to a rigid robot's
+/// reference point.
 struct PlacedShape {
-  std::string name;  ///< "table"; of a link with several: "hand/2"
-  /// Exactly one of the two.
-  std::optional<MeshFile> mesh;  ///< format and rules; its `mesh` is the final one
+  std::string name;  ///< "table"; if a link has several shapes, "hand/2"
+  /// Exactly one of `mesh` and `part` is set.
+  std::optional<MeshFile> mesh;  ///< format and rules of the file; `mesh` in final coordinates
   std::optional<ConvexPart> part;
-  std::filesystem::path file;          ///< of a mesh
-  std::optional<Primitive> primitive;  ///< of a part: as it was written
-  RigidPose at;                        ///< of a part: as it was written
-  bool solid = false;                  ///< of a mesh; parts always are
+  std::filesystem::path file;          ///< mesh only
+  std::optional<Primitive> primitive;  ///< part only: as the user wrote it
+  RigidPose at;                        ///< part only: its pose as the user wrote it
+  bool solid = false;                  ///< mesh only; a part is always solid
 };
 
 }  // namespace corridor

@@ -12,8 +12,8 @@ namespace corridor {
 
 enum class JointType { fixed, revolute, continuous, prismatic, planar, floating };
 
-/// Follows another joint: value = multiplier·(value of `joint`) + offset. Chains of mimics are
-/// resolved by the reader: `joint` doesn't mimic itself.
+/// The rule of a joint that follows another: value = multiplier·(value of `joint`) + offset. The
+/// reader resolves chains of mimics, so `joint` doesn't mimic another one.
 struct Mimic {
   std::size_t joint = 0;
   double multiplier = 1, offset = 0;
@@ -22,14 +22,15 @@ struct Mimic {
 struct JointModel {
   std::string name;
   JointType type = JointType::fixed;
-  std::size_t parent = 0, child = 0;  ///< links, by index
-  RigidPose X_PJ;  ///< of the joint's frame, and of the child's at value 0, in the parent link's
+  std::size_t parent = 0, child = 0;  ///< indices of links
+  RigidPose X_PJ;  ///< pose in the parent link's frame: of the joint's frame, and of the child's at
+                   ///< value 0
   Vec3 axis = Vec3::UnitX();  ///< in the joint's frame, not 0; a planar joint's normal
-  /// Inclusive; rad or m. Revolute and prismatic joints only.
+  /// Inclusive limits, rad or m. Revolute and prismatic joints only.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::optional<Mimic> mimic;
-  int line = 0;  ///< in the URDF
+  int line = 0;  ///< in the URDF file
 };
 
 struct LinkModel {
@@ -37,23 +38,24 @@ struct LinkModel {
   std::vector<PlacedShape> shapes;
 };
 
-/// A pair of links that is not tested, and why: "adjacent", "SRDF: Never", "robot.yaml: allow".
+/// A pair of links that is never tested, and the reason: "adjacent", "SRDF: Never", "robot.yaml:
+/// allow".
 struct AllowedPair {
   std::string a, b, reason;
 };
 
-/// What robot.yaml, URDF and SRDF say of one robot. A rigid body is a robot of one link and no
-/// joints whose `mount` is floating (SE3) or planar (SE2).
+/// One robot, as its robot.yaml, URDF and SRDF describe it. A rigid body is a robot of one link
+/// without joints, whose `mount` is floating (SE3) or planar (SE2).
 struct RobotModel {
   std::string name;
-  JointType mount = JointType::fixed;  ///< how the root link stands on the robot's base
+  JointType mount = JointType::fixed;  ///< the joint between the robot's base and its root link
   std::size_t root = 0;
   std::vector<LinkModel> links;
-  std::vector<JointModel> joints;  ///< parents before children
+  std::vector<JointModel> joints;  ///< parents come before children
   std::vector<AllowedPair> allowed;
-  std::map<std::string, std::vector<std::string>> groups;       ///< SRDF: joint names
-  std::map<std::string, std::map<std::string, double>> states;  ///< named; joint values
-  std::map<std::string, std::string> stateGroup;                ///< SRDF: which group a state is of
+  std::map<std::string, std::vector<std::string>> groups;  ///< SRDF groups: their joints' names
+  std::map<std::string, std::map<std::string, double>> states;  ///< named states: joint values
+  std::map<std::string, std::string> stateGroup;                ///< SRDF: the group of each state
   std::vector<std::string> notes;
 };
 

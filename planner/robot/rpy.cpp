@@ -16,11 +16,12 @@ SineCosine ofEighths(int eighths) {
   return {sines[eighths & 7], sines[(eighths + 2) & 7]};
 }
 
-/// Of `angle / divisor`, divisor 1 or 2.
+/// Returns sine and cosine of `angle / divisor`. @pre divisor is 1 or 2.
 SineCosine sineCosine(double angle, int divisor) {
   const long double quarter = std::numbers::pi_v<long double> / 2;
   const long double quarters = std::nearbyint(angle / quarter);
-  // Beyond a thousand turns nobody writes multiples of 90 degrees, and doubles are too far apart.
+  // Up to 1,024 turns, as files hardly contain larger multiples of 90 degrees. Beyond that, doubles
+  // are too sparse to recognise them.
   if (std::abs(quarters) <= 4096 && static_cast<double>(quarters * quarter) == angle)
     return ofEighths(static_cast<int>(quarters) * 2 / divisor);
   const long double part = static_cast<long double>(angle) / divisor;
@@ -48,7 +49,7 @@ Mat3 matrixFromRpy(const Vec3& rpy) {
       z.sine * y.cosine, z.sine * y.sine * x.sine + z.cosine * x.cosine,
       z.sine * y.sine * x.cosine - z.cosine * x.sine,  //
       -y.sine, y.cosine * x.sine, y.cosine * x.cosine;
-  return R.cast<double>() + Mat3::Zero();  // -0 becomes 0
+  return R.cast<double>() + Mat3::Zero();  // turns -0 into 0
 }
 
 }  // namespace corridor

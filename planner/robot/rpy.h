@@ -4,9 +4,10 @@
 
 #include "collision/core/transform.h"
 
-/// Rotations as URDF writes them: about the fixed axes x (roll), then y (pitch), then z (yaw),
-/// radians. Computed in long double and rounded once. An angle that is the double nearest to a
-/// multiple of 90 degrees is taken for that multiple: its sine and cosine are exact.
+/// Conversions of URDF's roll, pitch and yaw: rotations about the fixed axes x (roll), then y
+/// (pitch), then z (yaw), in radians. Results are computed in long double and rounded once. An
+/// angle that is the double nearest to a multiple of 90 degrees is taken for that multiple, with
+/// exact sine and cosine.
 namespace corridor {
 
 Eigen::Quaterniond quaternionFromRpy(const Vec3& rpy);

@@ -4,7 +4,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/robot/urdf_file.h"
 #include "planner/robot/xml_file.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 using Element = XmlFile::Element;
 
-/// Groups and states as MoveIt reads them (srdfdom), but what it passes over is a fault.
+/// Reads groups and states as MoveIt does (srdfdom), and reports as a fault what srdfdom skips.
 class SrdfReader {
  public:
   SrdfReader(XmlFile& file, RobotModel& model) : file_(file), model_(model) {
@@ -47,14 +47,14 @@ class SrdfReader {
  private:
   static constexpr std::size_t none = SIZE_MAX;
 
-  /// Names with their indices. No name comes twice.
+  /// Unique names with their indices.
   class Names {
    public:
     void add(const std::string& name) {
       indices_.emplace(name, names_.size());
       names_.push_back(name);
     }
-    /// nullopt: there is none.
+    /// nullopt: unknown name.
     std::optional<std::size_t> find(const std::string& name) const {
       const auto found = indices_.find(name);
       return found == indices_.end() ? std::nullopt : std::optional(found->second);
@@ -68,9 +68,9 @@ class SrdfReader {
     std::unordered_map<std::string, std::size_t> indices_;
   };
 
-  /// Faults a file beyond the limits. @returns whether it is.
+  /// Reports each count above its limit. @returns whether there is any.
   bool isTooLarge(const Element& root) {
-    std::map<std::string_view, std::size_t> counts;  // of elements
+    std::map<std::string_view, std::size_t> counts;  // number of elements with each name
     std::size_t members = 0, chains = 0;
     for (const Element* element = root.FirstChildElement(); element;
          element = element->NextSiblingElement()) {
@@ -100,7 +100,7 @@ class SrdfReader {
   }
   static constexpr std::size_t mostPairs = 1'000'000;
 
-  using Joints = std::set<std::size_t>;  // the model's order
+  using Joints = std::set<std::size_t>;  // indices, so in the model's order
 
   static void forEach(Element& parent, const char* name,
                       const std::function<void(Element&)>& read) {
@@ -113,7 +113,7 @@ class SrdfReader {
     model_.notes.push_back(file_.at(element.GetLineNum(), text));
   }
 
-  /// The index of what an attribute names. nullopt: faulted.
+  /// Returns the index of the thing that an attribute names. nullopt: a fault was reported.
   std::optional<std::size_t> find(const Element& element, const char* attribute,
                                   const std::string& owner, const char* kind, const Names& known) {
     const auto name = file_.text(element, attribute, owner);
@@ -131,7 +131,8 @@ class SrdfReader {
                                       const std::string& owner) {
     return find(element, attribute, owner, "link", links_);
   }
-  /// nullopt also for virtual joints: a problem says itself how a robot stands in the world.
+  /// Returns nullopt also for virtual joints. These are ignored, as the problem file places the
+  /// robot in the world.
   std::optional<std::size_t> findJoint(const Element& element, const char* attribute,
                                        const std::string& owner) {
     const char* const name = element.Attribute(attribute);
@@ -146,7 +147,7 @@ class SrdfReader {
     return above;
   }
 
-  /// The joints between two links: those above one of them, and not above both.
+  /// Adds the joints between two links: those above exactly one of the two.
   void addChain(Element& element, const std::string& owner, Joints& joints) {
     const auto base = findLink(element, "base_link", owner);
     const auto tip = findLink(element, "tip_link", owner);
@@ -174,9 +175,10 @@ class SrdfReader {
       const auto name = file_.text(element, "name", "");
       if (!name) return;
       if (const Group* first = findGroup(*name))
-        return file_.fault(element.GetLineNum(),
-                           owned("group", *name) + " is there already, on line " +
-                               std::to_string(first->element->GetLineNum()) + "; names are unique");
+        return file_.fault(element.GetLineNum(), owned("group", *name) +
+                                                     " is already defined on line " +
+                                                     std::to_string(first->element->GetLineNum()) +
+                                                     "; names must be unique");
       groups_.push_back({*name, &element, {}, {}});
       groupNames_.add(*name);
     });
@@ -225,7 +227,8 @@ class SrdfReader {
     if (file_.faultCount() != before) faulty_.insert(group.name);
   }
 
-  /// The joints of a group and of those that are in it, at any depth.
+  /// Returns the joints of a group and of all groups in it, at any depth. Reports a group that
+  /// contains itself.
   Joints collect(std::size_t root) {
     Joints joints;
     std::vector<std::size_t> above(groups_.size(), none), open{root};
@@ -248,24 +251,24 @@ class SrdfReader {
   void faultCircle(std::size_t root, std::size_t last, const std::vector<std::size_t>& above) {
     std::vector<std::string> names{groupNames_[root]};
     for (std::size_t i = last; i != root; i = above[i]) names.push_back(groupNames_[i]);
-    // Told once, by the first of the circle.
+    // Every group of the circle finds it; only the one with the least name reports it.
     if (*std::min_element(names.begin(), names.end()) != names.front()) return;
     names.push_back(names.front());
     std::reverse(names.begin(), names.end());
     file_.fault(groups_[root].element->GetLineNum(),
-                "the groups " + joinedFirst(names) + " are in each other in a circle");
+                "the groups " + joinedFirst(names) + " contain each other in a circle");
   }
 
   struct State {
-    std::string name, group;  ///< group "": none named
+    std::string name, group;  ///< group: empty if none is named
     int line = 0;
     std::map<std::string, double> values;
   };
 
   void readStates(Element& root) {
     std::vector<State> states;
-    std::map<std::pair<std::string, std::string>, int> lines;  // of names in their groups
-    std::map<std::string, int> count;                          // of names
+    std::map<std::pair<std::string, std::string>, int> lines;  // line of each name in each group
+    std::map<std::string, int> count;                          // number of states with each name
     forEach(root, "group_state", [&](Element& element) {
       const auto name = file_.text(element, "name", "");
       if (!name) return;
@@ -290,15 +293,15 @@ class SrdfReader {
                           joined(fixed));
       const auto [first, isNew] = lines.emplace(std::pair{state.name, state.group}, state.line);
       if (!isNew)
-        return file_.fault(state.line, owner + " is there already, on line " +
+        return file_.fault(state.line, owner + " is already defined on line " +
                                            std::to_string(first->second) +
-                                           "; names are unique in a group");
+                                           "; names must be unique in a group");
       ++count[state.name];
       states.push_back(std::move(state));
     });
     for (State& state : states) {
       const bool shared = count[state.name] > 1;
-      // Two arms may both have a "home".
+      // Two groups may both have a "home".
       const std::string name =
           shared && !state.group.empty() ? state.group + "/" + state.name : state.name;
       model_.states[name] = state.values;
@@ -356,10 +359,10 @@ class SrdfReader {
   XmlFile& file_;
   RobotModel& model_;
   Names links_, joints_, groupNames_;
-  std::vector<std::size_t> parentJoint_;  // of each link
+  std::vector<std::size_t> parentJoint_;  // for each link
   std::set<std::string> virtualJoints_;
   std::vector<Group> groups_;
-  std::set<std::string> faulty_;  // groups that name what isn't there
+  std::set<std::string> faulty_;  // groups with unknown names in them
 };
 
 }  // namespace

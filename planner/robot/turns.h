@@ -10,7 +10,8 @@
 
 namespace corridor {
 
-/// Norm 1, whatever the size of the coefficients. @pre finite, not zero.
+/// Returns the quaternion with norm 1, without overflow or underflow for any size of the
+/// coefficients. @pre finite, not zero.
 inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
   const double squared = q.squaredNorm();
   if (squared > 1e-200 && squared < 1e200) return q.normalized();
@@ -18,11 +19,15 @@ inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
   return Eigen::Quaterniond(Eigen::Vector4d(scaled / scaled.norm()));
 }
 
-/// Half the angle of the rotation from a to b, in [0, π/2], whatever their norms. Planners spend
-/// half of their own time on it: of the relative quaternion (vector, scalar) the smaller part is
-/// taken by its arc sine or cosine, which is well conditioned there and costs half of an arc
-/// tangent. Within 4u·√3 for the vector's sums of four products, and some ulp; 0 for equal
+/// Returns the quaternion angle between a and b, which is half the angle of the rotation from a to
+/// b. The result is in [0, π/2] radians, for quaternions of any norm; it is 0 for equal
 /// quaternions.
+///
+/// Error: 4u·√3 from the vector part's sums of four products, and a few ulp.
+///
+/// Planners spend half of their own time here. The relative quaternion has a vector part (the sine)
+/// and a scalar part (the cosine). The function takes the arc sine or arc cosine of the smaller
+/// one: this is well conditioned, and costs half as much as an arc tangent.
 inline double quaternionAngle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const double squares = a.squaredNorm() * b.squaredNorm();
   const bool plain = squares > 1e-200 && squares < 1e200;

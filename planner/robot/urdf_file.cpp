@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <urdf_model/model.h>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/robot/rpy.h"
 #include "planner/robot/urdf_outline.h"
 #include "planner/robot/urdfdom.h"
@@ -15,7 +15,8 @@
 namespace corridor {
 namespace {
 
-/// One line of what urdfdom printed, at the link or joint that it names.
+/// Reports everything that urdfdom printed as one fault, at the line of the joint or link that it
+/// names.
 void faultErrors(const std::vector<std::string>& errors, const UrdfOutline& outline,
                  XmlFile& file) {
   std::string text = "urdfdom, the reader of URDF, refuses it";
@@ -36,8 +37,8 @@ RigidPose poseOf(const urdf::Pose& pose, const Vec3& rpy) {
   return {Vec3(pose.position.x, pose.position.y, pose.position.z), quaternionFromRpy(rpy)};
 }
 
-/// The same direction, its largest component in [1, 2), so that no square is out of range: powers
-/// of two round nothing.
+/// Returns the axis scaled by a power of two, so that its largest component is in [1, 2). No square
+/// over- or underflows then, and the scaling is exact.
 Vec3 axisOf(const urdf::Vector3& axis) {
   const Vec3 v(axis.x, axis.y, axis.z);
   const int exponent = std::ilogb(v.cwiseAbs().maxCoeff());
@@ -90,7 +91,7 @@ class ModelBuilder {
       addJoint(outline_.joints[j]);
       const JointModel& joint = model_.joints.back();
       hasParent[joint.child] = true;
-      // A planar or floating joint lets its links go anywhere, through each other as well.
+      // A planar or floating joint lets its links pass through each other, so they are tested.
       if (joint.type != JointType::planar && joint.type != JointType::floating)
         model_.allowed.push_back(
             {model_.links[joint.parent].name, model_.links[joint.child].name, "adjacent"});
@@ -110,9 +111,9 @@ class ModelBuilder {
     const auto source = urdf_.getLink(urdfdomName(outline.name));
     const std::size_t count = source ? source->collision_array.size() : 0;
     if (count != outline.collisions.size())
-      return file_.fault(outline.line, owned("link", outline.name) + " has " +
+      return file_.fault(outline.line, owned("link", outline.name) + ": it has " +
                                            std::to_string(outline.collisions.size()) +
-                                           " <collision>, and urdfdom hands on " +
+                                           " <collision>, but urdfdom returns " +
                                            std::to_string(count));
     for (std::size_t i = 0; i < count; ++i)
       addShape(*source->collision_array[i], outline.collisions[i],
@@ -152,7 +153,7 @@ class ModelBuilder {
     const auto source = urdf_.getJoint(urdfdomName(outline.name));
     if (!source)
       return file_.fault(outline.line,
-                         owned("joint", outline.name) + " is not among what urdfdom hands on");
+                         owned("joint", outline.name) + ": urdfdom doesn't return it");
     joint.X_PJ = poseOf(source->parent_to_joint_origin_transform, outline.rpy);
     if (joint.type != JointType::fixed && joint.type != JointType::floating)
       joint.axis = axisOf(source->axis);
@@ -162,7 +163,7 @@ class ModelBuilder {
     }
   }
 
-  /// @pre the mimics are sound: no circles, leaders that move.
+  /// Resolves chains of mimics. @pre there is no circle of mimics, and each leader moves.
   void setMimics() {
     std::vector<bool> done(model_.joints.size(), false);
     std::vector<std::size_t> chain;
@@ -187,7 +188,7 @@ class ModelBuilder {
   }
   std::size_t leaderOf(std::size_t j) const { return jointIndex_.at(mimicOf(j)->joint_name); }
 
-  /// A joint that others mimic goes only where they stay within their own limits.
+  /// Restricts the range of a mimicked joint so that its follower stays within its own limits.
   void narrowLeader(const UrdfJoint& outline, const JointModel& follower) {
     const bool limited =
         follower.type == JointType::revolute || follower.type == JointType::prismatic;
@@ -199,7 +200,7 @@ class ModelBuilder {
         round ? Range{-std::numbers::pi, std::numbers::pi} : Range{leader.lower, leader.upper};
     Range range = before;
     if (multiplier != 0) {
-      const double a = (follower.lower - offset) / multiplier + 0.0;  // no -0
+      const double a = (follower.lower - offset) / multiplier + 0.0;  // turns -0 into 0
       const double b = (follower.upper - offset) / multiplier + 0.0;
       range = {std::max(before.lower, std::min(a, b)), std::min(before.upper, std::max(a, b))};
     }
@@ -214,10 +215,11 @@ class ModelBuilder {
     leader.type = round ? JointType::revolute : leader.type;
     leader.lower = range.lower;
     leader.upper = range.upper;
-    model_.notes.push_back(file_.at(
-        outline.mimic->line, owned("joint", leader.name) + " has the range " + range.text() +
-                                 ", not " + before.text() + ", since " + quotedWord(follower.name) +
-                                 ", which mimics it, has " + own.text()));
+    model_.notes.push_back(
+        file_.at(outline.mimic->line, owned("joint", leader.name) + ": its range is reduced from " +
+                                          before.text() + " to " + range.text() + ", because " +
+                                          quotedWord(follower.name) +
+                                          " mimics it and has the range " + own.text()));
   }
 
   const UrdfOutline& outline_;

@@ -11,21 +11,22 @@
 
 namespace corridor {
 
-/// Where the `package://NAME/…` of a URDF are: folders by package name. A name that isn't there is
-/// looked for as NAME/… beside the URDF.
+/// Folders by package name, for names such as `package://NAME/…` in a URDF. For a package that is
+/// not listed the reader tries NAME/… beside the URDF, then each folder called NAME above it.
 using PackageMap = std::map<std::string, std::filesystem::path>;
 
-/// Reads a URDF with its collision geometry (visuals are not looked at), by urdfdom, and checks
-/// what urdfdom lets through. Every fault goes to `faults` with file and line, all of them at once;
-/// nullopt where there is any. `files` gets the URDF and every mesh file, in the order in which
-/// they are first named.
+/// Reads a URDF with its collision geometry, by urdfdom, and checks what urdfdom doesn't. Visuals
+/// are ignored.
+///
+/// All faults are appended to `faults`, with file and line; the result is nullopt if there is any.
+/// `files` receives the URDF and every mesh file, in the order in which they are first named.
 std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const PackageMap& packages,
                                    std::vector<Fault>& faults,
                                    std::vector<std::filesystem::path>& files);
 
-/// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states,
-/// disable_collisions with their reasons. What names things that the model doesn't have is a fault
-/// (but virtual joints and end effectors are not looked at).
+/// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states, and
+/// disabled collisions with their reasons. A name that the model doesn't have is a fault. Virtual
+/// joints and end effectors are ignored.
 void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults);
 
 }  // namespace corridor

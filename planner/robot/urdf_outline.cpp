@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "collision/geometry/mesh_limits.h"
 #include "planner/robot/joint_types.h"
 
@@ -13,7 +13,7 @@ namespace {
 using Element = XmlFile::Element;
 using Numbers = std::optional<std::vector<double>>;
 
-/// A size: one number above 0, or three.
+/// Requires `count` numbers above 0.
 void checkSize(XmlFile& file, Element& shape, const char* attribute, std::size_t count,
                const std::string& owner) {
   file.require(shape, attribute, owner);
@@ -51,7 +51,7 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
   }
   if (kind == "mesh") return checkMesh(file, shape, meshes, collision, owner, notes);
   const std::vector<std::string> known{"box", "cylinder", "sphere", "mesh"};
-  const auto near = nearest(kind, known);
+  const auto near = mostSimilar(kind, known);
   file.fault(shape.GetLineNum(),
              owner + ": unknown geometry <" + kind + ">; " +
                  (kind == "capsule" ? "a capsule is a <cylinder> and two <sphere>, each in a "
@@ -60,13 +60,13 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
                                     : "<box>, <cylinder>, <sphere> or <mesh> is needed"));
 }
 
-/// @returns the rotation.
+/// @returns roll, pitch and yaw.
 Vec3 readOrigin(XmlFile& file, Element& parent, const std::string& owner,
                 std::vector<std::string>& notes) {
   Element* const element = file.child(parent, "origin", owner);
   if (!element) return Vec3::Zero();
   if (const auto* quaternion = element->FindAttribute("quat_xyzw"))  // of URDF 1.2
-    file.fault(quaternion->GetLineNum(), owner + ": origin quat_xyzw is not read; rpy is needed");
+    file.fault(quaternion->GetLineNum(), owner + ": origin quat_xyzw is not supported; use rpy");
   else
     file.checkAttributes(*element, {"xyz", "rpy"}, owner, notes);
   file.numbers(*element, "xyz", 3, owner);
@@ -121,7 +121,7 @@ std::optional<JointType> readType(XmlFile& file, Element& element, const std::st
   return std::nullopt;
 }
 
-/// @returns "" where it is faulted.
+/// @returns the link's name; empty if a fault was reported.
 std::string readEnd(XmlFile& file, Element& joint, const char* end, const std::string& owner) {
   if (const Element* element = file.child(joint, end, owner))
     return file.text(*element, "link", owner).value_or("");
@@ -140,17 +140,18 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
                owner + ": the axis is zero; a direction is needed, such as xyz=\"0 0 1\"");
 }
 
-/// @returns whether there is a range: lower, upper, or both.
+/// @returns whether the joint has a range: lower, upper, or both.
 bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
                 const std::string& owner, std::vector<std::string>& notes) {
   Element* const limit = file.child(joint, "limit", owner);
   const bool needed = type == JointType::revolute || type == JointType::prismatic;
   if (!limit) {
     if (needed)
-      file.fault(
-          joint.GetLineNum(),
-          owner + ": <limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/> is missing" +
-              (type == JointType::revolute ? "; without limits the type is continuous" : ""));
+      file.fault(joint.GetLineNum(),
+                 owner +
+                     ": <limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/> is missing" +
+                     (type == JointType::revolute ? "; a joint without limits is of type continuous"
+                                                  : ""));
     return false;
   }
   const Numbers lower = file.numbers(*limit, "lower", 1, owner);
@@ -212,7 +213,7 @@ UrdfJoint readJoint(XmlFile& file, Element& element, std::vector<std::string>& n
   return joint;
 }
 
-/// xacro's macros would be ignored as unknown elements.
+/// Reports an unexpanded xacro file, whose macros would otherwise be ignored as unknown elements.
 bool isXacro(XmlFile& file, const Element& element) {
   for (const Element* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
@@ -229,22 +230,24 @@ bool isXacro(XmlFile& file, const Element& element) {
 
 using Lines = std::unordered_map<std::string, int>;
 
-/// @param lines of those that are there. @returns false: faulted, and left out.
+/// Appends `named` to `all`, unless its name is missing or already taken; a taken name is a fault.
+/// @param lines the line of each name so far.
+/// @returns whether it was appended.
 template <class Named>
 bool addUnique(Named named, const char* kind, std::vector<Named>& all, Lines& lines,
                XmlFile& file) {
   if (named.name.empty()) return false;
   const auto [first, isNew] = lines.emplace(named.name, named.line);
   if (!isNew) {
-    file.fault(named.line, owned(kind, named.name) + " is there already, on line " +
-                               std::to_string(first->second) + "; names are unique");
+    file.fault(named.line, owned(kind, named.name) + " is already defined on line " +
+                               std::to_string(first->second) + "; names must be unique");
     return false;
   }
   all.push_back(std::move(named));
   return true;
 }
 
-/// Faults a robot beyond the limits. @returns whether there is one.
+/// Reports each count above its limit. @returns whether there is any.
 bool isTooLarge(XmlFile& file, const Element& root) {
   constexpr std::size_t mostLinks = 10'000, mostShapes = 100'000;
   std::size_t links = 0, joints = 0, shapes = 0;
@@ -270,7 +273,8 @@ bool isTooLarge(XmlFile& file, const Element& root) {
   return file.faultCount() != before;
 }
 
-/// Each shape has a copy of its mesh. @pre the file is sound.
+/// Limits the triangles of all shapes together, because each shape has a copy of its mesh. @pre the
+/// file has no fault.
 void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile& file) {
   std::size_t triangles = 0;
   for (const UrdfLink& link : outline.links)
@@ -307,7 +311,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::s
           addUnique(readJoint(file, *element, notes), "joint", outline.joints, joints, file);
   }
   if (!root.FirstChildElement("link"))
-    file.fault(root.GetLineNum(), "the robot has no <link>; one at least is needed");
+    file.fault(root.GetLineNum(), "the robot has no <link>; at least one is needed");
   if (file.sound()) checkTriangles(outline, meshes, file);
   return outline;
 }

@@ -8,13 +8,13 @@
 #include "planner/robot/robot_model.h"
 #include "planner/robot/xml_file.h"
 
-/// What a URDF says, element by element, before it is known to be a robot. Not for users of the
-/// library. Everything that can be wrong in a single element is faulted here; what is wrong between
-/// elements is `checkUrdfTree`'s.
+/// The elements of a URDF that are checked and read before urdfdom parses it. Internal: users of
+/// the library don't need this header. `readUrdfOutline` reports what is wrong within a single
+/// element; `checkUrdfTree` reports what is wrong between elements.
 namespace corridor {
 
 struct UrdfCollision {
-  Vec3 rpy = Vec3::Zero();     ///< of its origin, whose rest is urdfdom's
+  Vec3 rpy = Vec3::Zero();     ///< rotation of its origin; urdfdom reads the position
   std::filesystem::path mesh;  ///< empty: not a mesh
   int line = 0;
 };
@@ -34,28 +34,28 @@ struct UrdfMimic {
 struct UrdfJoint {
   std::string name;
   int line = 0;
-  std::optional<JointType> type;  ///< nullopt: faulted
-  std::string parent, child;      ///< "": faulted
-  Vec3 rpy = Vec3::Zero();        ///< of its origin, whose rest is urdfdom's
+  std::optional<JointType> type;  ///< nullopt: a fault was reported
+  std::string parent, child;      ///< empty: a fault was reported
+  Vec3 rpy = Vec3::Zero();        ///< rotation of its origin; urdfdom reads the position
   bool ranged = false;            ///< its <limit> has lower or upper, or both
   std::optional<UrdfMimic> mimic;
 };
 
-/// In the order of the file; elements without a name are left out.
+/// The links and joints in the order of the file, without those that have no name of their own.
 struct UrdfOutline {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
-  bool complete = true;  ///< no link or joint was left out for want of a name of its own
+  bool complete = true;  ///< no link or joint was left out because it has no unique name
 };
 
-/// @pre file.root(). Meshes are read into `meshes`. Numbers in the XML are rewritten in plain
-/// decimals.
+/// Reads the elements and the mesh files that they name. Numbers in the XML are rewritten in plain
+/// decimals, for urdfdom. @pre file.root() is not null.
 UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::string>& notes);
 
-/// Faults what isn't a tree of links with one root, and mimics that follow nothing.
-/// @returns the joints, by index, in the tree's order: depth first, siblings as in the file. Empty
-/// where anything is faulted.
+/// Reports links that don't form a tree with one root, and mimics that follow no movable joint.
+/// @returns indices of the joints in the tree's order: depth first, siblings as in the file. Empty
+/// if the file has any fault.
 std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file);
 
 }  // namespace corridor

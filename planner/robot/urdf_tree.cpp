@@ -2,7 +2,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_outline.h"
 
@@ -44,8 +44,8 @@ class Tree {
   std::vector<std::size_t> check() {
     bool joined = outline_.complete;
     for (std::size_t j = 0; j < joints_.size(); ++j) joined &= join(j);
-    // What hangs from a link that is misspelt, or from a joint that was left out, is a root only
-    // because of that.
+    // A joint with a misspelt link, or one that was left out, leaves its child without a parent.
+    // That child would also be reported as a second root.
     if (joined) checkShape();
     for (std::size_t j = 0; j < joints_.size(); ++j) findLeader(j);
     for (std::size_t j = 0; j < joints_.size(); ++j)
@@ -54,7 +54,7 @@ class Tree {
   }
 
  private:
-  /// @returns false: faulted.
+  /// Joins two links. @returns false if a fault was reported.
   bool join(std::size_t j) {
     const UrdfJoint& joint = joints_[j];
     const std::string owner = owned("joint", joint.name);
@@ -68,16 +68,16 @@ class Tree {
     }
     if (!known) return false;
     if (joint.parent == joint.child) {
-      file_.fault(joint.line,
-                  owner + ": link " + quotedWord(joint.child) + " is its parent and its child");
+      file_.fault(joint.line, owner + ": its parent and its child are the same link " +
+                                  quotedWord(joint.child));
       return false;
     }
     const std::size_t child = linkIndex_.at(joint.child);
     if (const std::size_t first = parentJoint_[child]; first != none) {
       file_.fault(joint.line, owner + ": its child " + quotedWord(joint.child) +
-                                  " is the child of joint " + quotedWord(joints_[first].name) +
-                                  " already, on line " + std::to_string(joints_[first].line) +
-                                  "; a link has one parent");
+                                  " is already the child of joint " +
+                                  quotedWord(joints_[first].name) + " on line " +
+                                  std::to_string(joints_[first].line) + "; a link has one parent");
       return false;
     }
     parentJoint_[child] = j;
@@ -85,7 +85,7 @@ class Tree {
     return true;
   }
 
-  /// The nearest name.
+  /// "; did you mean …?" with the nearest name, or empty.
   template <class Named>
   std::string hint(const std::string& name, const std::vector<Named>& all) const {
     return file_.hints() ? didYouMean(name, namesOf(all)) : "";
@@ -102,12 +102,13 @@ class Tree {
       if (root == none)
         root = link;
       else
-        file_.fault(links_[link].line,
-                    owned("link", links_[link].name) + " is no joint's child, and neither is " +
-                        quotedWord(links_[root].name) + " on line " +
-                        std::to_string(links_[root].line) + "; a robot has one root");
+        file_.fault(links_[link].line, owned("link", links_[link].name) +
+                                           " is not a child of any joint, and neither is " +
+                                           quotedWord(links_[root].name) + " on line " +
+                                           std::to_string(links_[root].line) +
+                                           "; a robot has one root");
     }
-    // Every link has one parent at most, so what no root reaches hangs from a circle.
+    // Every link has at most one parent, so a link that no root reaches hangs from a circle.
     std::vector<int> walk(links_.size(), 0);
     for (std::size_t start = 0; start < links_.size(); ++start) {
       std::size_t link = start;
@@ -149,7 +150,7 @@ class Tree {
   void faultMimicCircle(std::size_t j) {
     std::vector<std::string> names{joints_[j].name};
     for (std::size_t other = j; !inCircle_[other]; other = leader_[other]) {
-      inCircle_[other] = true;  // told once
+      inCircle_[other] = true;  // the circle is reported once
       names.push_back(joints_[leader_[other]].name);
     }
     file_.fault(joints_[j].mimic->line, "the joints " + joinedFirst(names) + " mimic in a circle");
@@ -167,13 +168,13 @@ class Tree {
       return file_.fault(mimic.line, owner + " is " + nameOf(*joint.type) +
                                          ", and only a joint of one variable can mimic another");
 
-    // To the joint that moves by itself.
+    // Follow the chain of mimics to the joint that moves by itself.
     double multiplier = mimic.multiplier;
     std::size_t last = leader_[j];
     for (std::size_t steps = 0; joints_[last].mimic && joints_[last].type != JointType::fixed;
          ++steps) {
-      // A leader without a leader is told where it is; a circle that this joint only leads into is
-      // told by its own joints.
+      // A mimic without a valid leader was reported by findLeader(). A circle that this joint only
+      // leads into is reported for the circle's own joints.
       if (last == j && !inCircle_[j]) faultMimicCircle(j);
       if (last == j || leader_[last] == none || steps > joints_.size()) return;
       multiplier *= joints_[last].mimic->multiplier;
@@ -188,13 +189,14 @@ class Tree {
     if (leader->type != JointType::continuous || multiplier == 0) return;
     if (joint.type == JointType::prismatic)
       file_.fault(mimic.line, owner + " is prismatic and mimics " + quotedWord(leader->name) +
-                                  ", which is continuous and the same after a full turn; one of "
-                                  "them needs another type");
+                                  ", which is continuous and repeats after a full turn; change the "
+                                  "type of one of them");
     else if (multiplier != std::round(multiplier))
       file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) +
-                                  ", which is continuous and the same after a full turn, times " +
+                                  ", which is continuous and repeats after a full turn, by the "
+                                  "multiplier " +
                                   shortestText(multiplier) +
-                                  "; a whole number is needed, or a revolute " +
+                                  "; use a whole multiplier or a revolute " +
                                   quotedWord(leader->name));
   }
 
@@ -219,10 +221,10 @@ class Tree {
   const std::vector<UrdfJoint>& joints_;
   XmlFile& file_;
   Indices linkIndex_, jointIndex_;
-  std::vector<std::size_t> leader_;                 // of each joint: what it mimics
-  std::vector<bool> inCircle_;                      // joints whose circle is told
-  std::vector<std::size_t> parentJoint_;            // of each link
-  std::vector<std::vector<std::size_t>> children_;  // joints of each link
+  std::vector<std::size_t> leader_;                 // for each joint: the joint that it mimics
+  std::vector<bool> inCircle_;                      // joints whose circle was reported
+  std::vector<std::size_t> parentJoint_;            // for each link
+  std::vector<std::vector<std::size_t>> children_;  // for each link: the joints below it
 };
 
 }  // namespace

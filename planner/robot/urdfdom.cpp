@@ -9,7 +9,8 @@
 namespace corridor {
 namespace {
 
-/// Collects what is printed as an error while it lives; then all is as it was.
+/// Collects the errors that are printed through console_bridge during its lifetime. The destructor
+/// restores the previous handler and log level.
 class ErrorCatcher final : private console_bridge::OutputHandler {
  public:
   explicit ErrorCatcher(std::vector<std::string>& errors)
@@ -50,7 +51,8 @@ void removeAll(XmlFile::Element& parent, const char* name) {
 }  // namespace
 
 std::string urdfdomName(std::string name) {
-  // urdfdom hands its messages, with what users wrote in them, to printf as the format.
+  // urdfdom passes its messages to printf as the format string. A % in a user's name would be read
+  // as a conversion.
   std::replace(name.begin(), name.end(), '%', '?');
   return name;
 }
@@ -62,7 +64,8 @@ urdf::ModelInterfaceSharedPtr parseByUrdfdom(XmlFile::Element& robot,
     removeAll(*link, "visual");
   tinyxml2::XMLPrinter text;
   robot.Accept(&text);
-  // Its handler of messages is one for the whole program: threads take turns.
+  // console_bridge has one message handler for the whole program, so one thread at a time may
+  // parse.
   static std::mutex turn;
   const std::lock_guard lock(turn);
   const ErrorCatcher catcher(errors);

@@ -6,17 +6,18 @@
 
 #include "planner/robot/xml_file.h"
 
-/// Not for users of the library: it brings urdfdom.
+/// Internal: this header includes urdfdom's headers, which users of the library don't need.
 namespace corridor {
 
-/// What urdfdom makes of a robot, but for visuals and materials, which nobody here looks at (and
-/// which are removed from `robot`). nullptr where it prints an error: `errors` has it.
+/// Parses a robot with urdfdom. Visuals and materials are not needed; they are removed from `robot`
+/// before parsing. Returns nullptr if urdfdom prints an error; the errors are appended to `errors`.
 ///
-/// urdfdom prints by console_bridge, which is global: one thread at a time.
+/// Threads take turns, because urdfdom prints through console_bridge, which is global.
 urdf::ModelInterfaceSharedPtr parseByUrdfdom(XmlFile::Element& robot,
                                              std::vector<std::string>& errors);
 
-/// A name as it has it (see urdfdom.cpp).
+/// Returns a link's or joint's name as urdfdom knows it, with each % replaced (urdfdom.cpp says
+/// why).
 std::string urdfdomName(std::string name);
 
 }  // namespace corridor

@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "collision/core/fault_list.h"
-#include "collision/core/nearest.h"
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {
@@ -24,7 +24,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
   return words;
 }
 
-/// @returns a complaint, or "".
+/// @returns what is wrong, or an empty string.
 std::string parseNumber(const std::string& word, double& value) {
   const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   const char* const begin = word.data() + (plus ? 1 : 0);
@@ -32,7 +32,7 @@ std::string parseNumber(const std::string& word, double& value) {
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (stop != end || error == std::errc::invalid_argument)
     return "a number is needed, not " + quotedWord(word);
-  // Too large or too small: strtod, unlike from_chars, says which.
+  // from_chars reports overflow and underflow alike; strtod returns infinity or a tiny number.
   if (error == std::errc::result_out_of_range) value = std::strtod(begin, nullptr);
   if (!std::isfinite(value)) return "a finite number is needed, not " + quotedWord(word);
   return "";
@@ -50,8 +50,9 @@ bool holdsGeometry(const XmlFile::Element& element) {
   return false;
 }
 
-/// What would take TinyXML2 gigabytes (elements and attributes) or quadratic time (attributes of
-/// one element), or "". Entities need no limit: it expands none but XML's own five.
+/// Returns what would make TinyXML2 use gigabytes (elements and attributes) or quadratic time
+/// (attributes of one element), or an empty string. Entities need no limit: TinyXML2 expands only
+/// XML's own five.
 std::string whyTooMuch(std::string_view text) {
   constexpr std::size_t mostMarks = 10'000'000, mostInTag = 100;
   std::size_t marks = 0, inTag = 0;
@@ -79,7 +80,7 @@ std::string explained(tinyxml2::XMLError error) {
     case tinyxml2::XML_ERROR_PARSING_ELEMENT:
       return "an element cannot be read";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "the element that begins here is not closed by an end of its own name";
+      return "the element that begins here has no end tag of its own name";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
       return "a comment is not closed";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
@@ -87,7 +88,7 @@ std::string explained(tinyxml2::XMLError error) {
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
       return "there is no element";
     default:
-      return "text, elements or an end are not where they belong";
+      return "text, an element or an end tag is misplaced";
   }
 }
 
@@ -117,19 +118,20 @@ void XmlFile::open(const std::string& what) {
   }
   if (const std::string why = whyTooMuch(text); !why.empty()) return fault(0, why);
   if (const auto error = document_.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS)
-    return fault(document_.ErrorLineNum(), "is not sound XML: " + explained(error));
+    return fault(document_.ErrorLineNum(), "is not valid XML: " + explained(error));
   Element* const first = document_.RootElement();
   if (!first) return fault(0, "<robot> is missing; " + what + " is needed");
   if (std::string_view(first->Name()) != "robot")
-    return fault(first->GetLineNum(), "<robot> is needed, not <" + std::string(first->Name()) +
-                                          ">; " + what + " is needed");
+    return fault(first->GetLineNum(), "the root element is <" + std::string(first->Name()) +
+                                          ">, not <robot>; " + what + " is needed");
   if (const Element* second = first->NextSiblingElement())
-    return fault(second->GetLineNum(), "what follows </robot> belongs to nothing");
+    return fault(second->GetLineNum(),
+                 "another element follows </robot>; only one root is allowed");
   root_ = first;
 }
 
 void XmlFile::fault(int line, std::string text) {
-  // Names that a file uses may have anything in them.
+  // Names in the file may contain control characters, which would garble the message.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
   if (++faultCount_ <= FaultList::kMost) faults_.push_back({path_.string(), line, std::move(text)});
@@ -185,8 +187,8 @@ XmlFile::Element* XmlFile::child(Element& parent, const char* name, const std::s
   Element* const first = parent.FirstChildElement(name);
   if (!first) return nullptr;
   for (Element* next = first->NextSiblingElement(name); next; next = next->NextSiblingElement(name))
-    fault(next->GetLineNum(), owner + ": a second <" + name + ">, after that on line " +
-                                  std::to_string(first->GetLineNum()) + "; one is needed");
+    fault(next->GetLineNum(), owner + ": a second <" + name + ">; the first is on line " +
+                                  std::to_string(first->GetLineNum()) + "; only one is allowed");
   return first;
 }
 
@@ -204,7 +206,7 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
     const std::string name = element->Name();
     if (contains(known, name)) continue;
     const std::string unknown = owner + ": <" + name + "> is not known";
-    const auto near = nearest(name, known);
+    const auto near = mostSimilar(name, known);
     const std::string hint = near ? "; did you mean <" + *near + ">?" : "";
     if (near && contains(read, *near))
       fault(element->GetLineNum(), unknown + hint);

@@ -10,51 +10,52 @@
 
 #include "collision/core/error.h"
 
-/// Not for users of the library: it brings TinyXML2.
+/// Internal: this header includes TinyXML2, which users of the library don't need.
 namespace corridor {
 
-/// An XML file and what is wrong in it. "Owner" is whose element it is, for messages: `joint
-/// "elbow"`.
+/// An XML file with root <robot>, and the list of its faults. In all functions `owner` names the
+/// element for messages: `joint "elbow"`.
 class XmlFile {
  public:
   using Element = tinyxml2::XMLElement;
 
-  /// @param what the file is to be, for messages: "a robot (URDF)". Its root is <robot>.
+  /// @param what describes the expected file in messages: "a robot (URDF)".
   XmlFile(std::filesystem::path file, const std::string& what);
 
-  /// nullptr: the file is faulted as a whole.
+  /// nullptr if the file couldn't be read; then it has a fault.
   Element* root() { return root_; }
   const std::filesystem::path& path() const { return path_; }
 
   void fault(int line, std::string text);
-  /// "file:line: text", for notes.
+  /// Formats "file:line: text", for notes.
   std::string at(int line, const std::string& text) const;
   bool sound() const { return faultCount_ == 0; }
-  /// All, also those that are not kept: of a thousand and more, the first.
+  /// Counts all faults, also those that are not kept: the list is cut at a limit.
   std::size_t faultCount() const { return faultCount_; }
-  /// Whether a hint is still worth its time: a file may have any number of faults and of names.
+  /// Whether to search for similar names in a message. The search is skipped after 100 faults,
+  /// because its time grows with the number of names.
   bool hints() const { return faultCount_ < 100; }
-  /// By line.
+  /// Returns the faults, sorted by line.
   std::vector<Fault> takeFaults();
 
-  /// An attribute that must be there and not be empty. nullopt: faulted.
+  /// Returns a required attribute, which must not be empty. nullopt: a fault was reported.
   std::optional<std::string> text(const Element& element, const char* attribute,
                                   const std::string& owner);
-  /// An attribute of `count` finite numbers, which is rewritten in plain decimals that every reader
-  /// takes for the same doubles. nullopt: not there, or faulted.
+  /// Reads an attribute of `count` finite numbers. The attribute is rewritten in plain decimals
+  /// that every reader takes for the same doubles. nullopt: it is missing, or a fault was reported.
   std::optional<std::vector<double>> numbers(Element& element, const char* attribute,
                                              std::size_t count, const std::string& owner);
-  /// Faults an attribute that isn't there.
+  /// Reports a missing attribute.
   void require(const Element& element, const char* attribute, const std::string& owner);
-  /// The child of that name, if there is one; further ones are faulted.
+  /// Returns the child of that name, or nullptr. Reports any further one.
   Element* child(Element& parent, const char* name, const std::string& owner);
-  /// Children that are neither read nor rightly ignored: faulted where something would be lost (the
-  /// name is nearly one that is read, or there is a <geometry> within), else noted. Those of other
-  /// formats ("drake:joint") are ignored.
+  /// Checks for children that are in neither list. Such a child is a fault if something would be
+  /// lost: its name is similar to one in `read`, or it contains a <geometry>. Otherwise it is a
+  /// note. Elements of other formats ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<std::string>& notes);
-  /// The same for attributes that may be left out.
+  /// The same for optional attributes.
   void checkAttributes(const Element& element, const std::vector<std::string>& read,
                        const std::string& owner, std::vector<std::string>& notes);
 
@@ -68,7 +69,7 @@ class XmlFile {
   Element* root_ = nullptr;
 };
 
-/// "joint" and "elbow" to `joint "elbow"`.
+/// Formats kind and name: `joint "elbow"`.
 std::string owned(const std::string& kind, std::string_view name);
 
 std::string shortestText(double value);

@@ -17,7 +17,8 @@ std::string number(double value, int digits = 4) {
   return text;
 }
 
-/// A problem whose configuration is the pose of one rigid body; its joint, or null.
+/// Returns the only group of the space if it is planar or floating, else null. A configuration is
+/// then the pose of one body.
 const CoordinateGroup* onlyPose(const ConfigurationSpace& space) {
   const bool one =
       space.groups().size() == 1 && space.groups()[0].kind != CoordinateGroup::Kind::joints;
@@ -31,7 +32,8 @@ std::string position(const Configuration& q, const CoordinateGroup& pose, int di
   return text + "]";
 }
 
-/// "shelf" (triangle 12); the shape's number where the body has several.
+/// Returns for example `"shelf" (shape 2, triangle 12)`. A body of one shape needs no shape number,
+/// and convex parts have no triangles.
 std::string described(const Checker& checker, std::size_t shape, std::uint32_t triangle) {
   const std::size_t owner = checker.bodyOf(shape);
   const ProblemBody& body = checker.problem().bodies[owner];
@@ -49,13 +51,14 @@ std::string described(const Checker& checker, std::size_t shape, std::uint32_t t
 std::string described(const Checker& checker, const Contact& pair) {
   const std::string a = described(checker, pair.bodyA, pair.triangleA),
                     b = described(checker, pair.bodyB, pair.triangleB);
-  // In the problem's order: links first.
+  // In the problem's order, in which links come before obstacles.
   return checker.bodyOf(pair.bodyA) < checker.bodyOf(pair.bodyB) ? a + " and " + b
                                                                  : b + " and " + a;
 }
 
-/// How far the tube may bring two shapes together, metres: no more than each joint's tube times its
-/// lever, summed over the joints between the two.
+/// Returns an upper bound, metres, of what the tube takes from the gap between two shapes: the sum
+/// over the joints between them of the joint's tube times its lever. The lever is 1 for a
+/// translation; for a rotation it reaches from the joint to the farthest point of the shape.
 double tubeOf(const Checker& checker, const Configuration& q, const Contact& pair) {
   const std::vector<Frame>& frames = checker.problem().tree.frames;
   const std::vector<Transform> poses = framePoses(checker.problem().tree, q);
@@ -73,16 +76,16 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
-      case Frame::Joint::turn:
+      case Frame::Joint::revolute:
         sum += std::abs(frame.multiplier) * tube * lever;
         break;
-      case Frame::Joint::slide:
+      case Frame::Joint::prismatic:
         sum += std::abs(frame.multiplier) * tube;
         break;
-      case Frame::Joint::shift:
+      case Frame::Joint::translation:
         sum += std::sqrt(static_cast<double>(frame.count)) * tube;
         break;
-      case Frame::Joint::rotate:
+      case Frame::Joint::rotation:
         sum += tube * lever;
         break;
     }
@@ -91,9 +94,10 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
   return sum;
 }
 
-/// Directions to look for a free configuration in, as steps of the numbers. Of a pose: evenly
-/// spread, a Fibonacci spiral or a circle of positions, the orientation is kept. Else: each line
-/// and circle alone, and random ones.
+/// Returns directions in which to search for a free configuration, as steps of its numbers. For a
+/// pose the directions are evenly spread positions (a circle, or a Fibonacci spiral on the sphere)
+/// with the orientation kept. Otherwise they are each line and circle alone, and random mixtures,
+/// with a largest step of 1; rotations are kept.
 std::vector<Configuration> directions(const ConfigurationSpace& space) {
   constexpr int count = 64;
   const auto size = static_cast<Eigen::Index>(space.size());
@@ -129,12 +133,13 @@ std::vector<Configuration> directions(const ConfigurationSpace& space) {
 
 struct NearestFree {
   Configuration q;
-  int digits = 17;  ///< of its numbers: told with these, they are free as they are read back
-  double away = 0;  ///< metres; or the largest step of a number
+  int digits = 17;  ///< printed with this many digits and read back, `q` is free
+  double away = 0;  ///< distance of the position, metres; or the largest step of a number
 };
 
-/// With as few digits as leave it free, but no fewer than four, in the numbers that are told: the
-/// whole position of a pose, else those that are not as they were.
+/// Rounds the numbers that the message prints to as few digits (at least four) as leave `exact`
+/// free. The message prints the whole position of a pose, or else the numbers that differ from
+/// `from`.
 NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
                           const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
@@ -150,11 +155,11 @@ NearestFree withFewDigits(const Configuration& exact, const Configuration& from,
   return {exact, 17, away};
 }
 
-/// The nearest configuration found that is free: shells that grow by a tenth, then halving along
-/// the ray.
+/// Searches for a free configuration near q: on shells that grow by a tenth, then by bisection
+/// along the first free direction. Returns nullopt if none of the shells has one.
 std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& checker) {
   const auto freeAt = [&](const Configuration& step) { return checker.certifiedState(q + step); };
-  double size = 1, farthest = std::numbers::pi;  // of joints: rad or m
+  double size = 1, farthest = std::numbers::pi;  // for joints: rad or m
   if (onlyPose(checker.space())) {
     size = 0;
     for (const Scene::Placed& placed : checker.scene().bodies())
@@ -218,7 +223,7 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
   const std::string pair = result.pair ? described(checker, *result.pair) : "two bodies";
   const MotionOptions& options = checker.options();
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
-    // Reserve aside: the tolerance has it.
+    // The clearance slack is not in `needed`: the message on the tolerance covers it.
     const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
     if (result.gap <= needed) {
       return name + ": the gap between " + pair + " is " + number(result.gap) +
@@ -230,13 +235,11 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
            " m; move it away, or set checker: {tolerance: " + number(result.gap / 4) + "}";
   }
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::rounding)
-    return name +
-           ": a value is too large, or too far out: the rounding of the pose hides the gap "
-           "between " +
+    return name + ": a value is so large that the rounding of the pose exceeds the gap between " +
            pair + ", or the tolerance of " + number(options.tolerance) +
-           " m; bring it back by whole turns, or set a larger checker: {tolerance: …}";
-  if (result.verdict == MotionVerdict::undecided)
-    return name + ": the check of it took too much work";
+           " m; reduce the value (an angle by whole turns), or set a larger checker: {tolerance: "
+           "…}";
+  if (result.verdict == MotionVerdict::undecided) return name + ": its test took too much work";
   return name + " is in contact: " + pair +
          (checker.interference(q)
               ? " touch"

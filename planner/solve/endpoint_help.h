@@ -7,10 +7,11 @@
 
 namespace corridor {
 
-/// Why a start or goal can't be used, as one line that says what would help: which pair touches, in
-/// which triangles, how far and where the next free position is; or which pair is too close and
-/// what to set. nullopt if it can.
-/// @param name "start", "goal".
+/// Returns why a start or goal can't be used and what would help, in one line, or nullopt if it can
+/// be used. For a contact the line names the pair, its triangles, and the nearest free
+/// configuration that a search found. For a pair that is too close it names the gap, and what to
+/// set.
+/// @param name for the message: "start", "goal", "goal 1 of 2".
 std::optional<std::string> whyNotFree(const std::string& name, const Configuration& q,
                                       const Checker& checker);
 

@@ -16,11 +16,13 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// OMPL's simplifier looks at no clock within a call: few attempts a call keep time-outs strict.
+/// Attempts per call. OMPL's simplifier does not test for a time-out within a call, so a call must
+/// be short.
 constexpr unsigned kAttempts = 10;
-/// Rounds of attempts in a row that change nothing, after which more are not worth their time.
+/// After this many rounds in a row without progress, simplifying ends.
 constexpr int kEmptyRounds = 8;
-/// No path needed more; shortening never ends by itself, as it always finds another last digit.
+/// The maximum number of rounds of each kind. No path needed more. Without a limit shortening would
+/// not end, since it always finds a path that is shorter in the last digits.
 constexpr int kRounds = 60;
 
 }  // namespace

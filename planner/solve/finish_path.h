@@ -17,24 +17,28 @@ namespace corridor {
 
 using Path = std::vector<Configuration>;
 
-/// @pre the states are a ProblemStateSpace's, and that is the path's space.
+/// Returns the configurations of an OMPL path. @pre the path's space is a ProblemStateSpace.
 Path readPath(const ompl::geometric::PathGeometric& path);
 
-/// Versions of a path, from the planner's own to the simplest; each may serve if a later one fails.
-/// Simplifies until that brings nothing, or `stop` says so; the ends stay.
+/// Simplifies a path and returns its versions, from the planner's own to the simplest, so that an
+/// earlier one can be used if a later one can't be certified. Ends when simplifying brings no more,
+/// or when `stop` returns true. The first and last state stay.
 std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si,
                                      ompl::geometric::PathGeometric& path,
                                      const std::function<bool()>& stop);
 
-/// The path with states inserted on its edges so that in no step a circle or a rotation turns more
-/// than 90° (design: «What an edge is»), and repeated states left out.
+/// Returns the path without repeated states, and with states inserted on its edges so that no
+/// circle or rotation turns by more than 90° between two states. Every edge is then far from a half
+/// turn, whose direction is not defined.
 Path withShortTurns(const ConfigurationSpace& space, const Path& path);
 
-/// Every state in bounds and every edge certified, whatever was said of them before.
+/// Tests every state and every edge of the path again, by the default method. Returns whether all
+/// states are in bounds and all edges certified.
 bool certifiedPath(const Checker& checker, const Path& path);
 
-/// Metres: along the ways of planar and floating joints, and what sliding joints do. Radians: along
-/// their rotations, and what turning joints do.
+/// The length of a path, summed over its edges. `metres`: |Δp| of planar and floating joints, and
+/// |Δq| of prismatic joints. `radians`: the rotation angles of planar and floating joints, and |Δq|
+/// of revolute and continuous joints.
 struct PathLength {
   double metres = 0, radians = 0;
 };

@@ -18,14 +18,15 @@ namespace ob = ompl::base;
 
 namespace {
 
-/// A planner's state shall also be in the region for who computes that in another way: the region
-/// is shrunk by what a few roundings could amount to.
+/// The goal region is shrunk by this fraction, which exceeds a few roundings. A planner's state in
+/// it is then also inside for the verifier, which rounds differently.
 constexpr double kShrink = 0x1p-40;
-/// Tries a sample of a region; most goals are free nearly everywhere around.
+/// Random states tried per sample that is wanted. Most goals are free nearly everywhere around
+/// them.
 constexpr std::size_t kTries = 20;
 
 double uniform(std::mt19937_64& random, double low, double high) {
-  // std::uniform_real_distribution differs among libraries; a seed shall not.
+  // std::uniform_real_distribution differs among libraries; this gives the same numbers with all.
   return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
@@ -77,7 +78,7 @@ ProblemGoal::ProblemGoal(const ob::SpaceInformationPtr& si, const Problem& probl
       problem_(problem),
       goals_(goalsOf(problem)),
       samples_(std::move(samples)) {
-  // OMPL asks for less than the threshold: with 0 nothing would ever be in the goal.
+  // OMPL requires a distance below the threshold: with 0 no state would ever be in the goal.
   setThreshold(std::max(problem.goalThreshold.value_or(0), std::numeric_limits<double>::epsilon()));
 }
 
@@ -85,7 +86,8 @@ double ProblemGoal::distanceGoal(const ob::State* state) const {
   const Configuration q = configurationOf(*si_, state);
   if (problem_.goalRegion) {
     if (inGoal(problem_, goals_, q, -kShrink)) return 0;
-    return std::max(outsideGoalRegion(problem_, goals_, q), 2 * threshold_);  // outside is outside
+    // Twice the threshold keeps a state just outside of the region from being taken as inside.
+    return std::max(outsideGoalRegion(problem_, goals_, q), 2 * threshold_);
   }
   double least = std::numeric_limits<double>::infinity();
   for (const Configuration& goal : goals_)

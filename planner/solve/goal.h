@@ -10,9 +10,9 @@
 
 namespace corridor {
 
-/// The goals of a problem, or the regions around them, for OMPL. Planners that ask for goal states
-/// get a finite set of valid ones, the goals themselves first: several of OMPL's optimising
-/// planners need to know all of them beforehand.
+/// OMPL's goal for the goals of a problem, or the regions around them. Planners that sample goal
+/// states get a finite set of valid ones, beginning with the goals themselves: several of OMPL's
+/// optimising planners need all of them beforehand. Safe for several threads at once.
 class ProblemGoal : public ompl::base::GoalSampleableRegion {
  public:
   /// @param samples see `sampleGoals`; at least one.
@@ -29,9 +29,10 @@ class ProblemGoal : public ompl::base::GoalSampleableRegion {
   mutable std::atomic<std::size_t> next_ = 0;  // planners with threads share the goal
 };
 
-/// Valid states of the problem's goals: those of the goals themselves that are valid, and, of a
-/// region, up to `count` random ones of the problem's seed, spread evenly over the goals. Empty if
-/// none was found. @param whyNot gets a line for each goal that isn't valid.
+/// Returns valid goal states: the problem's goals that are valid, and for a goal region random
+/// states in it until there are `count` together. These depend on the problem's seed, and are drawn
+/// around each goal in turn. Empty if no valid state was found.
+/// @param whyNot gets a line for each goal that is not valid.
 std::vector<Configuration> sampleGoals(const Checker& checker, std::size_t count,
                                        std::vector<std::string>& whyNot);
 

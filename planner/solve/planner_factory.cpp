@@ -55,7 +55,7 @@
 #include <ompl/geometric/planners/stride/STRIDE.h>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 
@@ -77,10 +77,11 @@ Entry entry(const char* name, const char* about, bool repeats = true) {
           }};
 }
 
-// Left out: planners that need more than a problem says (TSRRT, VFRRT, XXL, QRRT, Lightning,
-// Thunder), pRRT and pSBL, which write to their trees from many threads without a lock around all
-// of it, and LazyLBTRRT, which ends the program where an assertion of OMPL 1.5.2 fails
-// (LPAstarOnGraph.h), on easy problems, too.
+// These planners of OMPL are left out:
+// - TSRRT, VFRRT, XXL, QRRT, Lightning, Thunder: they need more input than a problem has.
+// - pRRT, pSBL: their threads write to one tree, and not all of these writes are under a lock.
+// - LazyLBTRRT: a failed assertion of OMPL 1.5.2 (LPAstarOnGraph.h) ends the program, even on easy
+//   problems.
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       entry<og::RRTConnect>("RRTConnect", "two trees that reach for each other; the default"),
@@ -131,7 +132,7 @@ std::vector<std::string> plannerNames() {
   return names;
 }
 
-/// The whole text; of floating-point numbers, finite ones.
+/// Returns the number that the whole text is, or nullopt. Infinities and NaN are not accepted.
 template <class T>
 std::optional<T> parsedAs(const std::string& text) {
   T value{};
@@ -142,28 +143,31 @@ std::optional<T> parsedAs(const std::string& text) {
   return value;
 }
 
-/// OMPL's range of a parameter, "0.:.05:1.": least, step, greatest. Many take less than their
-/// least, but where that isn't negative, no negative number makes sense.
+/// Returns whether negative values of a parameter are wrong.
+/// @param range OMPL's suggestion, "0.:.05:1." (smallest, step, largest). Many parameters accept
+/// less than the smallest suggestion; but if that is not negative, a negative value has no meaning.
 bool neverNegative(const std::string& range) {
   const auto least = parsedAs<double>(range.substr(0, range.find(':')));
   return least && *least >= 0;
 }
 
-/// What OMPL throws at only as it begins to plan: shares of something, (0, 1].
+/// Returns whether the parameter is a fraction in (0, 1] whose range OMPL tests only when it begins
+/// to plan; it then throws.
 bool isShare(const ob::GenericParam& parameter) {
   return parameter.getRangeSuggestion().empty() &&
          (parameter.getName() == "min_valid_path_fraction" ||
           parameter.getName() == "failed_expansion_score_factor");
 }
 
-/// Of these OMPL takes a zero, and then a failed assertion or worse ends the program.
+/// Returns whether OMPL accepts 0 for the parameter although a failed assertion, or worse, then
+/// ends the program.
 bool isAtLeastOne(const std::string& name) {
   return name == "degree" || name == "min_degree" || name == "num_planners" ||
          name == "samples_per_batch";
 }
 
-/// What a parameter takes, where `text` isn't that. OMPL's own conversion takes "0.6abc" for a
-/// string that it then throws at.
+/// Returns why `text` is no value of the parameter ("not a number", "below 0"), or nullopt. Tested
+/// before OMPL's own conversion, whose complaint about "0.6abc" does not say what is wrong.
 std::optional<std::string> complaint(ob::GenericParam& parameter, const std::string& text) {
   const auto is = [&]<class T>(T) {
     return dynamic_cast<ob::SpecificParam<T>*>(&parameter) != nullptr;
@@ -175,7 +179,7 @@ std::optional<std::string> complaint(ob::GenericParam& parameter, const std::str
   if (is(double{}) || is(float{})) {
     const auto value = parsedAs<double>(text);
     if (!value) return "not a number";
-    // OMPL takes negative ranges for its default, and shares above 1 for 1 or worse.
+    // OMPL reads a negative range as its default, and a share above 1 as 1 or worse.
     if (*value < 0 && neverNegative(parameter.getRangeSuggestion())) return "below 0";
     if (*value > 1 && parameter.getName() == "goal_bias") return "above 1";
     if (isShare(parameter) && !(*value >= std::numeric_limits<double>::epsilon() && *value <= 1))

@@ -12,38 +12,40 @@ class SpaceInformation;
 
 namespace corridor {
 
-/// What is known of a planner of OMPL before it runs.
+/// Properties of one of OMPL's planners.
 struct PlannerInfo {
-  std::string name;     ///< OMPL's
-  std::string about;    ///< a few words
-  bool repeats = true;  ///< the same seed gives the same path (no thread, no clock of its own), if
-                        ///< the time doesn't run out
-  bool optimises = false;  ///< uses its time for better paths, if not told to stop at the first
+  std::string name;   ///< OMPL's
+  std::string about;  ///< a description in a few words
+  /// Whether the same seed gives the same path, if the time does not run out: the planner has no
+  /// threads and no clock of its own.
+  bool repeats = true;
+  bool optimises = false;  ///< uses all its time for better paths, unless set to stop at the first
 };
 
-/// All that `makePlanner` knows, in the order in which help lists them. To add one: a line in
-/// planner_factory.cpp.
+/// Returns all planners that `makePlanner` knows, in the order in which help lists them. To add
+/// one, add a line to planner_factory.cpp.
 const std::vector<PlannerInfo>& knownPlanners();
 
-/// What is wrong with the name of a planner that there isn't: a line that lists those that there
-/// are. nullopt: `makePlanner` knows it.
+/// Returns a message that lists the known planners if `name` is not one of them, else nullopt.
 std::optional<std::string> unknownPlanner(const std::string& name);
 
-/// A parameter by OMPL's own name, and where a user wrote it (empty: nowhere).
+/// A parameter by OMPL's own name, and the place where a user wrote it (empty: unknown).
 struct PlannerParameter {
   std::string key, value;
   std::string file = {};
   int line = 0;
 };
 
-/// @param nameAt where the name was written, for messages (its key and value are not looked at).
-/// @throws InputError: unknown name, unknown parameter (lists what there is), a value that isn't of
-/// the parameter's type; all faulty parameters at once.
+/// Makes a planner and sets its parameters.
+/// @param nameAt the place where the name was written, for messages; its key and value are ignored.
+/// @throws InputError for an unknown name, or with all wrong parameters: unknown ones (with a list
+/// of those that the planner has), and values of the wrong type or range.
 std::shared_ptr<ompl::base::Planner> makePlanner(
     const std::shared_ptr<ompl::base::SpaceInformation>& si, const std::string& name,
     const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt = {});
 
-/// Valid-state samplers by OMPL's names; sets the allocator of `si`.
+/// Sets the valid-state sampler of `si`: "uniform", "gaussian", "obstacle_based", "bridge_test" or
+/// "max_clearance".
 /// @throws InputError for an unknown name.
 void setValidStateSampler(ompl::base::SpaceInformation& si, const std::string& name,
                           const PlannerParameter& nameAt = {});

@@ -20,7 +20,7 @@ std::string digits(double value) {
   return text;
 }
 
-/// In double quotes, as YAML reads them back.
+/// Returns the text in double quotes, escaped for YAML.
 std::string yamlText(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -107,7 +107,7 @@ void readStates(const YamlValue& list, const ConfigurationSpace& space, Solution
   }
 }
 
-/// The tube, where there is one; else rounding is all that it can be.
+/// Reads the tube. A file without one gives a tube of 0.
 void readTube(const YamlMap& map, Solution& solution, YamlSource& source) {
   const std::size_t size = solution.numbers.size();
   solution.tube = Configuration::Zero(static_cast<Eigen::Index>(size));
@@ -128,7 +128,7 @@ void readTube(const YamlMap& map, Solution& solution, YamlSource& source) {
   solution.tube[dimension] = inner.number("rotation", Range::NotNegative).value_or(0);
 }
 
-/// Are the states of the file those of the problem's space?
+/// Returns whether the file's states are of the problem's space. If they are not, adds a fault.
 bool sameSpace(const YamlMap& map, const Solution& solution, YamlSource& source) {
   const std::vector<std::string>& numbers = solution.numbers;
   const std::string& rigid = solution.space;

@@ -8,18 +8,19 @@
 
 namespace corridor {
 
-/// A solution file. What `corridor solve -o` writes and `corridor verify` reads: YAML, format
-/// corridor-solution-1 (keys in planner/README.md). Metres, radians.
+/// The content of a solution file, which `corridor solve -o` writes and `corridor verify` reads:
+/// YAML, format corridor-solution-1 (keys in planner/README.md). Metres, radians.
 struct Solution {
-  std::string problem;  ///< the problem's file, relative to the solution's folder
-  std::string digest;   ///< of the problem and all its files; empty: not known (`.path` files)
-  std::string space;    ///< "SE2", "SE3", or "": joints
-  /// Of each number of a state: its name (ConfigurationSpace::numberNames).
+  std::string problem;  ///< the problem's file; in a solution file relative to its folder
+  /// The digest of the problem and all its files; empty: not known (`.path` files).
+  std::string digest;
+  std::string space;  ///< "SE2" or "SE3"; empty if the states have named joints
+  /// The name of each number of a state (ConfigurationSpace::numberNames).
   std::vector<std::string> numbers;
   std::string planner;
   std::uint64_t seed = 0;
   bool certified = false;
-  std::string checker;  ///< "certified", or what was asked for instead
+  std::string checker;  ///< SolveReport::checker; "unknown" for a `.path` file
   double tolerance = 0, margin = 0;
   Configuration tube;  ///< as Problem::tube
   Path path;
@@ -27,13 +28,14 @@ struct Solution {
 
 Solution makeSolution(const Problem& problem, const SolveReport& report);
 
-/// Numbers with the digits that read back as the same double. The file appears whole or not at all.
-/// @throws InputError where it can't be written.
+/// Writes a solution file. Numbers have enough digits to read back as the same doubles. The file is
+/// written whole or not at all.
+/// @throws InputError if it can't be written.
 void writeSolution(const Solution& solution, const std::filesystem::path& file);
 
-/// Reads what `writeSolution` wrote, strictly; or an OMPL.app `.path` file: a state a line.
-/// @throws InputError with all faults: format, unknown, missing or repeated keys, states that
-/// aren't of the problem's space.
+/// Reads a solution file strictly, or an OMPL.app `.path` file, which has one state per line.
+/// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states that
+/// are not of `space`.
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space);
 
 }  // namespace corridor

@@ -15,7 +15,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/fault_list.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/problem/yaml_reader.h"
@@ -30,17 +30,19 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// How many states of a goal region planners get; those with an informed sampler keep an ellipse
-/// for each.
+/// The number of states of a goal region that planners get. It is small, since planners with an
+/// informed sampler keep an ellipse for each.
 constexpr std::size_t kGoalSamples = 32;
-/// Of planner.time: what simplifying gets where the planner used all of it.
+/// The share of planner.time that simplifying gets after a planner that used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
-/// Finer steps than this are no use to anyone, and OMPL counts them in 32 bits.
+/// The finest resolution that is accepted. Finer ones have no use, and OMPL counts an edge's steps
+/// in 32 bits.
 constexpr double kFinestResolution = 1e-9;
 
-/// The length of a path, as the space measures it. OMPL's own throws where its direct sampling of
-/// ellipses doesn't know the space; there samples are drawn and those that can't help rejected.
+/// Minimises the length of a path in the space's distance. OMPL's own class throws for a space that
+/// its direct sampling of ellipses doesn't know. For such a space this class samples the whole
+/// space and rejects states that can't improve the path.
 class PathLengthObjective : public ob::PathLengthOptimizationObjective {
  public:
   using PathLengthOptimizationObjective::PathLengthOptimizationObjective;
@@ -52,9 +54,11 @@ class PathLengthObjective : public ob::PathLengthOptimizationObjective {
   }
 };
 
-/// The longest step of a tree's growth, where all that moves are joints that turn: 0.7 rad in one
-/// of them. OMPL's, 20 % of the space's extent, is 3 to 6 rad: such an edge hits something nearly
-/// always. Measured on problems of two arms: trees with it take 2 to 15 times as long.
+/// Returns the default of the parameter `range` (the longest edge that a tree grows) where all
+/// coordinates are angles: 0.7 rad in the joint of the largest weight. Otherwise nullopt, for
+/// OMPL's default of 20 % of the space's extent. For arms OMPL's is 3 to 6 rad, and nearly every
+/// such edge hits something. Measured on problems of two arms: trees with OMPL's take 2 to 15 times
+/// as long.
 std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
   double weight = 0;
   for (const Coordinate& c : space.coordinates()) {
@@ -65,10 +69,11 @@ std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
   return 0.7 * weight;
 }
 
-/// What is to be told of the trees: nothing of the default ones.
-std::string treesTold(const TreeWords& words) {
-  const TreeWords trees = spelledOut(words), usual = spelledOut({trees.volume, "", ""});
-  return (trees.volume == spelledOut({}).volume ? "" : ", " + trees.volume) +
+/// Returns the report's words for the trees: ", sphere" or ", obb-binary, gjk"; "" for the default
+/// trees. A fit other than the default is not reported.
+std::string treesTold(const TreeNames& words) {
+  const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
+  return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
          (trees.overlap == usual.overlap ? "" : ", " + trees.overlap);
 }
 
@@ -107,7 +112,7 @@ void Solve::checkEnds() {
     if (goalSamples_.empty())
       faults.push_back(problem_.faultAt(
           "goal", problem_.goalRegion
-                      ? "no free state was found within the goal; its middle: " + why
+                      ? "no free state was found in the goal region; at its middle: " + why
                       : why));
     else if (!problem_.goalRegion)
       report_.warnings.push_back(problem_.faultAt("goal", why));
@@ -157,7 +162,7 @@ void Solve::setUpPlanner() {
 }
 
 void Solve::setUp() {
-  ompl::msg::noOutputHandler();  // what users need to know is in the report
+  ompl::msg::noOutputHandler();  // the report has everything that users need
   ompl::RNG::setSeed(problem_.seed);
   setUpSpace();
   definition_ = std::make_shared<ob::ProblemDefinition>(si_);
@@ -189,10 +194,10 @@ void Solve::setUpObjective() {
     objective = std::make_shared<PathLengthObjective>(si_);
   }
   if (!objective) return;
-  // Where a problem doesn't say when to stop, planners have rules of their own: PRM stops at the
-  // first, PRMstar uses its time.
+  // Without `planner.stop` a planner that optimises uses its time, as PRMstar does, and the others
+  // stop at the first solution, as PRM does.
   const bool first = problem_.planner.stopAtFirst.value_or(name.empty() && !optimises_);
-  // A clearance of 0 is none to stop at: every path has it.
+  // Every path has a clearance of at least 0, so a threshold of 0 would stop at the first one.
   const double threshold = keepsClear() && !(problem_.objectiveThreshold > 0)
                                ? std::numeric_limits<double>::infinity()
                                : problem_.objectiveThreshold;
@@ -221,18 +226,19 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
     case ob::PlannerStatus::CRASH:
       return problem_.planner.name + " crashed";
     case ob::PlannerStatus::APPROXIMATE_SOLUTION:
-      text = "only a path that ends " +
+      text = "the best path found ends " +
              shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) +
              " from the goal";
       break;
     default:
       text = clock_.seconds() < problem_.planner.time
-                 ? problem_.planner.name + " gave up before the time ran out"
-                 : "nothing found in the time";
+                 ? problem_.planner.name + " ended before the time ran out"
+                 : "no path was found in the time";
   }
   if (counters.undecided > 0)
-    text += "; too close to call: " + std::to_string(counters.undecided) +
-            " of the motions, at a tolerance of " + shortest(checker_.options().tolerance) + " m";
+    text += "; " + std::to_string(counters.undecided) +
+            " motions were too close to decide at a tolerance of " +
+            shortest(checker_.options().tolerance) + " m";
   return text + "; more time, another planner or seed may help";
 }
 
@@ -265,7 +271,8 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
   return status;
 }
 
-/// The start kept bit for bit and the goal reached, whatever planner and simplifier say of that.
+/// Returns whether the path begins at the start, bit for bit, and ends in the goal. Tested here
+/// since the result must not depend on the planner and the simplifier.
 bool Solve::joinsStartAndGoal(const Path& path) const {
   return !path.empty() && path.front() == start_ && inGoal(problem_, goals_, path.back());
 }
@@ -274,12 +281,13 @@ bool Solve::certified(const Path& path) {
   const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
   const bool holds = certifiedPath(checker_, path);
   report_.certificationTime += clock_.seconds() - before;
-  report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;  // no search
+  // `plan` counts the whole of `finish` as search.
+  report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;
   return holds;
 }
 
 void Solve::finish() {
-  // CForest's path is of a space of its own, wrapped around ours; its states are ours.
+  // The path is copied, since CForest's has another space, a wrapper; its states are of our space.
   og::PathGeometric path(si_);
   for (const ob::State* state :
        definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())
@@ -287,7 +295,7 @@ void Solve::finish() {
   report_.rawStates = path.getStateCount();
   report_.rawLength = lengthOf(problem_.space, readPath(path));
   std::vector<Path> versions;
-  if (problem_.simplify && !keepsClear()) {  // shortcuts would cut the corners
+  if (problem_.simplify && !keepsClear()) {  // shortcuts would reduce the clearance
     const double until =
         std::max(problem_.planner.time, clock_.seconds() + kSimplifyShare * problem_.planner.time);
     versions =
@@ -318,7 +326,7 @@ void checkSettings(const Problem& problem) {
 
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options) {
   Solve solve(problem, options);
-  solve.setUp();  // before the checks of start and goal: bad names cost no time
+  solve.setUp();  // before start and goals are tested: wrong names are reported at once
   solve.setUpEnds();
   solve.plan(ob::plannerNonTerminatingCondition());
   return solve.report();

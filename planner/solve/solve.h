@@ -12,74 +12,80 @@
 
 namespace corridor {
 
+/// The state of a solve that is under way.
 struct SolveProgress {
   double seconds = 0;
-  std::uint64_t edges = 0;  ///< asked for by the planner so far
+  std::uint64_t edges = 0;  ///< that the planner has had tested so far
 };
 
 struct SolveOptions {
-  /// Called a few times a second while planning, maybe from threads of the planner, never from two
-  /// at once.
+  /// Called a few times a second while planning. The calls may come from the planner's threads, but
+  /// never two at once.
   std::function<void(const SolveProgress&)> progress;
-  /// Where it becomes true, solving ends soon, without a result.
+  /// When this becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
-  /// For messages: keys of the problem that weren't read from its file, and where they come from
-  /// ("planner.name" → "--planner").
+  /// Where values of the problem come from that were not read from its file, by key, for messages:
+  /// "planner.name" → "--planner".
   std::map<std::string, std::string> setElsewhere;
-  /// Called once the checkers of states and motions are set, before planning: may put others in
-  /// their place (planner/benchmark measures peers and times so). Start, goals and the last
-  /// certification stay Corridor's.
+  /// Called before planning, once the checkers of states and motions are set. It may replace them:
+  /// planner/benchmark does so to measure competitors, and times. Tests of start and goals and the
+  /// final certification always use the `Checker`.
   std::function<void(const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>
       adaptChecking;
 };
 
 enum class SolveOutcome {
-  solved,  ///< OMPL calls it exact, and the checker asked for holds for the path as returned
+  solved,  ///< OMPL calls the path exact, it joins start and goal, and its edges are certified
+           ///< (with `discrete` edges: not certified)
   notFound,
-  approximate,  ///< a path that ends elsewhere than in the goal: not a solution, not returned
+  approximate,  ///< the planner's path ends outside of the goal; it is not returned
   interrupted,
 };
 
-/// What a solve did. Lengths in metres, times in seconds.
+/// The result of a solve and its costs. Lengths are in metres, times in seconds.
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
-  std::string why;              ///< where not solved: one line
-  std::vector<Fault> warnings;  ///< goals that aren't used, and why, where there are others
+  std::string why;              ///< why not solved, in one line; empty if solved
+  std::vector<Fault> warnings;  ///< goals that are not used although others are, and why
 
-  Path path;               ///< where solved: nothing turns more than 90° in a step
-  bool certified = false;  ///< every edge of `path` was proved in the last step
+  Path path;  ///< empty unless solved; no rotation by more than 90° between two states
+  bool certified = false;  ///< every edge of `path` was proved by the final certification
   std::string checker;     ///< "certified", "adaptive, sphere", "discrete, resolution 0.01", …
   std::string planner;
-  bool repeats =
-      true;  ///< the planner gives the same path for the same seed, if time doesn't run out
+  /// Whether the planner gives the same path for the same seed, if the time does not run out.
+  bool repeats = true;
   std::uint64_t seed = 0;
-  double time = 0, planningTime = 0;  ///< all of it; until the planner was done
-  double setUpTime = 0;               ///< of these: until the planner began
-  double certificationTime = 0;       ///< of `time`: the last step's proofs
-  double processorTime = 0;           ///< of all threads, in `time`
-  double searchProcessorTime = 0;     ///< of that: planner and simplifier
-  Counters counters;                  ///< of everything: states, edges, undecided, N_v, N_p
+  double time = 0, planningTime = 0;  ///< seconds of the whole solve, and until the planner ended
+  double setUpTime = 0;               ///< until the planner began
+  double certificationTime = 0;       ///< seconds of the final certification
+  double processorTime = 0;           ///< processor time of the whole solve, all threads
+  double searchProcessorTime = 0;     ///< the share of the planner and the simplifier in it
+  /// Counts of all queries: states, edges, undecided, and N_v, N_p of the cost model.
+  Counters counters;
   PathLength length;
-  std::size_t rawStates = 0;  ///< of the planner's own path, before simplifying
-  PathLength rawLength;       ///< of that
-  int version = 0;            ///< which simplified version is returned; 0: the planner's own
+  std::size_t rawStates = 0;  ///< states of the planner's own path, before simplifying
+  PathLength rawLength;       ///< length of the planner's own path
+  int version = 0;            ///< index of the simplified version returned; 0: the planner's own
   MotionOptions motion;       ///< tolerance and margin of the proof; its tube is the problem's
 };
 
-/// Solves a problem. Start and goals are checked first: one free goal is needed. The last step
-/// certifies the final states edge by edge; where one fails, the last version of the path that
-/// holds as a whole is returned. Ends within planner.time, but for an edge under way and 5 % for
-/// simplifying.
+/// Solves a problem: checks start and goals (one free goal is enough), plans, simplifies, and
+/// certifies the final path edge by edge. If an edge of it fails, the last simplified version that
+/// can be certified as a whole is returned. With `discrete` edges nothing is certified.
+///
+/// Planning ends within planner.time, except for the edge that is tested then. Simplifying gets the
+/// rest of that time, but at least 5 % of it; the final certification comes on top.
 ///
 /// The same problem and seed give the same path, for planners that repeat (planner/README.md), if
-/// the time doesn't run out. OMPL's random numbers hang on one seed a process: don't call this from
-/// two threads at once.
-/// @throws InputError: start or goal in contact, too close, or out of bounds; unknown planner,
-/// parameter or sampler.
+/// the time does not run out. OMPL has one random seed per process: don't call this from two
+/// threads at once.
+/// @throws InputError for a start or goals that are in contact, too close or out of bounds, and for
+/// an unknown planner, parameter or sampler.
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options = {});
 
-/// All that solveProblem would find wrong with planner, parameters, sampler, resolution and
-/// objective, at once. @throws InputError.
+/// Tests the problem's planner, parameters, sampler, resolution and objective as `solveProblem`
+/// does.
+/// @throws InputError with all that is wrong with them.
 void checkSettings(const Problem& problem);
 
 }  // namespace corridor

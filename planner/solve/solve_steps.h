@@ -17,10 +17,10 @@
 
 namespace corridor {
 
-/// Seconds, on the wall and of the processor (all threads), while it isn't paused.
+/// A stopwatch of wall time and of processor time (all threads), which can be paused.
 class SolveClock {
  public:
-  /// Cheap: planners ask in every step.
+  /// Cheap, since planners call it in every step.
   double seconds() const { return wall_ + (running_ ? now(CLOCK_MONOTONIC) - wallSince_ : 0); }
   double processorSeconds() const {
     return processor_ + (running_ ? now(CLOCK_PROCESS_CPUTIME_ID) - processorSince_ : 0);
@@ -43,28 +43,27 @@ class SolveClock {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
   }
 
-  double wall_ = 0, processor_ = 0;  // until it was last paused
+  double wall_ = 0, processor_ = 0;  // up to the last pause
   double wallSince_ = now(CLOCK_MONOTONIC), processorSince_ = now(CLOCK_PROCESS_CPUTIME_ID);
   bool running_ = true;
 };
 
-/// A problem on its way through OMPL: what solveProblem does at one go, in steps, so that OMPL's
-/// Benchmark (planner/benchmark) can take its place around the second. In this order, once each:
-/// setUp, setUpEnds, plan. Between the steps the clock may be paused: what others do there is no
-/// part of the solve.
+/// The steps of `solveProblem`, for a caller that works between them: planner/benchmark puts OMPL's
+/// Benchmark around `plan`. Call setUp, setUpEnds and plan once each, in this order. Between them
+/// the clock may be paused, so that the caller's own work is not counted.
 class Solve {
  public:
-  /// Both must outlive the object.
+  /// Both arguments must outlive the object.
   Solve(const Problem& problem, const SolveOptions& options);
 
-  /// Space, checker, sampler, planner, objective. Seeds OMPL's random numbers.
+  /// Sets up space, checker, sampler, planner and objective, and seeds OMPL's random numbers.
   /// @throws InputError with all that is wrong with names and parameters.
   void setUp();
-  /// Start and goals. @throws InputError where the start or all goals aren't free.
+  /// Sets start and goals. @throws InputError if the start or all goals are not free.
   void setUpEnds();
-  /// Plans, simplifies, certifies: the report is complete then.
-  /// @param orElse ends planning, too.
-  /// @returns what the planner said.
+  /// Plans, simplifies and certifies. The report is complete afterwards.
+  /// @param orElse a second condition that ends planning.
+  /// @returns the planner's status.
   ompl::base::PlannerStatus plan(const ompl::base::PlannerTerminationCondition& orElse);
 
   SolveClock& clock() { return clock_; }

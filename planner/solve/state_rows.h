@@ -9,25 +9,27 @@
 
 namespace corridor {
 
-/// States as rows of numbers, in files: in the order of the space's `numberNames`, metres and
-/// radians.
+// In files, states are rows of numbers in the order of the space's `numberNames`, in metres and
+// radians.
 
-/// "SE3" or "SE2" where states are the pose of one thing that moves as a whole (x y z qx qy qz qw,
-/// x y yaw), whose numbers need no names; else "".
+/// Returns "SE3" or "SE2" if a state is the pose of a single rigid robot, planar joint or floating
+/// joint (x y z qx qy qz qw, or x y yaw), whose numbers need no names. Returns "" otherwise.
 std::string rigidSpaceOf(const ConfigurationSpace& space);
 
-/// What is wrong with a row (its length, a quaternion of zeros), or nothing.
+/// Returns what is wrong with a row (its length, or a quaternion of zeros), or nullopt.
 std::optional<std::string> checkRow(const std::vector<double>& row,
                                     const ConfigurationSpace& space);
 
+/// A state and its line in the file.
 struct StateRow {
-  int line = 0;  ///< from 1
+  int line = 0;  ///< counted from 1
   Configuration q;
 };
 
-/// A text file of states, one a line, blank or comma separated; from `#` on a line is a comment.
-/// OMPL.app's `.path` files are such. It may be a pipe; "-" is the standard input.
-/// @throws InputError with all faults; a file without states is one.
+/// Reads a text file with one state per line, such as OMPL.app's `.path` files. Numbers are
+/// separated by blanks or commas, and `#` begins a comment. The file may be a pipe; "-" is the
+/// standard input.
+/// @throws InputError with all faults. A file without states is a fault.
 std::vector<StateRow> readStateRows(const std::filesystem::path& file,
                                     const ConfigurationSpace& space);
 

@@ -14,13 +14,15 @@ namespace {
 using Real = long double;
 using RealQuaternion = Eigen::Matrix<Real, 4, 1>;
 
-/// A start's quaternion is normalised in double on its way into a path: an angle of under 32·2^-53,
-/// see `inGoal`.
+/// Angles up to this count as equal. A path's quaternions are normalised in double, which rotates
+/// them by less than 32·2^-53 against the start or goal as read (derived in problem_goal.cpp).
 constexpr Real kSameAngle = 0x1p-46L;
-/// Whether a state on the rim of a goal region is inside hangs on rounding: 2^-44 of the radius.
+/// The radius of a goal region is enlarged by 2^-44 of it, since rounding decides whether a state
+/// on its rim is inside.
 constexpr Real kRim = 1 + 0x1p-44L;
 
-/// Angle between the quaternions' lines: half that of the rotation between them.
+/// Returns the angle between the lines through two quaternions: half the angle of the rotation
+/// between the orientations.
 Real quaternionAngle(const Configuration& a, const Configuration& b, std::size_t first) {
   const auto i = static_cast<Eigen::Index>(first);
   const RealQuaternion p = a.segment<4>(i).cast<Real>().normalized(),
@@ -29,7 +31,8 @@ Real quaternionAngle(const Configuration& a, const Configuration& b, std::size_t
                         std::max((p - q).norm(), (p + q).norm()));
 }
 
-/// How far coordinate `c` is from a to b: its difference, the angle of its rotation.
+/// Returns the distance from a to b in coordinate `c`: the absolute difference, or the rotation
+/// angle.
 Real awayIn(const Coordinate& c, const Configuration& a, const Configuration& b) {
   const auto i = static_cast<Eigen::Index>(c.first);
   switch (c.kind) {
@@ -43,11 +46,14 @@ Real awayIn(const Coordinate& c, const Configuration& a, const Configuration& b)
   return 0;
 }
 
-/// How far apart two configurations are: the largest of each kind.
+/// The differences of two configurations, the largest of each kind.
 struct Away {
+  /// `position` (m) and `angle` (rad) of planar and floating joints; `joint` (rad or m) of single
+  /// joints, except continuous ones.
   Real position = 0, angle = 0, joint = 0;
-  Real distance = 0;    ///< with the space's weights
-  Real jointAngle = 0;  ///< of `joint`, that of circles: off by rounding when they are brought back
+  Real distance = 0;  ///< distance of the space, with its weights
+  /// Continuous joints. Their angles round when they are reduced to one revolution.
+  Real jointAngle = 0;
 };
 
 Away awayFrom(const ConfigurationSpace& space, const Configuration& a, const Configuration& b) {
@@ -138,7 +144,7 @@ void checkBounds(const Problem& problem, const Path& path, std::vector<std::stri
   }
 }
 
-/// Half the diagonal of the box around a shape.
+/// Returns half the diagonal of the shape's bounding box, plus the radius of a convex part.
 double sizeOf(const VerifyBody& body) {
   Vec3 lower = Vec3::Constant(HUGE_VAL), upper = -lower;
   for (const Vec3& p : body.mesh ? body.mesh->vertices : body.part->points) {
@@ -148,8 +154,9 @@ double sizeOf(const VerifyBody& body) {
   return 0.5 * (upper - lower).norm() + (body.part ? body.part->radius : 0);
 }
 
-/// A tenth of what the planner calls too close to tell (1e-7 of the smaller body, or
-/// what rounding needs, unless the problem says otherwise), so that its paths are decided.
+/// Returns a tenth of the checker's tolerance, so that the verifier decides paths that the checker
+/// certified. Unless the problem sets it, that is 1e-7 of the smallest body, or what rounding
+/// needs.
 double toleranceOf(const Problem& problem, const PathProblem& plain) {
   if (problem.checker.tolerance) return 0.1 * *problem.checker.tolerance;
   double smallest = 1;
@@ -168,7 +175,7 @@ PathProblem plainProblem(const Problem& problem) {
   plain.space = &problem.space;
   plain.margin = problem.margin;
   plain.tube = problem.tube;
-  std::vector<std::vector<std::size_t>> parts;  // of each body: its shapes
+  std::vector<std::vector<std::size_t>> parts;  // for each body, the indices of its shapes
   for (const ProblemBody& body : problem.bodies) {
     parts.emplace_back();
     for (const PlacedShape& shape : body.shapes) {
@@ -215,7 +222,7 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution, Ot
     report.verdict = report.motion.verdict = PathVerdict::undecided;
     report.motion.edges = static_cast<int>(solution.path.size()) - 1;
     std::vector<std::string> unused;
-    report.reachesGoal = checkEnds(problem, solution.path, unused);  // for pictures
+    report.reachesGoal = checkEnds(problem, solution.path, unused);  // pictures show it
     return report;
   }
   report.reachesGoal = checkEnds(problem, solution.path, report.violations);

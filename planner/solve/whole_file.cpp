@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-/// While it exists, this thread takes no signal by which users end programs.
+/// Blocks, while it exists, the signals by which users end programs, in this thread.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -39,7 +39,7 @@ class Draft {
     if (!path_.empty()) std::filesystem::remove(path_, ignored);
   }
   const std::filesystem::path& path() const { return path_; }
-  /// @returns the system's number for what is wrong, or 0.
+  /// @returns 0, or the system's error number.
   int rename(const std::filesystem::path& file) {
     std::error_code failure;
     std::filesystem::rename(path_, file, failure);
@@ -51,7 +51,7 @@ class Draft {
   std::filesystem::path path_;
 };
 
-/// @returns the system's number for what is wrong (-1: it gives none), or 0.
+/// Writes the file. @returns 0, or the system's error number (-1 if it gives none).
 int written(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);

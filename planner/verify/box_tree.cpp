@@ -8,8 +8,9 @@
 namespace corridor::verify {
 namespace {
 
-/// Of the distance found: what comes no closer isn't looked at. Less than 1, since many triangles
-/// share the closest vertex or edge, and their bounds round to either side of it.
+/// Pairs whose lower bound is at least this share of the smallest distance found are pruned. It is
+/// below 1 to prune ties: many triangles share the closest vertex or edge, and their bounds round
+/// to either side.
 constexpr Real kSame = 1 - 0x1p-30L;
 
 }  // namespace
@@ -47,7 +48,7 @@ BoxTree::BoxTree(const ConvexPart& part) {
     node.upper = node.upper.cwiseMax(point);
     radius_ = std::max(radius_, point.cast<Real>().norm());
   }
-  for (int i = 0; i < 3; ++i) {  // rounded outward; a disc stays within the ball
+  for (int i = 0; i < 3; ++i) {  // rounded outward; the disc is within the sphere
     node.lower[i] = std::nextafter(node.lower[i] - part.radius, -HUGE_VAL);
     node.upper[i] = std::nextafter(node.upper[i] + part.radius, HUGE_VAL);
   }
@@ -138,7 +139,7 @@ void BodyDistance::lookAlong(const RealVec& between) {
 Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
   const CentredBox boxOfA = boxA(a);
   const PlacedBox& boxOfB = boxB(b);
-  // Along a's axes, then along b's.
+  // Distance of boxes along a's axes, then along b's.
   const auto apart = [](const RealVec& between, const RealVec& halves) {
     const RealVec gaps = (between.cwiseAbs() - halves).cwiseMax(RealVec::Zero());
     return gaps.norm();
@@ -154,7 +155,7 @@ Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
       partB_ ? startOfB_ : direction_.dot(boxOfB.around.centre) - along.dot(boxOfB.around.half);
   gap = std::max(gap, startOfB - endOfA);
   if (gap >= enough) return gap;
-  // Boxes hold little of long triangles that aren't along their axes; planes hold them.
+  // The plane of a long triangle that is not along the axes bounds it better than its box.
   if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !partA_)
     gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB.around));
   if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !partB_)
@@ -164,7 +165,7 @@ Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
 
 Real BodyDistance::planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
                             const CentredBox& box) {
-  // Any direction gives a true bound: that the corners are in one plane isn't relied on.
+  // Any direction gives a true bound, so the corners need not be exactly in one plane.
   const Real centre = normal.dot(box.centre), half = normal.cwiseAbs().dot(box.half);
   const Real at[3] = {normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])};
   return std::max(centre - std::max({at[0], at[1], at[2]}),
@@ -217,7 +218,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
   Real enough = stop;
   const auto test = [&](PiecePair pair) {
     TriangleGap found;
-    if (!partA_ && !partB_) {  // slabs are cheaper, where they are enough
+    if (!partA_ && !partB_) {  // slabs are cheaper than the distance, if they suffice
       const auto a = cornersA(pair.a), b = cornersB(pair.b);
       const RealVec normals[2] = {a_->piece(pair.a).normal,
                                   X_AB_.rotation * b_->piece(pair.b).normal};
@@ -261,7 +262,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
     auto [first, second] = split(at, enough);
     if (first.lower < second.lower) std::swap(first, second);
     stack_.push_back(first);
-    stack_.push_back(second);  // the nearer one next
+    stack_.push_back(second);  // the nearer one is next
   }
   return best;
 }

@@ -8,10 +8,11 @@ namespace corridor::verify {
 namespace {
 
 constexpr int kMostSteps = 200;
-/// A step that brings the bracket closer than this to the rounding of its own terms is the last.
+/// The search ends when upper and lower bound differ by less than this share of the size, which is
+/// near the rounding of their terms.
 constexpr Real kFine = 0x1p-58L;
 
-/// A corner of the difference B − A, and the points that it is the difference of.
+/// A corner of the difference B − A, and the two points whose difference it is.
 struct Corner {
   RealVec onA, onB;
   RealVec difference() const { return onB - onA; }
@@ -22,8 +23,9 @@ struct Nearest {
   std::array<Real, 4> weights{};
 };
 
-/// Weights of the point of least norm of the plane through the chosen corners, where all are
-/// positive: then it is the nearest of their hull. All four of four are to be tried last.
+/// Finds the point of least norm in the plane through the chosen corners. If all its weights are
+/// positive it is the nearest point of their hull, and replaces `best` if it is nearer. The subset
+/// of all four corners must be tried last.
 void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, Nearest& best) {
   std::array<std::size_t, 4> chosen{};
   int count = 0;
@@ -32,7 +34,8 @@ void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, N
   const RealVec p0 = corners[chosen[0]].difference();
   Eigen::Matrix<Real, 3, 1> rest = RealVec::Zero();
   if (count > 1) {
-    // p0 + Σ λ_k e_k, orthogonal to every e_k: the normal equations, by Cramer's rule.
+    // Find λ_k such that p0 + Σ λ_k e_k is orthogonal to every e_k: the normal equations, by
+    // Cramer's rule.
     RealMat gram = RealMat::Identity();
     RealVec right = RealVec::Zero();
     for (int k = 1; k < count; ++k) {
@@ -60,8 +63,9 @@ void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, N
   for (std::size_t i = 0; i < corners.size(); ++i)
     point += found.weights[i] * corners[i].difference();
   found.square = point.squaredNorm();
-  // Four corners around the origin: it is one of the hull, up to rounding. Of a hull that is all
-  // but flat, rounding may say so where it isn't; but then no combination is nearer than the faces.
+  // Four corners around the origin: the origin is a point of their hull, up to rounding. If the
+  // hull is almost flat, rounding may claim this wrongly. But then the computed point is no nearer
+  // than the faces.
   if (count == 4 && !(std::sqrt(found.square) <= 0x1p-30L * size && 4 * found.square < best.square))
     return;
   if (found.square < best.square) best = found;
@@ -75,8 +79,8 @@ RealVec ConvexSet::farthest(const RealVec& direction) const {
   for (const RealVec& point : points)
     if (const Real along = direction.dot(point); along > most) most = along, best = &point;
   if (!flatEnds) return *best;
-  // The part across the axis may be nothing but rounding, and then point anywhere: made orthogonal
-  // a second time. What is lost with a direction that was no more than rounding is rounding, too.
+  // The component across the axis may be nothing but rounding, in an arbitrary direction, so it is
+  // made orthogonal a second time. If the result is unusable, only rounding is lost.
   const auto acrossAxis = [&](const RealVec& v) { return RealVec(v - axis * axis.dot(v)); };
   RealVec across = acrossAxis(direction);
   if (!(across.norm() > 0)) return *best;
@@ -117,15 +121,15 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& gue
     if (std::any_of(corners.begin(), corners.end(), [&](const Corner& old) {
           return old.onA == corner.onA && old.onB == corner.onB;
         }))
-      break;  // nothing new to be had
+      break;  // no progress is possible
     corners.push_back(corner);
-    // What is nearer than before has the new corner in it.
+    // Any point nearer than before needs the new corner.
     Nearest best;
     best.square = length * length;
     const unsigned newest = 1u << (corners.size() - 1);
     for (unsigned others = 0; others < newest; ++others)
       trySubset(corners, newest | others, size, best);
-    if (!(best.square < length * length)) break;  // rounding has the last word
+    if (!(best.square < length * length)) break;  // only rounding is left
     std::vector<Corner> kept;
     onA = onB = RealVec::Zero();
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -8,8 +8,8 @@ namespace corridor::verify {
 namespace {
 
 constexpr Real kPi = std::numbers::pi_v<Real>;
-constexpr Real kAmbiguous = 1e-9L;  // radians; design: «What an edge is»
-constexpr Real kUp = 1 + 0x1p-50L;  // more than any sum here rounds, relatively
+constexpr Real kAmbiguous = 1e-9L;  // radians; as ConfigurationSpace::ambiguous()
+constexpr Real kUp = 1 + 0x1p-50L;  // exceeds the relative rounding of any sum here
 
 RealMat rotationOf(const Eigen::Matrix<Real, 4, 1>& q) {
   const Real x = q[0], y = q[1], z = q[2], w = q[3], k = 2 / q.squaredNorm();
@@ -30,16 +30,17 @@ RealVec axisOf(const Frame& frame) {
   return frame.axis.cast<Real>().normalized();
 }
 
-/// Does the frame follow the circle, and is it elsewhere after a whole turn of that?
+/// Returns whether the frame follows the circle and has another pose after a full turn of the
+/// circle.
 bool leavesCircle(const Frame& frame, const Coordinate& circle) {
   if (frame.joint == Frame::Joint::none || frame.variable != circle.first) return false;
-  return frame.joint != Frame::Joint::turn || frame.multiplier != std::trunc(frame.multiplier);
+  return frame.joint != Frame::Joint::revolute || frame.multiplier != std::trunc(frame.multiplier);
 }
 
 }  // namespace
 
-Limb limbOf(const KinematicTree& tree, std::size_t base, std::size_t frame) {
-  Limb limb{base, frame, {}};
+KinematicChain chainOf(const KinematicTree& tree, std::size_t base, std::size_t frame) {
+  KinematicChain limb{base, frame, {}};
   for (std::size_t f = frame; f != base; f = tree.frames[f].parent) limb.path.push_back(f);
   std::reverse(limb.path.begin(), limb.path.end());
   return limb;
@@ -72,7 +73,7 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
     if (c.kind != Coordinate::Kind::rotation) {
       const bool circle = c.kind == Coordinate::Kind::circle;
       const Real way = circle ? circleWay(from[i], to[i]) : Real(to[i]) - Real(from[i]);
-      // `way` is off by u of itself, or, of a circle, by 32u; the products and sums by u each.
+      // `way` is off by u of itself, or by 32u for a circle; each product and each sum by u.
       lines_[c.first] = {Real(from[i]), way,
                          std::abs(Real(from[i])) + std::abs(way) + (circle ? 4 : 0)};
       if (!circle) continue;
@@ -88,7 +89,7 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
     if (arc.q0.dot(arc.q1) < 0) arc.q1 = -arc.q1;
     arc.omega = 2 * std::atan2((arc.q1 - arc.q0).norm(), (arc.q1 + arc.q0).norm());
     ambiguous_ |= kPi - 2 * arc.omega <= kAmbiguous;
-    // The vector part of q1·q0⁻¹: w0 v1 − w1 v0 − v1 × v0.
+    // The vector part of q1·q0⁻¹ is w0 v1 − w1 v0 − v1 × v0.
     const RealVec v0 = arc.q0.head<3>(), v1 = arc.q1.head<3>();
     const RealVec v = arc.q0[3] * v1 - arc.q1[3] * v0 - v1.cross(v0);
     const Real length = v.norm();
@@ -118,7 +119,7 @@ EdgeCurve::Line EdgeCurve::valueOf(const Frame& frame) const {
 }
 
 template <class See>
-Placement EdgeCurve::walk(const Limb& limb, Real t, const See& see) const {
+Placement EdgeCurve::walk(const KinematicChain& limb, Real t, const See& see) const {
   Placement at;
   for (const std::size_t f : limb.path) {
     const Frame& frame = tree_.frames[f];
@@ -128,17 +129,17 @@ Placement EdgeCurve::walk(const Limb& limb, Real t, const See& see) const {
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
-      case Frame::Joint::turn: {
+      case Frame::Joint::revolute: {
         const Line value = valueOf(frame);
         at.rotation = at.rotation * turnBy(axisOf(frame), value.from + t * value.way);
         break;
       }
-      case Frame::Joint::slide: {
+      case Frame::Joint::prismatic: {
         const Line value = valueOf(frame);
         at.position += (value.from + t * value.way) * (at.rotation * axisOf(frame));
         break;
       }
-      case Frame::Joint::shift: {
+      case Frame::Joint::translation: {
         RealVec shift = RealVec::Zero();
         for (std::size_t k = 0; k < frame.count; ++k) {
           const Line& line = lines_[frame.variable + k];
@@ -147,7 +148,7 @@ Placement EdgeCurve::walk(const Limb& limb, Real t, const See& see) const {
         at.position += at.rotation * shift;
         break;
       }
-      case Frame::Joint::rotate:
+      case Frame::Joint::rotation:
         at.rotation = at.rotation * arcAt(arcOf(frame), t);
         break;
     }
@@ -155,7 +156,7 @@ Placement EdgeCurve::walk(const Limb& limb, Real t, const See& see) const {
   return at;
 }
 
-FrameState EdgeCurve::at(const Limb& limb, Real t) const {
+FrameState EdgeCurve::at(const KinematicChain& limb, Real t) const {
   FrameState state;
   const auto turns = [&](const RealVec& vector, const Placement& at) {
     state.angular += vector;
@@ -165,18 +166,18 @@ FrameState EdgeCurve::at(const Limb& limb, Real t) const {
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
-      case Frame::Joint::turn:
+      case Frame::Joint::revolute:
         turns(valueOf(frame).way * (at.rotation * axisOf(frame)), at);
         break;
-      case Frame::Joint::slide:
+      case Frame::Joint::prismatic:
         state.linear += valueOf(frame).way * (at.rotation * axisOf(frame));
         break;
-      case Frame::Joint::shift:
+      case Frame::Joint::translation:
         for (std::size_t k = 0; k < frame.count; ++k)
           state.linear +=
               lines_[frame.variable + k].way * at.rotation.col(static_cast<Eigen::Index>(k));
         break;
-      case Frame::Joint::rotate:
+      case Frame::Joint::rotation:
         turns(at.rotation * arcOf(frame).turn, at);
         break;
     }
@@ -184,12 +185,14 @@ FrameState EdgeCurve::at(const Limb& limb, Real t) const {
   return state;
 }
 
-Strays EdgeCurve::straysAt(const Limb& limb, Real t, const Configuration& tube) const {
-  Strays strays;
+Perturbation EdgeCurve::perturbationAt(const KinematicChain& limb, Real t,
+                                       const Configuration& tube) const {
+  Perturbation strays;
   const auto twist = [&](std::size_t number, const RealVec& linear, const RealVec& angular) {
     const Real stray = tube[static_cast<Eigen::Index>(number)];
-    auto at = std::find_if(strays.twists.begin(), strays.twists.end(),
-                           [&](const Strays::Twist& other) { return other.number == number; });
+    auto at =
+        std::find_if(strays.twists.begin(), strays.twists.end(),
+                     [&](const Perturbation::Twist& other) { return other.number == number; });
     if (at == strays.twists.end())
       at = strays.twists.insert(at, {RealVec::Zero(), RealVec::Zero(), number});
     at->linear += stray * linear;
@@ -200,20 +203,20 @@ Strays EdgeCurve::straysAt(const Limb& limb, Real t, const Configuration& tube) 
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
-      case Frame::Joint::turn: {
+      case Frame::Joint::revolute: {
         const RealVec axis = Real(frame.multiplier) * (at.rotation * axisOf(frame));
         twist(frame.variable, -axis.cross(at.position), axis);
         break;
       }
-      case Frame::Joint::slide:
+      case Frame::Joint::prismatic:
         twist(frame.variable, Real(frame.multiplier) * (at.rotation * axisOf(frame)),
               RealVec::Zero());
         break;
-      case Frame::Joint::shift:
+      case Frame::Joint::translation:
         for (std::size_t k = 0; k < frame.count; ++k)
           twist(frame.variable + k, at.rotation.col(static_cast<Eigen::Index>(k)), RealVec::Zero());
         break;
-      case Frame::Joint::rotate:
+      case Frame::Joint::rotation:
         strays.pivots.push_back(
             {at.position, Real(tube[static_cast<Eigen::Index>(frame.variable)])});
         break;
@@ -238,11 +241,12 @@ Configuration EdgeCurve::configuration(Real t) const {
   return q;
 }
 
-Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube) const {
+Reach EdgeCurve::reach(const KinematicChain& limb, Real radius, const Configuration& tube) const {
   Reach reach;
-  // From the frame back to the base: `length` is that of the chain after the joint at hand; turns
-  // before it are not known yet, so that their share of `bend` is added when they come: with D the
-  // sum of |Δ_j| R_j and |Δ_j| of the joints after them (`speed` so far), 2 |Δ_i| D. So with τ.
+  // Goes from the frame back to the base. `length` is that of the chain after the current joint.
+  // The revolute joints before it are not known yet, so each adds its share of `bend` when the loop
+  // reaches it. That share is 2 |Δ_i| D. D is `speed` so far: the sum of |Δ_j| R_j and |Δ_j| over
+  // the joints after joint i. The same holds with τ.
   Real length = radius, manyTurns = 1;
   const auto turn = [&](Real delta, Real stray) {
     reach.bend += delta * (delta * length + 2 * reach.speed);
@@ -261,23 +265,24 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
   };
   for (std::size_t k = limb.path.size(); k-- > 0;) {
     const Frame& frame = tree_.frames[limb.path[k]];
-    const Line value = frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide
-                           ? valueOf(frame)
-                           : Line{};
+    const Line value =
+        frame.joint == Frame::Joint::revolute || frame.joint == Frame::Joint::prismatic
+            ? valueOf(frame)
+            : Line{};
     const bool held = frame.variable == Frame::noVariable;
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
-      case Frame::Joint::turn:
+      case Frame::Joint::revolute:
         turn(std::abs(value.way),
              held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable));
         manyTurns += 0x1p-11L * value.terms;
         break;
-      case Frame::Joint::slide:
+      case Frame::Joint::prismatic:
         slide(std::abs(value.way),
               held ? 0 : std::abs(Real(frame.multiplier)) * strayOf(frame.variable), value.terms);
         break;
-      case Frame::Joint::shift: {
+      case Frame::Joint::translation: {
         Real way = 0, stray = 0, longest = 0;
         for (std::size_t i = 0; i < frame.count; ++i) {
           const Line& line = lines_[frame.variable + i];
@@ -289,7 +294,7 @@ Reach EdgeCurve::reach(const Limb& limb, Real radius, const Configuration& tube)
         slide(std::sqrt(way), std::sqrt(stray), std::sqrt(longest));
         break;
       }
-      case Frame::Joint::rotate:
+      case Frame::Joint::rotation:
         turn(arcOf(frame).turn.norm(), strayOf(frame.variable));
         break;
     }

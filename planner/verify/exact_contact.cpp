@@ -32,7 +32,7 @@ Point along(const Point& p, const Point& direction, const Rational& t) {
   return {p[0] + t * direction[0], p[1] + t * direction[1], p[2] + t * direction[2]};
 }
 
-/// A common point of the closed segments pq and rs; either may be a single point.
+/// Returns a common point of the closed segments pq and rs; either may be a single point.
 std::optional<Point> segmentsMeet(const Point& p, const Point& q, const Point& r, const Point& s) {
   const Point d1 = q - p, d2 = s - r, w = r - p, normal = cross(d1, d2);
   if (!isZero(normal)) {
@@ -45,7 +45,7 @@ std::optional<Point> segmentsMeet(const Point& p, const Point& q, const Point& r
   const Point& d = isZero(d1) ? d2 : d1;
   if (isZero(d)) return isZero(w) ? std::optional(p) : std::nullopt;  // two points
   if (!isZero(cross(w, d))) return std::nullopt;                      // parallel lines
-  // One line: the larger of the lower ends is common if it isn't beyond an upper end.
+  // Collinear segments: the larger of the lower ends is common unless it is beyond an upper end.
   const auto before = [&](const Point& a, const Point& b) { return dot(a - b, d) < 0; };
   const auto [low1, high1] = before(q, p) ? std::pair(q, p) : std::pair(p, q);
   const auto [low2, high2] = before(s, r) ? std::pair(s, r) : std::pair(r, s);
@@ -61,7 +61,7 @@ std::optional<Point> segmentMeetsAnEdge(const Point& p, const Point& q, const Tr
   return std::nullopt;
 }
 
-/// `x` in the plane of `t`, whose normal is not zero.
+/// @pre `x` is in the plane of `t`, whose normal is not zero.
 bool inTriangle(const Point& x, const Triangle& t, const Point& normal) {
   for (int i = 0; i < 3; ++i) {
     if (dot(normal, cross(t[(i + 1) % 3] - t[i], x - t[i])) < 0) return false;
@@ -71,12 +71,12 @@ bool inTriangle(const Point& x, const Triangle& t, const Point& normal) {
 
 std::optional<Point> segmentMeetsTriangle(const Point& p, const Point& q, const Triangle& t) {
   const Point normal = cross(t[1] - t[0], t[2] - t[0]);
-  if (isZero(normal)) return segmentMeetsAnEdge(p, q, t);  // it is the union of its edges
+  if (isZero(normal)) return segmentMeetsAnEdge(p, q, t);  // the triangle is the union of its edges
   const Rational sideP = dot(normal, p - t[0]), sideQ = dot(normal, q - t[0]);
   if ((sideP > 0 && sideQ > 0) || (sideP < 0 && sideQ < 0)) return std::nullopt;
   if (sideP == 0 && inTriangle(p, t, normal)) return p;
   if (sideQ == 0 && inTriangle(q, t, normal)) return q;
-  if (sideP == sideQ) return segmentMeetsAnEdge(p, q, t);  // both zero: in the plane
+  if (sideP == sideQ) return segmentMeetsAnEdge(p, q, t);  // both zero: the segment is in the plane
   const Point crossing = along(p, q - p, sideP / (sideP - sideQ));
   return inTriangle(crossing, t, normal) ? std::optional(crossing) : std::nullopt;
 }
@@ -90,7 +90,7 @@ Point exact(const Vec3& v) {
 std::optional<Vec3> exactContact(const RigidPose& pose, const Corners& moving,
                                  const Corners& fixed) {
   const Rational w(pose.q.w()), x(pose.q.x()), y(pose.q.y()), z(pose.q.z());
-  // Everything is scaled by |q|², so that no division is needed.
+  // All coordinates are scaled by |q|², which avoids divisions.
   const Rational scale = w * w + x * x + y * y + z * z;
   const Point rows[3] = {{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
                          {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
@@ -104,7 +104,8 @@ std::optional<Vec3> exactContact(const RigidPose& pose, const Corners& moving,
       b[corner][i] = scale * world[i];
     }
   }
-  // Two triangles meet exactly if an edge of one meets the other; true of degenerate ones too.
+  // Two triangles meet if and only if an edge of one meets the other. This holds for degenerate
+  // triangles, too.
   std::optional<Point> common;
   for (int i = 0; i < 3 && !common; ++i) {
     common = segmentMeetsTriangle(a[i], a[(i + 1) % 3], b);

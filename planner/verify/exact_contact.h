@@ -3,20 +3,20 @@
 #include <array>
 #include <optional>
 
+#include "collision/core/rigid_pose.h"
 #include "collision/core/transform.h"
 #include "collision/geometry/triangle_mesh.h"
-#include "collision/motion/rigid_motion.h"
 
 namespace corridor::verify {
 
-/// Three corners, in metres. Any three points: repeated and collinear ones are the segment or point
-/// that they span.
+/// The corners of a triangle, metres. Repeated or collinear corners are allowed; they span a point
+/// or a segment.
 using Corners = std::array<Vec3, 3>;
 
-/// Do the closed triangles `fixed` and the image of `moving` under `pose` share a point? Exact for
-/// the doubles given: the quaternion is normalised in rational arithmetic, R(q)·|q|² being a
-/// polynomial of its four numbers.
-/// @return a common point, rounded; nullopt if there is none.
+/// Decides whether the closed triangle `fixed` and the image of the closed triangle `moving` under
+/// `pose` share a point. The answer is exact for the given doubles: the quaternion is normalised in
+/// rational arithmetic, where R(q)·|q|² is a polynomial of its four numbers.
+/// @returns a common point, rounded; nullopt if there is none.
 std::optional<Vec3> exactContact(const RigidPose& pose, const Corners& moving,
                                  const Corners& fixed);
 

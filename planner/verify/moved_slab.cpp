@@ -9,15 +9,16 @@ namespace corridor::verify {
 namespace {
 
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
-/// Pairs of pieces that one interval may prove one by one, by slabs of their own; with more it is
-/// better halved.
+/// The largest number of pairs of leaf primitives that one time interval proves one by one, each by
+/// its own slab. With more pairs it is cheaper to halve the interval.
 constexpr std::size_t kNear = 400;
-/// The same where halving brings nothing more, since the tube reaches farther than the motion.
+/// The same if halving gains little, because the tube displaces points farther than the motion
+/// does.
 constexpr std::size_t kNearInTube = 64 * kNear;
 
 }  // namespace
 
-BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Strays strays) {
+BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation strays) {
   const RealMat back = at.rotation.transpose();
   const auto seen = [&](RealVec& linear, RealVec& angular) {
     linear = back * (linear + angular.cross(at.position));
@@ -25,8 +26,9 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Strays s
   };
   BodyMotion motion{state.linear, state.angular, std::move(strays)};
   seen(motion.linear, motion.angular);
-  for (Strays::Twist& twist : motion.strays.twists) seen(twist.linear, twist.angular);
-  for (Strays::Pivot& pivot : motion.strays.pivots) pivot.at = back * (pivot.at - at.position);
+  for (Perturbation::Twist& twist : motion.strays.twists) seen(twist.linear, twist.angular);
+  for (Perturbation::PivotRotation& pivot : motion.strays.pivots)
+    pivot.at = back * (pivot.at - at.position);
   return motion;
 }
 
@@ -48,16 +50,16 @@ MovedSlab::Side MovedSlab::sideOf(const BodyMotion& motion, Real half, const Rea
   Side side;
   side.back = {along - half * velocity.slope, -half * velocity.constant};
   side.forth = {along + half * velocity.slope, half * velocity.constant};
-  for (const Strays::Twist& twist : motion.strays.twists)
+  for (const Perturbation::Twist& twist : motion.strays.twists)
     side.twists.push_back(seen(twist.linear, twist.angular));
   side.pivots = motion.strays.pivots;
   return side;
 }
 
-Real MovedSlab::straysOf(const Side& side, const RealVec& x) const {
+Real MovedSlab::perturbationOf(const Side& side, const RealVec& x) const {
   Real sum = 0;
   for (const Affine& twist : side.twists) sum += std::abs(twist.at(x));
-  for (const Strays::Pivot& pivot : side.pivots)
+  for (const Perturbation::PivotRotation& pivot : side.pivots)
     sum += pivot.angle * normal_.cross(x - pivot.at).norm();
   return sum;
 }
@@ -65,7 +67,7 @@ Real MovedSlab::straysOf(const Side& side, const RealVec& x) const {
 MovedSlab::Support MovedSlab::supportOf(const Side& side, const ConvexSet& set) const {
   Support most{-kInfinity, -kInfinity};
   for (const RealVec& x : set.points) {
-    const Real strays = straysOf(side, x);
+    const Real strays = perturbationOf(side, x);
     most.back = std::max(most.back, side.back.at(x) + strays);
     most.forth = std::max(most.forth, side.forth.at(x) + strays);
   }
@@ -73,7 +75,7 @@ MovedSlab::Support MovedSlab::supportOf(const Side& side, const ConvexSet& set) 
     const auto across = [&](const RealVec& g) { return (g - set.axis * set.axis.dot(g)).norm(); };
     Real strays = 0;
     for (const Affine& twist : side.twists) strays += across(twist.slope);
-    for (const Strays::Pivot& pivot : side.pivots) strays += pivot.angle;
+    for (const Perturbation::PivotRotation& pivot : side.pivots) strays += pivot.angle;
     most.back += set.radius * (across(side.back.slope) + strays);
     most.forth += set.radius * (across(side.forth.slope) + strays);
   }
@@ -84,11 +86,11 @@ MovedSlab::Support MovedSlab::supportOf(const Side& side, const ConvexSet& set) 
 
 MovedSlab::Support MovedSlab::supportOf(const Side& side, const CentredBox& box) const {
   const auto within = [&](const RealVec& g) { return g.cwiseAbs().dot(box.half); };
-  Real strays = straysOf(side, box.centre);
+  Real strays = perturbationOf(side, box.centre);
   for (const Affine& twist : side.twists) strays += within(twist.slope);
   if (!side.pivots.empty()) {
     const Real radius = box.half.norm();
-    for (const Strays::Pivot& pivot : side.pivots) strays += pivot.angle * radius;
+    for (const Perturbation::PivotRotation& pivot : side.pivots) strays += pivot.angle * radius;
   }
   return {side.back.at(box.centre) + within(side.back.slope) + strays,
           side.forth.at(box.centre) + within(side.forth.slope) + strays};
@@ -109,14 +111,15 @@ Real MovedSlab::width(const CentredBox& a, const CentredBox& b) const {
 Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
                   const Sought& sought, std::vector<PiecePair>& scratch) {
   const Real lost = motion.secondOrder + motion.rounding;
-  // Whatever the direction.
+  // Subtracting this is enough in any direction.
   const Real most = motion.travel + motion.tube + motion.rounding;
   const auto slabAlong = [&](const RealVec& direction) {
     return MovedSlab(motion.a, motion.b, motion.half, direction);
   };
   const MovedSlab general = slabAlong(measured.onB - measured.onA);
-  // Any direction is as good as it proves: that of the bodies' closest points, that of the two
-  // pieces', or, where these face each other at an angle, a face's.
+  // Every direction gives a true bound, so several are tried: that of the bodies' closest points;
+  // that of the two leaf primitives' closest points; and the triangles' normals, for triangles that
+  // face each other at an angle.
   const auto boundOf = [&](PiecePair pieces) {
     const ConvexSet a = placed.setA(pieces.a), b = placed.setB(pieces.b);
     Real best = general.width(a, b) - lost;
@@ -138,7 +141,8 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
   };
   if (measured.lower - lost <= sought.needed || boundOf(measured.pair) <= sought.needed)
     return -kInfinity;
-  // What no slab is needed for, and what is proved by the box that it is in, is left out.
+  // Pairs of leaf primitives that are farther apart than all motion need no slab. Pairs in boxes
+  // that a slab already separates are settled.
   const std::size_t count = motion.tube > motion.travel ? kNearInTube : kNear;
   for (Real bound : {sought.wanted, sought.little}) {
     const auto settled = [&](const CentredBox& a, const CentredBox& b) {

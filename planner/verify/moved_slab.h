@@ -6,40 +6,49 @@
 
 namespace corridor::verify {
 
-/// How the core points of a body move about the middle of an interval, in coordinates that stand
-/// still there: x has the velocity linear + angular × x per unit of t, and strays.
+/// The motion of a body's points about the middle of a time interval, in coordinates that are fixed
+/// there. A point x has the velocity linear + angular × x per unit of t, and the perturbations
+/// `strays`.
 struct BodyMotion {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
-  Strays strays;  ///< none: they are counted otherwise
+  Perturbation strays;  ///< empty if the caller bounds the tube by other means
 };
 
-/// `state` and `strays` are of the same limb at the same t; `at` is the placement of the
-/// coordinates that the motion is wanted in.
-BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Strays strays);
+/// Transforms a frame's motion into other coordinates, placed at `at`. @pre `state` and `strays`
+/// are of the same kinematic chain at the same t.
+BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation strays);
 
-/// The width of the slab between two moving bodies along a direction n that is fixed in the
-/// coordinates in which they move, to first order of the motion.
+/// The width of the slab between two moving bodies along a direction n, to first order of the
+/// motion. It is a lower bound of their distance, up to the second-order terms that Reach bounds. n
+/// is fixed in the coordinates in which the bodies move.
 ///
-/// At a time s from the middle, |s| ≤ half, a core point x is at x + s·v(x) + Σ c_j T_j(x) + Σ w_k
-/// × (x − p_k), but for what Reach counts for the second order: v its velocity, T_j the twists, p_k
-/// the pivots of its strays. Balls move with their centres, and are as wide in any pose. So the
-/// width is, with h_A the support of A's along n, h_B that of B's along −n,
-///   −h_A − h_B,  h(s) = max over x of ±n·(x + s·v(x)) + Σ |n·T_j(x)| + Σ angle_k |n × (x − p_k)|
-/// (w·((x − p) × n), w any vector of at most `angle`). Everything under the maximum is convex in x
-/// (T_j and v are affine), so that it is attained at a corner of the core, and the maximum itself
-/// is convex in s, so that −h_A − h_B is concave and least at one of s = ±half. That is no more
-/// than what the strays can do: each c_j is at ±1 at that corner, and each w_k across n; only that
-/// two bodies share joints (of two limbs that mimic one) isn't made use of.
+/// Points. At a time s from the middle, |s| ≤ half, a core point x (without its swept sphere) is at
+///   x + s·v(x) + Σ c_j T_j(x) + Σ w_k × (x − p_k),
+/// except for second-order terms. Here v is the velocity; T_j are the twists of the perturbations,
+/// |c_j| ≤ 1; p_k are the points of their pivot rotations w_k, |w_k| ≤ angle_k. Swept spheres move
+/// with their centres. A swept sphere's radius is the same in every pose.
 ///
-/// A disc about the corner x has x + d, d across the axis, |d| ≤ r: there n·(d + s ω × d) = d·(n +
-/// s n × ω) ≤ r times what of that is across the axis; |n·T_j(x + d)| ≤ |n·T_j(x)| + r |n × ω_j,
-/// across the axis|, and |n × d| ≤ r. A box has x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i| likewise, |n
-/// × d| ≤ |e|; these two are bounds, not attained where several terms are.
+/// Width. Let h_A be the support of A along n, and h_B that of B along −n. The width is −h_A − h_B,
+/// with
+///   h(s) = max over x of ±n·(x + s·v(x)) + Σ |n·T_j(x)| + Σ angle_k |n × (x − p_k)|.
+/// The last term is the largest value of w·((x − p) × n) for vectors w of at most `angle`. Each
+/// term is convex in x, as T_j and v are affine, so the maximum is attained at a corner of the
+/// core. The maximum is convex in s, so the width is concave and least at s = −half or s = half.
 ///
-/// Rounding: of relative 2^-58 or so of lengths that Reach::size has all in it.
+/// For core points the width is sharp: at that corner each c_j can be ±1 and each w_k perpendicular
+/// to n. It ignores that both bodies may share a joint (two chains that mimic one), which could
+/// only give a larger width.
+///
+/// Discs and boxes. A disc about the corner x has the points x + d, with d perpendicular to the
+/// axis, |d| ≤ r. Let ⟂ be the component perpendicular to the axis. Then n·(d + s ω × d) = d·(n + s
+/// n × ω) ≤ r |(n + s n × ω)⟂|, |n·T_j(x + d)| ≤ |n·T_j(x)| + r |(n × ω_j)⟂|, and |n × d| ≤ r. A
+/// box has the points x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i|, and |n × d| ≤ |e|. These bounds are
+/// not sharp if there are several terms.
+///
+/// Rounding: about 2^-58, relative to lengths that Reach::size contains.
 class MovedSlab {
  public:
-  /// @param direction from a to b, of any length; 0: the width is −infinity.
+  /// @param direction from a to b, of any length; with 0 the width is −infinity.
   MovedSlab(const BodyMotion& a, const BodyMotion& b, Real half, const RealVec& direction);
   Real width(const ConvexSet& a, const ConvexSet& b) const;
   Real width(const CentredBox& a, const CentredBox& b) const;
@@ -53,40 +62,43 @@ class MovedSlab {
   struct Side {
     Affine back, forth;          // ±n·(x + s·v(x)) for s = −half, half
     std::vector<Affine> twists;  // n·T_j(x)
-    std::vector<Strays::Pivot> pivots;
+    std::vector<Perturbation::PivotRotation> pivots;
   };
   struct Support {
     Real back, forth;
   };
   Side sideOf(const BodyMotion& motion, Real half, const RealVec& along) const;
-  Real straysOf(const Side& side, const RealVec& x) const;
+  Real perturbationOf(const Side& side, const RealVec& x) const;
   Support supportOf(const Side& side, const ConvexSet& set) const;
   Support supportOf(const Side& side, const CentredBox& box) const;
 
-  RealVec normal_ = RealVec::Zero();  // unit, or zero
+  RealVec normal_ = RealVec::Zero();  // unit or zero
   Side a_, b_;
 };
 
-/// A pair of bodies in an interval: how they move, and how far at most.
+/// The motion of a pair of bodies in a time interval, and its bounds. Lengths in metres.
 struct PairMotion {
-  BodyMotion a, b;       ///< in a's frame at the middle
-  Real half = 0;         ///< of the interval, in t
-  Real travel = 0;       ///< of any point within the interval, from where it is at the middle
-  Real tube = 0;         ///< of any point, by the strays, whatever the direction
-  Real secondOrder = 0;  ///< what MovedSlab leaves out
+  BodyMotion a, b;  ///< in a's frame at the middle
+  Real half = 0;    ///< half width of the interval, in t
+  Real travel = 0;  ///< upper bound of any point's displacement from its place at the middle
+  Real tube = 0;    ///< upper bound of any point's displacement within the tube, in any direction
+  Real secondOrder = 0;  ///< upper bound of the terms that MovedSlab leaves out
   Real rounding = 0;
 };
 
-/// What a bound of the clearance is looked for for.
+/// Thresholds for a lower bound of the clearance, metres.
 struct Sought {
-  Real needed = 0;  ///< a bound of this or less is none
-  Real little = 0;  ///< more than `needed`: of use, if no more can be had at a reasonable cost
-  Real wanted = 0;  ///< a larger one is of no use
+  Real needed = 0;  ///< a bound of this or less is useless
+  Real little = 0;  ///< above `needed`; enough if `wanted` costs too much
+  Real wanted = 0;  ///< a larger bound is of no use
 };
 
-/// A lower bound of the clearance of two bodies, `placed` at the middle and measured there, all
-/// over the interval and the tube, by a slab of its own for each pair of pieces that comes near;
-/// −infinity if it isn't more than is needed. `scratch` is for the pairs.
+/// Returns a lower bound of the clearance of two bodies, for the whole interval and tube. Each pair
+/// of leaf primitives that comes near has a slab of its own. Returns −infinity if the bound is at
+/// most `sought.needed`.
+/// @param placed the bodies at the middle of the interval.
+/// @param measured their distance there.
+/// @param scratch memory for the pairs of leaf primitives.
 Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
                   const Sought& sought, std::vector<PiecePair>& scratch);
 

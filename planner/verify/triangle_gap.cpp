@@ -12,12 +12,12 @@ Real clampToUnit(Real x) {
 
 void keepCloser(TriangleGap& best, const RealVec& onA, const RealVec& onB) {
   const Real square = (onB - onA).squaredNorm();
-  if (square < best.upper) best = {0, square, onA, onB};  // squares here; the root comes last
+  if (square < best.upper) best = {0, square, onA, onB};  // `upper` holds squares until the end
 }
 
-/// Closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9). Where the
-/// segments are nearly parallel the first parameter may be any; the second is then the best for it,
-/// and the first the best for that.
+/// Closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9). If the segments
+/// are nearly parallel, any first parameter will do: the second is then chosen best for it, and the
+/// first best for the second.
 void edgeEdge(TriangleGap& best, const RealVec& p, const RealVec& q, const RealVec& r,
               const RealVec& s) {
   const RealVec d1 = q - p, d2 = s - r, w = p - r;
@@ -29,7 +29,7 @@ void edgeEdge(TriangleGap& best, const RealVec& p, const RealVec& q, const RealV
   keepCloser(best, p + t * d1, r + u * d2);
 }
 
-/// The foot of `p` on the plane of `t`, where it is inside.
+/// Computes the foot of `p` on the plane of `t`. @returns whether it is inside the triangle.
 bool footInside(const RealVec& p, const RealVec t[3], RealVec& foot) {
   const RealVec normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const Real square = normal.squaredNorm();
@@ -41,8 +41,8 @@ bool footInside(const RealVec& p, const RealVec t[3], RealVec& foot) {
   return true;
 }
 
-/// The widest slab along the normals, the products of edges and the edges' normals in the planes:
-/// for triangles so thin that their closest points come out wrong.
+/// Returns the widest slab along the normals, the cross products of edges, and the normals of edges
+/// in the planes. It is for triangles so thin that their computed closest points are wrong.
 Real widestSlab(const RealVec a[3], const RealVec b[3]) {
   const RealVec normalA = (a[1] - a[0]).cross(a[2] - a[0]);
   const RealVec normalB = (b[1] - b[0]).cross(b[2] - b[0]);
@@ -84,8 +84,8 @@ TriangleGap triangleGap(const RealVec a[3], const RealVec b[3]) {
   }
   best.upper = std::sqrt(best.upper);
   best.lower = std::max<Real>(0, slabWidth(a, b, best.onB - best.onA));
-  // A good direction gives a slab as wide as the distance; 1/1024 only decides when a second try is
-  // worth its time.
+  // In a good direction the slab is as wide as the distance. The threshold 1/1024 only decides
+  // whether a second attempt is worth its time.
   if (best.lower < best.upper * (1 - Real(1) / 1024)) {
     best.lower = std::max(best.lower, widestSlab(a, b));
   }

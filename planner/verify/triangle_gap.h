@@ -13,27 +13,28 @@ static_assert(std::numeric_limits<Real>::digits >= 64,
 using RealVec = Eigen::Matrix<Real, 3, 1>;
 using RealMat = Eigen::Matrix<Real, 3, 3>;
 
-/// The distance of two closed triangles, bracketed.
+/// Lower and upper bound of the distance of two closed triangles.
 ///
 /// `upper` is the distance of the two witness points: the closest of the 15 pairs of features (6 of
-/// a vertex and a face, 9 of two edges). `lower` doesn't trust that computation. It is the width of
-/// a slab between two parallel planes with the triangles on either side, and any direction whatever
+/// a vertex and a face, 9 of two edges). `lower` doesn't depend on that computation. It is the
+/// width of a slab between two parallel planes, with a triangle on either side. Any direction n
 /// gives a true bound:
 ///     distance ≥ (min over B of n·b − max over A of n·a) / |n|.
-/// For triangles that meet every slab has width ≤ 0, so `lower` needs no test of intersection to be
-/// right.
+/// If the triangles meet, every slab has width ≤ 0. So `lower` is right without a test for
+/// intersection.
 ///
-/// Rounding: with S the largest norm of a corner, a dot product is off by at most 3u|n|S(1 + O(u)),
-/// their difference by another u·2|n|S and the division by |n| by a factor 1 ± 4u. `lower` exceeds
-/// the true distance of the given corners by less than (3 + 3 + 2 + 8)u·S = 2^-60·S; `upper`
-/// undercuts that of the witness points by less. Callers add it.
+/// Rounding: let S be the largest norm of a corner. A dot product is off by at most 3u|n|S(1 +
+/// O(u)), the difference of two by another u·2|n|S, and the division by |n| by a factor 1 ± 4u.
+/// `lower` exceeds the true distance of the given corners by less than (3 + 3 + 2 + 8)u·S =
+/// 2^-60·S. `upper` is below the distance of the witness points by less than that. Callers add this
+/// error.
 struct TriangleGap {
   Real lower = 0;
   Real upper = std::numeric_limits<Real>::infinity();
   RealVec onA = RealVec::Zero(), onB = RealVec::Zero();
 };
 
-/// The width of the slab along `direction`, of any length; 0 for none.
+/// Returns the width of the slab along `direction`, which may have any length; 0 if it is zero.
 Real slabWidth(const RealVec a[3], const RealVec b[3], const RealVec& direction);
 
 TriangleGap triangleGap(const RealVec a[3], const RealVec b[3]);

@@ -24,7 +24,8 @@ std::vector<std::vector<std::uint32_t>> componentsOf(const TriangleMesh& mesh) {
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;  // and a triangle there
+  // Each edge of the mesh, as the numbers of its two ends, with one triangle that has this edge.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
   for (std::uint32_t t = 0; t < root.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t p = placeOf(mesh.corner(t, i)), q = placeOf(mesh.corner(t, (i + 1) % 3));
@@ -43,7 +44,7 @@ std::vector<std::vector<std::uint32_t>> componentsOf(const TriangleMesh& mesh) {
 bool insideAny(const TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& components,
                const RealVec& point) {
   for (const auto& component : components) {
-    Real sum = 0;  // of half the solid angles
+    Real sum = 0;  // half of the solid angles
     for (const std::uint32_t t : component) {
       const RealVec a = mesh.corner(t, 0).cast<Real>() - point,
                     b = mesh.corner(t, 1).cast<Real>() - point,

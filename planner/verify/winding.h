@@ -7,15 +7,17 @@
 
 namespace corridor::verify {
 
-/// The components of a mesh, each with its triangles: those that share an edge hang together
-/// (corners at the same place are one). Shells that meet in a corner alone are components of their
-/// own: one may be in the other, and together they turn twice about what is in both, or not at all.
+/// Returns the components of a mesh, as lists of triangles. Triangles that share an edge are in one
+/// component; vertices at the same place are one vertex. Shells that meet only at a vertex are
+/// separate components. One may be inside the other, and together they would wind twice round the
+/// points inside both, or not at all.
 std::vector<std::vector<std::uint32_t>> componentsOf(const TriangleMesh& mesh);
 
-/// Is the point inside any one of the components? Each is taken as closed; the solid angles of its
-/// triangles (Van Oosterom, Strackee 1983) add up to a whole multiple of 4π, odd inside, by
-/// whatever sense its triangles turn. @pre the point is not on the surface by more than rounding:
-/// the sum is rounded to the nearest whole number.
+/// Returns whether the point is inside any of the components. Each component is assumed to be
+/// closed. The solid angles of its triangles (Van Oosterom, Strackee 1983) add up to a multiple of
+/// 4π, which is odd inside, for either orientation of the triangles.
+/// @pre the point is farther from the surface than rounding, because the sum is rounded to the
+/// nearest whole number.
 bool insideAny(const TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& components,
                const RealVec& point);
 

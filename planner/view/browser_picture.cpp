@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/solve/whole_file.h"
 
 extern char** environ;
@@ -29,30 +29,31 @@ extern char** environ;
 namespace corridor {
 namespace {
 
-/// Seconds: a million triangles take some ten by a processor alone.
+/// Time limit in seconds. A million triangles take about ten without a graphics card.
 constexpr int kPatience = 180;
 
-/// A folder for one picture, removed with all that the browser leaves in it.
+/// A temporary folder for one picture; removed with all files that the browser leaves in it.
 class WorkFolder {
  public:
   WorkFolder() {
     std::error_code none;
     const std::filesystem::path base = std::filesystem::temp_directory_path(none);
     if (none)
-      throw InputError(Fault{"TMPDIR", 0, "names no folder; one is needed to draw a picture"});
+      throw InputError(
+          Fault{"TMPDIR", 0, "does not name a folder; set it to a folder for temporary files"});
     std::string name = (base / "corridor-view-XXXXXX").string();
     if (!::mkdtemp(name.data()))
       throw InputError(
           Fault{base.string(), 0,
-                "no folder can be made here: " + std::generic_category().message(errno) +
-                    "; let TMPDIR name another one"});
+                "no folder can be created here: " + std::generic_category().message(errno) +
+                    "; set TMPDIR to another folder"});
     path_ = name;
   }
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
   ~WorkFolder() {
     std::error_code ignored;
-    // The browser's processes that were killed may write a last file meanwhile.
+    // Processes of the browser that were killed may still write a last file.
     for (int i = 0; i < 100 && std::filesystem::exists(path_, ignored); ++i) {
       if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       std::filesystem::remove_all(path_, ignored);
@@ -69,12 +70,12 @@ std::string contents(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Whether a picture is there to its last byte: on a full disk browsers leave a part of it.
+/// Returns whether a picture is complete: on a full disk browsers leave a part of it.
 bool isWholePng(const std::string& png) {
   return png.starts_with("\x89PNG") && png.ends_with("IEND\xAE\x42\x60\x82");
 }
 
-/// A path as browsers take it: what isn't a letter, a digit or /-_. by its bytes.
+/// Returns a file's URL: bytes other than letters, digits and /-_. are escaped.
 std::string fileUrl(const std::filesystem::path& path) {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string url = "file://";
@@ -88,9 +89,9 @@ std::string fileUrl(const std::filesystem::path& path) {
   return url;
 }
 
-/// The environment with TMPDIR naming this folder: Chromium leaves files there when it is killed.
-/// Its socket is among them, whose path has 107 bytes at most; where the folder's name is too long
-/// for that, TMPDIR stays.
+/// Returns the environment with TMPDIR set to this folder: Chromium leaves files there when it is
+/// killed. One of them is a socket, whose path may have 107 bytes. TMPDIR is unchanged if the
+/// folder's name is too long for that.
 std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
   constexpr std::size_t kLongest =
       107 - std::string_view("/org.chromium.Chromium.XXXXXX/SingletonSocket").size();
@@ -102,7 +103,7 @@ std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
   return words;
 }
 
-/// As C has them: ended by a null pointer, valid as long as `words`.
+/// Returns C's form of the words: pointers that end with a null pointer, valid as long as `words`.
 std::vector<char*> pointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -112,7 +113,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
 
 enum class End { itself, late, interrupted };
 
-/// Runs a program with a folder for its temporary files, all that it says into a file.
+/// Runs a program with its own folder for temporary files; its output goes to `log`.
 End run(std::vector<std::string> words, const std::filesystem::path& folder,
         const std::filesystem::path& log, const std::atomic<bool>& interrupted) {
   std::vector<std::string> environment = environmentIn(std::filesystem::absolute(folder));
@@ -122,11 +123,13 @@ End run(std::vector<std::string> words, const std::filesystem::path& folder,
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0600);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawnattr_t attributes;  // a group of its own: its own children end with it
+  posix_spawnattr_t
+      attributes;  // in a process group of its own, so that its children can be killed with it
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   posix_spawnattr_setpgroup(&attributes, 0);
-  // Where its files may not grow (ulimit -f) it ends: with the signal ignored it would hang.
+  // SIGXFSZ ends the browser if a file exceeds `ulimit -f`; if it inherited an ignored signal it
+  // would hang.
   sigset_t usual;
   sigemptyset(&usual);
   sigaddset(&usual, SIGXFSZ);
@@ -144,7 +147,7 @@ End run(std::vector<std::string> words, const std::filesystem::path& folder,
     if (std::chrono::steady_clock::now() > latest) end = End::late;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  ::kill(-child, SIGKILL);  // or what it has left
+  ::kill(-child, SIGKILL);  // the program, or the children that it has left behind
   if (end != End::itself) ::waitpid(child, nullptr, 0);
   return end;
 }
@@ -196,13 +199,14 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
   writeWhole(html, page);
   std::vector<std::string> words = {
       browser.string(), "--headless", "--hide-scrollbars", "--no-first-run",
-      // WebGL by the processor: the same picture with any graphics card, or none.
+      // WebGL on the processor: the same picture with any graphics card, or none.
       "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-device-scale-factor=1",
       "--disable-dev-shm-usage", "--enable-logging=stderr",
       "--user-data-dir=" + (folder.path() / "profile").string(),
       "--window-size=" + std::to_string(size.width) + "," + std::to_string(size.height),
       "--screenshot=" + picture.string()};
-  if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // it refuses to run as root with it
+  if (::geteuid() == 0)
+    words.emplace_back("--no-sandbox");  // Chromium refuses to run as root with its sandbox
   words.push_back(fileUrl(html) + "#image");
   const End end = run(std::move(words), folder.path(), log, interrupted);
   if (end == End::interrupted) return false;
@@ -213,11 +217,11 @@ bool writePicture(const std::string& page, const std::filesystem::path& browser,
     if (end == End::late) why += " in " + std::to_string(kPatience) + " s";
     if (drawn)
       why = "has not written the whole picture to " + folder.path().parent_path().string() +
-            "; free some space there, or let TMPDIR name another folder";
+            "; free some space there, or set TMPDIR to another folder";
     if (said.find("corridor: no picture") != std::string::npos)
       why = "can't draw the picture: it has no WebGL";
     if (said.find("No usable sandbox") != std::string::npos)
-      why = "does not start: it finds no usable sandbox here";
+      why = "does not start: it finds no usable sandbox";
     throw InputError(Fault{browser.string(), 0, why});
   }
   writeWhole(file, png);

@@ -45,7 +45,7 @@ DisplayMesh displayMesh(const ProblemBody& body) {
   return display;
 }
 
-/// Of equal meshes, as of two arms of one kind, one is kept.
+/// Keeps one of several equal meshes, such as those of two arms of one kind.
 class MeshList {
  public:
   std::size_t add(DisplayMesh mesh) {
@@ -69,28 +69,30 @@ class MeshList {
   std::multimap<std::size_t, std::size_t> known_;
 };
 
-/// Does every joint turn about a vertical axis or go level, at the start and so always?
+/// Returns whether every joint that moves rotates about a vertical axis or translates horizontally.
+/// Testing the start pose is enough: such joints keep all axes vertical or horizontal.
 bool isPlanar(const Problem& problem) {
-  constexpr double kUpright = 1e-9;  // of a unit vector: rounding of poses, far below what is seen
+  constexpr double kUpright = 1e-9;  // for unit vectors: above rounding, far below what is seen
   const std::vector<Transform> poses = framePoses(problem.tree, problem.start);
   bool moves = false;
   for (std::size_t i = 1; i < problem.tree.frames.size(); ++i) {
     const Frame& frame = problem.tree.frames[i];
     if (frame.joint == Frame::Joint::none || frame.variable == Frame::noVariable) continue;
     moves = true;
-    const Mat3& m = poses[i].m;  // a joint does not turn its own axis
-    const Vec3 axis = frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide
-                          ? Vec3(m * frame.axis.normalized())
-                          : Vec3(m.col(2));
+    const Mat3& m = poses[i].m;  // a joint's own motion does not change its axis
+    const Vec3 axis =
+        frame.joint == Frame::Joint::revolute || frame.joint == Frame::Joint::prismatic
+            ? Vec3(m * frame.axis.normalized())
+            : Vec3(m.col(2));
     const bool upright = axis.head<2>().norm() < kUpright, level = std::abs(axis.z()) < kUpright;
     switch (frame.joint) {
-      case Frame::Joint::turn:
+      case Frame::Joint::revolute:
         if (!upright) return false;
         break;
-      case Frame::Joint::slide:
+      case Frame::Joint::prismatic:
         if (!level) return false;
         break;
-      case Frame::Joint::shift:
+      case Frame::Joint::translation:
         if (frame.count != 2 || !upright) return false;
         break;
       default:

@@ -9,45 +9,46 @@
 
 namespace corridor::view {
 
-/// What a graphics card is given of a problem: surfaces in float, and which of them is on which
-/// frame. Lengths in metres.
+/// The surfaces of a problem as a graphics card needs them, in floats, and the frames that they are
+/// fixed to. Lengths in metres.
 
-/// Positions are those of `origin` and of floats from it, so that they are as fine far from the
-/// frame's own origin as near it: vertex k is off by at most 2^-24 of its distance from `origin`.
+/// A mesh in floats. Positions are relative to `origin`, so that meshes far from the frame's origin
+/// are as precise as those near it: vertex k is off by at most 2^-24 of its distance from `origin`.
 struct DisplayMesh {
-  Vec3 origin = Vec3::Zero();          ///< the middle of its bounds
+  Vec3 origin = Vec3::Zero();          ///< the centre of its bounds, in the frame
   std::vector<float> positions;        ///< x, y, z of each vertex
-  std::vector<std::uint32_t> indices;  ///< three a triangle
+  std::vector<std::uint32_t> indices;  ///< three per triangle
   bool operator==(const DisplayMesh&) const = default;
 };
 
 struct DisplayBody {
   std::string name;
-  std::size_t frame = 0;             ///< 0: an obstacle
-  std::optional<std::size_t> robot;  ///< none: an obstacle
-  std::size_t mesh = 0;              ///< equal meshes are one
+  std::size_t frame = 0;             ///< 0: the world's frame, of obstacles
+  std::optional<std::size_t> robot;  ///< unset: an obstacle
+  std::size_t mesh = 0;              ///< index; bodies with equal meshes share one
 };
 
 struct DisplayScene {
   std::vector<DisplayMesh> meshes;
   std::vector<DisplayBody> bodies;  ///< in the problem's order
-  /// Positions of poses and points are told from here, a point amid the bodies: the world's
-  /// coordinates may be large.
+  /// The world point that poses and points are relative to. It is amid the bodies, since the
+  /// world's coordinates may be large.
   Vec3 origin = Vec3::Zero();
-  /// Frames that bodies are on, but the world's.
+  /// Frames with bodies, except the world's, in ascending order.
   std::vector<std::size_t> frames;
-  /// Of each robot the last frame that bears a body: a rigid body's own, an arm's hand. Robots
+  /// For each robot, the last frame that has a body: a rigid body's own, an arm's hand. Robots
   /// without one are left out.
   std::vector<std::size_t> lastFrames;
-  /// All that moves turns about vertical axes and goes level: it is seen best from above.
+  /// All joints rotate about vertical axes or translate horizontally: the scene is best seen from
+  /// above.
   bool planar = false;
 };
 
-/// All shapes of a body are one mesh, curved ones tessellated.
+/// Returns a problem's scene. All shapes of a body become one mesh; curved shapes are tessellated.
 DisplayScene displayScene(const Problem& problem);
 
-/// Poses of `scene.frames` as floats: x, y, z from the scene's origin, and the quaternion x, y, z,
-/// w: seven a frame.
+/// Returns the poses of `scene.frames` as floats, seven per frame: x, y, z from the scene's origin,
+/// then the quaternion x, y, z, w.
 std::vector<float> displayPoses(const DisplayScene& scene, const std::vector<Transform>& X_WF);
 
 }  // namespace corridor::view

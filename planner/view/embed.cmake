@@ -1,8 +1,8 @@
-# corridor_embed(TARGET FUNCTION FILE…): puts files into a target, each as it is. FUNCTION, with its namespaces, is declared by
-# a header of the caller's own as
+# corridor_embed(TARGET FUNCTION FILE…): embeds files in a target, byte by byte. The caller declares FUNCTION, with its
+# namespaces, in a header of its own as
 #     std::string_view FUNCTION(std::string_view name);
-# and gives the text of the file of that name (the last part of its path; std::out_of_range where there is none), for as
-# long as the program runs. A file that changes is embedded anew by the next build.
+# It returns the text of the file with that name, the last part of its path; the text is valid as long as the program runs. For
+# other names it throws std::out_of_range. The next build embeds a changed file anew.
 function(corridor_embed target function)
   string(REPLACE "::" ";" scopes ${function})
   list(POP_BACK scopes short)
@@ -18,7 +18,7 @@ function(corridor_embed target function)
     get_filename_component(name ${file} NAME)
     list(APPEND files ${file})
     set(first ${symbol}_${number})
-    # By the assembler: no limit of a string literal, and no time, however long the file.
+    # The assembler includes the file: it has no limit as string literals have, and takes no time, however long the file is.
     string(APPEND assembly "    \"${first}: .incbin \\\"${file}\\\"\\n${first}_end: .byte 0\\n\"\n")
     string(APPEND declarations "extern const char ${first}[], ${first}_end[];\n")
     string(APPEND cases "  if (name == \"${name}\") return {${first}, static_cast<std::size_t>(${first}_end - ${first})};\n")

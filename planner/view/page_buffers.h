@@ -7,10 +7,10 @@
 
 namespace corridor::view {
 
-/// The arrays of a page, end to end: little-endian, each begins at a multiple of 4 bytes.
+/// The arrays of a page in one buffer: little-endian, each starting at a multiple of 4 bytes.
 class PageBuffers {
  public:
-  /// Where an array is: how JavaScript's typed arrays see it.
+  /// The place of an array in the buffer, for a typed array of JavaScript.
   struct View {
     const char* type;    ///< "f4", "u4", "u2", "u1"
     std::size_t offset;  ///< bytes
@@ -25,7 +25,7 @@ class PageBuffers {
     bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
     return view;
   }
-  /// Of indices below `limit`: in two bytes each, where that is enough.
+  /// Adds indices below `limit`, with two bytes each if these are enough.
   View addIndices(const std::vector<std::uint32_t>& indices, std::size_t limit) {
     if (limit > 0x10000) return add(indices);
     return add(std::vector<std::uint16_t>(indices.begin(), indices.end()));

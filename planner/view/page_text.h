@@ -7,16 +7,18 @@
 
 namespace corridor::view {
 
-/// Pieces of pages: HTML of one file that loads nothing.
+/// Text functions for HTML pages that consist of one file.
 
-/// Text in HTML, between tags or in quotes.
+/// Escapes text for HTML, between tags or in quotes.
 std::string escapedHtml(std::string_view text);
-/// JSON within <script>: what `<` starts (`</script>`, `<!--`) is said in JSON's own escapes.
+/// Escapes JSON for a <script> element: `<` is written in JSON's own escapes, so that neither
+/// `</script>` nor `<!--` can occur.
 std::string scriptJson(std::string json);
-/// RFC 4648, with padding.
+/// Encodes bytes by RFC 4648, with padding.
 std::string base64(std::span<const char> bytes);
-/// The template with each `{{key}}` replaced by its value, as it is.
-/// @throws std::logic_error for a key without a value, or a value that no key asks for.
+/// Returns the template with each `{{key}}` replaced by its value. Values are inserted unchanged
+/// and not searched for keys.
+/// @throws std::logic_error for a key without a value, or a value whose key does not occur.
 std::string filled(std::string_view text, const std::map<std::string, std::string>& values);
 
 }  // namespace corridor::view

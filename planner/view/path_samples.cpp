@@ -10,12 +10,12 @@
 namespace corridor::view {
 namespace {
 
-constexpr double kTurn = std::numbers::pi / 90;  // rad from sample to sample
-constexpr double kShare = 1.0 / 400;             // of the path
+constexpr double kTurn = std::numbers::pi / 90;  // largest rotation from sample to sample, rad
+constexpr double kShare = 1.0 / 400;             // largest step, as a share of the path's way
 constexpr double kMostSamples = 1500;
-constexpr int kLook = 8;  // pieces of an edge that tell how far it goes
+constexpr int kLook = 8;  // pieces into which an edge is cut to estimate its way
 
-/// How far bodies go from pose to pose.
+/// Computes how far the moving bodies go from pose to pose.
 class Travel {
  public:
   explicit Travel(const Problem& problem) {
@@ -37,7 +37,7 @@ class Travel {
     }
   }
 
-  /// Metres: what the farthest corner goes.
+  /// Returns the largest distance that a corner of the bodies' bounds moves, metres.
   double between(const std::vector<Transform>& from, const std::vector<Transform>& to) const {
     double farthest = 0;
     for (const auto& [frame, p] : corners_)
@@ -53,7 +53,7 @@ class Travel {
   std::vector<Corner> corners_;
 };
 
-/// Radians, of the frame that turns most.
+/// Returns the largest rotation of a frame, radians.
 double turnBetween(const std::vector<Transform>& from, const std::vector<Transform>& to) {
   double largest = 0;
   for (std::size_t i = 0; i < from.size(); ++i)
@@ -62,7 +62,7 @@ double turnBetween(const std::vector<Transform>& from, const std::vector<Transfo
   return largest;
 }
 
-/// The values of t in an edge: even steps, and those of its findings.
+/// Returns the values of t of an edge's samples: even steps, and those of its findings.
 std::vector<double> timesOf(std::size_t edge, double steps,
                             const std::vector<PathFinding>& findings) {
   std::vector<double> times;
@@ -111,7 +111,7 @@ PathSamples samplePath(const Problem& problem, const Path& path,
   for (std::size_t edge = 0; edge < edges; ++edge) {
     const double fewer = std::min(1.0, kMostSamples / sum);
     for (const double t : timesOf(edge, fewer * steps[edge], findings)) {
-      if (t == 0) continue;  // the last of the edge before
+      if (t == 0) continue;  // it is the last sample of the edge before
       PathSample sample{edge, t, 0, poses(edge, t)};
       const PathSample& before = result.samples.back();
       sample.at = before.at + travel.between(before.X_WF, sample.X_WF);
@@ -119,7 +119,7 @@ PathSamples samplePath(const Problem& problem, const Path& path,
     }
     result.states.push_back(result.samples.size() - 1);
   }
-  // Where nothing goes anywhere, states are evenly spaced.
+  // If nothing moves, the samples are evenly spaced.
   const double length = result.samples.back().at;
   for (std::size_t i = 1; i < result.samples.size(); ++i)
     result.samples[i].at =

@@ -8,29 +8,29 @@
 
 namespace corridor::view {
 
-/// A place on a path.
+/// A place on a path, and the poses of all frames there.
 struct PathSample {
-  std::size_t edge = 0;  ///< from state `edge` to the next
-  double t = 0;          ///< in [0, 1] of the edge
-  /// In [0, 1] of the path: how far the moving bodies have gone (the farthest of the corners of
-  /// their bounds, added up from sample to sample), so that what is played at an even rate looks
-  /// it.
+  std::size_t edge = 0;  ///< index: the edge from state `edge` to the next
+  double t = 0;          ///< time on the edge, in [0, 1]
+  /// The place in [0, 1] of the whole path, in proportion to the way of the moving bodies, so that
+  /// playing at an even rate looks even. The way from sample to sample is that of the
+  /// farthest-moving corner of the bodies' bounds.
   double at = 0;
   std::vector<Transform> X_WF;
 };
 
-/// A path as it is played: poses by Corridor's own edge, so near to each other that between two of
-/// them a straight line will do.
+/// A path for playing. Poses are on Corridor's own edges, and near enough to each other to be
+/// interpolated linearly in a picture.
 struct PathSamples {
   std::vector<PathSample> samples;
-  std::vector<std::size_t> states;    ///< the sample of each state of the path
-  std::vector<std::size_t> findings;  ///< and of each finding
+  std::vector<std::size_t> states;    ///< index of the sample of each state of the path
+  std::vector<std::size_t> findings;  ///< index of the sample of each finding
 };
 
-/// From one sample to the next no body turns by more than about 2°, nor goes farther than a 400th
-/// of the path; coarser where that would be more than about 1500 samples. All states and findings
-/// are samples.
-/// @pre a path of the problem's space, not empty; findings of it.
+/// Samples a path. From one sample to the next no body rotates by more than about 2°, nor moves
+/// farther than a 400th of the path. Steps are larger if there would be more than about 1500
+/// samples. All states and findings are samples.
+/// @pre the path is in the problem's space and not empty; the findings are of that path.
 PathSamples samplePath(const Problem& problem, const Path& path,
                        const std::vector<PathFinding>& findings);
 

@@ -8,17 +8,20 @@
 
 namespace corridor::view {
 
-/// A parallel projection: world to (x right, y down, depth towards the viewer), in pixels.
+/// A parallel projection from world coordinates, metres, to the picture's (x right, y down, depth
+/// towards the viewer), pixels.
 class Camera {
  public:
-  /// Angles in radians: azimuth of the viewer about z, elevation above the ground.
+  /// @param azimuth of the viewer about z, radians. @param elevation of the viewer above the
+  /// ground, radians.
   Camera(double azimuth, double elevation);
-  /// Scales and shifts such that the points fill a picture of this width, with a border.
+  /// Sets scale and offset so that the points fill a picture of at most this width, with a border;
+  /// the picture is at most about 0.8 times as high as wide. Pixels.
   void fit(const std::vector<Vec3>& points, double width, double border);
 
   Vec3 project(const Vec3& point) const;
   const Vec3& towardsViewer() const { return toViewer_; }
-  /// The length in the world that is a pixel wide.
+  /// Returns the length in the world, metres, that is one pixel wide.
   double worldPixel() const { return 1 / scale_; }
   double width() const { return width_; }
   double height() const { return height_; }
@@ -30,16 +33,16 @@ class Camera {
 
 using Corners = std::array<Vec3, 3>;  ///< projected
 
-/// A depth buffer that knows whose pixel is nearest.
+/// A depth buffer that also stores the owner of the nearest surface of each pixel.
 class DepthBuffer {
  public:
   DepthBuffer(double width, double height, double pixelsAPixel);
 
-  /// Calls visit(pixel, depth) for each pixel whose middle the triangle covers.
+  /// Calls visit(pixel, depth) for each pixel whose centre the triangle covers.
   void cover(const Corners& corners, const std::function<void(std::size_t, double)>& visit) const;
   void draw(const Corners& corners, int owner);
   double depth(std::size_t pixel) const { return depth_[pixel]; }
-  /// How many pixels each owner in [0, owners) has.
+  /// Returns the number of pixels of each owner in [0, owners).
   std::vector<int> pixelsOf(int owners) const;
 
  private:

@@ -20,19 +20,22 @@ using view::Camera;
 using view::Corners;
 using view::DepthBuffer;
 
-constexpr double kWidth = 1000, kBorder = 20;  // of the picture, pixels
-constexpr double kPiece =
-    70;  // pixels: larger triangles are cut, so that they can be sorted by depth
-constexpr int kMostGhosts = 14,
-              kFewestGhosts = 4;  // robots drawn between start and goal: fewer where one is costly
-constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 60'000, kGhostsLimit = 180'000;  // bytes
+constexpr double kWidth = 1000, kBorder = 20;  // sizes of the picture, pixels
+/// Pixels: triangles with longer edges are cut, so that they can be sorted by depth.
+constexpr double kPiece = 70;
+/// Limits on the number of copies of the robots drawn between start and goal. The more triangles a
+/// copy has, the fewer are drawn.
+constexpr int kMostGhosts = 14, kFewestGhosts = 4;
+/// Limits of the SVG text, bytes: obstacles, one copy of the robots, all copies between the ends.
+constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 60'000, kGhostsLimit = 180'000;
 constexpr int kShades = 8;
-/// Meshes of moving bodies with more triangles are drawn coarser: cells of this share of the scene,
-/// larger ones where all that moves has more triangles than a copy has room for.
+/// A moving shape with more than `kFewTriangles` triangles is drawn coarser, on a grid of cells.
+/// Cells are larger while one copy of all that moves has more than `kMostTriangles`. Cell sizes are
+/// shares of the scene's diagonal.
 constexpr std::size_t kFewTriangles = 500, kMostTriangles = 5000;
 constexpr double kCell = 1.0 / 250, kLargestCell = 1.0 / 60;
 
-/// A triangle of the picture.
+/// A triangle of the picture, projected.
 struct Face {
   Corners corners;
   int shade = 0;  ///< 0 dark … kShades − 1 light
@@ -41,8 +44,8 @@ struct Face {
 
 using Triangle3 = std::array<Vec3, 3>;
 
-/// The distinct triangles of a body, in its frame's coordinates: many files have both sides of
-/// every face.
+/// Returns the distinct triangles of a body, in its frame's coordinates: many mesh files have both
+/// sides of every face.
 std::vector<Triangle3> distinctTriangles(const ProblemBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
@@ -64,13 +67,14 @@ std::vector<Triangle3> distinctTriangles(const ProblemBody& body, double cell) {
   return triangles;
 }
 
-/// What moves: triangles with the frames that they are on.
+/// The triangles of all that moves, with the frames that they are fixed to.
 struct Moving {
   std::vector<Triangle3> triangles;
   std::vector<std::size_t> frames;
 };
 
-/// Few enough triangles for a copy, where `size` (of the scene, metres) allows that.
+/// Returns all that moves, with at most `kMostTriangles` triangles if the largest cells allow that.
+/// @param size the scene's diagonal, metres.
 Moving whatMoves(const Problem& problem, double size) {
   for (double cell = kCell * size;; cell *= 1.25) {
     Moving moving;
@@ -93,7 +97,8 @@ std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
   return placed;
 }
 
-/// Of each robot the last frame that bears a body: a rigid body's own, an arm's hand.
+/// Returns for each robot the last frame that has a body (a rigid body's own, an arm's hand), or 0
+/// if there is none.
 std::vector<std::size_t> lastFrames(const Problem& problem) {
   std::vector<std::size_t> last(problem.robots.size(), 0);
   for (const ProblemBody& body : problem.bodies)
@@ -101,7 +106,7 @@ std::vector<std::size_t> lastFrames(const Problem& problem) {
   return last;
 }
 
-/// The diagonal of all bodies, at the start.
+/// Returns the diagonal of the bounds of all bodies, for configuration q, metres.
 double sceneSize(const Problem& problem, const Configuration& q) {
   const std::vector<Transform> poses = framePoses(problem.tree, q);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -117,7 +122,8 @@ double sceneSize(const Problem& problem, const Configuration& q) {
 
 using PlaneKey = std::array<long, 5>;
 
-/// The same for triangles of one body in one plane: unit normal to 1 %, offset to 2 pixels.
+/// Returns a key that is equal for triangles of one body in about the same plane: unit normal to
+/// 0.01, offset to 2 pixels.
 PlaneKey planeOf(std::size_t body, const Triangle3& triangle, double pixel) {
   Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   int largest = 0;
@@ -138,7 +144,8 @@ Face makeFace(const Camera& camera, const Triangle3& triangle) {
   return face;
 }
 
-/// Halves the longest edge until it is short in the picture.
+/// Cuts a face into pieces with edges of at most `kPiece` in the picture, by halving the longest
+/// edge.
 void cut(const Face& face, std::vector<Face>& pieces) {
   int longest = 0;
   double length = 0;
@@ -159,7 +166,7 @@ void cut(const Face& face, std::vector<Face>& pieces) {
   cut(second, pieces);
 }
 
-/// Those with more than `least` visible pixels, far ones first.
+/// Returns the faces with more than `least` visible pixels, farthest first.
 std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, int least) {
   DepthBuffer buffer(camera.width(), camera.height(), 1);
   for (std::size_t i = 0; i < faces.size(); ++i) buffer.draw(faces[i].corners, static_cast<int>(i));
@@ -172,7 +179,7 @@ std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, 
   return kept;
 }
 
-/// Paths of whole pixels, neighbours of one shade together.
+/// Returns SVG paths with coordinates in whole pixels; consecutive faces of one shade share a path.
 std::string draw(const std::vector<Face>& faces, char palette) {
   std::string svg;
   int shade = -1;
@@ -195,7 +202,8 @@ std::string draw(const std::vector<Face>& faces, char palette) {
   return shade >= 0 ? svg + "\"/>\n" : svg;
 }
 
-/// As `draw`, leaving out what is hardly seen until the text is short enough.
+/// As `draw`, but leaves out faces with few visible pixels, until the text has at most `limit`
+/// bytes or only large faces are left.
 std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, char palette,
                         std::size_t limit) {
   for (int least = 0;; least = 2 * least + 1) {
@@ -204,8 +212,8 @@ std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, ch
   }
 }
 
-/// Evenly spaced along the way, ends included. How long an edge counts is how far a few corners of
-/// what moves go.
+/// Returns poses evenly spaced along the path, ends included. An edge's length is the largest
+/// distance that any of a sample of corners moves.
 Path poses(const Problem& problem, const Moving& moving, const Path& path, int count) {
   Moving sample;
   const std::size_t stride = moving.triangles.size() / 64 + 1;
@@ -246,7 +254,7 @@ std::string palette(char name, const Vec3& dark, const Vec3& light) {
   return css;
 }
 
-/// The way of a frame's origin, which is curved where joints turn.
+/// Returns an SVG line along which the origin of a frame moves: a curve if joints rotate.
 std::string polyline(const Camera& camera, const Problem& problem, const Path& path,
                      std::size_t frame) {
   constexpr int parts = 12;
@@ -267,7 +275,7 @@ std::string polyline(const Camera& camera, const Problem& problem, const Path& p
          "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
 }
 
-/// A single body in the plane is seen from above.
+/// Returns whether the problem is a single planar body, which is drawn as seen from above.
 bool isPlan(const Problem& problem) {
   return problem.space.groups().size() == 1 &&
          problem.space.groups()[0].kind == CoordinateGroup::Kind::planar;
@@ -280,7 +288,7 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   const bool plan = isPlan(problem);
   Camera camera = plan ? Camera(-90 * degree, 90 * degree) : Camera(-60 * degree, 38 * degree);
   std::vector<Triangle3> world;
-  std::vector<std::size_t> worldBodies;  // of each triangle
+  std::vector<std::size_t> worldBodies;  // the body of each triangle
   for (std::size_t b = 0; b < problem.bodies.size(); ++b)
     if (problem.bodies[b].frame == 0) {
       const std::vector<Triangle3> triangles = distinctTriangles(problem.bodies[b], 0);
@@ -288,7 +296,7 @@ std::string svgPicture(const Problem& problem, const Path& path) {
       worldBodies.insert(worldBodies.end(), triangles.size(), b);
     }
   const Moving robot = whatMoves(problem, sceneSize(problem, path.front()));
-  // About half of a robot's triangles are seen, at some 28 bytes each.
+  // About half of a robot's triangles are visible, at about 28 bytes each: 14 bytes per triangle.
   const int ghostCount =
       static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.triangles.size() + 1),
                                   std::size_t{kFewestGhosts}, std::size_t{kMostGhosts}));
@@ -312,13 +320,14 @@ std::string svgPicture(const Problem& problem, const Path& path) {
     for (const Face& face : faces) robots.draw(face.corners, 0);
   }
   std::vector<Face> faces;
-  std::map<PlaneKey, int>
-      hides;  // pixels of robots, by the planes in front of them: a wall is seen through as a whole
+  // For each plane, the number of robots' pixels that it hides. Walls are drawn transparent as a
+  // whole, not triangle by triangle.
+  std::map<PlaneKey, int> hides;
   for (std::size_t i = 0; i < world.size(); ++i) {
     const Triangle3& triangle = world[i];
     faces.push_back(makeFace(camera, triangle));
-    // A plan from above has no side faces to tell walls from the ground by: what reaches above the
-    // robot's feet is dark.
+    // Seen from above, walls show no sides that would distinguish them from the ground: everything
+    // higher than the robot's lowest point is dark.
     if (plan)
       faces.back().shade =
           std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;

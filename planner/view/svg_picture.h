@@ -6,10 +6,10 @@
 
 namespace corridor {
 
-/// A picture of a scene and a path, as an SVG document of at most some hundred KB: the world seen
-/// from above at an angle, the robots at poses along the path from green (start) to red (goal), and
-/// the way of a rigid body's reference point, or of an arm's last link. World that hides the robot
-/// is drawn like glass.
+/// Returns a picture of a scene and a path, as an SVG document of at most some hundred KB. The
+/// world is seen from above at an angle. Robots are drawn at poses along the path, from green
+/// (start) to red (goal), with the way of a rigid body's reference point or of an arm's last link.
+/// Parts of the world that hide the robot are drawn like glass.
 std::string svgPicture(const Problem& problem, const Path& path);
 
 }  // namespace corridor

@@ -24,7 +24,7 @@ Vec3 farthest(const ConvexPart& part, const Vec3& axis, const Vec3& direction) {
 }  // namespace
 
 TriangleMesh tessellated(const ConvexPart& part) {
-  // Cylinders and capsules get rings about their axis.
+  // Cylinders and capsules are tessellated in rings about their axis.
   const bool round = part.radius > 0 && part.points.size() == 2;
   const Vec3 axis = round ? Vec3((part.points[1] - part.points[0]).normalized()) : Vec3::UnitZ();
   const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);

@@ -5,12 +5,12 @@
 
 namespace corridor::view {
 
-/// The surface of a convex part, for pictures only: its farthest points in directions that are
-/// spread over a sphere, joined as the directions are.
+/// Returns the surface of a convex part as a mesh, for pictures only. Its vertices are the part's
+/// farthest points in directions spread over a sphere, joined like these directions.
 TriangleMesh tessellated(const ConvexPart& part);
 
-/// The mesh with vertices closer than `cell` taken together, for pictures in which its triangles
-/// would be smaller than a pixel: the first vertex met in each cell of a grid stands for all.
+/// Returns a coarser mesh, for pictures in which triangles would be smaller than a pixel: in each
+/// cell of a grid of size `cell`, the first vertex stands for all.
 TriangleMesh coarsened(const TriangleMesh& mesh, double cell);
 
 }  // namespace corridor::view

@@ -5,8 +5,7 @@
 namespace corridor::view {
 namespace {
 
-void add(const WideObbTree& tree, const Obb1& box, bool leaf, const Vec3& origin,
-         TreeBoxes& boxes) {
+void add(const Obb4Tree& tree, const Obb1& box, bool leaf, const Vec3& origin, TreeBoxes& boxes) {
   Mat3 axes;
   Vec3 center, half;
   for (int k = 0; k < 3; ++k) {
@@ -14,7 +13,7 @@ void add(const WideObbTree& tree, const Obb1& box, bool leaf, const Vec3& origin
     center[k] = box.vectors[k][Obb4::kCenter];
     half[k] = box.half[k];
   }
-  if (axes.determinant() < 0) axes.col(2) *= -1;  // the same box
+  if (axes.determinant() < 0) axes.col(2) *= -1;  // a right-handed basis of the same box
   const Eigen::Quaterniond q = Eigen::Quaterniond(axes).normalized();
   center = center * tree.length() + (tree.origin() - origin);
   half *= tree.length();
@@ -26,9 +25,9 @@ void add(const WideObbTree& tree, const Obb1& box, bool leaf, const Vec3& origin
 
 }  // namespace
 
-TreeBoxes treeBoxes(const WideObbTree& tree, const Vec3& origin, std::size_t most) {
+TreeBoxes treeBoxes(const Obb4Tree& tree, const Vec3& origin, std::size_t most) {
   TreeBoxes boxes;
-  const bool single = tree.part() != nullptr;  // its only leaf is the root once more
+  const bool single = tree.part() != nullptr;  // a convex part: its one leaf is the root's box
   add(tree, tree.root(), single, origin, boxes);
   boxes.counts.push_back(1);
   std::vector<std::uint32_t> level;
@@ -37,10 +36,10 @@ TreeBoxes treeBoxes(const WideObbTree& tree, const Vec3& origin, std::size_t mos
     TreeBoxes next;
     std::vector<std::uint32_t> below;
     for (const std::uint32_t number : level) {
-      const WideObbTree::Node& node = tree.nodes()[number];
-      for (std::uint32_t lane = 0; lane < WideObbTree::kWidth; ++lane) {
-        if (node.child[lane] == WideObbTree::kNone) continue;
-        const bool leaf = WideObbTree::isLeaf(node.child[lane]);
+      const Obb4Tree::Node& node = tree.nodes()[number];
+      for (std::uint32_t lane = 0; lane < Obb4Tree::kWidth; ++lane) {
+        if (node.child[lane] == Obb4Tree::kNone) continue;
+        const bool leaf = Obb4Tree::isLeaf(node.child[lane]);
         add(tree, boxOf(node, lane), leaf, origin, next);
         if (!leaf) below.push_back(node.child[lane]);
       }

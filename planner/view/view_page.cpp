@@ -21,7 +21,7 @@
 
 namespace corridor {
 
-// What the page's typed arrays are read as.
+// The page's typed arrays are read as little-endian.
 static_assert(std::endian::native == std::endian::little);
 
 namespace view {
@@ -29,9 +29,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostDistances = 500;  // samples whose closest pair is told
-constexpr std::size_t kMostBoxes = 16'000;   // of all trees together: 640 KB
-constexpr std::size_t kMostGoals = 8;        // shown
+constexpr std::size_t kMostDistances = 500;  // samples for which the closest pair is computed
+constexpr std::size_t kMostBoxes = 16'000;   // all trees together: 640 KB
+constexpr std::size_t kMostGoals = 8;        // goals shown
 
 ordered_json jsonOf(const PageBuffers::View& view) {
   return {view.type, view.offset, view.count};
@@ -41,7 +41,7 @@ ordered_json jsonOf(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// The data of a page: JSON, and the arrays that it names.
+/// Builds the data of a page: JSON, and the arrays that it refers to.
 class PageData {
  public:
   PageData(const Problem& problem, const std::optional<ViewedPath>& path)
@@ -86,7 +86,7 @@ class PageData {
                         {"robot", body.robot ? ordered_json(*body.robot) : ordered_json()}});
   }
 
-  /// -1: the world's; else the index in the page's poses.
+  /// Returns −1 for the world's frame, else the frame's index in the page's poses.
   int frameNumber(std::size_t frame) const {
     if (frame == 0) return -1;
     return static_cast<int>(std::lower_bound(scene_.frames.begin(), scene_.frames.end(), frame) -
@@ -105,7 +105,8 @@ class PageData {
     json_["goal_count"] = problem_.goals.size();
   }
 
-  /// What is tested, what isn't and why.
+  /// Adds the number of tested pairs, the skipped pairs by reason, and the tested pairs that are
+  /// out of reach of each other.
   void addPairs() {
     std::size_t tested = 0;
     std::map<std::string, std::vector<std::uint32_t>> skipped;
@@ -126,7 +127,7 @@ class PageData {
     pairs["far"] = jsonOf(buffers_.addIndices(far, bodies));
   }
 
-  /// Of each mesh the boxes of its bodies' shapes, level by level.
+  /// Adds for each mesh the trees of its shapes, level by level.
   void addTrees() {
     ordered_json& trees = json_["trees"] = ordered_json::array();
     std::vector<bool> done(scene_.meshes.size(), false);
@@ -140,7 +141,7 @@ class PageData {
       done[mesh] = true;
       ordered_json all = ordered_json::array();
       for (std::size_t i = first; i < shape; ++i) {
-        const WideObbTree& tree = checker_.scene().bodies()[i].body.tree();
+        const Obb4Tree& tree = checker_.scene().bodies()[i].body.tree();
         const TreeBoxes boxes =
             treeBoxes(tree, scene_.meshes[mesh].origin, std::max<std::size_t>(most, 85));
         all.push_back({{"counts", boxes.counts},
@@ -220,7 +221,7 @@ class PageData {
     addDistances(samples);
   }
 
-  /// Of all states and findings, and of samples evenly between.
+  /// Adds the closest pair at all states and findings, and at samples evenly between them.
   void addDistances(const PathSamples& samples) {
     const std::size_t count = samples.samples.size();
     const std::size_t stride = (count + kMostDistances - 1) / kMostDistances;
@@ -258,7 +259,7 @@ class PageData {
   ordered_json json_;
 };
 
-/// The page's own scripts, in the order in which they need each other.
+/// The page's own scripts. They share one scope, so each must come after those it uses.
 constexpr std::array kScripts = {"data.js",   "shapes.js", "stage.js", "robots.js", "glass.js",
                                  "extras.js", "chart.js",  "panel.js", "main.js"};
 
@@ -268,7 +269,7 @@ constexpr std::array kScripts = {"data.js",   "shapes.js", "stage.js", "robots.j
 std::string viewPage(const Problem& problem, const std::optional<ViewedPath>& path) {
   using namespace view;
   PageData data(problem, path);
-  // Names are of files that need not be UTF-8: what is not is shown as such.
+  // Names in files need not be UTF-8: invalid bytes become replacement characters.
   const std::string json =
       data.make().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   std::string scripts;

@@ -7,16 +7,16 @@
 
 namespace corridor {
 
-/// A path that a page shows, and what the verifier says of it.
+/// A path that a page shows, and the verifier's report on it.
 struct ViewedPath {
   Solution solution;
   VerifyReport report;
 };
 
-/// A page that shows a problem, and a path of it, as a scene to turn about and to play: HTML in one
-/// piece that loads nothing (README.md has what is on it, and how its data is laid out). The same
-/// arguments give the same bytes.
-/// @pre the path is of the problem's space and not empty.
+/// Returns an HTML page that shows a problem as a 3D scene, and plays a path of it. The page is one
+/// file that loads nothing else (README.md describes what it shows and the layout of its data). The
+/// same arguments give the same bytes.
+/// @pre the path is in the problem's space and not empty.
 std::string viewPage(const Problem& problem, const std::optional<ViewedPath>& path);
 
 }  // namespace corridor

@@ -15,10 +15,10 @@
 
 namespace corridor::bench {
 
-/// What a benchmark was called with: `--name value`, any number of times, and flags.
+/// A benchmark's command line: options `--name value`, each any number of times, and flags.
 class Arguments {
  public:
-  /// @throws std::runtime_error for a name that is not in `known`, or without a value.
+  /// @throws std::runtime_error for an option that is not in `known`, or that has no value.
   Arguments(int argc, char** argv, const std::vector<std::string>& known,
             const std::vector<std::string>& flags = {}) {
     const std::vector<std::string> words(argv + 1, argv + argc);
@@ -27,7 +27,7 @@ class Arguments {
       if (std::find(flags.begin(), flags.end(), *word) != flags.end()) continue;
       if (std::find(known.begin(), known.end(), *word) == known.end())
         throw std::runtime_error(*word + ": unknown option");
-      if (word + 1 == words.end()) throw std::runtime_error(*word + ": a value is missing");
+      if (word + 1 == words.end()) throw std::runtime_error(*word + ": the value is missing");
       values.push_back(*++word);
     }
   }
@@ -40,7 +40,8 @@ class Arguments {
     const auto all = texts(name);
     return all.empty() ? fallback : all.back();
   }
-  /// @throws std::runtime_error for one that is not a number above 0.
+  /// Returns the option's values as numbers. @throws std::runtime_error for a value that is not a
+  /// number above 0.
   std::vector<double> numbers(const std::string& name, const std::vector<double>& fallback) const {
     std::vector<double> all;
     for (const std::string& text : texts(name)) {
@@ -51,7 +52,7 @@ class Arguments {
       } catch (const std::logic_error&) {
       }
       if (end != text.size() || !(value > 0))
-        throw std::runtime_error(name + ": a number above 0 is needed, not " + text);
+        throw std::runtime_error(name + ": a number above 0 is required, not " + text);
       all.push_back(value);
     }
     return all.empty() ? fallback : all;
@@ -59,26 +60,28 @@ class Arguments {
   double number(const std::string& name, double fallback) const {
     return numbers(name, {fallback}).back();
   }
-  /// --rounds, a whole number above 0.
+  /// Returns the value of --rounds, a whole number above 0.
   int rounds(int fallback) const {
     return std::max(static_cast<int>(number("--rounds", fallback)), 1);
   }
-  /// --data DIR, or the shared test data's folder; empty where there is neither.
+  /// Returns --data DIR, or the folder of shared test data; empty if there is neither.
   std::filesystem::path data() const {
     const auto shared = test::dataFolder();
     return text("--data", shared ? shared->string() : "");
   }
-  /// The workloads of `data()` whose names have one of --workload's texts, or all.
-  /// @throws std::runtime_error where there is none.
+  /// Returns the workloads of `data()` whose names contain one of --workload's texts, or all of
+  /// them. @throws std::runtime_error if there is none.
   std::vector<std::string> workloads() const {
-    if (data().empty()) throw std::runtime_error("--data DIR, or $CORRIDOR_DATA, is needed");
+    if (data().empty())
+      throw std::runtime_error("--data DIR is required if $CORRIDOR_DATA is not set");
     const auto wanted = texts("--workload");
     std::vector<std::string> names;
     for (const std::string& name : test::workloadNames(data() / "collision")) {
       const auto named = [&](const std::string& text) { return name.find(text) != name.npos; };
       if (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), named)) names.push_back(name);
     }
-    if (names.empty()) throw std::runtime_error("no workload there has such a name");
+    if (names.empty())
+      throw std::runtime_error("--workload: no workload's name contains any of these texts");
     return names;
   }
 
@@ -86,8 +89,8 @@ class Arguments {
   std::map<std::string, std::vector<std::string>> values_;
 };
 
-/// Pins the program to a core: that of --cpu, or the last of those that it may use.
-/// @returns its number. @throws std::runtime_error where there is no such core.
+/// Pins the program to a core: that of --cpu, or the last one that it may use; returns its number.
+/// @throws std::runtime_error if there is no such core.
 inline int pin(const Arguments& arguments) {
   cpu_set_t set;
   int cpu = -1;
@@ -105,7 +108,7 @@ inline int pin(const Arguments& arguments) {
   return cpu;
 }
 
-/// The body of a benchmark's main. @returns its exit status.
+/// The body of a benchmark's main function; returns its exit status.
 template <class Run>
 int runWith(int argc, char** argv, const std::vector<std::string>& known, const Run& run,
             const std::vector<std::string>& flags = {}) {

@@ -18,13 +18,14 @@
 #include <fcl/narrowphase/distance.h>
 #endif
 
-#include "collision/queries/distance_wide.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/distance_obb4.h"
+#include "collision/queries/interference_obb4.h"
 #include "planner/app/query_timing.h"
 #include "tests/support/workload.h"
 
-/// Who competes in query_benchmark. FCL is asked as its users do who want to be quick: BVHModels
-/// built once, transforms prepared, the first contact only, no contact points, no nearest points.
+/// The competitors in query_benchmark. FCL is called as by users who want speed: BVHModels are
+/// built once, transforms are prepared, and only the first contact is requested, without contact
+/// points or nearest points.
 namespace corridor::bench {
 
 enum class Query { interference, distance, tolerance };
@@ -35,24 +36,24 @@ struct Answer {
   std::uint64_t boxTests = 0, triangleTests = 0;
 };
 
-/// What one competitor did on one workload.
+/// The results of one competitor on one workload.
 struct Record {
   std::string name;
   double buildMs = 0, bytesPerTriangle = 0;
-  std::vector<double> ns;       ///< by pose: the least of the rounds
-  std::vector<Answer> answers;  ///< by pose
+  std::vector<double> ns;       ///< per pose: the least of the rounds
+  std::vector<Answer> answers;  ///< per pose
 };
 
-/// A library with a pair of meshes built.
+/// A library, with its trees of a pair of meshes.
 class Competitor {
  public:
   virtual ~Competitor() = default;
-  /// Asks all poses once.
+  /// Runs the query once at each pose.
   virtual void pass() = 0;
   Record record;
 };
 
-/// `Library` has: prepare(poses), answer(pose number) → Answer, forget().
+/// Times a `Library`, which has prepare(poses), answer(pose number) → Answer, forget() and bytes().
 template <class Library>
 class Timed : public Competitor {
  public:
@@ -94,8 +95,8 @@ class Timed : public Competitor {
   std::unique_ptr<Library> library_;
 };
 
-/// One of our trees: whatever has `interference`, and `distance` and `closerThan` where they are
-/// asked for, by overload.
+/// One of our trees: any type with `interference`, and with `distance` and `closerThan` if these
+/// are measured, as overloads.
 template <class Tree>
 class Ours {
  public:
@@ -104,7 +105,7 @@ class Ours {
       : query_(query), tolerance_(tolerance), a_(w.a, params...), b_(w.b, params...) {}
   std::size_t bytes() const { return a_.bytes() + b_.bytes(); }
   void prepare(const std::vector<Transform>& poses) { poses_ = poses; }
-  /// What is kept from the last answer must not make the same question's next answer cheap.
+  /// Clears the remembered pair, so that a repeated query is not made cheap by the answer before.
   void forget() { context_.lastPairs.of(&a_, &b_) = {}; }
   Answer answer(std::size_t i) {
     Answer answer;
@@ -120,13 +121,13 @@ class Ours {
           answer.hit = answer.distance == 0;
           break;
         }
-        throw std::runtime_error("we have no distance query of this tree");
+        throw std::runtime_error("this tree has no distance query");
       case Query::tolerance:
         if constexpr (requires { closerThan(a_, X, b_, X, tolerance_, context_); }) {
           answer.hit = closerThan(a_, {}, b_, X, tolerance_, context_);
           break;
         }
-        throw std::runtime_error("we have no tolerance query of this tree");
+        throw std::runtime_error("this tree has no tolerance query");
     }
     answer.boxTests = context_.counters.boxTests;
     answer.triangleTests = context_.counters.triangleTests;
@@ -162,7 +163,7 @@ class Fcl {
       const fcl::CollisionRequestd request(1, false);
       fcl::CollisionResultd result;
       answer.hit = fcl::collide(a_.get(), still_, b_.get(), poses_[i], request, result) > 0;
-    } else {  // FCL's meshes have no tolerance query: distance, told to stop there, is what it has
+    } else {  // FCL's meshes have no tolerance query: its distance query stops at the tolerance
       const fcl::DistanceRequestd request(false);
       fcl::DistanceResultd result;
       if (query_ == Query::tolerance) result.min_distance = std::nextafter(tolerance_, HUGE_VAL);
@@ -176,7 +177,7 @@ class Fcl {
 
  private:
   using Model = fcl::BVHModel<Volume>;
-  /// What is in use: its memUsage prints, and returns no size.
+  /// Returns the bytes in use: FCL's memUsage prints, and returns no size.
   static std::size_t bytesOf(const Model& model) {
     return sizeof(fcl::BVNode<Volume>) * static_cast<std::size_t>(model.getNumBVs()) +
            sizeof(fcl::Vector3d) * static_cast<std::size_t>(model.num_vertices) +

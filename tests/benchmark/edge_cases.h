@@ -17,7 +17,7 @@
 #include "tests/benchmark/random_edges.h"
 #include "tests/collision/motion/grazing.h"
 
-/// Edges of which the truth is known, by construction, in closed form, or from the independent
+/// Edges whose true verdict is known by construction, in closed form, or from the independent
 /// verifier, and never by sampling.
 namespace corridor::bench {
 
@@ -25,26 +25,26 @@ struct EdgeCase {
   const Scene* scene = nullptr;
   double size = 1;  ///< what tolerances are relative to, metres
   bool contact = false;
-  double firstContact = -1;  ///< t, where it is known
-  /// The motion, set up anew: part of what an edge costs.
+  double firstContact = -1;  ///< t, if it is known
+  /// Sets the motion up anew: this counts as part of an edge's cost.
   std::function<MotionSource&()> motion;
-  /// Poses of the scene's frames at t.
+  /// Computes the poses of the scene's frames at t.
   std::function<void(double t, std::vector<Transform>& X_WF)> poses;
 #ifdef CORRIDOR_WITH_FCL
-  /// FCL's models, where they aren't meshes only.
+  /// Makes FCL's models, if not all bodies are meshes.
   std::function<std::shared_ptr<FclScene>()> fcl;
 #endif
 };
 
-/// A name, cases, and whatever they look at.
+/// A named set of cases, with the objects that they refer to.
 struct EdgeSet {
   std::string name;
   std::vector<EdgeCase> cases;
   std::vector<std::shared_ptr<const void>> kept;
-  int dropped = 0;  ///< edges whose truth nobody could tell
+  int dropped = 0;  ///< edges that the verifier left undecided
 };
 
-/// A case of one rigid mesh, from pose to pose, among one fixed mesh.
+/// Adds a case of one rigid mesh, moving from pose to pose, and one fixed mesh.
 inline void addRigid(EdgeSet& set, TriangleMesh fixed, TriangleMesh moving, const RigidPose& from,
                      const RigidPose& to, double size, bool contact, double firstContact = -1) {
   std::vector<Scene::Placed> bodies;
@@ -69,8 +69,8 @@ inline void addRigid(EdgeSet& set, TriangleMesh fixed, TriangleMesh moving, cons
   set.kept.push_back(scene);
 }
 
-/// Meshes that touch, or miss each other by a gap, at the end of the motion or all along it; ±10^-2
-/// to ±10^-13 of the size.
+/// Returns edges on which meshes touch, or miss each other by a gap, at the end of the motion or
+/// all along it; ±10^-2 to ±10^-13 of the size.
 inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
   EdgeSet set{"grazing", {}, {}, 0};
   for (int n = 0; static_cast<int>(set.cases.size()) < count; ++n) {
@@ -82,8 +82,9 @@ inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
   return set;
 }
 
-/// Closed forms, of which the time of first contact is known: a rod that falls about its end onto a
-/// plate; a box that slides into a wall; a blade that turns past a ledge and misses it, or not.
+/// Returns edges in closed form, with the time of first contact. They are a rod that falls about
+/// its end onto a plate, a box that slides into a wall, and a blade that rotates past a needle and
+/// touches it or not.
 inline EdgeSet closedForms(int count, std::mt19937_64& random) {
   EdgeSet set{"closed forms", {}, {}, 0};
   const auto real = [&](double low, double high) {
@@ -97,8 +98,8 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
     const double amount = std::pow(10.0, -1 - n / 6 % 8);
     const bool contact = n / 3 % 2;
     if (n % 3 == 0) {
-      // A rod from the origin along x turns down by `angle` about y; the plate is at z = −sin(a):
-      // its far end meets it after a of the angle.
+      // A rod from the origin along x rotates down by `angle` about y. The plate is at z = −sin(a):
+      // the rod's far end meets it at the angle a.
       const double angle = real(0.3, 1.5), a = contact ? angle * real(0.01, 0.99) : angle + amount;
       const double depth = std::sin(std::min(a, std::numbers::pi / 2));
       addRigid(
@@ -111,14 +112,15 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
           {Vec3::Zero(), still}, {Vec3::Zero(), turnedBy(angle, Vec3::UnitY())}, 1, contact,
           contact ? a / angle : -1);
     } else if (n % 3 == 1) {
-      // A box runs 2 m towards a thin wall, and ends `amount` before it, or beyond.
+      // A box moves 2 m towards a thin wall; it meets the wall at t, or ends `amount` before it.
       const double t = contact ? real(0.01, 0.99) : 1 + amount / 2;
       const double wall = 2 * t + 0.5;
       addRigid(set, test::box(Vec3(wall, -1, -1), Vec3(wall + 0.001, 1, 1)),
                test::box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()), {Vec3::Zero(), still},
                {Vec3(2, 0, 0), still}, 1, contact, contact ? t : -1);
     } else {
-      // A blade of length 1 turns about z past the edge of a ledge that begins at x = cos(a)∓.
+      // A blade of length 1 rotates about z past a needle at the angle a, whose distance from the
+      // axis is a little below or above 1.
       const double angle = real(0.5, 2.5), a = angle * real(0.3, 0.9);
       const double reach = contact ? 1 - amount : 1 + amount;
       const Vec3 tip = reach * Vec3(std::cos(a), std::sin(a), 0);
@@ -134,8 +136,8 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
   return set;
 }
 
-/// Random edges of a problem between states in its bounds, the first free; half of them free where
-/// there are enough. The truth is the verifier's.
+/// Returns random edges of a problem between states in its bounds, the first of them free. Half of
+/// the edges are free, if there are enough. The true verdict is the verifier's.
 inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed) {
   const auto problem = std::make_shared<const Problem>(readProblem(file));
   const auto checker = std::make_shared<const Checker>(*problem);
@@ -150,7 +152,7 @@ inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed
         random.next(random.rigid() ? std::vector{0.02, 0.05, 0.1, 0.2}[n % 4]
                                    : std::vector{0.1, 0.3, 1.0, 3.0}[n % 4]);
     if (!checker->inBounds(e.to) || checker->interference(e.from)) continue;
-    // Which is more: only so that either has its half.
+    // This verdict only balances the set: half of each kind.
     const bool maybeFree = checker->edge(e.from, e.to, false).verdict == MotionVerdict::free;
     if ((maybeFree ? free : touching) >= count / 2) continue;
     const PathVerdict truth = verifyPath(plain, {e.from, e.to}).verdict;

@@ -1,13 +1,17 @@
-/// What a certified edge costs against sampling it: `edge_cost_benchmark PROBLEM… [--edges N]`.
+/// Compares the cost of a certified edge with the cost of sampling it: `edge_cost_benchmark
+/// PROBLEM… [--edges N]`.
 ///
-/// For each problem (YAML, OMPL.app's .cfg, SET.json#INDEX), random edges that start at valid
-/// states. Of a rigid body: 2, 5, 10 and 20 % of the scene's size long; of joints: 0.1, 0.3, 1 and
-/// 3 (the root of the sum of squares, rad and m) in a random direction. Per edge: the certified
-/// query; Corridor's own interference test and FCL's (BVHModel<OBBRSS> and FCL's own primitives,
-/// Debian's build; poses by Corridor's kinematics) at n samples, that is n + 1 evenly spaced poses,
-/// up to the first contact. Same edges, same pairs, same run, one thread; times are sums over the
-/// edges that the certified query calls free, and those it does not, apart; the medians of three
-/// repeats. CSV on stdout.
+/// For each problem (YAML, OMPL.app's .cfg, SET.json#INDEX), it draws random edges that start at
+/// valid states. For a rigid body they are 2, 5, 10 and 20 % of the scene's size long. For joints
+/// they are 0.1, 0.3, 1 and 3 long (the root of the sum of squares, rad and m), in a random
+/// direction.
+///
+/// For each edge it measures the certified query, and two discrete tests at n samples, that is n +
+/// 1 evenly spaced poses, up to the first contact. These are Corridor's own interference test and
+/// FCL's (Debian's build; BVHModel<OBBRSS> and FCL's own primitives; poses by Corridor's
+/// kinematics). All use the same edges, the same pairs, the same run, and one thread. Times are
+/// medians of three repeats, summed separately over the edges that the certified query calls free
+/// and over the others. Prints CSV on stdout.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

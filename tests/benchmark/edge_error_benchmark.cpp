@@ -1,15 +1,21 @@
-/// Run time against error, edge by edge: `edge_error_benchmark [--problem FILE]… [--edges N]
-/// [--rounds N] [--seed N] [--cpu N] [--out FOLDER]`.
+/// Measures run time against error, edge by edge: `edge_error_benchmark [--problem FILE]… [--edges
+/// N] [--rounds N] [--seed N] [--cpu N] [--out FOLDER]`.
 ///
-/// Every edge method at a sweep of its knob, and FCL (Debian's) as a peer, on edges of which the
-/// truth is known without sampling: grazing by construction, closed forms with the time of first
-/// contact, and random edges of problems, of which the independent verifier says what is true. FCL:
-/// its static test at samples; its continuousCollide, where all is rigid meshes, sampling
-/// ("FCL naive") and advancing ("FCL continuous", which does what it shouldn't: fcl_motion.h); and
-/// the advancement that it has inside and doesn't reach. CSV on stdout, one line a set, method and
-/// knob: µs of the processor an edge, contacts missed, free edges called contact, undecided, free
-/// edges lost (called contact, or undecided), and how far the time of first contact is off. With
-/// --out, plots of a set, of the methods that came to its end in a minute.
+/// Runs every edge method with several values of its accuracy parameter (its knob), and Debian's
+/// FCL as a competitor. The true verdict of each edge is known without sampling: edges that graze
+/// by construction, closed forms with the time of first contact, and random edges of problems, for
+/// which the independent verifier decides.
+///
+/// FCL's methods:
+/// * its static test at samples ("FCL discrete");
+/// * its continuousCollide, if all bodies are rigid meshes: by samples ("FCL naive") and by
+///   advancement ("FCL continuous", whose answers are wrong: fcl_motion.h);
+/// * the advancement that FCL contains but never reaches ("FCL advancement").
+///
+/// Prints CSV on stdout, one line per set, method and knob: µs of processor time per edge, contacts
+/// missed, free edges called contact, undecided edges, free edges lost (called contact, or
+/// undecided), and the error of the time of first contact. With --out, also writes plots of each
+/// set, with the methods that finished it within a minute.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -30,13 +36,13 @@ namespace {
 
 struct Answer {
   MotionVerdict verdict = MotionVerdict::free;
-  double firstContact = -1;  ///< t, where a contact was found
+  double firstContact = -1;  ///< t, if a contact was found
 };
 
-/// What a method says of an edge, its knob set.
+/// A method with its knob set: returns its answer for an edge.
 using Method = std::function<Answer(const EdgeCase&)>;
 
-/// The first contact asked for, as by a planner that wants to know how far it can go.
+/// Requests the first contact, as a planner does that wants to know how far it can go.
 Method proving(EdgeMethod method, double tolerance) {
   const auto context = std::make_shared<QueryContext>();
   return [=](const EdgeCase& edge) {
@@ -49,7 +55,8 @@ Method proving(EdgeMethod method, double tolerance) {
   };
 }
 
-/// OMPL's rule with the resolution a share of the edge: poses one after another from the start.
+/// OMPL's rule with the resolution as a share of the edge: tests poses one after another from the
+/// start.
 template <class Touches>
 Method sampling(int steps, Touches touches) {
   const auto poses = std::make_shared<std::vector<Transform>>();
@@ -71,7 +78,7 @@ Method discrete(int steps) {
 }
 
 #ifdef CORRIDOR_WITH_FCL
-/// FCL's models of scenes, built when they are first asked for, and outside of any time.
+/// FCL's models of scenes; building them is never part of a measured time.
 class FclScenes {
  public:
   void add(const EdgeCase& edge, const std::shared_ptr<FclScene>& scene) {
@@ -90,22 +97,23 @@ Method fclDiscrete(const FclScenes& scenes, int steps) {
   });
 }
 
-/// FCL's models for whole motions; of all edges of a set, or of none.
+/// FCL's models for whole motions. They are used for all edges of a set, or for none.
 class FclMoving {
  public:
   explicit FclMoving(const EdgeSet& set) {
     for (const EdgeCase& edge : set.cases) {
       auto& motions = motions_[edge.scene];
       if (!motions) motions = FclMotions::of(*edge.scene);
-      // 1e-9 of the size: far more than the rounding of poses, as little as the finest time asked
-      // for.
+      // The tolerance 1e-9 of the size is far above the rounding of poses, and as small as the
+      // finest time tolerance requested.
       all_ = all_ && motions && motions->moveAs(edge.poses, 1e-9 * edge.size);
     }
   }
-  /// All is meshes, each body moves as FCL's motions do.
+  /// Whether all bodies are meshes, and move as FCL's motions do.
   bool all() const { return all_; }
 
-  /// `first`: from models and motions to the time of first contact. Setting the motions up counts.
+  /// `first` computes the time of first contact from models and motions. Setting up the motions
+  /// counts as run time.
   template <class First>
   Method method(First first) const {
     return [this, first, from = std::make_shared<std::vector<Transform>>(),
@@ -125,7 +133,7 @@ class FclMoving {
 
 template <class Volume>
 Method fclContinuous(const FclMoving& moving, fcl::CCDSolverType solver, std::size_t iterations) {
-  // The fewer of num_max_iterations and 1 / toc_err count, where FCL looks at them.
+  // FCL uses the lesser of num_max_iterations and 1 / toc_err, where it uses them at all.
   const fcl::ContinuousCollisionRequestd request(iterations, 1 / static_cast<double>(iterations),
                                                  fcl::CCDM_LINEAR, fcl::GST_LIBCCD, solver);
   return moving.method([request](const FclMotions& models, const std::vector<FclMotion>& motions) {
@@ -147,15 +155,15 @@ struct Tally {
   std::vector<double> timeErrors;
 };
 
-/// µs of the processor that this thread has had: others on a busy machine don't count.
+/// Returns this thread's processor time, µs: other programs on a busy machine don't count.
 double processorTime() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
 }
 
-/// Times all, the median of the rounds; counts what was said in the last. Stops early where it
-/// would take more than a minute: the edges that were asked are what is told.
+/// Measures a method on all edges: the median time of the rounds, and the answers of the last
+/// round. Stops early after a minute; the tally then covers the edges tested so far.
 Tally run(const EdgeSet& set, const Method& method, int rounds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -186,17 +194,17 @@ Tally run(const EdgeSet& set, const Method& method, int rounds) {
   return tally;
 }
 
-/// One set: every method at every knob, as CSV, and what its plot shows.
+/// The results of one set, for every method at every knob: CSV lines and the plots.
 class Report {
  public:
   Report(const EdgeSet& set, int rounds)
       : set_(set),
         rounds_(rounds),
-        wrong_(set.name + ": contacts missed and free edges lost; 1 of " +
-                   std::to_string(2 * set.cases.size()) + " where none is",
-               "µs an edge", "share of the edges"),
-        late_(set.name + ": how far the time of first contact is off", "µs an edge",
-              "median, of the edge's time") {}
+        wrong_(set.name + ": contacts missed and free edges lost (none is drawn as 1 of " +
+                   std::to_string(2 * set.cases.size()) + ")",
+               "µs per edge", "share of the edges"),
+        late_(set.name + ": error of the time of first contact", "µs per edge",
+              "median, as a share of the edge") {}
 
   void line(const std::string& method, double knob, const Method& ask) {
     Tally t = run(set_, ask, rounds_);
@@ -207,7 +215,7 @@ class Report {
               << t.lost << ',';
     if (timed) std::cout << t.timeErrors[t.timeErrors.size() / 2] << ',' << t.timeErrors.back();
     std::cout << (timed ? "\n" : ",\n") << std::flush;
-    if (t.edges < static_cast<int>(set_.cases.size())) return;  // not to be compared
+    if (t.edges < static_cast<int>(set_.cases.size())) return;  // incomplete: not comparable
     const auto add = [&](std::vector<Series>& all, double error) {
       if (all.empty() || all.back().name != method) all.push_back({method, {}});
       all.back().points.push_back({t.us, error});
@@ -234,9 +242,9 @@ class Report {
 };
 
 void compare(const EdgeSet& set, int rounds, const std::string& folder) {
-  if (set.cases.empty()) throw std::runtime_error(set.name + ": no edge of known truth");
+  if (set.cases.empty()) throw std::runtime_error(set.name + ": no edge has a known truth");
   std::cerr << set.name << ": " << set.cases.size() << " edges, " << set.dropped
-            << " left out, whose truth the verifier couldn't tell\n";
+            << " left out because the verifier could not decide them\n";
   Report report(set, rounds);
   for (std::size_t m = 0; m < edgeMethodNames().size(); ++m)
     for (const double tolerance : {1e-2, 1e-3, 1e-5, 1e-7, 1e-9})
@@ -253,7 +261,7 @@ void compare(const EdgeSet& set, int rounds, const std::string& folder) {
   if (moving.all()) {
     using Obbrss = fcl::OBBRSS<double>;
     using Rss = fcl::RSS<double>;
-    for (const int n : {10, 100, 1'000, 10'000})  // as "FCL discrete", and slower
+    for (const int n : {10, 100, 1'000, 10'000})  // answers as "FCL discrete", but slower
       report.line("FCL naive", 1.0 / n,
                   fclContinuous<Obbrss>(moving, fcl::CCDC_NAIVE, static_cast<std::size_t>(n + 1)));
     const auto solver = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;

@@ -14,31 +14,31 @@
 
 #include "planner/benchmark/fcl_scene.h"
 
-/// FCL's tests of whole motions, of rigid meshes. Each body moves as an fcl::InterpMotion; what it
-/// touches first counts, the earliest of the pairs.
+/// FCL's tests of whole motions of rigid meshes. Each body moves as an fcl::InterpMotion; the
+/// earliest contact of all pairs counts.
 namespace corridor::bench {
 
 using FclMotion = fcl::InterpMotion<double>;
 
-/// As our edges move a body: its frame's origin goes straight, and it turns the shorter way at
-/// constant speed. FCL has other constructors: one leaves the reference point unset, one the
-/// velocities.
+/// Returns FCL's motion that equals our edges': the frame's origin moves straight, and the body
+/// rotates the shorter way at constant speed. FCL has other constructors: one leaves the reference
+/// point unset, one the velocities.
 inline FclMotion fclMotion(const Transform& from, const Transform& to) {
   return FclMotion(from.m, from.t, to.m, to.t, fcl::Vector3d::Zero());
 }
 
-/// FCL's own advancement on trees of RSSs, which its continuousCollide never reaches: it takes the
-/// one for volumes without axes, that moves the vertices anew in every step and moves them once
-/// more in its bounds. FCL fixes the step at which it says contact, and makes this object itself:
-/// hence the static one.
+/// FCL's own advancement on trees of RSSs, which its continuousCollide never reaches. That function
+/// takes the variant for volumes without axes, which moves the vertices anew in every step and
+/// moves them once more in its bounds. FCL fixes the step at which it reports contact, and
+/// constructs this object itself: hence the static member.
 struct FclAdvancementNode : fcl::detail::MeshConservativeAdvancementTraversalNodeRSS<double> {
-  static inline thread_local double leastStep = 1e-5;  ///< of t in [0, 1]
+  static inline thread_local double leastStep = 1e-5;  ///< the least step of t
   FclAdvancementNode() { t_err = leastStep; }
 };
 
 class FclMotions {
  public:
-  /// nullptr where not all is meshes.
+  /// Returns nullptr if not all bodies are meshes.
   static std::shared_ptr<const FclMotions> of(const Scene& scene) {
     for (const Scene::Placed& placed : scene.bodies())
       if (placed.body.part()) return nullptr;
@@ -52,7 +52,7 @@ class FclMotions {
                          fclMesh(placed.body.mesh())});
   }
 
-  /// Each body's motion, from its frame's poses at both ends.
+  /// Returns each body's motion, from its frame's poses at both ends.
   std::vector<FclMotion> motions(std::span<const Transform> from,
                                  std::span<const Transform> to) const {
     std::vector<FclMotion> all;
@@ -60,9 +60,9 @@ class FclMotions {
     for (const FclBody& body : bodies_) all.push_back(fclMotion(from[body.frame], to[body.frame]));
     return all;
   }
-  /// Do bodies on frames with these poses move as FCL's motions do, to within so many metres?
-  /// (Links of arms go along arcs: they don't.) Looked at at some t.
-  /// @param poses of the frames at t: poses(t, X_WF).
+  /// Tests at some t whether bodies on frames with these poses move as FCL's motions do, to within
+  /// `tolerance` metres. (Links of arms move along arcs, so they don't.)
+  /// @param poses  computes the frames' poses at t: poses(t, X_WF).
   template <class Poses>
   bool moveAs(const Poses& poses, double tolerance) const {
     std::vector<Transform> from, to, X_WF;
@@ -83,7 +83,7 @@ class FclMotions {
     return true;
   }
 
-  /// Time of first contact in [0, 1] as fcl::continuousCollide tells it; nothing: none.
+  /// Returns the time of first contact in [0, 1] that fcl::continuousCollide reports, or nullopt.
   template <class Volume>
   std::optional<double> continuousCollide(std::span<const FclMotion> motions,
                                           const fcl::ContinuousCollisionRequestd& request) const {
@@ -95,7 +95,7 @@ class FclMotions {
       return result.time_of_contact;
     });
   }
-  /// By FclAdvancementNode; `leastStep` of t.
+  /// The same by FclAdvancementNode. `leastStep` is a step of t.
   std::optional<double> advance(std::span<const FclMotion> motions, double leastStep) const {
     FclAdvancementNode::leastStep = leastStep;
     return earliest(motions, [&](std::size_t a, std::size_t b) -> std::optional<double> {
@@ -112,7 +112,7 @@ class FclMotions {
  private:
   struct FclBody {
     std::size_t frame = 0;
-    double reach = 0;  ///< of its points from the frame's origin
+    double reach = 0;  ///< largest distance of its points from the frame's origin, metres
     std::shared_ptr<fcl::BVHModel<fcl::RSS<double>>> rss;
     std::shared_ptr<fcl::BVHModel<fcl::OBBRSS<double>>> obbrss;
 

@@ -1,19 +1,23 @@
-/// What a test of two oriented boxes costs: by the separating-axis theorem, by closest features
-/// (GJK), by linear programming, and by edges against faces, which it replaced (Gottschalk, Lin,
-/// Manocha 1996, section 5, found some 10 times less than closest features, some 30 than linear
-/// programming): `overlap_benchmark [--data DIR] [--workload TEXT]… [--rounds N] [--cpu N]`.
+/// Measures the cost of overlap tests of two oriented boxes: `overlap_benchmark [--data DIR]
+/// [--workload TEXT]… [--rounds N] [--cpu N]`.
 ///
-/// Pairs of boxes are those that real queries meet: trees over the workloads of DIR/collision
-/// (DIR: $CORRIDOR_DATA where not named; without it, over a sphere and a torus made here) are
-/// walked at all their poses, and up to 2,000 pairs that are apart and 2,000 that are not are kept,
-/// evenly, in the order in which they are met. Each test gets them as a query does: boxes in their
-/// meshes' frames and the relative pose. In every round each test takes all pairs in turn; the
-/// least time of the rounds counts. *Mixed* weighs both by how often the queries meet them.
+/// The tests are separating axes, and those that they replaced: closest features (GJK), linear
+/// programming, and edges against faces. Gottschalk, Lin, Manocha 1996, section 5, found separating
+/// axes some 10 times faster than closest features and some 30 times faster than linear
+/// programming.
 ///
-/// *Posing* is what all of ours begin with, to tell where one box is seen from the other. Peers:
-/// FCL's overlap of OBBs, which promises nothing about rounding; and our wide tree's kernel, by
-/// least squares over whole queries (planner/benchmark/cost_model.h): C_v, a pair's share of
-/// walking included.
+/// Pairs of boxes are those that real queries meet. Trees over the workloads of DIR/collision are
+/// traversed at all their poses. (DIR defaults to $CORRIDOR_DATA; without it, the workload is a
+/// sphere and a torus made here.) Up to 2,000 pairs that are separated and 2,000 that overlap are
+/// kept, sampled evenly, in the order in which they are met. Each test gets them as a query does:
+/// boxes in their meshes' frames, and the relative pose. In every round each test takes all pairs
+/// in turn; the least time of the rounds counts. *Mixed* weighs both kinds by how often the queries
+/// meet them.
+///
+/// *Posing* is the step that all our tests begin with: computing the pose of one box relative to
+/// the other. Competitors are FCL's overlap test of OBBs, which guarantees nothing about rounding,
+/// and the kernel of our 4-wide OBB tree. The kernel's C_v, a pair's share of the traversal
+/// included, is fitted by least squares over whole queries (planner/benchmark/cost_model.h).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -33,7 +37,7 @@
 #include "collision/core/simd_target.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/hierarchy/traverse.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/queries/touching_pairs.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
 #include "planner/app/query_timing.h"
@@ -54,10 +58,10 @@ double nanosecondsSince(std::chrono::steady_clock::time_point start) {
 struct BoxPair {
   Obb a, b;
   std::size_t pose;
-  std::uint64_t met;  ///< its place among all that were met
+  std::uint64_t met;  ///< its position among all pairs met
 };
 
-/// Keeps some of what it is shown, each with equal probability (reservoir sampling).
+/// Keeps some of the pairs that it is shown, each with equal probability (reservoir sampling).
 struct Sample {
   std::vector<BoxPair> kept;
   std::uint64_t seen = 0;
@@ -72,7 +76,7 @@ struct Sample {
   }
 };
 
-/// The overlap test of a query, which shows what it is asked.
+/// A query's overlap test that passes each tested pair to a sample.
 struct Recorder {
   const PairTest<Obb>& test;
   std::size_t pose;
@@ -85,7 +89,7 @@ struct Recorder {
   }
 };
 
-/// Nanoseconds that each test takes, apart and not.
+/// Nanoseconds per test, of pairs that are separated and of pairs that overlap.
 struct Cost {
   double apart = HUGE_VAL, meet = HUGE_VAL;
   double mixed(double share) const { return share * apart + (1 - share) * meet; }
@@ -94,7 +98,7 @@ struct Cost {
 struct Recorded {
   test::Workload w;
   Sample apart, meet;
-  double wideNs = 0;  ///< of the wide tree's queries, a box test
+  double wideNs = 0;  ///< per box test of the 4-wide tree's queries
 
   explicit Recorded(test::Workload workload) : w(std::move(workload)) {
     const ObbTree a(w.a), b(w.b);
@@ -121,8 +125,9 @@ struct Recorded {
   VolumeBounds bounds_[2];
 };
 
-/// Time of `separated(pair number)` over all pairs, and how many it found so: both verdicts would
-/// have to be right for the tests to be compared, so a test that errs is told.
+/// Returns the mean time of `separated(pair number)`, and adds to `found` how many pairs it
+/// separated. Costs are comparable only between tests with the same verdicts, so the report shows
+/// differences.
 template <class Separated>
 double pass(std::size_t count, std::uint64_t& found, const Separated& separated) {
   if (count == 0) return 0;
@@ -131,7 +136,7 @@ double pass(std::size_t count, std::uint64_t& found, const Separated& separated)
   return nanosecondsSince(start) / static_cast<double>(count);
 }
 
-/// One test of boxes, prepared for all pairs of a workload.
+/// One of our overlap tests, prepared for all pairs of a workload.
 template <class Overlap>
 class Ours {
  public:
@@ -184,7 +189,7 @@ class Fcl {
 };
 #endif
 
-/// C_v of the wide tree's queries, from each one's least time.
+/// C_v of queries on the 4-wide OBB tree, from each query's least time.
 class Wide {
  public:
   explicit Wide(const Recorded& r) : r_(r), a_(r.w.a), b_(r.w.b), costs_(r.w.poses.size()) {
@@ -201,7 +206,8 @@ class Wide {
     }
   }
   double boxTestNs() const {
-    std::vector<QueryCost> walked;  // what the first node decides is a call's cost
+    // Queries that the first node decides only measure the overhead of a call.
+    std::vector<QueryCost> walked;
     std::ranges::copy_if(costs_, std::back_inserter(walked),
                          [](const QueryCost& c) { return c.boxTests > 32; });
     return walked.empty() ? 0 : fittedCosts(walked).box;
@@ -209,12 +215,12 @@ class Wide {
 
  private:
   const Recorded& r_;
-  WideObbTree a_, b_;
+  Obb4Tree a_, b_;
   QueryContext context_;
   std::vector<QueryCost> costs_;
 };
 
-/// What every test of ours begins with, and nothing else.
+/// The step that all our tests begin with, and nothing else.
 struct Posing {
   static bool separated(const Obb& a, const Obb& b, const Transform& X_AB, const BoxPairMargins&,
                         double) {
@@ -223,7 +229,8 @@ struct Posing {
   }
 };
 
-/// A sphere in a torus' tube and beside it, at random poses: where there are no shared data.
+/// Makes the workload for a machine without shared data: a sphere in a torus' tube and beside it,
+/// at random poses.
 test::Workload made() {
   test::Workload w;
   w.name = "made: torus, sphere";
@@ -261,13 +268,13 @@ test::Workload made() {
   return w;
 }
 
-/// The columns, after SAT's.
+/// The columns, in the order of `costs` in `run`.
 constexpr const char* kNames[] = {"SAT", "GJK", "LP", "edges, faces", "FCL", "posing"};
 constexpr std::size_t kTests = std::size(kNames);
 
 /// Sums over workloads.
 struct Means {
-  double logs[kTests] = {};  ///< of the mixed cost over SAT's
+  double logs[kTests] = {};  ///< sums of logarithms of the mixed cost relative to SAT's
   double wideLogs = 0;
   int count = 0, wideCount = 0;
 };
@@ -316,7 +323,7 @@ void run(test::Workload workload, int rounds, Means& means) {
   } else {
     std::printf(" |");
   }
-  for (std::size_t i = 1; i < 4; ++i)  // both samples: whatever SAT told apart, and what it did not
+  for (std::size_t i = 1; i < 4; ++i)  // pairs separated, of both samples
     std::printf(" %+.2g",
                 100 * (static_cast<double>(found[i]) / static_cast<double>(found[0]) - 1));
   std::printf(" |\n");
@@ -327,11 +334,11 @@ void report(const bench::Arguments& arguments) {
   const int rounds = arguments.rounds(15);
   bench::pin(arguments);
   std::printf(
-      "Nanoseconds a test, of boxes that are apart, and of boxes that are not; after the colon the "
-      "mixed cost, SAT's being 1. Wide kernel: %s.\n\n| workload | apart |",
+      "Nanoseconds per test of boxes that are separated, and of boxes that overlap; after the "
+      "colon the mixed cost relative to SAT's. Wide kernel: %s.\n\n| workload | apart |",
       simdTarget());
   for (const char* name : kNames) std::printf(" %s |", name);
-  std::printf(" wide, C_v | told apart, %% over SAT: GJK, LP, edges |\n|---|--:|");
+  std::printf(" wide, C_v | separated, %% over SAT: GJK, LP, edges |\n|---|--:|");
   for (std::size_t i = 0; i < kTests + 2; ++i) std::printf("--:|");
   std::printf("\n");
   Means means;

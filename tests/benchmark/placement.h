@@ -5,14 +5,15 @@
 #include <stdexcept>
 #include <vector>
 
-#include "collision/queries/distance_wide.h"
+#include "collision/queries/distance_obb4.h"
 #include "tests/benchmark/shapes.h"
 
 namespace corridor::bench {
 
-/// Poses of b, a at the identity, rotated at random and `gap` (to 1 %) from touching: b comes from
-/// outside along a random line through a's frame's origin, each step by what is free.
-inline std::vector<Transform> posesAtGap(const WideObbTree& a, const WideObbTree& b, double gap,
+/// Returns poses of b, with a at the identity, rotated at random and `gap` (to 1 %) from touching.
+/// b approaches from outside along a random line through the origin of a's frame, each step by the
+/// free distance.
+inline std::vector<Transform> posesAtGap(const Obb4Tree& a, const Obb4Tree& b, double gap,
                                          int count, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::vector<Transform> poses;

@@ -1,15 +1,21 @@
-/// `corridor benchmark` with peers: `plan_benchmark --problem FILE… [--variant NAME[:KNOB]…]
+/// `corridor benchmark` with competitors: `plan_benchmark --problem FILE… [--variant NAME[:KNOB]…]
 /// [--planner NAME…] [--runs N] [--seed N] [--time S] [--out FOLDER]`, each option any number of
-/// times. Variants are those of the program; where FCL is installed `fcl:RESOLUTION`: states tested
-/// by FCL (Debian's; BVHModel<OBBRSS> and FCL's own primitives, all meshes as surfaces, no margin),
-/// edges sampled by OMPL's rule; and `replay[:TOLERANCE]`: the certified run again with its
-/// recorded verdicts, at no cost. Prints the same table, what failed, and how many times as long as
-/// its replay certified takes.
+/// times.
+///
+/// Variants are those of the program, and:
+/// * `fcl:RESOLUTION`, if FCL is installed: states are tested by FCL (Debian's; BVHModel<OBBRSS>
+///   and FCL's own primitives, all meshes as surfaces, no margin), and edges are sampled by OMPL's
+///   rule;
+/// * `replay[:TOLERANCE]`: the certified run again with its recorded verdicts, which then cost
+///   nothing.
+///
+/// Prints the same table as the program, the failures, and the ratio of the time of `certified` to
+/// that of its replay.
 #include <algorithm>
 #include <iostream>
 #include <vector>
 
-#include "planner/benchmark/peers.h"
+#include "planner/benchmark/competitors.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
 #include "planner/benchmark/statistics.h"
@@ -20,13 +26,13 @@
 namespace corridor::bench {
 namespace {
 
-std::vector<BenchmarkPeer> peers() {
-  std::vector<BenchmarkPeer> peers = peersHere();
+std::vector<BenchmarkCompetitor> peers() {
+  std::vector<BenchmarkCompetitor> peers = peersHere();
   peers.insert(peers.begin(), replayPeer());
   return peers;
 }
 
-/// By seed, where both were solved.
+/// Compares seed by seed, where both runs were solved.
 void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
   const auto specOf = [&](const CampaignCell& cell) {
     Problem::CheckerSpec checker = campaign.problems[cell.problem].checker;
@@ -52,8 +58,8 @@ void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
       const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
       std::cout << campaign.problemNames[real.problem] << ", " << real.planner.label
                 << ": certified takes " << medianOf(ratios)
-                << " times as long as its replay (processor, planner and "
-                << "simplifier; " << *least << " to " << *most << ", " << ratios.size()
+                << " times as long as its replay (processor time of planner "
+                << "and simplifier; " << *least << " to " << *most << ", " << ratios.size()
                 << " seeds)\n";
     }
 }
@@ -65,7 +71,7 @@ void run(const Arguments& arguments) {
   auto variants = arguments.texts("--variant");
   if (variants.empty()) {
     variants = {"certified", "discrete:0.01"};
-    for (const BenchmarkPeer& peer : peers())
+    for (const BenchmarkCompetitor& peer : peers())
       variants.push_back(peer.edges == "discrete" ? peer.name + ":0.01" : peer.name);
   }
   for (const std::string& variant : variants)

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Plots of benchmarks: lines of points over two axes, as SVG.
+/// Plots of benchmarks as SVG: lines of points over two axes.
 namespace corridor::bench {
 
 struct Point {
@@ -20,7 +20,8 @@ struct Series {
   std::vector<Point> points;
 };
 
-/// Slope of the least-squares line of log y over log x: p of y ~ xᵖ. NaN of fewer than two points.
+/// Returns the slope of the least-squares line of log y over log x, which is p in y ~ xᵖ; NaN for
+/// fewer than two points.
 inline double logSlope(const std::vector<Point>& points) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const Point& p : points) {
@@ -30,7 +31,7 @@ inline double logSlope(const std::vector<Point>& points) {
   return n < 2 ? NAN : (n * xy - x * y) / (n * xx - x * x);
 }
 
-/// A number as people read it.
+/// Returns a number as text with at most `digits` digits.
 inline std::string text(double value, int digits = 3) {
   std::ostringstream out;
   out.precision(digits);
@@ -51,7 +52,7 @@ class Plot {
     series_.push_back(std::move(series));
   }
 
-  /// @throws std::runtime_error where the file cannot be written.
+  /// @throws std::runtime_error if the file cannot be written.
   void write(const std::filesystem::path& file) const {
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     std::ofstream out(file);
@@ -70,12 +71,14 @@ class Plot {
       low = std::min(low, scaled(value));
       high = std::max(high, scaled(value));
     }
-    /// 0 at the lower end of the axis, 1 at the upper one; a little air at both.
+    /// Returns the position along the axis: 0 at its lower end, 1 at its upper end, with a little
+    /// room at both.
     double place(double value) const {
       const double air = 0.04 * std::max(high - low, 1e-9);
       return (scaled(value) - low + air) / (high - low + 2 * air);
     }
-    /// Powers of ten with 2 and 5 times them where there are few; or round steps.
+    /// Returns powers of ten, with 2 and 5 times these if there are few; for a linear axis, round
+    /// steps.
     std::vector<double> ticks() const {
       std::vector<double> all;
       if (logarithmic) {

@@ -1,20 +1,24 @@
-/// Parallel close proximity (Gottschalk, Lin, Manocha 1996, section 6), for every volume:
+/// Measures parallel close proximity (Gottschalk, Lin, Manocha 1996, section 6) for every volume:
 /// `proximity_benchmark [--out FOLDER] [--frequency N]… [--rotations N]`.
 ///
-/// A sphere of 20·N² triangles (corners at radius 1) in another, concentric and rotated at random,
-/// whose facets' planes stay 1 + gap away from the centre: interference is asked, nothing touches,
-/// and every point of one is near the other. Gaps from 0.3 down to 30 sagittas, where the spheres
-/// are still parallel for boxes of a leaf's size. CSV on stdout: N_v, N_p (means over the
-/// rotations) and the median time. Then the slope of log N_v over log 1/gap: over all gaps, and
-/// over those at which fewer than one test in 100 is of triangles, that is, before the tree's
-/// depth is used up. Then such a pair at several placements: the best of the trees that
-/// share one traversal. FOLDER gets the plots.
+/// A sphere of 20·N² triangles (corners at radius 1) is inside another one, concentric and rotated
+/// at random. The outer one's facet planes stay 1 + gap away from the centre. The query is
+/// interference; nothing touches, and every point of one sphere is near the other. Gaps go from 0.3
+/// down to 30 sagittas, where the spheres are still parallel for boxes of a leaf's size.
+///
+/// Prints CSV on stdout:
+/// * N_v and N_p (means over the rotations) and the median time;
+/// * the slope of log N_v over log 1/gap, over all gaps, and over those where fewer than one test
+///   in 100 is of triangles, that is, before the tree's depth is used up;
+/// * such a pair at several placements, with the best of the trees that share one traversal.
+///
+/// FOLDER gets the plots.
 #include <functional>
 #include <iomanip>
 #include <iostream>
 
 #include "collision/queries/interference.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
 #include "planner/app/query_timing.h"
 #include "tests/benchmark/arguments.h"
@@ -30,7 +34,8 @@ struct Cost {
   double boxTests = 0, triangleTests = 0, us = 0;
 };
 
-/// Asks for every pose of b, a at the identity. b is a sphere like a, scaled: a cost each scale.
+/// Measures the queries at all poses of b, with a at the identity. b is a sphere like a, scaled;
+/// returns one cost per scale.
 using Ask = std::function<std::vector<Cost>(
     const TriangleMesh& a, const std::vector<double>& scales, const std::vector<Transform>&)>;
 
@@ -51,7 +56,7 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
     std::vector<double> ns;
     for (const Transform& X : poses) {
       const auto query = [&] {
-        context.lastPairs.of(&a, &b) = {};  // else the second time a contact is known
+        context.lastPairs.of(&a, &b) = {};  // else a remembered contact makes the repeat cheap
         interference(a, {}, b, X, context);
       };
       const auto counted = [&] {
@@ -61,7 +66,7 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
       double least = app::nanosecondsOf(counted, counted);
       cost.boxTests += static_cast<double>(context.counters.boxTests);
       cost.triangleTests += static_cast<double>(context.counters.triangleTests);
-      for (int i = 0; i < 2 && least < 1e8; ++i)  // longer ones don't wobble
+      for (int i = 0; i < 2 && least < 1e8; ++i)  // longer queries vary little
         least = std::min(least, app::nanosecondsOf(query, query));
       ns.push_back(least);
     }
@@ -75,7 +80,7 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
 
 const std::vector<std::pair<std::string, Ask>>& volumes() {
   static const std::vector<std::pair<std::string, Ask>> all = {
-      {"obb (wide)", ask<WideObbTree>},      {"obb", ask<VolumeTree<Obb>>},
+      {"obb (wide)", ask<Obb4Tree>},         {"obb", ask<VolumeTree<Obb>>},
       {"rss", ask<VolumeTree<Rss>>},         {"kdop26", ask<VolumeTree<Kdop<26>>>},
       {"kdop18", ask<VolumeTree<Kdop<18>>>}, {"kdop14", ask<VolumeTree<Kdop<14>>>},
       {"aabb", ask<VolumeTree<Aabb>>},       {"sphere", ask<VolumeTree<BoundingSphere>>}};
@@ -104,7 +109,7 @@ void sweep(const Options& o, std::mt19937_64& random) {
     const std::string n = std::to_string(sphere.triangles.size());
     Plot nv("Two concentric spheres of " + n + " triangles", "1 / gap (radius 1)", "N_v"),
         us("Two concentric spheres of " + n + " triangles", "1 / gap (radius 1)",
-           "µs a query (one core)");
+           "µs per query (one core)");
     for (const auto& [name, measure] : volumes()) {
       const std::vector<Cost> costs = measure(sphere, scales, poses);
       Series counts{name, {}}, times = counts, unsaturated = counts;
@@ -130,11 +135,11 @@ void sweep(const Options& o, std::mt19937_64& random) {
   std::cout << "\ntriangles,volume,slope_all_gaps,slope_unsaturated,gaps_unsaturated\n" << slopes;
 }
 
-/// The same pair of spheres, placed otherwise.
+/// Measures the same pair of spheres at other placements.
 void placements(std::mt19937_64& random) {
   const TriangleMesh sphere = icosphere(32);
   constexpr double gap = 0.02;
-  const double reach = (1 + gap) / inradius(sphere);  // of the outer one's corners
+  const double reach = (1 + gap) / inradius(sphere);  // of the outer sphere's corners
   const Vec3 diagonal = Vec3::Ones().normalized(), axis = Vec3::UnitX();
   const Vec3 slanted = Vec3(3, 2, 1).normalized();
   struct Placement {
@@ -168,7 +173,7 @@ void placements(std::mt19937_64& random) {
     for (const auto& [name, measure] : volumes()) {
       const Cost c = measure(sphere, {reach}, poses)[0];
       std::cout << "," << text(c.us) << " (" << std::round(c.boxTests) << ")";
-      if (name == "obb (wide)") continue;  // another layout: it says nothing of the volume
+      if (name == "obb (wide)") continue;  // another layout: not comparable between volumes
       quickest = std::min(quickest, {c.us, name});
       fewest = std::min(fewest, {c.boxTests, name});
     }

@@ -1,18 +1,20 @@
-/// Our queries against FCL's (Debian's), in one run on one core:
+/// Compares our queries with FCL's (Debian's), in one run on one core:
 /// `query_benchmark [--data DIR] [--workload TEXT]… [--query interference|distance|tolerance]
 ///                  [--rounds N] [--fit NAME] [--cpu N] [--csv]`.
 ///
-/// Every workload of DIR/collision (DIR: $CORRIDOR_DATA where not named) whose name contains a
-/// TEXT. All competitors are built once. Then N rounds: in each one, every competitor in turn
-/// answers all poses, one pass each, so that no pose is asked twice in a row (but those that are
-/// too quick for the clock: planner/app/query_timing.h) and a noisy neighbour meets all alike. A
-/// pose's time is the least of its rounds (others on the machine only ever add); a workload's is
-/// the median of its poses'. Who competes, and how each is asked: competitors.h.
+/// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
+/// $CORRIDOR_DATA). All competitors build their trees once. Then there are N rounds. In each round
+/// every competitor in turn answers all poses in one pass. So no pose is repeated immediately,
+/// except queries that are too short for the clock (planner/app/query_timing.h), and a noisy
+/// neighbour disturbs all competitors alike. A pose's time is the least of its rounds, because
+/// other programs only ever add time. A workload's time is the median of its poses'. The
+/// competitors, and how each is called: competitors.h.
 ///
-/// Tables: queries, without the poses that the root boxes of the reference tree separate; those
-/// poses apart, where the overhead of a call counts; building. Ratios are to the quickest FCL tree
-/// of the row; above 1: ours is quicker. *Wrong* counts verdicts that are not the exact ones (of
-/// distance: off by more than 1e-12·d + 4·2^-53·S of the truth, S the largest coordinate).
+/// Prints three tables: queries without the poses that the root boxes of the reference tree
+/// separate; those poses, where the overhead of a call counts; and building. Ratios are to the
+/// quickest FCL tree of the row; above 1 ours is quicker. *Wrong* counts verdicts that are not
+/// exact. For distance it counts results that are off by more than 1e-12·d + 4·2^-53·S, where S is
+/// the largest coordinate.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -54,11 +56,10 @@ void enter(Field& field, const std::string& name, const test::Workload& w, const
   }));
 }
 
-/// Who competes: ours first, the one that ratios are of; the reference tree next, if that is
-/// another; then FCL's.
+/// Returns the competitors: ours first, because ratios are relative to it, then FCL's.
 Field competitors(const test::Workload& w, const Options& o, double tolerance) {
   Field field;
-  enter<Ours<WideObbTree>>(field, "ours", w, o, tolerance, o.fit);
+  enter<Ours<Obb4Tree>>(field, "ours", w, o, tolerance, o.fit);
 #ifdef CORRIDOR_WITH_FCL
   if (o.query == Query::interference)
     enter<Fcl<fcl::OBB<double>>>(field, "FCL OBB", w, o, tolerance);
@@ -115,7 +116,7 @@ struct Ratios {
   }
 };
 
-/// Median over some poses of each pose's least time; 0 where there is no such pose.
+/// Returns the median over some poses of each pose's least time, or 0 if there is no such pose.
 template <class Take>
 double medianOver(const Record& r, const Take& take) {
   std::vector<double> ns;
@@ -124,7 +125,7 @@ double medianOver(const Record& r, const Take& take) {
   return ns.empty() ? 0 : median(ns);
 }
 
-/// Ours against the quickest other; 0 where there is none.
+/// Returns the time of the quickest other competitor over ours, or 0 if there is none.
 double ratio(const std::vector<double>& values) {
   if (values.size() < 2 || values[0] <= 0) return 0;
   return *std::min_element(values.begin() + 1, values.end()) / values[0];
@@ -158,7 +159,7 @@ int wrongAnswers(const Record& r, const test::Workload& w, Query query, double t
   return wrong;
 }
 
-/// Poses that the root boxes of the reference tree separate.
+/// Returns, for each pose, whether the root boxes of the reference tree separate it.
 std::vector<bool> rejectedByRoot(const test::Workload& w) {
   const ObbTree a(w.a), b(w.b);
   std::vector<bool> rejected;
@@ -170,7 +171,7 @@ std::vector<bool> rejectedByRoot(const test::Workload& w) {
   return rejected;
 }
 
-/// A workload's rows of the three tables, kept until all are known.
+/// The rows of the three tables, kept until all are known.
 struct Rows {
   std::vector<std::vector<std::string>> queries, roots, builds;
   Ratios queryRatios, rootRatios, buildRatios;
@@ -179,7 +180,7 @@ struct Rows {
 
 void run(const std::string& name, const Options& o, Rows& rows) {
   const test::Workload w = test::loadWorkload(o.folder, name);
-  // The tolerance query is asked at a hundredth of the smaller mesh.
+  // The tolerance is a hundredth of the smaller mesh's size.
   const double tolerance = 0.01 * std::min(diagonal(w.a), diagonal(w.b));
   const Field field = competitors(w, o, tolerance);
   for (int i = 0; i < o.rounds; ++i)

@@ -8,7 +8,7 @@
 
 namespace corridor::bench {
 
-/// Random states and edges of a problem.
+/// Draws random states and edges of a problem.
 class RandomEdges {
  public:
   struct Edge {
@@ -21,7 +21,8 @@ class RandomEdges {
     return problem_.space.groups().size() == 1 &&
            problem_.space.groups()[0].kind != CoordinateGroup::Kind::joints;
   }
-  /// @param length a share of the scene's size, or a norm of joint values. May leave the bounds.
+  /// Returns an edge from a random state. It may leave the bounds.
+  /// @param length  for a rigid body, a share of the scene's size; else a norm of joint values.
   Edge next(double length) {
     Edge e{uniform(), {}};
     e.to = e.from;

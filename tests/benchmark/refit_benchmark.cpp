@@ -1,19 +1,20 @@
-/// Refitting against rebuilding while a mesh deforms:
-/// `refit_benchmark [--out FOLDER] [--triangles N] [--frames N]`.
+/// Compares refitting with rebuilding while a mesh deforms: `refit_benchmark [--out FOLDER]
+/// [--triangles N] [--frames N]`.
 ///
-/// A bumpy torus bends to a half circle, twists by a turn between its ends, or has a wave running
-/// through it. In every frame, a tree that has only been refitted since the first frame, and one
-/// built anew: milliseconds of both (least of three), and what queries against a sphere cost with
-/// either, at poses 0.02 apart and at poses where they just touch: means of N_v and N_p, median
-/// time. CSV on stdout, with the mean over the frames at the end; FOLDER gets plots of N_v.
-/// The wide tree has no refitting: its rebuilding is there to compare with.
+/// A bumpy torus bends to a half circle, twists by a full rotation between its ends, or has a wave
+/// running through it. In every frame there are a tree that has only been refitted since the first
+/// frame, and a tree built anew. Measured are the milliseconds of both (least of three), and the
+/// cost of queries against a sphere with either tree, at poses 0.02 apart and at poses where they
+/// just touch: means of N_v and N_p, and the median time. Prints CSV on stdout, with the means over
+/// the frames at the end; FOLDER gets plots of N_v. The 4-wide OBB tree can't be refitted; its
+/// rebuilding is included for comparison.
 #include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
 
 #include "collision/queries/interference.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
 #include "planner/app/query_timing.h"
 #include "tests/benchmark/arguments.h"
@@ -31,7 +32,7 @@ struct Options {
   int frames = 0;
 };
 
-/// A point of the torus in its frame, and how far the deformation has come, 0 to 1.
+/// Maps a point of the torus in its frame; the number is the progress of the deformation, 0 to 1.
 using Deformation = std::function<Vec3(const Vec3&, double)>;
 
 Vec3 bent(const Vec3& p, double s) {
@@ -81,14 +82,15 @@ Cost ask(const Tree& a, const Tree& b, const std::vector<Transform>& poses) {
 
 struct Frame {
   TriangleMesh mesh;
-  std::vector<Transform> poses;  ///< of the sphere
+  std::vector<Transform> poses;  ///< poses of the sphere
 };
 
 struct Sums {
   double rebuild = 0, refit = 0, boxes = 0, us = 0, frames = 0, lastBoxes = 0, lastUs = 0;
 };
 
-/// All frames with one kind of tree; rows, and N_v after refitting over N_v after rebuilding.
+/// Measures all frames with one kind of tree. Prints the rows; returns N_v after refitting over N_v
+/// after rebuilding.
 template <class Tree>
 Series sequence(const std::string& deformation, const std::string& name,
                 const std::vector<Frame>& frames, const TriangleMesh& sphere, Sums& sums) {
@@ -122,7 +124,7 @@ void report(const Options& o) {
   TriangleMesh sphere =
       icosphere(static_cast<int>(std::sqrt(static_cast<double>(o.triangles) / 20)));
   for (Vec3& v : sphere.vertices) v *= 0.5;
-  const WideObbTree wideSphere(sphere);
+  const Obb4Tree wideSphere(sphere);
   std::cout << "deformation,frame,volume,rebuild_ms,refit_ms,bv_tests_rebuilt,bv_tests_refitted,"
                "triangle_tests_rebuilt,triangle_tests_refitted,us_rebuilt,us_refitted\n";
   std::string table =
@@ -136,7 +138,7 @@ void report(const Options& o) {
     for (int i = 0; i <= o.frames; ++i) {
       frames.push_back({torus, {}});
       for (Vec3& v : frames.back().mesh.vertices) v = deform(v, static_cast<double>(i) / o.frames);
-      const WideObbTree tree(frames.back().mesh);
+      const Obb4Tree tree(frames.back().mesh);
       frames.back().poses = posesAtGap(tree, wideSphere, 0.02, 15, random);
       for (Transform& X : posesAtGap(tree, wideSphere, 1e-3, 5, random)) {
         X.t *= 1 - 5e-3;  // into contact
@@ -160,7 +162,7 @@ void report(const Options& o) {
     measure("kdop14", static_cast<VolumeTree<Kdop<14>>*>(nullptr));
     measure("kdop18", static_cast<VolumeTree<Kdop<18>>*>(nullptr));
     measure("kdop26", static_cast<VolumeTree<Kdop<26>>*>(nullptr));
-    measure("obb (wide)", static_cast<WideObbTree*>(nullptr));
+    measure("obb (wide)", static_cast<Obb4Tree*>(nullptr));
     if (!o.out.empty()) plot.write(o.out / ("refit_" + deformation + ".svg"));
   }
   std::cout << table;

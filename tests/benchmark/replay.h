@@ -17,19 +17,19 @@
 #include "planner/benchmark/child_process.h"
 #include "planner/solve/planner_factory.h"
 
-/// What a run would take if verdicts cost nothing: the run is made twice, in two processes, with
-/// the same random numbers; the first records every answer of Corridor's checkers, the second gets
-/// the recorded ones. So both do the same, to the last state, and what the second takes is the
-/// planner's and the simplifier's own.
+/// Measures the time of a run if verdicts cost nothing. The run is made twice, in two processes,
+/// with the same random numbers. The first records every answer of Corridor's checkers, and the
+/// second gets the recorded answers. Both therefore visit the same states, and the second run's
+/// time is that of the planner and the simplifier alone.
 namespace corridor::bench {
 
-/// What a run asked, and the answers, in order, as bytes. For one thread.
+/// The questions of a run to the checkers and the answers, in order, as bytes. For one thread.
 class Transcript {
  public:
   enum class Ask : char { state, clearance, motion, lastValid };
 
-  /// Takes a question down, or compares it with the one in its place.
-  /// @throws std::runtime_error where it is another one: kind, or a state in any bit.
+  /// Records a question, or compares it with the recorded one.
+  /// @throws std::runtime_error if they differ in kind, or in any bit of a state.
   void question(Ask ask, const ompl::base::SpaceInformation& si, const ompl::base::State* s1,
                 const ompl::base::State* s2 = nullptr) {
     ++questions_;
@@ -50,7 +50,7 @@ class Transcript {
       at_ += scratch_.size();
     }
   }
-  /// Takes an answer down as `compute` gives it; or the one recorded.
+  /// Records and returns the answer that `compute` gives, or returns the recorded answer.
   template <class Value, class Compute>
   Value answer(const Compute& compute) {
     Value value;
@@ -63,7 +63,7 @@ class Transcript {
     }
     return value;
   }
-  /// The same of a state, as it stands there now; or written there.
+  /// The same for a state: records its present value, or overwrites it with the recorded one.
   void answer(const ompl::base::SpaceInformation& si, ompl::base::State* state) {
     const std::size_t size = si.getStateSpace()->getSerializationLength();
     if (recording_) {
@@ -75,16 +75,16 @@ class Transcript {
   }
 
   std::uint64_t questions() const { return questions_; }
-  /// Everything recorded was asked.
+  /// Whether the replay used the whole record.
   bool done() const { return recording_ || at_ == bytes_.size(); }
 
-  /// @throws std::runtime_error where the file can't hold it.
+  /// @throws std::runtime_error if the file can't be written.
   void write(std::FILE* file) const {
     if (std::fwrite(bytes_.data(), 1, bytes_.size(), file) != bytes_.size() ||
         std::fflush(file) != 0)
       throw std::runtime_error("replay: the record can't be written");
   }
-  /// To be replayed.
+  /// Returns a transcript to be replayed.
   static Transcript read(std::FILE* file) {
     Transcript transcript;
     transcript.recording_ = false;
@@ -110,7 +110,7 @@ class Transcript {
 
 class TranscriptStates final : public ompl::base::StateValidityChecker {
  public:
-  /// Records the answers of the checker that `si` has, or gives the recorded ones instead.
+  /// Records the answers of the checker of `si`, or returns the recorded answers instead.
   /// @pre `transcript` outlives the object.
   TranscriptStates(const ompl::base::SpaceInformationPtr& si, Transcript& transcript)
       : StateValidityChecker(si), inner_(si->getStateValidityChecker()), transcript_(transcript) {
@@ -132,7 +132,8 @@ class TranscriptStates final : public ompl::base::StateValidityChecker {
 
 class TranscriptMotions final : public ompl::base::MotionValidator {
  public:
-  /// As TranscriptStates. @pre it asks no validity checker of OMPL's itself.
+  /// The same for the motion validator of `si`. @pre That validator doesn't use OMPL's validity
+  /// checker.
   TranscriptMotions(const ompl::base::SpaceInformationPtr& si, Transcript& transcript)
       : MotionValidator(si), inner_(si->getMotionValidator()), transcript_(transcript) {}
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override {
@@ -155,8 +156,9 @@ class TranscriptMotions final : public ompl::base::MotionValidator {
   Transcript& transcript_;
 };
 
-/// Certified edges that are recorded, or replayed. @pre `transcript` outlives it.
-inline BenchmarkPeer transcriptPeer(Transcript& transcript) {
+/// Returns a competitor with certified edges that are recorded, or replayed. @pre `transcript`
+/// outlives it.
+inline BenchmarkCompetitor transcriptPeer(Transcript& transcript) {
   return {"replay",
           [&transcript](const auto& si, const Checker&) {
             return std::make_shared<TranscriptStates>(si, transcript);
@@ -167,23 +169,23 @@ inline BenchmarkPeer transcriptPeer(Transcript& transcript) {
           "certified"};
 }
 
-/// The second of the two runs. Set-up (start and goals are tested) and the last certification are
-/// done in full: BenchmarkRun::searchProcessorTime is without them. OMPL's own tests of the path,
-/// outside of all times, are replayed, too.
-/// @throws std::runtime_error for a planner that doesn't repeat, and where recording failed.
+/// Makes both runs and returns the second. Set-up (start and goals are tested) and the last
+/// certification are done in full; BenchmarkRun::searchProcessorTime excludes both. OMPL's own
+/// tests of the path, which are outside of all measured times, are replayed, too.
+/// @throws std::runtime_error for a planner that doesn't repeat, or if recording failed.
 inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& path) {
   for (const PlannerInfo& info : knownPlanners())
     if (info.name == planned.planner.name && !info.repeats)
       throw std::runtime_error("replay: " + info.name + " doesn't repeat");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
-  if (!file) throw std::runtime_error("replay: there can be no temporary file");
-  // OMPL can be seeded once a process: this one is for the second run.
+  if (!file) throw std::runtime_error("replay: a temporary file can't be created");
+  // OMPL can be seeded once per process: this process is for the second run.
   const auto record = [&](const auto& send) {
     Transcript transcript;
     Path ignored;
     const BenchmarkRun run = runUnderOmpl(planned, transcriptPeer(transcript), memory, ignored);
     if (!run.failure.empty()) throw std::runtime_error(run.failure);
-    // Maybe the time ran out, and when is nothing that repeats.
+    // The time may have run out, and the moment when it does isn't repeatable.
     if (!run.solved) throw std::runtime_error(run.why);
     transcript.write(file.get());
     send("done");
@@ -201,7 +203,7 @@ inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& pat
   return run;
 }
 
-inline BenchmarkPeer replayPeer() {
+inline BenchmarkCompetitor replayPeer() {
   return {"replay", nullptr, nullptr, "certified", replayedRun};
 }
 

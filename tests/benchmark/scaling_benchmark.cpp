@@ -1,14 +1,17 @@
-/// What queries cost as meshes get finer: `scaling_benchmark [--out FOLDER] [--largest N]
-/// [--poses N] [--gap G]…`.
+/// Measures the cost of queries as meshes get finer: `scaling_benchmark [--out FOLDER] [--largest
+/// N] [--poses N] [--gap G]…`.
 ///
-/// Two bumpy tori of the same shape at every size, from 10^3 to N triangles each (default 10^6),
-/// apart by a gap of G times their size (default 0.1, 0.01, 0.001): interference, nothing touches.
-/// Our wide tree at all sizes; the reference tree and FCL's OBB tree, which need several times the
-/// memory, up to 10^6. All in one run, in turns (competitors.h), each turn after other memory was
-/// read, so that no size has its nodes in the caches and another has not. CSV on stdout; then, of
-/// each, how its time and N_v grew from the smallest mesh to the largest, against how the logarithm
-/// did: also from the first mesh whose facets are flatter than the gap (before that, finer meshes
-/// have more places that are close, not only more triangles). FOLDER gets the plot.
+/// Two bumpy tori of the same shape, from 10^3 to N triangles each (default 10^6), are apart by a
+/// gap of G times their size (default 0.1, 0.01, 0.001). The query is interference; nothing
+/// touches. Our 4-wide OBB tree runs at all sizes. The reference tree and FCL's OBB tree need
+/// several times the memory, and run up to 10^6 triangles only. All run in turns (competitors.h).
+/// Before each turn other memory is read, so that no tree has its nodes in the processor's caches.
+///
+/// Prints CSV on stdout. At the end, for each competitor and gap, it prints by which factors time,
+/// N_v and the logarithm of the number of triangles grew from the smallest mesh to the largest. It
+/// also prints these factors from the first mesh whose facets are flatter than the gap: before
+/// that, finer meshes have more close places, not only more triangles. The plot is written to
+/// FOLDER.
 #include <iostream>
 #include <map>
 
@@ -31,28 +34,30 @@ struct Options {
 };
 
 constexpr double kOthersUpTo = 1.1e6;
-constexpr double kSize = 2 * 1.44 * std::numbers::sqrt2;  // across the torus' box, metres
+constexpr double kSize =
+    2 * 1.44 * std::numbers::sqrt2;  // horizontal diagonal of the torus' box, metres
 
-/// One competitor at one gap: by size of mesh.
+/// One competitor's results at one gap, over the size of the mesh.
 struct Curve {
   double gap = 0;
   std::vector<Point> us, boxTests;
 };
 
-/// How far a facet of a torus of n triangles is from its circle: radius 0.4, √(n/4) chords.
+/// Returns the distance of a facet of a torus of n triangles from its circle: radius 0.4, √(n/4)
+/// chords.
 double sagitta(double n) {
   return 0.4 * (1 - std::cos(std::numbers::pi / std::sqrt(n / 4)));
 }
 
-/// Reads so much that nothing of a tree is left in any cache.
+/// Reads enough other memory to remove all of a tree from every cache.
 void sweepCaches() {
   static std::vector<std::uint64_t> other(std::size_t{8} << 20, 1);  // 64 MB
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < other.size(); i += 8) sum += other[i];
-  other[0] = sum;  // else nothing would be read
+  other[0] = sum;  // so that the compiler keeps the reads
 }
 
-/// One size: a row a competitor and gap.
+/// Measures one size; prints one row per competitor and gap.
 void measure(std::size_t triangles, const Options& o, std::map<std::string, Curve>& curves) {
   test::Workload w;
   w.a = bumpyTorus(triangles);
@@ -60,7 +65,7 @@ void measure(std::size_t triangles, const Options& o, std::map<std::string, Curv
   const auto n = static_cast<double>(w.a.triangles.size());
   std::mt19937_64 random(2026);
   {
-    const WideObbTree tree(w.a);
+    const Obb4Tree tree(w.a);
     for (const double gap : o.gaps) {
       const auto poses = posesAtGap(tree, tree, gap * kSize, o.poses, random);
       w.poses.insert(w.poses.end(), poses.begin(), poses.end());
@@ -72,7 +77,7 @@ void measure(std::size_t triangles, const Options& o, std::map<std::string, Curv
     field.push_back(std::make_unique<Timed<Library>>(
         name, w, builds, [&] { return std::make_unique<Library>(Query::interference, 0.0, w); }));
   };
-  enter("ours (wide)", static_cast<Ours<WideObbTree>*>(nullptr));
+  enter("ours (wide)", static_cast<Ours<Obb4Tree>*>(nullptr));
   if (n < kOthersUpTo) {
     enter("ours (reference)", static_cast<Ours<ObbTree>*>(nullptr));
 #ifdef CORRIDOR_WITH_FCL
@@ -115,7 +120,7 @@ void report(const Options& o) {
   for (double n = 1e3; n < 1.1 * o.largest; n *= std::sqrt(10.0))
     measure(static_cast<std::size_t>(n), o, curves);
   Plot plot("Interference, nothing touches, gap by size", "triangles of each mesh",
-            "µs a query (one core)");
+            "µs per query (one core)");
   std::cout << "\nwho,from_triangles,to_triangles,logarithm_grew,time_grew,N_v_grew\n";
   for (const auto& [name, curve] : curves) {
     const std::size_t last = curve.us.size() - 1;
@@ -123,7 +128,7 @@ void report(const Options& o) {
       const Point from = curve.us[first], to = curve.us[last];
       std::cout << '"' << name << "\"," << from.x << "," << to.x << ","
                 << text(std::log(to.x) / std::log(from.x)) << "," << text(to.y / from.y) << ",";
-      if (curve.boxTests[first].y > 0)  // FCL's are not counted
+      if (curve.boxTests[first].y > 0)  // FCL's tests are not counted
         std::cout << text(curve.boxTests[last].y / curve.boxTests[first].y);
       std::cout << "\n";
     };

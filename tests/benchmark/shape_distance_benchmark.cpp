@@ -1,8 +1,9 @@
-/// Distances of primitives, ours against FCL's two solvers: `shape_distance_benchmark [SEED]`.
+/// Compares our distances of convex shapes with those of FCL's two solvers:
+/// `shape_distance_benchmark [SEED]`.
 ///
-/// For each pair of kinds and each gap, known by construction: the median nanoseconds of a query
-/// with witness points (batches of 100 pairs, interleaved), and the largest error, metres, shapes
-/// being some 1 m; `-` where FCL says contact of shapes that are apart.
+/// For each pair of kinds and each gap, known by construction, it prints the median nanoseconds of
+/// a query with witness points (batches of 100 pairs, interleaved) and the largest error in metres.
+/// Shapes are some 1 m in size. `-` means that FCL reported contact of shapes that are apart.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -28,7 +29,8 @@ using test::Shape;
 constexpr const char* kNames[] = {"box", "sphere", "capsule", "cylinder", "convex"};
 constexpr int kBatch = 100, kRounds = 15;
 
-/// A shape that is nowhere thinner than 5 cm; the convex one an octahedron, its top the feature.
+/// Returns a shape that is nowhere thinner than 5 cm. The convex one is an octahedron, with its top
+/// as the feature.
 Feature featureOf(test::Touching& make, Shape shape) {
   if (shape != Shape::convex)
     while (true) {

@@ -14,7 +14,7 @@
 /// Meshes of any fineness, and poses, for benchmarks.
 namespace corridor::bench {
 
-/// The diagonal of a mesh's bounds.
+/// Returns the diagonal of a mesh's bounds.
 inline double diagonal(const TriangleMesh& mesh) {
   Vec3 low = mesh.vertices[0], high = low;
   for (const Vec3& v : mesh.vertices) {
@@ -24,8 +24,8 @@ inline double diagonal(const TriangleMesh& mesh) {
   return (high - low).norm();
 }
 
-/// A unit sphere of 20·frequency² triangles, corners on the sphere: each face of an icosahedron
-/// divided. Corners along the edges of the icosahedron are stored once a face.
+/// Returns a unit sphere of 20·frequency² triangles with corners on the sphere: each face of an
+/// icosahedron, divided. Corners along the edges of the icosahedron are stored once per face.
 inline TriangleMesh icosphere(int frequency) {
   constexpr double g = std::numbers::phi;
   const std::array<Vec3, 12> corner = {Vec3(-1, g, 0),  Vec3(1, g, 0),   Vec3(-1, -g, 0),
@@ -56,7 +56,7 @@ inline TriangleMesh icosphere(int frequency) {
   return mesh;
 }
 
-/// The least distance of a facet's plane from the origin, of a mesh around it.
+/// Returns the least distance of a facet's plane from the origin, for a mesh around it.
 inline double inradius(const TriangleMesh& mesh) {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -67,7 +67,7 @@ inline double inradius(const TriangleMesh& mesh) {
   return least;
 }
 
-/// A torus with bumps (radii about 1 and 0.4, metres) of about `triangles` triangles.
+/// Returns a torus with bumps (radii about 1 and 0.4, metres) of about `triangles` triangles.
 inline TriangleMesh bumpyTorus(std::size_t triangles) {
   const auto rows = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 4) + 0.5);
   const std::uint32_t columns = 2 * rows;

@@ -1,21 +1,23 @@
-/// The tolerance query against interference at equal remaining gap:
-/// `tolerance_benchmark [--data DIR] [--workload TEXT]… [--poses N] [--rounds N]`.
+/// Compares the tolerance query with interference at equal remaining gap: `tolerance_benchmark
+/// [--data DIR] [--workload TEXT]… [--poses N] [--rounds N]`.
 ///
-/// Every workload of DIR/collision (DIR: $CORRIDOR_DATA where not named) whose name contains a
-/// TEXT. At each of its first N poses that is free with a gap g and not told from the root boxes
-/// alone: interference there, against «closer than t?» where the gap is g + t, for t = 10^-4, 10^-3
-/// and 10^-2 of the smaller mesh's size. Both have g left to prove: the former that there is more
-/// than nothing between the meshes, the latter that there is more than t. The gap is widened by
-/// moving B along the line between the closest points, as far as it takes; where no way does, since
-/// the one is inside the other (concentric spheres), by scaling A about the origin. A pose at which
-/// the gap then is off by more than 1 % of g is left out. Least time of the rounds, both queries in
-/// turn; the median over the poses of the ratio of the two. Wide trees.
+/// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
+/// $CORRIDOR_DATA). It takes the first N poses that are free with a gap g and not decided by the
+/// root boxes alone. There it compares interference with "closer than t?" where the gap is g + t,
+/// for t = 10^-4, 10^-3 and 10^-2 of the smaller mesh's size. Both queries have g left to prove:
+/// the former that the gap is above 0, the latter that it is above t.
+///
+/// The gap is widened by moving B along the line between the closest points, as far as needed.
+/// Where no such motion helps, because one mesh is inside the other (concentric spheres), A is
+/// scaled about the origin. A pose at which the gap is then off by more than 1 % of g is left out.
+/// Reported is the median over the poses of the ratio of the two times, each the least of the
+/// rounds, with both queries in turn. Trees are 4-wide OBB trees.
 #include <limits>
 #include <optional>
 
 #include "collision/core/simd_target.h"
-#include "collision/queries/distance_wide.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/distance_obb4.h"
+#include "collision/queries/interference_obb4.h"
 #include "planner/app/query_timing.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/plot.h"
@@ -31,10 +33,10 @@ TriangleMesh scaled(TriangleMesh mesh, double factor) {
   return mesh;
 }
 
-/// The pose moved along the line between the closest points until the gap is `wanted`. None where
-/// that never comes.
-std::optional<Transform> widened(const WideObbTree& a, const WideObbTree& b, Transform X,
-                                 double wanted, double accuracy, QueryContext& context) {
+/// Returns the pose moved along the line between the closest points until the gap is `wanted`, or
+/// nullopt if that never happens.
+std::optional<Transform> widened(const Obb4Tree& a, const Obb4Tree& b, Transform X, double wanted,
+                                 double accuracy, QueryContext& context) {
   const Distance start = distance(a, {}, b, X, {}, context);
   const Vec3 away = (start.p_WB - start.p_WA) / start.distance;
   const Vec3 from = X.t;
@@ -61,15 +63,15 @@ struct Options {
 
 Row measure(const test::Workload& w, double relative, const Options& o) {
   const double tolerance = relative * std::min(diagonal(w.a), diagonal(w.b));
-  const WideObbTree a(w.a), b(w.b);
-  // Concentric: A shrinks by t/1, its radius.
+  const Obb4Tree a(w.a), b(w.b);
+  // Concentric: A, of radius 1, shrinks by t.
   const bool concentric = w.name.find("spheres") != w.name.npos;
-  const WideObbTree smaller(concentric ? scaled(w.a, 1 - tolerance) : w.a);
+  const Obb4Tree smaller(concentric ? scaled(w.a, 1 - tolerance) : w.a);
   QueryContext context;
-  const auto inner = [&](const Transform& X) {  // not told from the roots alone
+  const auto inner = [&](const Transform& X) {  // free, and not decided by the roots alone
     context.counters = {};
     const bool hit = interference(a, {}, b, X, context).has_value();
-    return !hit && context.counters.boxTests > WideObbTree::kWidth * WideObbTree::kWidth;
+    return !hit && context.counters.boxTests > Obb4Tree::kWidth * Obb4Tree::kWidth;
   };
   Row row;
   for (const Transform& X : w.poses) {
@@ -77,7 +79,7 @@ Row measure(const test::Workload& w, double relative, const Options& o) {
     if (!inner(X)) continue;
     const double gap = distance(a, {}, b, X, {}, context).distance;
     std::optional<Transform> wide;
-    const WideObbTree* other = &a;
+    const Obb4Tree* other = &a;
     if (concentric) {
       other = &smaller;
       if (std::abs(distance(smaller, {}, b, X, {}, context).distance - gap - tolerance) <=
@@ -99,7 +101,7 @@ Row measure(const test::Workload& w, double relative, const Options& o) {
     const auto touchTests = static_cast<double>(context.counters.boxTests);
     context.counters = {};
     if (closerThan(*other, {}, b, *wide, tolerance, context))
-      throw std::logic_error(w.name + ": closer than it is");
+      throw std::logic_error(w.name + ": closerThan is true below the distance");
     ++row.poses;
     row.interferenceNs.push_back(touchNs);
     row.toleranceNs.push_back(closeNs);

@@ -1,8 +1,9 @@
-// Error against run time of «do two triangles touch?»: a textbook test in float and in double, ours
-// (double with a filter, integers where it doesn't tell), integers always, rationals always. On the
-// shared pairs (CORRIDOR_DATA) and on the stress suite's families and placings.
+// Measures run time against error of the test whether two triangles touch. The methods are a
+// textbook test in float and in double, ours (double with a filter, integers where the filter can't
+// decide), integers always, and rationals always. They run on the shared pairs (CORRIDOR_DATA) and
+// on the stress suite's families and placings.
 //
-//   triangle_error_benchmark [pairs of a family, 2000]
+//   triangle_error_benchmark [PAIRS_PER_FAMILY, default 2000]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,15 +57,16 @@ struct Textbook {
     return c;
   }
 
-  /// Signed distances of t's corners from the plane of p, times the length of its normal n.
+  /// Returns the signed distances of t's corners from the plane of p, times the length of its
+  /// normal n.
   static Point heights(const Corners& t, const Corners& p, const Point& n) {
     const Scalar d = -dot(n, p[0]);
     return {dot(n, t[0]) + d, dot(n, t[1]) + d, dot(n, t[2]) + d};
   }
   static bool oneSide(const Point& h) { return h[0] * h[1] > 0 && h[0] * h[2] > 0; }
 
-  /// Where a triangle meets the line that the planes share, along one coordinate; false: in the
-  /// other's plane.
+  /// Computes where a triangle meets the line that the planes share, along one coordinate. Returns
+  /// false if the triangle is in the other's plane.
   static bool interval(const Corners& t, const Point& h, int axis, Scalar& low, Scalar& high) {
     int alone = 2;
     if (h[0] * h[1] > 0)
@@ -158,7 +160,8 @@ constexpr Named kMethods[] = {
      [](const test::PlacedPair& p) { return test::rationalContact(p.a, p.X_WA, p.b, p.X_WB); },
      true}};
 
-/// Nanoseconds of the processor a pair, one pass over all (of slow methods, over some).
+/// Returns nanoseconds of processor time per pair, in one pass over all pairs (for slow methods,
+/// over some).
 double nanoseconds(const Named& named, const std::vector<Judged>& pairs) {
   const std::size_t count = named.slow ? std::min<std::size_t>(200, pairs.size()) : pairs.size();
   int hits = 0;
@@ -170,8 +173,8 @@ double nanoseconds(const Named& named, const std::vector<Judged>& pairs) {
   return 1e9 * seconds / static_cast<double>(count);
 }
 
-/// A line of the table: of each method contacts missed and false ones, and the median time of nine
-/// passes, in turn with the others'.
+/// Prints a line of the table: for each method the contacts missed, the false contacts, and the
+/// median time of nine passes, in turn with the other methods.
 void report(const std::string& name, const std::vector<Judged>& pairs) {
   std::array<std::array<double, 9>, std::size(kMethods)> times{};
   for (std::size_t pass = 0; pass < 9; ++pass)
@@ -239,9 +242,9 @@ int run(int count) {
 int main(int argc, char** argv) {
   const int count = argc > 1 ? std::atoi(argv[1]) : 2000;
   if (count < 1) {
-    std::fprintf(stderr, "triangle_error_benchmark [pairs of a family]\n");
+    std::fprintf(stderr, "usage: triangle_error_benchmark [PAIRS_PER_FAMILY]\n");
     return 2;
   }
-  std::printf("Of each method: contacts missed, false contacts, ns a pair.\n\n");
+  std::printf("For each method: contacts missed, false contacts, ns per pair.\n\n");
   return corridor::run(count);
 }

@@ -1,10 +1,12 @@
-/// What every volume costs, generic trees: `volume_tree_benchmark WORKLOAD [FOLDER]`.
+/// Measures the cost of every bounding volume in generic trees: `volume_tree_benchmark WORKLOAD
+/// [FOLDER]`.
 ///
-/// A workload of the shared collision data (in FOLDER, or $CORRIDOR_DATA/collision). A row a volume
-/// and way of building, and one of the tree over space, as CSV on stdout: milliseconds to build and
-/// to refit the first mesh (least of three), its bytes, medians in microseconds of interference,
-/// distance and «closer than 10^-3 of the size?» over the poses, and the means of N_v and N_p of
-/// interference. The tree over space has neither refitting nor distances.
+/// WORKLOAD is the name of one of the shared collision workloads in FOLDER (default:
+/// $CORRIDOR_DATA/collision). Prints CSV on stdout, with one row per volume and way of building,
+/// and one for the octree (the tree over space). Columns: milliseconds to build and to refit the
+/// tree of the first mesh (least of three), the bytes of this tree, median microseconds of
+/// interference, distance and "closer than 10^-3 of the size?" over the poses, and the means of N_v
+/// and N_p of interference. The octree has neither refitting nor distances.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -31,7 +33,7 @@ double microseconds(F&& f) {
       .count();
 }
 
-/// Over the poses, in microseconds.
+/// Returns the median time over the poses, in microseconds.
 template <class Query>
 double median(const test::Workload& w, QueryContext& context, const Query& query) {
   context.counters = {};

@@ -1,7 +1,7 @@
-"""What tests of pages share: the program, a browser without a display, and what is to hold of every page.
+"""Shared by the tests of pages: the program, a browser without a display, and checks that every page must pass.
 
-A test is a script that imports this file and ends with `main([test, …])`, functions of a browser and a folder. Without
-Chromium, its driver or Selenium it prints why and ends with status 77, which ctest shows as skipped."""
+A test is a script that imports this file and ends with `main([test, …])`, a list of functions of a browser and a folder. Without
+Chromium, its driver or Selenium it prints the reason and ends with status 77, which ctest shows as skipped."""
 
 import contextlib
 import os
@@ -12,13 +12,13 @@ import tempfile
 import time
 
 SKIPPED = 77
-WAIT = 120  # seconds: a busy machine of two cores draws by its processor
+WAIT = 120  # seconds: a busy machine with two cores and no graphics card draws slowly
 
 SIZES = {"desktop": (1366, 768), "phone": (390, 844)}
 
 
 def skip(why):
-    print(f"browser: Skipped\n{why}")  # as GoogleTest says it: ./corridor test lists the reasons
+    print(f"browser: Skipped\n{why}")  # GoogleTest's form: ./corridor test lists the reasons
     sys.exit(SKIPPED)
 
 
@@ -51,10 +51,10 @@ def folder():
 
 
 class Browser:
-    """Chromium with one page."""
+    """Chromium with one open page."""
 
     def __init__(self, *flags):
-        """flags: of Chromium, besides those that draw without a graphics card."""
+        """flags: of Chromium, in addition to those for drawing without a graphics card."""
         browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not browser or not driver:
             skip("needs Debian's chromium and chromium-driver")
@@ -77,7 +77,7 @@ class Browser:
         self.driver.quit()
 
     def size(self, name):
-        """The inside of the window, exactly: Chromium makes no window narrower than 500 pixels by itself."""
+        """Sets the exact size of the page. Chromium itself makes no window narrower than 500 pixels."""
         width, height = SIZES[name]
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
@@ -90,14 +90,14 @@ class Browser:
         return self.driver.execute_script(f"return {expression};")
 
     def wait(self, expression):
-        """Until the expression holds."""
+        """Waits until the expression is true."""
         WebDriverWait(self.driver, WAIT, 0.1).until(lambda _: self.js(expression), f"in {WAIT} s not true: {expression}")
 
     def find(self, selector):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
     def click(self, selector):
-        """As a user does who scrolls there."""
+        """Scrolls to an element and clicks it, as a user does."""
         element = self.find(selector)
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
         element.click()
@@ -106,11 +106,11 @@ class Browser:
         return (self.find(selector).screenshot_as_png if selector else self.driver.get_screenshot_as_png())
 
     def complaints(self):
-        """What the console has of errors."""
+        """Returns the errors in the console."""
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
     def check_page(self):
-        """What holds of every page, of any size: no error, nothing loaded, nothing wider than the window."""
+        """Checks what every page must satisfy at any size: no error, nothing loaded, nothing wider than the window."""
         assert not (found := self.complaints()), found
         loaded = self.js("performance.getEntriesByType('resource').map((entry) => entry.name)")
         assert not loaded, f"the page loads {loaded}"
@@ -119,7 +119,7 @@ class Browser:
 
 
     def press(self, key, shift=False):
-        """To the page as a whole."""
+        """Sends a key to the page."""
         chain = ActionChains(self.driver)
         if shift:
             chain.key_down(Keys.SHIFT)
@@ -129,7 +129,7 @@ class Browser:
         chain.perform()
 
     def canvas(self, selector):
-        """What a canvas shows: how many colours, and a number that changes with its pixels."""
+        """Returns the number of colours of a canvas, and a hash of its pixels."""
         return self.driver.execute_script("""
             const canvas = document.querySelector(arguments[0]), copy = document.createElement('canvas');
             Object.assign(copy, {width: canvas.width, height: canvas.height});
@@ -142,7 +142,7 @@ class Browser:
 
 
 def png_size(file):
-    """Width and height of a PNG."""
+    """Returns width and height of a PNG."""
     with open(file, "rb") as png:
         start = png.read(24)
     assert start[:8] == b"\x89PNG\r\n\x1a\n", "not a PNG"
@@ -150,7 +150,7 @@ def png_size(file):
 
 
 def main(tests):
-    """Runs functions of one browser each by name; the first failure ends with status 1."""
+    """Runs each test with a browser of its own; the first failure ends the script with status 1."""
     for test in tests:
         began = time.monotonic()
         with Browser() as browser, folder() as path:

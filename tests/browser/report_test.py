@@ -1,4 +1,4 @@
-"""A campaign's report in a browser: no error, nothing loaded, plots that have their data, and words where a pointer rests."""
+"""A campaign's report in a browser: no error, nothing loaded, plots with their data, and a text where a pointer rests on a point."""
 
 import csv
 import os
@@ -32,13 +32,13 @@ def pages(browser, folder):
         browser.open(os.path.join(out, "report.html"))
         browser.check_page()
     assert browser.js("document.title") == "pages"
-    assert browser.js("document.querySelectorAll('figure svg').length") == 9  # three of each problem, three of all
+    assert browser.js("document.querySelectorAll('figure svg').length") == 9  # three per problem, three of all problems
     names = browser.js("[...document.querySelectorAll('figure')].map((figure) => figure.dataset.plot)")
     assert sorted(names) == sorted(
         [f"{kind}.{problem}" for kind in ("error", "solved", "clearance") for problem in ("thin_plate", "gantry_bins")] + ["cost", "error", "profile"]
     ), names
     assert browser.js("document.querySelectorAll('#ranking tbody tr').length") == 3
-    # Certified comes first, and none of its paths is refuted.
+    # certified ranks first: none of its paths is refuted.
     first = browser.find("#ranking tbody tr").text
     assert first.startswith("certified") and "0 of 12" in first, first
     # A label that looks like HTML is text.
@@ -48,7 +48,7 @@ def pages(browser, folder):
 
 
 def points_have_words(browser, out):
-    """Each point of a plot is in its data, and tells what it is."""
+    """Each point of a plot is in its data, and shows its text to a pointer."""
     browser.size("desktop")
     browser.open(os.path.join(out, "report.html"))
     with open(os.path.join(out, "plots", "error.thin_plate.csv"), newline="") as file:
@@ -57,7 +57,7 @@ def points_have_words(browser, out):
     points = browser.driver.find_elements(By.CSS_SELECTOR, "figure[data-plot='error.thin_plate'] g[onmousemove]")
     assert len(points) == len(rows), len(points)
     said = set()
-    for point in points:  # some lie under others: the event by itself, and at once what it does, for scrolling hides it
+    for point in points:  # by events, since some points are covered; the text is read at once, since scrolling hides it
         browser.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", point)
         words, tip = browser.driver.execute_script("""
             const box = arguments[0].getBoundingClientRect(), tip = document.getElementById('tip');
@@ -67,7 +67,7 @@ def points_have_words(browser, out):
         said.add(words.split("\n")[0])
         assert tip["width"] > 50 and 0 <= tip["left"] and tip["right"] <= SIZES["desktop"][0] and tip["top"] >= 0, tip
     assert len(said) == len(points), said
-    # And by a pointer, on the topmost, once the page stands still.
+    # A real pointer on the topmost point, once the page has stopped scrolling.
     use = points[-1].find_element(By.TAG_NAME, "use")
     for step in range(20):
         ActionChains(browser.driver).move_to_element_with_offset(use, step % 2, 0).pause(0.1).perform()
@@ -75,7 +75,7 @@ def points_have_words(browser, out):
             break
     else:
         raise AssertionError("a pointer on a point says nothing")
-    # A line of each variant, that reaches the top where all were solved.
+    # At least a line per variant.
     lines = browser.js("document.querySelectorAll(\"figure[data-plot='solved.thin_plate'] g[id*=plot] path\").length")
     assert lines >= 3, lines
     browser.check_page()

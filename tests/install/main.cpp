@@ -2,15 +2,15 @@
 
 #include "collision/core/error.h"
 #include "collision/geometry/mesh_file.h"
-#include "collision/queries/distance_wide.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/distance_obb4.h"
+#include "collision/queries/interference_obb4.h"
 
 int main(int count, char** files) try {
   if (count != 3)
     throw corridor::InputError(corridor::Fault{files[0], 0, "two mesh files are needed"});
-  const corridor::WideObbTree a(corridor::readMeshFile(files[1]).mesh);  // metres; built once
-  const corridor::WideObbTree b(corridor::readMeshFile(files[2]).mesh);
-  corridor::QueryContext context;  // scratch memory and counters: one a thread
+  const corridor::Obb4Tree a(corridor::readMeshFile(files[1]).mesh);  // metres; built once
+  const corridor::Obb4Tree b(corridor::readMeshFile(files[2]).mesh);
+  corridor::QueryContext context;  // scratch memory and counters: one per thread
   const corridor::Transform X_WA;  // where a stands in the world: x ↦ m·x + t, here the identity
   for (const double x : {0.5, 2.0}) {
     const corridor::Transform X_WB{corridor::Mat3::Identity(), {x, 0.25, 0.125}};

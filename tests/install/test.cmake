@@ -1,5 +1,5 @@
-# The test of `cmake --install` and find_package(corridor): installs into a prefix with a space in it, configures the
-# project beside this file in an empty folder, builds and runs it, and holds the guide's text against its files.
+# Tests `cmake --install` and find_package(corridor). Installs into a prefix with a space in its name. Configures, builds
+# and runs the project beside this file. Compares that project's files with the guide, which shows them.
 # cmake -D BUILD=… -D WORK=… -D CONFIG=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -P test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(prefix "${WORK}/a prefix")
@@ -17,7 +17,7 @@ endfunction()
 
 run(${CMAKE_COMMAND} --install "${BUILD}" --config "${CONFIG}" --prefix "${prefix}")
 
-# No installed header includes one that stayed behind.
+# Installed headers must include only installed headers.
 file(GLOB_RECURSE headers "${prefix}/include/corridor/*.h")
 list(LENGTH headers count)
 if(count LESS 50)
@@ -39,9 +39,9 @@ run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERATO
     "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build "${build}" --config "${CONFIG}")
 
-# Headers refuse options under which no bound holds.
+# The headers must refuse compiler options under which no bound holds.
 set(refused -ffast-math -ffinite-math-only)
-if(NOT COMPILER MATCHES "clang")  # which defines no macro for these
+if(NOT COMPILER MATCHES "clang")  # clang defines no macro for these
   list(APPEND refused -funsafe-math-optimizations -freciprocal-math)
 endif()
 foreach(option ${refused})
@@ -52,7 +52,7 @@ foreach(option ${refused})
   endif()
 endforeach()
 
-# A unit cube, once in a format of ours, once in one that assimp reads, in its own process.
+# A unit cube, once as OBJ, which Corridor reads itself, once as Collada, which assimp reads in its own process.
 set(corners "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1")
 set(quads "0 3 2 1" "4 5 6 7" "0 1 5 4" "1 2 6 5" "2 3 7 6" "3 0 4 7")
 set(obj "")
@@ -86,7 +86,7 @@ file(WRITE "${WORK}/cube.dae" "<?xml version=\"1.0\"?>
 ")
 
 run("${build}/two_meshes" "${WORK}/cube.obj" "${WORK}/cube.dae")
-set(number " *[-0-9.e]+")  # Eigen aligns them
+set(number " *[-0-9.e]+")  # Eigen aligns numbers with blanks
 if(NOT out MATCHES "^triangles [0-9]+ and [0-9]+ touch
 [1-9][0-9]* pairs of triangles touch
 distance 0 from${number}${number}${number} to${number}${number}${number}
@@ -98,7 +98,7 @@ $")
   message(FATAL_ERROR "it says:\n${out}")
 endif()
 
-# It is the installed helper that reads: with another in its place it doesn't.
+# The installed helper must be the one that reads Collada: replaced by another program, reading fails.
 file(GLOB_RECURSE helper "${prefix}/lib/corridor_assimp")
 file(WRITE "${helper}" "#!/bin/sh\nexit 7\n")
 execute_process(COMMAND "${build}/two_meshes" "${WORK}/cube.obj" "${WORK}/cube.dae" RESULT_VARIABLE status
@@ -107,7 +107,7 @@ if(NOT status EQUAL 2 OR NOT err MATCHES "ended without an answer \\(exit status
   message(FATAL_ERROR "the installed helper is not the one that runs: ${status}\n${out}${err}")
 endif()
 
-# The guide shows these very files.
+# The guide must show exactly these files.
 file(READ "${CMAKE_CURRENT_LIST_DIR}/../../collision/README.md" guide)
 foreach(file main.cpp CMakeLists.txt)
   file(READ "${CMAKE_CURRENT_LIST_DIR}/${file}" text)

@@ -1,4 +1,4 @@
-// Certified edges against the independent verifier, and the box overlap test against rationals.
+// Compares certified edges with the independent verifier, and the box overlap test with rationals.
 #include <array>
 #include <iostream>
 #include <random>
@@ -49,7 +49,7 @@ TriangleMesh soup(Random& random, int triangles, double size, double edge) {
 struct Case {
   const char* name;
   TriangleMesh moving, fixed;
-  double size, step;  // of positions (angles of the arm), and of one edge
+  double size, step;  // range of positions (for the arm: of angles), and length of an edge
   enum Mount { floating, planar, arm } mount;
 };
 
@@ -81,7 +81,8 @@ std::vector<Case> cases(Random& random) {
   return all;
 }
 
-/// The robot of a case: its last frame carries the moving mesh; of an arm, the two before it, too.
+/// The robot of a case. Its last frame carries the moving mesh; an arm's two frames before carry
+/// it, too.
 struct Robot {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -90,7 +91,7 @@ struct Robot {
   explicit Robot(const Case& c) {
     using Kind = Coordinate::Kind;
     Frame shift, turn;
-    shift.joint = Frame::Joint::shift;
+    shift.joint = Frame::Joint::translation;
     shift.variable = 0;
     const auto line = [&](Kind kind) {
       Coordinate coordinate;
@@ -102,7 +103,7 @@ struct Robot {
       for (std::size_t j = 0; j < 4; ++j) {
         Frame joint;
         joint.parent = tree.frames.size() - 1;
-        joint.joint = j == 2 ? Frame::Joint::slide : Frame::Joint::turn;
+        joint.joint = j == 2 ? Frame::Joint::prismatic : Frame::Joint::revolute;
         joint.axis = j == 2 ? Vec3::UnitX() : j % 2 ? Vec3(0, 1, 0.2) : Vec3(0.1, 0, 1);
         joint.fixed.p = Vec3(j > 0 ? 0.8 : 0, 0, 0);
         joint.variable = j;
@@ -116,13 +117,13 @@ struct Robot {
     shift.count = planar ? 2 : 3;
     for (std::size_t i = 0; i < shift.count; ++i) line(Kind::line);
     turn.parent = tree.add(shift);
-    turn.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+    turn.joint = planar ? Frame::Joint::revolute : Frame::Joint::rotation;
     turn.variable = shift.count;
     line(planar ? Kind::circle : Kind::rotation);
     frames.push_back(tree.add(turn));
   }
 
-  /// An edge: every other one of a floating body turns little.
+  /// Returns a random edge. @param little  rotations of a floating body are small.
   std::pair<Configuration, Configuration> edge(Random& random, const Case& c, bool little) const {
     Configuration from(space.size()), to(space.size());
     for (Eigen::Index k = 0; k < from.size(); ++k) {
@@ -141,7 +142,7 @@ struct Robot {
 
 TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
   Random random(test::testSeed(20));
-  const int edges = test::stressAsked() ? 5000 : 500;  // a scene
+  const int edges = test::stressAsked() ? 5000 : 500;  // per scene
   int undecided = 0, all = 0;
   for (const Case& c : cases(random)) {
     const Robot robot(c);
@@ -202,7 +203,7 @@ Row cross(const Row& a, const Row& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A box as stored, under a map: centre and three half edges.
+/// A stored box under a map, exactly: centre and three half edges.
 struct ExactBox {
   Row centre;
   std::array<Row, 3> edge;
@@ -218,8 +219,8 @@ struct ExactBox {
   }
 };
 
-/// Do two parallelepipeds, as they are, share a point? If not, one of the normals of faces and
-/// common normals of edges separates them.
+/// Returns whether two parallelepipeds share a point. If not, the normal of a face or a common
+/// normal of two edges separates them.
 bool boxesTouch(const ExactBox& a, const ExactBox& b) {
   std::vector<Row> axes;
   for (int i = 0; i < 3; ++i) {
@@ -245,7 +246,7 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     for (Obb* box : {&a, &b}) {
       box->center = vector(random, std::pow(10, uniform(random, -3, 3)));
       box->axes = rotation(random).normalized().toRotationMatrix();
-      if (i % 4 == 0)  // not rotations: 1e-12 of shear
+      if (i % 4 == 0)  // axes sheared by 1e-12
         box->axes +=
             1e-12 * (Mat3() << vector(random, 1), vector(random, 1), vector(random, 1)).finished();
       for (int k = 0; k < 3; ++k) box->half[k] = std::pow(10, uniform(random, -3, 1));
@@ -253,16 +254,17 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     Transform X;
     X.m = rotation(random).normalized().toRotationMatrix();
     if (i % 8 < 2) X.m = a.axes * b.axes.transpose();  // parallel boxes
-    // Just touching along one of the 15 axes, then a relative step across it.
+    // Places the boxes so that they just touch along one of the 15 axes, then moves one by a tiny
+    // step along it.
     const Mat3 ub = X.m * b.axes;
     const int which = i % 15;
     Vec3 n = which < 3   ? Vec3(a.axes.col(which))
              : which < 6 ? Vec3(ub.col(which - 3))
                          : Vec3(a.axes.col((which - 6) / 3).cross(ub.col((which - 6) % 3)));
-    if (n.norm() < 0.01) n = a.axes.col(0);  // short cross products prove little
+    if (n.norm() < 0.01) n = a.axes.col(0);  // nearly parallel edges: an ill-conditioned axis
     n.normalize();
     double reach = 0;
-    Vec3 slide = Vec3::Zero();  // so that the supporting features meet
+    Vec3 slide = Vec3::Zero();  // brings the supporting features together
     for (int k = 0; k < 3; ++k) {
       const double alongA = n.dot(a.axes.col(k)), alongB = n.dot(ub.col(k));
       reach += a.half[k] * std::abs(alongA) + b.half[k] * std::abs(alongB);
@@ -284,7 +286,7 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     const double defect[] = {orthonormalityDefect(a.axes), orthonormalityDefect(b.axes)};
     const BoxPairMargins margins = boxPairMargins(defect[0], roundedUp(a.center.norm()), defect[1],
                                                   roundedUp(b.center.norm()), X);
-    if (i % 4) {  // rotations but for rounding: 3·4·(3·17) + 400 unit roundoffs, as derived
+    if (i % 4) {  // rounded rotations: 3·4·(3·17) + 400 unit roundoffs, as derived
       ASSERT_LT(margins.relative, 2048 * kUnit);
     }
     const bool separated = obbsSeparated(a, b, X, margins, 0);
@@ -294,8 +296,8 @@ TEST(Stress, BoxOverlapAgainstRationals) {
     } else {
       ++apart;
       proved += separated;
-      // The margin goes with the whole boxes and the way between them, however thin they are along
-      // n, and is that of an axis of length |L| ≥ 0.01.
+      // The margin grows with the boxes' sizes and the distance of their centres, even if they are
+      // thin along n. It is divided by the axis' length |L| ≥ 0.01.
       const double total =
           std::sqrt(3.0) * (X * b.center - a.center).norm() + a.half.sum() + b.half.sum();
       if (i % 4 && step * scale > 2 * (margins.relative * total / 0.01 + margins.absolute)) {

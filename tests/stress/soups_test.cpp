@@ -1,6 +1,6 @@
-// Meshes of triangles that are hard to judge: the wide tree against the binary one, brute force and
-// rationals, and against what must hold whatever the answer is.
-// 1,000 pairs of meshes, 20,000 with CORRIDOR_STRESS.
+// Meshes of triangles that are hard to decide. The 4-wide OBB tree is compared with the binary one,
+// with brute force and with rationals, and with what must hold whatever the answer is.
+// 1,000 pairs of meshes; 20,000 with CORRIDOR_STRESS.
 #include "tests/support/soups.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 
 #include "collision/core/rounding.h"
 #include "collision/hierarchy/obb_tree.h"
-#include "collision/queries/distance_wide.h"
+#include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/volumes/rss.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/meshes.h"
@@ -35,9 +35,9 @@ struct Soups {
   Transform X_WA, X_WB;
 };
 
-/// Pairs of the families strewn about, all with one map; what touches by construction does so.
-/// Some meshes are dense, most are far sparser than their triangles are large, or the other way
-/// round; every third pair of maps is rigid up to rounding only, and far away.
+/// Returns two meshes: pairs of triangles of the families at random places. Pairs that touch by
+/// construction still do where both meshes have the same map. Some meshes are dense, some sparse
+/// compared with their triangles. Some maps are rigid only up to rounding, and far away.
 Soups anySoups(Random& random, int count) {
   Soups s;
   const auto families = test::pairFamilies();
@@ -52,7 +52,7 @@ Soups anySoups(Random& random, int count) {
     for (Triangle* t : {&a, &b})
       for (Vec3& p : *t) p += place;
     test::add(s.a, a);
-    // Few of the partners: most meshes shall not touch everywhere.
+    // Only some partners are added, so that most meshes do not touch everywhere.
     if (random() % 8 == 0 || s.b.triangles.empty()) test::add(s.b, b);
   }
   if (random() % 2) {
@@ -88,9 +88,10 @@ TrianglePairs pairsOf(const std::vector<TriangleContact>& contacts) {
 
 class SoupQueries : public testing::Test {
  protected:
-  /// Verdicts of both trees, either way round, distances and tolerances against brute force.
+  /// Expects that contacts, distances and tolerance queries of both kinds of trees, either way
+  /// round, agree with brute force.
   void expectAgreement(const Soups& s, const TrianglePairs& expected) {
-    const WideObbTree a(s.a), b(s.b);
+    const Obb4Tree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
     const bool touch = !expected.empty();
     ASSERT_EQ(interference(a, s.X_WA, b, s.X_WB, context_).has_value(), touch);
@@ -117,7 +118,7 @@ class SoupQueries : public testing::Test {
     }
   }
 
-  /// The same contacts, whatever frame and unit they are told in.
+  /// Expects the same contacts in another frame and in another unit of length.
   void expectInvariance(Random& random, const Soups& s, const TrianglePairs& expected) {
     const Mat3 R = test::exactRotation(random);
     const double unit = std::ldexp(1.0, static_cast<int>(random() % 401) - 200);
@@ -128,22 +129,23 @@ class SoupQueries : public testing::Test {
     for (TriangleMesh* mesh : {&q.a, &q.b})
       for (Vec3& v : mesh->vertices) v *= unit;
     rotations_.insert({R.data(), R.data() + R.size()});
-    expectSameDistance<WideObbTree>(s, turned, q, unit);
+    expectSameDistance<Obb4Tree>(s, turned, q, unit);
     expectSameDistance<ObbTree>(s, turned, q, unit);
     expectSameDistance<VolumeTree<Rss>>(s, turned, q, unit);
     for (TriangleMesh* mesh : {&q.a, &q.b})
       for (auto& t : mesh->triangles) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
-    const WideObbTree a(q.a), b(q.b);
+    const Obb4Tree a(q.a), b(q.b);
     ASSERT_EQ(pairsOf(contacts(a, q.X_WA, b, q.X_WB, context_)), expected);
   }
 
-  /// Bit for bit the same hit, and distance where scaled. Turned, sums come in another order:
-  /// nearly always the same bits, else within the error that is promised.
+  /// Expects the same verdict, and when scaled the same distance bit for bit. When rotated, sums
+  /// are taken in another order: the distance is within the promised error, and nearly always the
+  /// same.
   template <class Tree>
   void expectSameDistance(const Soups& s, const Soups& turned, const Soups& scaled, double unit) {
     const auto told = [](const Soups& t) {
       const Tree a(t.a), b(t.b);
-      QueryContext hit, far;  // what a context remembers may change the last digits
+      QueryContext hit, far;  // new ones: a used context may change the last digits
       return std::pair(interference(a, t.X_WA, b, t.X_WB, hit).has_value(),
                        distance(a, t.X_WA, b, t.X_WB, {}, far).distance);
     };
@@ -160,8 +162,8 @@ class SoupQueries : public testing::Test {
   }
 
   QueryContext context_;
-  std::set<std::vector<double>> rotations_;  // that occurred
-  int distances_ = 0, otherBits_ = 0;        // of trees; and of these not the same bits when turned
+  std::set<std::vector<double>> rotations_;  // those that occurred
+  int distances_ = 0, otherBits_ = 0;        // distances compared; with other bits when rotated
 };
 
 TEST_F(SoupQueries, AgainstBruteForce) {
@@ -177,7 +179,7 @@ TEST_F(SoupQueries, AgainstBruteForce) {
     expectInvariance(random, s, expected);
     touching += !expected.empty();
     pairs += expected.size();
-    // Growing: more triangles, the same contacts at least.
+    // With more triangles, all contacts remain, and the distance does not grow.
     const TriangleMesh old = s.a;
     const double size = test::errorScale(old, {});
     for (const auto& t : old.triangles)
@@ -186,10 +188,10 @@ TEST_F(SoupQueries, AgainstBruteForce) {
         const Vec3& at = old.vertices[t[0]];
         test::add(s.a, at, at + size * more.vertices[1], at + size * more.vertices[2]);
       }
-    const WideObbTree a(s.a), b(s.b);
+    const Obb4Tree a(s.a), b(s.b);
     const TrianglePairs grown = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
     ASSERT_TRUE(std::includes(grown.begin(), grown.end(), expected.begin(), expected.end()));
-    const double before = distance(WideObbTree(old), s.X_WA, b, s.X_WB, {}, context_).distance,
+    const double before = distance(Obb4Tree(old), s.X_WA, b, s.X_WB, {}, context_).distance,
                  after = distance(a, s.X_WA, b, s.X_WB, {}, context_).distance;
     const double scale = std::max(test::errorScale(s.a, s.X_WA), test::errorScale(s.b, s.X_WB));
     ASSERT_EQ(after == 0, !grown.empty());
@@ -208,8 +210,8 @@ TEST_F(SoupQueries, AgainstBruteForce) {
   EXPECT_TRUE(rotations_.size() == 24 || cases < 500) << rotations_.size() << " of 24 rotations";
 }
 
-/// Some of the contacts told, and some pairs that weren't though their bounds overlap, by
-/// rationals. Adds up how many of either.
+/// Tests by rationals some of the reported contacts, and some unreported pairs whose bounds
+/// overlap. Adds up both numbers.
 void expectRationals(Random& random, const Soups& s, const TrianglePairs& told, int& touching,
                      int& apart) {
   const auto contact = [&](std::uint32_t i, std::uint32_t k) {
@@ -242,14 +244,14 @@ void expectRationals(Random& random, const Soups& s, const TrianglePairs& told, 
   }
 }
 
-/// Large meshes: the two trees, which have nothing but the predicate in common, and rationals.
+/// Large meshes: compares the two kinds of trees, which share only the predicate, and rationals.
 TEST_F(SoupQueries, HugeSoups) {
   Random random(test::testSeed(92));
   const int count = (test::stressAsked() ? 50'000 : 4'000) / test::kSlowdown;
   int touching = 0, apart = 0;
   for (int n = 0; n < 4; ++n) {
     const Soups s = anySoups(random, count);
-    const WideObbTree a(s.a), b(s.b);
+    const Obb4Tree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
     const TrianglePairs pairs = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
     ASSERT_EQ(pairs, pairsOf(contacts(binaryA, s.X_WA, binaryB, s.X_WB, context_))) << n;
@@ -258,7 +260,8 @@ TEST_F(SoupQueries, HugeSoups) {
     ASSERT_FALSE(HasFatalFailure()) << n;
     std::cout << pairs.size() << " contacts\n";
   }
-  std::cout << touching << " of them and " << apart << " pairs that are none by rationals\n";
+  std::cout << touching << " contacts and " << apart
+            << " unreported pairs confirmed by rationals\n";
   EXPECT_GT(touching, 50);
   EXPECT_GT(apart, 50);
 }

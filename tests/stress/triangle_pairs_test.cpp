@@ -1,5 +1,6 @@
-// Pairs of triangles that are hard to judge (tests/support/triangle_families.h) against rationals,
-// and against what must hold whatever the verdict is. 10^5 pairs, 10^7 with CORRIDOR_STRESS.
+// Pairs of triangles that are hard to decide (tests/support/triangle_families.h), compared with
+// rationals, and with what must hold whatever the verdict is. 10^5 pairs; 10^7 with
+// CORRIDOR_STRESS.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -13,9 +14,9 @@
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/closest_points.h"
-#include "collision/queries/distance_wide.h"
+#include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/queries/triangle_intersection.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rational_contact.h"
@@ -41,7 +42,7 @@ PlacedPair turned(const PlacedPair& p, const Mat3& R) {
   return {p.a, p.b, {R * p.X_WA.m, R * p.X_WA.t}, {R * p.X_WB.m, R * p.X_WB.t}};
 }
 
-/// Times 2^exponent; none where a number overflows or loses bits.
+/// Returns the pair times 2^exponent, or nullopt if a number would overflow or lose bits.
 std::optional<PlacedPair> scaled(const PlacedPair& p, int exponent) {
   PlacedPair q = p;
   bool exact = true;
@@ -58,14 +59,14 @@ std::optional<PlacedPair> scaled(const PlacedPair& p, int exponent) {
   return exact ? std::optional(q) : std::nullopt;
 }
 
-/// What a sum loses to rounding (Knuth's TwoSum).
+/// Returns the rounding error of x + y (Knuth's TwoSum).
 double lost(double x, double y) {
   const double sum = x + y, part = sum - x;
   return (x - (sum - part)) + (y - part);
 }
 
-/// The triangle twice as large from one of its corners, which contains it; none where a coordinate
-/// is rounded.
+/// Returns the triangle scaled by 2 from one of its corners, which contains it; nullopt if a
+/// coordinate would be rounded.
 std::optional<Triangle> grown(const Triangle& t) {
   Triangle g = t;
   for (int k = 1; k < 3; ++k)
@@ -79,7 +80,7 @@ std::optional<Triangle> grown(const Triangle& t) {
 
 class Pairs : public testing::TestWithParam<test::PairFamily> {
  protected:
-  /// Verdicts: all of them are exact, so nothing may change them.
+  /// Expects the exact verdict from all predicates: swapped, rotated, scaled and grown.
   void expectVerdict(Random& random, const PlacedPair& p, bool expected) {
     ASSERT_EQ(touch(p), expected);
     ASSERT_EQ(touch(swapped(p)), expected);
@@ -97,10 +98,10 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     }
   }
 
-  /// What trees say of one triangle each.
+  /// Expects that queries of trees of one triangle each are right.
   static void expectQueries(Random& random, const PlacedPair& p, bool expected, bool reference) {
     const TriangleMesh meshA = meshOf(p.a), meshB = meshOf(p.b);
-    const WideObbTree a(meshA), b(meshB);
+    const Obb4Tree a(meshA), b(meshB);
     const ObbTree binaryA(meshA), binaryB(meshB);
     QueryContext context;
     ASSERT_EQ(interference(a, p.X_WA, b, p.X_WB, context).has_value(), expected);
@@ -110,13 +111,14 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     ASSERT_EQ(d == 0, expected) << d;
     ASSERT_EQ(distance(b, p.X_WB, a, p.X_WA, {}, context).distance == 0, expected);
     ASSERT_EQ(distance(binaryA, p.X_WA, binaryB, p.X_WB, {}, context).distance == 0, expected);
-    // What distance.h promises; and what isn't contact is at least the least normal number.
+    // The error that distance.h promises. Without contact the distance is at least the smallest
+    // normal number.
     const double scale = errorScale(p.a, p.X_WA, p.b, p.X_WB);
     const double off = 1e-12 * d + 4 * kUnit * scale + 0x1p-1022;
     ASSERT_EQ(closerThan(a, p.X_WA, b, p.X_WB, 0, context), expected);
     ASSERT_TRUE(closerThan(a, p.X_WA, b, p.X_WB, d + off, context)) << d;
     ASSERT_TRUE(closerThan(binaryB, p.X_WB, binaryA, p.X_WA, d + off, context)) << d;
-    const double below = d - 2 * off - 4 * kTiny;  // roundedUp's underflow is in its band
+    const double below = d - 2 * off - 4 * kTiny;  // 4 kTiny: underflow in roundedUp
     if (below > 0) {
       ASSERT_FALSE(closerThan(a, p.X_WA, b, p.X_WB, below, context)) << d;
     }
@@ -125,11 +127,11 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
       const auto truth = test::referenceDistance(p.a, p.X_WA, p.b, p.X_WB);
       ASSERT_LE(std::abs(d - truth), off) << d << " instead of " << truth;
     }
-    // Bit for bit as long as nothing that was computed underflows.
+    // Scaling is exact bit for bit as long as no intermediate result underflows.
     const int exponent = static_cast<int>(random() % 101) - 50;
     if (const auto q = scaled(p, exponent); q && d > 0x1p-400 * scale && scale > 0x1p-400) {
-      ASSERT_EQ(closestPoints(q->a, q->X_WA, q->b, q->X_WB).distance,
-                std::ldexp(closestPoints(p.a, p.X_WA, p.b, p.X_WB).distance, exponent));
+      ASSERT_EQ(witnessPoints(q->a, q->X_WA, q->b, q->X_WB).distance,
+                std::ldexp(witnessPoints(p.a, p.X_WA, p.b, p.X_WB).distance, exponent));
     }
   }
 
@@ -145,12 +147,12 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     ASSERT_LE(apart({R * s.p, R * s.q}, t), 2 * 0x1p-50 * scale + 0x1p-1074) << "turned";
   }
 
-  /// The larger coordinate by which two segments differ, whichever ends come first.
+  /// Returns the largest difference of a coordinate of two segments, in either order of their ends.
   static double apart(const Segment& s, const Segment& t) {
     const auto off = [&](const Vec3& p, const Vec3& q) {
       return std::max((s.p - p).cwiseAbs().maxCoeff(), (s.q - q).cwiseAbs().maxCoeff());
     };
-    // Of ties either diagonal may be told: then as long as the other.
+    // If two diagonals are equally long, either may be reported: then only lengths are compared.
     const double ends = std::min(off(t.p, t.q), off(t.q, t.p));
     const double lengths = std::abs((s.p - s.q).stableNorm() - (t.p - t.q).stableNorm());
     return std::min(ends, lengths);
@@ -162,7 +164,7 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     return mesh;
   }
 
-  std::set<std::vector<double>> rotations_;  // that occurred
+  std::set<std::vector<double>> rotations_;  // those that occurred
 };
 
 TEST_P(Pairs, AgainstRationals) {

@@ -11,8 +11,8 @@
 namespace corridor::test {
 namespace {
 
-/// Calls `found(s, t)` for each pair that touches until it returns true. Boxes in world
-/// coordinates, wide enough for their rounding, spare most tests.
+/// Calls `found(s, t)` for each touching pair of triangles until it returns true. Axis-aligned
+/// boxes in the world, widened by their rounding, skip most pairs.
 template <class Found>
 void forEachTouching(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                      const Transform& X_WB, Found&& found) {
@@ -64,7 +64,7 @@ double bruteForceDistance(const TriangleMesh& a, const Transform& X_WA, const Tr
   double least = HUGE_VAL;
   for (std::size_t s = 0; s < a.triangles.size(); ++s)
     for (std::size_t t = 0; t < b.triangles.size(); ++t)
-      least = std::min(least, closestPoints(corners(a, s), X_WA, corners(b, t), X_WB).distance);
+      least = std::min(least, witnessPoints(corners(a, s), X_WA, corners(b, t), X_WB).distance);
   return least;
 }
 

@@ -10,15 +10,16 @@
 
 namespace corridor::test {
 
-/// A chain of turns and slides from a to b, joint values linear in t, by products of exponentials
-/// in long double: the reference for points, and (rounded) a MotionSource.
+/// A kinematic chain of revolute and prismatic joints from a to b, with joint values linear in t.
+/// Poses are products of exponentials in long double. It is the reference for points and, rounded,
+/// a MotionSource.
 class ChainMotion final : public MotionSource {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;
   using Mat3L = Eigen::Matrix<long double, 3, 3>;
   struct Joint {
     bool slides = false;
-    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< where all values are 0; any length but 0
+    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  ///< at joint values 0; any length except 0
     double from = 0, to = 0;
   };
   struct Pose {
@@ -29,7 +30,7 @@ class ChainMotion final : public MotionSource {
 
   explicit ChainMotion(std::vector<Joint> joints) : joints_(std::move(joints)) {}
 
-  /// After the first `count` joints.
+  /// Returns the pose after the first `count` joints.
   Pose pose(long double t, std::size_t count) const {
     Pose X;
     for (std::size_t j = 0; j < count; ++j) {
@@ -49,7 +50,7 @@ class ChainMotion final : public MotionSource {
   }
   Pose pose(long double t) const { return pose(t, joints_.size()); }
 
-  MotionWindow window(std::size_t, double t, double h) override {
+  RelativeMotion relativeMotion(std::size_t, double t, double h) override {
     const Pose X = pose(t);
     Vec3L linear = Vec3L::Zero(), angular = Vec3L::Zero();
     long double size = X.t.norm();
@@ -67,19 +68,19 @@ class ChainMotion final : public MotionSource {
         angular += half * axis;
       }
       size += point.norm() + std::abs(half) * (1 + (X.t - point).norm());
-      screws_.push_back({joint.slides ? ScrewTravel::Kind::slide : ScrewTravel::Kind::turn,
+      screws_.push_back({joint.slides ? ScrewMotion::Kind::prismatic : ScrewMotion::Kind::revolute,
                          axis.cast<double>(), point.cast<double>(),
                          roundedUp(static_cast<double>(std::abs(half))), 0});
     }
-    MotionWindow w;
+    RelativeMotion w;
     w.X_AB = {X.R.cast<double>(), X.t.cast<double>()};
     w.linear = linear.cast<double>();
     w.angular = angular.cast<double>();
     w.speed = roundedUp(w.linear.norm());
     w.angle = roundedUp(w.angular.norm());
     w.screws = screws_;
-    // Each number is rounded once: 4u of all lengths, and 4u of all angles, of which there may be
-    // many.
+    // Each number is rounded once: 4u of all lengths, and 4u of all angles. There may be many of
+    // them, so 16u.
     w.fixedError = 16 * kUnit * static_cast<double>(size);
     w.reachError = 16 * kUnit * static_cast<double>(1 + angular.norm());
     return w;
@@ -96,7 +97,7 @@ class ChainMotion final : public MotionSource {
 
  private:
   std::vector<Joint> joints_;
-  std::vector<ScrewTravel> screws_;
+  std::vector<ScrewMotion> screws_;
 };
 
 }  // namespace corridor::test

@@ -11,19 +11,19 @@
 
 namespace corridor::test {
 
-/// A way to set the processor, for a scope.
+/// A floating-point mode of the processor.
 struct FloatingPointSetting {
   std::string name;
-  int rounding = FE_TONEAREST;  ///< of all operations
-  bool flushToZero = false;     ///< and denormals are zero
-  bool sseOnly = false;         ///< `rounding` is set for vectors and doubles alone
-  bool x87Only = false;         ///< `rounding` is set for long double alone
+  int rounding = FE_TONEAREST;  ///< rounding mode of all operations, unless restricted below
+  bool flushToZero = false;     ///< also reads subnormals as zero
+  bool sseOnly = false;         ///< `rounding` applies only to vectors and doubles
+  bool x87Only = false;         ///< `rounding` applies only to long double
   bool shortExtended = false;   ///< the x87 keeps 53 bits
-  bool bits24 = false;          ///< or 24 of them
+  bool bits24 = false;          ///< with `shortExtended`: it keeps 24 bits
   bool standard() const { return rounding == FE_TONEAREST && !shortExtended; }
 };
 
-/// Those that the machine has.
+/// Returns the modes that this machine has.
 inline std::vector<FloatingPointSetting> floatingPointSettings() {
   std::vector<FloatingPointSetting> all = {{"nearest"},
                                            {"upward", FE_UPWARD},
@@ -43,7 +43,7 @@ inline std::vector<FloatingPointSetting> floatingPointSettings() {
   return all;
 }
 
-/// Sets the processor so until it goes.
+/// Sets a floating-point mode; the destructor restores the previous one.
 class WithFloatingPoint {
  public:
   explicit WithFloatingPoint(const FloatingPointSetting& setting) {

@@ -7,15 +7,15 @@
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/predicates/triangle.h"
 
-/// Small meshes, made and taken apart.
+/// Helpers that build small meshes and read their triangles.
 namespace corridor::test {
 
-/// The t-th triangle.
+/// Returns the t-th triangle.
 inline Triangle corners(const TriangleMesh& mesh, std::size_t t) {
   return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
 }
 
-/// One more triangle, with corners of its own.
+/// Adds a triangle with corners of its own.
 inline void add(TriangleMesh& mesh, const Vec3& p, const Vec3& q, const Vec3& r) {
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
@@ -25,7 +25,7 @@ inline void add(TriangleMesh& mesh, const Triangle& t) {
   add(mesh, t[0], t[1], t[2]);
 }
 
-/// One more box under x ↦ Mx, facing outward, with corners of its own.
+/// Adds a box under x ↦ Mx, facing outward, with corners of its own.
 inline void addBox(TriangleMesh& mesh, const Vec3& low, const Vec3& high,
                    const Mat3& M = Mat3::Identity()) {
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -44,7 +44,8 @@ inline TriangleMesh box(const Vec3& low, const Vec3& high) {
   return mesh;
 }
 
-/// S, the largest Σ|m||v| + |t| of corners mapped: what promises on rounding are told by.
+/// Returns S, the largest Σ|m||v| + |t| of the mapped corners: bounds on rounding are multiples of
+/// it.
 inline double errorScale(const Triangle& t, const Transform& X) {
   double scale = 0;
   for (const Vec3& p : t)

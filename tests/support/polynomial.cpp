@@ -12,14 +12,14 @@ Polynomial monomial(Integer c, int power) {
   return Polynomial(std::move(coefficients));
 }
 
-/// With every root once. @pre not zero.
+/// Returns the polynomial that has every root of p once. @pre p is not zero.
 Polynomial squareFree(const Polynomial& p) {
   if (p.degree() < 2) return p;
   return *quotient(p, greatestCommonDivisor(p, p.derivative()));
 }
 
-/// Counts roots by Sturm's theorem: that of a square-free polynomial between a and b, a < b, b
-/// included, are as many as its chain has more changes of sign at a than at b.
+/// Counts roots by Sturm's theorem. A square-free polynomial has as many roots in (a, b], a < b, as
+/// its chain has more changes of sign at a than at b.
 class SturmChain {
  public:
   explicit SturmChain(const Polynomial& squareFree) : chain_{squareFree} {
@@ -28,7 +28,7 @@ class SturmChain {
       next = Polynomial() - remainder(chain_[chain_.size() - 2], chain_.back());
     }
   }
-  /// In (n, n + 1]/2^k.
+  /// Returns the number of roots in (n, n + 1]/2^k.
   int count(const Integer& n, unsigned k) const { return changes(n, k) - changes(n + 1, k); }
 
  private:
@@ -119,8 +119,8 @@ Polynomial remainder(const Polynomial& a, const Polynomial& b) {
   return r.primitive();
 }
 
-// Over the rationals the quotient by a primitive polynomial has integer coefficients, if a has
-// (Gauss's lemma): a division that leaves something is none of b's multiples.
+// By Gauss's lemma, a rational quotient by a primitive polynomial has integer coefficients if a
+// has. So if an integer division leaves a remainder, a is not a multiple of b.
 std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b) {
   const Integer& lead = b.coefficients().back();
   Polynomial q;
@@ -143,8 +143,8 @@ Polynomial greatestCommonDivisor(Polynomial a, Polynomial b) {
 void Root::halve() {
   n_ *= 2;
   ++k_;
-  // (n, n + 1] or (n + 1, n + 2]: p changes its sign at the root, and nowhere else in there. Where
-  // the root is n + 2, p is 0 there; n itself may be another root.
+  // The root is in (n, n + 1] or in (n + 1, n + 2], where p changes its sign at the root and
+  // nowhere else. If the root is n + 2, p is 0 there; n itself may be another root.
   const int middle = p_.signAt(n_ + 1, k_), end = p_.signAt(n_ + 2, k_);
   if (end == 0 || middle * end < 0) ++n_;
 }

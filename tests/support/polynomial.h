@@ -9,29 +9,29 @@
 /// Exact real roots of polynomials, for oracles: Sturm sequences over the integers.
 namespace corridor::test {
 
-/// Any length; up to 512 bits without allocation.
+/// An integer of any length; up to 512 bits without allocation.
 using Integer = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked,
                                            std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;
 
-/// Σ c_i x^i with integer coefficients.
+/// A polynomial Σ c_i x^i with integer coefficients.
 class Polynomial {
  public:
   Polynomial() = default;  ///< zero
-  /// From the constant term up.
+  /// @param coefficients  from the constant term up.
   explicit Polynomial(std::vector<Integer> coefficients);
 
   bool isZero() const { return c_.empty(); }
-  int degree() const { return static_cast<int>(c_.size()) - 1; }  ///< −1 of zero
+  int degree() const { return static_cast<int>(c_.size()) - 1; }  ///< −1 for zero
   const std::vector<Integer>& coefficients() const { return c_; }
-  /// Of its value at n/2^k.
+  /// Returns the sign of its value at n/2^k.
   int signAt(const Integer& n, unsigned k) const;
-  /// 2^(k·degree) times its value at n/2^k.
+  /// Returns 2^(k·degree) times its value at n/2^k.
   Integer scaledValue(const Integer& n, unsigned k) const;
   Polynomial derivative() const;
-  /// Divided by the greatest common divisor of its coefficients.
+  /// Returns it divided by the greatest common divisor of its coefficients.
   Polynomial primitive() const;
 
   friend Polynomial operator+(const Polynomial& a, const Polynomial& b);
@@ -43,24 +43,24 @@ class Polynomial {
   std::vector<Integer> c_;  // the last is not 0
 };
 
-/// What a leaves when divided by b, up to a positive factor; primitive. @pre b is not zero.
+/// Returns the remainder of a divided by b, up to a positive factor; primitive. @pre b is not zero.
 Polynomial remainder(const Polynomial& a, const Polynomial& b);
-/// a/b, where b divides a. @pre b is primitive and not zero.
+/// Returns a/b, or nullopt if b does not divide a. @pre b is primitive and not zero.
 std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b);
-/// Primitive, of either sign.
+/// Returns the greatest common divisor: primitive, of either sign.
 Polynomial greatestCommonDivisor(Polynomial a, Polynomial b);
 
-/// A real root in (0, 1], as the only one of a square-free polynomial in (n, n + 1]/2^k.
+/// A real root in (0, 1]: the only root of a square-free polynomial in (n, n + 1]/2^k.
 class Root {
  public:
-  /// @pre p is square-free, and that is so.
+  /// @pre p is square-free and has exactly one root in (n, n + 1]/2^k.
   Root(Polynomial p, Integer n, unsigned k) : p_(std::move(p)), n_(std::move(n)), k_(k) {}
 
   const Integer& n() const { return n_; }
   unsigned k() const { return k_; }
-  /// Exactly, of g at the root; may narrow the interval.
+  /// Returns the exact sign of g at the root; may narrow the interval.
   int signOf(const Polynomial& g);
-  /// Until k is at least this.
+  /// Halves the interval until `k()` is at least `k`.
   void narrow(unsigned k);
 
  private:
@@ -71,7 +71,7 @@ class Root {
   unsigned k_;
 };
 
-/// All different roots in (0, 1], ascending. @pre p is not zero.
+/// Returns all distinct roots in (0, 1], ascending. @pre p is not zero.
 std::vector<Root> rootsInUnitInterval(const Polynomial& p);
 
 }  // namespace corridor::test

@@ -11,17 +11,17 @@
 namespace corridor::test {
 namespace {
 
-/// Any length; up to 512 bits without allocation.
+/// An integer of any length; up to 512 bits without allocation.
 using Integer = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked,
                                            std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;
 
-/// A double or a product of two: digits · 2^exponent.
+/// A double or a product of two doubles: digits · 2^exponent.
 struct Term {
   Integer digits;
-  int exponent = std::numeric_limits<int>::max();  // of 0
+  int exponent = std::numeric_limits<int>::max();  // that of 0
 };
 Term term(double x, double y = 1) {
   if (x == 0 || y == 0) return {};
@@ -35,13 +35,14 @@ Term term(double x, double y = 1) {
 constexpr std::size_t kRows = 5, kColumns = 6;
 using Row = std::array<Integer, kColumns + 1>;  // the right side last
 
-/// Is there x ≥ 0 with M x = r, r ≥ 0? Phase one of the simplex method with Bland's rule, by
-/// integer pivoting (Edmonds): the tableau is T/D, T's entries are minors of [M | r], so that all
-/// divisions are exact. Always ends, never errs.
+/// Returns whether there is an x ≥ 0 with M x = r, for r ≥ 0. Phase one of the simplex method with
+/// Bland's rule, by integer pivoting (Edmonds). The tableau is T/D, and the entries of T are minors
+/// of [M | r], so all divisions are exact. It always ends, with the right answer.
 bool feasible(std::array<Row, kRows>& T) {
   Integer D = 1;
   std::array<std::size_t, kRows> basis;
-  for (std::size_t i = 0; i < kRows; ++i) basis[i] = kColumns + i;  // artificial ones, of cost 1
+  for (std::size_t i = 0; i < kRows; ++i)
+    basis[i] = kColumns + i;  // artificial variables, of cost 1
   for (;;) {
     // Reduced cost of column j: −Σ over rows whose basic variable is artificial.
     std::size_t enter = kColumns;
@@ -63,7 +64,7 @@ bool feasible(std::array<Row, kRows>& T) {
                     best = T[leave][kColumns] * T[i][enter];
       if (here < best || (here == best && basis[i] < basis[leave])) leave = i;
     }
-    if (leave == kRows) break;  // cannot be: the sum of artificials is bounded below
+    if (leave == kRows) break;  // can't happen: the sum of artificial variables is bounded below
     const Integer pivot = T[leave][enter];
     for (std::size_t i = 0; i < kRows; ++i) {
       if (i == leave) continue;
@@ -86,7 +87,8 @@ bool feasible(std::array<Row, kRows>& T) {
 
 bool rationalContact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                      const Transform& X_WB) {
-  // Σ λ_i a_i − Σ μ_j b_j = 0, Σ λ = Σ μ = 1, λ, μ ≥ 0; a coordinate on its own power of two.
+  // The system: Σ λ_i a_i − Σ μ_j b_j = 0, Σ λ = Σ μ = 1, λ, μ ≥ 0. Each coordinate is in units of
+  // its own power of two.
   std::array<Row, kRows> T;
   for (int k = 0; k < 3; ++k) {
     std::array<std::array<Term, 4>, kColumns> terms;

@@ -4,9 +4,9 @@
 
 namespace corridor::test {
 
-/// The oracle: do two triangles under their maps share a point, in rationals, by another method
-/// than the code under test (a common point as a convex combination of either triangle: linear
-/// programming)?
+/// The oracle: returns whether two triangles under their maps share a point, in rational
+/// arithmetic. It uses another method than the code under test: linear programming for a common
+/// point that is a convex combination of each triangle's corners.
 bool rationalContact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                      const Transform& X_WB);
 

@@ -10,13 +10,13 @@
 namespace corridor::test {
 namespace {
 
-// Integers, because no number of digits is enough: corners that lie 2^-1074 apart and some metres
-// from a third one make a triangle whose sides are different lines.
+// Integers, because no fixed number of digits is enough: two corners 2^-1074 apart and some metres
+// from a third make a triangle whose long sides are different lines.
 namespace mp = boost::multiprecision;
 using Integer = mp::number<mp::cpp_int::backend_type, mp::et_off>;
 using P = std::array<Integer, 3>;
 
-/// A square of a distance: over / under, under > 0.
+/// A squared distance: over / under, with under > 0.
 struct Fraction {
   Integer over, under = 1;
 };
@@ -37,7 +37,7 @@ Integer square(const P& d) {
   return dot(d, d);
 }
 
-/// The exponent of a double's last bit that isn't zero; at most 0.
+/// Returns the exponent of a double's last bit that isn't zero; at most 0.
 int lastBit(double x) {
   int exponent = 0;
   const auto bits =
@@ -45,7 +45,7 @@ int lastBit(double x) {
   return bits == 0 ? 0 : std::min(0, exponent - 53 + std::countr_zero(bits));
 }
 
-/// Points of the world as integers, times 2^-(2 * unit).
+/// Converts world points to integers: coordinates times 2^-(2 * unit).
 class Grid {
  public:
   void cover(double x) { unit_ = std::min(unit_, lastBit(x)); }
@@ -64,7 +64,7 @@ class Grid {
     }
     return q;
   }
-  /// The root, from some 75 bits.
+  /// Returns the square root, from some 75 bits.
   double distance(const Fraction& squared) const {
     const auto bits = [](const Integer& x) { return x == 0 ? 0 : static_cast<int>(msb(x)); };
     const int shift = (150 + bits(squared.under) - bits(squared.over)) / 2;
@@ -77,10 +77,10 @@ class Grid {
   Integer integer(double x) const {
     int exponent = 0;
     const auto bits = static_cast<long long>(std::ldexp(std::frexp(x, &exponent), 53));
-    const int shift = exponent - 53 - unit_;  // below zero: what goes is zeros
+    const int shift = exponent - 53 - unit_;  // below zero: only zeros are lost
     return shift < 0 ? Integer(bits >> -shift) : Integer(bits) << shift;
   }
-  int unit_ = 0;  // for 1
+  int unit_ = 0;  // at most 0: `mapped` also needs 1 as an integer
 };
 
 Fraction toSegment(const P& p, const P& a, const P& b) {
@@ -103,7 +103,8 @@ Fraction toTriangle(const P& p, const std::array<P, 3>& t) {
   return std::min(sides, {height * height, area});
 }
 
-/// Inner points of both edges; their ends are left to `toTriangle`.
+/// Returns the lesser of `best` and the distance of two edges at inner points; the edges' ends are
+/// left to `toTriangle`.
 Fraction edges(const P& p, const P& p1, const P& q, const P& q1, const Fraction& best) {
   const P d = minus(p1, p), e = minus(q1, q), r = minus(q, p), n = cross(d, e);
   const Integer area = square(n);

@@ -7,8 +7,8 @@
 
 namespace corridor::test {
 
-/// The definition of an edge once more, in long double and by another formula than the code under
-/// test: slerp by the two sine weights.
+/// A second implementation of an edge's definition, in long double and by another formula than the
+/// code under test: slerp by the two sine weights.
 class ReferenceMotion {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;
@@ -21,7 +21,7 @@ class ReferenceMotion {
         q0_(normalised(from.q)),
         q1_(normalised(to.q)) {
     if (q0_.dot(q1_) < 0) q1_ = -q1_;
-    angle_ = 2 * std::atan2((q1_ - q0_).norm(), (q1_ + q0_).norm());  // of the quaternions
+    angle_ = 2 * std::atan2((q1_ - q0_).norm(), (q1_ + q0_).norm());  // between the quaternions
   }
 
   Vec3L position(long double t) const { return p0_ + t * (p1_ - p0_); }

@@ -11,7 +11,8 @@
 
 namespace corridor::test {
 
-/// Triangles of very different sizes in a cube of 2 m, slivers, degenerate ones and duplicates.
+/// Returns triangles of very different sizes in a cube of 2 m, with slivers, degenerate ones and
+/// duplicates among them.
 inline TriangleMesh soup(std::mt19937_64& random, int count, double size) {
   std::uniform_real_distribution<double> real(-1, 1);
   const auto any = [&] {
@@ -39,7 +40,7 @@ inline Transform anyPose(std::mt19937_64& random, double distance) {
   return X;
 }
 
-/// Balls, capsules, cylinders, boxes and hulls of about `size` in a cube of 2 m.
+/// Returns spheres, capsules, cylinders, boxes and hulls of about `size` in a cube of 2 m.
 inline std::vector<ConvexPart> parts(std::mt19937_64& random, int count, double size) {
   std::uniform_real_distribution<double> real(0.2, 1);
   std::vector<ConvexPart> all;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kBracketBits = 60;
 
-/// Doubles as integers, all in units of one power of two, the largest that does for them and 1.
+/// Doubles as integers in units of one power of two, the largest in which all of them and 1 are
+/// integers.
 class Grid {
  public:
   Grid(std::initializer_list<double> values) {
@@ -32,7 +33,7 @@ class Grid {
     const double digits = std::ldexp(std::frexp(x, &e), 53);
     const int shift = e - 53 - exponent_;
     const Integer n = static_cast<std::int64_t>(digits);
-    return shift < 0 ? n >> -shift : n << shift;  // nothing but zeros is lost
+    return shift < 0 ? n >> -shift : n << shift;  // only zeros are lost
   }
   int exponent() const { return exponent_; }
 
@@ -59,14 +60,14 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// n·2^exponent. @throws std::invalid_argument  where it isn't a double.
+/// Returns n·2^exponent. @throws std::invalid_argument  if it isn't a double.
 double exactly(const Integer& n, int exponent) {
   const double x = n.convert_to<double>();
   if (Integer(x) != n) throw std::invalid_argument("not exact in doubles");
   return std::ldexp(x, exponent);
 }
 
-/// (1, s·m)·q, linear in s, in units of 2^exponent.
+/// The quaternion (1, s·m)·q, linear in s, in units of 2^exponent.
 struct PolynomialQuaternion {
   Polynomial w, x, y, z;
   int exponent;
@@ -84,8 +85,8 @@ struct PolynomialQuaternion {
   }
 };
 
-/// A pose in s: x(s) = (M p + c)/W, W > 0; p in units of a grid of points, c in those times M's and
-/// W's, which are 2^exponent.
+/// A pose as a function of s: x(s) = (M p + c)/W, W > 0. p is in units of a grid of points. M and W
+/// are in units of 2^exponent, and c in the product of both units.
 struct PolynomialPose {
   std::array<Vector, 3> M;  // rows
   Vector c;
@@ -107,7 +108,7 @@ struct PolynomialPose {
   }
 };
 
-/// One pair of triangles: corners times W.
+/// One pair of triangles, with all corners times W.
 class Pair {
  public:
   Pair(const Triangle& fixed, const Triangle& moving, const RationalMotion& motion) {
@@ -151,7 +152,7 @@ class Pair {
     Vector normal;
   };
 
-  // Only signs are asked for: factors W, which is positive everywhere, are left out.
+  // Only signs matter, so factors W, which is positive everywhere, are left out.
   Polynomial reduced(Polynomial p) const {
     if (divisor_.degree() == 2)
       while (const std::optional<Polynomial> q = p.isZero() ? std::nullopt : quotient(p, divisor_))
@@ -171,7 +172,8 @@ class Pair {
     }
   }
 
-  /// The earliest root at which `meet` is true is a first contact, if none was before.
+  /// Records the earliest root at which `meet` is true as the first contact, unless an earlier one
+  /// is known.
   template <class Meet>
   void tryRoots(const Polynomial& p, const Meet& meet) {
     if (p.isZero()) return;
@@ -184,7 +186,7 @@ class Pair {
       return;
     }
   }
-  /// Rounded down to kBracketBits.
+  /// Returns the lower end of the root's interval, rounded down to kBracketBits.
   static long double lowEnd(const Root& root) {
     const int k = static_cast<int>(root.k()), more = std::max(k - kBracketBits, 0);
     return std::ldexp(Integer(root.n() >> more).convert_to<long double>(), more - k);
@@ -202,20 +204,21 @@ class Pair {
     const Polynomial height = above(face.normal, 0);
     if (!height.isZero()) {
       tryRoots(height, inside);
-    } else {  // the corner stays in the plane: it comes in over a side
+    } else {  // the corner stays in the plane: it enters over a side
       for (int i = 0; i < 3; ++i) tryRoots(above(face.inward[i], i), inside);
     }
   }
 
-  /// Edges that stay in one plane, or that are parallel when they begin to meet, do so with an end
-  /// of one, which is a corner in the other's face.
+  /// Finds when two edges cross. Edges that stay in one plane, or that are parallel when they begin
+  /// to meet, do so with an end of one: `cornerInFace` finds these.
   void edgesCross(int i, int j) {
     const Vector &e = moving_.edges[i], &f = fixed_.edges[j];
     const Vector &a = moving_.corners[i], &a1 = moving_.corners[(i + 1) % 3],
                  &b = fixed_.corners[j], &b1 = fixed_.corners[(j + 1) % 3];
     const Vector normal = reduced(cross(e, f));
     tryRoots(reduced(dot(normal, b - a)), [&](Root& root) {
-      // Which side of an edge's line the other's ends are on; all 0 where the two are parallel.
+      // Returns on which side of an edge's line the other edge's end is; 0 for all ends if the
+      // edges are parallel.
       const auto side = [&](const Vector& offset, const Vector& edge) {
         return root.signOf(dot(normal, reduced(cross(offset, edge))));
       };
@@ -240,7 +243,7 @@ RationalMotion RationalMotion::line(const RigidPose& from, const Vec3& p) {
 }
 
 RationalMotion RationalMotion::turn(const RigidPose& from, const Vec3& m) {
-  if (m.isZero(0)) throw std::invalid_argument("a turn about no axis");
+  if (m.isZero(0)) throw std::invalid_argument("the axis of a rotation must not be zero");
   RationalMotion motion;
   motion.from_ = motion.to_ = from;
   motion.m_ = m;

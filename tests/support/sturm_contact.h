@@ -5,25 +5,27 @@
 
 namespace corridor::test {
 
-/// A rigid motion under which every point's coordinates are rational in a parameter s in [0, 1]:
-/// a straight line, or a turn about the reference point by a fixed axis, of quaternion (1, s·m)
-/// (Cayley). It is the very motion, not a rounded one, of an edge (RigidMotion::spatial) between
-/// `from()` and `to()`: quaternions of edges are normalised in real arithmetic. Only time runs
-/// otherwise: t = s on a line, t = atan(s|m|)/atan(|m|) in a turn.
+/// A rigid motion under which every point's coordinates are rational in a parameter s in [0, 1]. It
+/// is a straight line, or a rotation about the reference point and a fixed axis, by the quaternion
+/// (1, s·m) (Cayley).
+///
+/// It is exactly the motion of an edge (RigidMotion::spatial) between `from()` and `to()`, because
+/// quaternions of edges are normalised in real arithmetic. Only time runs differently: t = s on a
+/// line, t = atan(s|m|)/atan(|m|) in a rotation.
 class RationalMotion {
  public:
-  /// From from.p to p, the orientation kept.
+  /// A straight line from from.p to p with constant orientation.
   static RationalMotion line(const RigidPose& from, const Vec3& p);
-  /// By the angle 2·atan(|m|) about m, an axis of the world. @pre m is not zero.
+  /// A rotation by the angle 2·atan(|m|) about m, an axis in the world. @pre m is not zero.
   /// @throws std::invalid_argument  if the last quaternion, (1, m)·from.q, isn't exact in doubles.
   static RationalMotion turn(const RigidPose& from, const Vec3& m);
 
   const RigidPose& from() const { return from_; }
   const RigidPose& to() const { return to_; }
-  /// Zero on a line.
+  /// Returns the m of a rotation, or zero for a line.
   const Vec3& m() const { return m_; }
-  /// t at s. Off by less than 2^-60: s|m|, both arcs, |m| and the ratio round by a few units of
-  /// 2^-64 in long double, and the arc's relative error is at most its argument's.
+  /// Returns t at s, off by less than 2^-60: s|m|, both arcs, |m| and the ratio round by a few
+  /// units of 2^-64 in long double, and the arc's relative error is at most its argument's.
   long double time(long double s) const;
 
   /// The pose at s times a weight > 0, so that it is free of fractions: {weight·m, weight·t}.
@@ -31,7 +33,8 @@ class RationalMotion {
     Transform X;
     double weight = 1;
   };
-  /// Exactly. @pre 0 ≤ s ≤ 1. @throws std::invalid_argument  where doubles can't hold it.
+  /// Returns this pose exactly. @pre 0 ≤ s ≤ 1. @throws std::invalid_argument if doubles can't hold
+  /// it.
   Scaled at(double s) const;
 
  private:
@@ -42,22 +45,28 @@ class RationalMotion {
 /// When a moving triangle first touches a fixed one: s in [low, high], high − low ≤ 2^-60.
 struct FirstContact {
   bool contact = false;
-  long double low = -1, high = -1;  ///< of `contact`
+  long double low = -1, high = -1;  ///< if `contact`
 };
 
-/// The oracle: exact, by another method than the code under test. Triangles that are apart at first
-/// begin to touch with a corner in a face or with two edges that cross; of each such pair of
-/// features the polynomials that say when it is coplanar have their roots isolated by Sturm's
-/// theorem, and at each root, an algebraic number, signs of further polynomials tell exactly if the
-/// features meet. No case is left out: where a corner stays in a face's plane, the roots are those
-/// of crossing the face's sides. All polynomials are determinants of corners as they stand, divided
-/// by the pose's denominator as often as that goes: quadratic then.
-/// @param fixed  in the world. @param moving  in the frame of the motion.
+/// The oracle: computes exactly when a moving triangle first touches a fixed one, by another method
+/// than the code under test.
+///
+/// Triangles that are separated at first begin to touch with a corner in a face or with two edges
+/// that cross. For each such pair of features, the polynomials that vanish when it is coplanar have
+/// their roots isolated by Sturm's theorem. At each root, an algebraic number, the signs of further
+/// polynomials decide exactly whether the features meet. No case is left out: if a corner stays in
+/// a face's plane, the roots are those of crossing the face's sides.
+///
+/// All polynomials are determinants of the corners, divided by the pose's denominator as often as
+/// possible: quadratic then.
+/// @param fixed  in the world.
+/// @param moving  in the frame of the motion.
 /// @pre Neither triangle's corners lie on a line.
 FirstContact sturmContact(const Triangle& fixed, const Triangle& moving,
                           const RationalMotion& motion);
 
-/// Do they touch at s? Exact at a double s of few digits. @throws  as RationalMotion::at.
+/// Returns whether the triangles touch at s. Exact for a double s of few digits. @throws  as
+/// RationalMotion::at.
 bool touchesAt(const Triangle& fixed, const Triangle& moving, const RationalMotion& motion,
                double s);
 

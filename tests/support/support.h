@@ -6,18 +6,18 @@
 
 namespace corridor::test {
 
-/// The folder of shared test data, from the environment variable CORRIDOR_DATA, or `shared/data`
-/// beside the project. nullopt where it is absent: tests that need it skip themselves, visibly.
+/// Returns the folder of shared test data: the environment variable CORRIDOR_DATA, or `shared/data`
+/// beside the project; nullopt if it is absent. Tests that need it skip themselves, visibly.
 std::optional<std::filesystem::path> dataFolder();
 
-/// OMPL.app's `resources` folder, from the environment variable CORRIDOR_OMPLAPP.
+/// Returns OMPL.app's `resources` folder: the environment variable CORRIDOR_OMPLAPP.
 std::optional<std::filesystem::path> omplAppFolder();
 
-/// True when the long versions of stress tests are asked for (`./corridor test --all` sets
+/// Returns whether the long versions of stress tests are requested (`./corridor test --all` sets
 /// CORRIDOR_STRESS).
 bool stressAsked();
 
-/// About how much slower this build is than a release: limits of time are multiplied, and long
+/// About how much slower this build is than a release. Time limits are multiplied by it, and long
 /// counts divided by it.
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kSlowdown = 20;
@@ -25,10 +25,10 @@ constexpr int kSlowdown = 20;
 constexpr int kSlowdown = 1;
 #endif
 
-/// A new, empty folder for files of one test, which removes it at its end.
+/// Creates an empty folder for the files of one test. The test removes it at its end.
 std::filesystem::path newFolder();
 
-/// The seed of a random test: CORRIDOR_SEED where set, else `fallback`. Prints it.
+/// Returns and prints the seed of a random test: CORRIDOR_SEED if set, else `fallback`.
 std::uint64_t testSeed(std::uint64_t fallback);
 
 }  // namespace corridor::test

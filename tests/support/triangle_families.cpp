@@ -17,18 +17,18 @@ int integer(Random& random, int low, int high) {
 double real(Random& random, double low = -1, double high = 1) {
   return std::uniform_real_distribution(low, high)(random);
 }
-/// Integer coordinates of at most `most`.
+/// Returns integer coordinates of magnitude at most `most`.
 Vec3 grid(Random& random, int most) {
   const int x = integer(random, -most, most), y = integer(random, -most, most),
             z = integer(random, -most, most);
   return Vec3(x, y, z);
 }
-/// Coarse grids meet degenerate positions often, fine ones need many bits.
+/// Coarse grids often give degenerate positions; fine ones need many bits.
 int anySize(Random& random) {
   constexpr int kSizes[] = {2, 5, 100, 1 << 20};
   return kSizes[integer(random, 0, 3)];
 }
-/// Corners in any order; every third time one of the triangles a step beside.
+/// Shuffles the corners; every third time, moves one triangle by a step.
 void finish(Random& random, Triangle& a, Triangle& b) {
   std::shuffle(a.begin(), a.end(), random);
   std::shuffle(b.begin(), b.end(), random);
@@ -38,7 +38,7 @@ void finish(Random& random, Triangle& a, Triangle& b) {
   }
   if (random() % 2) std::swap(a, b);
 }
-/// A direction that doesn't go below the plane with this normal.
+/// Returns a direction that doesn't go below the plane with this normal.
 Vec3 above(Random& random, const Vec3& normal, int size) {
   const Vec3 d = grid(random, size);
   return d.dot(normal) < 0 ? Vec3(-d) : d;
@@ -50,7 +50,7 @@ void anyOnAGrid(Random& random, Triangle& a, Triangle& b) {
     for (Vec3& p : *t) p = grid(random, size);
 }
 
-/// A step off the segment that they nearly are, through one point both.
+/// Triangles that are a step off a segment. Both segments pass through one point.
 void slivers(Random& random, Triangle& a, Triangle& b) {
   const Vec3 common = grid(random, 100);
   for (Triangle* t : {&a, &b}) {
@@ -106,7 +106,7 @@ void sharedEdge(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// a's corner in b's face, or on its rim; all else of a on one side.
+/// A corner of a in b's face, or on its boundary; all else of a on one side.
 void cornerOnFace(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random);
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -117,7 +117,7 @@ void cornerOnFace(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// a's edge in b's face, or across it in its plane.
+/// An edge of a in b's face, or across it in its plane.
 void edgeOnFace(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random) / 2;
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -128,7 +128,8 @@ void edgeOnFace(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// Edges that cross in a point, or end there, all else on either side of their plane.
+/// Edges that cross in a point, or end there. The rest of each triangle is on either side of the
+/// edges' plane.
 void edgeOnEdge(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random) / 2;
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -164,16 +165,16 @@ PlacedPair asIs(Random&, const Triangle& a, const Triangle& b) {
 PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WA = pair.X_WB = {exactRotation(random), anyOffset(random)};
-  if (random() % 2) {  // b's corners told in a frame that is turned and shifted itself
+  if (random() % 2) {  // b's corners in a rotated and translated frame of their own
     const Transform X_BN{exactRotation(random), anyOffset(random)};
     for (Vec3& p : pair.b) p = X_BN.m.transpose() * (p - X_BN.t);
     pair.X_WB = pair.X_WB * X_BN;
   }
   return pair;
 }
-/// Turned by a rational (Pythagorean) rotation times its denominator: integers again. Of rotations
-/// themselves only the 24 are doubles: of three squares that sum up to a multiple of 4 all are
-/// even.
+/// Rotated by a rational (Pythagorean) rotation times its denominator, which keeps integers. Among
+/// rotations themselves only the 24 signed permutations are doubles: if three squares sum up to a
+/// multiple of 4, all three are even.
 PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
   const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
                z = integer(random, 1, 5);
@@ -189,7 +190,7 @@ PlacedPair farAway(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 shift = anyOffset(random);
   return baked(a, b, [&](const Vec3& p) { return Vec3(p + shift); });
 }
-/// The same map for both, rigid up to rounding, or less: an affine image.
+/// The same map for both, rigid up to rounding or less rigid: an affine image.
 PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WA.m = rotation(random);
@@ -198,7 +199,7 @@ PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
   pair.X_WB = pair.X_WA;
   return pair;
 }
-/// b's corners told in a turned frame, rounded: what touched may not any more.
+/// Corners in rotated frames of their own, rounded: triangles that touched may not touch any more.
 PlacedPair inOwnFrames(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WB = {rotation(random), random() % 2 ? anyOffset(random) : grid(random, 10)};
@@ -213,13 +214,13 @@ PlacedPair scaledByTwos(Random& random, const Triangle& a, const Triangle& b) {
   const int exponent = integer(random, -332, 332);  // 10^±100
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * std::ldexp(1.0, exponent)); });
 }
-/// Each coordinate rounded.
+/// Scaled so that each coordinate is rounded.
 PlacedPair scaledByTens(Random& random, const Triangle& a, const Triangle& b) {
   const double scale = std::pow(10.0, integer(random, -100, 100)) / 3;
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * scale); });
 }
-/// Coordinates of very different sizes: one grid for all of them needs hundreds or
-/// thousands of bits.
+/// Coordinates of very different sizes: one grid for all of them needs hundreds or thousands of
+/// bits.
 PlacedPair stretched(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 scale(std::ldexp(1.0, integer(random, -400, 400)), 1,
                    std::ldexp(1.0, integer(random, -40, 40)));
@@ -231,7 +232,7 @@ PlacedPair denormal(Random& random, const Triangle& a, const Triangle& b) {
     return Vec3(p.unaryExpr([&](double x) { return std::ldexp(x, exponent); }));
   });
 }
-/// A last bit up or down in some coordinates.
+/// Some coordinates changed by one last bit, up or down.
 PlacedPair jittered(Random& random, const Triangle& a, const Triangle& b) {
   return baked(a, b, [&](Vec3 p) {
     for (double& x : p)

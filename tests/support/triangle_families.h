@@ -5,8 +5,8 @@
 
 #include "collision/predicates/triangle.h"
 
-/// Pairs of triangles that are hard to judge: made on a grid of integers, where what touches does
-/// so exactly, then placed so that it stays so, or is missed by rounding.
+/// Pairs of triangles for which contact is hard to decide. They are made on a grid of integers,
+/// where contact is exact, and then placed so that it stays exact, or may be lost by rounding.
 namespace corridor::test {
 
 struct PlacedPair {
@@ -14,8 +14,8 @@ struct PlacedPair {
   Transform X_WA, X_WB;
 };
 
-/// A way of making two triangles with integer coordinates of at most 2^24. About half of what it
-/// makes touches.
+/// A way of making two triangles with integer coordinates of at most 2^24. About half of the pairs
+/// made touch.
 struct PairFamily {
   const char* name;
   void (*make)(std::mt19937_64& random, Triangle& a, Triangle& b);
@@ -25,13 +25,13 @@ std::span<const PairFamily> pairFamilies();
 /// A way of placing a pair of a family.
 struct PairPlacing {
   const char* name;
-  /// Do the triangles touch, placed, if and only if they do on the grid?
+  /// Whether the placed triangles touch if and only if they do on the grid.
   bool keeps;
   PlacedPair (*place)(std::mt19937_64& random, const Triangle& a, const Triangle& b);
 };
 std::span<const PairPlacing> pairPlacings();
 
-/// One of the 24 rotations that are exact in doubles: signed permutations.
+/// Returns one of the 24 rotations that are exact in doubles: signed permutations.
 Mat3 exactRotation(std::mt19937_64& random);
 
 }  // namespace corridor::test

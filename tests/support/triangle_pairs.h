@@ -19,7 +19,7 @@ struct KnownPairs {
   std::string name;
   std::vector<KnownPair> pairs;
 };
-/// All files, by name.
+/// Returns all files, sorted by name.
 std::vector<KnownPairs> sharedPairs(const std::filesystem::path& collisionFolder);
 
 }  // namespace corridor::test

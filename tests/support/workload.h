@@ -8,7 +8,7 @@
 
 namespace corridor::test {
 
-/// A plain `v`/`f` OBJ of the shared data; tests of readers don't use it.
+/// Reads a plain `v`/`f` OBJ file of the shared data, without the mesh readers under test.
 TriangleMesh plainObj(const std::filesystem::path& file);
 
 /// One workload of the shared collision data: two meshes, and poses of B with A at the identity.
@@ -19,14 +19,15 @@ struct Workload {
   std::vector<int> hit;
   std::vector<double> distance;  ///< 0 where hit, NaN where not computed
 
-  bool hasDistances() const;  ///< one at least
+  bool hasDistances() const;  ///< true if at least one distance is known
 };
 std::vector<std::string> workloadNames(const std::filesystem::path& collisionFolder);
 Workload loadWorkload(const std::filesystem::path& collisionFolder, const std::string& name);
 
-/// The poses, by their numbers, that the `way`-th of so many ways of building meets: under
-/// CORRIDOR_STRESS all of them, else every `step`-th, on which the ways (modulo `ways`) take turns;
-/// but of workloads with few poses, for which it doesn't pay to build, way 0 meets them all.
+/// Returns the numbers of the poses on which the `way`-th of `ways` tree variants is tested, to
+/// save time. Under CORRIDOR_STRESS these are all poses. Otherwise every `step`-th pose is tested,
+/// and the variants (`way` modulo `ways`) take turns. If a workload has few poses, building several
+/// trees takes longer than the queries. Then variant 0 gets all poses, and the others get none.
 std::vector<std::size_t> posesInTurn(const Workload& w, std::size_t step, std::size_t way,
                                      std::size_t ways);
 

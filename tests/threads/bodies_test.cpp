@@ -1,6 +1,7 @@
-// collision/ from several threads: bodies that all share, a QueryContext each. Every test begins
-// with bodies that have no tree yet, so that threads build the trees while others ask for them.
-// What one thread answers, on bodies of its own, is what each of them must answer to the last bit.
+// Tests of collision/ in several threads, which share bodies and have a QueryContext each. Every
+// test starts with bodies without trees, so that threads build trees while others wait for them.
+// The answers must be those of one thread: to the last bit on the same bodies, in their verdicts on
+// equal ones.
 #include "tests/collision/motion/bodies.h"
 
 #include <array>
@@ -15,7 +16,7 @@
 #include "collision/core/simd_target.h"
 #include "collision/geometry/mesh_file.h"
 #include "collision/hierarchy/with_volume.h"
-#include "collision/motion/check_evidence.h"
+#include "collision/motion/check_certificate.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/self_intersections.h"
 #include "collision/world/body_queries.h"
@@ -31,15 +32,15 @@ using test::Answers;
 using test::inThreads;
 using test::kThreads;
 
-constexpr TreeKind kKinds[] = {TreeKind::wideObb,          TreeKind::obb,         TreeKind::obbGjk,
-                               TreeKind::obbLinearProgram, TreeKind::obbEdgeFace, TreeKind::aabb,
-                               TreeKind::sphere,           TreeKind::rss,         TreeKind::kdop14,
-                               TreeKind::kdop18,           TreeKind::kdop26};
+constexpr TreeKind kKinds[] = {
+    TreeKind::obb4,        TreeKind::obbBinary, TreeKind::obbGjk, TreeKind::obbLinearProgram,
+    TreeKind::obbEdgeFace, TreeKind::aabb,      TreeKind::sphere, TreeKind::rss,
+    TreeKind::kdop14,      TreeKind::kdop18,    TreeKind::kdop26};
 
-/// Bodies of every sort, the same at every call: soups, solid meshes, primitives.
+/// Returns bodies of every kind, equal at every call: soups, solid meshes, primitives.
 std::vector<Body> someBodies() {
   std::mt19937_64 random(61);
-  TriangleMesh rooms;  // two boxes, one of them in the other
+  TriangleMesh rooms;  // two separate boxes
   test::addBox(rooms, Vec3(-0.6, -0.6, -0.6), Vec3(0.6, 0.6, 0.6));
   test::addBox(rooms, Vec3(1, -0.2, -0.2), Vec3(1.5, 0.2, 0.2));
   std::vector<Body> bodies;
@@ -51,7 +52,7 @@ std::vector<Body> someBodies() {
   return bodies;
 }
 
-/// All static queries of all pairs at some poses, walking trees of one kind.
+/// Runs all static queries of all pairs at random poses, on trees of one kind.
 Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
   std::mt19937_64 random(62);
   QueryContext context;
@@ -75,7 +76,7 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
       for (const double tolerance : {0.0, 0.01, 0.3})
         answers.addVerdict(closerThan(a, X_WA, b, X_WB, tolerance, context, trees));
       addPair(insideEachOther(a, X_WA, b, X_WB, context));
-      if (trees == TreeKind::wideObb || a.part() || b.part()) continue;
+      if (trees == TreeKind::obb4 || a.part() || b.part()) continue;
       onVolumeTrees(trees, a, b, [&](auto overlap, const auto& treeA, const auto& treeB) {
         for (const TriangleContact& contact :
              contacts<decltype(overlap)>(treeA, X_WA, treeB, X_WB, context)) {
@@ -96,9 +97,9 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
   return answers;
 }
 
-/// Compares what threads answer, kind by kind, with what one thread does: on the same bodies to the
-/// last bit, and by the verdicts on others that no other thread has ever touched. All bodies are
-/// made by `make`. Half of the threads begin with one kind of trees, the others with another.
+/// Compares the answers of the threads with those of one thread, for each kind of trees: to the
+/// last bit on the same bodies, and in the verdicts on bodies that only that thread has used.
+/// `make` makes the bodies. Half of the threads start with another kind of trees than the others.
 template <class Make, class Ask>
 std::vector<Answers> expectOneAnswerOfEachKind(const Make& make, const Ask& ask) {
   constexpr std::size_t kinds = std::size(kKinds);
@@ -128,7 +129,7 @@ TEST(Threads, StillBodies) {
   }
 }
 
-/// Every tree is built once: what one thread is given is what the others are.
+/// All threads must get the same tree, by its address.
 TEST(Threads, TreesAreBuiltOnce) {
   for (int round = 0; round < 20; ++round) {
     const std::vector<Body> bodies = someBodies();
@@ -136,7 +137,7 @@ TEST(Threads, TreesAreBuiltOnce) {
     inThreads([&](int k) {
       for (const Body& body : bodies) {
         if (k % 2) seen[k].push_back(&body.tree().nodes()[0]);
-        withVolume(TreeKind::obb, [&]<class Volume, class Overlap>() {
+        withVolume(TreeKind::obbBinary, [&]<class Volume, class Overlap>() {
           seen[k].push_back(body.volumeTree<Volume>().nodes().data());
         });
         if (k % 2 == 0) seen[k].insert(seen[k].end() - 1, &body.tree().nodes()[0]);
@@ -148,21 +149,21 @@ TEST(Threads, TreesAreBuiltOnce) {
   }
 }
 
-/// A tree that is itself built by several threads, while others build theirs.
+/// Builds two trees at a time, each by several threads. Both must equal a tree built by one thread.
 TEST(Threads, TreesBuiltByThreads) {
   std::mt19937_64 random(63);
   const TriangleMesh mesh = test::soup(random, 40'000, 0.02);
-  const WideObbTree alone(mesh);
+  const Obb4Tree alone(mesh);
   inThreads([&](int k) {
     if (k > 1) return;
-    const WideObbTree tree(mesh, ObbFit::triangles, 2 + k);
+    const Obb4Tree tree(mesh, ObbFit::triangles, 2 + k);
     ASSERT_EQ(tree.nodes().size(), alone.nodes().size());
     for (std::size_t i = 0; i < tree.nodes().size(); ++i)
-      ASSERT_EQ(std::memcmp(&tree.nodes()[i], &alone.nodes()[i], sizeof(WideObbTree::Node)), 0);
+      ASSERT_EQ(std::memcmp(&tree.nodes()[i], &alone.nodes()[i], sizeof(Obb4Tree::Node)), 0);
   });
 }
 
-/// A body of three that moves among others that don't.
+/// Returns a scene with two moving bodies among fixed ones.
 RigidScene someScene() {
   std::vector<Body> moving, fixed;
   for (Body& body : someBodies())
@@ -170,25 +171,25 @@ RigidScene someScene() {
   return RigidScene(std::move(moving), std::move(fixed));
 }
 
-/// Motion queries of random edges on trees of one kind, and evidence with its audit.
+/// Runs motion queries of random edges on trees of one kind, and checks their certificates.
 Answers askMoving(const RigidScene& scene, TreeKind trees) {
   std::mt19937_64 random(64);
   QueryContext context;
   Answers answers;
   MotionOptions options;
   options.tolerance = 1e-4;
-  options.reserve = options.tolerance;
+  options.clearanceSlack = options.tolerance;
   options.trees = trees;
   for (int i = 0; i < 10; ++i) {
     auto [from, to] = test::randomEdge(random);
-    if (i % 2) {  // half of them pass by at some distance
+    if (i % 2) {  // half of the edges pass at a distance
       from.p[0] += 3;
       to.p[0] += 3;
     }
     options.earliest = i % 3 == 0;
     RigidEdge edge(RigidMotion::spatial(from, to, {.position = 1e-6, .rotation = 1e-6}));
     for (const EdgeMethod method :
-         {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
+         {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement})
       answers.add(scene.scene().certify(edge, options, context, method));
     answers.add(scene.certifyState(from, options, context));
     answers.add(scene.certifyEdgePlanar({from.p[0], from.p[1], 0.1}, {to.p[0], to.p[1], 1}, options,
@@ -199,18 +200,18 @@ Answers askMoving(const RigidScene& scene, TreeKind trees) {
     for (const MotionResult& result : scene.scene().certifyEachPair(edge, options, context))
       answers.add(result);
 
-    MotionEvidence evidence;
-    const MotionResult result = scene.scene().certify(edge, options, context, evidence);
+    MotionCertificate certificate;
+    const MotionResult result = scene.scene().certify(edge, options, context, certificate);
     answers.add(result);
-    for (const FreeInterval& interval : evidence.free) {
+    for (const FreeInterval& interval : certificate.free) {
       answers.add(interval.pair);
       answers.add(interval.t0);
       answers.add(interval.t1);
       answers.add(interval.clearance);
     }
     if (result.verdict != MotionVerdict::free) continue;
-    const auto fault = checkEvidence(edge, scene.scene().motionPairs(), options,
-                                     result.certifiedUntil, evidence, context);
+    const auto fault = checkCertificate(edge, scene.scene().motionPairs(), options,
+                                        result.certifiedUntil, certificate, context);
     EXPECT_FALSE(fault);
   }
   answers.add(context.counters);
@@ -224,7 +225,7 @@ TEST(Threads, MovingBodies) {
   }
 }
 
-/// A Collada file with one triangle: of the formats that only assimp may know.
+/// A Collada file with one triangle, which only assimp reads.
 const char* const kCollada = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset/><library_geometries><geometry id="g"><mesh>
@@ -238,8 +239,8 @@ const char* const kCollada = R"(<?xml version="1.0"?>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>
 )";
 
-/// What is made at its first use, for the whole program. ctest runs each test in a process of its
-/// own: here the first use is by all threads at once.
+/// All threads at once are the first to use what a program makes at its first use: this test runs
+/// in its own process (ctest starts one per test).
 TEST(Threads, FirstUse) {
   const std::filesystem::path folder = test::newFolder();
   std::ofstream(folder / "a.dae") << kCollada;
@@ -248,7 +249,7 @@ TEST(Threads, FirstUse) {
     seen[k] = simdTarget();
     for (const VolumeKind& kind : volumeKinds()) seen[k] += kind.name;
     for (const std::string& method : edgeMethodNames()) seen[k] += method;
-    const MeshFile file = readMeshFile(folder / "a.dae");  // opens assimp's module
+    const MeshFile file = readMeshFile(folder / "a.dae");  // starts the helper program of assimp
     const Body body("", file.mesh);
     seen[k] += file.format + std::to_string(body.volumeTree<Kdop<18>>().nodes().size());
   });

@@ -1,4 +1,4 @@
-// planner/ from several threads: one problem and one checker that all share.
+// Tests of planner/ in several threads, which share one problem and one checker.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -37,8 +37,8 @@ struct Edge {
   Configuration from, to;
 };
 
-/// Random edges from states that are often free, near the start or the goal: a half short, a
-/// quarter longer, a quarter from the one to the other.
+/// Returns random edges that begin near the start or the goal, where states are often free. Half of
+/// them are short, a quarter longer, a quarter end near the goal.
 std::vector<Edge> someEdges(const Problem& problem, std::size_t count) {
   std::mt19937_64 random(71);
   std::normal_distribution<double> normal;
@@ -57,7 +57,7 @@ std::vector<Edge> someEdges(const Problem& problem, std::size_t count) {
   return edges;
 }
 
-/// What a checker says of one edge, and of the state that it begins at.
+/// Adds a checker's answers for one edge and for the states at its ends.
 void ask(const Checker& checker, const Edge& edge, Answers& answers) {
   answers.add(checker.state(edge.from));
   answers.add(checker.edge(edge.from, edge.to, false));
@@ -75,7 +75,7 @@ class Threads : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Problems, Threads, testing::Values("thin_plate", "two_arms"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
-/// In the same order the answers are the same to the last bit, and no count is lost.
+/// With the same queries in the same order, answers agree to the last bit, and no count is lost.
 TEST_P(Threads, CheckerInOneOrder) {
   for (const char* const volume : {"obb", "kdop18"}) {
     Problem problem = ownProblem(GetParam());
@@ -93,7 +93,7 @@ TEST_P(Threads, CheckerInOneOrder) {
   }
 }
 
-/// In another order a context remembers other things. The verdicts are the same.
+/// In another order a context holds other guesses. The verdicts must not change.
 TEST_P(Threads, CheckerInAnotherOrder) {
   const Problem problem = ownProblem(GetParam());
   const std::vector<Edge> edges = someEdges(problem, 60);
@@ -114,7 +114,7 @@ TEST_P(Threads, CheckerInAnotherOrder) {
   });
 }
 
-/// Without a checker: one scene, and an EdgeMotion and a QueryContext a thread.
+/// Without a checker: the threads share a scene, and have an EdgeMotion and a QueryContext each.
 TEST_P(Threads, SceneAndEdgeMotions) {
   const Problem problem = ownProblem(GetParam());
   const std::vector<Edge> edges = someEdges(problem, 16);
@@ -128,7 +128,7 @@ TEST_P(Threads, SceneAndEdgeMotions) {
     for (const Edge& edge : edges) {
       motion.set(edge.from, edge.to);
       for (const EdgeMethod method :
-           {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
+           {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement})
         mine.add(scene.certify(motion, options, context, method));
     }
     mine.add(context.counters);
@@ -138,7 +138,7 @@ TEST_P(Threads, SceneAndEdgeMotions) {
   EXPECT_GT(answers.count(MotionVerdict::contact), 2);
 }
 
-/// OMPL's interface, with every method, and the tally that benchmarks put around it.
+/// Tests OMPL's interface with three methods, inside the tally that benchmarks put around it.
 TEST_P(Threads, Validators) {
   for (const char* const method : {"certified", "adaptive", "discrete"}) {
     Problem problem = ownProblem(GetParam());
@@ -176,7 +176,7 @@ TEST_P(Threads, Validators) {
       return mine;
     });
     EXPECT_GT(answers.count(true), 3);
-    if (std::string(method) != "discrete") {  // which may step over what is in the way
+    if (std::string(method) != "discrete") {  // samples may miss an obstacle
       EXPECT_GT(answers.count(false), 2);
     }
     const std::uint64_t motions = (kThreads + 1) * 2 * edges.size();
@@ -187,7 +187,7 @@ TEST_P(Threads, Validators) {
   }
 }
 
-/// The verifier keeps nothing from one call to the next.
+/// The verifier keeps no state between calls.
 TEST_P(Threads, Verifier) {
   const Problem problem = ownProblem(GetParam());
   const PathProblem plain = plainProblem(problem);
@@ -205,7 +205,7 @@ TEST_P(Threads, Verifier) {
   });
 }
 
-/// Threads that read the same files: problem, robots, URDF, SRDF, meshes.
+/// All threads read the same files at once: problem, robots, URDF, SRDF, meshes.
 TEST_P(Threads, ReadProblems) {
   std::array<std::string, kThreads> seen;
   inThreads([&](int k) {
@@ -218,8 +218,8 @@ TEST_P(Threads, ReadProblems) {
   for (const std::string& mine : seen) EXPECT_EQ(mine, seen[0]);
 }
 
-/// urdfdom reports faults through a handler that the whole program shares: each thread is to get
-/// those of the URDF that it reads, and no other's.
+/// urdfdom reports faults through a handler that the whole program shares. Each thread must get the
+/// faults of its own URDF only.
 TEST(Threads, ReadFaultyRobots) {
   const std::filesystem::path folder = test::newFolder();
   const auto fileOf = [&](int k) { return folder / ("robot" + std::to_string(k) + ".urdf"); };
@@ -227,7 +227,7 @@ TEST(Threads, ReadFaultyRobots) {
   for (int k = 0; k < kThreads; ++k) {
     std::ofstream file(fileOf(k));
     file << "<robot name=\"r\">";
-    for (int i = 0; i < 100; ++i)  // so that reading takes some time
+    for (int i = 0; i < 100; ++i)  // makes reading slow enough to overlap
       file << "<link name=\"sound" << i << "\"/><joint name=\"j" << i
            << "\" type=\"fixed\"><parent link=\"link" << k << "\"/><child link=\"sound" << i
            << "\"/></joint>";

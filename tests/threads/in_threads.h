@@ -19,8 +19,8 @@ namespace corridor::test {
 
 constexpr int kThreads = 4;
 
-/// Calls `work(k)` for each k in [0, kThreads), each in a thread of its own. All begin at the same
-/// moment. Returns when all have returned.
+/// Calls `work(k)` for each k in [0, kThreads), each in its own thread. All start at the same
+/// moment. Returns when all have finished.
 template <class Work>
 void inThreads(const Work& work) {
   std::barrier start(kThreads);
@@ -32,10 +32,11 @@ void inThreads(const Work& work) {
     });
 }
 
-/// Answers of queries, as bits: equal are answers that agree to the last one.
+/// A list of answers of queries, as bits. Two lists are equal if all answers agree to the last bit.
 ///
-/// A context's guesses are found by the addresses of trees. So equal bodies elsewhere in memory may
-/// cost other counts, and have other triangles and last digits named; the verdicts are the same.
+/// A `QueryContext` stores guesses by the addresses of trees. Two copies of the same bodies have
+/// other addresses, so their queries may differ in counts, in the triangles that they report, and
+/// in last digits. Only the verdicts must agree.
 class Answers {
  public:
   void add(std::integral auto value) { bits_.push_back(static_cast<std::uint64_t>(value)); }
@@ -76,11 +77,11 @@ class Answers {
 
  private:
   std::vector<std::uint64_t> bits_;
-  std::vector<int> verdicts_;  // the part that other bodies have, too
+  std::vector<int> verdicts_;  // these agree for equal bodies elsewhere in memory, too
 };
 
-/// Compares what `ask()` answers from all threads at once with what one more answers after them,
-/// to the last bit. All are new threads. @returns that.
+/// Expects that `ask()` returns the same bits in all threads at once and in one more thread after
+/// them. All threads are new. @returns the answers of the last.
 template <class Ask>
 Answers expectOneAnswer(const Ask& ask) {
   std::array<Answers, kThreads> answers;

@@ -7,7 +7,7 @@
 
 namespace corridor::test {
 
-/// A problem that comes with the project, by the name of its folder.
+/// Reads one of the project's problems, by the name of its folder.
 inline Problem ownProblem(const std::string& name) {
   return readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / name);
 }

@@ -1,5 +1,6 @@
-// OMPL's planners that have threads, with Corridor's checker: what they are told of every state and
-// motion is what one thread is told by a checker of its own, and what they return is proved.
+// Tests of OMPL's planners that have threads, with Corridor's checker. Every verdict that they get
+// on a state or motion must be that of a new checker in one thread, and the path that they return
+// is proved.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -35,8 +36,8 @@ struct AskedMotion {
   bool valid;
 };
 
-/// What planners asked, a log a thread: recording orders nothing among threads, so that no data
-/// race hides behind it.
+/// Records what planners query, in one log per thread. So recording takes no lock that would order
+/// the threads and hide a data race.
 class Recorder {
  public:
   struct Log {
@@ -117,8 +118,8 @@ class RecordedMotions final : public ob::MotionValidator {
 
 struct Case {
   std::string planner, problem;
-  bool threadsAsk = true;  ///< else one thread asks, and another waits for it to find a path
-  bool finds = true;       ///< else a path is too much to wait for: its questions are enough
+  bool threadsAsk = true;  ///< false: one thread queries, another waits for a path
+  bool finds = true;       ///< false: finding a path takes too long; queries suffice
 };
 std::ostream& operator<<(std::ostream& out, const Case& one) {
   return out << one.planner << " on " << one.problem;
@@ -136,7 +137,7 @@ Problem problemOf(const Case& one) {
   return problem;
 }
 
-/// Everything that planning with threads leaves to be looked at.
+/// A run of a planner with everything that is compared afterwards.
 struct Recording {
   Recorder recorder;
   std::shared_ptr<RecordedMotions> motions;
@@ -152,7 +153,8 @@ struct Recording {
   }
 };
 
-/// Asks one thread's checker again what the planner's threads asked. @returns how many motions.
+/// Repeats the recorded queries on a new checker in one thread, and expects the same verdicts.
+/// @returns the number of motions.
 std::size_t expectTheSameOfOneThread(const Problem& problem, const Recorder& recorder) {
   const Checker checker(problem);
   std::size_t asked = 0, wrong = 0;
@@ -174,7 +176,7 @@ class PlannersWithThreads : public testing::TestWithParam<Case> {};
 
 TEST_P(PlannersWithThreads, VerdictsAreThoseOfOneThread) {
   Problem problem = problemOf(GetParam());
-  // Machines may be slow, and busy: a planner that does too little gets more time.
+  // On a slow or busy machine the planner gets more time until it has done enough.
   std::optional<Recording> run;
   const auto done = [&] {
     return GetParam().finds ? run->report.outcome == SolveOutcome::solved
@@ -209,14 +211,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"SPARStwo", "thin_plate", false}),
     [](const auto& parameter) { return parameter.param.planner + "_" + parameter.param.problem; });
 
-/// Progress is reported from the planner's threads, never from two at once; and another thread may
-/// interrupt.
+/// The planner's threads report progress, never two at once, and another thread may interrupt them.
 TEST(Planners, ProgressAndInterrupt) {
   for (const char* const planner : {"CForest", "AnytimePathShortening"}) {
     Problem problem = problemOf({planner, "two_arms"});
     problem.planner.time = 300;
     std::atomic<bool> interrupted = false, told = false;
-    std::vector<SolveProgress> progress;  // no lock: the promise is that none is needed
+    std::vector<SolveProgress> progress;  // without a lock: calls never overlap
     SolveOptions options;
     options.interrupted = &interrupted;
     options.progress = [&](const SolveProgress& now) {

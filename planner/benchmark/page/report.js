@@ -1,4 +1,4 @@
-// What gnuplot's pictures call where the pointer rests on a point.
+// The functions that gnuplot's SVGs call when a pointer comes to rest on a point or leaves it.
 const tip = document.getElementById("tip");
 const gnuplot_svg = {
   showHypertext(event, text) {
@@ -13,7 +13,7 @@ const gnuplot_svg = {
   },
 };
 addEventListener("scroll", gnuplot_svg.hideHypertext, {passive: true});
-// On paper nothing can be opened.
+// Printed details can't be opened: open all of them first.
 addEventListener("beforeprint", () => {
   for (const details of document.querySelectorAll("details")) details.open = true;
 });

@@ -1,6 +1,6 @@
 'use strict';
 
-/** The distance of the closest pair over the path, with the place that is shown: an SVG that can be clicked. */
+/** A chart of the closest pair's distance over the path, with a cursor at the place that is shown. A click moves that place. */
 class Chart {
   constructor(parent, closest, margin, seek) {
     Object.assign(this, {parent, closest, margin, seek, width: 284, height: 132, left: 52, top: 10, at: 0});
@@ -10,7 +10,7 @@ class Chart {
     this.draw(false);
   }
 
-  /** @param decades a logarithmic scale: what comes near by micrometres is seen beside metres; contact is its lower rim. */
+  /** @param decades a logarithmic scale, which shows micrometres beside metres; contact is drawn at its lower end. */
   draw(decades) {
     const {closest, margin, left, right, top, bottom} = this;
     const most = closest.metres.reduce((a, b) => Math.max(a, b), 2 * margin) || 1;
@@ -67,13 +67,13 @@ class Chart {
   }
 }
 
-/** Powers of ten, at most five or so. */
+/** Returns powers of ten in a range, about five at most. */
 function powers(lowest, highest) {
   const count = Math.round(Math.log10(highest / lowest)), step = Math.ceil(count / 5);
   return Array.from({length: Math.floor(count / step) + 1}, (_, i) => lowest * 10 ** (i * step));
 }
 
-/** Three or so round values from 0 to `most`. */
+/** Returns about three round values from 0 to `most`. */
 function niceTicks(most) {
   const step = roundDown(most / 2);
   return Array.from({length: Math.floor(most / step * (1 + 1e-9)) + 1}, (_, i) => i * step);

@@ -1,6 +1,6 @@
 'use strict';
 
-/** The page's data: what the program wrote, and `array`, which gives the typed arrays that it names. */
+/** The page's data as the program wrote it. `data.array` returns the typed array that an entry refers to. */
 const data = (() => {
   const json = JSON.parse(document.getElementById('data').textContent);
   const element = document.getElementById('buffers');
@@ -13,7 +13,7 @@ const data = (() => {
   return json;
 })();
 
-/** Colours as they look (sRGB); three.js computes with light. */
+/** Colours in sRGB; three.js computes in linear light. */
 const palette = {
   paper: '#f8f7f4', grid: '#dcd9d1', ink: '#1f2730', floor: '#eceae4', edge: '#6f6c66',
   obstacles: ['#d3cfc6', '#c5cad0', '#d6ccba', '#c3cdc7'], wall: '#9a9892',
@@ -22,12 +22,12 @@ const palette = {
   levels: ['#1f2730', '#5b2a86', '#a0307a', '#c8414f', '#dd6b2f', '#c9951a', '#8a8f1c', '#3f8f4f'],
 };
 const light = (hex) => new THREE.Color(hex).convertSRGBToLinear();
-/** From the start's colour over the way's to the goal's; `at` in [0, 1]. */
+/** Returns the colour at a place on the path: from the start's colour over the way's to the goal's; `at` in [0, 1]. */
 const wayColour = (at) => at < 0.5 ? new THREE.Color(palette.start).lerp(new THREE.Color(palette.way), 2 * at)
   : new THREE.Color(palette.way).lerp(new THREE.Color(palette.goal), 2 * at - 1);
 
 const byId = (id) => document.getElementById(id);
-/** An element with text (never HTML) and children. */
+/** Creates an element with text (never HTML) and children. */
 function make(tag, text = '', ...children) {
   const element = document.createElement(tag);
   element.textContent = text;
@@ -35,7 +35,7 @@ function make(tag, text = '', ...children) {
   return element;
 }
 
-/** Four significant digits, with a unit that keeps them short. */
+/** Formats a length with four significant digits, in a unit that keeps it short. */
 function metres(x) {
   const size = Math.abs(x);
   const [factor, unit] = size === 0 || size >= 1 ? [1, 'm'] : size >= 1e-3 ? [1e3, 'mm'] : size >= 1e-6 ? [1e6, 'µm'] : [1e9, 'nm'];
@@ -44,7 +44,7 @@ function metres(x) {
 const digits = (x) => String(Number(x.toPrecision(4)));
 const counted = (n, noun) => `${n.toLocaleString('en')} ${noun}${n === 1 ? '' : 's'}`;
 
-/** The index of the last of the ascending `values` that is at most `x`, or 0. */
+/** Returns the index of the last of the ascending `values` that is at most `x`, or 0. */
 function lastNotAbove(values, x) {
   let low = 0;
   for (let high = values.length; high - low > 1;) {

@@ -1,6 +1,6 @@
 'use strict';
 
-/** The closest pair's points at the place on the path that is nearest to one where they were computed. */
+/** Draws the witness points of the closest pair, at the computed sample that is nearest to the place on the path. */
 class ClosestPair {
   constructor(scene) {
     this.sample = data.array(data.distances.sample);
@@ -37,7 +37,7 @@ class ClosestPair {
   }
 }
 
-/** The boxes of the OBB trees, a level at a time: lines, made when they are first asked for. */
+/** Draws the boxes of the OBB trees as lines, one level at a time. Lines are made when a level is first shown. */
 class Trees {
   constructor() {
     this.byMesh = new Map(data.trees.map((tree) => [tree.mesh, tree.shapes.map((shape) => (
@@ -47,7 +47,7 @@ class Trees {
     this.shown = [];
   }
 
-  /** Of a mesh: the boxes of a level, and those leaves above it that have none below. */
+  /** Returns a mesh's boxes on a level, and the leaves of the levels above. */
   geometry(mesh, level) {
     const key = `${mesh}/${level}`;
     if (this.made.has(key)) return this.made.get(key);
@@ -70,7 +70,10 @@ class Trees {
     return made;
   }
 
-  /** @param level -1: none. @param parentOf of a body: what its boxes move with. @returns how many boxes there are. */
+  /**
+   * Shows a level. @param level -1: none. @param parentOf(body) the object that the body's boxes move with. @returns the number
+   * of boxes.
+   */
   show(level, parentOf) {
     for (const object of this.shown) object.parent.remove(object);
     this.shown = [];
@@ -90,19 +93,19 @@ class Trees {
     return sum;
   }
 
-  /** Does some tree go on below the levels that the page has? */
+  /** Returns whether some tree has boxes on `level` that are not in the page. */
   cut(level) {
     return [...this.byMesh.values()].some((trees) => trees.some((tree) => tree.counts.length - 1 < level && !finished(tree)));
   }
 }
 
-/** Is every box of the lowest level that is told a leaf? */
+/** Returns whether every box on the lowest level in the page is a leaf. */
 function finished({counts, leaves}) {
   const last = counts[counts.length - 1];
   return leaves.subarray(leaves.length - last).every((leaf) => leaf);
 }
 
-/** The twelve edges of a box: its centre, quaternion and half extents are ten numbers from `first` on. */
+/** Appends the twelve edges of a box. The box is ten numbers from `first` on: its centre, quaternion and half extents. */
 function addBox(boxes, first, positions) {
   const centre = new THREE.Vector3().fromArray(boxes, first), q = new THREE.Quaternion().fromArray(boxes, first + 3);
   const axes = [0, 1, 2].map((k) => new THREE.Vector3().setComponent(k, boxes[first + 7 + k]).applyQuaternion(q));
@@ -112,7 +115,7 @@ function addBox(boxes, first, positions) {
   }
 }
 
-/** A finding in the scene: the two bodies in the alarm's colour, and a ring where they meet. */
+/** Shows a finding in the scene: lights its two bodies and draws a ring where they meet. */
 class Contact {
   constructor(scene) {
     this.ring = new THREE.Mesh(new THREE.RingBufferGeometry(11, 14, 40), new THREE.MeshBasicMaterial(
@@ -122,7 +125,7 @@ class Contact {
     this.lit = [];
   }
 
-  /** @param materialsOf of a body's index. @param finding null: none. */
+  /** @param materialsOf(index) the materials of a body. @param finding null: none. */
   show(finding, materialsOf) {
     this.finding = finding;
     for (const material of this.lit) material.emissive.setHex(0);

@@ -1,14 +1,15 @@
 'use strict';
 
-const kHides = 0.08, kNoLonger = 0.03;  // of the robots' pixels: from here on glass, below that solid again
+/** Shares of the robots' pixels: a body that hides more than kHides becomes glass, and solid again at kNoLonger. */
+const kHides = 0.08, kNoLonger = 0.03;
 
-/** Glass is seen at its rims, where one looks along it. */
+/** Makes glass more opaque at its rims, where the surface is seen at a grazing angle. */
 function thickenedRims(shader) {
   shader.fragmentShader = shader.fragmentShader.replace('#include <tonemapping_fragment>',
     'gl_FragColor.a *= mix(0.6, 4.0, pow(1.0 - abs(dot(normal, normalize(vViewPosition))), 3.0));\n#include <tonemapping_fragment>');
 }
 
-/** What does not move, solid or like glass. */
+/** The bodies that do not move, each solid or like glass. */
 class Obstacles {
   constructor(scene, lowest) {
     this.bodies = [];
@@ -43,7 +44,7 @@ class Obstacles {
     if (body.edges) body.edges.material.opacity = glass ? 0.42 : 0.55;
   }
 
-  /** @returns whether anything changed. */
+  /** Sets each body to solid or glass. @param mode 'auto', 'solid' or 'glass'. @returns whether anything changed. */
   apply(mode, motion, stage) {
     this.mode = mode;
     if (mode === 'auto') this.look(motion, stage);
@@ -57,8 +58,9 @@ class Obstacles {
   }
 
   /**
-   * Measures how much of the robots each body hides: a small picture of the robots alone, then of what stands before them;
-   * as often as bodies are found that hide others.
+   * Measures the share of the robots' pixels that each body hides. Renders a small picture of the robots alone, then one with the
+   * obstacles. Obstacles that hide robots are removed and the rest is rendered again, up to four times, to find others behind
+   * them.
    */
   look(motion, stage) {
     const width = 256, height = Math.max(16, Math.round(width / stage.aspect)), pixels = new Uint8Array(4 * width * height);

@@ -1,6 +1,6 @@
 'use strict';
 
-const kDuration = 9;  // seconds that a path is played in
+const kDuration = 9;  // seconds to play a path
 const kShadowTriangles = 150000;
 
 function webglWorks() {
@@ -12,7 +12,7 @@ function webglWorks() {
   }
 }
 
-/** Controls that need no scene. */
+/** Sets up the panel, which works without a scene. */
 function openPanel() {
   const toggle = byId('toggle'), narrow = window.matchMedia('(max-width: 760px)').matches;
   const set = (closed) => {
@@ -29,7 +29,7 @@ function start() {
   document.body.classList.toggle('image', image);
   openPanel();
   if (!webglWorks()) {
-    byId('trouble').textContent = 'The scene can’t be drawn: it needs WebGL, which this browser does not have or has switched off.';
+    byId('trouble').textContent = 'The scene can’t be drawn: it needs WebGL, which this browser lacks or has switched off.';
     byId('trouble').hidden = false;
     byId('views').hidden = true;
     console.warn('corridor: no picture: there is no WebGL');
@@ -47,7 +47,7 @@ function start() {
   const triangles = data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0);
   if (!data.planar && triangles <= kShadowTriangles) stage.castShadows();
 
-  // What hides the robots.
+  // Obstacles solid or like glass.
   const glass = (mode) => {
     if (obstacles.apply(mode, motion, stage)) stage.renderer.shadowMap.needsUpdate = true;
     byId('glass').querySelectorAll('button').forEach((button) => button.setAttribute('aria-pressed', String(button.dataset.glass === mode)));
@@ -102,7 +102,7 @@ function start() {
     byId('ghosts-row').hidden = byId('trace-row').hidden = true;
   }
 
-  // On demand.
+  // Controls of what is shown only on demand.
   const ghosts = byId('ghosts');
   ghosts.max = motion.mostGhosts;
   ghosts.value = motion.ghosts.length;
@@ -123,8 +123,8 @@ function start() {
     byId('trees-body').hidden = treeLevel < 0;
     const mover = motion.now || motion.start;
     const count = trees.show(treeLevel, (body) => body.frame < 0 ? scene : mover.frames[body.frame]);
-    byId('trees-text').textContent = `Level ${treeLevel} of ${trees.levels - 1}: ${counted(count, 'box').replace('boxs', 'boxes')}, leaves above it included.` +
-      (trees.cut(treeLevel) ? ' Larger trees go on: their lower levels are not on this page.' : '');
+    byId('trees-text').textContent = `Level ${treeLevel} of ${trees.levels - 1}: ${counted(count, 'box').replace('boxs', 'boxes')}, including the leaves of the levels above.` +
+      (trees.cut(treeLevel) ? ' The lower levels of larger trees are not in this page.' : '');
     stage.draw();
   };
   byId('level').max = trees.levels - 1;
@@ -139,7 +139,7 @@ function start() {
   glass('auto');
   if (path) seek(0);
   if (image && path) motion.hideNow();
-  if (ringed) contact.show(ringed, () => []);  // the ring alone: the poses keep their colours
+  if (ringed) contact.show(ringed, () => []);  // only the ring: the poses keep their colours
   stage.drawNow();
   let looking = 0;
   stage.onView = () => {
@@ -150,7 +150,9 @@ function start() {
   if (image) console.info('corridor: the picture is drawn');
 }
 
-/** What the first view shows: where robots come, and what stands near; and the bounds of everything. */
+/**
+ * Returns the points that the first view shows (where robots come, and the obstacles near them), and the bounds of everything.
+ */
 function interest(robotPoints, robotBox, obstacles) {
   const bounds = robotBox.clone(), near = robotBox.clone();
   for (const body of obstacles.bodies) bounds.union(body.bounds);
@@ -169,7 +171,7 @@ function interest(robotPoints, robotBox, obstacles) {
   return [points, bounds];
 }
 
-/** Slider, button and keys. */
+/** Plays the path, and handles slider, button and keys. */
 class Player {
   constructor(seek, now) {
     Object.assign(this, {seek, now, playing: 0});
@@ -228,7 +230,7 @@ class Player {
     button.setAttribute('aria-label', this.playing ? 'Pause' : 'Play');
   }
 
-  /** The states, and where something is wrong. */
+  /** Draws ticks on the slider, for the states and the findings. */
   ticks() {
     const add = (i, className) => {
       const tick = make('i');

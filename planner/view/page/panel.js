@@ -1,6 +1,6 @@
 'use strict';
 
-/** Text of the side panel; whatever comes from files is set as text, never as HTML. */
+/** Fills the side panel. Names from files are set as text, never as HTML. */
 const Panel = {
   fill() {
     byId('name').textContent = data.name;
@@ -34,7 +34,7 @@ const Panel = {
 
   bodyName: (index) => index === null ? '' : data.bodies[index].name,
 
-  /** @param show called with a finding's index, or -1 for none. */
+  /** Lists the findings. @param show is called with a finding's index, or -1 for none. */
   findings(show) {
     const v = data.verdict, list = byId('findings').querySelector('ol');
     if (!v || (!v.findings.length && !v.violations.length)) return;
@@ -52,24 +52,24 @@ const Panel = {
     });
   },
 
-  /** The finding that a picture tells of: the first that says what the verdict does; -1: none. */
+  /** Returns the index of the finding that a picture shows: the first with the same verdict as the path; -1: none. */
   mainFinding() {
     return data.verdict ? data.verdict.findings.findIndex((f) => f.verdict === data.verdict.verdict) : -1;
   },
 
-  /** Proved, since nothing that could collide is tested. */
+  /** Returns whether the path is proved only because no pair is tested. */
   provedOfNothing: () => data.verdict.verdict === 'proved' && data.pairs.tested === 0,
 
-  /** Of the style: only a proof of something is green. */
+  /** Returns the CSS class of the verdict: only a proof with tested pairs is green. */
   verdictClass() {
     return this.provedOfNothing() || data.verdict.verdict === 'other problem' ? 'undecided' : data.verdict.verdict;
   },
 
-  /** "refuted: seat and shelf touch" */
+  /** Returns the verdict in a line: "refuted: seat and shelf touch". */
   verdictText() {
     if (this.provedOfNothing()) return 'no pair is tested';
     const {verdict, findings, violations} = data.verdict, f = findings[this.mainFinding()];
-    const short = (name) => name.length > 32 ? `${name.slice(0, 15)}…${name.slice(-16)}` : name;  // for a line of a picture
+    const short = (name) => name.length > 32 ? `${name.slice(0, 15)}…${name.slice(-16)}` : name;  // to fit into a picture's legend
     const pair = f && f.a !== null ? `${short(this.bodyName(f.a))} and ${short(this.bodyName(f.b))}` : '';
     const reason = !f ? (violations[0] || '').split(': ')[0] : !pair ? f.reason : f.reason === 'contact' ? `${pair} touch` : `${pair}: ${f.reason}`;
     return reason ? `${verdict}: ${reason}` : verdict;
@@ -83,11 +83,11 @@ const Panel = {
     const body = byId('pairs-body'), {tested, skipped} = data.pairs, far = data.array(data.pairs.far);
     const numberOf = (array) => array.length / 2;
     const sum = skipped.reduce((total, group) => total + group.pairs[2] / 2, 0);
-    body.append(make('p', `${counted(tested, 'pair')} of bodies tested, ${sum.toLocaleString('en')} not. The world is not tested with itself, nor a body.`));
+    body.append(make('p', `${counted(tested, 'pair')} of bodies tested, ${sum.toLocaleString('en')} not. Obstacles are never tested with each other, nor a body with itself.`));
     const group = (title, array) => {
       const details = make('details', '', make('summary', `${title}: ${numberOf(array).toLocaleString('en')}`)), list = make('ul');
       details.append(list);
-      details.addEventListener('toggle', () => {  // thousands of pairs are listed only when they are asked for
+      details.addEventListener('toggle', () => {  // lists of thousands of pairs are made only when they are opened
         if (list.children.length) return;
         for (let i = 0; i < array.length && i < 1000; i += 2) list.append(make('li', `${this.bodyName(array[i])} ~ ${this.bodyName(array[i + 1])}`));
         if (array.length > 1000) list.append(make('li', `and ${(numberOf(array) - 500).toLocaleString('en')} more`));
@@ -110,12 +110,12 @@ const Panel = {
     const end = path && !data.verdict.reaches_goal ? 'end of the path, not in the goal' : 'goal';
     legend.replaceChildren(item('', palette.start, 'start'),
       item('', palette.goal, path ? end : data.goal_count > 1 ? `goals (${data.goals.length} of ${data.goal_count})` : 'goal'));
-    if (path) legend.append(item('way', '', 'on the way'));
+    if (path) legend.append(item('way', '', 'between'));
     const names = data.robots.length > 1 ? data.robots.map((robot) => `${robot.name}, now`) : ['now'];
     if (path && !image) names.forEach((text, i) => legend.append(item('', palette.robots[i % palette.robots.length], text)));
     legend.append(item('scale', '', `grid ${metres(stage.step)}`));
     if (!path || !image) return;
-    // What the panel says of the path, which pictures don't have; its mark is the scene's ring.
+    // Pictures have no panel: their legend states the verdict, with the mark of the ring in the scene.
     const finding = data.verdict.findings[this.mainFinding()], said = make('span', this.verdictText());
     said.className = `verdict ${this.verdictClass()}`;
     if (finding && finding.a !== null) said.prepend(make('i'));

@@ -1,10 +1,10 @@
 'use strict';
 
 const origin = new THREE.Vector3(...data.origin);
-const kGhostTriangles = 1.5e6;  // of all poses along the path together
-const kPose = 7;                // numbers of a frame's pose
+const kGhostTriangles = 1.5e6;  // for all poses along the path together
+const kPose = 7;                // numbers per pose of a frame
 
-/** Poses of the frames: x y z and a quaternion each, at `first`; between two of them by `u`. */
+/** Reads the pose (x y z and a quaternion) at index `first` of an array; with u > 0 interpolates to the one at `next`. */
 function poseOf(array, first, next, u, position, quaternion) {
   position.set(array[first], array[first + 1], array[first + 2]);
   quaternion.set(array[first + 3], array[first + 4], array[first + 5], array[first + 6]);
@@ -15,13 +15,13 @@ function poseOf(array, first, next, u, position, quaternion) {
   }
 }
 
-/** The path's samples (null: there is none). */
+/** The path's samples; undefined without a path. */
 const path = data.path && {
   at: data.array(data.path.at), t: data.array(data.path.t), edge: data.array(data.path.edge), poses: data.array(data.path.poses),
   states: data.path.states, findings: data.path.findings, trace: data.path.trace,
 };
 const frameCount = data.array(data.start).length / kPose;
-/** Frames that never move on the path, as an arm's base. */
+/** For each frame, whether it stays where it is on the whole path, as an arm's base does. */
 const isStill = Array.from({length: frameCount}, (_, frame) => {
   const samples = path ? path.poses : Float32Array.from([data.start, ...data.goals].flatMap((end) => [...data.array(end)]));
   for (let i = frame * kPose; i < samples.length; i += frameCount * kPose) {
@@ -30,14 +30,14 @@ const isStill = Array.from({length: frameCount}, (_, frame) => {
   return true;
 });
 
-/** Where frame `frame` is at `at` in [0, 1] of the path. */
+/** Computes the pose of a frame at `at` in [0, 1] of the path. */
 function framePose(at, frame, position, quaternion) {
   const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
   const u = k > i && path.at[k] > path.at[i] ? Math.min(1, (at - path.at[i]) / (path.at[k] - path.at[i])) : 0;
   poseOf(path.poses, (i * frameCount + frame) * kPose, (k * frameCount + frame) * kPose, u, position, quaternion);
 }
 
-/** A copy of all robots: a group a frame, and whatever `meshOf(body, shape)` gives for each body. */
+/** A copy of all robots: a group per frame, with the meshes that `meshOf(body, shape, index)` returns for each body. */
 class Copy {
   constructor(meshOf) {
     this.root = new THREE.Group();
@@ -53,7 +53,7 @@ class Copy {
     });
   }
 
-  /** Poses of an end of the path. */
+  /** Places the copy at poses of the start or a goal. */
   stand(poses) { this.set((frame, position, quaternion) => poseOf(poses, frame * kPose, 0, 0, position, quaternion)); }
   goTo(at) { this.set((frame, position, quaternion) => framePose(at, frame, position, quaternion)); }
 
@@ -67,24 +67,24 @@ class Copy {
   }
 }
 
-/** A surface's material; behind glass, or seen through things, where `opacity` is below 1. */
+/** Creates a surface's material; `more` overrides its properties, as for glass. */
 function surface(colour, shape, more = {}) {
   return new THREE.MeshPhongMaterial({color: light(colour), specular: 0x111111, shininess: 24, side: THREE.DoubleSide,
     flatShading: shape.flat, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, ...more});
 }
-/** Blended, and yet drawn among what is opaque, in the order that `renderOrder` says. */
+/** Properties of a blended material that is drawn among the opaque ones, in order of `renderOrder`. */
 const blended = {blending: THREE.CustomBlending, blendSrc: THREE.SrcAlphaFactor, blendDst: THREE.OneMinusSrcAlphaFactor};
 
 function lines(shape, colour, opacity) {
   return new THREE.LineSegments(shape.edges, new THREE.LineBasicMaterial({color: light(colour), transparent: true, opacity, depthWrite: false}));
 }
 
-/** What a surface is moved back by where copies coincide, as about a joint: the copy of least rank is seen. */
+/** Returns the depth offset of a copy. If copies coincide, as at a joint, the one of least rank is visible. */
 const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
 
-/** Robots in earnest: solid, and dimly seen through what hides them. */
+/** Solid robots, which are also dimly visible through whatever hides them. */
 class Robots extends Copy {
-  /** @param hex none: a colour a robot. @param rank 0: also those of its frames that never move. */
+  /** @param hex colour; unset: a colour per robot. @param rank only rank 0 also has the frames that never move. */
   constructor(hex, rank = 0) {
     const materials = new Map();
     super((body, shape, index) => {
@@ -96,7 +96,7 @@ class Robots extends Copy {
       solid.receiveShadow = !shape.flat;
       solid.renderOrder = 2;
       materials.set(index, solid.material);
-      if (shape.flat) return [solid];  // large: once is enough
+      if (shape.flat) return [solid];  // large meshes are drawn only once
       const hidden = new THREE.Mesh(shape.geometry, surface(colour, shape, {...blended, opacity: 0.22, depthFunc: THREE.GreaterDepth, depthWrite: false}));
       hidden.renderOrder = 1;
       return [solid, hidden, lines(shape, '#10233d', 0.35)];
@@ -106,15 +106,15 @@ class Robots extends Copy {
 }
 
 /**
- * Another pose of the robots. All of them are one layer of glass: first their depths, behind what stands there in earnest,
- * then their colours; so the nearest is seen, and the order does not matter.
+ * Another pose of the robots, like glass. All of these poses form one layer: their depths are drawn first, behind solid things,
+ * and then their colours. So the nearest one is visible, whatever the order.
  */
 class Ghost extends Copy {
   constructor(colour, opacity, rank) {
     const offset = behind(rank);
     const depth = new THREE.MeshBasicMaterial({colorWrite: false, side: THREE.DoubleSide, polygonOffset: true, ...offset});
     const smooth = surface('#000000', {flat: false}, {...blended, opacity, depthWrite: false, ...offset});
-    const flat = surface('#000000', {flat: true}, {...blended, opacity, ...offset});  // of large meshes: colours at once
+    const flat = surface('#000000', {flat: true}, {...blended, opacity, ...offset});  // for large meshes: in one pass
     for (const material of [smooth, flat]) material.color.copy(colour).convertSRGBToLinear();
     super((body, shape) => {
       if (isStill[body.frame]) return [];
@@ -126,9 +126,9 @@ class Ghost extends Copy {
   }
 }
 
-/** Everything that moves: the robots now, start and goals, poses along the path, and the way of a point. */
+/** Everything that moves: the robots now, at the start and goals, at poses along the path, and the way of a point. */
 class Motion {
-  /** @param picture the poses are all that is seen: there is no robot among them. */
+  /** @param picture true for pictures, which show poses but no robots at the current place. */
   constructor(scene, picture) {
     this.scene = scene;
     this.at = 0;
@@ -168,17 +168,17 @@ class Motion {
     this.now.goTo(at);
   }
 
-  /** Start, goal and what is between, or the robots alone as they are now. */
+  /** Shows or hides start, goals and the poses between; hidden, only the robots now are left. */
   showPoses(shown) {
     for (const copy of [this.start, ...this.goals, ...this.ghosts]) copy.root.visible = shown;
   }
 
-  /** For pictures: the poses alone. */
+  /** Hides the robots at the current place, for pictures, except frames that never move. */
   hideNow() {
     this.now.frames.forEach((frame, i) => { frame.visible = isStill[i]; });
   }
 
-  /** Points that the robots come to: corners of their bodies' bounds, at the ends and along the path. */
+  /** Returns points that the robots reach: the corners of their bodies' bounds, at the ends and along the path. */
   points() {
     const points = [], position = new THREE.Vector3(), quaternion = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
     const matrix = new THREE.Matrix4();
@@ -197,13 +197,13 @@ class Motion {
     return points;
   }
 
-  /** The size of what moves in a finding: the larger of its bodies that do. */
+  /** Returns the size of the larger moving body of a finding. */
   reach(finding) {
     return Math.max(0, ...[finding.a, finding.b].map((index) => data.bodies[index]).filter((body) => body.frame >= 0)
       .map((body) => 2 * shapes[body.mesh].geometry.boundingSphere.radius));
   }
 
-  /** A thin tube along the way of each robot's last frame, with dots at its ends: small robots are hard to find. */
+  /** Draws a thin tube along the way of each robot's last frame, with dots at its ends, since small robots are hard to find. */
   addTrace() {
     this.trace = new THREE.Group();
     this.tubes = [];
@@ -227,7 +227,7 @@ class Motion {
     this.scene.add(this.trace);
   }
 
-  /** Before drawing: lines and dots of so many pixels, however near. */
+  /** Before drawing: sets the tube's and dots' sizes in pixels, whatever their distance. */
   placeTrace(stage) {
     if (!this.trace) return;
     const radius = 1.2 * stage.pixelAt(stage.target);
@@ -236,7 +236,7 @@ class Motion {
   }
 }
 
-/** A tube about points, from the start's colour to the goal's; its radius is `scaleTube`'s to set. */
+/** Creates a tube about points, with colours from the start's to the goal's. `scaleTube` sets its radius. */
 function tube(points) {
   const sides = 6, kept = points.filter((point, i) => i === 0 || point.p.distanceTo(points[i - 1].p) > 0);
   const positions = [], directions = [], colours = [], indices = [];

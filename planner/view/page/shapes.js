@@ -1,13 +1,13 @@
 'use strict';
 
 /**
- * Meshes as they are drawn. Up to this many triangles a mesh gets normals that are smooth up to a crease, and lines along
- * its creases; larger ones are drawn as they came, each triangle flat: that costs no time before the first picture.
+ * Geometry of meshes. A mesh of at most this many triangles gets lines along its creases, and normals that are smooth except
+ * there. Larger meshes are drawn with flat triangles, so that they do not delay the first picture.
  */
 const kMostCreased = 120000;
 const kCrease = Math.cos(32 * Math.PI / 180);
 
-/** Equal positions get one number, so that soups are smooth, too. */
+/** Numbers distinct positions: equal positions get one number, so that meshes without shared vertices become smooth, too. */
 function welded(positions) {
   const count = positions.length / 3, bits = new Int32Array(positions.buffer, positions.byteOffset, positions.length);
   let size = 16;
@@ -27,7 +27,7 @@ function welded(positions) {
   return {number, distinct};
 }
 
-/** Of each vertex the corners (3·triangle + k) there: corners[first[v]] to corners[first[v + 1] − 1]. */
+/** Lists the corners (3·triangle + k) at each vertex: corners[first[v]] to corners[first[v + 1] − 1]. */
 function cornersOf(vertices, count) {
   const first = new Uint32Array(count + 1), corners = new Uint32Array(vertices.length);
   for (const v of vertices) ++first[v + 1];
@@ -50,7 +50,7 @@ function faceNormals(positions, indices) {
   return normals;
 }
 
-/** A surface with normals; edges: positions of the ends of creases and rims. */
+/** Returns a surface with normals, and in `edges` the end positions of its creases and borders. */
 function creased(positions, indices) {
   const {number, distinct} = welded(positions);
   const vertices = new Uint32Array(indices.length);
@@ -65,7 +65,7 @@ function creased(positions, indices) {
   for (let f = 0; f < lengths.length; ++f) {
     const [a, b, c] = [vertices[3 * f], vertices[3 * f + 1], vertices[3 * f + 2]];
     if (!(lengths[f] > 0)) continue;
-    let repeated = false;  // many files have both sides of every face
+    let repeated = false;  // many mesh files have both sides of every face
     for (let i = first[a]; i < first[a + 1] && !repeated; ++i) {
       const g = corners[i] / 3 | 0;
       repeated = g < f && has(g, b) && has(g, c) && lengths[g] > 0;
@@ -73,7 +73,7 @@ function creased(positions, indices) {
     if (!repeated) faces.push(f);
     else lengths[f] = 0;
   }
-  // Corners of one vertex with one normal are one vertex for the graphics card.
+  // Corners at one vertex with the same normal share a vertex on the graphics card.
   const out = [], outNormals = [], outIndices = new Uint32Array(3 * faces.length);
   const latest = new Int32Array(distinct).fill(-1), before = [];
   const vertexOf = (v, p, x, y, z) => {
@@ -107,7 +107,7 @@ function creased(positions, indices) {
   return {positions: new Float32Array(out), normals: new Float32Array(outNormals), indices: outIndices, edges: new Float32Array(edges)};
 }
 
-/** The geometry of each mesh of the page, shared by all bodies and poses that have it. */
+/** The geometry of each mesh, shared by all bodies and poses that use it. */
 const shapes = data.meshes.map((mesh) => {
   const positions = data.array(mesh.positions), indices = data.array(mesh.indices);
   const geometry = new THREE.BufferGeometry();

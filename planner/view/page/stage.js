@@ -1,14 +1,14 @@
 'use strict';
 
-/** Where the viewer stands at first: azimuth about z and elevation, as in `corridor solve --picture`. */
+/** The viewer's first direction: azimuth about z, as in `corridor solve --picture`, and elevation. */
 const kAzimuth = -60 * Math.PI / 180, kElevation = 32 * Math.PI / 180;
-const kFieldOfView = 30;  // degrees, upright: little perspective, so that sizes compare
+const kFieldOfView = 30;  // degrees, vertical: little perspective, so that sizes can be compared
 
-/** Canvas, cameras, lights and ground; draws when something has changed. */
+/** The canvas with cameras, lights and ground; redraws when something has changed. */
 class Stage {
   constructor(canvas, options) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});  // kept: for printing
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});  // kept for printing
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setClearColor(palette.paper);
     this.renderer.gammaOutput = true;
@@ -16,8 +16,8 @@ class Stage {
     this.scene = new THREE.Scene();
     this.beforeDraw = [];
     this.onView = () => {};
-    this.below = 0;  // pixels that the legend takes, where it is more than a line on a large page
-    this.moved = false;  // by the user: then nothing moves the camera but the user
+    this.below = 0;  // pixels at the bottom that the legend covers, if more than the 5 % that `fit` always leaves
+    this.moved = false;  // by the user: from then on only the user moves the camera
     this.top = options.top;
     this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.1, 10);
     this.perspective.up.set(0, 0, 1);
@@ -25,7 +25,7 @@ class Stage {
     this.scene.add(this.perspective, this.flat);
     this.controls = [this.perspective, this.flat].map((camera) => {
       const controls = new THREE.OrbitControls(camera, canvas);
-      controls.enableKeys = false;  // arrows step along the path
+      controls.enableKeys = false;  // the arrow keys step along the path
       controls.screenSpacePanning = true;
       controls.addEventListener('change', () => this.draw());
       controls.addEventListener('start', () => { this.moved = true; });
@@ -41,7 +41,7 @@ class Stage {
   get camera() { return this.top ? this.flat : this.perspective; }
   get target() { return this.controls[this.top ? 1 : 0].target; }
 
-  /** What is to be seen (points that robots come to and what stands near them), and the bounds of all. */
+  /** Sets what is to be seen. @param points that robots reach, and obstacles near them. @param bounds of everything. */
   show(points, bounds) {
     this.points = points;
     this.bounds = bounds;
@@ -69,7 +69,9 @@ class Stage {
     shadow.radius = 2.5;
   }
 
-  /** Shadows cost as much as drawing everything once more: not for large meshes, nor where seen from above. */
+  /**
+   * Switches shadows on. They cost as much as drawing everything again, so they are not used for large meshes or seen from above.
+   */
   castShadows() {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -78,13 +80,13 @@ class Stage {
     this.key.castShadow = true;
   }
 
-  /** A grid of round metres under everything, which fades out. */
+  /** Adds a ground below everything, with a grid that fades out. The grid's step is a round number. */
   addGround() {
     const centre = this.box.getCenter(new THREE.Vector3()), size = this.box.getSize(new THREE.Vector3());
     const extent = Math.max(size.x, size.y, 0.4 * size.z) || 1, step = roundDown(extent / 8);
     this.step = step;
     const reach = Math.ceil(1.1 * extent / step) + 1;
-    // Lines stand at whole steps of the world's own coordinates.
+    // Grid lines are at multiples of the step in world coordinates.
     const shift = (x, origin) => Math.round((x + origin) / step) * step - origin;
     const x0 = shift(centre.x, data.origin[0]), y0 = shift(centre.y, data.origin[1]), z = this.bounds.min.z - 0.002 * extent;
     const positions = [], colours = [], line = light(palette.grid), paper = light(palette.paper);
@@ -121,10 +123,10 @@ class Stage {
   }
 
   resize() {
-    if (this.frame()) this.drawNow();  // not a frame later: a canvas whose size was set is blank
+    if (this.frame()) this.drawNow();  // at once: setting a canvas's size clears it
   }
 
-  /** Canvas and cameras as large as the page has room. @returns whether there is any, of another size than before. */
+  /** Fits canvas and cameras to the page. @returns whether the size is not empty and has changed. */
   frame() {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     if (!width || !height || !this.points) return false;
@@ -141,7 +143,7 @@ class Stage {
     return changed;
   }
 
-  /** All points within the picture, but for a border and the legend's lines. */
+  /** Moves the camera so that all points are in the picture, within a border and above the legend. */
   fit() {
     const below = Math.max(0.05, Math.min(this.below / this.height, 0.4)), border = 0.98 - below, lift = below - 0.02;
     const toViewer = this.top ? new THREE.Vector3(0, 0, 1)
@@ -162,7 +164,7 @@ class Stage {
     for (let pass = 0; pass < 8; ++pass) {
       distance = largest(seen.map((s) => s[2] + Math.max(Math.abs(s[0] - x) / (tangent * this.aspect), Math.abs(s[1] - y) / tangent)));
       if (this.top) break;
-      // The middle of what is seen, moved to the picture's.
+      // Move the centre of what is seen to the centre of the picture.
       const inPicture = (i, o) => middle(range(seen.map((s) => (s[i] - o) / (distance - s[2]))));
       x += inPicture(0, x) * (distance - zHigh);
       y += inPicture(1, y) * (distance - zHigh);
@@ -178,7 +180,10 @@ class Stage {
     this.controls[this.top ? 1 : 0].update();
   }
 
-  /** Looks at a point, from where it looked, and from so near that `size` fills a third of the picture, but not farther. */
+  /**
+   * Turns to a point in the same direction of view, and comes near enough that `size` fills a third of the picture; never moves
+   * away.
+   */
   approach(point, size) {
     const camera = this.camera, away = camera.position.clone().sub(this.target);
     if (this.top) {
@@ -193,14 +198,14 @@ class Stage {
     this.draw();
   }
 
-  /** The length in the world that is a pixel at a point. */
+  /** Returns the length in the world of one pixel at a point. */
   pixelAt(point) {
     const height = this.canvas.clientHeight || 1;
     if (this.top) return 2 * this.half / this.flat.zoom / height;
     return 2 * Math.tan(kFieldOfView * Math.PI / 360) * this.perspective.position.distanceTo(point) / height;
   }
 
-  /** The camera as its place and the scene's size have it. */
+  /** Sets the camera's near and far planes for its place and the scene's size. */
   aim() {
     const {camera} = this, away = camera.position.distanceTo(this.bounds.getCenter(new THREE.Vector3()));
     camera.near = this.top ? 0.01 * this.radius : Math.max(away - 2.5 * this.radius, camera.position.distanceTo(this.target) / 60);
@@ -225,7 +230,7 @@ class Stage {
   }
 }
 
-/** 1, 2 or 5 times a power of ten. */
+/** Rounds down to 1, 2 or 5 times a power of ten. */
 function roundDown(x) {
   const power = 10 ** Math.floor(Math.log10(x));
   return power * (x / power >= 5 ? 5 : x / power >= 2 ? 2 : 1);

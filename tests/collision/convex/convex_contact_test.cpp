@@ -15,8 +15,8 @@ using test::Feature;
 using test::Shape;
 using test::Touching;
 
-/// All pairs of shapes, each feature against each, at ± a multiple of the largest coordinate
-/// involved: the verdict is known without an oracle.
+/// All pairs of shapes and features, at gaps and depths that are multiples of the largest
+/// coordinate. The verdict is known by construction, without an oracle.
 TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   Touching make(test::testSeed(21));
   const double factors[] = {0x1p-10, 0x1p-30, 0x1p-40, 0x1p-43, 0x1.1p-44};
@@ -24,7 +24,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   Counters counters;
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes) {
-      if (sa == Shape::triangle && sb == Shape::triangle) continue;  // the exact predicate's
+      if (sa == Shape::triangle && sb == Shape::triangle) continue;  // has an exact predicate
       for (int n = 0; n < 600; ++n) {
         const Feature a = make.feature(sa), b = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
@@ -32,7 +32,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
         const Transform X_WA = make.pose(a, x, normal), touching = make.pose(b, x, -normal);
         const double size = std::max(test::largestCoordinate(a.set(), X_WA),
                                      test::largestCoordinate(b.set(), touching));
-        // No deeper than the thinner of the two is.
+        // The depth is limited by the least thickness of the shapes.
         for (const double factor : factors)
           for (const int sign : {-1, 1}) {
             const double gap = sign * factor * size;
@@ -51,7 +51,8 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
             }
             ++cases;
           }
-        // In the band: poses are rounded to 2^-53 of the size each.
+        // Within the band: a depth of 2^-48·size exceeds the rounding of the poses, 2^-53·size
+        // each, so the sets touch.
         Transform X_WB = touching;
         X_WB.t -= normal * (0x1p-48 * size);
         falseFree += !convexSetsTouch({a.set(), X_WA}, {b.set(), X_WB}, counters);
@@ -66,7 +67,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
 
 using Vec3L = Eigen::Matrix<long double, 3, 1>;
 
-/// Distance of a point from a solid in its own frame, by closed forms; 0 inside.
+/// Returns the distance of a point from a solid in its own frame, by closed forms; 0 inside.
 long double distanceFrom(const Primitive& primitive, const Vec3L& q) {
   const long double radial = std::hypot(q[0], q[1]), z = std::abs(q[2]);
   const auto beyond = [](long double x) { return std::max(0.0L, x); };
@@ -83,8 +84,8 @@ long double distanceFrom(const Primitive& primitive, const Vec3L& q) {
   return std::hypot(beyond(radial - c.radius), beyond(z - 0.5L * c.length));
 }
 
-/// Spheres against everything, exactly; spheres of radius 0+ are points, so this is containment in
-/// every primitive, too.
+/// Spheres against all primitives with closed forms. A third of the spheres are nearly points,
+/// which tests containment in every primitive, too.
 TEST(ConvexContact, SpheresAgainstClosedForms) {
   Touching make(test::testSeed(22));
   int touching = 0, apart = 0;
@@ -124,8 +125,9 @@ TEST(ConvexContact, SpheresAgainstClosedForms) {
   EXPECT_GT(apart, 2'000);
 }
 
-/// Polytopes with integer corners against the separating-axis theorem in integers: all normals of
-/// faces and crosses of edges (any pair of corners). Many pairs touch exactly.
+/// Compares polytopes of integer corners with the separating-axis theorem in integers. Axes: all
+/// normals of faces and cross products of edges, where any pair of corners counts as an edge. Many
+/// pairs touch exactly.
 TEST(ConvexContact, PolytopesAgainstIntegers) {
   using Int = std::int64_t;
   using IntVec = Eigen::Matrix<Int, 3, 1>;
@@ -154,8 +156,8 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
         for (const IntVec& f : edges[s]) axes.push_back(e.cross(f));
     for (int s = 0; s < 2; ++s)
       for (const IntVec& e : edges[s]) axes.push_back(e.cross(corners[1][0] - corners[0][0]));
-    // Where both lie in one plane, all of these are its normal: by normals of edges in the plane,
-    // and along lines.
+    // If both lie in one plane, all these axes are its normal. So normals of edges within the plane
+    // are added, and directions of lines.
     const auto normal =
         std::find_if(axes.begin(), axes.end(), [](const IntVec& axis) { return !axis.isZero(); });
     if (normal != axes.end()) {
@@ -187,8 +189,8 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
   EXPECT_GT(exactly, 100);
 }
 
-/// A corner in a face, in integers, and then under one map for both, which leaves it there exactly:
-/// the proof's own rounding decides.
+/// A corner touches a face exactly, in integers; one map for both sets preserves this. An error
+/// bound that is too small would report them as apart.
 TEST(ConvexContact, WhatTouchesDoesUnderAMapOfBoth) {
   Touching make(test::testSeed(26));
   Counters counters;
@@ -207,8 +209,8 @@ TEST(ConvexContact, WhatTouchesDoesUnderAMapOfBoth) {
   EXPECT_EQ(falseFree, 0);
 }
 
-/// Maps that are not rigid: the sets are what the maps make of them (a ball an ellipsoid). A unit
-/// ball and a unit cylinder stretched along z, above a plate.
+/// Under a map that is not rigid the set is its image: a sphere becomes an ellipsoid. Here a sphere
+/// and a cylinder are stretched along z, above a plate.
 TEST(ConvexContact, AnyAffineMap) {
   const ConvexPart plate = placed(Box{Vec3(4, 4, 1)}, {});
   Counters counters;

@@ -32,14 +32,18 @@ double sizeOf(const Posed& a, const Posed& b) {
   return std::max(test::largestCoordinate(a.part, a.X), test::largestCoordinate(b.part, b.X));
 }
 
-/// The error promised.
+/// Returns the guaranteed error bound.
 double allowedAt(double distance, double size) {
   return 1e-12 * distance + 4 * kUnit * size;
 }
 
-/// All that holds whatever the truth is: the points are on both sets, as far apart as told; the
-/// bracket is as narrow as promised; the range holds it; 0 if and only if there is contact; A-B is
-/// B-A. The distance, or a negative number where the sets touch.
+/// Checks all that holds whatever the true distance is:
+/// * the witness points are on the sets, and `distance` apart;
+/// * `distance` and `lower` are as close as guaranteed, and the range contains the distance;
+/// * the distance is 0 if and only if the sets touch;
+/// * swapping the sets gives the same distance.
+///
+/// Returns the distance, or a negative number if the sets touch.
 double checked(const Posed& a, const Posed& b, const std::string& what) {
   Counters counters;
   const ConvexDistance d = convexDistance(a.set(), b.set(), 0, 0, counters),
@@ -51,7 +55,7 @@ double checked(const Posed& a, const Posed& b, const std::string& what) {
   EXPECT_LE(d.lower, d.distance) << what;
   EXPECT_LE(range.lower, d.distance) << what;
   EXPECT_GE(range.upper, d.lower) << what;
-  // In the band of contact, points may be as far from a set as the sets are apart.
+  // In the band of contact, a witness point may be as far from a set as the sets are apart.
   const double surface = (touch ? 0x1p-44 : 16 * kUnit) * size;
   EXPECT_LE(test::outside(a.part, a.X, d.p_WA),
             touch && a.part.points.size() > 3 ? HUGE_VAL : surface)
@@ -73,9 +77,9 @@ double checked(const Posed& a, const Posed& b, const std::string& what) {
   return d.distance;
 }
 
-/// All pairs of kinds, every feature against every feature, at gaps that are known by construction:
-/// from ten times the shapes' size to below the rounding of their places; some far from the
-/// origin, some small, some large.
+/// The distance is right for all pairs of shapes and features, at gaps known by construction. Gaps
+/// go from ten times the shapes' size to below the rounding of their positions; some shapes are far
+/// from the origin, small, or large.
 TEST(ConvexDistance, KnownGaps) {
   Touching make(test::testSeed(31));
   std::cout << std::setprecision(2);
@@ -106,7 +110,7 @@ TEST(ConvexDistance, KnownGaps) {
           EXPECT_LE(gap, 0x1p-44 * sizeOf(a, b)) << what;
           continue;
         }
-        // The places of what is made are rounded, too: as much again.
+        // The constructed positions are rounded, too: as much again.
         const double allowed = allowedAt(gap, sizeOf(a, b)) + 4 * kUnit * sizeOf(a, b);
         EXPECT_LE(std::abs(d - gap), allowed) << what << " gap " << gap;
         worst = std::max(worst, std::abs(d - gap) / allowed);
@@ -118,8 +122,8 @@ TEST(ConvexDistance, KnownGaps) {
     }
 }
 
-/// Shapes anywhere: a plane between the two, seen with long double, is as wide as the distance; and
-/// the points, which are in both, are no closer.
+/// Random poses: the gap along `normal_W`, computed in long double, proves that the distance is not
+/// too large; the witness points prove that it is not too small.
 TEST(ConvexDistance, AnywhereByAPlaneBetween) {
   Touching make(test::testSeed(32));
   int apart = 0, touching = 0;
@@ -150,7 +154,7 @@ TEST(ConvexDistance, AnywhereByAPlaneBetween) {
     EXPECT_GE(static_cast<double>(gap), found.lower - 4 * kUnit * size) << what;
     EXPECT_GE(static_cast<double>(gap), d - allowedAt(d, size) - 4 * kUnit * size) << what;
     ++apart;
-    // Moved together, they stay as far apart.
+    // A common rigid map does not change the distance.
     Transform X = pose();
     X.t *= 10;
     const Posed a2{a.part, X * a.X}, b2{b.part, X * b.X};
@@ -161,7 +165,7 @@ TEST(ConvexDistance, AnywhereByAPlaneBetween) {
   EXPECT_GT(touching, 500 / test::kSlowdown);
 }
 
-/// Polytopes against brute force over all triangles of their corners, with a hundred digits.
+/// Compares polytopes with brute force over all triangles of their corners, with a hundred digits.
 TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
   Touching make(test::testSeed(33));
   int apart = 0;
@@ -169,7 +173,7 @@ TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
     Posed a, b;
     for (int i = 0; i < 3 + n % 3; ++i) a.part.points.push_back(make.vector());
     for (int i = 0; i < 3 + n / 3 % 3; ++i) b.part.points.push_back(make.vector());
-    if (n % 2) {  // a face parallel to a's, but for some digits
+    if (n % 2) {  // a face nearly parallel to one of a
       for (int i = 0; i < 3; ++i)
         b.part.points[i] = a.part.points[i] + std::pow(10.0, -n % 13) * make.vector();
     }
@@ -195,7 +199,8 @@ TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
   EXPECT_GT(apart, 20 / test::kSlowdown);
 }
 
-/// The lower bound is one, to the last digit, of faces whose corners doubles can't tell apart.
+/// `lower` does not exceed the exact distance by a digit, even for parallel faces whose corners
+/// doubles cannot distinguish along the normal.
 TEST(ConvexDistance, LowerThanTheExactDistance) {
   Touching make(test::testSeed(36));
   Counters counters;
@@ -261,7 +266,7 @@ TEST(ConvexDistance, ClosedForms) {
          "cylinders, crossed");
   expect(cylinder, placedAt(Cylinder{0.25, 3}, {2, 0, 0.1}, Vec3::UnitX(), 0.7), 1.25,
          "cylinders, askew");
-  // A corner over a rim, in the plane of the axis.
+  // A corner beside a rim, in a plane with the axis.
   expect(cylinder, placedAt(Convex{{{1.5, 0, 2}, {2, 1, 3}, {2, -1, 3}}}, {0, 0, 0}), std::sqrt(2),
          "rim, corner");
 }
@@ -283,7 +288,7 @@ TEST(ConvexDistance, FlatThinAndPointShapes) {
   expect(plate, needle, {0, 0, 1.5}, 0.5);
   expect(needle, needle, {1e-6, 0, 0.5}, 1e-6);
   expect(plate, coin, {0.3, 0.4, 0.25}, 0.25 - 1e-9);
-  // A cylinder without an axis is a ball (`ConvexSet`).
+  // A cylinder without an axis counts as a sphere (`ConvexSet`).
   expect(plate, disc, {0, 0, 2}, 1.5);
   for (const ConvexPart* part : {&point, &zeroCapsule, &plate, &needle, &coin}) {
     const Posed p{*part, {}};
@@ -291,8 +296,8 @@ TEST(ConvexDistance, FlatThinAndPointShapes) {
   }
 }
 
-/// A ball under a map that isn't rigid is an ellipsoid, for distances and for verdicts: one of half
-/// axes (2, 1, 0.1) above, and askew to, a plate.
+/// A sphere under a map that is not rigid is an ellipsoid, for distances and for verdicts. This one
+/// has half axes (2, 1, 0.1), and is above a plate, tilted.
 TEST(ConvexDistance, AnyAffineMap) {
   const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
   const ConvexPart ball = placed(Sphere{1}, {});
@@ -325,7 +330,8 @@ TEST(ConvexDistance, AnyAffineMap) {
   }
 }
 
-/// A map may be singular: along what it flattens a ball reaches nowhere.
+/// A singular map flattens a sphere, which then has no extent in that direction; a division by its
+/// length would fail.
 TEST(ConvexDistance, BallsFlattenedByTheirMap) {
   const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
   for (const Primitive& p : {Primitive(Sphere{1}), Primitive(Capsule{1, 2})})
@@ -343,8 +349,8 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
     }
 }
 
-/// Where cores barely overlap, the four corners around the origin are nearly in one plane; still
-/// the point is both sets'.
+/// The witness point belongs to both sets even if the cores barely overlap, where the four corners
+/// around the origin are nearly in one plane.
 TEST(ConvexDistance, APointOfBothWhereTheyBarelyOverlap) {
   Touching make(test::testSeed(35));
   Counters counters;
@@ -386,7 +392,7 @@ TEST(ConvexDistance, AsCloseAsAskedFor) {
     EXPECT_LE(d.distance, exact.distance + allowed) << n;
     EXPECT_LE(d.lower, exact.distance);
     EXPECT_LE(d.distance - d.lower, allowed) << n;
-    // The range ends once it knows enough.
+    // The search of the range may stop early, but only with the bound that was requested.
     EXPECT_GT(convexDistanceRange(a.set(), b.set(), gap / 2, 0, plain).lower, gap / 2);
     EXPECT_LE(convexDistanceRange(a.set(), b.set(), HUGE_VAL, 2 * gap, plain).upper, 2 * gap);
   }

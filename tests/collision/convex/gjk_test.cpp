@@ -15,8 +15,9 @@ using test::Feature;
 using test::Shape;
 using test::Touching;
 
-/// Characterisation: how far upper and lower bound of the cores' distance are apart when the search
-/// ends, over the largest coordinate's scale, and how many rounds it took: printed, and bounded.
+/// Characterisation: prints and bounds the number of rounds of a search. Does the same for the
+/// difference between the upper and the lower bound of the cores' distance at its end, relative to
+/// the size.
 TEST(Gjk, WorstErrors) {
   Touching make(test::testSeed(24));
   const char* names[] = {"box", "sphere", "capsule", "cylinder", "convex", "triangle"};
@@ -43,7 +44,7 @@ TEST(Gjk, WorstErrors) {
         plain = std::max(plain, error(d));
         plainRounds = std::max(plainRounds, d.rounds);
         if (dd.overlap || dd.upper <= near) continue;
-        // What counts: of 2^-36 of the distance, or 2^-50 of the size.
+        // Relative to the difference that is allowed: 2^-36 of the distance, or 2^-50 of the size.
         fine = std::max(fine, (dd.upper - dd.lower) / std::max(size, 0x1p14 * dd.upper));
         fineRounds = std::max(fineRounds, dd.rounds);
       }
@@ -56,7 +57,7 @@ TEST(Gjk, WorstErrors) {
     }
 }
 
-/// What barely overlaps, by less than the corners can tell, ends the search, too.
+/// The search also ends for sets that overlap by less than the rounding of the corners.
 TEST(Gjk, BarelyOverlappingSetsEnd) {
   Touching make(test::testSeed(25));
   int most = 0;

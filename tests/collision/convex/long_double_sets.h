@@ -7,8 +7,7 @@
 
 #include "collision/convex/convex_set.h"
 
-/// The oracles' own view of convex sets, in long double, by other formulas than the code under
-/// test.
+/// Oracles for convex sets, in long double, by other formulas than the code under test.
 namespace corridor::test {
 
 using Vec3L = Eigen::Matrix<long double, 3, 1>;
@@ -32,9 +31,9 @@ inline long double toTriangle(const Vec3L& p, const Vec3L& a, const Vec3L& b, co
   return best;
 }
 
-/// How far outside of a part a point is, both in the part's frame; or of a hull of four points and
-/// more, how far from the nearest triangle of its points: that is 0 on the surface (and at some
-/// places inside).
+/// Returns the distance of a point from a convex part, in the part's frame; 0 inside. For a hull of
+/// four points or more: the distance from the nearest triangle of its points. This is 0 on the
+/// surface, and at some places inside.
 inline long double outside(const ConvexPart& part, const Vec3L& q) {
   const auto at = [&](std::size_t i) -> Vec3L { return part.points[i].cast<long double>(); };
   const std::size_t n = part.points.size();
@@ -53,13 +52,14 @@ inline long double outside(const ConvexPart& part, const Vec3L& q) {
   return std::max(0.0L, core - part.radius);
 }
 
-/// Likewise, of a point in W and a part under a map that is rigid up to rounding.
+/// Returns the same for a point in the world frame and a part under a map that is rigid up to
+/// rounding.
 inline long double outside(const ConvexPart& part, const Transform& X, const Vec3& p_W) {
   return outside(part, X.m.cast<long double>().transpose() *
                            (p_W.cast<long double>() - X.t.cast<long double>()));
 }
 
-/// max n·x over the part under any map.
+/// Returns max n·x over the points x of a part under any affine map.
 inline long double highest(const ConvexPart& part, const Transform& X, const Vec3L& n) {
   const Vec3L m = X.m.cast<long double>().transpose() * n;
   long double most = -HUGE_VALL;

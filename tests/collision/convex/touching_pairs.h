@@ -11,10 +11,10 @@
 
 namespace corridor::test {
 
-/// A solid or a triangle with a point x on its surface and an outward normal m there, such that
-/// −m leads into it (but for the face of a triangle): all in its own frame.
+/// A solid or a triangle with a point x on its surface and an outward normal m there, all in its
+/// own frame. −m leads into the shape, except for the face of a triangle.
 struct Feature {
-  ConvexPart part;  ///< of a triangle: its corners
+  ConvexPart part;  ///< a triangle is the hull of its corners
   bool isTriangle = false, flat = false;
   Vec3 x = Vec3::Zero(), m = Vec3::UnitZ();
 
@@ -25,6 +25,7 @@ enum class Shape { box, sphere, capsule, cylinder, convex, triangle };
 inline constexpr Shape kShapes[] = {Shape::box,      Shape::sphere, Shape::capsule,
                                     Shape::cylinder, Shape::convex, Shape::triangle};
 
+/// A generator of shapes and of poses in which two of them touch at known points.
 class Touching {
  public:
   explicit Touching(std::uint64_t seed) : random_(seed) {}
@@ -35,9 +36,11 @@ class Touching {
   Vec3 vector() { return {real(), real(), real()}; }
   int pick(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
 
-  /// A length; now and then a very small one.
+  /// Returns a random length; one in six is very small.
   double extent() { return pick(6) == 0 ? 1e-6 * real(0.5, 1) : real(0.05, 1); }
 
+  /// Returns a random solid of a shape, with a random point of a face, edge, corner or curved
+  /// surface.
   Feature feature(Shape shape) {
     Feature f;
     const double turn = real(0, 6.3);
@@ -84,8 +87,8 @@ class Touching {
         const double size = extent();
         for (int i = 0; i < n; ++i) hull.points.push_back(size * vector().normalized());
         f.part = placed(hull, {});
-        f.x = f.m = hull.points[0];                            // a corner, seen from the centre
-        for (const double side : {-0.1 * size, 0.1 * size}) {  // the way there is to be inside
+        f.x = f.m = hull.points[0];  // a corner, with the direction from the centre as its normal
+        for (const double side : {-0.1 * size, 0.1 * size}) {  // makes the inside lie along −m
           const Vec3 u = f.x.unitOrthogonal();
           f.part.points.push_back(-0.5 * f.x + side * u);
           f.part.points.push_back(-0.5 * f.x + side * f.x.cross(u).normalized());
@@ -113,7 +116,8 @@ class Touching {
     return f;
   }
 
-  /// A rotation that takes m to n, with any spin about it; signed permutations among them.
+  /// Returns a rotation that takes m to n, with a random rotation about n. Some are signed
+  /// permutations.
   Mat3 turning(const Vec3& m, const Vec3& n) {
     const auto frame = [](const Vec3& z) {
       const Vec3 x = z.unitOrthogonal();
@@ -123,7 +127,7 @@ class Touching {
            frame(m).transpose();
   }
 
-  /// The map that brings the feature's point to `where`, its normal to n.
+  /// Returns the pose that takes the feature's point to `where` and its normal to n.
   Transform pose(const Feature& f, const Vec3& where, const Vec3& n) {
     Transform X;
     X.m = turning(f.m, n);
@@ -137,7 +141,8 @@ class Touching {
   std::mt19937_64 random_;
 };
 
-/// The largest coordinate of what is involved, metres.
+/// Returns the largest coordinate of a set in its own frame and in the world, radii included;
+/// metres.
 inline double largestCoordinate(const ConvexSet& set, const Transform& X) {
   double largest = X.t.cwiseAbs().maxCoeff();
   for (const Vec3& p : set.points)

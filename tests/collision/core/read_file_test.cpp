@@ -1,4 +1,5 @@
-// What is not read: whatever is no ordinary file, or too large. Nothing here waits or fills memory.
+// Files that must be refused: those that are not ordinary files, and those that are too large.
+// Refusing them must neither wait nor fill memory.
 #include "collision/core/read_file.h"
 
 #include <fstream>
@@ -26,14 +27,14 @@ class ReadFile : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
   }
-  /// A file of that size which takes no place on the disk.
+  /// Creates a file of that size that takes no space on the disk.
   std::filesystem::path sparse(const std::string& name, std::uint64_t size) const {
     const auto file = write(name, "x");
     std::filesystem::resize_file(file, size);
     return file;
   }
 
-  /// What all three ways of reading say.
+  /// Expects that all three ways of reading refuse the file with the same message.
   void expectRefused(const std::filesystem::path& file, const std::string& told) const {
     const std::string line = file.string() + ": " + told;
     EXPECT_EQ(complaintOf([&] { readFile(file, "a thing"); }), line);
@@ -57,7 +58,7 @@ TEST_F(ReadFile, WhatIsNoOrdinaryFile) {
   expectRefused(folder_, "is a folder; a file is needed");
   for (const char* const device : {"/dev/zero", "/dev/null", "/dev/full"})
     expectRefused(device, "is a device; an ordinary file is needed");
-  // A pipe without a writer: opening it would wait for one.
+  // The pipe has no writer: opening it would wait for one.
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   expectRefused(pipe, "is a pipe; an ordinary file is needed");
@@ -77,18 +78,18 @@ TEST_F(ReadFile, WhatIsNoOrdinaryFile) {
 TEST_F(ReadFile, TheSizeIsLookedAtFirst) {
   expectRefused(write("empty", ""), "is empty; a thing is needed");
   const auto huge = sparse("huge", kMostFileBytes + 1);
-  const std::string told = huge.string() + ": has 4294967297 bytes; at most ";
+  const std::string told = huge.string() + ": has 4294967297 bytes, more than ";
   EXPECT_EQ(complaintOf([&] { readFile(huge, "a thing"); }),
-            told + "4294967296 are read of a thing");
+            told + "4294967296, the limit for a thing");
   EXPECT_EQ(complaintOf([&] { requireFile(huge, "a thing"); }),
-            told + "4294967296 are read of a thing");
+            told + "4294967296, the limit for a thing");
   EXPECT_EQ(complaintOf([&] { readTextFile(huge, "a thing"); }),
-            told + "268435456 are read of a thing");
+            told + "268435456, the limit for a thing");
   EXPECT_EQ(complaintOf([&] { requireFile(sparse("most", kMostFileBytes), "a thing"); }),
             "no complaint");
   const auto large = sparse("large", kMostDocumentBytes + 1);
   EXPECT_EQ(complaintOf([&] { readTextFile(large, "a thing"); }),
-            large.string() + ": has 268435457 bytes; at most 268435456 are read of a thing");
+            large.string() + ": has 268435457 bytes, more than 268435456, the limit for a thing");
 }
 
 TEST_F(ReadFile, TextHasNoByte0) {
@@ -103,7 +104,7 @@ TEST_F(ReadFile, TextHasNoByte0) {
               blank.string() + ": is empty; a thing is needed");
 }
 
-/// Only a stream takes a pipe, and does so until its end.
+/// `readTextStream` alone accepts a pipe, and must read it to its end, over many short reads.
 TEST_F(ReadFile, AStreamTakesAPipe) {
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -113,7 +114,7 @@ TEST_F(ReadFile, AStreamTakesAPipe) {
   writer.join();
 }
 
-/// An endless one that is no text ends at once.
+/// A stream that has a byte 0 is refused at once, since it may never end.
 TEST_F(ReadFile, AStreamOfZeros) {
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);
@@ -128,7 +129,7 @@ TEST_F(ReadFile, AStreamOfZeros) {
   EXPECT_EQ(complaintOf([] { readTextStream("-", "a thing"); }),
             "-:2: is not text: it has a byte 0; UTF-8 is needed");
   ::dup2(before, STDIN_FILENO);
-  writer.join();  // its end is open still: what was read did not wait for it
+  writer.join();  // the write end is still open: the reader did not wait for the stream's end
   for (const int end : {pipe[0], pipe[1], before}) ::close(end);
 }
 

@@ -1,4 +1,5 @@
-// What every proof of rounding takes for granted of the compiler, and what rounding.h promises.
+// Properties of the compiler that every proof of rounding assumes, and the guarantees of
+// rounding.h.
 #include "collision/core/rounding.h"
 
 #include <cmath>
@@ -17,15 +18,15 @@ namespace {
 #define CORRIDOR_APART
 #endif
 
-/// Two doubles rounded to float. g++ 12 made a vector of both at -O2, and then forgot to round:
-/// the build says -fno-tree-vectorize.
+/// Rounds two doubles to float. g++ 12 vectorised this at -O2 and then did not round, so the build
+/// uses -fno-tree-vectorize.
 CORRIDOR_APART void throughFloat(const double* from, double* to) {
   const float x = static_cast<float>(from[0]), y = static_cast<float>(from[1]);
   to[0] = x;
   to[1] = y;
 }
 
-/// The same of more, and of what is kept as float, too.
+/// Rounds squares to float, in a loop, and keeps them as float and as double.
 CORRIDOR_APART void throughFloats(const double* from, double* to, float* kept, int count) {
   for (int i = 0; i < count; ++i) {
     kept[i] = static_cast<float>(from[i] * from[i]);
@@ -33,13 +34,14 @@ CORRIDOR_APART void throughFloats(const double* from, double* to, float* kept, i
   }
 }
 
-/// a·b + c is rounded twice: no contraction.
+/// Returns a·b + c with two roundings, if the compiler does not contract it to a fused
+/// multiply-add.
 CORRIDOR_APART double multiplyAdd(double a, double b, double c) {
   return a * b + c;
 }
 
 TEST(Compiler, RoundsToFloat) {
-  volatile double third = 1.0 / 3;  // not known to the compiler
+  volatile double third = 1.0 / 3;  // volatile: the compiler must not round at compile time
   const double from[4] = {third, third / 5, third / 7, third / 11};
   double to[4];
   float kept[4];
@@ -67,7 +69,7 @@ TEST(Rounding, BoundsHoldWhatTheyBound) {
   std::mt19937_64 random(test::testSeed(3));
   for (int n = 0; n < 10'000; ++n) {
     const double x = std::exp2(std::uniform_real_distribution(-1074.0, 1023.0)(random));
-    // Sixteen roundings, all the wrong way.
+    // The worst case: sixteen roundings, all in the wrong direction.
     double low = x, high = x;
     for (int i = 0; i < 16; ++i) {
       low = std::nextafter(low, 0);

@@ -1,11 +1,11 @@
-// This program is linked with -ffast-math, which sets flush-to-zero and denormals-are-zero before
-// `main`. Proofs hold there.
+// Proofs must hold under flush-to-zero and denormals-are-zero. This program is linked with
+// -ffast-math, which sets both before `main`.
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "collision/core/floating_point.h"
-#include "collision/motion/check_evidence.h"
+#include "collision/motion/check_certificate.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/collision/motion/grazing.h"
 #include "tests/support/support.h"
@@ -13,7 +13,7 @@
 namespace corridor {
 namespace {
 
-/// The least normal number, which the compiler must not halve itself.
+/// The least normal number; volatile, so that the compiler does not halve it itself.
 volatile double least = 0x1p-1022;
 
 TEST(FlushToZero, IsSetFromTheStart) {
@@ -28,7 +28,8 @@ TEST(FlushToZero, GrazingEdgesAreRight) {
   int known = 0, audited = 0;
   for (int n = 0; n < 3'000; ++n) {
     const double gap = (n % 2 ? 1 : -1) * std::pow(10.0, -2 - n % 12);
-    // Every tenth so small that squares vanish, or lengths themselves: then nothing is proved.
+    // Every tenth case is so small that squares, or even lengths, vanish: then `free` is not
+    // required.
     const double size = std::pow(10.0, n % 10 ? 6 - n % 13 : -100 - n % 210);
     const auto feature = static_cast<test::Grazing::Feature>(n % test::Grazing::features);
     const test::Grazing g(random, feature, n % 5 == 0, gap, size);
@@ -40,20 +41,20 @@ TEST(FlushToZero, GrazingEdgesAreRight) {
     MotionOptions options;
     options.tolerance = std::max(1e-7 * size, 1e-300);
     QueryContext context;
-    MotionEvidence evidence;
-    const MotionResult result = certifyMotion(edge, {&pair, 1}, options, context, &evidence);
+    MotionCertificate certificate;
+    const MotionResult result = certifyMotion(edge, {&pair, 1}, options, context, &certificate);
     if (gap < 0) {
       ASSERT_NE(result.verdict, MotionVerdict::free) << n;
     } else if (size > 1e-7 && gap * size > 2 * options.tolerance) {
       ASSERT_EQ(result.verdict, MotionVerdict::free) << n;
     }
     if (result.verdict == MotionVerdict::free && gap > 1e-4) {
-      ASSERT_FALSE(checkEvidence(edge, {&pair, 1}, options, 1, evidence, context)) << n;
+      ASSERT_FALSE(checkCertificate(edge, {&pair, 1}, options, 1, certificate, context)) << n;
       ++audited;
     }
-    evidence.free = {{0, 0, 1, 1e-5 * size}};
+    certificate.free = {{0, 0, 1, 1e-5 * size}};
     if (gap < 0) {
-      ASSERT_TRUE(checkEvidence(edge, {&pair, 1}, options, 1, evidence, context)) << n;
+      ASSERT_TRUE(checkCertificate(edge, {&pair, 1}, options, 1, certificate, context)) << n;
     }
   }
   EXPECT_GT(known, 1'000);

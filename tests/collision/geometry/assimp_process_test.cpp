@@ -1,4 +1,4 @@
-// Whatever assimp does to its process, what comes back is a mesh or an InputError.
+// Whatever assimp does to its process, the caller gets a mesh or an InputError.
 #include "collision/geometry/assimp_process.h"
 
 #include <atomic>
@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// A grid of 2·n·n triangles.
+/// Returns a Collada file with a grid of 2·n·n triangles.
 std::string grid(int n) {
   std::ostringstream points, triangles;
   for (int i = 0; i <= n; ++i)
@@ -53,7 +53,7 @@ std::string grid(int n) {
 
 class AssimpProcess : public MeshFileTest {
  protected:
-  /// What is told where this shell script stands in for the helper program.
+  /// Returns the message of readWithAssimp if a shell script replaces the helper program.
   std::string complaintWith(const std::string& script, double seconds = 600) const {
     const auto program = write("helper", "#!/bin/sh\n" + script + "\n");
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
@@ -93,7 +93,7 @@ TEST_F(AssimpProcess, TakesTooLong) {
   std::ifstream(file_ + ".id") >> id;
   ASSERT_GT(id, 0);
   EXPECT_EQ(::kill(id, 0), -1) << "it is still there";
-  // One that writes without an end, too.
+  // The time limit also ends a process that writes without end.
   EXPECT_EQ(complaintWith("while :; do echo y; done", 0.2),
             reads + "took more than 0.2 s and was stopped" + instead);
 }
@@ -118,14 +118,15 @@ TEST_F(AssimpProcess, MemoryEnds) {
             "no complaint");
 }
 
-/// The helper's own limit of the processor's time is above that of its parent's patience.
+/// The time limit of the parent ends the real helper, too; the helper's own limit of processor time
+/// is larger.
 TEST_F(AssimpProcess, TimeEnds) {
   write("a.dae", grid(400));
   EXPECT_EQ(complaint({1e-6, 1 << 30, AssimpLimits::assimpProgram()}),
             reads + "took more than 1e-06 s and was stopped" + instead);
 }
 
-/// Programs may catch SIGCHLD, ignore it, or block signals: none of it makes a difference.
+/// A program may ignore SIGCHLD; then waiting for the helper fails, which must not matter.
 TEST_F(AssimpProcess, WhereChildrenAreIgnored) {
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   const AssimpImport import = readWithAssimp(file_, AssimpRules::Stored);
@@ -154,7 +155,7 @@ TEST_F(AssimpProcess, NamesThatAShellWouldTakeApart) {
   EXPECT_EQ(readMeshFile(file).mesh.triangles.size(), 2u);
 }
 
-/// A glTF of one triangle whose numbers are where `uri` says.
+/// Returns a glTF of one triangle whose buffer is the file `uri`.
 std::string gltf(const std::string& uri) {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
 "nodes": [{"mesh": 0, "translation": [10, 0, 0]}],
@@ -175,7 +176,7 @@ TEST_F(AssimpProcess, FilesThatAFileNames) {
   EXPECT_EQ(file.format, "glTF2");
   ASSERT_EQ(file.mesh.vertices.size(), 3u);
   EXPECT_EQ(file.mesh.vertices[2], Vec3(10, 2, 0));
-  // Neither endless ones nor ones that wait are opened.
+  // A device would never end, and opening a pipe would wait: neither is opened.
   ASSERT_EQ(::mkfifo((folder_ / "pipe.bin").c_str(), 0600), 0);
   for (const char* const uri : {"/dev/zero", "pipe.bin", "missing.bin"})
     EXPECT_THAT(MeshFileTest::complaint("b.gltf", gltf(uri)),

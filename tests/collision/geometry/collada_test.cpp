@@ -8,7 +8,8 @@
 namespace corridor::test {
 namespace {
 
-/// A triangle and a quad, twice scaled by their nodes, and a line, which no mesh has.
+/// Returns a Collada file with a triangle and a quad, which the nodes scale by 2 and translate, and
+/// a line, which is not read.
 std::string collada(const std::string& asset, const std::string& first = "0.1") {
   return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -51,7 +52,7 @@ TEST_F(Collada, NodesAndUnitCountTheUpAxisDoesNot) {
     EXPECT_EQ(file.format, "Collada");
     EXPECT_EQ(file.unitRule, "0.0254 m per unit, by the file or its format");
     EXPECT_EQ(file.upRule,
-              "coordinates as stored, since no up-axis was asked for; the file's own <up_axis> is "
+              "coordinates as stored, since no up-axis was requested; the file's own <up_axis> is "
               "not applied "
               "(ROS's rule)");
     EXPECT_EQ(file.mesh.vertices.size(), 5u);
@@ -71,11 +72,12 @@ TEST_F(Collada, UnitAndUpAxisAsked) {
   const MeshFile file =
       read("a.dae", collada("<unit meter=\"0.0254\"/><up_axis>Z_UP</up_axis>"), {0.5, 'y'});
   expectBounds(file.mesh, Vec3(4, -3, 2), Vec3(6, -3, 9));
-  EXPECT_EQ(file.unitRule, "0.5 m per unit, as asked, instead of the file's own 0.0254 m");
-  EXPECT_EQ(file.upRule,
-            "y is up, as asked: turned by (x, y, z) -> (x, -z, y); the file's own <up_axis> is not "
-            "applied "
-            "(ROS's rule)");
+  EXPECT_EQ(file.unitRule, "0.5 m per unit, as requested, instead of the file's own 0.0254 m");
+  EXPECT_EQ(
+      file.upRule,
+      "y is up, as requested: rotated by (x, y, z) -> (x, -z, y); the file's own <up_axis> is not "
+      "applied "
+      "(ROS's rule)");
 }
 
 TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
@@ -83,7 +85,7 @@ TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
     EXPECT_EQ(
         complaint("a.dae", collada("\n<unit name=\"x\" meter=\"" + std::string(unit) + "\"/>")),
         "a.dae:4: <unit meter=\"" + std::string(unit) +
-            "\">: a unit is a number of metres above 0");
+            "\">: the unit must be a number of metres above 0");
   EXPECT_EQ(complaint("a.dae", collada("<up_axis> W_UP </up_axis>")),
             "a.dae:3: <up_axis> is \"W_UP\"; X_UP, Y_UP or Z_UP is needed");
   EXPECT_EQ(complaint("a.dae", collada("<up_axis\n>W_UP</up_axis>")),
@@ -95,7 +97,7 @@ TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
         "<comments><![CDATA[<unit meter=\"0\"/>]]></comments><up_axis >Z_UP</up_axis>"})
     EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
   EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
-  // What the text doesn't show, what is left of the mesh does.
+  // Units that the check of the text misses show in the imported mesh.
   const std::string told = ": its <unit> is not above 0, or too small";
   for (const char* const hidden : {"<unit name=\"a>b\" meter=\"0\"/>", "<unit meter=\"1e-60\"/>"}) {
     EXPECT_THAT(complaint("a.dae", collada(hidden)), testing::EndsWith(told)) << hidden;
@@ -116,7 +118,8 @@ TEST_F(Collada, OmplAppTurnsToYUp) {
 
 TEST_F(Collada, OmplAppAveragesAllVerticesThoseOfLinesToo) {
   const OmplAppMesh read = readOmplAppMesh(write("y.dae", collada("<up_axis>Y_UP</up_axis>", "0")));
-  // All faces are in one plane, so the five vertices are kept once; the two of the line come again.
+  // All faces are in one plane and have equal normals, so assimp keeps each of their five vertices
+  // once. It keeps the line's two vertices again.
   EXPECT_EQ(read.importedVertices, 7);
   EXPECT_LT((read.vertexAverage - Vec3(10, 2 * 34.0 / 7, 6)).norm(), 1e-5)
       << read.vertexAverage.transpose();
@@ -126,13 +129,13 @@ TEST_F(Collada, Complaints) {
   EXPECT_EQ(complaint("a.dae", "hello"),
             "a.dae: cannot be read by assimp: Unable to read file, malformed XML");
   EXPECT_EQ(complaint("a.dae", collada("", "nan")),
-            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, whose numbers "
-            "end at 3.4e38)");
+            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, which ends "
+            "at 3.4e38)");
   EXPECT_EQ(complaint("a.dae", collada("", "1e39")),
-            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, whose numbers "
-            "end at 3.4e38)");
+            "a.dae: vertex 0 (from 0) is not finite (this format is read in float, which ends "
+            "at 3.4e38)");
   EXPECT_EQ(complaint("a.3mf", "hello"),
-            "a.3mf: the format has a unit, which assimp does not hand on: state the unit");
+            "a.3mf: the format has a unit, which assimp does not report; state the unit");
   std::string noMesh = collada("");
   const auto at = noMesh.find("<polylist");
   noMesh.erase(at, noMesh.find("<lines") - at);

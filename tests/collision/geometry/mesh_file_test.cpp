@@ -13,7 +13,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// The tetrahedron of the fixture, whatever the numbering.
+/// Expects the tetrahedron of the fixture, with any numbering of its vertices.
 void expectTetrahedron(const MeshFile& file) {
   ASSERT_EQ(file.mesh.vertices.size(), 4u);
   const MeshHealth health = inspectMesh(file.mesh);
@@ -29,8 +29,8 @@ TEST_F(ReadMeshFile, Obj) {
   const MeshFile file = read("a.OBJ", objTetrahedron);
   expectTetrahedron(file);
   EXPECT_EQ(file.format, "OBJ");
-  EXPECT_EQ(file.unitRule, "1 m per unit, since the format states none and none was asked for");
-  EXPECT_EQ(file.upRule, "coordinates as stored, since no up-axis was asked for");
+  EXPECT_EQ(file.unitRule, "1 m per unit, since neither the format nor the user states one");
+  EXPECT_EQ(file.upRule, "coordinates as stored, since no up-axis was requested");
 }
 
 TEST_F(ReadMeshFile, StlByItsSizeNotByTheWordSolid) {
@@ -111,11 +111,11 @@ TEST_F(ReadMeshFile, UnitAndUpAxis) {
   EXPECT_EQ(first({}, 'y'), Vec3(1, -3, 2));
   EXPECT_EQ(first({}, 'x'), Vec3(-2, -3, 1));
   const MeshFile file = read("a.obj", obj, {0.0254, 'y'});
-  EXPECT_EQ(file.unitRule, "0.0254 m per unit, as asked");
-  EXPECT_EQ(file.upRule, "y is up, as asked: turned by (x, y, z) -> (x, -z, y)");
+  EXPECT_EQ(file.unitRule, "0.0254 m per unit, as requested");
+  EXPECT_EQ(file.upRule, "y is up, as requested: rotated by (x, y, z) -> (x, -z, y)");
   EXPECT_EQ(read("a.obj", obj, {{}, 'x'}).upRule,
-            "x is up, as asked: turned by (x, y, z) -> (-y, -z, x)");
-  EXPECT_EQ(read("a.obj", obj, {{}, 'z'}).upRule, "z is up, as asked: not turned");
+            "x is up, as requested: rotated by (x, y, z) -> (-y, -z, x)");
+  EXPECT_EQ(read("a.obj", obj, {{}, 'z'}).upRule, "z is up, as requested: not rotated");
 }
 
 TEST_F(ReadMeshFile, TurnsAreProper) {
@@ -126,7 +126,7 @@ TEST_F(ReadMeshFile, TurnsAreProper) {
   }
 }
 
-// Bad input: each message in full.
+// Bad input. The tests compare whole messages.
 
 class MeshFileComplaint : public MeshFileTest {};
 
@@ -142,12 +142,12 @@ TEST_F(MeshFileComplaint, FilesThatAreNone) {
 TEST_F(MeshFileComplaint, Options) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(complaint("a.obj", objTetrahedron, {0.0, {}}),
-            "a.obj: metres per unit are a finite number above 0, not 0");
+            "a.obj: metres per unit must be a finite number above 0, not 0");
   EXPECT_EQ(complaint("a.obj", objTetrahedron, {-1.5, 'w'}),
-            "a.obj: metres per unit are a finite number above 0, not -1.5\n"
-            "a.obj: the up-axis is x, y or z, not \"w\"");
+            "a.obj: metres per unit must be a finite number above 0, not -1.5\n"
+            "a.obj: the up-axis must be x, y or z, not \"w\"");
   EXPECT_EQ(complaint("a.obj", objTetrahedron, {nan, {}}),
-            "a.obj: metres per unit are a finite number above 0, not nan");
+            "a.obj: metres per unit must be a finite number above 0, not nan");
   EXPECT_EQ(complaint("a.obj", "v 1e300 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3", {1e10, {}}),
             "a.obj: its coordinates times 1e+10 m per unit are too large for a double");
 }
@@ -172,14 +172,14 @@ TEST_F(MeshFileComplaint, ObjVertices) {
   EXPECT_EQ(complaint("a.obj", "v 0 0 -inf" + face), "a.obj:1: coordinate \"-inf\" is not finite");
   EXPECT_EQ(complaint("a.obj", "v 1e999 0 0" + face),
             "a.obj:1: coordinate \"1e999\" is too large for a double");
-  // Beyond long double's exponents too.
+  // These are beyond the exponents of long double, too.
   for (const std::string word : {"1e5000", "-1e5000", "1e99999999999999999999"})
     EXPECT_EQ(complaint("a.obj", "v " + word + " 0 0" + face),
               "a.obj:1: coordinate \"" + word + "\" is too large for a double");
   EXPECT_EQ(complaint("a.obj", "v 1e-5000 -1e-99999999999999999999 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
             "no complaint");
   EXPECT_EQ(complaint("a.obj", "v 0 0" + face), "a.obj:1: a vertex has 3 coordinates, found 2");
-  const std::string right = " is not a number; decimal numbers such as -1.25e-3 are";
+  const std::string right = " is not a number; write decimal numbers such as -1.25e-3";
   EXPECT_EQ(complaint("a.obj", "v 0 1,5 0" + face), "a.obj:1: coordinate \"1,5\"" + right);
   EXPECT_EQ(complaint("a.obj", "v 0 0x1 +-2" + face), "a.obj:1: coordinate \"0x1\"" + right);
   EXPECT_EQ(complaint("a.obj", "v 0 0 +-2" + face), "a.obj:1: coordinate \"+-2\"" + right);
@@ -188,13 +188,13 @@ TEST_F(MeshFileComplaint, ObjVertices) {
 TEST_F(MeshFileComplaint, ObjFaces) {
   const std::string vertices = "v 0 0 0\nv 0 1 0\nv 0 0 1\n";
   EXPECT_EQ(complaint("a.obj", vertices + "f 1 2 0"),
-            "a.obj:4: face corner 0: vertices count from 1, and back from -1");
+            "a.obj:4: face corner 0 is out of range: vertices count from 1, or backwards from -1");
   EXPECT_EQ(complaint("a.obj", vertices + "f 1 2 4"),
             "a.obj:4: face corner 4 is out of range: the file has 3 vertices");
   EXPECT_EQ(complaint("a.obj", vertices + "f 1 2 5000000000"),
             "a.obj:4: face corner 5000000000 is out of range: the file has 3 vertices");
   EXPECT_EQ(complaint("a.obj", vertices + "f 1 2 -4\nv 1 1 1"),
-            "a.obj:4: face corner -4 is out of range: 3 vertices stand above it");
+            "a.obj:4: face corner -4 is out of range: 3 vertices come before it");
   EXPECT_EQ(complaint("a.obj", vertices + "f 1 2"),
             "a.obj:4: a face has at least 3 corners, found 2");
   EXPECT_EQ(complaint("a.obj", vertices + "f"), "a.obj:4: a face has at least 3 corners, found 0");
@@ -227,7 +227,7 @@ TEST_F(MeshFileComplaint, BinaryStl) {
       "a.stl: binary STL of 4294967295 triangles: expected 214748364834 bytes, found 88: it is cut "
       "short");
   EXPECT_EQ(complaint("a.stl", "hello"),
-            "a.stl: is no STL: an ASCII one begins with \"solid\", a binary one has at least 84 "
+            "a.stl: is not an STL file: ASCII begins with \"solid\", binary has at least 84 "
             "bytes, found 5");
   std::string nan = whole;
   nan.replace(84 + 50 + 24, 4, bytesOf(std::numeric_limits<float>::quiet_NaN()));
@@ -256,7 +256,7 @@ TEST_F(MeshFileComplaint, AsciiStl) {
   EXPECT_EQ(complaint("a.stl", replaced("vertex 0 1 0", "vertex 0 inf 0")),
             "a.stl:5: coordinate \"inf\" is not finite");
   EXPECT_EQ(complaint("a.stl", replaced("vertex 0 1 0", "vertex 0 a 0")),
-            "a.stl:5: coordinate \"a\" is not a number; decimal numbers such as -1.25e-3 are");
+            "a.stl:5: coordinate \"a\" is not a number; write decimal numbers such as -1.25e-3");
   EXPECT_EQ(complaint("a.stl", replaced("  vertex 0 1 0\n", "")),
             "a.stl:6: expected vertex, found \"endloop\"");
   EXPECT_EQ(complaint("a.stl", replaced(" endloop", " vertex 1 1 1\n endloop")),
@@ -271,12 +271,12 @@ TEST_F(MeshFileComplaint, PlyHeader) {
   const std::string vertex =
       "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
-  EXPECT_EQ(complaint("a.ply", "plx\n"), "a.ply:1: a PLY file begins with the line \"ply\"");
+  EXPECT_EQ(complaint("a.ply", "plx\n"), "a.ply:1: a PLY file must begin with the line \"ply\"");
   EXPECT_EQ(complaint("a.ply", "ply\nformat binary 1.0\n"),
-            "a.ply:2: unknown format \"binary\"; right are ascii, binary_little_endian and "
+            "a.ply:2: unknown format \"binary\"; expected ascii, binary_little_endian or "
             "binary_big_endian");
   EXPECT_EQ(complaint("a.ply", "ply\nformat ascii 2.0\n"),
-            "a.ply:2: unknown version \"2.0\"; 1.0 is known");
+            "a.ply:2: unknown version \"2.0\"; expected 1.0");
   EXPECT_EQ(complaint("a.ply", "ply\nend_header\n"), "a.ply:2: the header has no line \"format\"");
   EXPECT_EQ(complaint("a.ply", format + vertex),
             "a.ply:7: the file ends where end_header should come: it is cut short");
@@ -294,19 +294,19 @@ TEST_F(MeshFileComplaint, PlyHeader) {
                           "element face 1\nproperty list uchar float vertex_indices\nend_header\n"),
             "a.ply: element \"face\" needs one list \"vertex_indices\" of an integer type");
   EXPECT_EQ(complaint("a.ply", format + "element vertex -3\n"),
-            "a.ply:3: element \"vertex\": its count \"-3\" is not an integer from 0");
+            "a.ply:3: element \"vertex\": its count \"-3\" must be an integer of at least 0");
   EXPECT_EQ(complaint("a.ply", format + vertex + vertex),
-            "a.ply:7: element \"vertex\" is there twice");
+            "a.ply:7: element \"vertex\" appears twice");
   EXPECT_EQ(complaint("a.ply", format + "property float x\n"),
-            "a.ply:3: a property stands before the first element");
+            "a.ply:3: a property comes before the first element");
   EXPECT_EQ(complaint("a.ply", format + "element vertex 1\nproperty half x\n"),
-            "a.ply:4: unknown type \"half\"; right are char, uchar, short, ushort, int, uint, "
-            "float, double, and "
+            "a.ply:4: unknown type \"half\"; expected char, uchar, short, ushort, int, uint, "
+            "float, double, or "
             "int8 to float64");
   EXPECT_EQ(complaint("a.ply", format + "element face 1\nproperty list float int vertex_indices\n"),
-            "a.ply:4: the count of a list is of an integer type");
+            "a.ply:4: the count of a list must have an integer type");
   EXPECT_EQ(complaint("a.ply", format + "elements\n"),
-            "a.ply:3: unknown keyword \"elements\"; right are element, property and end_header");
+            "a.ply:3: unknown keyword \"elements\"; expected element, property or end_header");
 }
 
 TEST_F(MeshFileComplaint, PlyBody) {
@@ -330,7 +330,7 @@ TEST_F(MeshFileComplaint, PlyBody) {
   EXPECT_EQ(complaint("a.ply", ply(vertices + "3 0 x 2\n")),
             "a.ply:13: face 1 of 1: \"x\" is not an integer");
   EXPECT_EQ(complaint("a.ply", ply(vertices + "-3 0 1 2\n")),
-            "a.ply:13: face 1 of 1: a list of -3 items; counts are at least 0");
+            "a.ply:13: face 1 of 1: a list of -3 values; a count must be at least 0");
   EXPECT_EQ(complaint("a.ply", ply(vertices + "3 0 1")),
             "a.ply:13: face 1 of 1: the file ends here: it is cut short");
   EXPECT_EQ(complaint("a.ply", ply(vertices + "3 0 1 2\n7\n")),

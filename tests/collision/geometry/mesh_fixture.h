@@ -29,7 +29,7 @@ class MeshFileTest : public testing::Test {
     return readMeshFile(write(name, bytes), options);
   }
 
-  /// The message of the InputError that reading throws, with the folder taken out of it.
+  /// Returns the message of the InputError that reading throws, without the folder's path.
   std::string complaint(const std::filesystem::path& file,
                         const MeshFileOptions& options = {}) const {
     try {
@@ -52,7 +52,7 @@ class MeshFileTest : public testing::Test {
   std::filesystem::path folder_ = newFolder();
 };
 
-/// The bytes of numbers, least significant first or last.
+/// Returns the bytes of a number, least or most significant first.
 template <class T>
 std::string bytesOf(T value, bool bigEndian = false) {
   std::string bytes;
@@ -96,7 +96,7 @@ inline std::string binaryStlTetrahedron(std::string header = "solid, but binary"
                                   {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                   {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
   for (const auto& facet : corners) {
-    bytes += std::string(12, '\xff');  // a normal of NaNs is nobody's business
+    bytes += std::string(12, '\xff');  // a normal of NaNs, which must not matter
     for (const auto& corner : facet) {
       for (const float x : corner) bytes += bytesOf(x);
     }

@@ -1,5 +1,5 @@
-// Damaged files never crash or hang a reader: what comes back is a sound mesh or an InputError in
-// plain words.
+// Damaged files never crash or hang a reader. It returns a sound mesh, or throws an InputError
+// whose text has no control characters.
 #include <random>
 
 #include "collision/geometry/mesh_health.h"
@@ -82,7 +82,7 @@ class MeshFuzz : public MeshFileTest {
         ++refused;
       }
     }
-    EXPECT_GT(sound, mutations / 100);  // else the mutations are too wild to test much
+    EXPECT_GT(sound, mutations / 100);  // otherwise the mutations are too wild to test much
     EXPECT_GT(refused, mutations / 10);
   }
 };
@@ -111,8 +111,8 @@ TEST_F(MeshFuzz, Off) {
 }
 
 TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
-  // Cut anywhere before its last face is whole, a file is refused; OBJ has no end mark and may lose
-  // whole lines.
+  // A file that is cut before the end of its last face is refused. OBJ is left out: it has no end
+  // mark, so it may lose whole lines unnoticed.
   const auto noticed = [&](const std::string& name, const std::string& whole, std::size_t tail) {
     for (std::size_t size = 0; size + tail < whole.size(); ++size) {
       EXPECT_THROW(read(name, whole.substr(0, size)), InputError)
@@ -124,7 +124,7 @@ TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
   noticed("a.ply", binaryPlyTetrahedron(true), 0);
   noticed("a.stl", asciiStlTetrahedron(), std::string(" a tetrahedron\n").size());
   noticed("a.ply", asciiPlyTetrahedron,
-          std::string("an\n").size());  // "n" is a word, and no one reads it
+          std::string("an\n").size());  // the last word, "nan", may be cut: no reader uses it
 }
 
 }  // namespace

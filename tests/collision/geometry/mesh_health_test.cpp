@@ -47,7 +47,7 @@ TEST(InspectMesh, CornersCountByPositionNotByIndex) {
   soup.vertices[0] = {-0.0, 0, 0};
   EXPECT_TRUE(inspectMesh(soup).watertight);
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(inspectMesh(soup).min[i]));
-  for (Vec3& vertex : soup.vertices) vertex = -vertex;  // its bounds end at -0
+  for (Vec3& vertex : soup.vertices) vertex = -vertex;  // the upper bounds become -0
   const MeshHealth health = inspectMesh(soup);
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(health.max[i]));
 }
@@ -72,7 +72,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   for (auto& t : inwards.triangles) std::swap(t[0], t[1]);
   EXPECT_DOUBLE_EQ(inspectMesh(inwards).volume.value_or(0), -1.0 / 6);
 
-  TriangleMesh doubled = tetrahedron();  // as SketchUp exports: both sides of each face
+  TriangleMesh doubled = tetrahedron();  // both sides of each face, as SketchUp exports
   for (const auto& t : tetrahedron().triangles) doubled.triangles.push_back({t[1], t[0], t[2]});
   const MeshHealth health = inspectMesh(doubled);
   EXPECT_EQ(health.triangles, 8u);
@@ -83,7 +83,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(health.whyNotWatertight,
             "6 of its edges have three triangles or more, repeated ones included");
 
-  TriangleMesh finned = tetrahedron();  // closed but for a triangle that is a line
+  TriangleMesh finned = tetrahedron();  // closed, and a collinear triangle at the edge 0-1
   finned.vertices.push_back({2, 0, 0});
   finned.triangles.push_back({0, 1, 4});
   EXPECT_EQ(inspectMesh(finned).whyNotWatertight,
@@ -92,7 +92,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   fan.vertices.push_back({1, 1, 1});
   fan.triangles.push_back({0, 1, 4});
   EXPECT_EQ(inspectMesh(fan).whyNotWatertight, "2 of its edges have a triangle on one side only");
-  // Three closed surfaces at one edge are six triangles at it.
+  // Three closed surfaces that share an edge: six triangles use it.
   TriangleMesh book;
   for (const double x : {1.0, 2.0, 3.0}) {
     TriangleMesh page = tetrahedron();
@@ -103,7 +103,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
       book.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
   EXPECT_EQ(inspectMesh(book).whyNotWatertight, "1 of its edges have three triangles or more");
-  // A triangle that is a line closes what is open there: that isn't the reason.
+  // A collinear triangle closes an opening, so the opening is not given as the reason.
   TriangleMesh filled = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
                          {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 1}}};
   EXPECT_TRUE(inspectMesh(filled).watertight);
@@ -117,7 +117,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
   EXPECT_EQ(inspectMesh(TriangleMesh{}).whyNotWatertight, "there are no triangles");
 }
 
-/// Random triangles on few points, against the header's words, edge by edge.
+/// Compares random triangles on few points with the definitions in mesh_health.h, edge by edge.
 TEST(InspectMesh, EdgesByTheirDefinition) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));

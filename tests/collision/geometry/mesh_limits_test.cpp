@@ -1,4 +1,5 @@
-// Mesh files that claim or need more than there is: an error, in the memory that their size allows.
+// Mesh files that claim or need too much are refused, without memory beyond what their size
+// justifies.
 #include <gmock/gmock.h>
 
 #include "planner/benchmark/child_process.h"
@@ -9,10 +10,10 @@ namespace {
 
 class MeshLimits : public MeshFileTest {
  protected:
-  /// What reading says, in a process that may take 64 MB.
+  /// Returns the message of reading a file in a process that may allocate 64 MB.
   std::string complaintInLittleMemory(const std::string& name, const std::string& bytes) const {
 #ifdef __SANITIZE_ADDRESS__
-    const std::size_t memory = 0;  // it ends the process where memory ends
+    const std::size_t memory = 0;  // no limit: the sanitizer would end the process at it
 #else
     const std::size_t memory = 64 << 20;
 #endif
@@ -51,7 +52,7 @@ TEST_F(MeshLimits, PlyCounts) {
           ": the header promises 90000000 of element \"vertex\", at least " +
               std::string(format[0] == 'a' ? "6" : "3") + " bytes each, but 10" +
               (format[0] == 'a' ? "1" : "0") + " bytes are left: the file is cut short");
-    // One without properties takes no room.
+    // An element without properties takes no bytes, so its count is no fault.
     fault("element dust 9000000000000000000\nelement vertex 9\n" + xyz + "element face 99\n" +
               corners,
           format[0] == 'a' ? ":11: vertex 1 of 9: the file ends here: it is cut short"
@@ -74,7 +75,7 @@ TEST_F(MeshLimits, PlyLists) {
          ":13: face 1 of 1: the file ends here: it is cut short");
 }
 
-/// Every name of a header is compared with all others.
+/// Headers are limited, since every name is compared with all others.
 TEST_F(MeshLimits, PlyHeaders) {
   std::string elements, properties = "element vertex 1\n";
   for (int i = 0; i < 100'000; ++i) {
@@ -97,16 +98,17 @@ TEST_F(MeshLimits, StlOffAndObj) {
   expect("a.off", "OFF\n-4 1 0\n0 0 0\n",
          ":2: the number of vertices is \"-4\"; a whole number is needed");
   expect("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n",
-         ":6: a face of 4000000000 corners has 3");
+         ":6: a face of 4000000000 corners lists only 3");
   expect("a.obj", "v 0 0 0\nf 1 1 1000000000000000000\n",
          ":2: face corner 1000000000000000000 is out of range: the file has 1 vertices");
   expect("a.obj", "v 0 0 0\nf 1 1 -1000000000000000000\n",
-         ":2: face corner -1000000000000000000 is out of range: 1 vertices stand above it");
+         ":2: face corner -1000000000000000000 is out of range: 1 vertices come before it");
   expect("a.obj", "v 0 0 0\nf 1 1 99999999999999999999\n",
          ":2: face corner \"99999999999999999999\" is not of the form 1, 1/2, 1/2/3 or 1//3");
 }
 
-/// One face of 10^8 corners and more, in a file that honestly has them.
+/// The count of triangles is limited even if the file really has them: one face of more than 10^8
+/// corners.
 TEST_F(MeshLimits, PolygonsOfTooManyTriangles) {
   if (!stressAsked()) GTEST_SKIP() << "2 GB of memory: set CORRIDOR_STRESS";
   std::string face = "v 0 0 0\nf";
@@ -130,19 +132,18 @@ TEST_F(MeshLimits, SizesOfFiles) {
     return complaint(file);
   };
   EXPECT_EQ(sparse("a.stl", (std::uint64_t{4} << 30) + 1),
-            "a.stl: has 4294967297 bytes; at most 4294967296 are read of a mesh file");
+            "a.stl: has 4294967297 bytes, more than 4294967296, the limit for a mesh file");
   for (const char* const name : {"a.dae", "a.glb"})
     EXPECT_EQ(sparse(name, (std::uint64_t{1} << 30) + 1),
               std::string(name) +
-                  ": has 1073741825 bytes; at most 1073741824 are read of a mesh "
-                  "file");
+                  ": has 1073741825 bytes, more than 1073741824, the limit for a mesh file");
 }
 
 TEST_F(MeshLimits, OnlyTheFormatsThatAreWrittenDown) {
   const std::string formats =
-      " stands for no format that is read; a mesh is needed as .obj, .stl, .ply, .off, .dae, "
+      " is not supported; save the mesh as .obj, .stl, .ply, .off, .dae, "
       ".gltf, .glb, .fbx, .3ds, .x3d, .3mf or .amf";
-  // Text of a format that is read, which assimp would find out.
+  // The content is OFF, which assimp would recognise whatever the extension.
   const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const char* const extension : {".blend", ".md2", ".unknown"}) {
     EXPECT_EQ(complaint("a" + std::string(extension), off),

@@ -1,4 +1,5 @@
-// The tables of mesh figures in the shared data's guides, which others made, against ours.
+// Compares inspectMesh with tables of mesh figures in the READMEs of the shared data, which other
+// programs computed.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -23,8 +24,8 @@ struct Row {
   std::array<double, 3> min{}, max{};
 };
 
-/// Rows "| file | triangles | distinct | min | max | degenerate | sliver | boundary | non-manifold
-/// |" of a Markdown file.
+/// Returns the rows "| file | triangles | distinct | min | max | degenerate | sliver | boundary |
+/// non-manifold |" of a Markdown file.
 std::vector<Row> rowsOf(const std::filesystem::path& guide) {
   std::ifstream in(guide);
   std::vector<Row> rows;
@@ -47,7 +48,7 @@ std::vector<Row> rowsOf(const std::filesystem::path& guide) {
   return rows;
 }
 
-/// The tables give five digits.
+/// Expects a row of a table, which has five digits.
 void expectRow(const MeshHealth& health, const Row& row) {
   SCOPED_TRACE(row.file);
   EXPECT_EQ(health.triangles, row.triangles);

@@ -39,15 +39,15 @@ TEST_F(Off, Faults) {
   const std::string points = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   fault("solid\n", "1: begins with \"solid\"; \"OFF\", \"COFF\", \"NOFF\" or \"STOFF\" is needed");
   fault("4OFF\n", "1: begins with \"4OFF\"; \"OFF\", \"COFF\", \"NOFF\" or \"STOFF\" is needed");
-  fault("OFF BINARY\n", "1: is binary, which is not read: text is");
+  fault("OFF BINARY\n", "1: is binary, which is not supported; save it as text");
   fault("OFF\n3 x 0\n", "2: the number of faces is \"x\"; a whole number is needed");
   fault("OFF\n-3 1 0\n", "2: the number of vertices is \"-3\"; a whole number is needed");
   fault("OFF\n3\n          ", "3: the number of faces is \"\"; a whole number is needed");
   fault("OFF\n99999 1 0\n", "2: 99999 vertices are more than the file has bytes for");
-  fault("OFF\n3 1\n          ", "2: the number of edges is missing (any will do)");
-  // Else the first vertex would be taken for it, and with one face too many nobody would know.
+  fault("OFF\n3 1\n          ", "2: the number of edges is missing; any number will do");
+  // Otherwise the first vertex would be taken for the count, and one face too many would hide it.
   fault("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n",
-        "2: the number of edges is missing (any will do)");
+        "2: the number of edges is missing; any number will do");
   fault("OFF 3 1 0 0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n",
         "1: the numbers of vertices, faces and edges are followed by \"0\"; a new line is needed");
   fault("OFF\n3 1 0\n0 0 0\n1 0 0\n", "5: ends after 2 of 3 vertices");
@@ -57,16 +57,17 @@ TEST_F(Off, Faults) {
   fault(points + "3 0 1 7\n", "6: face corner 7 is out of range: the file has 3 vertices, from 0");
   fault(points + "3 0 1 -1\n",
         "6: face corner -1 is out of range: the file has 3 vertices, from 0");
-  fault(points + "3 0 1\n", "6: a face of 3 corners has 2");
+  fault(points + "3 0 1\n", "6: a face of 3 corners lists only 2");
   fault(points + "x 0 1 2\n", "6: a face begins with the number of its corners, not \"x\"");
   fault(points + "3 0 1 2\n3 0 1 2\n",
-        "7: ends with the last of its 1 faces, and goes on with \"3\"");
+        "7: \"3\" comes after the last of the 1 faces: the counts are wrong");
   EXPECT_EQ(complaint("a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n"),
             "a.off: the mesh has no faces; triangles or polygons are needed, lines and points are "
             "not read");
 }
 
-/// By OMPL.app's rules assimp reads it, one of whose assertions it breaks: a fault of the file.
+/// A failed assertion of assimp, which reads OFF by OMPL.app's rules, is reported as a fault of the
+/// file.
 TEST_F(Off, AssimpsAssertionsAreFaults) {
   const auto file = write("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   try {

@@ -46,7 +46,7 @@ TEST_P(Fits, SharedMeshes) {
   }
 }
 
-/// Triangles of size 2^-i around a point: a tree about as deep as it has triangles.
+/// Triangles of size 2^-i around a point make a tree about as deep as it has triangles.
 TEST_P(Fits, DeepTreesNeedNoCallStack) {
   TriangleMesh mesh;
   for (int i = 0; i < 1'000; ++i) {
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(All, Fits,
                                                                  : "hull";
                          });
 
-/// One leaf around a primitive, proved in rationals, and tight.
+/// The tree of a primitive is one leaf whose box contains it and is tight.
 TEST(ObbTree, OfAConvexPart) {
   std::mt19937_64 random(test::testSeed(6));
   const auto real = [&](double low = -1, double high = 1) {
@@ -98,7 +98,7 @@ TEST(ObbTree, OfAConvexPart) {
     const double thin = n % 7 == 0 ? 1e-6 : 1, offset = n % 3 == 0 ? 1e6 : 1;
     const double r = thin * real(0.1, 1), l = (n % 2 ? thin : 1) * real(0.1, 1);
     Primitive p;
-    double wanted = 0;  // sum of half extents
+    double wanted = 0;  // expected sum of half extents
     switch (n % 5) {
       case 0:
         p = Box{Vec3(l, r, 0.5)}, wanted = (l + r + 0.5) / 2;
@@ -134,11 +134,11 @@ TEST(ObbTree, OfAConvexPart) {
   }
 }
 
-/// A box is fitted to the shape, not to its tessellation: refining one face of a cube a
+/// A box is fitted to the shape, not to its tessellation. Refining one face of a cube a
 /// thousandfold changes the moments of neither the surface nor the hull.
 TEST(ObbFrame, MomentsIgnoreTessellation) {
   const Vec3 size(4, 2, 1);
-  const auto cube = [&](int n) {  // the face x = 4 in n × n cells, the others in one
+  const auto cube = [&](int n) {  // the face x = 4 has n × n cells, the others have one
     std::vector<Triangle> all;
     const auto quad = [&](Vec3 p, Vec3 u, Vec3 v) {
       all.push_back({p, p + u, p + u + v});
@@ -157,13 +157,13 @@ TEST(ObbFrame, MomentsIgnoreTessellation) {
       EXPECT_GT(std::abs(coarse.axes.col(k).dot(fine.axes.col(k))), 1 - 1e-13);
     EXPECT_GT(std::abs(fine.axes(0, 0)), 1 - 1e-13) << "longest axis first";
   }
-  // What the vertex fit is known for: it is pulled towards the fine face.
+  // The vertex fit has the opposite property: it is pulled towards the fine face.
   EXPECT_GT(
       (fitFrame(cube(1), ObbFit::vertices).mean - fitFrame(cube(32), ObbFit::vertices).mean).norm(),
       1.0);
 }
 
-/// Inner geometry misleads the moments of the triangles, not those of the hull.
+/// Inner geometry changes the moments of the triangles, not those of the hull.
 TEST(ObbFrame, HullIgnoresInnerGeometry) {
   std::mt19937_64 random(test::testSeed(2));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

@@ -14,8 +14,8 @@
 namespace corridor {
 namespace {
 
-std::string complaint(const TreeWords& words) {
-  const auto wrong = wrongWordIn(words);
+std::string complaint(const TreeNames& words) {
+  const auto wrong = invalidNameIn(words);
   return wrong ? wrong->key + ": " + wrong->text : "";
 }
 
@@ -28,15 +28,15 @@ TEST(TreeKinds, EveryNameHasAKindOfItsOwn) {
         kinds.insert(treesNamed({volume.name, fit, overlap}).trees);
       }
   EXPECT_EQ(kinds.size(), 11u);
-  EXPECT_EQ(*kinds.begin(), TreeKind::wideObb);
+  EXPECT_EQ(*kinds.begin(), TreeKind::obb4);
   EXPECT_EQ(*kinds.rbegin(), TreeKind::kdop26);
 
-  const auto is = [](TreeKind trees, const TreeWords& words) {
+  const auto is = [](TreeKind trees, const TreeNames& words) {
     return treesNamed(words).trees == trees;
   };
-  EXPECT_TRUE(is(TreeKind::wideObb, {}));
-  EXPECT_TRUE(is(TreeKind::wideObb, {"obb", "hull", "sat"}));
-  EXPECT_TRUE(is(TreeKind::obb, {"obb-binary", "", ""}));
+  EXPECT_TRUE(is(TreeKind::obb4, {}));
+  EXPECT_TRUE(is(TreeKind::obb4, {"obb", "hull", "sat"}));
+  EXPECT_TRUE(is(TreeKind::obbBinary, {"obb-binary", "", ""}));
   EXPECT_TRUE(is(TreeKind::obbGjk, {"obb-binary", "", "gjk"}));
   EXPECT_TRUE(is(TreeKind::obbLinearProgram, {"obb-binary", "", "lp"}));
   EXPECT_TRUE(is(TreeKind::obbEdgeFace, {"obb-binary", "", "edge-face"}));
@@ -52,9 +52,9 @@ TEST(TreeKinds, EveryNameHasAKindOfItsOwn) {
   EXPECT_EQ(treesNamed({"aabb", "plain", ""}).fit, ObbFit::triangles);
 }
 
-TEST(TreeKinds, SpelledOut) {
-  const TreeWords usual = spelledOut({}), ball = spelledOut({"sphere", "", ""}),
-                  said = spelledOut({"obb-binary", "hull", "lp"});
+TEST(TreeKinds, WithDefaults) {
+  const TreeNames usual = withDefaults({}), ball = withDefaults({"sphere", "", ""}),
+                  said = withDefaults({"obb-binary", "hull", "lp"});
   EXPECT_EQ(usual.volume + " " + usual.fit + " " + usual.overlap, "obb triangles sat");
   EXPECT_EQ(ball.volume + " " + ball.fit + " " + ball.overlap, "sphere plain centers");
   EXPECT_EQ(said.volume + " " + said.fit + " " + said.overlap, "obb-binary hull lp");
@@ -65,22 +65,22 @@ TEST(TreeKinds, WrongWordsAreToldWithWhatThereIs) {
             "volume: unknown volume \"spheres\"; did you mean \"sphere\"?; there are: obb, "
             "obb-binary, aabb, sphere, rss, kdop14, kdop18, kdop26");
   EXPECT_EQ(complaint({"sphere", "", "gjk"}),
-            "overlap: \"gjk\" is of volume obb-binary; of sphere there is: centers");
+            "overlap: \"gjk\" is for volume obb-binary; volume sphere has: centers");
   EXPECT_EQ(complaint({"", "", "gjk"}),
-            "overlap: \"gjk\" is of volume obb-binary; of obb there is: sat");
+            "overlap: \"gjk\" is for volume obb-binary; volume obb has: sat");
   EXPECT_EQ(complaint({"aabb", "hull", ""}),
-            "fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there is: plain");
+            "fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
   EXPECT_EQ(complaint({"obb-binary", "", "gkj"}),
-            "overlap: unknown overlap \"gkj\" of obb-binary; did you mean \"gjk\"?; there are: "
+            "overlap: unknown overlap \"gkj\"; did you mean \"gjk\"?; volume obb-binary has: "
             "sat, gjk, lp, edge-face");
   EXPECT_EQ(complaint({"rss", "hul", ""}),
-            "fit: unknown fit \"hul\" of rss; did you mean \"hull\"?; there are: triangles, "
+            "fit: unknown fit \"hul\"; did you mean \"hull\"?; volume rss has: triangles, "
             "vertices, hull");
   EXPECT_THROW(treesNamed({"aabb", "hull", ""}), std::invalid_argument);
-  EXPECT_THROW(spelledOut({"cone", "", ""}), std::invalid_argument);
+  EXPECT_THROW(withDefaults({"cone", "", ""}), std::invalid_argument);
 }
 
-/// A body's trees are built at first need, each once, by whoever comes first.
+/// A body's trees are built at first need, each exactly once, whichever thread comes first.
 TEST(TreeKinds, BodiesBuildTheTreesThatAreAskedFor) {
   std::mt19937_64 random(test::testSeed(51));
   const Body mesh("mesh", test::soup(random, 500, 0.2)), part("part", placed(Sphere{1}, {}));
@@ -89,7 +89,7 @@ TEST(TreeKinds, BodiesBuildTheTreesThatAreAskedFor) {
   std::vector<std::thread> threads;
   for (std::size_t k = 0; k < seen.size(); ++k)
     threads.emplace_back([&, k] {
-      // Half of them begin with one kind, the others with another.
+      // Half of the threads begin with one kind, the others with another.
       for (const TreeKind trees :
            {k % 2 ? TreeKind::rss : TreeKind::sphere, k % 2 ? TreeKind::sphere : TreeKind::rss})
         withVolume(trees, [&]<class Volume, class Overlap>() {
@@ -102,7 +102,8 @@ TEST(TreeKinds, BodiesBuildTheTreesThatAreAskedFor) {
   EXPECT_EQ(std::set<const void*>(seen.begin(), seen.end()).size(), 1u);
   EXPECT_TRUE(mesh.treeBuilt());
   EXPECT_FALSE(part.treeBuilt());
-  for (const TreeKind trees : {TreeKind::obb, TreeKind::aabb, TreeKind::kdop14, TreeKind::kdop26})
+  for (const TreeKind trees :
+       {TreeKind::obbBinary, TreeKind::aabb, TreeKind::kdop14, TreeKind::kdop26})
     withVolume(trees, [&]<class Volume, class Overlap>() {
       EXPECT_FALSE(mesh.volumeTree<Volume>().check());
       EXPECT_FALSE(part.volumeTree<Volume>().check());

@@ -18,7 +18,7 @@ namespace {
 using test::kParams;
 using test::soup;
 
-/// One suite for every volume, each with every way of building.
+/// One suite for every volume; each test runs with every way of building.
 template <class Volume>
 class VolumeTrees : public testing::Test {};
 TYPED_TEST_SUITE(VolumeTrees, test::Volumes, test::VolumeNames);
@@ -76,7 +76,7 @@ TYPED_TEST(VolumeTrees, IdenticalTriangles) {
   }
 }
 
-/// Triangles of size 2^-i around a point, where every split takes one off.
+/// Triangles of size 2^-i around a point: every split at the mean takes off one.
 TYPED_TEST(VolumeTrees, DeepTreesNeedNoCallStack) {
   TriangleMesh mesh;
   for (int i = 0; i < 300; ++i) {
@@ -130,7 +130,7 @@ TYPED_TEST(VolumeTrees, RefitContainsWhatMoved) {
       EXPECT_EQ(interference(tree, {}, b, {}, context).has_value(),
                 interference(VolumeTree<TypeParam>(mesh), {}, b, {}, context).has_value());
     }
-    // Back where it was built: volumes as good as new.
+    // Refitted to the mesh that it was built from, a tree has volumes as good as new.
     const VolumeTree<TypeParam> fresh(mesh, params);
     VolumeTree<TypeParam> again(mesh, params);
     again.refit(mesh);

@@ -16,7 +16,7 @@
 
 namespace corridor::test {
 
-/// What the abstract suites run over: every volume …
+/// The volumes on which the suites for all volumes run.
 using Volumes = testing::Types<Obb, Aabb, BoundingSphere, Rss, Kdop<14>, Kdop<18>, Kdop<26>>;
 struct VolumeNames {
   template <class Volume>
@@ -30,10 +30,10 @@ struct VolumeNames {
   }
 };
 
-/// … every fit of boxes …
+/// The fits of boxes with which these suites run.
 inline constexpr std::pair<ObbFit, const char*> kFits[] = {
     {ObbFit::triangles, "triangles"}, {ObbFit::vertices, "vertices"}, {ObbFit::hull, "hull"}};
-/// … and every way of building.
+/// The ways of building a tree with which these suites run.
 inline constexpr TreeParams kParams[] = {
     {ObbFit::triangles, SplitRule::mean, TreeBuilding::topDown},
     {ObbFit::vertices, SplitRule::mean, TreeBuilding::topDown},
@@ -49,8 +49,9 @@ inline std::string str(const TreeParams& p) {
          (p.building == TreeBuilding::topDown ? ", top-down" : ", bottom-up");
 }
 
-/// The default fit meets every step-th pose of a workload, the others take turns; but not where
-/// there are few poses to build for, unless under CORRIDOR_STRESS.
+/// Returns the poses of a workload to test with the `fit`-th fit. The default fit gets every
+/// step-th pose. The other fits share poses in turn; they are left out where there are too few
+/// poses to build a tree for, unless CORRIDOR_STRESS is set.
 inline std::vector<std::size_t> posesOfFit(const Workload& w, std::size_t step, std::size_t fit,
                                            std::size_t turn) {
   if (fit > 0 && w.poses.size() < 100 && !stressAsked()) return {};

@@ -19,13 +19,13 @@ inline Body bodyOf(TriangleMesh mesh) {
   return Body("", std::move(mesh));
 }
 
-/// How a motion is proved: by a method, and on trees of a kind.
+/// A way to prove a motion: a method, on trees of a kind.
 struct Proof {
-  EdgeMethod method = EdgeMethod::certified;
-  TreeKind trees = TreeKind::wideObb;
+  EdgeMethod method = EdgeMethod::directional;
+  TreeKind trees = TreeKind::obb4;
 
   Proof() = default;
-  Proof(EdgeMethod method_, TreeKind trees_ = TreeKind::wideObb) : method(method_), trees(trees_) {}
+  Proof(EdgeMethod method_, TreeKind trees_ = TreeKind::obb4) : method(method_), trees(trees_) {}
 
   MotionResult operator()(MotionSource& motion, std::span<const MotionPair> pairs,
                           MotionOptions options, QueryContext& context) const {
@@ -42,17 +42,17 @@ inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMo
   return proof(edge, {&pair, 1}, options, context);
 }
 
-/// What a suite that every way to prove motions must pass is run with: all methods, and the default
-/// one on trees of every sort.
+/// The parameters of a suite that every way to prove motions must pass: all methods, and the
+/// default method on trees of every kind.
 inline auto everyProof() {
   using enum EdgeMethod;
-  return testing::Values(Proof(certified), Proof(adaptive), Proof(advancement),
-                         Proof(certified, TreeKind::obb), Proof(certified, TreeKind::obbGjk),
-                         Proof(certified, TreeKind::aabb), Proof(certified, TreeKind::sphere),
-                         Proof(certified, TreeKind::rss), Proof(certified, TreeKind::kdop18),
-                         Proof(adaptive, TreeKind::sphere));
+  return testing::Values(Proof(directional), Proof(adaptive), Proof(advancement),
+                         Proof(directional, TreeKind::obbBinary),
+                         Proof(directional, TreeKind::obbGjk), Proof(directional, TreeKind::aabb),
+                         Proof(directional, TreeKind::sphere), Proof(directional, TreeKind::rss),
+                         Proof(directional, TreeKind::kdop18), Proof(adaptive, TreeKind::sphere));
 }
-/// "obb_binary_gjk": for names of tests.
+/// Returns, for example, "obb_binary_gjk", for the names of tests.
 inline std::string treeName(TreeKind trees) {
   std::string name;
   for (const VolumeKind& kind : volumeKinds())
@@ -67,7 +67,7 @@ inline std::string proofName(const testing::TestParamInfo<Proof>& proof) {
          treeName(proof.param.trees);
 }
 
-/// Triangles about random points within `spread` of the origin.
+/// Returns triangles about random points within `spread` of the origin.
 inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
   TriangleMesh mesh;
@@ -78,8 +78,8 @@ inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, doub
   return mesh;
 }
 
-/// Two poses within 2 m of the origin, most of them centimetres to metres apart, and turned as
-/// much.
+/// Returns two poses within 2 m of the origin, most of them centimetres to metres apart, with
+/// rotations of a similar size in radians.
 inline std::pair<RigidPose, RigidPose> randomEdge(std::mt19937_64& random) {
   const auto real = [&](double low = -1, double high = 1) {
     return std::uniform_real_distribution(low, high)(random);

@@ -1,4 +1,4 @@
-// Of the default method alone; what every method must hold is in edge_methods_test.cpp.
+// Tests of the default method only. Tests for every method are in edge_methods_test.cpp.
 #include "collision/motion/certify_motion.h"
 
 #include <numbers>
@@ -41,8 +41,8 @@ TEST(CertifyMotion, BoxPastAWall) {
   }
 }
 
-/// 10 m along a wall, 1e-10 m beside it and less: along an edge of the cube, diagonally, and with
-/// all of it turned, so that no coordinate is exact (off by 1e-15 m). What it costs is counted, not
+/// 10 m along a wall, at 1e-10 m or less from it: along an edge of the cube, diagonally, and with
+/// everything rotated, so that no coordinate is exact (off by 1e-15 m). The cost is counted, not
 /// timed.
 TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
@@ -68,12 +68,13 @@ TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   }
 }
 
-/// A needle through a hole: free with the clearance that the hole leaves.
+/// A needle through a hole: free while its radius is below that of the hole.
 TEST(CertifyMotion, NeedleThroughAHole) {
   const double hole = 0.1, thick = 0.05;
   TriangleMesh plate;
   const int n = 64;
-  for (int i = 0; i < n; ++i) {  // both faces and the rim of a round hole in a plate z ∈ [0, thick]
+  // Both faces and the rim of a round hole in a plate, z ∈ [0, thick].
+  for (int i = 0; i < n; ++i) {
     const double a = 2 * std::numbers::pi * i / n, b = 2 * std::numbers::pi * (i + 1) / n;
     const Vec3 p(hole * std::cos(a), hole * std::sin(a), 0),
         q(hole * std::cos(b), hole * std::sin(b), 0), up(0, 0, thick);
@@ -82,8 +83,8 @@ TEST(CertifyMotion, NeedleThroughAHole) {
     add(plate, p, q, q + up), add(plate, p, p + up, q + up);
   }
   const Body tree = bodyOf(plate);
-  for (const double radius :
-       {0.05, 0.0985, 0.0999, 0.1001}) {  // the hole's inscribed radius is 0.1·cos(π/64) = 0.09988
+  // The inscribed radius of the hole is 0.1·cos(π/64) = 0.09988.
+  for (const double radius : {0.05, 0.0985, 0.0999, 0.1001}) {
     TriangleMesh needle;
     for (int i = 0; i < 6; ++i) {
       const double a = std::numbers::pi * i / 3, b = std::numbers::pi * (i + 1) / 3;
@@ -104,8 +105,9 @@ TEST(CertifyMotion, NeedleThroughAHole) {
 
 // ---- random edges ----
 
-/// Metamorphic (numerics, test 4), and static samples of what is called free: the exact
-/// interference test at rounded poses of the curve, all inside the default tube.
+/// Metamorphic: `earliest`, the reversed motion and margins must agree with the verdict. What is
+/// called free is also sampled: the exact interference test at rounded poses of the curve, all
+/// inside the default tube.
 TEST(CertifyMotion, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
   const int count = (test::stressAsked() ? 450'000 : 25'000) / test::kSlowdown;
@@ -155,9 +157,10 @@ TEST(CertifyMotion, RandomEdges) {
   EXPECT_LE(undecided, 1 + count / 100'000);
 }
 
-// ---- found by review ----
+// ---- faults found in reviews ----
 
-/// Closest points 1e-163 apart: their squared distance underflows, and the direction was infinite.
+/// Closest points 1e-163 apart: their squared distance underflows, which once made the direction
+/// infinite.
 TEST(CertifyMotion, GapWhoseSquareUnderflows) {
   const double e = 1e-163;
   TriangleMesh a, b;
@@ -172,9 +175,9 @@ TEST(CertifyMotion, GapWhoseSquareUnderflows) {
   EXPECT_NE(certify(moving, fixed, through, options, context).verdict, MotionVerdict::free);
 }
 
-/// 2π in double is off by 2.4e-16: after 10^8 turns, half a turn goes the other way round.
-/// The way between large yaws is that of real arithmetic: a remainder by 2π in double would take
-/// the longer way here.
+/// Between large yaws the body rotates as in real arithmetic. A remainder by 2π in double would
+/// give the longer way here: 2π in double is off by 2.4e-16, which after 10^8 revolutions is enough
+/// to change which of the two ways is shorter.
 TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
   const double yaw = 628318558.99229252;  // 3.141592647 and whole turns
   const RigidMotion turn = RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {});
@@ -184,8 +187,8 @@ TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
   EXPECT_GT(turn.at(0.5).m(1, 0), 0.99) << "counterclockwise";
 }
 
-/// A triangle far larger than the other: closest points are rounded to 1e-16 of the larger, and a
-/// direction taken from them is tilted by more than the gap.
+/// One triangle is far larger than the other. Closest points are rounded to 1e-16 of the larger
+/// one, so that a direction taken from them is tilted by more than the gap.
 TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
   std::mt19937_64 random(test::testSeed(5));
   std::uniform_real_distribution<double> u(-1, 1);
@@ -195,7 +198,7 @@ TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
       const Eigen::Quaterniond q(u(random), u(random), u(random), u(random));
       const Mat3 R = q.normalized().toRotationMatrix();
       const Vec3 d(std::cos(0.1 * i), std::sin(0.1 * i), 0);
-      TriangleMesh a, b;  // a's edge at the height 0, b's edge or corner at the height `gap`
+      TriangleMesh a, b;  // a's edge at height 0, b's edge or corner at height `gap`
       add(a, R * Vec3(-large, 0, 0), R * Vec3(0.7 * large, 0, 0),
           R * Vec3(u(random), u(random), i % 2 ? -1 : 0) * large);
       add(b, R * (-0.7 * d + gap * Vec3::UnitZ()),
@@ -210,7 +213,8 @@ TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
     }
 }
 
-/// Indivisible leaves and static probes count too; the greatest limit is none.
+/// Tests in leaves, and tests for contact at single poses, count as work, too. The largest limit
+/// means no limit.
 TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   TriangleMesh many;
   for (int i = 0; i < 300; ++i) add(many, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
@@ -221,18 +225,18 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   options.tolerance = 1e-7;
   const RigidMotion motion =
       RigidMotion::spatial(at(Vec3(0, 0, 0.3)), turned(Vec3(0, 0, 0.4), 0.3, Vec3(1, 2, 3)), {});
-  for (const TreeKind trees : {TreeKind::wideObb, TreeKind::obb, TreeKind::sphere})
+  for (const TreeKind trees : {TreeKind::obb4, TreeKind::obbBinary, TreeKind::sphere})
     for (const std::uint64_t limit : {std::uint64_t{10}, std::uint64_t{1000}}) {
       SCOPED_TRACE(test::treeName(trees));
       QueryContext context;
       options.workLimit = limit;
       const MotionResult r =
-          certify(moving, fixed, motion, options, context, {EdgeMethod::certified, trees});
+          certify(moving, fixed, motion, options, context, {EdgeMethod::directional, trees});
       EXPECT_LE(context.counters.work(), limit + 16 + 256);
       EXPECT_EQ(r.reason, UndecidedReason::workLimit);
     }
-  // Nothing is sampled of what rests: here the walk itself has to end. A small star in the corner
-  // of a large one, 300 triangles about one centroid each.
+  // A motion of zero length is not sampled: here the walk itself has to end. A small star is in the
+  // corner of a large one; each has 300 triangles about one centroid.
   TriangleMesh star, small;
   for (int i = 0; i < 150; ++i)
     for (const auto& [mesh, s] : {std::pair{&star, 1.0}, std::pair{&small, 0.0625}}) {
@@ -243,10 +247,10 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   const RigidMotion rest =
       RigidMotion::spatial(at(Vec3(0, 0.25, 0.25)), at(Vec3(0, 0.25, 0.25)), {});
   options.workLimit = 1000;
-  for (const TreeKind trees : {TreeKind::obb, TreeKind::sphere}) {
+  for (const TreeKind trees : {TreeKind::obbBinary, TreeKind::sphere}) {
     QueryContext context;
     const MotionResult r =
-        certify(tiny, large, rest, options, context, {EdgeMethod::certified, trees});
+        certify(tiny, large, rest, options, context, {EdgeMethod::directional, trees});
     EXPECT_EQ(r.reason, UndecidedReason::workLimit);
     EXPECT_LE(context.counters.work(), options.workLimit + 16);
   }
@@ -256,8 +260,8 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   EXPECT_NE(certify(moving, fixed, motion, options, used).reason, UndecidedReason::workLimit);
 }
 
-/// A wall is hit at t = 0.29, and at t = 3/4 a tip is within the tube: the second half is given up
-/// before the first one is refined. Nothing is claimed of that.
+/// A wall is hit at t = 0.29, and at t = 3/4 a tip is within the tube. The second half is left
+/// undecided before the first half is refined: nothing may be claimed about the first half.
 TEST(CertifyMotion, NothingIsClaimedOfWindowsThatWereNotRefined) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
@@ -277,19 +281,20 @@ TEST(CertifyMotion, NothingIsClaimedOfWindowsThatWereNotRefined) {
   }
 }
 
-/// A contact that begins at a time which windows begin and end at: none that ends there is proved.
+/// A contact begins at a time where intervals begin and end: an interval that ends there is never
+/// proved.
 TEST(CertifyMotion, ContactsThatBeginWithAWindow) {
   const Body a = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones())),
              b = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
   for (const EdgeMethod method :
-       {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
-    for (const double reserve : {0.0, 1e-7})
+       {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement})
+    for (const double clearanceSlack : {0.0, 1e-7})
       for (const bool earliest : {false, true})
         for (int k = 0; k <= 64; ++k) {
           QueryContext context;
           MotionOptions options;
           options.tolerance = 1e-7;
-          options.reserve = reserve;
+          options.clearanceSlack = clearanceSlack;
           options.earliest = earliest;
           const double from = -1 - 4 * (k / 64.0);  // the faces meet at −1
           const MotionResult r = certify(
@@ -305,8 +310,8 @@ TEST(CertifyMotion, ContactsThatBeginWithAWindow) {
         }
 }
 
-/// Many bodies that the whole motion can't be told from, and others that are far away: those get no
-/// tree, neither where it looks nor where it samples.
+/// Many bodies that the whole motion cannot separate, and others that are far away. The far ones
+/// get no tree, neither from a walk nor from a sample.
 TEST(CertifyMotion, FarBodiesGetNoTree) {
   const Body mover = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
   std::vector<Body> near, far;

@@ -15,9 +15,9 @@ using test::add;
 using test::ChainMotion;
 using Vec3L = ChainMotion::Vec3L;
 
-/// b hangs on two joints (turns, or a turn and a slide). In the configuration at t = 1 it touches a
-/// plane from above, but for `gap`, where a is below it; before that, it is higher. What the
-/// verdict has to be is known without an oracle.
+/// b is carried by two joints (two revolute ones, or a revolute and a prismatic one). At t = 1 it
+/// touches a plane from above, up to `gap`, where a is below the plane; before t = 1 it is higher.
+/// The verdict is known without an oracle.
 struct ChainGrazing {
   TriangleMesh a, b;
   std::vector<ChainMotion::Joint> joints;
@@ -58,7 +58,7 @@ struct ChainGrazing {
     };
     add(a, x + low[0], x + low[1], x + low[2]);
     add(b, toBody(high[0]), toBody(high[1]), toBody(high[2]));
-    for (int i = 0; i < 20; ++i) {  // company, so that the trees have depth
+    for (int i = 0; i < 20; ++i) {  // more triangles, so that the trees have depth
       const Vec3 c = around(i, 1.5) + up * real(1, 2), d = around(i, 1.5) - up * real(0.5, 2);
       add(b, toBody(c), toBody(c + 0.1 * u), toBody(c + 0.1 * up));
       add(a, x + d, x + d + 0.1 * v, x + d - 0.1 * up);
@@ -112,7 +112,7 @@ TEST(CertifyMotion, ChainsThatGrazeByConstruction) {
   std::cout << context.counters.boxTests / (apart + together) << " box tests an edge\n";
 }
 
-/// Random chains over their whole way: what is free has no contact at any sampled pose.
+/// Random chains over their whole motion: what is called free has no contact at any sampled pose.
 TEST(CertifyMotion, RandomChainsAgainstSamples) {
   std::mt19937_64 random(test::testSeed(24));
   const auto real = [&](double low = -1, double high = 1) {

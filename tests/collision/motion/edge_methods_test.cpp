@@ -1,5 +1,5 @@
-// One suite for all methods that prove motions, on trees of every sort: closed forms, motions that
-// graze by construction, and random ones against static samples and against each other.
+// One suite for all methods that prove motions, on trees of every kind: closed forms, motions that
+// graze by construction, and random motions against static samples and against each other.
 #include <array>
 #include <numbers>
 #include <random>
@@ -34,7 +34,7 @@ class EdgeMethods : public testing::TestWithParam<Proof> {
   MotionResult ask(const Body& moving, const Body& fixed, const RigidMotion& motion) {
     return test::certify(moving, fixed, motion, options_, context_, GetParam());
   }
-  /// Of a static pose.
+  /// Reports contact at a static pose.
   bool touch(const Body& moving, const Body& fixed, const Transform& X) {
     return interference(fixed.binaryTree(), {}, moving.binaryTree(), X, context_).has_value();
   }
@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(All, EdgeMethods, test::everyProof(), test::proofName);
 
 TEST(EdgeMethodNames, AreThoseOfTheEnumeration) {
   EXPECT_EQ(edgeMethodNames().size(), 3u);
-  EXPECT_EQ(edgeMethodNamed("certified"), EdgeMethod::certified);
+  EXPECT_EQ(edgeMethodNamed("certified"), EdgeMethod::directional);
   EXPECT_EQ(edgeMethodNamed("adaptive"), EdgeMethod::adaptive);
   EXPECT_EQ(edgeMethodNamed("advancement"), EdgeMethod::advancement);
   EXPECT_FALSE(edgeMethodNamed("discrete"));
@@ -66,14 +66,14 @@ TEST_P(EdgeMethods, SlideBesideAWall) {
     EXPECT_EQ(context_.counters.edges, 1u);
     EXPECT_EQ(context_.counters.states, 0u) << "what an edge measures is no state";
     if (gap > 0) {
-      // Windows no longer than twice the gap, halved at most once too often; advancement asks for
-      // each of its steps up to three times how far it goes.
+      // The intervals are no longer than twice the gap, halved at most once too often.
+      // `advancement` computes up to three motion bounds per step.
       EXPECT_LE(static_cast<double>(context_.counters.poses), 64 + 4 * 10 / gap) << gap;
     }
   }
 }
 
-/// A way that overflows is no contact, and not free.
+/// A displacement that overflows is neither a contact nor free.
 TEST_P(EdgeMethods, WaysThatOverflowAreUndecided) {
   const Body cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5))),
              aside = bodyOf(box(Vec3(-1, 5, -1), Vec3(1, 6, 1)));
@@ -84,8 +84,7 @@ TEST_P(EdgeMethods, WaysThatOverflowAreUndecided) {
   }
 }
 
-/// Where the processor rounds otherwise no bound holds: the query says so, and answers nothing
-/// else.
+/// With other rounding modes no bound holds: the query must report that, and give no other answer.
 TEST_P(EdgeMethods, OtherArithmeticIsRefused) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -114,17 +113,17 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   options_.earliest = true;
-  for (const double reserve : {0.0, 1e-3, 1e-2}) {
-    if (reserve > 0 && GetParam().method == EdgeMethod::certified)
-      continue;  // it stops at whole windows
-    options_.reserve = reserve;
+  for (const double clearanceSlack : {0.0, 1e-3, 1e-2}) {
+    if (clearanceSlack > 0 && GetParam().method == EdgeMethod::directional)
+      continue;  // stops at whole intervals
+    options_.clearanceSlack = clearanceSlack;
     const MotionResult r =
         ask(cube, wall, RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(0, 5, 0)), {}));
     const double first = 0.55;  // 5.5 of 10 m
-    EXPECT_LE(r.certifiedUntil, first - reserve / 10);
-    EXPECT_GE(r.certifiedUntil, first - reserve / 10 - options_.timeTolerance);
-    if (reserve < 5e-3) {
-      ASSERT_EQ(r.verdict, MotionVerdict::contact) << reserve;
+    EXPECT_LE(r.certifiedUntil, first - clearanceSlack / 10);
+    EXPECT_GE(r.certifiedUntil, first - clearanceSlack / 10 - options_.timeTolerance);
+    if (clearanceSlack < 5e-3) {
+      ASSERT_EQ(r.verdict, MotionVerdict::contact) << clearanceSlack;
       EXPECT_GE(r.contactTime, first - 1e-15);
       EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
       EXPECT_TRUE(r.pair);
@@ -132,9 +131,9 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
   }
 }
 
-/// A blade of length 1 turns about z; a point sits at distance 1 + gap from the axis. The point has
-/// no inside: that a turning edge sweeps over it is never seen at a sampled time, so contact shows
-/// as a clearance under the tolerance. What must not be is `free`.
+/// A blade of length 1 rotates about z; a point is at the distance 1 + gap from the axis. The point
+/// has no interior, so no sampled time ever shows contact when the edge sweeps over it: contact
+/// appears as a clearance below the tolerance. The verdict must not be `free`.
 TEST_P(EdgeMethods, BladeAgainstAPoint) {
   TriangleMesh blade;
   add(blade, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.2, 0, 0.1));
@@ -180,8 +179,9 @@ TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
 TEST_P(EdgeMethods, MarginTubeReserveAndWorkLimit) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
-  // Clearance 0.1. The others would take small steps, beside a margin that is nearly that.
-  const double way = GetParam().method == EdgeMethod::certified ? 5 : 0.01;
+  // The clearance is 0.1. The other methods get a shorter way, since they take small steps when the
+  // margin is nearly that.
+  const double way = GetParam().method == EdgeMethod::directional ? 5 : 0.01;
   const RigidPose a = at(Vec3(-way, 0.4, 0)), b = at(Vec3(way, 0.4, 0));
   Tube tube;
   const auto verdict = [&](const RigidPose& from, const RigidPose& to) {
@@ -203,18 +203,18 @@ TEST_P(EdgeMethods, MarginTubeReserveAndWorkLimit) {
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
   EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance) << "nothing moves but in the tube";
   tube = {};
-  options_.reserve = 0.0999;
+  options_.clearanceSlack = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
-  options_.reserve = 0.1001;
+  options_.clearanceSlack = 0.1001;
   EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
       << "too near to be called free, but no contact";
   EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance);
-  options_.reserve = 0;
+  options_.clearanceSlack = 0;
   EXPECT_EQ(context_.counters.undecided, 4u);
   for (const std::uint64_t limit : {3, 100'000}) {
     options_.workLimit = limit;
     context_.counters = {};
-    if (limit > 3 && GetParam().method == EdgeMethod::certified) continue;  // it is enough for that
+    if (limit > 3 && GetParam().method == EdgeMethod::directional) continue;  // enough for it
     const MotionResult beside = verdict(at(Vec3(-5, 0.5 - 1e-6, 0)), at(Vec3(5, 0.5 - 1e-6, 0)));
     EXPECT_EQ(beside.reason, UndecidedReason::workLimit) << limit;
     EXPECT_LT(context_.counters.poses, limit / 10 + 10) << "it ends soon after";
@@ -241,17 +241,18 @@ TEST_P(EdgeMethods, FarBodiesGetNoTree) {
   EXPECT_FALSE(far.treeBuilt());
 }
 
-/// Triangles about one centroid, which no split separates: a leaf of many on either side.
+/// Triangles about one centroid, which no split separates: a leaf with many triangles on either
+/// side.
 TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   TriangleMesh nested, needle;
   for (const double s : {1.0, 2.0, 4.0, 8.0})
     add(nested, s * Vec3(-1, -1, 0), s * Vec3(2, -1, 0), s * Vec3(-1, 2, 0));
-  for (const double s : {0.01, 0.02, 0.5})  // downwards, and longer and longer
+  for (const double s : {0.01, 0.02, 0.5})  // pointing down, longer and longer
     add(needle, s * Vec3(0, 0, -2), s * Vec3(0.1, 0, 1), s * Vec3(-0.1, 0, 1));
   const Body plate = bodyOf(nested), tip = bodyOf(needle);
-  for (const double x : {0.0, 3.0, 10.0, 13.0}) {  // above the first, …, the last one; beside all
+  for (const double x : {0.0, 3.0, 10.0, 13.0}) {  // above the first, …, the last; beside all
     const bool hits = x < 12;
-    const auto through = [&](double sign) {  // the tips are 1 below, at −1.5 in the end
+    const auto through = [&](double sign) {  // the tips are 1 below the origin: at −1.5 in the end
       return RigidMotion::spatial(at(sign * Vec3(x, -4 + x / 64, 2)),
                                   at(sign * Vec3(x, -4 + x / 64, -0.5)), {});
     };
@@ -264,7 +265,8 @@ TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   }
 }
 
-/// A triangle that is a point, beside the middle of an edge: neither a corner nor the face is near.
+/// A triangle that is a point, beside the middle of an edge: neither a corner nor the face is
+/// closest.
 TEST_P(EdgeMethods, PointBesideAnEdge) {
   TriangleMesh large, point;
   add(large, Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0));
@@ -282,8 +284,8 @@ TEST_P(EdgeMethods, PointBesideAnEdge) {
     }
 }
 
-/// Points have no size to compare a travel with: windows end at 2^-48 of the motion, not in a stack
-/// overflow.
+/// Points have no size to compare a motion bound with: intervals must end at 2^-48 of the motion,
+/// not in a stack overflow.
 TEST_P(EdgeMethods, PointThroughAPointEnds) {
   TriangleMesh mesh;
   add(mesh, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
@@ -302,7 +304,7 @@ TEST_P(EdgeMethods, PointThroughAPointEnds) {
   }
 }
 
-/// A tip within the tube at t = 1/4, a wall hit at t = 1/2: nothing grazes in between.
+/// A tip is within the tube at t = 1/4, and a wall is hit at t = 1/2: nothing grazes in between.
 TEST_P(EdgeMethods, GrazingIsSaidOnlyOfNarrowGaps) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
@@ -317,13 +319,13 @@ TEST_P(EdgeMethods, GrazingIsSaidOnlyOfNarrowGaps) {
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_FALSE(r.grazing);
   EXPECT_LE(r.certifiedUntil, 0.25);
-  if (GetParam().method != EdgeMethod::certified) {  // which stops where a window can't be proved
+  if (GetParam().method != EdgeMethod::directional) {  // stops where an interval cannot be proved
     EXPECT_GT(r.certifiedUntil, 0.2);
     EXPECT_EQ(r.pair->bodyA, 0u);
   }
 }
 
-/// So slow that it stays under twice the tolerance for all of the way to the contact.
+/// The motion is so slow that it stays below twice the tolerance for the whole way to the contact.
 TEST_P(EdgeMethods, SlowContactGrazes) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -337,8 +339,8 @@ TEST_P(EdgeMethods, SlowContactGrazes) {
   EXPECT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options_.timeTolerance);
 }
 
-/// Never a false `free` or `contact`; and free wherever the clearance is above twice the tolerance,
-/// if the work is enough.
+/// Never a false `free` or `contact`; and `free` whenever the clearance is above twice the
+/// tolerance and the work limit is not reached.
 TEST_P(EdgeMethods, GrazingByConstruction) {
   std::mt19937_64 random(test::testSeed(8));
   const int count = (test::stressAsked() ? 10'000 : 1'000) / test::kSlowdown;
@@ -383,13 +385,13 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
             << " in contact, " << tooMuch << " took too much work\n";
   EXPECT_GT(free, apart / 5);
   EXPECT_GT(contact, together / 4);
-  if (GetParam().method == EdgeMethod::certified) {
+  if (GetParam().method == EdgeMethod::directional) {
     EXPECT_EQ(tooMuch, 0);
   }
 }
 
-/// What is called free has no contact at any sampled pose, what is called contact has one; and no
-/// method contradicts the default one, on whatever trees.
+/// What is called free has no contact at any sampled pose, and what is called contact has one. No
+/// method contradicts the default one, on any trees.
 TEST_P(EdgeMethods, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
   const int count = test::stressAsked() ? 5'000 : 400;
@@ -429,13 +431,13 @@ TEST_P(EdgeMethods, RandomEdges) {
   EXPECT_LE(verdicts[2], 1 + count / 100'000);
 }
 
-/// Primitives: a rod of radius 0.1 along z, and a ball of radius 0.2 that swings away from it, and
-/// that goes into it.
+/// Convex parts: a rod of radius 0.1 along z, and a sphere of radius 0.2 that swings away from it,
+/// or moves into it.
 TEST_P(EdgeMethods, BallAroundARod) {
   const Body ball("ball", placed(Sphere{0.2}, Transform{Mat3::Identity(), Vec3(1, 0, 0)})),
       rod("rod", placed(Cylinder{0.1, 4}, {}));
-  // The ball's centre is at (gap − 0.7 + cos φ, sin φ), φ in [0, 0.5]: it begins `gap` beside the
-  // rod, or in it, and goes away, since 1.49 − 1.4 cos φ grows.
+  // The sphere's centre is at (gap − 0.7 + cos φ, sin φ), φ in [0, 0.5]. It begins `gap` beside the
+  // rod, or in it, and moves away, since 1.49 − 1.4 cos φ increases.
   const auto around = [&](double gap) {
     return RigidMotion::spatial(turned(Vec3(gap - 0.7, 0, 0), 0, Vec3::UnitZ()),
                                 turned(Vec3(gap - 0.7, 0, 0.5), 0.5, Vec3::UnitZ()), {});
@@ -450,13 +452,13 @@ TEST_P(EdgeMethods, BallAroundARod) {
   const MotionResult r =
       ask(ball, rod, RigidMotion::spatial(at(Vec3(1, 0, 0)), at(Vec3(-3, 0, 0)), {}));
   ASSERT_EQ(r.verdict, MotionVerdict::contact);
-  const double first = 1.7 / 4;  // the centre from 2 to 0.3
+  const double first = 1.7 / 4;  // the centre moves from 2 to 0.3
   EXPECT_LE(r.certifiedUntil, first);
   EXPECT_GE(r.contactTime, first - 1e-12);
   EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
 }
 
-/// Chains of joints, for which windows are told in other ways.
+/// Kinematic chains, whose relative motions are computed in another way.
 TEST_P(EdgeMethods, RandomChainsAgainstSamples) {
   std::mt19937_64 random(test::testSeed(24));
   const auto real = [&](double low = -1, double high = 1) {

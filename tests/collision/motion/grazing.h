@@ -9,14 +9,14 @@
 
 namespace corridor::test {
 
-/// A fixed mesh below the plane through x* with normal n, a moving one above it at height `gap` at
-/// t = 1 (or all along), known by construction: negative gaps interpenetrate in the interior of the
-/// features, positive ones are that far apart.
+/// A fixed mesh below the plane through x with normal n, and a moving mesh above it, at height
+/// `gap` at t = 1 (or throughout). The verdict is known by construction: with a negative gap the
+/// features interpenetrate in their interior, with a positive one the meshes are that far apart.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
   RigidPose from, to;
-  bool known = false;  ///< all corners stay above their height at contact: the verdict is known
+  bool known = false;  ///< no corner gets below its height at contact: the verdict is known
 
   Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
     const auto real = [&](double low = -1, double high = 1) {
@@ -32,8 +32,8 @@ struct Grazing {
       return inPlane(2.1 * i, real(0.3, 1));
     };  // three of these surround the origin
     const Vec3 x = 3 * Vec3(real(), real(), real());
-    // In the plane's frame about x, heights along n: the fixed triangle at ≤ 0, the moving one at ≥
-    // 0 (+ gap).
+    // In the plane's frame about x, heights along n: the fixed triangle is at ≤ 0, the moving one
+    // at ≥ 0 (plus `gap`).
     Triangle a, b;
     if (feature == cornerOnFace) {
       for (int i = 0; i < 3; ++i) a[i] = around(i);
@@ -56,16 +56,14 @@ struct Grazing {
     };
     add(fixed, size * (x + a[0]), size * (x + a[1]), size * (x + a[2]));
     add(moving, toBody(b[0]), toBody(b[1]), toBody(b[2]));
-    for (int i = 0; i < 40; ++i) {  // company, so that the trees have depth
+    for (int i = 0; i < 40; ++i) {  // more triangles, so that the trees have depth
       const Vec3 c = 2 * around(i) + n * real(1, 2), d = 2 * around(i) - n * real(0.5, 2);
       add(moving, toBody(c), toBody(c + 0.1 * around(0)), toBody(c + 0.1 * n));
       add(fixed, size * (x + d), size * (x + d + 0.1 * around(1)), size * (x + d - 0.1 * n));
     }
-    if (slides) {  // along the plane, turning about its normal: every height is constant
+    if (slides) {  // along the plane, with a rotation about its normal: every height is constant
       from.p = to.p + size * inPlane(real(), real(0, 3));
       from.q = Eigen::Quaterniond(Eigen::AngleAxisd(real(-2, 2), n)) * to.q;
-      // The reference point turns in place, and so the slide is a slide of the body's heights about
-      // it.
     } else {
       from.p = to.p + size * (n * real(0.5, 3) + inPlane(real(), real(0, 3)));
       from.q = Eigen::Quaterniond(

@@ -1,10 +1,11 @@
-// Queries of several motions at once, of which bodies are told apart as the world sees them.
+// Queries of several motions at once, in which bodies are separated by their swept spheres as seen
+// from the world.
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "collision/motion/check_evidence.h"
+#include "collision/motion/check_certificate.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/support/chain_motion.h"
 
@@ -15,12 +16,12 @@ using test::bodyOf;
 using test::box;
 using test::ChainMotion;
 
-/// Motions by their numbers.
+/// Several motions, by their numbers.
 class Motions final : public MotionSource {
  public:
   explicit Motions(std::vector<ChainMotion> motions) : motions_(std::move(motions)) {}
-  MotionWindow window(std::size_t i, double t, double h) override {
-    return motions_.at(i).window(0, t, h);
+  RelativeMotion relativeMotion(std::size_t i, double t, double h) override {
+    return motions_.at(i).relativeMotion(0, t, h);
   }
   bool ambiguous() const override { return false; }
   bool still() const override { return false; }
@@ -37,9 +38,10 @@ ChainMotion::Joint slide(const Vec3& axis, double from, double to) {
   return {.slides = true, .axis = axis, .from = from, .to = to};
 }
 
-/// Two cubes side by side, that go along; their balls are closer than the margin, their faces are
-/// not. Before them comes a body that turns far, and is told from what is far away all the same.
-TEST(ManyMotions, EvidenceChangesNoVerdict) {
+/// Two cubes move along side by side. Their spheres are closer than the margin, but their faces are
+/// not. The pair before them has a body that rotates far and is separated all the same: this must
+/// not affect the second pair.
+TEST(ManyMotions, CertificateChangesNoVerdict) {
   const Body obstacle = cube(1, Vec3(100, 0, 0)), tip = cube(0.05, Vec3(1, 0, 0)), left = cube(0.5),
              right = cube(0.5);
   Motions motions({ChainMotion({{.from = 0, .to = 1}}),
@@ -56,15 +58,16 @@ TEST(ManyMotions, EvidenceChangesNoVerdict) {
   QueryContext context;
   for (const bool earliest : {false, true}) {
     options.earliest = earliest;
-    MotionEvidence evidence;
+    MotionCertificate certificate;
     EXPECT_EQ(certifyMotion(motions, pairs, options, context).verdict, MotionVerdict::free);
-    EXPECT_EQ(certifyMotion(motions, pairs, options, context, &evidence).verdict,
+    EXPECT_EQ(certifyMotion(motions, pairs, options, context, &certificate).verdict,
               MotionVerdict::free);
-    EXPECT_FALSE(checkEvidence(motions, pairs, options, 1, evidence, context));
+    EXPECT_FALSE(checkCertificate(motions, pairs, options, 1, certificate, context));
   }
 }
 
-/// A joint may turn as often as it likes: windows too wide to be looked at are work, too.
+/// A joint may make any number of turns. Intervals that are too wide to be tested must count as
+/// work, or the query would hardly end.
 TEST(ManyMotions, WhatTurnsOftenEndsAtTheWorkLimit) {
   const Body hub = cube(0.1), tip = cube(0.05, Vec3(1, 0, 0));
   Motions motions({ChainMotion({{.from = 0, .to = 1e6}})});
@@ -82,7 +85,8 @@ TEST(ManyMotions, WhatTurnsOftenEndsAtTheWorkLimit) {
   }
 }
 
-/// Indices of bodies are anyone's; no memory is kept for those that have no ball in the world.
+/// Indices of bodies may be arbitrarily large: no memory is used for bodies without a sphere in the
+/// world.
 TEST(ManyMotions, IndicesOfBodiesMayBeAnything) {
   const Body a = cube(1), b = cube(1, Vec3(10, 0, 0));
   Motions motions({ChainMotion({slide(Vec3::UnitX(), 0, -9)})});

@@ -17,34 +17,36 @@ using test::at;
 using test::bodyOf;
 using test::box;
 
-/// A ball that reaches 0.3e-162 into a body: the square of the gap to its centre, 1.6e-162, is
-/// subnormal and was rounded to that of 2.2e-162.
+/// A sphere reaches 0.3e-162 into a body. The square of the gap to its centre, 1.6e-162, is
+/// subnormal: it was rounded to the square of 2.2e-162, and the bodies were separated.
 TEST(MayMeet, GapWhoseSquareIsSubnormal) {
   const double e = 1.6e-162, r = 1.9e-162;
   TriangleMesh a, b;
   add(a, Vec3::Zero(), Vec3(0, e, 0), Vec3(0, 0, e));
   add(b, Vec3(-r, 0, 0), Vec3(r, 0, 0), Vec3(0, 0, 0.1 * e));
-  MotionWindow still;
+  RelativeMotion still;
   still.X_AB.t = Vec3(-e, 0.2 * e, 0.1 * e);
-  EXPECT_TRUE(mayMeet(bodyOf(a), sweptBall(bodyOf(b), still), 0));
+  EXPECT_TRUE(mayMeet(bodyOf(a), sweptSphere(bodyOf(b), still), 0));
 }
 
-/// Along a wall, ten times as far as the gap is wide: only what it goes across counts.
+/// A motion along a wall, ten times as long as the gap is wide: only its component across the gap
+/// may count.
 TEST(MayMeet, ASlideKeepsItsGap) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
-  std::array<ScrewTravel, 2> screws;
+  std::array<ScrewMotion, 2> screws;
   for (const double tilt : {0.0, 0.1}) {
     const RigidMotion slide =
         RigidMotion::spatial(at(Vec3(-5, -tilt, 0)), at(Vec3(5, tilt, 0)), {});
-    const double bound = clearanceBound(wall, sweptBall(bar, slide.window(0.5, 0.5, screws)));
-    EXPECT_NEAR(bound, 0.5 - tilt, 1e-12) << "the ball's radius is 0.5";
+    const double bound =
+        clearanceBound(wall, sweptSphere(bar, slide.relativeMotion(0.5, 0.5, screws)));
+    EXPECT_NEAR(bound, 0.5 - tilt, 1e-12) << "the sphere's radius is 0.5";
     EXPECT_LE(bound, 0.5 - tilt);
   }
 }
 
-/// Never more than the distance at any sampled time; and more than the way that the body goes would
-/// leave, where it goes sideways.
+/// The bound never exceeds the distance at any sampled time. For sideways motions it proves more
+/// than the isotropic bound.
 TEST(MayMeet, RandomMotions) {
   std::mt19937_64 random(test::testSeed(66));
   const auto real = [&](double low = -1, double high = 1) {
@@ -55,7 +57,7 @@ TEST(MayMeet, RandomMotions) {
     return Vec3(x, y, z);
   };
   QueryContext context;
-  std::array<ScrewTravel, 2> screws;
+  std::array<ScrewMotion, 2> screws;
   int proved = 0, sideways = 0;
   for (int n = 0; n < 3'000 / test::kSlowdown; ++n) {
     TriangleMesh mesh;
@@ -73,13 +75,13 @@ TEST(MayMeet, RandomMotions) {
     const RigidPose to{from.p + length * vector(), quaternion(length * real()) * from.q};
     const RigidMotion motion = RigidMotion::spatial(from, to, {});
     const double h = std::ldexp(0.5, -static_cast<int>(real(0, 4)));
-    const MotionWindow window = motion.window(0.5, h, screws);
-    const SweptBall ball = sweptBall(b, window);
-    const double bound = clearanceBound(a, ball);
+    const RelativeMotion relative = motion.relativeMotion(0.5, h, screws);
+    const SweptSphere sphere = sweptSphere(b, relative);
+    const double bound = clearanceBound(a, sphere);
     if (!(bound > 0)) continue;
     ++proved;
-    SweptBall isotropic = ball;
-    isotropic.curvature = HUGE_VAL;
+    SweptSphere isotropic = sphere;
+    isotropic.secondOrder = HUGE_VAL;
     const double without = clearanceBound(a, isotropic);
     EXPECT_LE(without, bound);
     sideways += without == 0;
@@ -94,31 +96,31 @@ TEST(MayMeet, RandomMotions) {
   std::cout << proved << " proved, " << sideways << " of them by the direction\n";
 }
 
-/// Both go far, one like the other: what they have in common doesn't count.
+/// Both bodies move far and nearly alike: their common motion must not count.
 TEST(MayMeet, WhatGoesAlongKeepsItsGap) {
   const Body bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
-  std::array<ScrewTravel, 2> screwsA, screwsB;
+  std::array<ScrewMotion, 2> screwsA, screwsB;
   for (const double nearer : {0.0, 0.1}) {
     const RigidMotion one = RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(3, 5, 0)), {}),
                       other =
                           RigidMotion::spatial(at(Vec3(0, -3, 0)), at(Vec3(3, 7 - nearer, 0)), {});
-    const SweptBall a = sweptBall(bar, one.window(0.5, 0.5, screwsA)),
-                    b = sweptBall(bar, other.window(0.5, 0.5, screwsB));
+    const SweptSphere a = sweptSphere(bar, one.relativeMotion(0.5, 0.5, screwsA)),
+                      b = sweptSphere(bar, other.relativeMotion(0.5, 0.5, screwsB));
     const double bound = clearanceBound(a, b);
-    EXPECT_NEAR(bound, 1 - nearer, 1e-12) << "the balls' radii are 0.5";
+    EXPECT_NEAR(bound, 1 - nearer, 1e-12) << "the spheres' radii are 0.5";
     EXPECT_LE(bound, 1 - nearer);
     EXPECT_EQ(clearanceBound(b, a), bound);
   }
 }
 
-/// As above, of two bodies that both move.
+/// The same for two bodies that both move.
 TEST(MayMeet, RandomMotionsOfBoth) {
   std::mt19937_64 random(test::testSeed(67));
   const auto real = [&](double low = -1, double high = 1) {
     return std::uniform_real_distribution(low, high)(random);
   };
   QueryContext context;
-  std::array<ScrewTravel, 2> screwsA, screwsB;
+  std::array<ScrewMotion, 2> screwsA, screwsB;
   int proved = 0, sideways = 0;
   for (int n = 0; n < 6'000 / test::kSlowdown; ++n) {
     const Body a = bodyOf(test::blob(random, 4, 0.3, 0.3)),
@@ -129,8 +131,8 @@ TEST(MayMeet, RandomMotionsOfBoth) {
     const RigidMotion goesA = RigidMotion::spatial(fromA, toA, {}),
                       goesB = RigidMotion::spatial(fromB, toB, {});
     const double h = std::ldexp(0.5, -static_cast<int>(real(0, 4)));
-    SweptBall ballA = sweptBall(a, goesA.window(0.5, h, screwsA)),
-              ballB = sweptBall(b, goesB.window(0.5, h, screwsB));
+    SweptSphere ballA = sweptSphere(a, goesA.relativeMotion(0.5, h, screwsA)),
+                ballB = sweptSphere(b, goesB.relativeMotion(0.5, h, screwsB));
     const double bound = clearanceBound(ballA, ballB);
     if (!(bound > 0)) continue;
     ++proved;
@@ -145,7 +147,7 @@ TEST(MayMeet, RandomMotionsOfBoth) {
           distance(a.binaryTree(), goesA.at(t), b.binaryTree(), goesB.at(t), {}, context).distance;
       ASSERT_GE(d, bound * (1 - 1e-12) - 1e-14) << n << " at " << k;
     }
-    ballA.curvature = HUGE_VAL;
+    ballA.secondOrder = HUGE_VAL;
     sideways += clearanceBound(ballA, ballB) == 0;
   }
   EXPECT_GT(proved, 1'000 / test::kSlowdown);

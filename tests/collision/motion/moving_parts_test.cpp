@@ -16,23 +16,24 @@ using test::Feature;
 using test::Shape;
 using test::Touching;
 
-/// b's origin on a straight line, b turning about it at constant speed, from the pose at t = 0.
+/// A relative motion: b's origin moves on a straight line and b rotates about it, both at constant
+/// speed, from the pose at t = 0.
 struct LineAndTurn {
   Transform start;
   Vec3 delta = Vec3::Zero(), axis = Vec3::UnitZ();
   double angle = 0;
-  mutable std::array<ScrewTravel, 2> screws{};
+  mutable std::array<ScrewMotion, 2> screws{};
 
-  MotionWindow window(double t, double h) const {
-    MotionWindow w;
+  RelativeMotion relativeMotion(double t, double h) const {
+    RelativeMotion w;
     w.X_AB.m = Eigen::AngleAxisd(t * angle, axis).toRotationMatrix() * start.m;
     w.X_AB.t = start.t + t * delta;
     w.linear = h * delta;
     w.angular = h * angle * axis;
     w.speed = w.linear.norm() * (1 + 0x1p-50);
     w.angle = h * std::abs(angle) * (1 + 0x1p-50);
-    screws[0] = {ScrewTravel::Kind::slide, delta.normalized(), Vec3::Zero(), w.speed, 0};
-    screws[1] = {ScrewTravel::Kind::turn, angle < 0 ? Vec3(-axis) : axis, w.X_AB.t, w.angle, 0};
+    screws[0] = {ScrewMotion::Kind::prismatic, delta.normalized(), Vec3::Zero(), w.speed, 0};
+    screws[1] = {ScrewMotion::Kind::revolute, angle < 0 ? Vec3(-axis) : axis, w.X_AB.t, w.angle, 0};
     w.screws = screws;
     w.fixedError = 0x1p-48 * (start.t.norm() + delta.norm());
     w.reachError = 0x1p-46;
@@ -40,24 +41,24 @@ struct LineAndTurn {
   }
 };
 
-MovingTrianglesAnswer decide(const Feature& a, const Feature& b, const MotionWindow& window,
+MovingTrianglesAnswer decide(const Feature& a, const Feature& b, const RelativeMotion& relative,
                              double margin, Counters& counters) {
   const auto triangle = [](const Feature& f) {
     return Triangle{f.part.points[0], f.part.points[1], f.part.points[2]};
   };
-  if (a.isTriangle) return decideMovingParts(triangle(a), b.part, window, margin, counters);
-  if (b.isTriangle) return decideMovingParts(a.part, triangle(b), window, margin, counters);
-  return decideMovingParts(a.part, b.part, window, margin, counters);
+  if (a.isTriangle) return decideMovingParts(triangle(a), b.part, relative, margin, counters);
+  if (b.isTriangle) return decideMovingParts(a.part, triangle(b), relative, margin, counters);
+  return decideMovingParts(a.part, b.part, relative, margin, counters);
 }
 
 enum class Verdict { free, contact, undecided };
 
 Verdict certify(const Feature& a, const Feature& b, const LineAndTurn& motion, double t, double h,
                 double tolerance, double margin, Counters& counters) {
-  const MovingTrianglesAnswer answer = decide(a, b, motion.window(t, h), margin, counters);
+  const MovingTrianglesAnswer answer = decide(a, b, motion.relativeMotion(t, h), margin, counters);
   if (answer.separated) return Verdict::free;
   if (answer.contact) return Verdict::contact;
-  if (answer.stuck || answer.travel < tolerance) return Verdict::undecided;
+  if (answer.stuck || answer.bound < tolerance) return Verdict::undecided;
   const Verdict first = certify(a, b, motion, t - h / 2, h / 2, tolerance, margin, counters);
   if (first != Verdict::free) return first;
   return certify(a, b, motion, t + h / 2, h / 2, tolerance, margin, counters);
@@ -65,7 +66,7 @@ Verdict certify(const Feature& a, const Feature& b, const LineAndTurn& motion, d
 
 using Vec3L = Eigen::Matrix<long double, 3, 1>;
 
-/// The least height of b along n, in long double, by its closed form.
+/// Returns the least height of b along n, in long double, by its closed form.
 long double lowest(const Feature& b, const LineAndTurn& motion, long double t, const Vec3& n) {
   const Eigen::Matrix<long double, 3, 3> R =
       Eigen::AngleAxis<long double>(t * motion.angle, motion.axis.cast<long double>().normalized())
@@ -80,9 +81,9 @@ long double lowest(const Feature& b, const LineAndTurn& motion, long double t, c
   return origin.dot(nL) + least - set.ball * m.norm() - set.disc * m.cross(axis).norm();
 }
 
-/// Grazing by construction: a below a plane, touching it in one place, b above it, and lowest,
-/// ± a gap, where it is above that very place: at the end of the motion, or all along it where it
-/// slides on the plane and turns about its normal.
+/// Grazing by construction. a is below a plane and touches it in one place. b is above the plane,
+/// and its lowest place is above that very place, at a distance `gap`. This holds at the end of the
+/// motion, or throughout, if b slides on the plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = (test::stressAsked() ? 100'000 : 20'000) / test::kSlowdown;
@@ -94,7 +95,7 @@ TEST(MovingParts, GrazingByConstruction) {
     const Feature a = make.feature(sa), b = make.feature(sb);
     const double amount = std::pow(10.0, -2 - n % 12);
     const double gap = n / 12 % 2 ? amount : -amount;
-    if (gap < -0.4e-7) continue;                                // some are that thin
+    if (gap < -0.4e-7) continue;                                // some parts are that thin
     const Transform end = make.pose(b, a.x + gap * a.m, -a.m);  // in a's frame
     const Vec3 up = a.m, u = up.unitOrthogonal(), v = up.cross(u);
     LineAndTurn motion;
@@ -120,7 +121,7 @@ TEST(MovingParts, GrazingByConstruction) {
     (gap > 0 ? apart : together)++;
     Counters counters;
     const Verdict verdict = certify(a, b, motion, 0.5, 0.5, 1e-7, 0, counters);
-    // The pose at the end is rounded anew: what it is off by is in nobody's band.
+    // The pose at the end is rounded again, so its error is added to the bands below.
     if (gap < 0) {
       falseFree += verdict == Verdict::free && amount > 1e-14;
       notFound += verdict == Verdict::free;
@@ -152,7 +153,7 @@ TEST(MovingParts, SlidesOnceAndKeepsMargins) {
   EXPECT_EQ(counters.triangleTests, 1U) << "the disc turns in itself, the slide is along the table";
   EXPECT_EQ(certify(table, can, motion, 0.5, 0.5, 1e-7, 0.0099, counters), Verdict::free);
   const MovingTrianglesAnswer close =
-      decideMovingParts(table.part, can.part, motion.window(0.5, 0.25), 0.0101, counters);
+      decideMovingParts(table.part, can.part, motion.relativeMotion(0.5, 0.25), 0.0101, counters);
   EXPECT_TRUE(close.contact);
   EXPECT_FALSE(close.separated);
 }
@@ -162,11 +163,11 @@ TEST(MovingParts, StuckWhereTheTubeAloneForbidsAProof) {
   LineAndTurn motion;
   motion.start.t = Vec3(1.51, 0, 0);
   motion.delta = Vec3(0, 0.1, 0);
-  MotionWindow window = motion.window(0.5, 0.5);
+  RelativeMotion relative = motion.relativeMotion(0.5, 0.5);
   Counters counters;
-  EXPECT_TRUE(decideMovingParts(a, b, window, 0, counters).separated);
-  window.fixedError = 0.02;
-  const MovingTrianglesAnswer answer = decideMovingParts(a, b, window, 0, counters);
+  EXPECT_TRUE(decideMovingParts(a, b, relative, 0, counters).separated);
+  relative.fixedError = 0.02;
+  const MovingTrianglesAnswer answer = decideMovingParts(a, b, relative, 0, counters);
   EXPECT_TRUE(answer.stuck);
   EXPECT_FALSE(answer.contact);
   EXPECT_NEAR(answer.gap, std::hypot(1.51, 0.05) - 1.5, 1e-12);

@@ -10,20 +10,21 @@
 
 namespace corridor::test {
 
-/// A moving triangle and a fixed one, of short dyadic coordinates: random near misses and hits, and
-/// features that meet exactly on the way, then pushed apart or together by a little. What becomes
-/// of them the oracle knows.
+/// A moving triangle and a fixed one, with short dyadic coordinates: random near misses and hits,
+/// and features that meet exactly during the motion and are then pushed apart or together by a
+/// little. The oracle computes their first contact.
 struct RationalScene {
   enum Kind {
-    nearby,      ///< the fixed triangle lies about where the moving one comes along
-    coplanar,    ///< both, and the motion, in one plane
-    meeting,     ///< features meet exactly at some time, one triangle on either side of a plane
-    tangential,  ///< and there move along the plane
+    nearby,    ///< the fixed triangle is near the path of the moving one
+    coplanar,  ///< both triangles and the motion are in one plane
+    /// Features meet exactly at some time, with one triangle on either side of a plane.
+    meeting,
+    tangential,  ///< like `meeting`, and at that time the motion is along the plane
     kinds
   };
   Triangle fixed, moving;
   RationalMotion motion = RationalMotion::line({}, Vec3::Zero());
-  int push = 0;  ///< by 2^-push of the unit; 0: not at all
+  int push = 0;  ///< the body is moved by 2^-push of the unit; 0: not at all
 
   RationalScene(std::mt19937_64& random, Kind kind, bool turns)
       : random_(random), flat_(kind == coplanar) {
@@ -43,8 +44,8 @@ struct RationalScene {
         motion = RationalMotion::line(from, from.p + std::ldexp(1, halvings) * nonZero(6));
       }
       const auto pose = motion.at(s0);
-      const Vec3 centre = pose.X.t / pose.weight;  // whole
-      Triangle there;                              // the moving one at s0, whole numbers
+      const Vec3 centre = pose.X.t / pose.weight;  // whole numbers
+      Triangle there;                              // the moving triangle at s0, in whole numbers
       const Vec3 lever = vector(3);
       for (int i = 0; i < 3; ++i) {
         const Vec3 p = lever + vector(3);
@@ -79,8 +80,8 @@ struct RationalScene {
     return (t[1] - t[0]).cross(t[2] - t[0]).isZero(0);
   }
 
-  /// Puts the fixed triangle to where it meets a feature of b, as far as possible across a plane
-  /// (along `velocity`, if that isn't zero), then pushes it.
+  /// Places the fixed triangle so that it meets a feature of b, on the other side of a plane as far
+  /// as possible (a plane along `velocity`, if that is not zero). Then pushes it.
   void meet(const Triangle& b, const Vec3& velocity) {
     Vec3 n = nonZero(3);
     const int feature = whole(0, 4);
@@ -106,7 +107,7 @@ struct RationalScene {
     } else if (feature == 3) {  // two edges
       const Vec3 middle = 0.5 * (b[0] + b[1]);
       fixed = {middle + along, middle - along, middle + d};
-    } else {  // the fixed one's corner in the face
+    } else {  // a corner of the fixed triangle in the face
       const Vec3 inside = 0.25 * b[0] + 0.25 * b[1] + 0.5 * b[2];
       fixed = {inside, inside + d, inside + e};
     }
@@ -135,13 +136,13 @@ struct ClosedForm {
   std::string name;
   Triangle fixed, moving;
   RationalMotion motion;
-  long double first;  ///< s; −1 where there is no contact
+  long double first;  ///< s; −1 if there is no contact
 };
 
 inline std::vector<ClosedForm> closedForms() {
   const double little = 0x1p-40;
   const auto along = [](const Vec3& p) { return RationalMotion::line({}, p); };
-  // About z, from the x-axis to the y-axis: tan(θ/2) = s, cos θ = (1 − s²)/(1 + s²), sin θ =
+  // About z, from the x-axis to the y-axis: tan(θ/2) = s, cos θ = (1 − s²)/(1 + s²) and sin θ =
   // 2s/(1 + s²). At s = 1/3 a rod of length 5 ends at (4, 3).
   const auto turn = RationalMotion::turn({}, Vec3::UnitZ()),
              farther = RationalMotion::turn({}, 2 * Vec3::UnitZ());
@@ -151,10 +152,11 @@ inline std::vector<ClosedForm> closedForms() {
   const auto plate = [](double y) {
     return Triangle{Vec3(-40, y, -40), Vec3(80, y, -40), Vec3(0, y, 80)};
   };
-  const auto mast = [](double r) {  // an edge along z at r·(4, 3), the rest behind it
+  const auto mast = [](double r) {  // an edge along z at r·(4, 3); the rest is behind it
     return Triangle{Vec3(4 * r, 3 * r, -9), Vec3(4 * r, 3 * r, 9), Vec3(8, 60, 0)};
   };
-  const auto thorn = [](double z) {  // a level one, its point at (2, 1.5), the rest behind it
+  // Parallel to the xy-plane, with its tip at (2, 1.5); the rest is behind the tip.
+  const auto thorn = [](double z) {
     return Triangle{Vec3(2, 1.5, z), Vec3(8, 60, z), Vec3(9, 60, z)};
   };
   // The tip is at height 5 − little where 2s/(1 + s²) = 1 − little/5 =: h, s = (1 − √(1 − h²))/h.

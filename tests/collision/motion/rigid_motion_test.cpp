@@ -23,7 +23,8 @@ class Cases {
   Eigen::Quaterniond orientation() {
     return Eigen::Quaterniond(real(), real(), real(), real()).normalized();
   }
-  /// Pairs of poses at angles of every size, nearly equal and nearly opposite ones included.
+  /// Returns pairs of poses at angles of every size, including nearly equal and nearly opposite
+  /// ones.
   std::pair<RigidPose, RigidPose> edge() {
     RigidPose a{vector(10), orientation()}, b{vector(10), {}};
     const double angles[] = {0,    1e-300, 1e-17, 1e-12, 5e-5, 8.9e-5,
@@ -41,17 +42,17 @@ class Cases {
   int n_ = 0;
 };
 
-/// The header's promise: the pose, and every point of the window, within fixedError +
-/// reachError·|y|, the tube being zero.
+/// The promise of the header: the pose, and every point of the interval, is within fixedError +
+/// reachError·|y|, with a tube of zero.
 TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   Cases cases(test::testSeed(1));
-  double worst = 0;  // of the error as a share of its bound
+  double worst = 0;  // error as a share of its bound
   for (int n = 0; n < 20'000; ++n) {
     const auto [a, b] = cases.edge();
     const RigidMotion motion = RigidMotion::spatial(a, b, {});
     const ReferenceMotion reference(a, b);
     const double t = n % 10 == 0 ? n / 10 % 2 : cases.real(0, 1);
-    const MotionWindow w = RigidEdge(motion).window(0, t, 0);
+    const RelativeMotion w = RigidEdge(motion).relativeMotion(0, t, 0);
     const Vec3 p = cases.vector(3);
     const long double off =
         ((w.X_AB.m * p + w.X_AB.t).cast<long double>() - reference.point(t, p)).norm();
@@ -63,8 +64,8 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   EXPECT_GT(worst, 1e-4) << "a bound that no case comes near is not measured by this test";
 }
 
-/// Bound ≥ travel at random places of random windows, along random directions, and the whole of it
-/// attained somewhere.
+/// The bound is never below the displacement, at random places of random intervals and along random
+/// directions, and is attained somewhere.
 TEST(RigidMotion, WindowsBoundTheTravel) {
   Cases cases(test::testSeed(2));
   double tightest = 0, tightestDirectional = 0;
@@ -76,21 +77,22 @@ TEST(RigidMotion, WindowsBoundTheTravel) {
     const double h = std::ldexp(0.5, -(n % 12));
     const double t = h + 2 * h * std::floor(cases.real(0, 0.5 / h));
     RigidEdge edge(motion);
-    const MotionWindow w = edge.window(0, t, h);
+    const RelativeMotion w = edge.relativeMotion(0, t, h);
     const Vec3 p = cases.vector(3), direction = cases.vector().normalized();
     const Vec3 y = w.X_AB.m * p, spin = w.angular.cross(y);
-    const PointTravel bounds = travelOf(w, y + w.X_AB.t, 0);
+    const MotionBound bounds = motionBound(w, y + w.X_AB.t, 0);
     const double error = 2 * bounds.pad;
     for (const double s : {-1.0, 1.0, cases.real()}) {
       const Eigen::Matrix<long double, 3, 1> moved =
           reference.point(static_cast<long double>(t) + s * h, p) - reference.point(t, p);
-      const auto travel = static_cast<double>(moved.norm());
-      ASSERT_LE(travel, bounds.cap + error) << "case " << n;
+      const auto bound = static_cast<double>(moved.norm());
+      ASSERT_LE(bound, bounds.isotropic + error) << "case " << n;
       const double along = std::abs(static_cast<double>(moved.dot(direction.cast<long double>())));
       const double directional = std::abs(direction.dot(w.linear + spin)) +
-                                 bounds.bend * direction.cross(w.angular).norm() + bounds.curvature;
+                                 bounds.secondOrderAcross * direction.cross(w.angular).norm() +
+                                 bounds.secondOrder;
       ASSERT_LE(along, directional + error) << "case " << n;
-      if (travel > 1e-3) tightest = std::max(tightest, travel / bounds.cap);
+      if (bound > 1e-3) tightest = std::max(tightest, bound / bounds.isotropic);
       if (along > 1e-3) tightestDirectional = std::max(tightestDirectional, along / directional);
     }
   }
@@ -106,7 +108,7 @@ TEST(RigidMotion, PlanarIsTheShorterWayRound) {
   };
   EXPECT_NEAR(yawAt(Vec3(0, 0, 3), Vec3(0, 0, -3), 0.5), pi, 1e-15);
   EXPECT_NEAR(yawAt(Vec3(0, 0, 0.5), Vec3(0, 0, 1.5), 0.25), 0.75, 1e-15);
-  EXPECT_NEAR(yawAt(Vec3(0, 0, 7), Vec3(0, 0, 1), 1), 1, 1e-14);  // out of range
+  EXPECT_NEAR(yawAt(Vec3(0, 0, 7), Vec3(0, 0, 1), 1), 1, 1e-14);  // beyond one turn
   EXPECT_TRUE(RigidMotion::planar(Vec3(0, 0, 0), Vec3(0, 0, pi), {}).ambiguous());
   EXPECT_TRUE(RigidMotion::planar(Vec3(0, 0, pi / 2), Vec3(0, 0, -pi / 2 + 1e-10), {}).ambiguous());
   EXPECT_FALSE(RigidMotion::planar(Vec3(0, 0, pi / 2), Vec3(0, 0, -pi / 2 + 1e-8), {}).ambiguous());
@@ -118,7 +120,7 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
   for (int n = 0; n < 20'000; ++n) {
     const double range = n % 2 ? 3 : 300;
     Vec3 a = cases.vector(range), b = cases.vector(range);
-    const MotionWindow w = RigidEdge(RigidMotion::planar(a, b, {})).window(0, 0.375, 0);
+    const RelativeMotion w = RigidEdge(RigidMotion::planar(a, b, {})).relativeMotion(0, 0.375, 0);
     const long double twoPi = 2 * std::numbers::pi_v<long double>;
     const long double turn =
         std::remainder(static_cast<long double>(b[2]) - static_cast<long double>(a[2]), twoPi);

@@ -1,5 +1,5 @@
-// The oracle of motions itself: roots that are known, first contacts in closed form, static samples
-// by rational linear programming, and the same motion told in other ways.
+// Tests of the oracle of motions itself: known roots, first contacts in closed form, static samples
+// by rational linear programming, and equivalent descriptions of the same motion.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Polynomial linear(int root, int of) {  // 0 at root/of
   return Polynomial({-root, of});
 }
 
-/// Products of linear factors, some twice, one without real roots.
+/// Products of linear factors, some of them squared, and one factor without real roots.
 TEST(Polynomials, RootsThatAreKnown) {
   std::mt19937_64 random(testSeed(42));
   const auto whole = [&](int low, int high) {
@@ -74,7 +74,7 @@ RationalScene sceneNumber(int n, std::mt19937_64& random) {
                        n % 5 != 0);
 }
 
-/// The motion that the oracle knows is that of the edge: against its definition in long double.
+/// The motion of the oracle is that of the edge, by its definition in long double.
 TEST(SturmContact, MotionIsTheEdges) {
   std::mt19937_64 random(testSeed(43));
   for (int n = 0; n < 300; ++n) {
@@ -88,7 +88,8 @@ TEST(SturmContact, MotionIsTheEdges) {
             ((pose.X.m.cast<long double>() * p.cast<long double>() + pose.X.t.cast<long double>()) /
              weight)
                 .eval();
-        // Some ten roundings to 2^-64, of quaternions, angles up to π and products with them.
+        // Some ten roundings to 2^-64: of quaternions, of angles up to π, and of products with
+        // them.
         ASSERT_LE((at - edge.point(t, p)).norm(), 0x1p-57L * (p.norm() + at.norm())) << n;
       }
     }
@@ -106,8 +107,8 @@ TEST(SturmContact, ClosedForms) {
   }
 }
 
-/// No sample touches before the first contact, or at all where there is none; and at the first
-/// contact the two are as close as rounding lets one see.
+/// No sample touches before the first contact, or at all if there is none. At the first contact the
+/// distance is zero up to rounding.
 TEST(SturmContact, Samples) {
   std::mt19937_64 random(testSeed(44));
   const int count = (stressAsked() ? 8'000 : 400) / kSlowdown;
@@ -137,7 +138,7 @@ TEST(SturmContact, Samples) {
     double size = from.p.norm() + to.p.norm();
     for (const Vec3& p : scene.moving) size = std::max(size, p.norm());
     if (!rationalContact(scene.fixed, {}, scene.moving, X)) {
-      // The pose's own error (rigid_motion.cpp), and the time's, times angles up to π.
+      // The error of the pose (rigid_motion.cpp) and of the time, times angles up to π.
       ASSERT_LE(referenceDistance(scene.fixed, {}, scene.moving, X), 0x1p-42 * size) << n;
     }
   }
@@ -150,7 +151,8 @@ TEST(SturmContact, Samples) {
   }
 }
 
-/// Backwards the same motion touches too; and seen from the other triangle, at the very same time.
+/// The reversed motion touches, too. As seen from the other triangle, the motion touches at the
+/// very same time.
 TEST(SturmContact, ToldInOtherWays) {
   std::mt19937_64 random(testSeed(45));
   const int count = (stressAsked() ? 10'000 : 500) / kSlowdown;
@@ -168,7 +170,7 @@ TEST(SturmContact, ToldInOtherWays) {
               first.contact)
         << n;
     if (from.q.coeffs() != Eigen::Quaterniond::Identity().coeffs()) continue;
-    Triangle fixed = scene.fixed;  // seen from where the other's reference point is at first
+    Triangle fixed = scene.fixed;  // as seen from the first reference point of the moving triangle
     bool exact = true;
     for (Vec3& p : fixed)
       for (int k = 0; k < 3; ++k) {
@@ -176,7 +178,7 @@ TEST(SturmContact, ToldInOtherWays) {
         p[k] -= from.p[k];
         exact = exact && p[k] == difference;
       }
-    if (!exact) continue;  // pushed by 2^-40, a coordinate may have no bit left to spare
+    if (!exact) continue;  // pushed by 2^-40, a coordinate may have no spare bit
     ++swapped;
     const FirstContact other = sturmContact(
         scene.moving, fixed,

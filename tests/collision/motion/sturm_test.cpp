@@ -1,5 +1,5 @@
 // Certified motions of a triangle against an exact oracle (tests/support/sturm_contact.h), whose
-// motion is the very one of the edge: whatever is proved must be so to the last digit.
+// motion is exactly that of the edge: what is proved must hold to the last digit.
 #include <array>
 #include <random>
 
@@ -24,8 +24,8 @@ using test::RationalMotion;
 using test::RationalScene;
 using test::ReferenceMotion;
 
-/// A first contact is bracketed to the time tolerance where the motion is faster than the tolerance
-/// in that time; else the answer may be `undecided`.
+/// A query and its tolerances. A first contact is bracketed to `timeTolerance` if the motion covers
+/// more than the tolerance in that time; else the answer may be `undecided`.
 struct Question {
   bool earliest;
   double tolerance, timeTolerance;
@@ -33,11 +33,12 @@ struct Question {
 constexpr std::array<Question, 3> kQuestions = {
     {{false, 1e-7, 1}, {true, 1e-7, 1.0 / 1024}, {true, 1e-10, 1e-9}}};
 
-/// Of RationalMotion::time, and as much again.
+/// The error of RationalMotion::time, doubled.
 constexpr long double kTimeError = 0x1p-59L;
 
-/// Metres that a corner may be from the motion at a rounded pose: rigid_motion.cpp's bound of the
-/// rotation's error, 2^-43 of the lever, and of the position's, 16u of the largest coordinate.
+/// Returns how far, in metres, a corner at a rounded pose may be from the motion: the bounds of
+/// rigid_motion.cpp for the rotation's error, 2^-43 of the lever, and for the position's, 16u of
+/// the largest coordinate.
 double poseError(const Triangle& moving, const RigidPose& from, const RigidPose& to) {
   double lever = 0;
   for (const Vec3& p : moving) lever = std::max(lever, p.norm());
@@ -47,7 +48,7 @@ double poseError(const Triangle& moving, const RigidPose& from, const RigidPose&
 
 class Sturm : public testing::TestWithParam<Proof> {
  protected:
-  /// One motion, held against what the oracle says.
+  /// Compares the answer for one motion with the oracle.
   void check(const Triangle& fixed, const Triangle& moving, const RationalMotion& path,
              const Question& question) {
     const bool earliest = question.earliest;
@@ -85,8 +86,8 @@ class Sturm : public testing::TestWithParam<Proof> {
         for (const Vec3& p : moving)
           ASSERT_LE((real.point(r.contactTime, p) - (X.m * p + X.t).cast<long double>()).norm(),
                     poseError(moving, from, to) + 0x1p-50 * p.norm() + 0x1p-50 * X.t.norm());
-        // So the motion itself comes as close as that by then; and touches, but for what is there
-        // between.
+        // So by then the motion itself comes within the rounding of the pose. It also touches,
+        // unless the contact exists only within that rounding.
         counts_.onlyRounded += !known.contact || r.contactTime < path.time(known.low) - kTimeError;
         if (!earliest) break;
         if (!r.grazing) {
@@ -132,7 +133,7 @@ TEST_P(Sturm, ClosedForms) {
     }
 }
 
-/// The random scenes are hard on purpose; but near misses that were not made to be ones are
+/// The random scenes are hard on purpose. But near misses that were not constructed as such are
 /// decided.
 TEST_P(Sturm, Motions) {
   std::mt19937_64 random(test::testSeed(41));
@@ -157,7 +158,7 @@ TEST_P(Sturm, Motions) {
     if (kind == RationalScene::nearby) {
       EXPECT_LE(counts_.undecided + counts_.workLimit, 1 + counts_.asked / 50);
     }
-    if (GetParam().method == EdgeMethod::certified) {
+    if (GetParam().method == EdgeMethod::directional) {
       EXPECT_LE(counts_.workLimit, 1 + counts_.asked / 1000);
     }
   }

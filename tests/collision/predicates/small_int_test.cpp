@@ -13,15 +13,16 @@ namespace {
 
 using Reference = boost::multiprecision::cpp_int;
 
-/// |value| < 2^length, all lengths alike.
+/// Returns a random integer of at most `most` bits; all lengths are equally likely.
 std::int64_t any(std::mt19937_64& random, unsigned most) {
   const auto length = static_cast<unsigned>(random() % (most + 1));
   const auto value = static_cast<std::int64_t>(random() & ((1ULL << length) - 1));
   return random() % 2 ? value : -value;
 }
 
-/// Orientations are dot(a, cross(b, c)): of what coordinates below 2^61 differ by, so that every
-/// product and every sum has the most bits that it may have; against Boost's.
+/// Compares orientations dot(a, cross(b, c)) with Boost's integers. The entries have up to 62 bits,
+/// as differences of coordinates below 2^61 have, so every product and sum reaches its largest
+/// width.
 TEST(SmallInt, OrientationsAgreeWithBoost) {
   std::mt19937_64 random(test::testSeed(61));
   int zeros = 0;
@@ -50,7 +51,7 @@ TEST(SmallInt, OrientationsAgreeWithBoost) {
     ASSERT_EQ(sum.sign(), determinant.sign()) << determinant;
     ASSERT_EQ(sum.is_zero(), determinant == 0);
     zeros += determinant == 0;
-    // Equal to the last bit: −determinant = high·2^64 + low.
+    // `sum` is equal to the last bit: adding −determinant = high·2^64 + low gives 0.
     const Reference two64 = Reference(1) << 64;
     Reference low = -determinant % two64;
     if (low < 0) low += two64;

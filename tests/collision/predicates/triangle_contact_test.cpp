@@ -45,8 +45,8 @@ TEST(TriangleContact, SharedData) {
   std::cout << files.size() << " files, " << count << " pairs\n";
 }
 
-/// Triangles and maps that meet degenerate positions often, against rationals that share no code
-/// with the predicates.
+/// Compares triangles and maps that are often in degenerate positions with rational arithmetic that
+/// shares no code with the predicates.
 class Random : public testing::TestWithParam<const char*> {};
 
 TEST_P(Random, AgreesWithRationals) {
@@ -68,8 +68,7 @@ TEST_P(Random, AgreesWithRationals) {
       for (Vec3& v : *t)
         v = kind == "grid" ? Vec3(integer(2), integer(2), integer(2))
                            : Vec3(real(), real(), real());
-    if (kind == "common corner, moved together") {  // contact by construction in b's own frame,
-                                                    // then rounded maps
+    if (kind == "common corner, moved together") {  // one exact map for both: they still touch
       b[0] = a[0];
       X_WA = X_WB = {rotation(), {real() * 1e6, real(), real()}};
     } else if (kind == "maps nearly rigid") {
@@ -128,8 +127,9 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
 }
 
 #ifdef __SSE2__
-/// A corner in a face, or apart from it by a subnormal: its own, its map's, or the shift's. A
-/// library that is linked may have set the processor to read such as zero.
+/// A corner touches a face, or is off it by a subnormal in the corner, in the map's matrix or in
+/// its translation. The verdict must be right although the processor reads subnormals as zero,
+/// which a linked library may have set.
 TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
   const Triangle face = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
   const Triangle tip = {Vec3(1, 2, 0), Vec3(1, 2, 4), Vec3(2, 2, 4)};
@@ -150,14 +150,15 @@ TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
 }
 #endif
 
-/// Corners that are off the other's plane by as little as a grid allows, for grids of all numbers
-/// of bits: each kind of integer is used up to its last bit, and none beyond.
+/// Corners are off the other triangle's plane by the least that a grid allows, for grids of 4 to
+/// 200 bits. Each kind of integer thus is used up to its last bit, and overflow would show.
 TEST(TriangleContact, GridsOfAnyNumberOfBits) {
   std::mt19937_64 random(test::testSeed(53));
   int touching = 0, cases = 0;
   for (int bits = 4; bits <= 200; bits += bits < 90 ? 1 : 10)
     for (int n = 0; n < 60 / test::kSlowdown + 2; ++n, ++cases) {
-      // Of the grid's 2^-bits only the last 50 bits of a coordinate are used, or the first.
+      // A coordinate has at most 50 bits. All corners use the grid's highest bits; b[1], scaled by
+      // `fine`, uses the lowest.
       const auto integer = [&] {
         const int used = std::min(bits, 50);
         return static_cast<double>(static_cast<std::int64_t>(random() >> (64 - used)) -
@@ -168,9 +169,9 @@ TEST(TriangleContact, GridsOfAnyNumberOfBits) {
       Triangle a = {point(), point(), point()}, b = {point(), point(), point()};
       const double s = 0.25, t = 0.375;
       b[0] = (a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0])).array().round();
-      if (n % 3 == 1) b[0] = a[n % 2];  // and some that touch exactly
+      if (n % 3 == 1) b[0] = a[n % 2];  // touches exactly
       if (n % 3 == 2) b[0][n % 3] += n % 2 ? 1 : -1;
-      if (bits > 50) b[1] *= fine;  // a coarse grid's corners and a fine one's
+      if (bits > 50) b[1] *= fine;  // corners on a coarse and on a fine grid
       Transform X_WB;
       if (n % 2) X_WB.m << 0, -1, 0, 1, 0, 0, 0, 0, 1;
       for (Vec3& p : b) p = X_WB.m.transpose() * p;
@@ -182,11 +183,11 @@ TEST(TriangleContact, GridsOfAnyNumberOfBits) {
   EXPECT_LT(touching, cases - cases / 8);
 }
 
-/// Contact by the exact maps only: the rounded corners would say the opposite.
+/// The exact maps decide contact; rounded corners would give the opposite answer.
 TEST(TriangleContact, TheMapsAreExactNotTheirRoundedImages) {
   const Triangle floor = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
   const Triangle tip = {Vec3(0, 0, 1), Vec3(1, 0, 2), Vec3(-1, 0, 2)};
-  // z = 1·m − m' for numbers whose product needs more than 53 bits.
+  // The tip's height is m·v − fl(m·v), where the product m·v needs more than 53 bits.
   const double m = 1 + 0x1p-30, v = 1 + 0x1p-31;
   Triangle scaled = tip;
   scaled[0][2] = v;

@@ -30,8 +30,9 @@ long double distanceToSegment(const Long3& x, const Long3& p, const Long3& q) {
   return (p + t * (q - p) - x).norm();
 }
 
-/// From a point to a closed triangle under its map, in long double, less what its rounding may make
-/// of 0: the normal of a sliver is told to 2^-60 of its longest edge squared over its length.
+/// Returns the distance from a point to a closed triangle under its map, in long double, less the
+/// value that rounding may give instead of 0. The normal of a sliver is known to 2^-60 of its
+/// longest edge squared over its length.
 long double distanceToTriangle(const Vec3& point, const Triangle& triangle, const Transform& X) {
   Long3 t[3];
   for (std::size_t i = 0; i < 3; ++i)
@@ -50,12 +51,13 @@ long double distanceToTriangle(const Vec3& point, const Triangle& triangle, cons
   return std::min(best, std::max(0.0L, std::abs(n.dot(x - t[0])) / n.norm() - rounding));
 }
 
-/// Both ends on both triangles, and the quick path off the exact one by what the header says.
+/// Expects both ends on both triangles, and the fast path within the error that
+/// triangle_intersection.h guarantees from the exact one.
 void expectSound(const Segment& s, const Triangle& a, const Transform& X_WA, const Triangle& b,
                  const Transform& X_WB) {
   const double scale = errorScale(a, X_WA, b, X_WB);
   for (const Vec3& end : {s.p, s.q}) {
-    // √3·2^-50, and as much for long double's own rounding on badly shaped triangles.
+    // √3·2^-50, and as much again for long double's own rounding on badly shaped triangles.
     EXPECT_LE(distanceToTriangle(end, a, X_WA), 4 * 0x1p-50 * scale);
     EXPECT_LE(distanceToTriangle(end, b, X_WB), 4 * 0x1p-50 * scale);
   }
@@ -100,7 +102,7 @@ TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
   EXPECT_GT(found, 3'000u / test::kSlowdown);
 }
 
-/// Ends in any order.
+/// Expects these two ends, in any order, also with the triangles swapped.
 void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3& q) {
   for (const bool swapped : {false, true}) {
     const Segment s =
@@ -112,7 +114,7 @@ void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3&
 
 TEST(TriangleIntersection, ClosedForms) {
   const Triangle flat{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  // Crossing: the whole of one's cut, part of each, a corner in the inside.
+  // Crossing: the whole of one triangle's cut, a piece of each cut, a corner inside.
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, 1, 1)}, {1, 1, 0}, {2, 1, 0});
   expectEnds(flat, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 1, 1)}, {1, 1, 0}, {3, 1, 0});
   expectEnds(flat, {Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(2, 1, 1)}, {1, 1, 0}, {1, 1, 0});
@@ -133,7 +135,8 @@ TEST(TriangleIntersection, ClosedForms) {
              {Vec3(3, 0, 0), Vec3(6, 0, 0), Vec3(9, 0, 0)}, {3, 0, 0}, {4, 0, 0});
 }
 
-/// Two triangles that cross, at a flat angle, far from the origin, of sizes down to 2^-1000.
+/// Triangles that cross at a flat angle, far from the origin, and of sizes down to 2^-1000: there
+/// the fast path loses the most digits.
 TEST(TriangleIntersection, IsRightToTheLastBitsAtAnyAngle) {
   std::mt19937_64 random(test::testSeed(7));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
@@ -154,7 +157,7 @@ TEST(TriangleIntersection, IsRightToTheLastBitsAtAnyAngle) {
     const Segment s = triangleIntersection(a, X_WA, b, X_WB);
     if (size > 0x1p-900)
       expectSound(s, a, X_WA, b, X_WB);
-    else  // squares of such numbers are zero: told by their multiples
+    else  // squares of such numbers underflow in the test's own checks
       EXPECT_TRUE(s.p.allFinite() && s.q.allFinite());
     ++touching;
     general += s.p != s.q;
@@ -173,7 +176,7 @@ TEST(TriangleIntersection, SharedPairsOfTriangles) {
       const auto& [a, b, touch] = pairs[n];
       if (!touch) continue;
       const Segment s = triangleIntersection(a, {}, b, {}), t = triangleIntersection(b, {}, a, {});
-      // All of them at a size at which squares of their numbers don't vanish.
+      // Skips sizes at which squares underflow or overflow in the test's own checks.
       const double scale = errorScale(a, {}, b, {});
       if (scale > 0x1p-300 && scale < 0x1p300) expectSound(s, a, {}, b, {});
       const auto off = std::min((s.p - t.p).norm() + (s.q - t.q).norm(),

@@ -45,8 +45,7 @@ TEST(Containment, PointsOfAGridInTwoOverlappingShells) {
   test::addBox(mesh, Vec3(0, -0.5, -0.5), Vec3(2, 0.5, 0.5));
   const Solid solid(mesh);
   int inside = 0;
-  // Steps of 1/4, off the faces by 1/8: rays run through no point by luck alone, but the grid has
-  // the mesh's own symmetries.
+  // The points are 1/8 off the faces, and the grid has the mesh's own symmetries.
   for (double x = -1.875; x < 3; x += 0.25)
     for (double y = -1.875; y < 2; y += 0.25)
       for (double z = -1.875; z < 2; z += 0.25) {
@@ -105,14 +104,14 @@ TEST(Containment, PrimitivesInSolidMeshes) {
   const ConvexPart ball{{Vec3(0.2, 0.1, 0)}, 0.1, false};
   EXPECT_TRUE(enclosed(solid, {}, ball, {}, context));
   EXPECT_FALSE(enclosed(solid, {}, ball, {Mat3::Identity(), Vec3(3, 0, 0)}, context));
-  // The other way round is the primitive's own solidity.
+  // A convex part is solid by itself: a mesh inside it is reported by `interference`.
   const ObbTree big(ConvexPart{{Vec3(0, 0, 0)}, 5, false});
   EXPECT_TRUE(interference(big, {}, solid.tree, {}, context));
   EXPECT_TRUE(interference(solid.tree, {}, big, {}, context));
 }
 
-/// Points whose every first ray could meet edges: a fan with its apex above the point, thousands of
-/// needles; against the closed form, under two rotations and far away.
+/// Points below the apex of a fan of thousands of needles, where the first ray may meet edges.
+/// Compared with the closed form, under two rotations and far away.
 TEST(Containment, FineMeshesUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(31));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

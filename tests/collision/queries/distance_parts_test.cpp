@@ -17,7 +17,7 @@ namespace {
 using test::anyPose;
 using test::kParams;
 
-/// The items of a tree as convex sets, by their numbers in the mesh or the list.
+/// The leaf primitives of a tree as convex sets, by their numbers in the mesh or the list.
 struct Items {
   std::vector<Triangle> triangles;
   std::vector<ConvexPart> parts;
@@ -45,8 +45,9 @@ template <class Volume>
 class PartsDistance : public testing::Test {};
 TYPED_TEST_SUITE(PartsDistance, test::Volumes, test::VolumeNames);
 
-/// All that is told of two trees, against all pairs of their items, one by one: the distance and
-/// its points, the items told, both ways, contact, tolerance, and what the options allow.
+/// Compares every answer on two trees with all pairs of their leaf primitives, one by one: the
+/// distance and its points, the leaf primitives reported, both orders, contact, tolerance, and the
+/// error that the options allow.
 template <class Tree>
 Distance checked(const Tree& a, const Items& itemsA, const Transform& X_WA, const Tree& b,
                  const Items& itemsB, const Transform& X_WB) {
@@ -126,8 +127,8 @@ TriangleMesh boxMesh(const Vec3& size) {
   return mesh;
 }
 
-/// Boxes as primitives and as meshes of twelve triangles, whose distance is found by other code, at
-/// gaps from large to the last digits.
+/// Boxes as convex parts and as meshes of twelve triangles, whose distance is computed by other
+/// code, at gaps from large to the last digits.
 TEST(DistanceOfParts, BoxesAsMeshes) {
   std::mt19937_64 random(test::testSeed(42));
   std::uniform_real_distribution<double> real(0.05, 1);
@@ -142,7 +143,7 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
     if (n % 2) X_WB.m = X_WA.m;
     QueryContext context;
     Distance truth = distance(meshA, X_WA, meshB, X_WB, {}, context);
-    // A box in a box is a contact of solids, and not of surfaces.
+    // A box inside a box is a contact of solids, but not of surfaces.
     if (truth.distance == 0 || interference(a, X_WA, b, X_WB, context)) continue;
     for (int round = 0; round < 2; ++round) {
       for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&a, &meshB), std::pair(&meshA, &b)}) {
@@ -151,7 +152,7 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
         EXPECT_NEAR(found, truth.distance, 2e-12 * truth.distance + 8 * kUnit * size) << n;
         ++apart;
       }
-      // Again, close by.
+      // The second round is close to contact.
       const Vec3 way = truth.p_WA - truth.p_WB;
       X_WB.t += way * (1 - std::pow(10.0, -1 - n % 11));
       truth = distance(meshA, X_WA, meshB, X_WB, {}, context);
@@ -161,7 +162,7 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
   EXPECT_GT(apart, 1'000);
 }
 
-/// A mesh of many triangles against one primitive: the tree prunes.
+/// A mesh of many triangles against one convex part: the tree has to prune.
 TEST(DistanceOfParts, LooksAtFewTriangles) {
   std::mt19937_64 random(test::testSeed(43));
   const TriangleMesh mesh = test::soup(random, 3'000, 0.02);

@@ -49,7 +49,7 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
     if (trianglesTouch(a, X_WA, b, X_WB, counters)) continue;
     const double truth = test::referenceDistance(a, X_WA, b, X_WB);
     const double size = std::max(errorScale(a, X_WA), errorScale(b, X_WB));
-    const WitnessPoints w = closestPoints(a, X_WA, b, X_WB);
+    const WitnessPoints w = witnessPoints(a, X_WA, b, X_WB);
     worst = std::max(worst, std::abs(w.distance - truth) / w.error);
     EXPECT_LE(w.error, kUnit * (size / 4 + 2 * truth) * (1 + 1e-10)) << n;
     for (const auto& [p, t, X] : {std::tuple(w.p_WA, a, X_WA), std::tuple(w.p_WB, b, X_WB)})
@@ -62,7 +62,7 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
     const DistanceRange range = TriangleDistances(X_WA, reachA, X_WB, reachB)(a, b);
     EXPECT_LE(range.lower, truth) << n;
     EXPECT_GE(range.upper, truth) << n;
-    // Within what is no more than a double above the truth they are.
+    // The tolerance query is true for the next double above the true distance.
     EXPECT_TRUE(CloserTriangles(X_WA, reachA, X_WB, reachB, std::nextafter(truth, HUGE_VAL))(
         a, b, counters))
         << n;
@@ -73,15 +73,15 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
   std::cout << "worst error, of the error allowed: " << worst << "\n";
 }
 
-/// Two triangles in one plane, of which one is a segment but for its corner that is 2^-1074 off:
-/// a hundred digits don't tell its sides apart, and made a distance of zero of that.
+/// Two triangles in one plane. One is a segment, except for a corner that is 2^-1074 off it. A
+/// hundred digits can't separate its sides: an oracle of that precision returned a distance of 0.
 TEST(ClosestPoints, AndTheirOracleOfATriangleOneSubnormalWide) {
   const Triangle a = {Vec3(-6, -5, 14), Vec3(-4, -4, std::nextafter(13.0, 0.0)),
                       Vec3(std::nextafter(2.0, 0.0), 2, 1)},
                  b = {Vec3(0, 1, 2), Vec3(-0x1p-1074, 1, 2), Vec3(-4, -3, 10)};
-  const double truth = std::sqrt(22.0 / 141);  // of b's last corner and a's edge 2-0
+  const double truth = std::sqrt(22.0 / 141);  // between b's last corner and a's edge 2-0
   EXPECT_NEAR(test::referenceDistance(a, {}, b, {}), truth, 32 * kUnit);
-  EXPECT_NEAR(closestPoints(a, {}, b, {}).distance, truth, 32 * kUnit);
+  EXPECT_NEAR(witnessPoints(a, {}, b, {}).distance, truth, 32 * kUnit);
 }
 
 template <class Volume>

@@ -1,5 +1,5 @@
-// What the last pairs of a distance query are told by, with ranges and measures that are made up:
-// as far off as those of triangles and of parts may be.
+// Tests how a distance query chooses among its last pairs. Ranges and measured distances are made
+// up, and as far off as those of triangles and convex parts may be.
 #include "collision/queries/nearest_pairs.h"
 
 #include <random>
@@ -30,8 +30,8 @@ class MadeUp : public NearestPairs {
   }
 };
 
-/// Distances that nearly tie, at the ends of what the options allow, in any order: what is told is
-/// no farther above the least than distance.h says.
+/// Distances that nearly tie, at the limits of what the options allow, in any order: the result
+/// exceeds the least distance by no more than distance.h allows.
 TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
   std::mt19937_64 random(test::testSeed(53));
   const auto real = [&](double low, double high) {
@@ -51,7 +51,8 @@ TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
     for (std::uint32_t i = 0; i < 5; ++i) {
       const double base = i == 0 ? least : n % 2 && i == 1 ? least : allowed;
       const double d = i == 0 ? least : base * (1 + real(0, 1.3e-12));
-      // A measure is above by 2^-41 at most, a range as wide as rounding of far bodies makes it.
+      // A measured distance is at most 2^-41 too large. A range is as wide as the rounding of far
+      // bodies makes it.
       measures.push_back(d * (1 + real(0, 0x1p-41)));
       const double loose = i % 2 ? 0 : real(0, 2e-12);
       if (i == 0) continue;
@@ -63,11 +64,12 @@ TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
     above += excess > 0.3e-12 * allowed;
     ASSERT_LE(excess, 1e-12 * (allowed + excess)) << n;
   }
-  EXPECT_GT(above, 100) << worst;  // pairs are left unmeasured
+  EXPECT_GT(above, 100) << worst;  // some pairs are left unmeasured
   RecordProperty("worst", std::to_string(worst));
 }
 
-/// Only contact is 0, and nothing that is NaN rules anything out.
+/// A pair that may touch is measured even where the options allow to skip it, and a NaN rules out
+/// no pair.
 TEST(NearestPairs, WhatMayTouchIsMeasured) {
   QueryContext context;
   const DistanceOptions options{.relative = 1, .absolute = 1};

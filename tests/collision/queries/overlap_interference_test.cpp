@@ -1,4 +1,5 @@
-// Trees of boxes under every overlap test: verdicts are the leaves', and these are exact.
+// Trees of OBBs with every overlap test. The leaves decide each verdict exactly, so all overlap
+// tests must give the same verdicts.
 #include <gtest/gtest.h>
 
 #include "collision/queries/contacts.h"
@@ -26,7 +27,7 @@ struct OverlapNames {
 };
 TYPED_TEST_SUITE(OverlapInterference, Overlaps, OverlapNames);
 
-/// The counts show that boxes prune as those of the separating-axis theorem do, but for boxes that
+/// The counts show that every test prunes as the separating-axis test does, except for boxes that
 /// are apart by some 10^-15, as in e_touching_boxes.
 TYPED_TEST(OverlapInterference, SharedWorkloads) {
   const auto data = test::dataFolder();

@@ -28,7 +28,7 @@ TEST(SelfIntersections, NoneOfSoundMeshes) {
   EXPECT_EQ(found({}), Pairs());
   EXPECT_EQ(found(box(Vec3(0, 0, 0), Vec3(1, 2, 3))), Pairs()) << "each triangle by itself, too";
   std::mt19937_64 random(test::testSeed(63));
-  TriangleMesh hills;  // one height a place
+  TriangleMesh hills;  // one height per place: it can't intersect itself
   for (int x = 0; x < 20; ++x)
     for (int y = 0; y < 20; ++y)
       hills.vertices.emplace_back(0.1 * x, 0.1 * y, std::uniform_real_distribution()(random));
@@ -104,8 +104,8 @@ TEST(SelfIntersections, TrianglesOnALineAreLeftAside) {
   EXPECT_EQ(found(mesh), Pairs());
 }
 
-/// What is left of a triangle once a shared corner, or edge, is cut off, with 2^-12 of the way to
-/// the others: two triangles (of one corner), or one.
+/// Returns what is left of a triangle after a shared corner or edge is cut off, at 2^-12 of the way
+/// to the other corners: two triangles for a shared corner, one for a shared edge.
 std::vector<Triangle> without(const Triangle& t, const std::vector<int>& shared) {
   const auto toward = [](const Vec3& from, const Vec3& to) {
     return Vec3(from + 0x1p-12 * (to - from));
@@ -121,8 +121,8 @@ std::vector<Triangle> without(const Triangle& t, const std::vector<int>& shared)
   return {{p, q, x}, {q, x, y}};
 }
 
-/// Meshes of corners on a small grid, where every common point but the shared ones is far from
-/// these: on a grid of 5, a cut of 2^-12 takes off nothing else that one triangle has of the other.
+/// Corners lie on a small grid, so every common point of two triangles that is not shared is far
+/// from the shared ones. On a grid of 5, a cut of 2^-12 removes nothing else of an intersection.
 TEST(SelfIntersections, RandomMeshesAgainstRationals) {
   std::mt19937_64 random(test::testSeed(64));
   std::array<int, 3> crossing = {}, clear = {};

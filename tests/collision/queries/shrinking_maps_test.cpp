@@ -4,21 +4,21 @@
 #include <gtest/gtest.h>
 
 #include "collision/queries/distance.h"
-#include "collision/queries/distance_wide.h"
+#include "collision/queries/distance_obb4.h"
 #include "tests/collision/hierarchy/volumes.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 
-/// Volumes are separated in the first body's frame. Where its map shrinks, distances there are
-/// larger than in the world. Here the second map stretches by as much, so that the two together are
-/// a rotation, whose margins cover nothing of it.
+/// Volumes are tested in the first body's frame. If its map shrinks, distances there are larger
+/// than in the world. Here the second map stretches by the same factor, so that the relative map is
+/// a rotation and its margins cover none of the shrinkage.
 namespace corridor {
 namespace {
 
 constexpr double kShrink = 1e-4;
 
-/// Triangles about a speck at the origin, at distances from it that differ by less than the
+/// Triangles around a speck at the origin. Their distances from it differ by less than the
 /// shrinkage.
 struct Shell {
   TriangleMesh around, speck;
@@ -40,7 +40,7 @@ struct Shell {
       const Vec3 out = any().normalized(), side = out.unitOrthogonal(), other = out.cross(side);
       TriangleMesh one;
       const double size = 0.05;
-      if (n % 2)  // its box is as near as it is
+      if (n % 2)  // its box is as near as the triangle
         test::add(one, out + size * side, out - size * side, out + size * other);
       else
         test::add(one, out + size * any(), out + size * any(), out + size * any());
@@ -85,7 +85,7 @@ TEST(ShrinkingMapsOf, WideTrees) {
   std::mt19937_64 random(test::testSeed(20261126));
   for (int n = 0; n < 20; ++n) {
     const Shell shell(random);
-    expectRight(shell, WideObbTree(shell.around), WideObbTree(shell.speck));
+    expectRight(shell, Obb4Tree(shell.around), Obb4Tree(shell.speck));
   }
 }
 

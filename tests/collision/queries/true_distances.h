@@ -14,8 +14,9 @@
 
 namespace corridor::test {
 
-/// Distances, witness points and tolerance queries of trees of a workload's meshes against its
-/// truth. @returns how many of the poses have one.
+/// Tests distances, witness points and tolerance queries on trees of a workload's meshes against
+/// its true distances.
+/// @return how many of the poses have a true distance.
 template <class Tree>
 int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
                         const std::vector<std::size_t>& poses, const std::string& built,
@@ -33,11 +34,11 @@ int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
         std::max({errorScale(corners(w.a, d.a), {}), errorScale(corners(w.b, d.b), X), a.reach()});
     const double allowed = 1e-12 * truth + 4 * kUnit * size;
     EXPECT_NEAR(d.distance, truth, allowed);
-    // The witnesses are on their triangles, and as far apart as told.
+    // The witness points are on their triangles, and as far apart as reported.
     EXPECT_LE(referenceDistance(d.p_WA, corners(w.a, d.a), {}), 4 * kUnit * size);
     EXPECT_LE(referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
     EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);
-    // The tolerance query, just below and just above; at 0 it is interference.
+    // The tolerance query just above and just below the distance; at 0 it is `interference`.
     EXPECT_TRUE(closerThan(a, {}, b, X, d.distance + allowed, context));
     if (d.distance > 4 * allowed) {
       EXPECT_FALSE(closerThan(a, {}, b, X, d.distance - 4 * allowed, context));

@@ -30,7 +30,8 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
   std::size_t turn = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    // Looser volumes pay thousands of times more on nearly parallel surfaces: fewer poses there.
+    // Looser volumes cost thousands of times more on nearly parallel surfaces, so fewer poses of
+    // these are tested.
     const std::size_t step = name[0] == 'a' ? 10 : 5;
     ++turn;
     for (std::size_t v = 0; v < std::size(kParams); ++v) {
@@ -51,7 +52,7 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
             << "\n";
 }
 
-/// Every map that is not quite rigid, far away and near, against the double loop.
+/// Maps that are not quite rigid, near and far from the origin, against the double loop.
 TYPED_TEST(VolumeInterference, AgreesWithBruteForceUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(5));
   int touching = 0, cases = 0;
@@ -112,7 +113,7 @@ TYPED_TEST(VolumeInterference, ManyConvexParts) {
     const auto found = interference(a, X_WA, b, X_WB, context);
     EXPECT_EQ(found.has_value(), parts) << n;
     EXPECT_EQ(interference(mesh, X_WB, a, X_WA, context).has_value(), soupHit) << n;
-    if (found) {  // numbers are those of the list
+    if (found) {  // the numbers reported are those of the list
       bool same = false;
       for (std::size_t i = 0; i < a.parts().size(); ++i)
         same = same || (a.meshTriangle(static_cast<std::uint32_t>(i)) == found->a &&

@@ -1,5 +1,6 @@
-// The kernel of moving boxes by its own contract (obb4.h): boxes that just meet within the window
-// are open, along whichever axis they are told apart; boxes that stay a little apart are not.
+// Tests the kernel of moving boxes against its contract (obb4.h). Boxes that just meet within the
+// interval must stay open, along whichever axis they meet. Boxes that stay a little apart must be
+// separated.
 #include <cmath>
 #include <random>
 
@@ -11,7 +12,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/collision/volumes/moving_boxes_test.cpp"
 #include "hwy/foreach_target.h"
-// After foreach_target.h, as Highway asks.
+// Highway requires this include after foreach_target.h.
 #include "hwy/highway.h"
 
 #include "collision/volumes/overlap_obb4_moving-inl.h"
@@ -19,9 +20,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-unsigned openBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, const Obb4Travel& travel) {
+unsigned openBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
+                   const Obb4MotionBound& bound) {
   alignas(64) float keys[16];
-  return movingBoxes(a, b, pose, travel, keys).open;
+  return movingBoxes(a, b, pose, bound, keys).open;
 }
 
 }  // namespace corridor::HWY_NAMESPACE
@@ -55,30 +57,32 @@ double sign(double x) {
   return x < 0 ? -1 : 1;
 }
 
-enum class By { directions, cap };
+enum class By { directions, isotropic };
 
-/// Four pairs of boxes, the i-th of a's and the i-th of b's, that come within `gap` of each other,
-/// in terms of their sizes, at an end of the window: along one of the 15 axes, with the largest
-/// displacement towards each other that the contract allows.
+/// Four pairs of boxes, the i-th of a's with the i-th of b's. At an end of the interval each pair
+/// comes within `gap` (relative to its sizes), along one of the 15 axes. The displacement towards
+/// each other is the largest that the contract allows.
 struct Pairs {
   Obb4 a = {}, b = {};
   Obb4Pose pose = {};
-  Obb4Travel travel = {};
-  bool steady = true;  // |n| of cross axes is not small
+  Obb4MotionBound bound = {};
+  bool steady = true;  // no cross axis is short
 
   Pairs(Random& random, int n, By by, double gap, bool beyond, double most = 2) {
     const auto f = [](double x) { return static_cast<float>(x); };
-    // The share of each corner is bounded by itself: of large turns more than any of them takes.
+    // The displacement of each corner is bounded separately: for large rotations the bound exceeds
+    // what any single corner does.
     const double spin = std::pow(10.0, real(random, -3, most));
     const Mat3 M = rotation(random);
     const Vec3 angular = (spin * vector(random)).cast<float>().cast<double>();
     const double scale = std::ldexp(1.0, n % 7 - 3);
     pose.scale = f(scale);
-    // Floats of M are off by u, of the centres by 4u of 3 + 3s; `WidePose` has margins for that.
+    // Rounding to floats: entries of M are off by u, centres by 4u·(3 + 3s). The margins of
+    // `Obb4TreePose` cover both.
     pose.relative = f(180 * 0x1p-24 + 20 * 0x1p-24);
     pose.ball = f(0x1p-24 * (33 * scale + 6 + 20));
     for (int k = 0; k < 3; ++k) {
-      travel.angular[k] = f(angular[k]);
+      bound.angular[k] = f(angular[k]);
       for (int l = 0; l < 3; ++l) pose.turn[l][k] = f(M(k, l));
     }
     for (int i = 0; i < 4; ++i) {
@@ -100,30 +104,32 @@ struct Pairs {
       normal.normalize();
       Vec3 linear = real(random, 0, 2) * vector(random);
       if (linear.dot(normal) > 0) linear = -linear;
-      if (by == By::cap) linear = -2 * normal;
+      if (by == By::isotropic) linear = -2 * normal;
       linear = Vec3(linear.cast<float>().cast<double>());
-      const double bend = beyond ? real(random, 0, 1) / spin : 0,
-                   curvature = beyond ? real(random, 0, 1) : 0,
+      const double secondOrderAcross = beyond ? real(random, 0, 1) / spin : 0,
+                   secondOrder = beyond ? real(random, 0, 1) : 0,
                    pad = beyond ? real(random, 0, 0.1) : 0;
       const double up = 1 + 0x1p-15;
-      travel.bend[i] = f(bend * up), travel.curvature[i] = f(curvature * up);
-      travel.pad[i] = f(pad * up);
-      for (int k = 0; k < 3; ++k) travel.linear[k][i] = f(linear[k]);
-      const double cap = real(random, 0, 0.3);
-      travel.cap[i] = by == By::cap ? f(cap * up) : 1e30F;
-      // The moved box b: its axes to first order, and where its centre goes. At s = 1; −1 is as
-      // good.
+      bound.secondOrderAcross[i] = f(secondOrderAcross * up),
+      bound.secondOrder[i] = f(secondOrder * up);
+      bound.pad[i] = f(pad * up);
+      for (int k = 0; k < 3; ++k) bound.linear[k][i] = f(linear[k]);
+      const double isotropic = real(random, 0, 0.3);
+      bound.isotropic[i] = by == By::isotropic ? f(isotropic * up) : 1e30F;
+      // The moved box b at s = 1 (s = −1 is as good): its axes to first order, and the displacement
+      // of its centre.
       Mat3 moved = scale * U * eb.asDiagonal();
       Vec3 goes = Vec3::Zero();
-      if (by == By::cap) {
-        goes = -(cap + pad) * normal;
+      if (by == By::isotropic) {
+        goes = -(isotropic + pad) * normal;
       } else {
         for (int j = 0; j < 3; ++j) moved.col(j) += angular.cross(Vec3(moved.col(j)));
-        goes = linear - (curvature + pad) * normal;
+        goes = linear - (secondOrder + pad) * normal;
         const Vec3 across = normal - angular * (angular.dot(normal) / angular.squaredNorm());
-        if (across.norm() > 1e-6) goes -= bend * angular.norm() * across.normalized();
+        if (across.norm() > 1e-6) goes -= secondOrderAcross * angular.norm() * across.normalized();
       }
-      // Lowest point of the moved b, highest of a: a corner each, or a point of what is level.
+      // The lowest point of the moved b and the highest of a: a corner each, or any point where an
+      // edge or a face is level.
       const auto corner = [&](const Mat3& axes, const Vec3& towards) {
         Vec3 p = Vec3::Zero();
         for (int j = 0; j < 3; ++j) {
@@ -135,19 +141,19 @@ struct Pairs {
       };
       const Vec3 high = corner(A * ea.asDiagonal(), normal), low = corner(moved, -normal);
       const double sizes = ea.sum() + scale * eb.sum();
-      // a's box around the middle, b's where the points meet.
+      // Place a's box in the middle, and b's so that the two points meet.
       const Vec3 c = high - low - goes + gap * sizes * normal;
       const double length = std::max(1.0, c.norm());
-      // Centres within 3: all of the pair is made smaller by a power of two.
+      // Centres must be within 3: shrink the whole pair by a power of two.
       const double less = std::ldexp(1.0, -std::ilogb(length) - 1) * std::min(1.0, scale);
       const Vec3 cb = M.transpose() * (less * c) / scale;
       for (int k = 0; k < 3; ++k) {
         b.vectors[k][Obb4::kCenter][i] = f(cb[k]);
         a.half[k][i] *= f(less), b.half[k][i] *= f(less);
-        travel.linear[k][i] *= f(less);
+        bound.linear[k][i] *= f(less);
       }
-      travel.bend[i] *= f(less), travel.curvature[i] *= f(less);
-      travel.pad[i] *= f(less), travel.cap[i] *= f(less);
+      bound.secondOrderAcross[i] *= f(less), bound.secondOrder[i] *= f(less);
+      bound.pad[i] *= f(less), bound.isotropic[i] *= f(less);
     }
   }
 };
@@ -161,26 +167,27 @@ constexpr unsigned kDiagonal = 0x8421;
 TEST_P(MovingBoxesKernel, BoxesThatMeetAreOpen) {
   Random random(test::testSeed(61));
   for (int n = 0; n < 40'000 / test::kSlowdown; ++n) {
-    const By by = n % 5 ? By::directions : By::cap;
+    const By by = n % 5 ? By::directions : By::isotropic;
     const Pairs pairs(random, n, by, -1e-7, n % 2);
     ASSERT_EQ(
-        HWY_DYNAMIC_DISPATCH(openBoxes)(pairs.a, pairs.b, pairs.pose, pairs.travel) & kDiagonal,
+        HWY_DYNAMIC_DISPATCH(openBoxes)(pairs.a, pairs.b, pairs.pose, pairs.bound) & kDiagonal,
         kDiagonal)
         << n;
   }
 }
 
-/// To first order, and by the cap, nothing but rounding is lost.
+/// Pairs of boxes that stay apart are separated. With first-order terms only, or with the isotropic
+/// bound only, the test is tight up to rounding.
 TEST_P(MovingBoxesKernel, BoxesThatStayApartAreNot) {
   Random random(test::testSeed(62));
   int asked = 0, open = 0;
   for (int n = 0; n < 40'000 / test::kSlowdown; ++n) {
-    const By by = n % 5 ? By::directions : By::cap;
+    const By by = n % 5 ? By::directions : By::isotropic;
     const Pairs pairs(random, n, by, 0.1, false, -2);
     if (!pairs.steady) continue;
     ++asked;
     const unsigned found =
-        HWY_DYNAMIC_DISPATCH(openBoxes)(pairs.a, pairs.b, pairs.pose, pairs.travel) & kDiagonal;
+        HWY_DYNAMIC_DISPATCH(openBoxes)(pairs.a, pairs.b, pairs.pose, pairs.bound) & kDiagonal;
     open += found != 0;
   }
   std::cout << open << " of " << asked << "\n";

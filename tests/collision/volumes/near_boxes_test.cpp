@@ -1,5 +1,5 @@
-// The kernel that bounds distances of boxes (overlap_obb4_obb4-inl.h), against distances of their
-// surfaces in double.
+// Tests the kernel that bounds distances of boxes (overlap_obb4_obb4-inl.h) against distances of
+// their surfaces, in double.
 #include <cmath>
 #include <random>
 
@@ -10,7 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/collision/volumes/near_boxes_test.cpp"
 #include "hwy/foreach_target.h"
-// After foreach_target.h, as Highway asks.
+// Highway requires this include after foreach_target.h.
 #include "hwy/highway.h"
 
 #include "collision/volumes/overlap_obb4_obb4-inl.h"
@@ -47,7 +47,7 @@ class NearBoxes : public test::EveryTarget {
     return std::uniform_real_distribution(low, high)(random_);
   }
 
-  /// Four boxes about the frame's origin, of very different sizes; or all upright, about the
+  /// Returns four boxes of very different sizes about the frame's origin; or all upright, about the
   /// z-axis.
   Obb4 boxes(bool upright) {
     Obb4 four = {};
@@ -85,23 +85,24 @@ class NearBoxes : public test::EveryTarget {
 INSTANTIATE_TEST_SUITE_P(Targets, NearBoxes, testing::ValuesIn(test::simdTargets()),
                          test::targetName);
 
-/// Never above the distance, nor is a pair within the limit told apart; and never so far below that
-/// the line between the centres says more: the points farthest along it are no farther apart than
-/// what it says and both radii at a right angle.
+/// The bound is never above the distance, and no pair within the limit is separated. Nor is it
+/// below the gap along the line between the centres. The points farthest along that line differ by
+/// this gap along it and by at most both radii r across it, so gap² ≥ d² − r².
 TEST_P(NearBoxes, BoundTheirDistances) {
   QueryContext context;
   int apart = 0, within = 0;
   for (int n = 0; n < 300; ++n) {
-    // Upright ones, above each other, are as far apart as the line between their centres says: no
-    // rounding may be lost.
+    // For upright boxes above each other the line between the centres gives the exact distance, so
+    // any rounding that is not covered shows.
     const bool upright = n % 3 == 0;
     const Obb4 a = boxes(upright), b = boxes(upright);
     Transform X = test::anyPose(random_, std::pow(10.0, real(-1, 1.5)));
-    // Some are so far off, and b's so large, that the squares of squares of lengths overflow.
+    // Some poses are so far off, and some boxes of b so large, that squares of squared lengths
+    // overflow.
     const double unit = n % 3 == 1 && n % 5 == 0 ? 0x1p45 : 1;
     const double scale = unit * std::ldexp(1.0, n % 7 - 3);
     X.t *= unit;
-    if (upright) {  // the first two, a little apart
+    if (upright) {  // the first two boxes, a little apart
       const auto middle = [](const Obb4& four) { return four.vectors[2][Obb4::kCenter][0]; };
       const double gap = std::pow(10.0, real(-8, 1));
       X = {Mat3::Identity(),
@@ -109,7 +110,7 @@ TEST_P(NearBoxes, BoundTheirDistances) {
                Vec3::UnitZ()};
     }
     Obb4Pose pose = {};
-    Transform exact;  // of what the floats say
+    Transform exact;  // the map that the floats define
     for (int k = 0; k < 3; ++k) {
       pose.offset[k] = static_cast<float>(X.t[k]);
       exact.t[k] = pose.offset[k];
@@ -119,7 +120,8 @@ TEST_P(NearBoxes, BoundTheirDistances) {
       }
     }
     pose.scale = static_cast<float>(scale);
-    // As `WidePose` has them, of a map that is off from a rotation by its floats' rounding.
+    // Margins as in `Obb4TreePose`, for a map that is off from a rotation by the rounding of its
+    // floats.
     constexpr double u = 0x1p-24;
     pose.relative = static_cast<float>(180 * u + 20 * u);
     pose.ball = static_cast<float>(u * (33 * scale + 3.1 * exact.t.cwiseAbs().sum() + 6) * 1.01);
@@ -142,7 +144,7 @@ TEST_P(NearBoxes, BoundTheirDistances) {
           ASSERT_TRUE(open >> (4 * i + j) & 1) << n << ": " << d << ", " << limit;
           ++within;
         }
-        // 2^-14 of it is given away, and margins of the sizes and of the ball.
+        // The bound is too small by at most 2^-14 of its value and the margins of the pose.
         const double margin = 4 * (static_cast<double>(pose.relative) * 3 * size + pose.ball);
         if (d > r) {
           ASSERT_GE(least, std::sqrt(d * d - r * r) * (1 - 0x1p-14) - margin) << n << ": " << d;

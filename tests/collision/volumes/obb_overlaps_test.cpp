@@ -1,5 +1,5 @@
-// The overlap tests of boxes, each against rationals: what touches is never told apart, what is
-// clearly apart is.
+// Tests the overlap tests of boxes against rationals: boxes that touch are never reported as
+// separated, and boxes that are clearly apart always are.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -20,13 +20,14 @@ using exact::dot;
 using exact::Rational;
 using exact::Row;
 
-/// Two boxes as the sets that their doubles say, told apart in rationals. Two parallelepipeds that
-/// are apart are so along a normal of a face or a common normal of two edges; a flat one is the
-/// limit of thicker ones with the same axes, so that none of the 15 may be left out.
+/// The exact answer, in rationals, for two boxes as the sets that their doubles define. Two
+/// parallelepipeds that are apart are so along a face normal or a common normal of two edges. A
+/// flat one is the limit of thicker ones with the same axes, so none of the 15 axes may be left
+/// out.
 struct Truth {
   bool touch = true;
-  double widest = -HUGE_VAL;  ///< gap, metres
-  double raw = -HUGE_VAL;     ///< times |L|, where L is the product of two unit axes
+  double widest = -HUGE_VAL;  ///< largest gap, metres
+  double raw = -HUGE_VAL;     ///< largest gap times |L|, where L is the product of two unit axes
 
   Truth(const Obb& a, const Obb& b, const Transform& X) {
     std::array<Row, 3> u, v;
@@ -63,12 +64,13 @@ struct Truth {
 struct Boxes {
   Obb a, b;
   Transform X_AB;
-  double scale = 1;  ///< metres: of sizes and coordinates
-  double step = 0;   ///< metres: how far apart the features that meet are; less than 0: inside
+  double scale = 1;  ///< metres: the order of sizes and coordinates
+  /// Metres: how far apart the features are that meet; negative: one is inside the other.
+  double step = 0;
 };
 
-/// Supporting features that meet along one of the 15 axes, and a step of 10^-2 to 10^-17 of the
-/// size from there: parallel, nearly parallel, flat, very unequal, far away; huge and tiny.
+/// Makes supporting features that meet along one of the 15 axes, then moves them by 10^-2 to 10^-17
+/// of the size. Boxes are parallel, nearly parallel, flat, very unequal, far away, huge and tiny.
 Boxes nearTouching(std::mt19937_64& random, int n) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -130,7 +132,7 @@ VolumeBounds boundsOf(const Obb& box) {
   return {box.axisDefect(), box.centerReach(), roundedUp(box.centerReach() + box.radius())};
 }
 
-/// A gap that the header promises to be told.
+/// Returns the smallest gap at which the header promises separation.
 double clearGap(const Boxes& x) {
   const VolumeBounds a = boundsOf(x.a), b = boundsOf(x.b);
   const BoxPairMargins m =
@@ -156,8 +158,8 @@ struct OverlapNames {
 };
 TYPED_TEST_SUITE(ObbOverlaps, Overlaps, OverlapNames);
 
-/// Many more than rationals could look at: what the separating-axis theorem proves to be apart by
-/// some margins is told apart.
+/// Covers many more pairs than rationals could: a pair that the separating-axis theorem separates
+/// by several times its rounding margin must be separated by every test.
 TYPED_TEST(ObbOverlaps, TellWhatIsClearlyApart) {
   std::mt19937_64 random(test::testSeed(64));
   const int rounds = (test::stressAsked() ? 10'000'000 : 100'000) / test::kSlowdown;
@@ -179,7 +181,7 @@ TYPED_TEST(ObbOverlaps, APadIsADistance) {
   for (int n = 1; n < 10'000; n += 2) {
     const Boxes x = nearTouching(random, n);
     const auto test = TestFixture::of(x);
-    // The two features that met are as far apart as the step, but for rounding.
+    // The two features that met are apart by the step, up to rounding.
     const double distance = x.step * (1 + 1e-9) + 1e-13 * x.scale;
     ASSERT_FALSE(test.separated(x.a, x.b, distance)) << n;
     ASSERT_FALSE(TestFixture::of(x, distance).separated(x.a, x.b, 0)) << n;
@@ -202,7 +204,7 @@ TYPED_TEST(ObbOverlaps, ExactlyTouching) {
     x.X_AB.t = (1 + 0x1p-30) * t;
     EXPECT_EQ(TestFixture::of(x).separated(x.a, x.b, 0), t.norm() > 1) << t.transpose();
   }
-  x.X_AB.t = Vec3(0.5, 0, 0);  // one in the other, either way, and flat
+  x.X_AB.t = Vec3(0.5, 0, 0);  // one box inside the other, either way, and flat
   for (const double size : {0.0, 0.25, 100.0}) {
     x.b.half = Vec3::Constant(size);
     EXPECT_FALSE(TestFixture::of(x).separated(x.a, x.b, 0)) << size;
@@ -227,7 +229,7 @@ TYPED_TEST(ObbOverlaps, NothingIsToldOfWhatIsNotFinite) {
         spoil(spoilt);
         EXPECT_FALSE(TestFixture::of(spoilt).separated(spoilt.a, spoilt.b, 0))
             << what << " " << bad;
-        // Bounds that know nothing of it.
+        // The same with bounds computed without the NaN or infinity.
         EXPECT_FALSE(TestFixture::of(x).separated(spoilt.a, spoilt.b, 0)) << what << " " << bad;
       };
       blind([&](Boxes& y) { y.a.center[axis] = bad; }, "centre of a");
@@ -246,7 +248,7 @@ TYPED_TEST(ObbOverlaps, NothingIsToldOfWhatIsNotFinite) {
   }
 }
 
-/// All of them, since rationals are slow.
+/// All tests in one loop, since rationals are slow.
 TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlapping) {
   std::mt19937_64 random(test::testSeed(61));
   const int rounds = (test::stressAsked() ? 100'000 : 2'000) / test::kSlowdown;
@@ -268,12 +270,13 @@ TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlappin
         EXPECT_TRUE(separated) << names[which] << ", case " << n << ", " << gap / x.scale;
       }
     };
-    look(0, PairTest<Obb>(a, b, x.X_AB, 0), truth.raw);  // its axes are no unit vectors
+    look(0, PairTest<Obb>(a, b, x.X_AB, 0), truth.raw);  // its cross axes are no unit vectors
     look(1, PairTest<Obb, Gjk>(a, b, x.X_AB, 0), truth.widest);
     look(2, PairTest<Obb, LinearProgram>(a, b, x.X_AB, 0), truth.widest);
     look(3, PairTest<Obb, EdgeFace>(a, b, x.X_AB, 0), truth.widest);
   }
-  std::cout << touching << " touch, " << apart << " apart; told, clearly apart:";
+  std::cout << touching << " touch, " << apart
+            << " are apart; reported as separated, clearly apart:";
   for (int i = 0; i < 4; ++i) {
     std::cout << " " << names[i] << " " << told[i] << ", " << clear[i] << ";";
     EXPECT_GT(clear[i], rounds / 4);

@@ -13,15 +13,16 @@
 namespace corridor {
 namespace {
 
-/// Two clouds that meet in a point (or stand g apart there) on either side of a plane.
+/// Two point clouds on either side of a plane that meet in one point, or are g apart there.
 struct Meeting {
   std::vector<Triangle> a, b;
   Transform X_AB;
-  double distance = 0;  ///< of the two points that meet, rounded up: at least that of the clouds
+  /// The distance of the two points that meet, rounded up. The clouds are no farther apart.
+  double distance = 0;
 };
 
-/// Axes that are special to some volume as well as any: a margin that is short shows where a face
-/// of the volume lies in the plane.
+/// Returns the plane's normal: one for which a face of some volume lies in the plane, so that a
+/// margin that is too small becomes visible, or a random one.
 Vec3 normalOf(std::mt19937_64& random, int n) {
   if (n % 3 == 0) return test::anyPose(random, 1).m.col(0);
   Vec3 v(n % 5 - 2, n % 7 - 3, n / 7 % 3 - 1);
@@ -29,7 +30,7 @@ Vec3 normalOf(std::mt19937_64& random, int n) {
   return v.norm() > 0 ? Vec3(v.normalized()) : Vec3::UnitX();
 }
 
-/// @param defect  of the map from a rotation, about; 0: as near to one as poses are.
+/// @param defect  approximate defect of the map from a rotation; 0: as small as a pose's
 Meeting meeting(std::mt19937_64& random, int n, double gap, double offset, double defect = 0) {
   std::uniform_real_distribution<double> real(-1, 1);
   const Vec3 normal = normalOf(random, n);
@@ -90,7 +91,7 @@ template <class Volume>
 class PairTests : public testing::Test {};
 TYPED_TEST_SUITE(PairTests, test::Volumes, test::VolumeNames);
 
-/// No bound may exceed the distance of two points of the contents, to the last bit.
+/// No bound may exceed the distance of two points of the contents, not even by the last bit.
 TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
   std::mt19937_64 random(test::testSeed(41));
   int told = 0;
@@ -104,10 +105,10 @@ TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
     ASSERT_FALSE(test.separated(a.volume, b.volume, m.distance)) << n;
     told += bound > 0;
   }
-  EXPECT_GT(told, 100) << "nothing is ever told: nothing was tested";
+  EXPECT_GT(told, 100) << "no bound was positive: the test tested nothing";
 }
 
-/// Maps that are far from rigid (scaled, sheared, mirrored, nearly flat): still no bound may exceed
+/// Maps that are far from rigid: scaled, sheared, mirrored, nearly flat. Still no bound may exceed
 /// the distance of two points of the contents.
 TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
   std::mt19937_64 random(test::testSeed(44));
@@ -115,7 +116,7 @@ TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
     const double defect = std::pow(10.0, std::uniform_real_distribution(-3.0, 1.0)(random));
     const double gap = n % 3 ? std::pow(10.0, -(n % 16)) : 0;
     const Meeting m = meeting(random, n, gap, n % 5 == 0 ? 1e6 : 1, defect);
-    // Of a map that is nearly flat the inverse may be of no use.
+    // The inverse of a nearly flat map may overflow; then the case is dropped.
     if (!(m.distance < HUGE_VAL)) continue;
     const Fitted<TypeParam> a(m.a), b(m.b);
     const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
@@ -135,19 +136,21 @@ TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
   }
 }
 
-/// What is far apart is told to be, and about how far.
+/// Volumes that are far apart are separated, and the bound is about their distance.
 TYPED_TEST(PairTests, TellClearDistances) {
   std::mt19937_64 random(test::testSeed(42));
   for (int n = 0; n < 1'000; ++n) {
     const Meeting m = meeting(random, n, 100, 1);
     const Fitted<TypeParam> a(m.a), b(m.b);
     const PairTest<TypeParam> test(a.bounds, b.bounds, m.X_AB, 0);
-    // The widest gap between slab directions of a k-DOP costs most: measured 80.6 of 97 and more.
+    // The bound of a k-DOP is the worst, if the normal lies in the widest angle between its slab
+    // directions: the least bound measured was 80.6, for distances of 97 and more.
     EXPECT_GT(test.distanceBound(a.volume, b.volume), 78) << n;
-    // Along one axis, at worst the diagonal of three faces: 100/√3.
+    // `separated` compares along single axes. The worst case is a normal along the space diagonal
+    // of three face normals: 100/√3 remain.
     EXPECT_TRUE(test.separated(a.volume, b.volume, 50)) << n;
     const PairTest<TypeParam> loose(a.bounds, b.bounds, m.X_AB, 60);
-    EXPECT_FALSE(loose.separated(a.volume, b.volume, 50)) << "the pose's error is in it";
+    EXPECT_FALSE(loose.separated(a.volume, b.volume, 50)) << "the error of the pose must count";
   }
 }
 

@@ -23,7 +23,7 @@ Mat3 randomRotation(std::mt19937_64& random) {
       .toRotationMatrix();
 }
 
-/// Against Eigen's eigenvalues: the spread along each axis is one of them, largest first.
+/// Compared with Eigen's eigenvalues: the spread along each axis is one of them, largest first.
 TEST_P(PrincipalAxes, DiagonaliseAndAreOrthonormal) {
   std::mt19937_64 random(test::testSeed(31));
   std::uniform_real_distribution<double> exponent(-20, 0), scale(-900, 900);
@@ -42,7 +42,7 @@ TEST_P(PrincipalAxes, DiagonaliseAndAreOrthonormal) {
   }
 }
 
-/// Where spreads are alike, noise must not turn the axes: a cube's box is the cube.
+/// Where spreads are equal, noise must not rotate the axes: a cube's box is the cube.
 TEST_P(PrincipalAxes, AreTheCoordinatesWhereSpreadsAreAlike) {
   std::mt19937_64 random(test::testSeed(32));
   std::uniform_real_distribution<double> noise(-1e-7, 1e-7);

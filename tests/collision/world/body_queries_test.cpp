@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-/// A cube of edge 2 about the origin, and, with `hollow`, one of edge 1 inside.
+/// Returns a cube of edge 2 about the origin and, with `hollow`, another of edge 1 inside.
 TriangleMesh cube(bool hollow = false) {
   TriangleMesh mesh;
   for (const double half : {1.0, 0.5}) {
@@ -48,12 +48,12 @@ TEST(BodyQueries, InsideASolidMesh) {
          {distance(solid, {}, body, in, {}, context), distance(body, in, solid, {}, {}, context)}) {
       EXPECT_EQ(d.distance, 0);
       EXPECT_EQ(d.p_WA, d.p_WB);
-      EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // a point of the small one
+      EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // a point of the small body
     }
     EXPECT_TRUE(closerThan(solid, {}, body, in, 0, context));
     EXPECT_TRUE(closerThan(body, in, solid, {}, 1e-3, context));
 
-    // The surface alone has it at a distance.
+    // The surface alone does not touch the body: their distance is not 0.
     EXPECT_FALSE(interference(surface, {}, body, in, context));
     const Distance d = distance(surface, {}, body, in, {}, context);
     EXPECT_GT(d.distance, 0.4);
@@ -61,7 +61,7 @@ TEST(BodyQueries, InsideASolidMesh) {
     EXPECT_FALSE(closerThan(surface, {}, body, in, 0.3, context));
     EXPECT_TRUE(closerThan(surface, {}, body, in, 0.9, context));
 
-    // Beside it, solid or not is the same.
+    // Outside, a solid and its surface have the same distance.
     const Distance beside = distance(solid, {}, body, out, {}, context);
     EXPECT_GT(beside.distance, 2.5);
     EXPECT_EQ(beside.distance, distance(surface, {}, body, out, {}, context).distance);
@@ -78,14 +78,15 @@ TEST(BodyQueries, PrimitivesContainWhatIsInThem) {
   EXPECT_EQ(distance(mesh, {}, box, larger, {}, context).distance, 0);
 }
 
-/// In the hollow of a shell is inside (queries/containment.h).
+/// The hollow of a shell counts as inside (queries/containment.h).
 TEST(BodyQueries, Hollow) {
   const Body shell("shell", cube(true), true), ball("ball", placed(Sphere{0.1}, {}));
   QueryContext context;
   EXPECT_EQ(distance(shell, {}, ball, {}, {}, context).distance, 0);
 }
 
-/// All pairs of kinds at a known gap: bodies whose highest and lowest places along z are known.
+/// All pairs of kinds at a known gap: the highest and lowest places of all bodies along z are
+/// known.
 TEST(BodyQueries, AllPairs) {
   std::vector<Body> bodies;
   std::vector<double> low, high;
@@ -126,7 +127,7 @@ TEST(BodyQueries, RejectsPrimitivesThatAreNone) {
   for (const double radius : {-1.0, -1e-300, inf, static_cast<double>(NAN)})
     for (const Primitive& p :
          {Primitive(Sphere{radius}), Primitive(Capsule{radius, 1}), Primitive(Cylinder{radius, 1})})
-      EXPECT_EQ(message(p), "the radius of body x is to be finite and not negative");
+      EXPECT_EQ(message(p), "body x: the radius must be finite and not negative");
   for (const Primitive& p : {Primitive(Box{Vec3(1, NAN, 1)}), Primitive(Capsule{1, inf}),
                              Primitive(Convex{{Vec3::Zero(), Vec3(0, inf, 0)}})})
     EXPECT_EQ(message(p), "body x has a point that is not finite");
@@ -135,8 +136,8 @@ TEST(BodyQueries, RejectsPrimitivesThatAreNone) {
   EXPECT_EQ(message(Sphere{0}), "");
 }
 
-/// A cylinder so short that rounding has left it no axis: what it may be has to be in its bounds,
-/// which are what motions ask first.
+/// A cylinder so short that rounding leaves it no axis. Its bounds must contain every disc that it
+/// may be, because motion queries test the bounds first.
 TEST(BodyQueries, CylinderWithoutAnAxisKeepsItsBounds) {
   const Transform X{Mat3::Identity(), Vec3(0.7, 0.2, 0.1)};
   const ConvexPart disc = placed(Cylinder{0.3, 1e-20}, X);
@@ -173,28 +174,28 @@ TEST(BodyQueries, RejectsWhatIsNotFinite) {
     return "";
   };
   EXPECT_EQ(message([&] { interference(a, bad, b, {}, context); }),
-            "the pose of a body is to be finite");
+            "the pose of a body must be finite");
   EXPECT_EQ(message([&] { distance(a, {}, b, bad, {}, context); }),
-            "the pose of a body is to be finite");
+            "the pose of a body must be finite");
   EXPECT_EQ(message([&] { closerThan(a, {}, b, bad, 1, context); }),
-            "the pose of a body is to be finite");
+            "the pose of a body must be finite");
   const Body solid("solid", cube(), true);
   for (const Body* other : {&a, &b, &solid}) {
     EXPECT_EQ(message([&] { insideEachOther(solid, {}, *other, bad, context); }),
-              "the pose of a body is to be finite");
+              "the pose of a body must be finite");
     EXPECT_EQ(message([&] { insideEachOther(*other, bad, solid, {}, context); }),
-              "the pose of a body is to be finite");
+              "the pose of a body must be finite");
   }
   EXPECT_EQ(message([&] {
               distance(a, {}, b, {}, {-1, 0}, context);
             }),
-            "a distance's relative error is to be finite and not negative");
+            "a distance's relative error must be finite and not negative");
   EXPECT_EQ(message([&] {
               distance(a, {}, b, {}, {0, NAN}, context);
             }),
-            "a distance's absolute error is to be finite and not negative");
+            "a distance's absolute error must be finite and not negative");
   EXPECT_EQ(message([&] { closerThan(a, {}, b, {}, -0.1, context); }),
-            "a tolerance is to be finite and not negative");
+            "a tolerance must be finite and not negative");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ RigidScene scene(const Triangle& moving, const Triangle& fixed) {
   return RigidScene(body(moving), body(fixed));
 }
 
-/// The square of the distance of sphere and box overflows; the spheres' radius does not.
+/// The squared distance of sphere and box overflows, but the radius of the sphere does not.
 TEST(SceneLimits, HugeBodiesAreNotSkipped) {
   const double b = 1e170, l = 1e160;
   const RigidScene s = scene({Vec3(-b, 0, 0), Vec3(b, b, 0), Vec3(b, -b, 0)},
@@ -27,7 +27,7 @@ TEST(SceneLimits, HugeBodiesAreNotSkipped) {
   EXPECT_TRUE(s.interference({}, context));
 }
 
-/// A map far from rigid whose image of the centre is all rounding error.
+/// A map far from a rotation, under which the image of the centre is all rounding error.
 TEST(SceneLimits, CancellingMapsAreNotSkipped) {
   QueryContext context;
   for (int i = 1; i <= 100; ++i) {
@@ -35,7 +35,7 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
     Transform X;
     X.m.setZero();
     X.m(0, 0) = 3.1, X.m(0, 1) = -3.1 * p[0] / p[1];
-    // The first coordinate of X·p exactly, up to 2^-106: a product's tail by fma.
+    // The first coordinate of X·p, exact up to 2^-106: the tail of a product by fma.
     const double big = X.m(0, 0) * p[0], other = X.m(0, 1) * p[1];
     const double exact =
         (big + other) + (std::fma(X.m(0, 0), p[0], -big) + std::fma(X.m(0, 1), p[1], -other));
@@ -46,8 +46,8 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
   }
 }
 
-/// A map that shrinks: what is measured in a frame isn't what the world measures. The second pair
-/// is the closer one, by less than the map takes.
+/// A map that shrinks: lengths in a frame differ from those in the world. The second pair is the
+/// closer one, by less than the effect of the map.
 TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {
   const auto box = [](const Vec3& low, const Vec3& high) { return Body("", test::box(low, high)); };
   std::vector<Scene::Placed> bodies;

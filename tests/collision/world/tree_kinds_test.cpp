@@ -1,11 +1,11 @@
-// All that a scene is asked gets one answer, whatever trees are walked.
+// Every query of a scene has the same answer on all kinds of trees.
 #include <array>
 #include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "collision/motion/check_evidence.h"
+#include "collision/motion/check_certificate.h"
 #include "collision/world/rigid_scene.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/support/soups.h"
@@ -24,7 +24,7 @@ std::vector<TreeKind> everyKind() {
   return kinds;
 }
 
-/// Surfaces, solid meshes and primitives on either side, so that all their pairs occur.
+/// Surfaces, solid meshes and convex parts on either side, so that all pairs of these occur.
 struct RandomScene {
   explicit RandomScene(std::mt19937_64& random)
       : scene(bodies(random, 2, 0.5), bodies(random, 6, 2)) {}
@@ -79,29 +79,29 @@ TEST(EveryTreeKind, StatesAndClearances) {
         if (k == 0) clearances[trees] = scene.clearance(poses, context, trees);
       }
       ++asked;
-      contacts += touches[TreeKind::wideObb];
+      contacts += touches[TreeKind::obb4];
       for (const auto& [trees, touch] : touches)
-        ASSERT_EQ(touch, touches[TreeKind::wideObb]) << n << ", " << treeName(trees);
+        ASSERT_EQ(touch, touches[TreeKind::obb4]) << n << ", " << treeName(trees);
       for (const auto& [trees, clearance] : clearances) {
-        ASSERT_EQ(clearance == 0, touches[TreeKind::wideObb]) << n << ", " << treeName(trees);
-        ASSERT_NEAR(clearance, clearances[TreeKind::wideObb], 1e-11)
-            << n << ", " << treeName(trees);
+        ASSERT_EQ(clearance == 0, touches[TreeKind::obb4]) << n << ", " << treeName(trees);
+        ASSERT_NEAR(clearance, clearances[TreeKind::obb4], 1e-11) << n << ", " << treeName(trees);
       }
     }
   }
   std::cout << contacts << " of " << asked << " in contact\n";
   EXPECT_GT(contacts, asked / 5);
   EXPECT_GT(asked - contacts, asked / 5);
-  // They were walked, and not the same ones all the time.
+  // Each kind was walked, and the kinds differ.
   for (const auto& [trees, counted] : counters) {
     EXPECT_GT(counted.boxTests, 0u) << treeName(trees);
     EXPECT_GT(counted.triangleTests, 0u) << treeName(trees);
   }
-  EXPECT_GT(counters[TreeKind::sphere].boxTests, counters[TreeKind::obb].boxTests);
+  EXPECT_GT(counters[TreeKind::sphere].boxTests, counters[TreeKind::obbBinary].boxTests);
   EXPECT_NE(counters[TreeKind::kdop14].boxTests, counters[TreeKind::kdop26].boxTests);
 }
 
-/// Free, or contact at a pose that touches; undecided is nothing, in scenes that leave room.
+/// The verdict is `free`, or `contact` at a pose that touches. Hardly any edge is `undecided`, in
+/// scenes that leave room.
 TEST(EveryTreeKind, Edges) {
   std::mt19937_64 random(test::testSeed(62));
   const int count = (test::stressAsked() ? 20'000 : 1'000) / test::kSlowdown;
@@ -113,7 +113,7 @@ TEST(EveryTreeKind, Edges) {
     const RigidMotion motion = RigidMotion::spatial(from, n % 10 ? to : from, {0x1p-38, 0x1p-38});
     MotionOptions options;
     options.tolerance = scene.defaultTolerance();
-    options.reserve = options.tolerance;
+    options.clearanceSlack = options.tolerance;
     options.earliest = n % 2;
     options.margin = n % 3 ? 0 : 0.01;
     std::map<TreeKind, MotionResult> results;
@@ -123,7 +123,7 @@ TEST(EveryTreeKind, Edges) {
       options.trees = trees;
       results[trees] = scene.certify(edge, options, context);
     }
-    const MotionResult& usual = results[TreeKind::wideObb];
+    const MotionResult& usual = results[TreeKind::obb4];
     ++verdicts.at(static_cast<std::size_t>(usual.verdict));
     for (const auto& [trees, r] : results) {
       SCOPED_TRACE(testing::Message() << n << ", " << treeName(trees));
@@ -139,7 +139,7 @@ TEST(EveryTreeKind, Edges) {
           ASSERT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options.timeTolerance);
         }
       }
-      if (trees != TreeKind::wideObb && n % 5) continue;  // others take turns
+      if (trees != TreeKind::obb4 && n % 5) continue;  // the other kinds take turns
       for (int i = 0; i <= 20 && r.certifiedUntil > 0; ++i)
         ASSERT_FALSE(touches(r.certifiedUntil * i / 20)) << i;
     }
@@ -151,7 +151,7 @@ TEST(EveryTreeKind, Edges) {
   EXPECT_LE(verdicts[2], 1 + count / 1000);
 }
 
-/// Bodies' own bounds come before any tree, whatever the kind: what is far away gets none.
+/// The bounds of bodies are tested before any tree, for every kind: far bodies get no tree.
 TEST(EveryTreeKind, FarBodiesGetNoTree) {
   std::vector<Body> fixed, moving;
   fixed.push_back(test::bodyOf(test::box(Vec3(1, -1, -1), Vec3(2, 1, 1))));
@@ -172,8 +172,8 @@ TEST(EveryTreeKind, FarBodiesGetNoTree) {
   EXPECT_FALSE(rigid.fixed()[1].body.treeBuilt());
 }
 
-/// The evidence of a proof on any trees is checked by another method on others.
-TEST(EveryTreeKind, EvidenceHolds) {
+/// The certificate of a proof on any trees is checked by another method on other trees.
+TEST(EveryTreeKind, CertificateHolds) {
   std::mt19937_64 random(test::testSeed(63));
   const int count = (test::stressAsked() ? 400 : 40) / test::kSlowdown + 1;
   int free = 0;
@@ -186,14 +186,14 @@ TEST(EveryTreeKind, EvidenceHolds) {
       const MotionPair pair{&fixed, &moving};
       MotionOptions options;
       options.tolerance = 1e-7;
-      options.reserve = 1e-7;
+      options.clearanceSlack = 1e-7;
       options.trees = trees;
       QueryContext context;
-      MotionEvidence evidence;
-      const MotionResult r = certifyMotion(edge, {&pair, 1}, options, context, &evidence);
+      MotionCertificate certificate;
+      const MotionResult r = certifyMotion(edge, {&pair, 1}, options, context, &certificate);
       free += r.verdict == MotionVerdict::free;
       const auto fault =
-          checkEvidence(edge, {&pair, 1}, options, r.certifiedUntil, evidence, context);
+          checkCertificate(edge, {&pair, 1}, options, r.certifiedUntil, certificate, context);
       ASSERT_FALSE(fault) << n << ", " << treeName(trees) << ": " << static_cast<int>(fault->kind)
                           << " at " << fault->t;
     }

@@ -1,4 +1,5 @@
-// `corridor benchmark` as its users meet it: table, JSON, files, and bad input that runs nothing.
+// Tests of `corridor benchmark` from outside: table, JSON, files, and bad input, which runs
+// nothing.
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -28,7 +29,7 @@ class BenchmarkCommand : public corridor::test::ProgramTest {
     write("hall.yaml", problem("-2, 0"));
   }
 
-  /// A cube before a wall that is thinner than the steps of `discrete:0.1`.
+  /// A cube and a wall that is thinner than the steps of `discrete:0.1`, so sampling misses it.
   static std::string problem(const std::string& start) {
     return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 6, 1], at: "
            "[0, -1, 0]}\nstart: {at: [" +
@@ -102,7 +103,7 @@ TEST_F(BenchmarkCommand, JsonAgreesWithItself) {
   }
   EXPECT_EQ(json["results"][0]["proved"], 2);
   EXPECT_EQ(json["results"][0]["rows"][0]["failure"], nullptr);
-  // The same figures as of solve.
+  // `solve` with the same seed does the same work.
   const auto solved = nlohmann::json::parse(run("solve hall.yaml --seed 2 --json").out);
   const auto& row = json["results"][0]["rows"][1];
   EXPECT_EQ(row["triangle_tests"], solved["problems"][0]["triangle_tests"]);
@@ -129,13 +130,13 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
          "--variants: \"certified:0\": a tolerance above 0, in metres, is needed");
   refuse("hall.yaml --variants fle:0.01", "--variants: unknown variant \"fle\"");
   refuse("hall.yaml --jobs 0", "--jobs: a whole number from 1 to 1024 is needed");
-  refuse("set.json#5-3", "set.json: \"#5-3\" is no range of 1 to 1000 problems, such as #1-10");
+  refuse("set.json#5-3", "set.json: \"#5-3\" is not a range of 1 to 1000 problems, such as #1-10");
   refuse("hall.yaml --variants certified,certified", "--variants: \"certified\" is named twice");
   refuse("hall.yaml --planners RRTConect",
          "--planners: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?");
   for (const std::string list : {"certified,,discrete:0.1", ",certified", "certified,", ","})
-    refuse("hall.yaml --variants " + list, "--variants: of \"" + list + "\" an entry is empty");
-  refuse("hall.yaml --planners RRT,,PRM", "--planners: of \"RRT,,PRM\" an entry is empty");
+    refuse("hall.yaml --variants " + list, "--variants: an entry of \"" + list + "\" is empty");
+  refuse("hall.yaml --planners RRT,,PRM", "--planners: an entry of \"RRT,,PRM\" is empty");
   refuse("hall.yaml --runs 0", "--runs: a whole number from 1 to 1000000 is needed");
   refuse("hall.yaml --runs 500001",
          "--runs: more than 1000000 runs in all: 500001 of each of 2 combinations");
@@ -159,16 +160,16 @@ TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
     expectFault("benchmark hall.yaml --runs 1 -o " + folder, told);
   };
   refuse("robot.yaml", "robot.yaml: is a file; a folder is needed");
-  refuse("robot.yaml/results", "robot.yaml/results: can't be made: Not a directory");
-  refuse("none/results", "none/results: can't be made: No such file or directory");
-  // The reason is the system's.
+  refuse("robot.yaml/results", "robot.yaml/results: can't be created: Not a directory");
+  refuse("none/results", "none/results: can't be created: No such file or directory");
+  // The rest of the line is the operating system's reason.
   EXPECT_THAT(run("benchmark hall.yaml -o /proc").err, StartsWith("/proc: can't be written to: "));
 }
 
-/// What is in the way of the results is told before they cost any time, and stays as it is.
+/// Obstacles to the output files are reported before the first run, and stay as they are.
 TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsToldAtOnce) {
   const auto inTheWay = [&](const char* name) {
-    return "results/" + std::string(name) + ": is a folder, where a file is to be written\n";
+    return "results/" + std::string(name) + ": is a folder; a file is to be written here\n";
   };
   for (const char* name : {"hall.certified.log", "runs.csv", "summary.csv", "report.html"})
     std::filesystem::create_directories(folder_ / "results" / name);
@@ -187,7 +188,7 @@ TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsToldAtOnce) {
   std::filesystem::remove_all(folder_ / "results");
   std::filesystem::create_directories(folder_ / "results/plots/cost.svg");
   expectFault("benchmark hall.yaml --runs 1 -o results",
-              "results/plots/cost.svg: is a folder, where a file may be written");
+              "results/plots/cost.svg: is a folder; a file may be written here");
   std::filesystem::remove_all(folder_ / "results");
   std::filesystem::create_directory(folder_ / "results");
   std::filesystem::create_symlink("/proc", folder_ / "results/plots");
@@ -219,17 +220,17 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_EQ(read("err.txt"),
-            "corridor: warning: interrupted: what follows is of the runs that were done; --resume "
-            "goes on\n");
+            "corridor: warning: interrupted: the results cover the finished runs; --resume "
+            "continues\n");
   const std::size_t rows = lines(read("results/runs.csv")).size();
   EXPECT_GT(rows, 1u);
   EXPECT_LT(rows, 100'000u);
   EXPECT_EQ(OmplLogReader::read(read("results/hall.certified.log")).planners.size(), 1u);
 }
 
-/// What took long is not lost with the folder.
+/// Results of long runs must reach stdout even if the folder can't be written.
 TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
-  // In the way of a file: a folder of its name, that comes while the runs are under way.
+  // A folder named like one of the files appears while the runs are under way.
   const Result result =
       run("benchmark hall.yaml --variants discrete:0.05 --runs 40 -o results",
           "{ (for i in $(seq 1000); do [ -e results/campaign.db ] && break; sleep 0.01; done; "
@@ -241,7 +242,7 @@ TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
   EXPECT_THAT(files("results"), UnorderedElementsAre("campaign.db", "runs.csv"));
 }
 
-/// No empty files, no logs without planners, and no table of nothing.
+/// No empty files, no logs without planners, and no empty table are left.
 TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
@@ -271,7 +272,7 @@ TEST_F(BenchmarkCommand, ARunWithoutMemoryHasFailed) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "AddressSanitizer ends the process where memory ends";
 #endif
-  // Less than a thread's stack.
+  // 1 MB is less than a thread's stack.
   const Result result = run("benchmark hall.yaml --variants certified --runs 1 --memory 1 --json");
   EXPECT_EQ(result.status, 0) << result.err;
   const auto cell = nlohmann::json::parse(result.out)["results"][0];
@@ -291,7 +292,7 @@ TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
   EXPECT_EQ(cell["solved"], 0);
   EXPECT_EQ(cell["failed"], 0);
   EXPECT_EQ(cell["time_s"], nullptr);
-  // Whichever the planner calls it: RRTConnect's tree ends somewhere near the wall.
+  // RRTConnect may report its tree's end near the wall as an approximate solution.
   EXPECT_THAT(cell["rows"][0]["result"].get<std::string>(),
               testing::AnyOf("approximate only", "not found"));
   EXPECT_EQ(cell["rows"][0]["verdict"], nullptr);

@@ -1,5 +1,5 @@
-// `corridor benchmark CAMPAIGN` as its users meet it: killed at any moment it goes on and ends with
-// the same rows, and what it can't go on with it says.
+// Tests of `corridor benchmark CAMPAIGN` from outside: killed at any moment, it resumes and ends
+// with the same rows; it reports what it can't resume.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <csignal>
@@ -34,7 +34,7 @@ class CampaignCommand : public corridor::test::ProgramTest {
           "[0.2, 0.01]}\nruns: 12\n");
   }
 
-  /// What of runs.csv repeats: all but times.
+  /// Returns the rows of runs.csv without the columns of times, which don't repeat.
   std::vector<std::string> repeatable(const std::string& folder) const {
     std::vector<std::string> rows;
     std::vector<bool> keep;
@@ -53,7 +53,7 @@ class CampaignCommand : public corridor::test::ProgramTest {
   }
 };
 
-/// Ten times at a random moment, by SIGKILL.
+/// Sends SIGKILL ten times, at random moments, and resumes.
 TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   ASSERT_EQ(run("benchmark campaign.yaml -o whole").status, 0);
   const unsigned seed = std::random_device{}();
@@ -75,7 +75,7 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
     ::kill(id, SIGKILL);
     ::waitpid(id, nullptr, 0);
     if (!std::filesystem::exists(folder_ / "killed/campaign.db")) continue;
-    // Whatever is there is whole. (Reading it rolls back what was under way.)
+    // The database is consistent. (Opening it rolls back an unfinished transaction.)
     SQLite::Database base((folder_ / "killed/campaign.db").string(), SQLite::OPEN_READWRITE);
     EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
     if (base.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) continue;
@@ -93,7 +93,7 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(repeatable("killed"), repeatable("whole"));
   EXPECT_EQ(repeatable("killed").size(), 1u + 2 * 3 * 12);
-  // It would be no test, had each been killed before its first run, or none at all.
+  // At least one session added runs before it was killed, else nothing was tested.
   EXPECT_GT(grown, 0u);
   SQLite::Database base((folder_ / "killed/campaign.db").string());
   EXPECT_EQ(base.execAndGet("SELECT count(*) FROM runs").getInt(), 2 * 3 * 12);
@@ -104,16 +104,15 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   EXPECT_GT(base.execAndGet("SELECT count(*) FROM corridor_sessions").getInt(), 1);
 }
 
-/// A limit of files' sizes is as a full disk: told, and what was measured before is there.
+/// A limit on files' sizes acts like a full disk: it is reported, and earlier runs are kept.
 TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
-  // Of 512 bytes: more than the tables take, less than those of all runs.
+  // 300 blocks of 512 bytes: more than the empty tables take, less than all runs need.
   const Result stopped = run("benchmark campaign.yaml -o results", "ulimit -f 300 && ");
   EXPECT_EQ(stopped.status, 2);
   EXPECT_EQ(stopped.out, "");
   EXPECT_EQ(stopped.err,
             "results/campaign.db: can't be read or written: disk I/O error (no file may be larger "
-            "than 153600 bytes here: ulimit -f); what was measured before is kept, --resume goes "
-            "on\n");
+            "than 153600 bytes: ulimit -f); finished runs are kept; continue with --resume\n");
   const auto runs = [&] {
     SQLite::Database base((folder_ / "results/campaign.db").string(), SQLite::OPEN_READWRITE);
     EXPECT_EQ(base.execAndGet("PRAGMA integrity_check").getString(), "ok");
@@ -135,7 +134,7 @@ TEST_F(CampaignCommand, ItsReportTellsTheSessions) {
   EXPECT_THAT(page, HasSubstr("6 runs, 2 at a time"));
 }
 
-/// Names may be as long as anybody likes, and a folder's of any bytes.
+/// Names of variants may be long, and folders' names may hold bytes that are not UTF-8.
 TEST_F(CampaignCommand, AnyNames) {
   const std::string name = "a\xff b\x1b[31m " + std::string(200, 'n');
   std::filesystem::create_directory(folder_ / name);
@@ -161,7 +160,7 @@ TEST_F(CampaignCommand, OptionsSayMoreThanTheFile) {
   ASSERT_EQ(result.status, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json["format"], "corridor-benchmark-report-2");
-  EXPECT_EQ(json["campaign"], folder_.filename().string());  // as of problem.yaml
+  EXPECT_EQ(json["campaign"], folder_.filename().string());  // the default name
   ASSERT_EQ(json["results"].size(), 6u);
   EXPECT_EQ(json["results"][3]["planner"], "short");
   EXPECT_EQ(json["results"][3]["rows"][1]["seed"], 6);
@@ -175,11 +174,11 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
   expectFault("benchmark campaign.yaml --planners RRT",
               "--planners: a campaign names its planners itself");
   expectFault("benchmark campaign.yaml --resume",
-              "--resume: say by -o which folder the campaign is in");
+              "--resume: needs -o with the folder of the campaign");
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);
   const std::string before = read("results/campaign.db");
   expectFault("benchmark campaign.yaml --runs 1 -o results",
-              "results/campaign.db: holds 6 runs already: go on with it by --resume, or name "
+              "results/campaign.db: contains 6 runs already; continue with --resume, or name "
               "another folder");
   write("campaign.yaml",
         "format: corridor-campaign-1\nproblems: [hall.yaml]\nplanners: [RRTConect]\n"
@@ -194,7 +193,7 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
         "which takes a hundred bytes at least");
   write("campaign.yaml", "format: corridor-campaign-1\nproblems: [hall.yaml]\ncheckers: {a: {}}\n");
   expectFault("benchmark campaign.yaml -o results --resume",
-              "results/campaign.db: is no database of a campaign");
+              "results/campaign.db: is not a campaign database");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The program as its users meet it: exit status, one line a fault, results on stdout, nothing
-// half-written.
+// Tests of the program from outside: exit statuses, one line per fault, results on stdout, no
+// incomplete files.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -39,7 +39,7 @@ class CommandLine : public ProgramTest {
   }
 };
 
-/// An angle read as another one is nothing that only `inspect` may say.
+/// `check` and `solve` must report it, too, if an angle was wrapped: not only `inspect`.
 TEST_F(CommandLine, WhatWasReadDifferentlyIsTold) {
   write("arm.urdf",
         "<robot name='arm'><link name='a'/><link name='b'><collision><geometry><box size='1 1 1'/>"
@@ -97,11 +97,11 @@ TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   EXPECT_EQ(mesh["mesh"]["triangles"], 12);
   EXPECT_EQ(mesh["mesh"]["watertight"], true);
   EXPECT_GT(mesh["tree"]["nodes"], 1);
-  EXPECT_GE(mesh["tree"]["binary_depth"], 4);  // of twelve leaves
+  EXPECT_GE(mesh["tree"]["binary_depth"], 4);  // twelve leaves need four levels
   EXPECT_EQ(nlohmann::json::parse(run("inspect problem.yaml --json").out)["pairs"]["tested"], 1);
 }
 
-/// Two links that turn about z, and a post beside them.
+/// An arm of two links with revolute joints about z, and a post beside it.
 class ArmCommandLine : public CommandLine {
  protected:
   ArmCommandLine() {
@@ -152,8 +152,8 @@ TEST_F(ArmCommandLine, CheckOfManyStates) {
   EXPECT_EQ(checked.out, "state,valid,pairs\n0,1,\n1,0,lower~post\n2,1,\n3,0,bounds:elbow\n4,1,\n");
   EXPECT_EQ(
       checked.err,
-      "corridor: warning: states.txt: in 1 state, values a rounding beyond a limit were taken "
-      "for the limit\n");
+      "corridor: warning: states.txt: in 1 state, values beyond a limit by no more than rounding "
+      "were set to the limit\n");
   write("free.txt", "0 0\n0.1 0.1\n");
   EXPECT_EQ(run("check arm.yaml --states free.txt").status, 0);
   const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
@@ -163,22 +163,22 @@ TEST_F(ArmCommandLine, CheckOfManyStates) {
   EXPECT_EQ(json["states"][3]["out_of_bounds"][0], "elbow");
 }
 
-/// A full circle takes any angle as it is: no state is wrapped, and what rounding hides is not
-/// valid.
+/// Angles of continuous joints are not wrapped, however large. A state is not valid if the angle is
+/// so large that its rounding exceeds the clearance.
 TEST_F(ArmCommandLine, CheckOfStatesTakesAnglesAsTheyAre) {
   std::string urdf = read("arm.urdf");
   const std::string revolute = "<joint name=\"shoulder\" type=\"revolute\">";
   urdf.replace(urdf.find(revolute), revolute.size(),
                "<joint name=\"shoulder\" type=\"continuous\">");
   write("arm.urdf", urdf);
-  // The post's middle is at 90 degrees; 1e6 rad are at 166.8 degrees, 1e15 rad at 143.9.
+  // The post's centre is at 90 degrees; 1e6 rad point to 166.8 degrees, 1e15 rad to 143.9.
   write("states.txt", "1.5707963 0\n0.3 0\n1000000 0\n1000000.45 0\n-999998.7 0\n1e15 0\n1e22 0\n");
   const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
   const auto& states = json["states"];
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double angle[] = {1.5707963, 0.3, 1000000, 1000000.45, -999998.7, 1e15, 1e22};
-    // The arm, 2 m long, meets the ball of 0.1 m at 1.5 m where it is within 0.12 rad of the
-    // middle.
+    // The arm, 2 m long, touches the sphere of radius 0.1 m at distance 1.5 m if it is within
+    // 0.12 rad of the direction to the sphere's centre.
     const double off =
         std::remainder(static_cast<double>(std::atan2(std::sin(angle[i]), std::cos(angle[i]))) -
                            std::acos(-1.0) / 2,
@@ -209,7 +209,7 @@ TEST_F(ArmCommandLine, CheckOfStatesFromAPipe) {
             "-: is empty; states, one a line is needed\n");
 }
 
-/// Joints may have any names; it isn't their names that make a rigid body.
+/// Joints may have any names: the joints' types decide whether a problem has a rigid body.
 TEST_F(ArmCommandLine, AnArmOfJointsCalledXYAndYawIsNoRigidBody) {
   std::string urdf = "<robot name=\"arm\">\n<link name=\"l0\"/>\n", parent = "l0";
   for (const std::string name : {"x", "y", "yaw"}) {
@@ -227,9 +227,9 @@ TEST_F(ArmCommandLine, AnArmOfJointsCalledXYAndYawIsNoRigidBody) {
       "format: corridor-problem-1\nrobot: arm.urdf\nworld: {post: {sphere: 0.1, at: [0, 1.5, 0]}}\n"
       "start: {x: 0, y: 0, yaw: 0}\ngoal: {x: 1, y: 0, yaw: 0}\n");
   EXPECT_EQ(nlohmann::json::parse(run("inspect arm.yaml --json").out)["space"], "joints");
-  // Three links of 0.5 m, and a ball of 0.1.
+  // Three joints 0.5 m apart, and a sphere of radius 0.1 m.
   EXPECT_THAT(run("inspect arm.urdf").out,
-              HasSubstr("reach: at most 1.6 m from the origin of l0: of yaw\n"));
+              HasSubstr("reach: at most 1.6 m from the origin of l0: link yaw\n"));
   EXPECT_EQ(run("solve arm.yaml -o s.yaml").status, 0);
   EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"x\", \"y\", \"yaw\"]\n"));
   EXPECT_EQ(run("verify arm.yaml s.yaml").status, 0);
@@ -282,7 +282,7 @@ TEST_F(ArmCommandLine, CheckOfStartAndGoal) {
   const Result bad = run("check bad.yaml");
   EXPECT_EQ(bad.status, 2);
   EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT has no parameter \"rnge\""));
-  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: unknown sampler \"most_clearance\""));  // all
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: unknown sampler \"most_clearance\""));  // both faults
 }
 
 TEST_F(ArmCommandLine, InspectTellsPairsAndRobots) {
@@ -350,7 +350,7 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
     for (const char* option : {"--output", "--picture"})
       fault(std::string("solve problem.yaml ") + option + " " + file,
             testing::Eq(std::string(option) + ": " + file +
-                        " is of the problem itself; name another file\n"));
+                        " belongs to the problem and would be overwritten; name another file\n"));
   fault("solve problem.yaml --picture .",
         testing::Eq("--picture: . is a folder; a file's name is needed\n"));
   fault("solve problem.yaml --edges discrete --resolution 1",
@@ -362,9 +362,10 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
   write("package.urdf",
         "<robot name=\"r\">\n<link name=\"a\"><collision><geometry><mesh "
         "filename=\"package://p/m.obj\"/></geometry></collision></link>\n</robot>\n");
-  fault("inspect package.urdf",
-        testing::Eq("package.urdf:2: link \"a\": mesh \"package://p/m.obj\": package \"p\" has no "
-                    "folder (robot.yaml: packages: {p: FOLDER}), and p/m.obj is no file\n"));
+  fault(
+      "inspect package.urdf",
+      testing::Eq("package.urdf:2: link \"a\": mesh \"package://p/m.obj\": p/m.obj is not a file, "
+                  "and package \"p\" has no folder; add robot.yaml: packages: {p: FOLDER}\n"));
   fault("check problem.yaml --states .", testing::Eq(".: is a folder; a file is needed\n"));
   fault("check problem.yaml --states /dev/zero",
         testing::Eq("/dev/zero: is a device; an ordinary file is needed\n"));
@@ -387,61 +388,58 @@ TEST_F(CommandLine, BadUsageIsExit2) {
 
 TEST_F(CommandLine, BadUsageIsOneLine) {
   const auto said = [&](const std::string& arguments) { return run(arguments).err; };
-  EXPECT_EQ(said(""), "A subcommand is required; corridor --help tells more\n");
+  EXPECT_EQ(said(""), "A subcommand is required; see corridor --help\n");
   EXPECT_EQ(said("slove problem.yaml"),
             "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, "
             "view, benchmark, check, inspect, query\n");
-  EXPECT_EQ(said("verify problem.yaml"),
-            "SOLUTION is required; corridor verify --help tells more\n");
+  EXPECT_EQ(said("verify problem.yaml"), "SOLUTION is required; see corridor verify --help\n");
   for (const char* time : {"0", "-1", "nan", "inf", "20s"})
     EXPECT_EQ(said(std::string("solve problem.yaml --time ") + time),
               std::string("--time: a number of seconds above 0 is needed, not \"") + time +
-                  "\"; corridor solve --help tells more\n");
+                  "\"; see corridor solve --help\n");
   for (const char* seed : {"-1", "1.5", "abc", "18446744073709551616"})
     EXPECT_EQ(said(std::string("solve problem.yaml --seed ") + seed),
               std::string("--seed: a whole number from 0 to 2^64 - 1 is needed, not \"") + seed +
-                  "\"; corridor solve --help tells more\n");
+                  "\"; see corridor solve --help\n");
   EXPECT_EQ(run("solve problem.yaml --seed 0").status, 0);
 }
 
-/// CLI11's own words for these name an option last, or not at all.
+/// CLI11's own messages name the option last, or not at all.
 TEST_F(CommandLine, WordsThatNoCommandTakesAreTold) {
   const auto fault = [&](const std::string& arguments, const std::string& told) {
-    expectFault(arguments, told + "; corridor " + arguments.substr(0, arguments.find(' ')) +
-                               " --help tells more");
+    expectFault(arguments,
+                told + "; see corridor " + arguments.substr(0, arguments.find(' ')) + " --help");
   };
   fault("solve problem.yaml --stopp first", "unknown option \"--stopp\"; did you mean \"--stop\"?");
   fault("solve problem.yaml --tme=3", "unknown option \"--tme\"; did you mean \"--time\"?");
   fault("verify problem.yaml s.yaml more.yaml", "unexpected word \"more.yaml\"");
   fault("solve problem.yaml -- more.yaml", "unexpected word \"more.yaml\"");
-  expectFault(
-      "--tme=3 solve problem.yaml",
-      "unknown option \"--tme\"; did you mean \"--time\"?; corridor solve --help tells more");
-  expectFault("more solve problem.yaml",
-              "unexpected word \"more\"; corridor solve --help tells more");
+  expectFault("--tme=3 solve problem.yaml",
+              "unknown option \"--tme\"; did you mean \"--time\"?; see corridor solve --help");
+  expectFault("more solve problem.yaml", "unexpected word \"more\"; see corridor solve --help");
   fault("solve problem.yaml --time 1 --time 2", "--time is given 2 times; once is enough");
   fault("solve problem.yaml -o a.yaml -o a.yaml", "--output is given 2 times; once is enough");
   fault("solve problem.yaml -o ''", "--output: is empty");
   fault("solve ''", "PROBLEM: is empty");
   for (const char* edges : {"certified", "adaptive"})
     expectFault(std::string("solve problem.yaml --resolution 0.1 --edges ") + edges,
-                std::string("--resolution: is of --edges discrete, and edges are ") + edges);
-  expectFault("inspect cube.obj --pairs", "--pairs: is of a problem, and cube.obj is a mesh");
+                std::string("--resolution: needs --edges discrete, and edges are ") + edges);
+  expectFault("inspect cube.obj --pairs", "--pairs: needs a problem, and cube.obj is a mesh");
   expectFault("inspect problem.yaml --self-intersections",
-              "--self-intersections: is of a mesh, and problem.yaml is a problem");
+              "--self-intersections: needs a mesh, and problem.yaml is a problem");
   expectFault("inspect cube.obj --against cube.obj --self-intersections",
-              "--self-intersections: is not of --against");
+              "--self-intersections: can't be used with --against");
   write("crossed.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
   EXPECT_THAT(run("inspect crossed.obj --self-intersections").out,
-              HasSubstr("self-intersections: 1, the first of triangles 0 and 1 (from 0)"));
+              HasSubstr("self-intersections: 1, the first between triangles 0 and 1 (from 0)"));
   expectFault("inspect problem.yaml --unit mm",
-              "--unit: is of a mesh, and problem.yaml is a problem");
-  expectFault("inspect robot.yaml --up y", "--up: is of a mesh, and robot.yaml is a robot");
+              "--unit: needs a mesh, and problem.yaml is a problem");
+  expectFault("inspect robot.yaml --up y", "--up: needs a mesh, and robot.yaml is a robot");
   expectFault("solve problem.yaml --set range=1 --set range=2", "--set: \"range\" is set twice");
   EXPECT_EQ(run("solve problem.yaml --quiet --quiet").status, 0);
 }
 
-/// A device that is always full: what is lost must not look done.
+/// Results lost on a full disk must not end with exit status 0.
 TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsTold) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   write("poses.txt", "1 0 0 0 1 0 0 0 1 0 0 0\n");
@@ -457,7 +455,7 @@ TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsTold) {
   EXPECT_EQ(run("solve problem.yaml --quiet >/dev/full; exit $?;").status, 0);
 }
 
-/// As a full disk, and not the end of the program by a signal.
+/// A limit on files' sizes acts like a full disk; SIGXFSZ must not end the program.
 TEST_F(CommandLine, AFileThatMayNotGrowIsToldAndNotLeftInHalf) {
   const Result whole = run("solve problem.yaml --seed 1 --picture p.svg");
   ASSERT_EQ(whole.status, 0) << whole.err;

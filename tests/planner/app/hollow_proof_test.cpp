@@ -1,5 +1,5 @@
-// Proofs that prove nothing a user has asked for: of a problem in which no pair of bodies is
-// tested, and of a path that was made for another problem. Each command says so, and says it first.
+// Tests of proofs that would mislead: of a problem in which no pair of bodies is tested, and of a
+// path that was made for another problem. Each command warns of them before any other output.
 #include <map>
 #include <string>
 
@@ -47,7 +47,7 @@ class HollowProof : public corridor::test::ProgramTest {
   }
 };
 
-/// All commands that take a problem, the new ones, too: those of --help.
+/// Covers all commands of --help: a new command that takes a problem fails here until it is added.
 TEST_F(HollowProof, EveryCommandSaysFirstThatNothingIsTested) {
   const std::map<std::string, std::vector<std::string>> uses = {
       {"solve", {"solve alone.yaml", "solve alone.yaml --json"}},
@@ -58,13 +58,13 @@ TEST_F(HollowProof, EveryCommandSaysFirstThatNothingIsTested) {
        {"check alone.yaml", "check alone.yaml --json", "check alone.yaml --states states.txt",
         "check alone.yaml --states states.txt --json"}},
       {"inspect", {"inspect alone.yaml", "inspect alone.yaml --json"}},
-      {"query", {}},  // of two meshes, which are a pair
+      {"query", {}},  // takes two meshes, no problem
   };
   for (const std::string& command : commands()) EXPECT_EQ(uses.count(command), 1u) << command;
   for (const auto& [command, all] : uses)
     for (const std::string& arguments : all) {
-      // Both streams into one file: what comes first is first there, however it is buffered, only
-      // if it is flushed before; so stderr is looked at, and stdout of --json.
+      // stdout is buffered, so one file for both streams would not show which output came first.
+      // The test reads the first line of stderr and, with --json, the first of the notes on stdout.
       const Result result = run(arguments);
       EXPECT_EQ(result.status, 0) << arguments << ": " << result.err;
       const std::string name = command == "benchmark" ? "alone" : "alone.yaml";
@@ -91,7 +91,7 @@ TEST_F(HollowProof, AClearanceOfNothingIsNoNumber) {
   EXPECT_EQ(campaign["results"][0]["rows"][0]["proven_clearance_m"], nullptr);
 }
 
-/// Whatever the reason: here an `allow` too many.
+/// The reason does not matter: here an `allow` excludes the only pair.
 TEST_F(HollowProof, AllPairsAllowedIsNothingTested) {
   const Result result = run("verify allowed.yaml through.yaml");
   EXPECT_EQ(result.err, "corridor: warning: allowed.yaml: " + kNothing + "\n");
@@ -155,7 +155,7 @@ TEST_F(OtherProblem, SameAndNoDigestAreVerified) {
   }
 }
 
-/// What solve writes is its problem's, until a file of that changes.
+/// A solution of `solve` verifies until one of the problem's files changes.
 TEST_F(OtherProblem, IsAProblemWhoseFilesHaveChanged) {
   ASSERT_EQ(run("solve hall.yaml -o path.yaml").status, 0);
   EXPECT_EQ(run("verify hall.yaml path.yaml").status, 0);

@@ -1,5 +1,5 @@
-// `corridor inspect` as its users meet it: what it says of meshes and robots, and which file it
-// finds.
+// Tests of `corridor inspect` from outside: its reports on meshes and robots, and which file it
+// finds in a folder.
 #include <filesystem>
 #include <string>
 
@@ -16,15 +16,15 @@ using testing::StartsWith;
 
 using InspectCommand = corridor::test::ProgramTest;
 
-/// A joint that mimics another goes where that one takes it, though its own limits are closer.
+/// The range of a joint that mimics another follows from that joint, even beyond its own limits.
 TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
   const auto joint = [](const std::string& name, const std::string& parent,
                         const std::string& more) {
     return "<link name='" + name + "'/><joint name='" + name + "' type='prismatic'><parent link='" +
            parent + "'/><child link='" + name + "'/><origin xyz='1 0 0'/>" + more + "</joint>\n";
   };
-  const std::string free = "<limit effort='1' velocity='1'/>";  // no range: 0 to 0, if asked
-  // It comes before the one that it mimics: -2 times -0.5 to 0.25, and 0.5 more.
+  const std::string free = "<limit effort='1' velocity='1'/>";  // own range: 0 to 0
+  // `first` comes before `last`, which it mimics: its range is −2·[−0.5, 0.25] + 0.5.
   write("slides.urdf",
         "<robot name='slides'><link name='base'/>\n" +
             joint("first", "base", free + "<mimic joint='last' multiplier='-2' offset='0.5'/>") +
@@ -53,8 +53,8 @@ TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
   EXPECT_THAT(named.out, HasSubstr("robot: " + arm6 + "/robot.yaml\n"));
   EXPECT_EQ(found.out, named.out);
   expectFault("inspect " + arm6 + " --pairs",
-              "--pairs: is of a problem, and " + arm6 + "/robot.yaml is a robot");
-  // Of a folder with both, the problem: as other commands do.
+              "--pairs: needs a problem, and " + arm6 + "/robot.yaml is a robot");
+  // In a folder with both, the problem is inspected, as other commands take it.
   write("robot.yaml",
         "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
   write("problem.yaml",
@@ -78,7 +78,7 @@ TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
 }
 
 TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
-  // A tetrahedron with its corner at the bounds' upper end, one triangle turned.
+  // A tetrahedron with one triangle turned; its corner is the upper end of the bounds (and -0).
   write("turned.obj",
         "v -0 -0 -0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const Result text = run("inspect turned.obj");
@@ -99,8 +99,8 @@ TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
   const auto asked = nlohmann::json::parse(run("inspect turned.obj --json --unit mm --up y").out);
   EXPECT_EQ(asked["unit"], "mm");
   EXPECT_EQ(asked["up"], "y");
-  EXPECT_EQ(asked["mesh"]["unit_rule"], "0.001 m per unit, as asked");
-  EXPECT_EQ(asked["mesh"]["up_rule"], "y is up, as asked: turned by (x, y, z) -> (x, -z, y)");
+  EXPECT_EQ(asked["mesh"]["unit_rule"], "0.001 m per unit, as requested");
+  EXPECT_EQ(asked["mesh"]["up_rule"], "y is up, as requested: rotated by (x, y, z) -> (x, -z, y)");
   write("closed.obj",
         "v 0 0 0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const auto closed = nlohmann::json::parse(run("inspect closed.obj --json").out)["mesh"];

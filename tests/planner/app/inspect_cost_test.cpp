@@ -1,4 +1,4 @@
-// `corridor inspect A --against B`: counts are what queries count; times are only there.
+// Tests of `corridor inspect A --against B`: counts equal those of queries; times are above 0.
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -62,7 +62,7 @@ TEST_F(InspectCost, JsonHasTheCountsOfQueries) {
   EXPECT_GE(json["rejected_by_root"], 1);
   EXPECT_GT(json["hits"], 1);
   ASSERT_EQ(json["volumes"].size(), std::size(kVolumes));
-  // As `corridor query` counts, over the poses that the roots of oriented boxes let pass.
+  // The expected counts: those of `corridor query`, over the poses where the root OBBs overlap.
   const auto counts = [&](const std::string& volume) {
     std::istringstream csv(run("query a.obj b.obj --poses poses.txt --volume " + volume).out);
     std::vector<std::pair<double, double>> all;
@@ -127,25 +127,23 @@ TEST_F(InspectCost, BadInputIsOneLineAndExit2) {
   const auto fault = [&](const std::string& arguments, const std::string& told) {
     expectFault("inspect " + arguments, told);
   };
-  fault("a.obj --against",
-        "--against: 1 required TEXT missing; corridor inspect --help tells more");
+  fault("a.obj --against", "--against: 1 required TEXT missing; see corridor inspect --help");
   fault("a.obj --against none.obj", "none.obj: no such file");
   fault("none.obj --against a.obj", "none.obj: no such file");
   fault("a.obj --against empty.obj",
         "empty.obj: the mesh has no faces; triangles or polygons are needed, lines and points are "
         "not read");
-  fault("a.obj --poses poses.txt", "--poses: is of --against, which is not given");
-  fault("a.obj --against b.obj --pairs", "--pairs: is of a problem, and a.obj is a mesh");
+  fault("a.obj --poses poses.txt", "--poses: needs --against, which is not given");
+  fault("a.obj --against b.obj --pairs", "--pairs: needs a problem, and a.obj is a mesh");
   fault("a.obj --against b.obj --poses none.txt", "none.txt: no such file");
   fault("a.obj --against b.obj --poses bad.txt",
         "bad.txt:1: a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not 11");
-  fault(
-      "a.obj --against b.obj --poses one.txt",
-      "one.txt: poses at which the meshes' bounding boxes meet are needed, two or more; they meet "
-      "at 1 of 1 pose");
-  fault("arm.urdf --against b.obj", "--against: two meshes are compared, and arm.urdf is a robot");
+  fault("a.obj --against b.obj --poses one.txt",
+        "one.txt: at least two poses are needed at which the meshes' bounding boxes overlap; they "
+        "overlap at 1 of 1 pose");
+  fault("arm.urdf --against b.obj", "--against: needs two meshes, and arm.urdf is a robot");
   fault("problem.yaml --against b.obj",
-        "--against: two meshes are compared, and problem.yaml is a problem");
+        "--against: needs two meshes, and problem.yaml is a problem");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What interrupts do to a program that listens for them.
+// Tests of planner/app/interrupt.h, in child processes that send signals to themselves.
 #include "planner/app/interrupt.h"
 
 #include <chrono>
@@ -14,11 +14,12 @@ namespace {
 
 constexpr int kWentOn = 7, kNotTold = 8;
 
-/// How a process ends that is interrupted, and once more after so long.
+/// Returns how a process ends that gets a signal, and the same signal again some milliseconds
+/// later.
 int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT) {
   const pid_t id = ::fork();
   if (id == 0) {
-    ::signal(SIGHUP, SIG_DFL);  // whatever this test runs under
+    ::signal(SIGHUP, SIG_DFL);  // also where this test runs under nohup
     const std::atomic<bool>& interrupted = listenForInterrupts(second);
     std::raise(signal);
     if (!interrupted || interruptedStatus() != 128 + signal) ::_exit(kNotTold);
@@ -42,7 +43,7 @@ TEST(Interrupt, ASecondEndsOrIsIgnored) {
   }
 }
 
-/// nohup(1) is for programs that go on where their terminal is closed.
+/// A program under nohup(1) goes on after its terminal is closed.
 TEST(Interrupt, UnderNohupHangingUpIsNothing) {
   const pid_t id = ::fork();
   if (id == 0) {
@@ -57,14 +58,14 @@ TEST(Interrupt, UnderNohupHangingUpIsNothing) {
   EXPECT_EQ(WEXITSTATUS(status), kWentOn);
 }
 
-/// timeout(1) sends one to the program, and then to its group.
+/// timeout(1) sends its signal to the program, and then to its process group: both count as one.
 TEST(Interrupt, OneThatComesTwiceIsOne) {
   const int status = statusAfterTwo(SecondInterrupt::ends, 0);
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), kWentOn);
 }
 
-/// Who reads a pipe meanwhile isn't disturbed.
+/// A signal must not make a pending read fail with EINTR.
 TEST(Interrupt, ReadsGoOn) {
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);

@@ -1,5 +1,6 @@
-// Outputs are written whole or not at all, and a command says so by its exit status: on a full
-// disk, in a read-only folder, to a closed pipe or a closed stdout. Every use of every command.
+// Tests of outputs that can't be written, in every use of every command: on a full disk, in a
+// read-only folder, to a closed pipe, to a closed stdout. Each file is complete or absent, and the
+// exit status reports the fault.
 #include <algorithm>
 #include <csignal>
 #include <fcntl.h>
@@ -41,7 +42,7 @@ TEST_P(OutputFaults, AFullDiskBehindStdout) {
   expectAll();
 }
 
-/// The next file that is opened must not get stdout's number, and the results with it.
+/// Without openStandardStreams the next file opened would get stdout's number, and the results.
 TEST_P(OutputFaults, AClosedStdout) {
   const End end = this->end(GetParam().arguments, [] { ::close(STDOUT_FILENO); });
   EXPECT_EQ(end.status, 2);
@@ -63,13 +64,13 @@ TEST_P(OutputFaults, APipeThatNobodyReads) {
     EXPECT_THAT(end.err, EndsWith(ignored ? kStdoutFault : ""));
     EXPECT_TRUE(end.alone);
     expectAll();
-    // For the second time: a folder with a campaign in it is not written over.
+    // Empties `out` for the second run: `benchmark` does not overwrite a campaign.
     std::filesystem::remove_all(folder_ / "out");
     std::filesystem::create_directory(folder_ / "out");
   }
 }
 
-/// What `query` says on stderr is a result, too.
+/// `query` prints results on stderr, too; all other commands ignore a full stderr.
 TEST_P(OutputFaults, AFullDiskBehindStderr) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   const End end =
@@ -82,11 +83,11 @@ TEST_P(OutputFaults, AFullDiskBehindStderr) {
 INSTANTIATE_TEST_SUITE_P(Uses, OutputFaults, testing::ValuesIn(uses()),
                          [](const auto& use) { return use.param.name; });
 
-/// Uses that write files.
+/// Runs the uses that write files.
 class FileFaults : public OutputFaults {
  protected:
   bool isFolder() const { return GetParam().arguments.starts_with("benchmark"); }
-  /// One line that names what can't be written, and says why.
+  /// Expects exit status 2 and one line on stderr that contains `why`.
   static void expectSaid(const End& end, const std::string& why) {
     EXPECT_EQ(end.status, 2);
     EXPECT_THAT(end.err, HasSubstr(why));
@@ -95,10 +96,11 @@ class FileFaults : public OutputFaults {
   }
 };
 
-/// As by `ulimit -f`: half of the file would fit. What was there before stays.
+/// With a limit on files' sizes (`ulimit -f`) of half the file, the file that was there before must
+/// stay.
 TEST_P(FileFaults, FilesThatMayNotGrow) {
   for (const std::string& file : GetParam().files) {
-    if (isFolder() && file != GetParam().files[0]) break;  // the database is the first to suffer
+    if (isFolder() && file != GetParam().files[0]) break;  // the database fails first
     if (!isFolder()) write("out/" + file, "before");
     const std::size_t half = whole_.at(file).size() / 2;
     const End end = this->end(GetParam().arguments, [half] {
@@ -154,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Uses, FileFaults, testing::ValuesIn(usesWithFiles()),
 
 class Uses : public ProgramTest {};
 
-/// A command that is new must be tried, too, and what it writes.
+/// Fails when a new command, output option or query has no entry in `uses()`.
 TEST_F(Uses, HaveEveryCommandAndOutput) {
   std::set<std::string> used;
   for (const Use& use : uses()) used.insert(use.arguments.substr(0, use.arguments.find(' ')));
@@ -181,7 +183,7 @@ TEST_F(Uses, HaveEveryCommandAndOutput) {
     EXPECT_TRUE(hasUse("query", "--query " + query)) << query;
 }
 
-/// Help is a result.
+/// --help and --version print results, so losing them must give exit status 2.
 TEST_F(Uses, HelpThatCannotBeWrittenIsToldOf) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   for (const char* words : {"--help", "solve --help", "--version"})

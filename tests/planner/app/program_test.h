@@ -15,7 +15,7 @@
 
 namespace corridor::test {
 
-/// The program, run in a folder of the test's own.
+/// Runs the program in a temporary folder of the test.
 class ProgramTest : public testing::Test {
  protected:
   struct Result {
@@ -39,7 +39,7 @@ class ProgramTest : public testing::Test {
     return all;
   }
   std::string read(const std::string& name) const { return contents(folder_ / name); }
-  /// @param input a command whose output it reads, "echo 0 | ".
+  /// @param input shell commands before the program, such as "echo 0 | " for its stdin.
   Result run(const std::string& arguments, const std::string& input = "") const {
     const std::string command = "cd '" + folder_.string() + "' && " + input +
                                 "'" CORRIDOR_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
@@ -47,7 +47,7 @@ class ProgramTest : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
 
-  /// Bad input: one line on stderr, nothing on stdout, exit status 2.
+  /// Expects that bad input gives one line on stderr, nothing on stdout, and exit status 2.
   void expectFault(const std::string& arguments, const std::string& told) const {
     const Result result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;
@@ -55,7 +55,7 @@ class ProgramTest : public testing::Test {
     EXPECT_EQ(result.out, "") << arguments;
   }
 
-  /// Those that `corridor --help` lists.
+  /// Returns the commands that `corridor --help` lists.
   std::vector<std::string> commands() const {
     std::vector<std::string> names;
     bool listed = false;

@@ -1,4 +1,4 @@
-// `corridor query`: CSV on stdout, key=value on stderr, one line a fault.
+// Tests of `corridor query`: CSV on stdout, key=value on stderr, one line per fault.
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -16,14 +16,14 @@ using corridor::test::ProgramTest;
 using testing::Eq;
 using testing::HasSubstr;
 
-const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the rotation that is none
+const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the identity
 
 class QueryCommand : public ProgramTest {
  protected:
   QueryCommand() {
     write("a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
     write("b.obj", "v 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\n");
-    // Through the face; a corner on it; above; the same plane as an edge of it, just off.
+    // b crosses a's face; a corner of b is on the face; b is just above it; b crosses a's edge.
     write("poses.txt", "# R t\n" + kStill +
                            "0 0 0\n1,0,0,0,1,0,0,0,1,0,0,1  # comma separated\n\n" + kStill +
                            "0 0 1.0000001\n" + kStill + "-1.5 0 0\n");
@@ -101,7 +101,7 @@ TEST_F(QueryCommand, AllVolumesAnswerAlike) {
           hits)
           << volume << asked;
   }
-  // An axis-aligned box of one mesh is an oriented one to the other: it is tested by the 15 axes.
+  // An axis-aligned box of b is oriented as seen from a, so 15 separating axes are tested.
   EXPECT_EQ(summary(query("--poses poses.txt --volume aabb")).at("overlap"), "sat");
 }
 
@@ -126,14 +126,14 @@ TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
   EXPECT_EQ(summary(result).at("poses"), "12");
   const auto poses = lines(read("saved.txt"));
   ASSERT_EQ(poses.size(), 13u);
-  // The centre of b's bounds, (2, 1, 0), is put on the points; the first rotation is none.
+  // The centre of b's bounds, (2, 1, 0), is put on the points; the first rotation is the identity.
   EXPECT_EQ(poses[1], kStill + "-3 -2 0.5");
   EXPECT_EQ(poses[2], kStill + "-2 -2 0.5");
   EXPECT_EQ(poses[4], kStill + "-3 0 0.5");
   EXPECT_THAT(poses[7], testing::Not(HasSubstr(kStill)));
   EXPECT_EQ(query("--poses saved.txt").out, result.out);
   EXPECT_EQ(query(grid).out, result.out);
-  // Of itself: the bounds of a grown by half of b's diagonal, √8/2; so the corners are free.
+  // By default a's bounds, grown by half of b's diagonal, √8/2: nothing touches at the corners.
   EXPECT_EQ(query("--grid 2x2x2 --save-poses saved.txt").status, 0);
   EXPECT_THAT(lines(read("saved.txt"))[1], HasSubstr(kStill + "-3.41421356"));
   EXPECT_EQ(summary(query("--grid 2x2x2")).at("hits"), "0");
@@ -179,19 +179,19 @@ TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
   fault("1 2 3 4 5 6 7 8 9 0 0 0", "the matrix is singular (determinant 0); a rotation is needed");
   fault("1 0 0 0 1 0 0 0 -1 0 0 0", "the matrix mirrors (determinant -1); a rotation is needed");
   fault("2 0 0 0 2 0 0 0 2 0 0 0",
-        "the matrix is no rotation: RᵀR is off the identity by 3, at most 0.0002 is taken for "
-        "rounding");
+        "the matrix is not a rotation: RᵀR differs from the identity by 3; at most 0.0002 counts "
+        "as rounding");
   fault("1 0.001 0 0 1 0 0 0 1 0 0 0",
-        "the matrix is no rotation: RᵀR is off the identity by 0.001, at most 0.0002 is taken for "
-        "rounding");
-  // Long columns don't make a matrix singular, nor do products that overflow.
+        "the matrix is not a rotation: RᵀR differs from the identity by 0.001; at most 0.0002 "
+        "counts as rounding");
+  // A matrix with large or overflowing entries is reported as no rotation, not as singular.
   fault("1e9 0 0 0 1 0 0 0 1 0 0 0",
-        "the matrix is no rotation: RᵀR is off the identity by 1e+18, at most 0.0002 is taken for "
-        "rounding");
+        "the matrix is not a rotation: RᵀR differs from the identity by 1e+18; at most 0.0002 "
+        "counts as rounding");
   fault("1e200 0 0 0 1e200 0 0 0 1e200 0 0 0",
-        "the matrix is no rotation: RᵀR is off the identity by inf, at most 0.0002 is taken for "
-        "rounding");
-  // Four decimals are let pass.
+        "the matrix is not a rotation: RᵀR differs from the identity by inf; at most 0.0002 "
+        "counts as rounding");
+  // Four decimals are accurate enough.
   write("fine.txt", "0.8660 -0.5 0 0.5 0.8660 0 0 0 1 0 0 0\n");
   EXPECT_EQ(query("--poses fine.txt").status, 0);
 }
@@ -206,7 +206,7 @@ TEST_F(QueryCommand, AllFaultsOfAFileAreToldButNotThousands) {
   write("bad.txt", many);
   const auto told = lines(query("--poses bad.txt").err);
   ASSERT_EQ(told.size(), 11u);
-  EXPECT_EQ(told[10], "bad.txt:50: and so on: 50 lines are at fault, this is the last");
+  EXPECT_EQ(told[10], "bad.txt:50: and so on: 50 lines are faulty, this is the last");
 }
 
 TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
@@ -216,15 +216,15 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   const auto fault = [&](const std::string& arguments, const std::string& told) {
     expectFault("query " + arguments, told);
   };
-  const std::string more = "; corridor query --help tells more";
+  const std::string more = "; see corridor query --help";
   fault("a.obj b.obj", "--poses: a file of poses is needed, or --grid, or --motions");
   fault("a.obj b.obj --poses poses.txt --grid 2x2x2",
-        "--grid: the poses are told by --poses; one of the two is needed");
-  fault("a.obj b.obj --poses poses.txt --seed 1", "--seed: is of --grid, which is not given");
+        "--grid: can't be used with --poses; give one of the two");
+  fault("a.obj b.obj --poses poses.txt --seed 1", "--seed: needs --grid, which is not given");
   fault("a.obj b.obj --poses none.txt", "none.txt: no such file");
   fault("a.obj b.obj --poses .", ".: is a folder; a file is needed");
   fault("a.obj b.obj --poses empty.txt",
-        "empty.txt: is empty; a file of poses, one a line, is needed");
+        "empty.txt: is empty; a file of poses, one per line, is needed");
   fault("a.obj b.obj --poses comments.txt", "comments.txt: no poses");
   fault("a.obj", "B is required" + more);
   fault("none.obj b.obj --poses poses.txt", "none.obj: no such file");
@@ -240,23 +240,23 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "rss, kdop14, kdop18, "
         "kdop26");
   fault("a.obj b.obj --poses poses.txt --query tolerance",
-        "--tolerance: the tolerance query needs a distance in metres");
+        "--tolerance: is needed with --query tolerance: a distance in metres");
   fault("a.obj b.obj --poses poses.txt --tolerance 1",
-        "--tolerance: is of --query tolerance, which is not asked");
+        "--tolerance: needs --query tolerance or --motions");
   fault("a.obj b.obj --poses poses.txt --query tolerance --tolerance nan",
         "--tolerance: a number of metres, 0 or more, is needed, not \"nan\"" + more);
   fault("a.obj b.obj --poses poses.txt --fit moments",
-        "--fit: unknown fit \"moments\" of obb; there are: triangles, vertices, hull");
+        "--fit: unknown fit \"moments\"; volume obb has: triangles, vertices, hull");
   fault("a.obj b.obj --poses poses.txt --overlap gjk",
-        "--overlap: \"gjk\" is of volume obb-binary; of obb there is: sat");
+        "--overlap: \"gjk\" is for volume obb-binary; volume obb has: sat");
   fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
-        "--fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there is: plain");
+        "--fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
-        "--overlap: unknown overlap \"gkj\" of obb-binary; did you mean \"gjk\"?; there are: sat, "
+        "--overlap: unknown overlap \"gkj\"; did you mean \"gjk\"?; volume obb-binary has: sat, "
         "gjk, lp, edge-face");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap lp --query distance",
-        "--overlap: \"lp\" is of --query interference and contacts; distance asks how far volumes "
-        "are apart");
+        "--overlap: \"lp\" needs --query interference or contacts; distance computes distances "
+        "between volumes");
   fault("a.obj b.obj --poses poses.txt --repeat 0",
         "--repeat: a whole number from 1 to 1000000 is needed, not \"0\"" + more);
   fault("a.obj b.obj --grid 10x10x11 --repeat 1000000",
@@ -265,7 +265,8 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--grid: three counts above 0 along x, y and z are needed, as in 10x10x5, not \"3x3\"");
   fault("a.obj b.obj --grid 3x0x3",
         "--grid: three counts above 0 along x, y and z are needed, as in 10x10x5, not \"3x0x3\"");
-  fault("a.obj b.obj --grid 1000x1000x11", "--grid: more than 10,000,000 poses are asked for");
+  fault("a.obj b.obj --grid 1000x1000x11",
+        "--grid: more than 10,000,000 poses; use fewer points or rotations");
   fault("a.obj b.obj --grid 2x2x2 --lower 1,2",
         "--lower: three numbers of metres are needed, as in -1,-1,0.5, not \"1,2\"");
   fault("a.obj b.obj --grid 2x2x2 --upper -9,nan,1",
@@ -284,7 +285,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --grid 2x2x2 --save-poses .",
         "--save-poses: . is a folder; a file's name is needed");
   fault("a.obj b.obj --grid 2x2x2 --save-poses b.obj",
-        "--save-poses: b.obj is of the query itself; name another file");
+        "--save-poses: b.obj belongs to the query and would be overwritten; name another file");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// `corridor query --motions`: the first contact of each motion.
+// Tests of `corridor query --motions`: the first contact along each motion.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -25,11 +25,11 @@ using corridor::Mat3;
 using corridor::Vec3;
 using corridor::test::ProgramTest;
 
-const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the rotation that is none
+const std::string kStill = "1 0 0 0 1 0 0 0 1 ";  // the identity
 const std::string kHeader =
     "motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,splits";
 
-/// A row of the CSV, by the header's words.
+/// A row of the CSV: the value of each column, by the column's name.
 using Row = std::map<std::string, std::string>;
 
 std::vector<std::string> wordsOf(const std::string& line, char separator) {
@@ -60,7 +60,7 @@ std::vector<Row> rowsOf(const std::string& csv) {
 class QueryMotions : public ProgramTest {
  protected:
   QueryMotions() {
-    // A floor, and a needle that points down at it, its tip at the origin.
+    // a is a floor; b is a needle that points down at it, its tip at the origin.
     write("a.obj", "v 9 9 9\nv 9 9 8\nv 9 8 9\nv -4 -4 0\nv 4 -4 0\nv 0 4 0\nf 1 2 3\nf 4 5 6\n");
     write("b.obj", "v 0 0 0\nv 0.1 0 1\nv -0.1 0 1\nf 1 2 3\n");
   }
@@ -71,8 +71,9 @@ class QueryMotions : public ProgramTest {
 };
 
 TEST_F(QueryMotions, ClosedForms) {
-  // Down through the floor at t = 1/3; over it; half a turn, less 0.1 rad, about x that swings the
-  // needle's upper end down to the floor when 1 + cos φ = …: the tip stays 0.5 above.
+  // The first motion goes down through the floor at t = 1/3, the second passes above it. The third
+  // keeps the tip at 0.5 m and rotates the needle by 180° − asin 0.6 about x: its upper end swings
+  // down into the floor.
   const Result result =
       query("# from, to\n" + kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 1e-3, " +
             kStill + "1 0 1e-3\n" + kStill + "0 0 0.5 1 0 0 0 -0.8 -0.6 0 0.6 -0.8 0 0 0.5\n");
@@ -89,7 +90,7 @@ TEST_F(QueryMotions, ClosedForms) {
   EXPECT_EQ(rows[1].at("t0"), "1");
   EXPECT_EQ(rows[1].at("t1"), "-1");
   EXPECT_EQ(rows[1].at("triangle_a"), "-1");
-  // The upper end is at 0.5 + cos φ: down at the floor for φ = 120°, of 180° − asin 0.6.
+  // The upper end is at height 0.5 + cos φ, which is 0 at φ = 120°; the whole angle is acos(−0.8).
   const double t = 2 * std::acos(-1.0) / 3 / std::acos(-0.8);
   EXPECT_EQ(rows[2].at("verdict"), "contact");
   EXPECT_LE(std::stod(rows[2].at("t0")), t);
@@ -102,7 +103,7 @@ TEST_F(QueryMotions, ClosedForms) {
 }
 
 TEST_F(QueryMotions, EveryMethodFindsTheFirstContact) {
-  // Down through the floor at t = 1/3, and over it.
+  // The first motion goes down through the floor at t = 1/3, the second passes above it.
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
     const Result result =
         query(kStill + "0 0 1 " + kStill + "0 0 -2\n" + kStill + "-1 0 0.1 " + kStill + "1 0 0.1\n",
@@ -144,7 +145,7 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
   EXPECT_GT(tests.size(), 4u) << "they walk trees of their own, and make other tests";
 }
 
-/// As documented: it has no shorter way; and no time, gap or triangles are told of it.
+/// A half turn has no shorter way round, so it is undecided, without time, gap or triangles.
 TEST_F(QueryMotions, HalfATurnIsUndecided) {
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
     const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
@@ -153,9 +154,10 @@ TEST_F(QueryMotions, HalfATurnIsUndecided) {
   }
 }
 
-/// Matrices with a few digits: what is free as a motion touches at neither end, as a pose.
+/// Matrices with few digits are not quite rotations. A motion that is free must touch at neither of
+/// its two poses, taken exactly as they are in the file.
 TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
-  // The needle's tip is 7 m from B's origin, so that an error of the matrix is one of the tip.
+  // The needle's tip is 7 m from B's origin, so that an error of the matrix moves the tip.
   write("b.obj", "v 7 0 0\nv 7.1 0 1\nv 6.9 0 1\nf 1 2 3\n");
   const Vec3 vertices[] = {{7, 0, 0}, {7.1, 0, 1}, {6.9, 0, 1}};
   std::mt19937_64 random(corridor::test::testSeed(9));
@@ -168,14 +170,14 @@ TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
       return std::round(x * digits) / digits;
     };
     std::string line;
-    const int close = n / 2 % 3;  // where it begins, where it ends, nowhere
+    const int close = n / 2 % 3;  // which pose is close to the floor: first, last, neither
     const Mat3 turn = Eigen::AngleAxisd(3 * real(random), Vec3::UnitZ()).toRotationMatrix();
     for (int end = 0; end < 2; ++end) {
       Mat3 M = turn * Eigen::AngleAxisd(0.3 * real(random),
                                         Vec3(real(random), real(random), real(random)).normalized())
                           .toRotationMatrix();
       M = M.unaryExpr(rounded);
-      // The lowest vertex a little above the floor, or in it.
+      // Puts the lowest vertex a little above the floor, or into it.
       double lowest = HUGE_VAL;
       Vec3 low;
       for (const Vec3& v : vertices)
@@ -231,29 +233,30 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
     EXPECT_EQ(result.err, "motions.txt:1: " + told + "\n");
     EXPECT_EQ(result.out, "");
   };
-  fault(kStill + "0 0 0",
-        "a motion has 24 numbers (the pose where it begins, r00 r01 r02 r10 r11 r12 r20 r21 r22 tx "
-        "ty tz, and the one where it ends), not 12");
+  fault(
+      kStill + "0 0 0",
+      "a motion has 24 numbers (its first pose, r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz, and "
+      "its last), not 12");
   fault(kStill + "0 0 0 " + kStill + "0 0 inf", "a finite number is needed, not \"inf\"");
   fault(kStill + "0 0 0 1 0 0 0 1 0 0 0 -1 0 0 0",
-        "where it ends the matrix mirrors (determinant -1); a rotation is needed");
+        "last pose: the matrix mirrors (determinant -1); a rotation is needed");
   write("motions.txt", kStill + "0 0 1 " + kStill + "0 0 2\n");
   const auto option = [&](const std::string& more, const std::string& told) {
     expectFault("query a.obj b.obj --motions motions.txt " + more, told);
   };
-  option("--grid 2x2x2", "--grid: is of poses; --motions has none");
-  option("--query distance", "--query: is of poses; --motions has none");
-  // Nor do they have the default of poses.
-  option("--query interference", "--query: is of poses; --motions has none");
+  option("--grid 2x2x2", "--grid: applies to poses, not to --motions; leave it out");
+  option("--query distance", "--query: applies to poses, not to --motions; leave it out");
+  // Motions refuse the default query of poses, too.
+  option("--query interference", "--query: applies to poses, not to --motions; leave it out");
   option("--volume aabb --overlap gjk",
-         "--overlap: \"gjk\" is of volume obb-binary; of aabb there is: sat");
+         "--overlap: \"gjk\" is for volume obb-binary; volume aabb has: sat");
   option("--volume aabb --fit hull",
-         "--fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there is: plain");
+         "--fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
   option("--volume obb-binary --overlap gjk --edges adaptive",
-         "--overlap: \"gjk\" is of --edges certified; adaptive asks how far volumes are apart");
+         "--overlap: \"gjk\" needs --edges certified; adaptive computes distances between volumes");
   for (const std::string given :
        {"--lower 0,0,0", "--upper 0,0,0", "--rotations 2", "--seed 1", "--save-poses p.txt"})
-    option(given, given.substr(0, given.find(' ')) + ": is of --grid, which is not given");
+    option(given, given.substr(0, given.find(' ')) + ": needs --grid, which is not given");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "p.txt"));
   option("--edges adaptiv",
          "--edges: unknown method \"adaptiv\"; did you mean \"adaptive\"?; there are: certified, "
@@ -261,17 +264,18 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   option("--edges discrete",
          "--edges: unknown method \"discrete\"; there are: certified, adaptive, advancement");
   expectFault("query a.obj b.obj --grid 2x2x2 --edges adaptive",
-              "--edges: is of --motions, which is not given");
-  option("--tolerance 0", "--tolerance: of --motions it is to be above 0");
+              "--edges: needs --motions, which is not given");
+  option("--tolerance 0", "--tolerance: must be above 0 with --motions");
   write("motions.txt", "# none\n");
   expectFault("query a.obj b.obj --motions motions.txt", "motions.txt: no motions");
 }
 
-/// Motions of the shared data with known times of first contact.
+/// Compares motions of the shared data with their known times of first contact.
 class SharedMotions : public QueryMotions {
  protected:
-  /// Of the first `most` of each set no contact is missed, none invented, and every bracket holds
-  /// its own. @returns how many are undecided.
+  /// Expects, for the first `most` motions of each set, that no contact is missed, none is
+  /// invented, and every bracket [t0, t1] contains the true time. @returns how many motions are
+  /// undecided.
   std::size_t expectTruth(const std::string& edges, std::size_t most) {
     const auto folder = *corridor::test::dataFolder() / "collision";
     std::size_t undecided = 0;
@@ -303,7 +307,7 @@ class SharedMotions : public QueryMotions {
         EXPECT_EQ(row.at("verdict"), t < 0 ? "free" : "contact") << name << ' ' << i - 1;
         if (t < 0) continue;
         ++contacts;
-        // The truth steps by at least 1e-6 of the motion.
+        // The true times are known to 1e-6 of the motion.
         EXPECT_LE(std::stod(row.at("t0")), t + 1e-6) << name << ' ' << i - 1;
         EXPECT_GE(std::stod(row.at("t1")), t - 1e-6) << name << ' ' << i - 1;
         EXPECT_LE(std::stod(row.at("t1")) - std::stod(row.at("t0")), 1.0 / 1024);

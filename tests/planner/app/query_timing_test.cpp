@@ -11,7 +11,7 @@ TEST(QueryTiming, MedianOfOddAndEvenCounts) {
   EXPECT_EQ(median(std::vector<double>{9, 1, 5, 3}), 4);
 }
 
-/// So many additions that depend on each other.
+/// Runs `count` additions, each of which needs the sum before it.
 double work(int count) {
   volatile double x = 0;
   for (int i = 0; i < count; ++i) x = x + 1;
@@ -28,7 +28,7 @@ TEST(QueryTiming, QuickCallsAreRepeatedAndSlowOnesAreNot) {
   const double slow = nanosecondsOf([&] { first += work(10'000'000) > 0; }, [&] { ++again; });
   EXPECT_EQ(first, 1);
   EXPECT_EQ(again, 0);
-  EXPECT_GT(slow, 1e6);  // 10 additions a nanosecond are none's
+  EXPECT_GT(slow, 1e6);  // no processor makes 10 dependent additions per nanosecond
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Signals that end a program, at any moment of every use of every command: the exit status names
-// the signal, files are whole or not there, and neither temporary files nor processes are left.
+// Tests of signals that end the program, in every use of every command: the exit status names the
+// signal, each file is complete or absent, and no temporary file or process is left.
 #include <csignal>
 #include <thread>
 #include <unistd.h>
@@ -26,12 +26,13 @@ std::vector<Use> named(const std::string& name) {
 
 class Signals : public UseTest {
  protected:
-  /// Until the sign of the use is there, or a minute has passed.
+  /// Waits until the file `sign` exists, at most a minute.
   void awaitSign(const std::string& sign) const {
     for (int i = 0; i < 6000 && !fs::exists(folder_ / sign); ++i) pause(10);
     EXPECT_TRUE(fs::exists(folder_ / sign)) << read("err.txt");
   }
-  /// How the use's longer run ends on a signal, to its group or to itself, after so many ms.
+  /// Starts the use's `longer` run, and after some milliseconds sends a signal, to the program's
+  /// process group or to the program alone. @returns how it ended.
   End endBy(int signal, bool group, int milliseconds) {
     fs::remove_all(folder_ / "out");
     fs::create_directory(folder_ / "out");
@@ -49,10 +50,10 @@ TEST_P(Signals, EndItCleanly) {
   learnWhole(use);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     for (const int delay : {5, 120}) {
-      const bool group = delay == 5;  // as from a terminal; else to the program alone
+      const bool group = delay == 5;  // as a terminal does; else to the program alone
       SCOPED_TRACE(std::string(::strsignal(signal)) + " after " + std::to_string(delay) + " ms");
       End end;
-      // On a machine so fast that it was done before: sooner.
+      // A fast machine may finish before the signal: then the signal is sent earlier.
       for (int ms = delay * kSlowdown; ms > 0 && end.status < 2; ms /= 2)
         end = endBy(signal, group, ms);
       EXPECT_EQ(end.status, 128 + signal) << end.err;
@@ -65,7 +66,7 @@ TEST_P(Signals, EndItCleanly) {
 INSTANTIATE_TEST_SUITE_P(Uses, Signals, testing::ValuesIn(uses()),
                          [](const auto& use) { return use.param.name; });
 
-/// Chromium has processes and files of its own.
+/// The real Chromium has child processes and temporary files that must end with the program.
 class RealBrowser : public Signals {};
 
 TEST_P(RealBrowser, EndsWithTheProgram) {
@@ -93,7 +94,7 @@ TEST_P(RealBrowser, EndsWithTheProgram) {
 INSTANTIATE_TEST_SUITE_P(Uses, RealBrowser, testing::ValuesIn(named("ViewImage")),
                          [](const auto& use) { return use.param.name; });
 
-/// A campaign that is stopped writes what is done, whichever signal it was.
+/// Hours of finished runs must not be lost when a campaign is stopped.
 class StoppedCampaign : public Signals {};
 
 TEST_P(StoppedCampaign, WritesWhatIsDone) {
@@ -103,7 +104,7 @@ TEST_P(StoppedCampaign, WritesWhatIsDone) {
   ::kill(id, SIGTERM);
   const End end = wait(id);
   EXPECT_EQ(end.status, 128 + SIGTERM);
-  EXPECT_THAT(end.err, testing::HasSubstr("--resume goes on"));
+  EXPECT_THAT(end.err, testing::HasSubstr("--resume continues"));
   EXPECT_GT(lines(read("out/results/runs.csv")).size(), 1u);
   EXPECT_THAT(read("out/results/report.html"), testing::HasSubstr("</html>"));
 }

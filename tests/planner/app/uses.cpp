@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A hall with a wall that leaves a way round, or none.
+/// A problem: a hall whose wall leaves a way round it, or not.
 std::string hall(bool open) {
   return std::string(
              "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.1, ") +
@@ -27,7 +27,8 @@ std::string solution(int times) {
   return text + "- [2, 3, 0]\n- [2, 0, 0]\n";
 }
 
-/// A landscape of 2·(count − 1)² triangles, which takes a second or so to read and to ask about.
+/// A landscape of 2·(count − 1)² triangles. With 500, reading it and each query take a second or
+/// so.
 std::string landscape(int count) {
   std::string text;
   for (int i = 0; i < count; ++i)
@@ -44,7 +45,8 @@ std::string landscape(int count) {
   return text;
 }
 
-/// A browser that draws at once; asked for a landscape it never ends, and has a child of its own.
+/// Stands in for Chromium. Draws at once. For a page with the landscape it starts a child process,
+/// and never ends.
 constexpr const char* kBrowser = R"(#!/bin/sh
 for word in "$@"; do case "$word" in --screenshot=*) file="${word#*=}";; esac; done
 if grep -q '"name":"vast"' "${file%/*}/page.html"; then
@@ -95,7 +97,7 @@ const std::vector<Use>& uses() {
       {"CheckStates",
        "check hall.yaml --states states.txt",
        {},
-       "check hall.yaml --states -"},  // nothing comes, and it doesn't end
+       "check hall.yaml --states -"},  // waits for input that never comes
       {"CheckStatesJson",
        "check hall.yaml --states states.txt --json",
        {},
@@ -140,7 +142,7 @@ const std::vector<Use>& uses() {
 }
 
 UseTest::UseTest() {
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // what the program leaves becomes a child of this process
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans of the program become children of this process
   fs::create_directory(folder_ / "out");
   fs::create_directory(folder_ / "tmp");
   write("robot.yaml",
@@ -216,7 +218,7 @@ pid_t UseTest::startBy(const std::vector<std::string>& wrapper, const std::strin
     ::execvp(all[0], all.data());
     ::_exit(99);
   }
-  ::setpgid(id, id);  // whoever is first
+  ::setpgid(id, id);  // in both processes: the group exists before either goes on
   ::close(pipe[0]);
   return id;
 }
@@ -227,7 +229,7 @@ UseTest::End UseTest::wait(pid_t id) {
   ::waitpid(id, &status, 0);
   end.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   end.err = read("err.txt");
-  // What was killed along with it may take a moment to go.
+  // Processes that were killed along with the program may take a moment to end.
   pid_t other = 0;
   for (int i = 0; i < 300 * kSlowdown; ++i) {
     while ((other = ::waitpid(-1, nullptr, WNOHANG)) > 0) {
@@ -260,7 +262,7 @@ void UseTest::learnWhole(const Use& use) {
 }
 
 void UseTest::expectWholeOrNothing(const Use& use) const {
-  const bool folder = use.arguments.starts_with("benchmark");  // its files have times in them
+  const bool folder = use.arguments.starts_with("benchmark");  // files with times differ
   for (const std::string& file : written()) {
     EXPECT_EQ(file.find(".tmp"), file.npos) << file;
     if (folder) continue;

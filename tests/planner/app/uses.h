@@ -10,16 +10,16 @@
 
 namespace corridor::test {
 
-/// A way in which a command is used: what faults and signals are tried on. A new command, output
-/// option or query must appear here (`Uses.HaveEveryCommand…`). All files are written to the folder
-/// `out`.
+/// One use of a command, on which the tests of faults and signals run. Every command, output option
+/// and query must have one (`Uses.HaveEveryCommand…` tests that). All files are written to the
+/// folder `out`.
 struct Use {
-  std::string name;                ///< of its tests
-  std::string arguments;           ///< of the program: a command that ends by itself, soon
-  std::vector<std::string> files;  ///< that it writes, in `out`; the same bytes each time
-  std::string longer = {};         ///< the same so large that a signal comes before its end
-  std::string sign = {};           ///< a file that tells that `longer` is well under way
-  bool keeps = false;              ///< on a signal it writes what it has, whole
+  std::string name;       ///< part of its tests' names
+  std::string arguments;  ///< arguments of the program, which must soon end without a signal
+  std::vector<std::string> files;  ///< written to `out`, the same bytes each time
+  std::string longer = {};         ///< the same command, too long to end before a signal
+  std::string sign = {};           ///< a file that exists once `longer` is well under way
+  bool keeps = false;              ///< on a signal it writes complete files of what it has
 };
 
 const std::vector<Use>& uses();
@@ -28,44 +28,46 @@ inline void PrintTo(const Use& use, std::ostream* out) {
   *out << use.arguments;
 }
 
-/// The program in a folder with inputs for all uses, and `out`; TMPDIR is another folder.
+/// Runs the program in a folder with the inputs of all uses and the folder `out`; TMPDIR is the
+/// folder `tmp` beside it.
 class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
  protected:
   UseTest();
   ~UseTest() override;
 
-  /// How a process has ended.
+  /// How a process ended.
   struct End {
-    int status = -1;  ///< as shells count: 128 + N by signal N
+    int status = -1;  ///< as shells report it: 128 + N after signal N
     std::string err;
-    bool alone = true;  ///< it has left no process
+    bool alone = true;  ///< it left no process behind
   };
   /// Runs in the child before the program begins.
   using Setup = std::function<void()>;
 
-  /// Starts the program in a process group of its own: stdin is a pipe on which nothing comes,
-  /// stdout and stderr are files, unless `setup` does otherwise. @returns its process id.
+  /// Starts the program in a process group of its own. Unless `setup` redirects them, stdin is a
+  /// pipe that stays empty, and stdout and stderr are files. @returns its process id.
   pid_t start(const std::string& arguments, const Setup& setup = {});
-  /// The same by way of another program: words before the program's own.
+  /// The same, started by another program: `wrapper` are its words, before the program's own.
   pid_t startBy(const std::vector<std::string>& wrapper, const std::string& arguments,
                 const Setup& setup = {});
   End wait(pid_t id);
   End end(const std::string& arguments, const Setup& setup = {}) {
     return wait(start(arguments, setup));
   }
-  /// The names in `out` and below it, but for folders.
+  /// Returns the files in `out` and below.
   std::vector<std::string> written() const;
-  /// No file of another name than the use's, or of one that is not whole; nothing in TMPDIR.
+  /// Expects that `out` holds only files of the use, each complete, and that TMPDIR is empty.
   void expectWholeOrNothing(const Use& use) const;
-  /// What the use writes where nothing is in its way.
+  /// Runs the use without faults and keeps what it writes in `whole_`.
   void learnWhole(const Use& use);
-  /// A shell's command that may mount, before words to run there; empty where that is not allowed.
+  /// Returns the words that run a shell script which may mount file systems; empty where that is
+  /// not allowed. The program's words follow as the script's arguments.
   static std::vector<std::string> mounting(const std::string& script);
 
   std::map<std::string, std::string> whole_;
 
  private:
-  int input_ = -1;  ///< the end that nobody writes to
+  int input_ = -1;  ///< the writing end of stdin's pipe; stays unused
 };
 
 }  // namespace corridor::test

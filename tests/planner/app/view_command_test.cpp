@@ -1,5 +1,5 @@
-// `corridor view` as its users meet it: a page or a picture, whole or not at all, and a line for
-// each fault.
+// Tests of `corridor view` from outside: a page or a picture, complete or absent, and one line per
+// fault.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -37,7 +37,7 @@ TEST_F(ViewCommand, WritesAPage) {
   const std::string page = read("page.html");
   EXPECT_THAT(page, StartsWith("<!DOCTYPE html>"));
   EXPECT_THAT(page, HasSubstr("\"verdict\":\"refuted\""));
-  // The notice that three.js asks for, and nothing that is loaded.
+  // The page holds the licence that three.js requires, and loads nothing.
   EXPECT_THAT(page, HasSubstr("Permission is hereby granted, free of charge"));
   for (const char* loads : {"<link", "src=\"", "@import", "url("})
     EXPECT_EQ(page.substr(0, page.find("id=\"data\"")).find(loads), std::string::npos) << loads;
@@ -89,16 +89,17 @@ TEST_F(ViewCommand, Faults) {
     expectFault("view none.yaml --image " + std::string(name), "none.yaml: no such file");
   expectFault("view none.yaml -o a.png",
               "--output: pages are HTML: a name that ends in .html is needed, not \"a.png\"");
-  // What is read is not written over.
+  // Input files are not overwritten.
   std::filesystem::copy_file(folder_ / "path.yaml", folder_ / "path");
   std::filesystem::create_symlink(plate + "/problem.yaml", folder_ / "problem.png");
   expectFault("view " + plate + " path -o path",
-              "--output: path is of the solution itself; name another file");
-  expectFault("view " + plate + " path --image problem.png",
-              "--image: problem.png is of the problem itself; name another file");
+              "--output: path belongs to the solution and would be overwritten; name another file");
+  expectFault(
+      "view " + plate + " path --image problem.png",
+      "--image: problem.png belongs to the problem and would be overwritten; name another file");
   EXPECT_EQ(read("path"), read("path.yaml"));
   expectFault("view " + plate + " -o .", "--output: . is a folder; a file's name is needed");
-  expectFault("view " + plate + " --size 100x100", "--size: is of --image, and there is none");
+  expectFault("view " + plate + " --size 100x100", "--size: needs --image, which is not given");
   for (const char* size :
        {"100", "100x", "x100", "99x100", "100x8001", "100x100x", "1e3x100", "-100x100"})
     expectFault("view " + plate + " --image a.png --size=" + size,
@@ -120,7 +121,7 @@ TEST_F(ViewCommand, WithoutChromiumThereIsNoPicture) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }
 
-/// A browser that draws nothing leaves no file.
+/// A browser that draws nothing must leave the file that was there before.
 TEST_F(ViewCommand, ABrowserThatFailsIsTold) {
   write("chromium", "#!/bin/sh\nexit 1\n");
   std::filesystem::permissions(folder_ / "chromium", std::filesystem::perms::owner_all);
@@ -133,11 +134,11 @@ TEST_F(ViewCommand, ABrowserThatFailsIsTold) {
   EXPECT_EQ(read("a.png"), "before");
 }
 
-/// Neither the browser nor its folder outlives an interrupt, though another one comes while what
-/// the browser has left is removed.
+/// An interrupt ends the browser and removes its folder, even if a second interrupt comes during
+/// the removal.
 TEST_F(ViewCommand, TwoInterruptsLeaveNothing) {
-  // A browser that leaves a file, tells who it is, and goes on. (That it is the second interrupt
-  // which is ignored is interrupt_test's to tell.)
+  // Stands in for Chromium: leaves a file, writes its process id, and goes on. (interrupt_test
+  // tests that the second interrupt is ignored.)
   write("chromium",
         "#!/bin/sh\nfor word in \"$@\"; do case \"$word\" in --user-data-dir=*) "
         "folder=\"${word#*=}\";; esac; done\nmkdir -p \"$folder\" && cd \"$folder\"\n"
@@ -163,7 +164,7 @@ TEST_F(ViewCommand, TwoInterruptsLeaveNothing) {
   const pid_t browser = std::atoi(read("browser.txt").c_str());
   ASSERT_GT(browser, 0) << read("err.txt");
   ::kill(id, SIGINT);
-  wait(550);  // later than a repeated signal of the same interrupt
+  wait(550);  // long enough to count as a second interrupt
   ::kill(id, SIGINT);
   int status = 0;
   ASSERT_EQ(::waitpid(id, &status, 0), id);

@@ -1,5 +1,5 @@
-// The database of a campaign: what goes in comes back, it holds what OMPL's own script makes of
-// OMPL's logs, and what it can't take it says.
+// The database of a campaign: it returns the runs that were stored, equals what OMPL's own script
+// makes of OMPL's logs, and reports what it can't accept.
 #include "planner/benchmark/campaign_database.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -66,7 +66,7 @@ class Database : public testing::Test {
   std::filesystem::path folder_ = test::newFolder(), file_ = folder_ / "campaign.db";
 };
 
-/// All rows of a query, as text.
+/// Returns all rows of a query, as text.
 std::vector<std::string> rowsOf(const std::filesystem::path& file, const std::string& sql) {
   SQLite::Database base(file.string());
   SQLite::Statement query(base, sql);
@@ -80,7 +80,7 @@ std::vector<std::string> rowsOf(const std::filesystem::path& file, const std::st
   return rows;
 }
 
-/// "one pct" and "one_pct" are one word to OMPL's readers; they are two variants all the same.
+/// OMPL's readers turn "one pct" and "one_pct" into the same name, but they are two variants.
 TEST_F(Database, VariantsOfOneWordAreTwoExperiments) {
   Campaign campaign = hallCampaign({"discrete:0.1", "certified"});
   campaign.variants[0].name = "one pct";
@@ -106,7 +106,7 @@ TEST_F(Database, DamagedRecordsAreSaid) {
   }
 }
 
-/// Of what has no run yet nothing is lost.
+/// A cell without runs holds no measurement, so its settings may still change.
 TEST_F(Database, WithoutRunsACampaignMayChange) {
   Campaign campaign = hallCampaign({"certified"});
   EXPECT_EQ(complaint(Mode::fresh, campaign), "");
@@ -114,7 +114,8 @@ TEST_F(Database, WithoutRunsACampaignMayChange) {
   EXPECT_EQ(complaint(Mode::resume, campaign), "");
   runInto(campaign);
   campaign.time = 4.0 * test::kSlowdown;
-  EXPECT_THAT(complaint(Mode::resume, campaign), HasSubstr("was measured as something else: time"));
+  EXPECT_THAT(complaint(Mode::resume, campaign),
+              HasSubstr("was measured with other settings: time was "));
 }
 
 TEST_F(Database, TellsTheSessionsOfItsRuns) {
@@ -156,7 +157,7 @@ TEST_F(Database, WhatWentInComesBack) {
   EXPECT_EQ(cells[0].runs[1].ompl.properties, result.cells[0].runs[1].ompl.properties);
 }
 
-/// The same tables with the same rows, but for times and dates of whole experiments.
+/// The tables and rows must be equal, except for times and dates of whole experiments.
 TEST_F(Database, IsWhatOmplsScriptMakesOfTheLogs) {
   if (std::system("command -v ompl_benchmark_statistics >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "ompl_benchmark_statistics is needed (Debian's ompl-demos)";
@@ -216,34 +217,36 @@ TEST_F(Database, WhatItRefuses) {
   const Campaign campaign = hallCampaign({"discrete:0.2"});
   runInto(campaign);
   EXPECT_EQ(complaint(Mode::fresh, campaign),
-            "holds 2 runs already: go on with it by --resume, or name another folder");
+            "contains 2 runs already; continue with --resume, or name another folder");
   EXPECT_EQ(complaint(Mode::resume, campaign), "");
 
   Campaign other = campaign;
   other.variants = {readVariant("certified")};
-  EXPECT_THAT(complaint(Mode::resume, other),
-              HasSubstr("holds runs of hall, discrete:0.2, RRTConnect, which the campaign doesn't "
-                        "have"));
+  EXPECT_THAT(
+      complaint(Mode::resume, other),
+      HasSubstr("contains runs of hall, discrete:0.2, RRTConnect, which the campaign doesn't "
+                "have"));
   other = campaign;
   other.variants = {readVariant("discrete:0.3")};
   other.variants[0].name = "discrete:0.2";
-  EXPECT_THAT(complaint(Mode::resume, other),
-              HasSubstr("hall, discrete:0.2, RRTConnect was measured as something else: checker "
-                        R"({"edges":"discrete","resolution":"0.2"}, and is )"
-                        R"({"edges":"discrete","resolution":"0.3"} now)"));
+  EXPECT_THAT(
+      complaint(Mode::resume, other),
+      HasSubstr("hall, discrete:0.2, RRTConnect was measured with other settings: checker was "
+                R"({"edges":"discrete","resolution":"0.2"} and is now )"
+                R"({"edges":"discrete","resolution":"0.3"};)"));
   other = campaign;
   other.problems[0].digest = "another";
   EXPECT_THAT(complaint(Mode::resume, other),
-              HasSubstr("was measured as something else: problem "));
+              HasSubstr("was measured with other settings: problem was "));
   other = campaign;
   other.time = 77;
-  EXPECT_THAT(complaint(Mode::resume, other), HasSubstr(", and is 77.0 now"));
+  EXPECT_THAT(complaint(Mode::resume, other), HasSubstr(" and is now 77.0;"));
   other = campaign;
   other.runs = 1;
   EXPECT_THAT(complaint(Mode::resume, other),
-              HasSubstr("holds a run of seed 2 of hall, discrete:0.2, RRTConnect, which the "
-                        "campaign doesn't ask for"));
-  // Nothing of that has changed it.
+              HasSubstr("contains a run of seed 2 of hall, discrete:0.2, RRTConnect, which the "
+                        "campaign doesn't have"));
+  // None of the refusals has changed the database.
   EXPECT_EQ(complaint(Mode::resume, campaign), "");
   EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM corridor_cells"), ElementsAre("1"));
 }
@@ -252,23 +255,24 @@ TEST_F(Database, ForeignAndDamagedFiles) {
   const Campaign campaign = hallCampaign({"discrete:0.2"});
   std::ofstream(file_) << "This is no database, but a text that is long enough to be taken for one "
                           "by its size, which is more than a hundred bytes.\n";
-  EXPECT_EQ(complaint(Mode::resume, campaign), "is no database of a campaign");
+  EXPECT_EQ(complaint(Mode::resume, campaign), "is not a campaign database");
   std::filesystem::remove(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
       .exec("CREATE TABLE runs (id INTEGER)");
-  EXPECT_EQ(complaint(Mode::resume, campaign), "is a database, but none of a campaign");
-  EXPECT_EQ(complaint(Mode::fresh, campaign), "is a database, but none of a campaign");
+  EXPECT_EQ(complaint(Mode::resume, campaign), "is a database, but not of a campaign");
+  EXPECT_EQ(complaint(Mode::fresh, campaign), "is a database, but not of a campaign");
   std::filesystem::remove(file_);
   runInto(campaign);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
-  EXPECT_EQ(complaint(Mode::resume, campaign),
-            "is of version 99 of campaigns' databases; this is 2: name another folder");
+  EXPECT_EQ(
+      complaint(Mode::resume, campaign),
+      "is a campaign database of version 99; this program needs version 2; name another folder");
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
   EXPECT_THAT(complaint(Mode::resume, campaign),
-              testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is of version 99")));
+              testing::AnyOf(HasSubstr("is damaged"), HasSubstr("of version 99")));
   std::filesystem::remove(file_);
   std::filesystem::create_directory(file_);
-  EXPECT_EQ(complaint(Mode::fresh, campaign), "can't be made or opened");
+  EXPECT_EQ(complaint(Mode::fresh, campaign), "can't be created or opened");
 }
 
 TEST_F(Database, OnlyOneProcessAtATime) {
@@ -278,7 +282,7 @@ TEST_F(Database, OnlyOneProcessAtATime) {
   EXPECT_EQ(complaint(Mode::resume, campaign), "is in use by another process");
 }
 
-/// A disk that is full while a campaign runs: said, and what was there before stays.
+/// A disk that fills up during a campaign must be reported, and the runs stored before must stay.
 TEST_F(Database, AFullDisk) {
   Campaign campaign = hallCampaign({"discrete:0.2"});
   campaign.runs = 1'000'000;
@@ -287,7 +291,7 @@ TEST_F(Database, AFullDisk) {
   run.result = "solved";
   run.why = std::string(2000, 'x');
   std::uint64_t added = 0;
-  const auto child = [&] {  // of a size that files may not pass: as if the disk were full
+  const auto child = [&] {  // a limit on file sizes stands in for a full disk
     rlimit limit{200'000, 200'000};
     setrlimit(RLIMIT_FSIZE, &limit);
     signal(SIGXFSZ, SIG_IGN);

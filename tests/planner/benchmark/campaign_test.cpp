@@ -1,5 +1,5 @@
-// Campaigns as a whole: figures are those of solve, seeds repeat, a crash costs its run only,
-// OMPL's log is OMPL's, and the verifier's verdicts on the thin plate.
+// Campaigns as a whole: a run has the figures of `solve`, seeds repeat, a crash costs only its run,
+// logs are readable by OMPL's rules, and the verifier refutes sampled paths through the thin plate.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -32,7 +32,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 Campaign campaignOf(const std::vector<std::string>& variants, std::uint64_t runs,
-                    const std::vector<BenchmarkPeer>& peers = {}) {
+                    const std::vector<BenchmarkCompetitor>& peers = {}) {
   Campaign campaign;
   campaign.problems = {hallProblem(Rigid::SE3)};
   for (const std::string& variant : variants)
@@ -63,7 +63,7 @@ int countOf(const CampaignCell& cell, const std::string& verdict) {
                     [&](const BenchmarkRun& run) { return run.verdict == verdict; }));
 }
 
-/// All but times.
+/// Returns all columns except times.
 std::vector<Row> repeatable(const Campaign& campaign, const CampaignResult& result) {
   std::vector<Row> rows = runRows(campaign, result.cells);
   for (Row& row : rows)
@@ -97,7 +97,7 @@ TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
   }
 }
 
-/// A row is what `solve` does with that seed, to the last test of two boxes.
+/// A run must equal `solve` with that seed, down to the number of box tests.
 TEST(Campaign, ARunIsASolve) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 2);
   campaign.planners = named({"RRTConnect", "KPIECE1"});
@@ -148,11 +148,11 @@ TEST(Campaign, TheSameSeedsGiveTheSameRows) {
 }
 
 TEST(Campaign, ACrashCostsItsRunOnly) {
-  BenchmarkPeer peer{"shaky", [](const auto& si, const Checker& checker) {
-                       if (checker.problem().seed == 2) std::raise(SIGKILL);
-                       if (checker.problem().seed == 3) throw std::bad_alloc();
-                       return std::make_shared<ExactStateValidityChecker>(si, checker);
-                     }};
+  BenchmarkCompetitor peer{"shaky", [](const auto& si, const Checker& checker) {
+                             if (checker.problem().seed == 2) std::raise(SIGKILL);
+                             if (checker.problem().seed == 3) throw std::bad_alloc();
+                             return std::make_shared<ExactStateValidityChecker>(si, checker);
+                           }};
   Campaign campaign = campaignOf({"shaky:0.02", "discrete:0.02"}, 4, {peer});
   campaign.time = 20.0 * test::kSlowdown;
   const CampaignResult result = runCampaign(campaign);
@@ -163,7 +163,7 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
   EXPECT_EQ(runs[1].result, "failed");
   EXPECT_EQ(runs[1].failure, "killed by signal 9 (Killed)");
   EXPECT_EQ(runs[2].failure, "out of memory");
-  // The peer is the same test as `discrete`, which didn't notice.
+  // The competitor runs the same test as `discrete`, whose runs must not be affected.
   for (const BenchmarkRun& run : result.cells[1].runs) EXPECT_TRUE(run.solved) << run.failure;
   EXPECT_EQ(runs[3].states, result.cells[1].runs[3].states);
   EXPECT_EQ(runs[3].edges, result.cells[1].runs[3].edges);
@@ -179,7 +179,7 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
   EXPECT_EQ(log.parameters.at("edges TEXT"), "shaky");
 }
 
-/// Where a planner itself throws, OMPL's Benchmark would go on as if it had ended well.
+/// OMPL's Benchmark would continue after an exception in a planner, as if the run had ended well.
 TEST(Campaign, AThrowWithinAPlannerIsTold) {
   class Thrower : public ExactStateValidityChecker {
    public:
@@ -188,9 +188,9 @@ TEST(Campaign, AThrowWithinAPlannerIsTold) {
       throw std::runtime_error("the sky is falling");
     }
   };
-  BenchmarkPeer peer{"thrower", [](const auto& si, const Checker& checker) {
-                       return std::make_shared<Thrower>(si, checker);
-                     }};
+  BenchmarkCompetitor peer{"thrower", [](const auto& si, const Checker& checker) {
+                             return std::make_shared<Thrower>(si, checker);
+                           }};
   const Campaign campaign = campaignOf({"thrower"}, 1, {peer});
   const CampaignResult result = runCampaign(campaign);
   EXPECT_EQ(result.cells[0].runs.at(0).result, "failed");
@@ -203,7 +203,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
   problem.name = "a hall";
   nameProblems(campaign);
   problem.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
-  campaign.planners = named({"RRTConnect", "RRTstar"});  // the second tells its progress
+  campaign.planners = named({"RRTConnect", "RRTstar"});  // RRTstar reports its progress
   campaign.time = 2.0 * test::kSlowdown;
   const CampaignResult result = runCampaign(campaign);
   for (std::size_t v = 0; v < 2; ++v) {
@@ -241,7 +241,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
         EXPECT_EQ(row.at("proved"), run.verdict == "proved" ? "1" : "0");
         EXPECT_EQ(row.at("refuted"), run.verdict == "refuted" ? "1" : "0");
         EXPECT_EQ(row.at("box_tests"), std::to_string(run.counters.boxTests));
-        // OMPL's clock stands around all but setting up, and has six digits.
+        // OMPL's clock measures all except set-up, and is written with six digits.
         EXPECT_GE(std::stod(row.at("time")), 0.999 * (run.time - run.setUpTime));
         if (p == 1) {
           EXPECT_GT(log.planners[1].progressSamples.at(i), 0u);
@@ -281,14 +281,15 @@ TEST(Campaign, AllThatIsWrongIsToldBeforeAnythingRuns) {
   EXPECT_THAT(complaintOf(campaign),
               StartsWith("--planners: unknown planner \"RTT\"; did you mean \"RRT\"?; there are: "
                          "RRTConnect, "));
-  EXPECT_THAT(complaintOf(campaign), testing::Not(HasSubstr("\n")));  // once, not for each variant
+  EXPECT_THAT(complaintOf(campaign),
+              testing::Not(HasSubstr("\n")));  // reported once, not for each variant
   campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].start.head(3) = Vec3(-0.4, -2, 0);
   EXPECT_THAT(complaintOf(campaign), StartsWith("hall.yaml:4: start is in contact: \"bar\""));
   campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].planner.params = {{"rnge", "1"}};
   EXPECT_THAT(complaintOf(campaign), HasSubstr("RRTConnect has no parameter \"rnge\""));
-  campaign.planners = named({"RRT"});  // they were another planner's
+  campaign.planners = named({"RRT"});  // the parameters belong to another planner and are dropped
   EXPECT_EQ(complaintOf(campaign), "");
 }
 
@@ -300,7 +301,8 @@ TEST(Campaign, ProblemsOfOneNameAreToldApart) {
   EXPECT_THAT(campaign.problemNames, ElementsAre("hall", "hall-2", "hall-3"));
 }
 
-/// A planner by another name, with parameters of its own, is another planner.
+/// The same planner with another label and parameters of its own is compared as a planner of its
+/// own.
 TEST(Campaign, PlannersHaveLabelsAndParameters) {
   Campaign campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].planner.params = {{"range", "0.5"}};
@@ -325,7 +327,7 @@ TEST(Campaign, PlannersHaveLabelsAndParameters) {
   EXPECT_EQ(complaintOf(campaign), "--planners: \"short\" is named twice");
 }
 
-/// Several at a time: the same rows in the same order.
+/// Several runs at a time must give the same rows in the same order.
 TEST(Campaign, JobsChangeNothingButTimes) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 5);
   campaign.time = 20.0 * test::kSlowdown;

@@ -1,4 +1,4 @@
-// Campaign files: what they say is read, and all that is wrong with them is told, with its line.
+// Campaign files: all keys are read, and all faults are reported at once with their lines.
 #include "planner/benchmark/campaign_yaml.h"
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
-#include "planner/benchmark/peers.h"
+#include "planner/benchmark/competitors.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -39,7 +39,7 @@ class CampaignYaml : public testing::Test {
     write("c.yaml", text);
     return readCampaign(folder_ / "c.yaml");
   }
-  /// The faults, without the folder's name.
+  /// Returns the faults, without the folder's name.
   std::vector<std::string> faults(const std::string& text) const {
     try {
       read(text);
@@ -107,7 +107,7 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(planned.seed, 9u);
 }
 
-/// A short file of many lists asks for more than there is memory or time for.
+/// A short file with many lists could ask for more variants than memory or time allow.
 TEST_F(CampaignYaml, CombinationsHaveALimit) {
   const auto list = [](int count) {
     std::string text = "[";
@@ -146,7 +146,7 @@ TEST_F(CampaignYaml, MemoryHasARange) {
         << wrong;
 }
 
-/// Their own ranges, each told once, whatever is wrong with them.
+/// `runs` and `seed` have ranges of their own, and a bad value is reported exactly once.
 TEST_F(CampaignYaml, RunsAndSeedsHaveRanges) {
   const std::string start = std::string(kStart) + "checkers: {a: {}}\n";
   for (const std::string wrong :
@@ -174,7 +174,7 @@ TEST_F(CampaignYaml, Defaults) {
   EXPECT_EQ(cellsOf(c)[0].planner.name, "RRTConnect");
 }
 
-/// FCL takes part where it is, and is left out with a word where it isn't.
+/// FCL is used if it is installed, and else left out with a note.
 TEST_F(CampaignYaml, Peers) {
   const Campaign c = read(std::string(kStart) +
                           "checkers: {fcl: {peer: fcl, edges: discrete, resolution: [0.1, 0.2]}, "
@@ -186,14 +186,14 @@ TEST_F(CampaignYaml, Peers) {
   } else {
     EXPECT_THAT(variants(c), ElementsAre("ours"));
     ASSERT_EQ(c.notes.size(), 2u);
-    EXPECT_THAT(c.notes[0], HasSubstr("fcl 0.1 is left out: no fcl: "));
+    EXPECT_THAT(c.notes[0], HasSubstr("fcl 0.1 is left out: fcl is not available: "));
   }
   EXPECT_THAT(
       faults(std::string(kStart) + "checkers: {x: {peer: fclo}}\n"),
       ElementsAre("c.yaml:3: checkers.x.peer: unknown peer \"fclo\"; did you mean \"fcl\"?; "
                   "there are: fcl"));
   EXPECT_THAT(faults(std::string(kStart) + "checkers: {x: {peer: fcl}}\n"),
-              ElementsAre("c.yaml:3: checkers.x.peer: fcl tests states: say edges: discrete"));
+              ElementsAre("c.yaml:3: checkers.x.peer: fcl tests states only; set edges: discrete"));
 }
 
 TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
@@ -215,7 +215,7 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
           "c.yaml:4: missing key \"name\" in planners[]: OMPL's, such as RRTConnect",
           HasSubstr("c.yaml:6: checkers.a.edges: "), HasSubstr("c.yaml:6: checkers.a.resolution: "),
           "c.yaml:7: checkers.b: a map is needed, such as {edges: certified}, not \"certified\"",
-          "c.yaml:8: checkers.c.resolution: of a list, one or more single values are needed",
+          "c.yaml:8: checkers.c.resolution: a list must have one or more single values",
           HasSubstr("c.yaml:9: unknown key \"knob\" in checkers.d"),
           "c.yaml:10: runs: a whole number from 1 to 1,000,000 is needed, not \"0\"",
           HasSubstr("c.yaml:11: unknown key \"memory\" in limits; did you mean \"memory_mb\"?"),
@@ -232,10 +232,10 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
               ElementsAre("c.yaml:2: problems: at least one is needed"));
   EXPECT_THAT(faults(std::string(kStart) + "planners: []\ncheckers: {a: {}}\n"),
               ElementsAre("c.yaml:3: planners: at least one is needed; without this key each "
-                          "problem has its own"));
+                          "problem uses its own"));
 }
 
-/// A key without effect makes no variant.
+/// A list under a key without effect would give the same variant several times.
 TEST_F(CampaignYaml, VariantsDiffer) {
   const auto of = [&](const char* checker) {
     return faults(std::string(kStart) + "checkers:\n  a: " + checker + "\n");
@@ -249,10 +249,11 @@ TEST_F(CampaignYaml, VariantsDiffer) {
   EXPECT_THAT(of("{volume: [aabb, aabb]}"), SizeIs(1));
   EXPECT_THAT(of("{edges: discrete, resolution: [0.1, 0.01], volume: [aabb, sphere]}"), IsEmpty());
   EXPECT_THAT(of("{edges: [certified, adaptive], tolerance: [0.1, 0.01]}"), IsEmpty());
-  EXPECT_THAT(of("{resolution: [0.1, 0.01]}"), IsEmpty());  // the problem's edges may be discrete
+  EXPECT_THAT(of("{resolution: [0.1, 0.01]}"),
+              IsEmpty());  // no fault: the problem's edges may be discrete
 }
 
-/// Where each of them stands, and names with all else that is wrong.
+/// Each faulty planner is reported with its own line, along with all other faults.
 TEST_F(CampaignYaml, FaultsOfPlannersHaveTheirLines) {
   const std::string start = std::string(kStart) + "checkers: {a: {}}\nplanners:\n";
   EXPECT_THAT(
@@ -293,7 +294,8 @@ TEST_F(CampaignYaml, WhatIsACampaign) {
   write("newer.yaml", "format: corridor-campaign-2\n");
   write("broken.yaml", "format: [corridor-campaign-1\n");
   EXPECT_TRUE(isCampaignFile(folder_ / "c.yaml"));
-  EXPECT_TRUE(isCampaignFile(folder_ / "newer.yaml"));  // to be told so
+  // Reading it then reports the unknown format.
+  EXPECT_TRUE(isCampaignFile(folder_ / "newer.yaml"));
   write("bare.yaml", "problems: [hall.yaml]\ncheckers: {a: {}}\n");
   EXPECT_TRUE(isCampaignFile(folder_ / "bare.yaml"));
   for (const char* name : {"hall.yaml", "broken.yaml", "nothing.yaml", "."})

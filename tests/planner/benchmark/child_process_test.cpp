@@ -1,4 +1,4 @@
-// Work in a process of its own: what it says arrives, and whatever ends it is told.
+// Work in a process of its own: its messages arrive, and every way of ending is reported.
 #include "planner/benchmark/child_process.h"
 
 #include <chrono>
@@ -34,7 +34,7 @@ TEST(InChild, AllMessagesComeLongOnesToo) {
   ASSERT_EQ(end.messages.size(), 2u);
   EXPECT_TRUE(end.messages[0] == text);
   EXPECT_EQ(end.messages[1], "");
-  EXPECT_EQ(here, 0);  // it was another process
+  EXPECT_EQ(here, 0);  // the work ran in another process
 }
 
 TEST(InChild, ASignalCostsNoMessageThatWasSent) {

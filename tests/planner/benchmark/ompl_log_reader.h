@@ -11,29 +11,29 @@
 
 namespace corridor::test {
 
-/// A log of OMPL's Benchmark, by the grammar that `ompl_benchmark_statistics` (OMPL 1.5) reads, but
-/// stricter: whatever that program would pass over, or store as something else, throws.
+/// A log of OMPL's Benchmark, read by the grammar of `ompl_benchmark_statistics` (OMPL 1.5), but
+/// more strictly: what that program would skip, or store as something else, throws.
 struct OmplLog {
   struct Planner {
     std::string name;
     std::map<std::string, std::string> settings;
     std::vector<std::pair<std::string, std::string>> properties;  ///< name, type
-    std::vector<std::map<std::string, std::string>> runs;         ///< by name; no value: ""
+    std::vector<std::map<std::string, std::string>> runs;         ///< values by name; "": none
     std::vector<std::string> progressNames;
-    std::vector<std::size_t> progressSamples;  ///< of each run
+    std::vector<std::size_t> progressSamples;  ///< number of samples of each run
   };
   std::string version, experiment, host, setup, cpu;
   std::map<std::string, std::string> parameters;  ///< "resolution REAL"
   std::string seed;
   double time = 0, memory = 0, seconds = 0;
   std::size_t runs = 0;
-  std::vector<std::string> statuses;  ///< of the enumeration `status`
+  std::vector<std::string> statuses;  ///< names of the values of `status`
   std::vector<Planner> planners;
 };
 
 class OmplLogReader {
  public:
-  /// @throws std::runtime_error with the line.
+  /// Reads a log. @throws std::runtime_error with the faulty line.
   static OmplLog read(const std::string& text) {
     OmplLogReader reader(text);
     return reader.log();
@@ -88,7 +88,7 @@ class OmplLogReader {
       fail("not NAME = VALUE");
     return {line_.substr(0, at), line_.substr(at + 3)};
   }
-  /// "planner_s REAL"
+  /// Reads a name and a type: "planner_s REAL".
   std::pair<std::string, std::string> property() {
     next();
     const auto at = line_.rfind(' ');
@@ -100,7 +100,7 @@ class OmplLogReader {
     return p;
   }
   void checkValue(const std::string& type, const std::string& value, const OmplLog& log) const {
-    if (value.empty() || value == "nan" || value == "inf") return;  // stored as nothing
+    if (value.empty() || value == "nan" || value == "inf") return;  // stored as NULL
     if (type == "REAL")
       number<double>(value);
     else if (type == "BOOLEAN" && value != "0" && value != "1")
@@ -138,7 +138,7 @@ class OmplLogReader {
     for (std::size_t n = count(" common properties"); n > 0; --n) p.settings.insert(assignment());
     for (std::size_t n = count(" properties for each run"); n > 0; --n)
       p.properties.push_back(property());
-    std::vector<std::string> names;  // SQL's columns: capitals and small letters are the same
+    std::vector<std::string> names;  // SQL column names are not case-sensitive
     for (const auto& [name, type] : p.properties) {
       names.push_back(name);
       for (char& c : names.back()) c = static_cast<char>(std::tolower(c));
@@ -170,7 +170,7 @@ class OmplLogReader {
     if (next() != ".") fail("the planner's end is missing");
     return p;
   }
-  /// Each is followed by the separator.
+  /// Splits a text into fields, each of which must be followed by the separator.
   std::vector<std::string> fields(const std::string& text, const std::string& separator) const {
     std::vector<std::string> all;
     std::size_t at = 0;

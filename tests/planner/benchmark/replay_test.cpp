@@ -1,5 +1,5 @@
-// Recorded answers: the second run is the first one again, for nothing; and what isn't the same is
-// told.
+// Replays of recorded answers: the second run repeats the first without its tests, and any
+// difference between them is reported.
 #include "tests/benchmark/replay.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ CampaignResult resultOf(const std::string& planner, const std::vector<std::strin
 }
 
 TEST(Replay, IsTheSameRunWithoutItsTests) {
-  for (const char* planner : {"RRTConnect", "KPIECE1", "SBL"}) {  // KPIECE1 asks for lastValid
+  for (const char* planner : {"RRTConnect", "KPIECE1", "SBL"}) {  // KPIECE1 also queries lastValid
     const CampaignResult result = resultOf(planner, {"certified", "replay"});
     for (std::size_t i = 0; i < 2; ++i) {
       const BenchmarkRun &real = result.cells[0].runs[i], &replay = result.cells[1].runs[i];
@@ -40,7 +40,7 @@ TEST(Replay, IsTheSameRunWithoutItsTests) {
       EXPECT_EQ(replay.edges, real.edges);
       EXPECT_EQ(replay.pathStates, real.pathStates);
       EXPECT_EQ(replay.length.metres, real.length.metres);
-      // Start, goals, and the last certification are left.
+      // Only the tests of start, goals and the final certification are left.
       EXPECT_LT(replay.counters.edges, real.counters.edges) << planner;
     }
   }
@@ -71,9 +71,9 @@ TEST(Replay, TellsAnotherQuestion) {
     Transcript replay = Transcript::read(file.get());
     EXPECT_FALSE(replay.done());
     replay.question(kind, *si, state.get());
-    EXPECT_TRUE(replay.answer<bool>([] { return false; }));  // what was recorded
+    EXPECT_TRUE(replay.answer<bool>([] { return false; }));  // the recorded answer, not the new one
     EXPECT_TRUE(replay.done());
-    replay.question(kind, *si, state.get());  // one more than was asked
+    replay.question(kind, *si, state.get());  // one question more than recorded
   };
   const auto toldOf = [&](Transcript::Ask kind, const ompl::base::ScopedState<>& state) {
     try {
@@ -87,7 +87,7 @@ TEST(Replay, TellsAnotherQuestion) {
             "replay: question 2 is not the one that was recorded");
   EXPECT_EQ(toldOf(Transcript::Ask::clearance, a),
             "replay: question 1 is not the one that was recorded");
-  EXPECT_EQ(toldOf(Transcript::Ask::state, b),  // one bit
+  EXPECT_EQ(toldOf(Transcript::Ask::state, b),  // q differs in one bit
             "replay: question 1 is not the one that was recorded");
 }
 

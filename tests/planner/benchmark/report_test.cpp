@@ -1,4 +1,4 @@
-// The report of a campaign: its ranking, its plots and their data, and names that would be HTML.
+// The report of a campaign: its ranking, its plots and their data, and names that contain HTML.
 #include "planner/benchmark/report.h"
 
 #include <cmath>
@@ -23,7 +23,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Two problems, three variants, one planner, ten runs; figures by rule, without running anything.
+/// A campaign of two problems, three variants, one planner and ten runs, with computed figures
+/// instead of real runs.
 class Report : public testing::Test {
  protected:
   Report() {
@@ -38,7 +39,8 @@ class Report : public testing::Test {
   }
   ~Report() override { std::filesystem::remove_all(folder_); }
 
-  /// Twice as fast at 0.1, half refuted; ten times as slow at 0.01, a tenth refuted.
+  /// discrete:0.1 is twice as fast as certified, and half of its paths are refuted; discrete:0.01
+  /// is ten times slower, and a tenth of its paths is refuted.
   static BenchmarkRun run(const CampaignCell& cell, std::uint64_t seed) {
     BenchmarkRun run;
     const double factor = cell.variant == 0 ? 1 : cell.variant == 1 ? 0.5 : 10;
@@ -52,7 +54,7 @@ class Report : public testing::Test {
     run.leastDistance = refuted ? 0 : 0.01 * static_cast<double>(seed);
     run.counters.boxTests = 1000 * seed;
     run.counters.triangleTests = 10 * seed * seed;
-    // 100 ns a box test, 1000 ns a pair of triangles.
+    // 100 ns per box test, 1000 ns per pair of triangles.
     run.checkingTime = 1e-9 * (100.0 * static_cast<double>(run.counters.boxTests) +
                                1000.0 * static_cast<double>(run.counters.triangleTests));
     run.rawLength.metres = 4;
@@ -73,8 +75,8 @@ class Report : public testing::Test {
 TEST_F(Report, Ranking) {
   const std::vector<VariantScore> scores = scoresOf(campaign_, cells_);
   ASSERT_EQ(scores.size(), 3u);
-  EXPECT_EQ(scores[0].variant, 0u);  // none refuted
-  EXPECT_EQ(scores[1].variant, 2u);  // few
+  EXPECT_EQ(scores[0].variant, 0u);  // no path refuted
+  EXPECT_EQ(scores[1].variant, 2u);  // few paths refuted
   EXPECT_EQ(scores[2].variant, 1u);
   EXPECT_EQ(scores[2].refuted, 10u);
   EXPECT_EQ(scores[2].judged(), 20u);
@@ -104,7 +106,7 @@ TEST_F(Report, AVariantThatSolvesNothingIsLast) {
   EXPECT_THAT(page(), HasSubstr("0 of 20"));
 }
 
-/// Times are told in those of the first variant that has any.
+/// Times are multiples of those of the first variant that solved anything.
 TEST_F(Report, AFirstVariantThatSolvesNothingIsNoMeasure) {
   for (CampaignCell& cell : cells_)
     if (cell.variant == 0)
@@ -116,7 +118,10 @@ TEST_F(Report, AFirstVariantThatSolvesNothingIsNoMeasure) {
       EXPECT_DOUBLE_EQ(score.timeRatio, ratios[score.variant]);
     }
   }
-  EXPECT_THAT(page(), HasSubstr("as a multiple of discrete:0.1’s: the median over 20 runs"));
+  EXPECT_THAT(
+      page(),
+      HasSubstr(
+          "as a multiple of discrete:0.1’s: the median over 20 runs that both variants solved"));
   for (CampaignCell& cell : cells_) cell.runs.clear();
   EXPECT_EQ(referenceVariant(cells_), 0u);
 }
@@ -126,14 +131,14 @@ TEST_F(Report, WhatNobodyJudgedIsNotPlotted) {
   for (CampaignCell& cell : cells_)
     for (BenchmarkRun& run : cell.runs) run.verdict.clear(), run.leastDistance = -1;
   const std::string text = page();
-  EXPECT_THAT(text, HasSubstr("<p>Paths were not judged.</p>"));
+  EXPECT_THAT(text, HasSubstr("<p>Paths were not verified.</p>"));
   EXPECT_THAT(text, Not(HasSubstr("no data")));
 }
 
 TEST_F(Report, PlotsHaveTheirData) {
   const Plot solved = solvedOverTime(campaign_, cells_, 1);
   EXPECT_EQ(solved.name, "solved.hall-2");
-  // Dashed besides for the two that were refuted.
+  // A dashed line is added for each of the two variants with refuted paths.
   ASSERT_EQ(solved.series.size(), 5u);
   EXPECT_EQ(solved.series[0].name, "certified");
   EXPECT_DOUBLE_EQ(solved.series[0].points.back().y, 1);
@@ -152,7 +157,7 @@ TEST_F(Report, PlotsHaveTheirData) {
   EXPECT_NEAR(error.series[1].points[0].x, 0.275, 1e-12);
   EXPECT_LT(error.series[1].points[0].fromY, 0.5);
   EXPECT_THAT(error.series[1].points[0].text, HasSubstr("5 of 10 paths refuted"));
-  // Planners are told apart by their shapes.
+  // Each planner has a shape of its own.
   std::vector<CampaignCell> two = cells_;
   for (CampaignCell& cell : cells_) {
     two.push_back(cell);
@@ -165,7 +170,7 @@ TEST_F(Report, PlotsHaveTheirData) {
   const Plot clear = clearances(campaign_, cells_, 0);
   ASSERT_EQ(clear.series.size(), 3u);
   EXPECT_DOUBLE_EQ(clear.rangeX->first, 0.01);
-  // Half of the paths are at 0: the line begins there.
+  // Half of the paths have the distance 0, so the line begins at a half.
   double first = 0;
   for (const PlotPoint& p : clear.series[1].points)
     if (p.x <= clear.rangeX->first) first = p.y;
@@ -178,7 +183,7 @@ TEST_F(Report, PlotsHaveTheirData) {
 
 TEST_F(Report, PlotsOfAllProblems) {
   const Plot error = errorOfAll(campaign_, cells_, scoresOf(campaign_, cells_));
-  ASSERT_EQ(error.series.size(), 3u);  // as variants are, not as they rank
+  ASSERT_EQ(error.series.size(), 3u);  // in order of variants, not of rank
   EXPECT_EQ(error.series[1].name, "discrete:0.1");
   EXPECT_DOUBLE_EQ(error.series[1].points[0].x, 0.5);
   EXPECT_DOUBLE_EQ(error.series[1].points[0].y, 0.5);
@@ -193,9 +198,10 @@ TEST_F(Report, PlotsOfAllProblems) {
     EXPECT_LT(error.rangeX->first, p.x);
     EXPECT_GT(error.rangeX->second, p.x);
   }
-  // Of ten seeds the second variant has five paths that hold, and is the quickest with them; the
-  // first is twice as slow then, and the quickest for the others, the third 20 or 10 times, and one
-  // of its paths doesn't hold.
+  // Per problem with ten seeds: discrete:0.1 has five paths that are not refuted, and is the
+  // quickest with them. For these five certified takes twice as long; for the others it is the
+  // quickest. discrete:0.01 takes 20 or 10 times as long as the quickest, and one of its paths is
+  // refuted.
   const Plot profile = profileOfAll(campaign_, cells_);
   ASSERT_EQ(profile.series.size(), 3u);
   const auto at = [&](std::size_t variant, double x) {
@@ -216,7 +222,7 @@ TEST_F(Report, PlotsOfAllProblems) {
   EXPECT_THAT(profile.title, HasSubstr("the 20 runs that every variant has made"));
 }
 
-/// Who ran alone is not the quickest of all.
+/// A variant must not count as the quickest in runs that no other variant has made.
 TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
   const auto shareAtOnce = [&](std::size_t variant) {
     const Plot profile = profileOfAll(campaign_, cells_);
@@ -225,11 +231,11 @@ TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
       if (p.x <= 1) share = p.y;
     return share;
   };
-  cells_[1].runs.resize(2);  // of the first problem discrete:0.1 has two, both quicker and proved
-  cells_[4].runs.clear();    // and of the second none
+  cells_[1].runs.resize(2);  // discrete:0.1, first problem: two runs, both quicker and proved
+  cells_[4].runs.clear();    // discrete:0.1, second problem: no run
   EXPECT_DOUBLE_EQ(shareAtOnce(0), 0);
   EXPECT_DOUBLE_EQ(shareAtOnce(1), 1);
-  // What nobody could decide counts, a run that failed doesn't; both were made.
+  // An undecided path counts as returned, an unsolved run does not; both runs count as made.
   cells_[1].runs[0].verdict = "undecided";
   EXPECT_DOUBLE_EQ(shareAtOnce(1), 1);
   cells_[1].runs[0].solved = false;
@@ -240,7 +246,7 @@ TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
   EXPECT_THAT(page(), HasSubstr("All problems"));
 }
 
-/// Every point of a plot is drawn once, whatever its shape, and has its words.
+/// Every point is drawn once, whatever its shape, and has its text.
 TEST_F(Report, PointsAreDrawnOnce) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   std::vector<CampaignCell> two = cells_;
@@ -270,7 +276,7 @@ TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
   EXPECT_GT(few, 300);
   for (Variant& variant : campaign_.variants) variant.name += " of a name that is very long";
   EXPECT_GT(height(), few);
-  // Of a name that is longer than any key a beginning is there, of whole characters.
+  // A longer name is cut at a boundary of UTF-8 characters.
   campaign_.variants[0].name = std::string(58, 'x') + "ßßßß";
   height();
   std::ifstream in(folder_ / "plots" / "solved.hall.svg");
@@ -289,21 +295,22 @@ TEST_F(Report, TablesHaveEachUnderItsHead) {
 
 TEST_F(Report, TimesEndWhereTheLimitIs) {
   campaign_.time = 20;
-  EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second, 10);  // all are quicker
+  EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second,
+                   10);  // all runs are quicker than the limit
   cells_[0].runs[0].processorTime = 12;
   EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second, 20);
-  cells_[0].runs[0].processorTime = 30;  // of several threads
+  cells_[0].runs[0].processorTime = 30;  // processor time of several threads can exceed the limit
   EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second, 30);
 }
 
-/// Ten problems' plots are there, but not all in the way.
+/// The plots of ten problems are in the page, but folded.
 TEST_F(Report, OfManyProblems) {
   EXPECT_THAT(page(), Not(HasSubstr("<details>")));
   campaign_.problems.resize(10, campaign_.problems[0]);
   nameProblems(campaign_);
   cells_ = cellsOf(campaign_);
   for (CampaignCell& cell : cells_) cell.runs.push_back(run(cell, 1));
-  EXPECT_THAT(page(), HasSubstr("<summary>The plot of each of the 10 problems</summary>"));
+  EXPECT_THAT(page(), HasSubstr("<summary>Plots of all 10 problems</summary>"));
 }
 
 TEST_F(Report, SaysHowItWasMeasured) {
@@ -315,7 +322,7 @@ TEST_F(Report, SaysHowItWasMeasured) {
   for (const char* said :
        {"session of 2026-05-04 03:02:01 UTC</td><td>60 runs, 2 at a time, by commit abc<",
         "planner “short”</td><td>RRT, range: 0.2<", "OMPL 1.5.2", "simplified</td><td>no<",
-        "planner “KPIECE1”</td><td>KPIECE1, with a problem’s own"})
+        "planner “KPIECE1”</td><td>KPIECE1, with the problem’s parameters"})
     EXPECT_THAT(text, HasSubstr(said));
 }
 
@@ -335,8 +342,7 @@ TEST_F(Report, ThePageAndItsFiles) {
   }
   EXPECT_EQ(files.size(), 1 + (canPlot() ? 2u : 1u) * (3 * 2 + 3));
   const std::string text = page();
-  EXPECT_THAT(text,
-              HasSubstr("60 runs: 60 returned a path; of 60 that were judged 12 are refuted."));
+  EXPECT_THAT(text, HasSubstr("60 runs: 60 returned a path; 12 of 60 verified paths are refuted."));
   EXPECT_THAT(text, Not(HasSubstr("{{")));
   for (const char* outside : {"src=", "http://www.w3.org/1999/xhtml", "https://", "@import"})
     EXPECT_THAT(text, Not(HasSubstr(outside)));
@@ -346,12 +352,12 @@ TEST_F(Report, ThePageAndItsFiles) {
   } else {
     EXPECT_THAT(text, HasSubstr("gnuplot is not installed"));
   }
-  // Unfinished is said.
+  // An unfinished campaign is reported as such.
   cells_[0].runs.resize(3);
   EXPECT_THAT(page(), HasSubstr("53 runs of 60 (not finished)"));
 }
 
-/// Names are users' own: none of them is HTML, nor gnuplot's.
+/// Names are the users' own: none may act as HTML or as gnuplot's syntax.
 TEST_F(Report, HostileNames) {
   const std::string evil = "<script>alert('1')</script> \"x\" `id` $0 {/x} \\n & %s";
   campaign_.name = evil;
@@ -372,7 +378,7 @@ TEST_F(Report, HostileNames) {
   EXPECT_EQ(scripts, 1u);
 }
 
-/// Every path a metre from the nearest obstacle, where it begins: a range of no decade.
+/// All clearances are equal: the plot's range must still span a decade.
 TEST_F(Report, OneValueOnADecade) {
   for (CampaignCell& cell : cells_)
     for (BenchmarkRun& run : cell.runs) run.leastDistance = run.time = 1;
@@ -395,7 +401,7 @@ TEST_F(Report, NamesThatAreOneAsFiles) {
   EXPECT_TRUE(in.good());
 }
 
-/// A gnuplot that fails costs the pictures only.
+/// If gnuplot fails, only the pictures are missing.
 TEST_F(Report, WithoutPictures) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   writeReport(campaign_, cells_, folder_);
@@ -413,7 +419,7 @@ TEST_F(Report, WithoutPictures) {
   EXPECT_THAT(text, HasSubstr("60 runs: 60 returned a path"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "plots" / "cost.csv"));
   EXPECT_FALSE(std::filesystem::exists(picture)) << "an earlier report's";
-  // The folder for temporary files may have any name.
+  // TMPDIR may contain any characters.
   const auto temporary = folder_ / "it's here";
   std::filesystem::create_directory(temporary);
   const char* const was = std::getenv("TMPDIR");
@@ -427,7 +433,7 @@ TEST_F(Report, WithoutPictures) {
   EXPECT_TRUE(std::filesystem::is_empty(temporary));
 }
 
-/// Pictures don't depend on what somebody likes gnuplot to begin with.
+/// A user's own gnuplot settings must not change the plots.
 TEST_F(Report, WithoutSettingsOfOnesOwn) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   const Plot plot = timeAgainstError(campaign_, cells_, 0);

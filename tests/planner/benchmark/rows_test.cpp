@@ -48,7 +48,7 @@ TEST(Rows, TableLinesUpAndLeavesOutWhatSaysNothing) {
             "b           -        0    20000\n");
 }
 
-/// Medians are of the runs that were solved; a run that failed counts nowhere but as such.
+/// Medians cover the solved runs only; a failed run counts only in `runs` and `failed`.
 TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
   Campaign campaign;
   campaign.problems.resize(1);
@@ -68,7 +68,7 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
     run.edges = i + 1;
     run.counters.boxTests = 10 * (i + 1);
     run.counters.undecided = 1;
-    run.leastDistance = i == 1 ? -1 : 0.1 * static_cast<double>(i);  // -1: nothing in the way
+    run.leastDistance = i == 1 ? -1 : 0.1 * static_cast<double>(i);  // -1: no obstacle
     run.rawLength = {2.0 * static_cast<double>(i), 1};
   }
   cell.runs[0].verdict = cell.runs[1].verdict = "proved";
@@ -81,7 +81,7 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
             "box_tests,"
             "triangle_tests,least_distance_m,raw_length_m,raw_rotation_rad,length_m,rotation_rad\n"
             "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.25,0.5,250,2.5,6,25,0,0.2,3,1,0,0\n");
-  // What a run doesn't have is left empty.
+  // Values that a run doesn't have are empty.
   const auto value = [&](std::size_t run, const std::string& name) {
     for (const auto& [column, held] : runRow(campaign, cell, cell.runs[run]))
       if (column == name) return held;

@@ -1,4 +1,5 @@
-// Medians and shares with their confidence, against enumeration and simulation.
+// Medians and shares with their confidence intervals, tested against enumeration, simulation and
+// published values.
 #include "planner/benchmark/statistics.h"
 
 #include <cmath>
@@ -16,8 +17,8 @@ std::vector<double> upTo(std::size_t n) {
   return values;
 }
 
-/// Of n values, how often are fewer than k below the median, or more than n − k? By counting all
-/// 2^n ways to be on either side.
+/// Returns the probability that fewer than k, or more than n − k, of n values are below the median,
+/// by counting all 2^n cases.
 double missed(unsigned n, unsigned k) {
   unsigned ways = 0;
   for (unsigned set = 0; set < 1u << n; ++set) {
@@ -40,7 +41,7 @@ TEST(Statistics, MediansIntervalIsTheNarrowestThatIsSureEnough) {
     EXPECT_LE(missed(n, k), 0.05) << n;
     EXPECT_GT(missed(n, k + 1), 0.05) << n;
   }
-  // Published (Conover, Practical Nonparametric Statistics): of ten values the 2nd and the 9th.
+  // Published for ten values (Conover, Practical Nonparametric Statistics): the 2nd and the 9th.
   EXPECT_EQ(medianInterval(upTo(10)).from, 2);
   EXPECT_EQ(medianInterval(upTo(10)).to, 9);
   EXPECT_EQ(medianInterval({5, 3, 1, 4, 2, 6}).from, 1);  // any order
@@ -50,7 +51,7 @@ TEST(Statistics, MediansIntervalIsTheNarrowestThatIsSureEnough) {
 TEST(Statistics, MediansIntervalCoversAsOftenAsItSays) {
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
-  std::lognormal_distribution<double> draw(0, 2);  // its median is 1
+  std::lognormal_distribution<double> draw(0, 2);  // the median is 1
   int covered = 0;
   constexpr int kTrials = 4000;
   for (int t = 0; t < kTrials; ++t) {
@@ -59,7 +60,8 @@ TEST(Statistics, MediansIntervalCoversAsOftenAsItSays) {
     const Interval i = medianInterval(values);
     covered += i.from <= 1 && 1 <= i.to;
   }
-  // Of 15 values it is 1 − 2·P(B ≤ 3) = 0.9648; six standard errors of 4,000 trials are 0.018.
+  // For 15 values the coverage is 1 − 2·P(B ≤ 3) = 0.9648; six standard errors of 4,000 trials are
+  // 0.018.
   EXPECT_NEAR(covered / double{kTrials}, 0.9648, 0.018) << "seed " << seed;
 }
 

@@ -1,17 +1,18 @@
-// What `--variants` takes.
+// What `--variants` accepts.
 #include "planner/benchmark/variant.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
-#include "collision/core/nearest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/keys.h"
 
 namespace corridor {
 namespace {
 
-std::string complaintOf(const std::string& text, const std::vector<BenchmarkPeer>& peers = {}) {
+std::string complaintOf(const std::string& text,
+                        const std::vector<BenchmarkCompetitor>& peers = {}) {
   try {
     readVariant(text, peers);
   } catch (const InputError& error) {
@@ -60,7 +61,7 @@ TEST(Variant, EveryEdgesOfAProblemIsOne) {
 }
 
 TEST(Variant, APeerSamples) {
-  const std::vector<BenchmarkPeer> peers{{"other", {}}};
+  const std::vector<BenchmarkCompetitor> peers{{"other", {}}};
   const Variant variant = readVariant("other:0.1", peers);
   EXPECT_EQ(specOf(variant).edges, "discrete");
   EXPECT_EQ(specOf(variant).resolution, 0.1);

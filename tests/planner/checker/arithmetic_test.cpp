@@ -1,4 +1,4 @@
-// Where the processor is set so that no bound holds, the checker answers nothing else than that.
+// In a floating-point mode in which no bound holds, the checker answers only that.
 #include <stdexcept>
 #include <thread>
 
@@ -32,7 +32,7 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
         throws = true;
       }
     };
-    query();  // in a thread that has asked before, and in a new one
+    query();  // in a thread that has a workspace already; below, in new ones
     for (int n = 0; n < 2; ++n, std::thread(query).join()) {
       EXPECT_EQ(throws, !setting.standard()) << setting.name;
       for (const MotionResult& result : {state, edge}) {
@@ -47,7 +47,7 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
   }
 }
 
-/// A motion that was made in another arithmetic is none afterwards.
+/// A motion that was set in another floating-point mode stays invalid afterwards.
 TEST(CheckerArithmetic, MotionsMadeElsewhereAreRefused) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");

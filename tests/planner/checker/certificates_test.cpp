@@ -1,11 +1,11 @@
-// Certificates of the planner's edges: nearly all that are free are proved anew by `checkEvidence`,
-// at the default reserve and tube.
+// `checkCertificate` accepts the certificates of nearly all free edges, at the default clearance
+// slack and tube.
 #include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "collision/motion/check_evidence.h"
+#include "collision/motion/check_certificate.h"
 #include "planner/checker/checker.h"
 #include "planner/robot/edge_motion.h"
 #include "tests/support/support.h"
@@ -47,16 +47,17 @@ TEST_P(Certificates, AreAccepted) {
   for (int n = 0; n < 100 * wanted && free < wanted; ++n) {
     const Configuration from = randomState(problem.space, random);
     if (!checker.certifiedState(from)) continue;
-    // Of 1 to 20 % of the way to another.
+    // 1 to 20 % of the way to another state.
     const double share = std::pow(10.0, std::uniform_real_distribution(-2.0, -0.7)(random));
     const Configuration to =
         problem.space.interpolate(from, randomState(problem.space, random), share);
     motion.set(from, to);
-    MotionEvidence evidence;
+    MotionCertificate certificate;
     MotionOptions options = checker.options();
-    if (scene.certify(motion, options, context, evidence).verdict != MotionVerdict::free) continue;
+    if (scene.certify(motion, options, context, certificate).verdict != MotionVerdict::free)
+      continue;
     ++free;
-    accepted += !checkEvidence(motion, scene.motionPairs(), options, 1, evidence, context);
+    accepted += !checkCertificate(motion, scene.motionPairs(), options, 1, certificate, context);
   }
   EXPECT_GE(free, wanted / 2);
   EXPECT_GE(accepted, 0.99 * free) << "of " << free;

@@ -1,4 +1,5 @@
-// What OMPL's samplers and objectives are told: closed forms, and in step with what is valid.
+// The clearance for OMPL's samplers and objectives agrees with closed forms and with the states'
+// validity.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -35,8 +36,8 @@ TEST(Clearance, OfABarBesideAWall) {
       };
       EXPECT_NEAR(at(-3, 0, 0), 2.4995, 1e-14);
       EXPECT_NEAR(at(2, -1, 0.4), 1.9995 - 0.5 * std::cos(0.4) - 0.1 * std::sin(0.4), 1e-14);
-      EXPECT_NEAR(at(0, 3, 0), 0.9, 1e-14);  // over the gap's edge
-      EXPECT_EQ(at(0, 0, 0), 0);             // deep in it: there is no depth
+      EXPECT_NEAR(at(0, 3, 0), 0.9, 1e-14);  // above the gap's edge
+      EXPECT_EQ(at(0, 0, 0), 0);             // deep in the wall: no depth is computed
       EXPECT_NEAR(at(-0.5005, 0, 0), 0, 1e-15);
     }
   }
@@ -44,10 +45,10 @@ TEST(Clearance, OfABarBesideAWall) {
 
 TEST(Clearance, OfAnArmOfPrimitivesIsThatOfItsClosestPair) {
   const Problem problem = armProblem();
-  // The lower arm lies along x from 1.1 to 1.9, the post's axis is at (1.2, 1.2): both of radius
+  // The lower arm lies along x from 1.1 to 1.9; the post's axis is at (1.2, 1.2). Both have radius
   // 0.1.
   EXPECT_NEAR(clearanceOf(problem, Configuration::Zero(3)), 1.0, 1e-12);
-  // Turned to point at it: the two meet.
+  // The arm points at the post and meets it.
   EXPECT_EQ(clearanceOf(problem, Configuration(Vec3(0.25 * std::numbers::pi, 0, 0))), 0);
 }
 
@@ -90,7 +91,8 @@ TEST(Clearance, BothCheckersOfOmplTellIt) {
   EXPECT_EQ(hall.checker.counters().states, before + 1) << "a state, of however many pairs";
 }
 
-/// Positive wherever a state is valid, and valid wherever it is above what the proof keeps.
+/// The clearance of a valid state is positive. A state is valid if its clearance exceeds what the
+/// proof needs.
 TEST(Clearance, IsInStepWithWhatIsValid) {
   std::mt19937_64 random(test::testSeed(3));
   std::uniform_real_distribution<double> u(-1, 1);

@@ -1,5 +1,5 @@
-// Contract 2 at the default tolerance, however large coordinates are beside the bodies: a free edge
-// whose clearance is above twice the tolerance is proved.
+// At the default tolerance every free edge with a clearance above twice the tolerance is proved,
+// even with coordinates that are large compared with the bodies.
 #include "planner/checker/default_tolerance.h"
 
 #include <cmath>
@@ -18,8 +18,7 @@ namespace {
 
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 
-/// A floor of one triangle at the height 0 of its own frame, below a tetrahedron that stands on its
-/// tip.
+/// A floor of one triangle at height 0 of its own frame. A tetrahedron stands on its tip above it.
 TriangleMesh floorOf(double size) {
   TriangleMesh mesh;
   test::add(mesh, Vec3(-9 * size, -9 * size, 0), Vec3(9 * size, -9 * size, 0),
@@ -35,7 +34,7 @@ TriangleMesh topOf(double size) {
   return mesh;
 }
 
-/// Heights of the tip above the floor are exact: position and gap are multiples of 2^-80.
+/// Heights of the tip above the floor are exact, because position and gap are multiples of 2^-80.
 double onGrid(double x) {
   return std::ldexp(std::round(std::ldexp(x, 42)), -42);
 }
@@ -49,7 +48,7 @@ TEST(DefaultTolerance, RigidBodiesFarFromTheOrigin) {
                      onGrid(far * real(random)));
     TriangleMesh floor = floorOf(size);
     for (Vec3& p : floor.vertices) p = Vec3(p + where);
-    for (Vec3& p : floor.vertices) p.z() = where.z();  // level, and exactly so
+    for (Vec3& p : floor.vertices) p.z() = where.z();  // exactly level
     std::vector<Body> moving, fixed;
     moving.emplace_back("top", topOf(size));
     fixed.emplace_back("floor", floor);
@@ -57,11 +56,12 @@ TEST(DefaultTolerance, RigidBodiesFarFromTheOrigin) {
     MotionOptions options;
     options.tolerance = scene.defaultTolerance(where.norm() + 1);
     const double gap = options.tolerance * (2.01 + std::abs(real(random)));
-    // Along the floor, turning about the vertical: the tip is the lowest point all along.
+    // The body moves along the floor and rotates about the vertical, so the tip stays the lowest
+    // point.
     RigidPose from, to;
     from.p = where + Vec3(size * real(random), size * real(random), 0);
     to.p = where + Vec3(size * real(random), size * real(random), 0);
-    from.p.z() = to.p.z() = where.z() + gap;  // rounds by 2^-53 of `far`, far below the gap
+    from.p.z() = to.p.z() = where.z() + gap;  // rounds by 2^-53 of `far`, far less than the gap
     to.q = Eigen::AngleAxisd(real(random), Vec3::UnitZ());
     QueryContext context;
     const MotionResult result = scene.certifyEdge(from, to, options, context);
@@ -84,12 +84,13 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
       c.upper = limit;
       return problem.space.coordinates()[problem.space.add(c)].first;
     };
-    // Slides along x, y and z, then turns about z far out, to and fro.
+    // Prismatic joints along x, y and z, then revolute ones about z far out, in alternating
+    // directions.
     std::size_t parent = 0;
     for (int k = 0; k < 3; ++k) {
       Frame frame;
       frame.parent = parent;
-      frame.joint = Frame::Joint::slide;
+      frame.joint = Frame::Joint::prismatic;
       frame.axis = Vec3::Unit(k);
       frame.variable = variable(Coordinate::Kind::line, far + 1);
       parent = problem.tree.add(frame);
@@ -99,7 +100,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
       Frame frame;
       frame.parent = parent;
       frame.fixed.p = Vec3(far / 3 * real(random), far / 3 * real(random), 0);
-      frame.joint = Frame::Joint::turn;
+      frame.joint = Frame::Joint::revolute;
       frame.variable = variable(k % 2 ? Coordinate::Kind::circle : Coordinate::Kind::line, 3);
       parent = problem.tree.add(frame);
     }
@@ -141,7 +142,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
   EXPECT_GT(sharp, 300) << "the rounding of large coordinates decides";
 }
 
-/// Two branches of one chain: the rounding of both counts.
+/// Two branches of one tree: the rounding of both counts.
 TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
   std::mt19937_64 random(test::testSeed(9));
   std::uniform_real_distribution<double> real(-1, 1);
@@ -155,11 +156,11 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
       Frame frame;
       frame.parent = parent;
       frame.fixed.p = at;
-      frame.joint = Frame::Joint::turn;
+      frame.joint = Frame::Joint::revolute;
       frame.variable = problem.space.coordinates()[problem.space.add(c)].first;
       return problem.tree.add(frame);
     };
-    // Level: all turns are about z, and the heights of tip and floor are those of the file.
+    // All rotations are about z, so the heights of tip and floor are those of the file.
     const auto out = [&] { return Vec3(far * real(random), far * real(random), 0); };
     const std::size_t left = add(add(add(0, out()), out()), out());
     const std::size_t right = add(add(add(0, out()), out()), out());
@@ -170,7 +171,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
       from[i] = 2.5 * real(random);
       to[i] = from[i] + 0.1 * size / far * real(random);
     }
-    // The floor is on the left branch, as seen from there below the tip on the right one.
+    // The floor is on the left branch, below the tip on the right one.
     const std::vector<Transform> poses = framePoses(problem.tree, from);
     const Vec3 tip = poses[left].m.transpose() * (poses[right].t - poses[left].t);
     TriangleMesh floor = floorOf(100 * size);
@@ -203,14 +204,14 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
   }
 }
 
-/// A limit that no robot reaches asks for no tolerance of metres.
+/// A joint limit that no robot reaches must not cause a tolerance of metres.
 TEST(DefaultTolerance, IsNeverMoreThanAThousandTimesTheUsualOne) {
   Problem problem;
   Coordinate c;
   c.lower = -1e16;
   c.upper = 1e16;
   Frame frame;
-  frame.joint = Frame::Joint::turn;
+  frame.joint = Frame::Joint::revolute;
   frame.variable = problem.space.coordinates()[problem.space.add(c)].first;
   const std::size_t link = problem.tree.add(frame);
   PlacedShape ball;

@@ -1,4 +1,4 @@
-// Where the time of a problem's edges goes: counts and shares add up, and nobody waits for ever.
+// Counts and shares of edge costs add up, and the sampling ends in time.
 #include "planner/checker/edge_costs.h"
 
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@
 
 namespace corridor::test {
 
-/// The surface of a box with these edge lengths, about the origin of its frame at `at`.
+/// The surface of a box with these edge lengths, centred at `at`.
 inline TriangleMesh boxMesh(const Vec3& size, const Vec3& at = Vec3::Zero()) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)
@@ -43,7 +43,7 @@ inline PlacedShape partShape(const std::string& name, const Primitive& primitive
   return shape;
 }
 
-/// 2^-40 of each range, as the contract has it for lines of one range and for angles.
+/// 2^-40 of each range, the default tube for lines of one range and for angles.
 inline Configuration roundingTube(const ConfigurationSpace& space) {
   Configuration tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
   for (const Coordinate& c : space.coordinates())
@@ -54,7 +54,7 @@ inline Configuration roundingTube(const ConfigurationSpace& space) {
 
 enum class Rigid { SE2, SE3 };
 
-/// One rigid body in [−5, 5]², or in [−5, 5]³; nothing that moves or stands yet.
+/// A problem of one rigid body in [−5, 5]² or [−5, 5]³, without shapes and obstacles.
 inline Problem rigidProblem(Rigid kind, double rotationWeight = 1) {
   using Kind = Coordinate::Kind;
   Problem problem;
@@ -71,12 +71,12 @@ inline Problem rigidProblem(Rigid kind, double rotationWeight = 1) {
   problem.space.addGroup(group);
   Frame shift, turn;
   shift.name = "bar's position";
-  shift.joint = Frame::Joint::shift;
+  shift.joint = Frame::Joint::translation;
   shift.variable = 0;
   shift.count = spatial ? 3 : 2;
   turn.name = "bar";
   turn.parent = problem.tree.add(shift);
-  turn.joint = spatial ? Frame::Joint::rotate : Frame::Joint::turn;
+  turn.joint = spatial ? Frame::Joint::rotation : Frame::Joint::revolute;
   turn.variable = shift.count;
   problem.tree.add(turn);
   problem.tube = roundingTube(problem.space);
@@ -92,9 +92,9 @@ inline Configuration poseOf(Rigid kind, double x, double y, double yaw = 0) {
   return q;
 }
 
-/// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³ with a wall of 0.001 at x = 0 that has a gap above
-/// y = 2: from one side of the wall to the other.
-/// @param edges, volume as in `checker: {edges: …, volume: …}`.
+/// A bar of 1 × 0.2 × 0.2 in a hall of [−5, 5]³. A wall of thickness 0.001 at x = 0 has a gap above
+/// y = 2. Start and goal are on either side.
+/// @param edges,volume as in `checker: {edges: …, volume: …}`.
 inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
                            const std::string& volume = "obb") {
   Problem problem = rigidProblem(kind);
@@ -119,7 +119,7 @@ inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
   return problem;
 }
 
-/// The hall as OMPL sees it.
+/// The hall with its OMPL classes.
 struct Hall {
   explicit Hall(Rigid rigid, const std::string& edges = "certified",
                 const std::string& volume = "obb")
@@ -143,8 +143,9 @@ struct Hall {
   ompl::base::SpaceInformationPtr si;
 };
 
-/// An arm in the plane z = 0: three links of 1 m, each a capsule and the last a mesh, joints about
-/// z at the origin and at the links' ends; a post at (1.2, 1.2) and a slab.
+/// An arm in the plane z = 0 with three links of 1 m: two capsules, and a mesh as the last. Joints
+/// about z are at the origin and between the links. A post at (1.2, 1.2) and a slab are the
+/// obstacles.
 inline Problem armProblem() {
   using Kind = Coordinate::Kind;
   Problem problem;
@@ -155,14 +156,14 @@ inline Problem armProblem() {
   std::size_t parent = 0;
   const char* names[] = {"shoulder", "elbow", "wrist"};
   for (std::size_t i = 0; i < 3; ++i) {
-    // The shoulder goes all round.
+    // The shoulder is continuous.
     group.coordinates.push_back(
         problem.space.add({i == 0 ? Kind::circle : Kind::line, names[i], 0, -2.5, 2.5, true, 1}));
     Frame frame;
     frame.name = names[i];
     frame.parent = parent;
     if (i > 0) frame.fixed.p = {1, 0, 0};
-    frame.joint = Frame::Joint::turn;
+    frame.joint = Frame::Joint::revolute;
     frame.variable = i;
     parent = problem.tree.add(frame);
   }

@@ -1,4 +1,4 @@
-// One suite for every motion validator: OMPL's contract of checkMotion and lastValid, held exactly.
+// One suite for every motion validator: OMPL's contract of checkMotion and lastValid holds exactly.
 #include <algorithm>
 #include <cstring>
 #include <random>
@@ -26,7 +26,8 @@ struct Kind {
   bool proves() const { return edges != "discrete"; }
 };
 
-/// Every name that a problem may give: methods in both spaces, and volumes with methods in turn.
+/// Every name that a problem may give: all methods in both spaces, and all volumes with alternating
+/// methods.
 std::vector<Kind> kinds() {
   const auto& methods = problemChoices().at("checker.edges");
   const auto& volumes = problemChoices().at("checker.volume");
@@ -70,7 +71,7 @@ class MotionValidators : public testing::TestWithParam<Kind> {
   }
   std::vector<double> bits(const ob::ScopedState<>& s) const { return s.reals(); }
 
-  /// The state that a failed check leaves, by its contract; `last` and `s1` may be one.
+  /// Tests the state that a failed check leaves. `last` and `s1` may be the same state.
   void expectValid(const Configuration& s1, const ob::State* last, double t) const {
     const auto from = hall_.scoped(s1);
     EXPECT_TRUE(hall_.si->isValid(last));
@@ -213,7 +214,7 @@ TEST(DiscreteMotionValidator, StepsOverAThinWallAndCertifiedDoesNot) {
       std::make_shared<ExactStateValidityChecker>(hall.si, hall.checker));
   hall.si->getStateSpace()->setLongestValidSegmentFraction(0.2);
   hall.si->setup();
-  // Steps of 3.4 m, a bar of 1 m.
+  // Steps of 3.4 m with a bar of 1 m step over the wall.
   const DiscreteMotionValidator discrete(hall.si, hall.checker);
   const CertifiedMotionValidator certified(hall.si, hall.checker);
   const auto from = hall.scoped(hall.at(-1, 0)), to = hall.scoped(hall.at(2, 0));

@@ -1,4 +1,5 @@
-// A problem's space as OMPL's: Corridor's edges, every planner's needs, samples like OMPL's own.
+// A problem's space as an OMPL space: it follows Corridor's edges, meets every planner's needs, and
+// samples as OMPL does.
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +19,7 @@ namespace ob = ompl::base;
 using std::numbers::pi;
 using test::Rigid;
 
-/// A cart (x, y, yaw) with an arm: a shoulder that goes all round, and two joints.
+/// A cart (x, y, yaw) with an arm: a continuous shoulder and two joints.
 ConfigurationSpace cartWithArm() {
   using Kind = Coordinate::Kind;
   ConfigurationSpace space;
@@ -118,8 +119,8 @@ TEST(StateSpace, TinyDifferencesAreDifferent) {
   }
 }
 
-/// The same seed gives the same samples as OMPL's own space, near and uniform: a rigid body's
-/// problems plan as with SE3StateSpace.
+/// With one seed a rigid body's samples, near and uniform, are those of OMPL's own space. So
+/// planning for it behaves as with SE3StateSpace.
 TEST(StateSpace, RigidBodiesAreSampledAsByOmpl) {
   const ConfigurationSpace configurations = test::rigidProblem(Rigid::SE3, 0.7).space;
   const auto ours = std::make_shared<ProblemStateSpace>(configurations);

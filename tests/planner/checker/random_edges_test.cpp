@@ -1,5 +1,5 @@
-// Random edges of real arms in real scenes: what the checker calls free is proved by the verifier,
-// and no sample of it touches; what it calls a contact does touch.
+// Random edges of real arms in real scenes. The verifier proves every edge that the checker calls
+// free, and no sample of it touches. Every edge that the checker calls a contact does touch.
 #include <iostream>
 #include <random>
 
@@ -83,7 +83,7 @@ TEST_P(RandomEdges, FreeOnesAreProved) {
     SCOPED_TRACE(problem.name);
     const Checker checker(problem);
     for (int left = perScene; left > 0;) {
-      // Half of them start where the problem's own paths do: close to things.
+      // Half of the edges start where the problem's own paths do, close to obstacles.
       Configuration from = randomState(problem, random);
       if (left % 4 == 0) from = step(problem.start, 0.1, random);
       if (left % 4 == 2) from = step(problem.goals[0], 0.1, random);

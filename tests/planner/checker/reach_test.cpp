@@ -1,4 +1,4 @@
-// Boxes that bodies never leave, against random configurations.
+// Bodies never leave their boxes in random configurations.
 #include "planner/checker/reach.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using test::Rigid;
 
-/// All corners of all bodies in many configurations, the extremes among them.
+/// Tests all vertices of all bodies in many configurations, including the extremes.
 void expectInside(const Problem& problem) {
   ompl::RNG::setSeed(5);
   const std::vector<ReachBox> boxes = reachOf(problem);

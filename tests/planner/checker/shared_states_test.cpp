@@ -1,5 +1,5 @@
-// States of the shared data's robots whose verdicts are known: contacts of their links among each
-// other, labelled states in scenes, and starts and goals of benchmark problems.
+// States of the shared data's robots with known verdicts: contacts between their own links,
+// labelled states in scenes, and starts and goals of benchmark problems.
 #include <fstream>
 #include <set>
 
@@ -50,7 +50,7 @@ TEST(SharedStates, LinksThatTouchEachOther) {
     auto model = readUrdf(robots / file, {{"example-robot-data", robots / "example-robot-data"}},
                           faults, setup.files);
     ASSERT_TRUE(model) << InputError(faults).what();
-    // The reference knows of SRDF pairs only, so adjacent links are tested as well.
+    // The reference skips only the SRDF's pairs, so adjacent links must be tested, too.
     model->allowed.clear();
     if (!srdf.empty()) readSrdf(robots / srdf, *model, faults);
     ASSERT_TRUE(faults.empty()) << InputError(faults).what();

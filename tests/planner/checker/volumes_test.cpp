@@ -1,5 +1,5 @@
-// A problem's checker on the trees of every volume: one answer, and nothing that is not asked of
-// them.
+// A problem's checker gives the same answers with the trees of every volume, and refuses words that
+// don't go together.
 #include <map>
 #include <random>
 #include <stdexcept>
@@ -16,22 +16,22 @@ namespace {
 using test::Rigid;
 
 /// Every volume with every overlap test.
-std::vector<TreeWords> everyVolume() {
-  std::vector<TreeWords> all;
+std::vector<TreeNames> everyVolume() {
+  std::vector<TreeNames> all;
   for (const VolumeKind& kind : volumeKinds())
     for (const std::string& overlap : kind.overlaps)
       all.push_back({kind.name, kind.fits.back(), overlap});
   return all;
 }
 
-Problem with(Problem problem, const TreeWords& words) {
+Problem with(Problem problem, const TreeNames& words) {
   problem.checker.volume = words.volume;
   problem.checker.fit = words.fit;
   problem.checker.overlap = words.overlap;
   return problem;
 }
 
-/// Meshes, and primitives on a chain; states and edges, certified and exact.
+/// Meshes, and primitives on a chain; states and edges; certified and exact.
 TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
   std::mt19937_64 random(test::testSeed(71));
   const auto real = [&](double low, double high) {
@@ -51,7 +51,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
     }
     std::vector<int> usual;
     std::map<std::uint64_t, int> tests;
-    for (const TreeWords& words : everyVolume()) {
+    for (const TreeNames& words : everyVolume()) {
       SCOPED_TRACE(problem.name + ", " + words.volume + ", " + words.overlap);
       const Problem asked = with(problem, words);
       const Checker checker(asked);
@@ -75,7 +75,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
 }
 
 TEST(CheckerVolumes, WrongWordsThrow) {
-  const auto message = [](const TreeWords& words, const std::string& edges) -> std::string {
+  const auto message = [](const TreeNames& words, const std::string& edges) -> std::string {
     Problem problem = with(test::hallProblem(Rigid::SE2), words);
     problem.checker.edges = edges;
     try {
@@ -91,8 +91,8 @@ TEST(CheckerVolumes, WrongWordsThrow) {
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "discrete"), "");
   EXPECT_EQ(message({"obb-binary", "", "sat"}, "adaptive"), "");
   EXPECT_EQ(message({"obb-binary", "", "gjk"}, "advancement"),
-            "checker.overlap: \"gjk\" is of edges certified and discrete; advancement asks how far "
-            "volumes are apart");
+            "checker.overlap: \"gjk\" is for edges certified and discrete; advancement measures "
+            "distances between volumes: leave overlap out");
 }
 
 }  // namespace

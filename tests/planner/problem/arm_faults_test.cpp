@@ -3,7 +3,7 @@
 namespace corridor::test {
 namespace {
 
-/// The text of every message about joints, states and robots, whole.
+/// Pins the complete text of every message about joints, states and robots.
 class ArmFaults : public ArmTest {
  protected:
   std::string start(const std::string& value) const {
@@ -15,7 +15,7 @@ class ArmFaults : public ArmTest {
   std::string with(const std::string& lines) const {
     return complaintOf(armHead + armStates + lines);
   }
-  /// Of robot.yaml with these lines, from line 3.
+  /// Returns the complaint about a robot file with these lines from line 3 on.
   std::string robot(const std::string& lines) const {
     write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\n" + lines);
     return complaintOf(armHead +
@@ -30,16 +30,16 @@ TEST_F(ArmFaults, States) {
             "ready)");
   EXPECT_EQ(start("{from: home, pan: 1}"),
             "problem.yaml:5: start.from: there is no state \"home\" (known: ready)");
-  EXPECT_EQ(start("{pan: 1}"),
-            "problem.yaml:5: start: says nothing of lift; all joints that are planned for need a "
-            "value");
+  EXPECT_EQ(
+      start("{pan: 1}"),
+      "problem.yaml:5: start: has no value for lift; all joints that are planned for need one");
   EXPECT_EQ(
       start("{pan: 1, lfit: 0}"),
       "problem.yaml:5: start.lfit: there is no joint \"lfit\"; did you mean \"lift\"? (known: "
       "pan, lift, slide)");
   EXPECT_EQ(start("{pan: 1, lift: 0, slide: 0.02, wrist: 1, follow: 0}"),
-            "problem.yaml:5: start.slide: is held at 0.01, and not planned for (robot.yaml says "
-            "which are)\n"
+            "problem.yaml:5: start.slide: is held at 0.01, and not planned for; robot.yaml chooses "
+            "the joints\n"
             "problem.yaml:5: start.wrist: is fixed\n"
             "problem.yaml:5: start.follow: follows slide (mimic)");
   EXPECT_EQ(start("{pan: 1, lift: 3.2}"),
@@ -48,12 +48,13 @@ TEST_F(ArmFaults, States) {
             "problem.yaml:5: start.pan_deg: say pan (radians) or pan_deg (degrees), not both");
   EXPECT_EQ(start("{pan: x, lift: 0}"), "problem.yaml:5: start.pan: a number is needed, not \"x\"");
   EXPECT_EQ(start("{pan: 1, slide_deg: 2, lift: 0}"),
-            "problem.yaml:5: start.slide_deg: slide slides: say slide, in metres");
+            "problem.yaml:5: start.slide_deg: slide is prismatic; use slide, in metres");
   EXPECT_EQ(start("[1, 2]"),
             "problem.yaml:5: start: a named state or joint values, such as {pan: 0.3, lift_deg: "
             "20}, are needed, not a list");
   EXPECT_EQ(complaintOf(armHead + "goal: ready\n"),
-            "problem.yaml: missing key \"start\": where its joints are, such as start: ready");
+            "problem.yaml: missing key \"start\": the robot's joint values at the start, such as "
+            "start: ready");
 }
 
 TEST_F(ArmFaults, Goals) {
@@ -63,12 +64,12 @@ TEST_F(ArmFaults, Goals) {
   EXPECT_EQ(goal("[ready, redy]"),
             "problem.yaml:6: goal[1]: there is no state \"redy\"; did you mean \"ready\"? (known: "
             "ready)");
-  EXPECT_EQ(
-      goal("[{from: ready, within: {joints: 1}}]"),
-      "problem.yaml:6: goal[0].within: several goals share one: goal: {any: […], within: {…}}");
+  EXPECT_EQ(goal("[{from: ready, within: {joints: 1}}]"),
+            "problem.yaml:6: goal[0].within: several goals share one region; write goal: {any: "
+            "[…], within: {…}}");
   EXPECT_EQ(goal("{from: ready, within: {at: 1}}"),
-            "problem.yaml:6: goal.within.at: nothing moves as a whole here; say joints (rad, or m "
-            "where they slide)");
+            "problem.yaml:6: goal.within.at: there is no rigid body and no planar or floating "
+            "joint here; use joints (rad, or m for prismatic joints)");
 }
 
 TEST_F(ArmFaults, Bounds) {
@@ -79,7 +80,7 @@ TEST_F(ArmFaults, Bounds) {
       "problem.yaml:7: bounds.lift: the lower bound first, then the upper one: 1 is not below "
       "-1");
   EXPECT_EQ(with("bounds: {slide: [0.02, 0.03]}\n"),
-            "problem.yaml:7: bounds.slide: is not planned for, and needs no bounds");
+            "problem.yaml:7: bounds.slide: is not planned for; remove its bounds");
   EXPECT_EQ(with("bounds: {pan: [-0.5, 0.5]}\n"),
             "problem.yaml:6: goal.pan: 1 is outside of its limits, [-0.5, 0.5]");
 }
@@ -102,11 +103,10 @@ TEST_F(ArmFaults, AllowAndTube) {
           "format: corridor-problem-1\nrobot: arm.yaml\nworld: {upper: {sphere: 1, at: [0, 0, "
           "9]}}\n" +
           armStates + "allow: [[upper, base]]\n"),
-      "problem.yaml:6: allow: \"upper\" is a link and an obstacle; call the obstacle "
-      "otherwise");
+      "problem.yaml:6: allow: \"upper\" names a link and an obstacle; rename the obstacle");
   EXPECT_EQ(with("tube: {position: 0.1}\n"),
-            "problem.yaml:7: tube.position: nothing moves as a whole here; say joints (rad, or m "
-            "where they slide)");
+            "problem.yaml:7: tube.position: there is no rigid body and no planar or floating joint "
+            "here; use joints (rad, or m for prismatic joints)");
 }
 
 TEST_F(ArmFaults, RobotFiles) {
@@ -119,8 +119,7 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("joints: pan\n"),
             "arm.yaml:3: joints: a list of names is needed, such as [pan, lift], not \"pan\"");
   EXPECT_EQ(robot("group: arm\n"),
-            "arm.yaml:3: group: groups are those of an SRDF, and none is given: srdf: FILE, or say "
-            "joints: [NAME, …]");
+            "arm.yaml:3: group: a group needs an SRDF; add srdf: FILE, or use joints: [NAME, …]");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: amr\n"),
             "arm.yaml:4: group: there is no group \"amr\" in the SRDF; did you mean \"arm\"? "
             "(known: arm, nothing)");
@@ -132,7 +131,7 @@ TEST_F(ArmFaults, RobotFiles) {
             "arm.yaml:4: hold.slide: 2 is outside of its limits, [0.01, 0.05]\n"
             "arm.yaml:4: hold.wirst: there is no joint \"wirst\" (known: pan, lift, slide)\n"
             "arm.yaml:4: hold.follow: follows slide (mimic)\n"
-            "arm.yaml:4: hold: pan is planned for, and can't be held");
+            "arm.yaml:4: hold: pan is planned for, and can't be held; remove it from hold");
   EXPECT_EQ(
       robot("states: {home: {pna: 1}}\nallow: [[base, hand]]\nweights: {joints: {tilt: 1, "
             "pan: 0}}\n"),
@@ -147,7 +146,8 @@ TEST_F(ArmFaults, RobotFiles) {
             "arm.yaml:4: packages.a: gone: no such folder\n"
             "arm.yaml:5: reference: is for rigid robots; this one's shapes are in its URDF");
   EXPECT_EQ(robot("rigid: SE3\n"),
-            "arm.yaml:2: urdf: one of rigid and urdf is needed, and rigid says it already");
+            "arm.yaml:2: urdf: one of rigid and urdf is needed, and rigid is given already; leave "
+            "one out");
   write("statue.urdf", "<robot name='statue'><link name='stone'/></robot>");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: statue.urdf\nstart: {}\ngoal: {}\n"),
             "statue.urdf: has no joint that moves by itself");
@@ -167,7 +167,8 @@ TEST_F(ArmFaults, SeveralRobots) {
       "ready)");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobots: {left: {file: gone.yaml}, a/b: {base: "
                         "{at: [0, 0, 0]}}}\nbase: {at: [0, 0, 0]}\nrobot: arm.yaml\n"),
-            "problem.yaml:2: robots: one of robot and robots is needed, and robot says it already");
+            "problem.yaml:2: robots: one of robot and robots is needed, and robot is given "
+            "already; leave one out");
   EXPECT_EQ(
       complaintOf("format: corridor-problem-1\nrobots: {left: {file: gone.yaml}, a/b: {base: "
                   "{at: [0, 0, 0]}}}\nbase: {at: [0, 0, 0]}\nworld: {a: {sphere: 1}}\n"),

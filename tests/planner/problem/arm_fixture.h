@@ -4,9 +4,10 @@
 
 namespace corridor::test {
 
-/// Adds an arm to the folder: base (box) — pan (continuous) — upper (box) — lift (revolute, 3.1416)
-/// — lower (capsule-like cylinder) — flange (fixed, no shape) — slide (prismatic) — finger
-/// (sphere), and thumb (sphere), which follows slide.
+/// Adds an arm to the folder. Its chain of links and joints: base (box), pan (continuous), upper
+/// (box), lift (revolute, limits ±3.14159), lower (cylinder), wrist (fixed), flange (no shape),
+/// slide (prismatic), finger (sphere). A second sphere, thumb, is on flange by the joint follow,
+/// which mimics slide.
 class ArmTest : public ProblemTest {
  protected:
   void SetUp() override {
@@ -16,7 +17,7 @@ class ArmTest : public ProblemTest {
     write("arm.yaml", arm);
   }
 
-  /// A URDF link with a collision geometry at z.
+  /// Returns a URDF link with a collision geometry at height z.
   static std::string link(const std::string& name, const std::string& geometry, double z) {
     return "<link name='" + name + "'><collision><origin xyz='0 0 " + std::to_string(z) +
            "'/><geometry>" + geometry + "</geometry></collision></link>\n";
@@ -54,11 +55,11 @@ class ArmTest : public ProblemTest {
       "</robot>\n";
   inline static const std::string arm =
       "format: corridor-robot-1\nname: arm7\nurdf: arm.urdf\nsrdf: arm.srdf\ngroup: arm\n";
-  /// Lines 1 to 4.
+  /// Lines 1 to 4 of a problem file.
   inline static const std::string armHead =
       "format: corridor-problem-1\nrobot: arm.yaml\nworld:\n  post: {box: [0.1, 0.1, 1], at: [0.5, "
       "0.5, 0.5]}\n";
-  /// Lines 5 and 6.
+  /// Lines 5 and 6 of a problem file.
   inline static const std::string armStates = "start: ready\ngoal: {pan: 1, lift: 0.3}\n";
 
   std::string skipped(const Problem& p, const std::string& a, const std::string& b) const {

@@ -95,7 +95,7 @@ TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
   EXPECT_LT((frames[robot.linkFrames[0]].t - Vec3(1, 2, 3)).norm(), 1e-15);
   for (std::size_t l = 0; l < robot.model.links.size(); ++l) {
     const Vec3 at = frames[robot.linkFrames[l]].t;
-    // Lower's z shows along the base's x, which is the world's y.
+    // The z axis of "lower" points along the x axis of "base", which is the world's y.
     if (robot.model.links[l].name == "flange") {
       EXPECT_LT((at - Vec3(1, 2.4, 3.7)).norm(), 1e-12);
     }
@@ -152,14 +152,15 @@ TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndTold) {
   EXPECT_DOUBLE_EQ(p.goals.at(0)[0], 4 - 2 * std::numbers::pi);
   EXPECT_EQ(p.goals.at(0)[1], -3.14159) << "limits are inclusive";
   EXPECT_THAT(p.notes, Contains("start.lift: 3.1416 is read as its limit, 3.14159"));
-  EXPECT_THAT(p.notes, Contains("goal.pan: 4 is read as -2.2831853071795867, which is the same but "
-                                "for full turns"));
+  EXPECT_THAT(
+      p.notes,
+      Contains("goal.pan: 4 is read as -2.2831853071795867, the same angle up to full turns"));
   const Problem d =
       read(armHead + "start: {pan_deg: -180, lift: 0}\ngoal: {pan_deg: 270, lift: 0}\n");
   EXPECT_EQ(d.start[0], std::numbers::pi);
   EXPECT_EQ(d.goals.at(0)[0], -90 * degree);
-  EXPECT_THAT(d.notes, Contains("goal.pan_deg: 270 is read as -90, which is the same but for full "
-                                "turns"));
+  EXPECT_THAT(d.notes,
+              Contains("goal.pan_deg: 270 is read as -90, the same angle up to full turns"));
 }
 
 TEST_F(ArmProblem, SeveralGoalsAndARegion) {

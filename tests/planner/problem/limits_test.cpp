@@ -1,4 +1,5 @@
-// Documents that are too deep, too large or made to explode: an error at once.
+// A document that is nested too deeply, too large, or expands without bound is an error at once; it
+// must not take all memory, time or stack.
 #include "planner/problem/yaml_reader.h"
 #include "tests/planner/problem/problem_fixture.h"
 
@@ -28,8 +29,7 @@ class Limits : public ProblemTest {
 
 TEST_F(Limits, YamlDepth) {
   const std::string told =
-      ":1: has lists and maps more than 64 deep in each other; no file that is read here needs so "
-      "many";
+      ":1: has lists and maps nested more than 64 deep; no valid file needs more";
   EXPECT_EQ(complaintOfYaml(repeated("[", 64) + repeated("]", 64)), "no complaint");
   for (const std::size_t depth : {std::size_t{65}, std::size_t{100'000}}) {
     EXPECT_EQ(complaintOfYaml(repeated("[", depth) + repeated("]", depth)), "a.yaml" + told);
@@ -39,21 +39,22 @@ TEST_F(Limits, YamlDepth) {
   std::string blocks;
   for (std::size_t i = 0; i < 1000; ++i) blocks += std::string(i, ' ') + "a:\n";
   EXPECT_EQ(complaintOfYaml(blocks).substr(0, 9), "a.yaml:65");
-  EXPECT_EQ(complaintOf(head + "start: " + repeated("[", 100'000) + repeated("]", 100'000)),
-            "problem.yaml:5: has lists and maps more than 64 deep in each other; no file that is "
-            "read here needs so many");
+  EXPECT_EQ(
+      complaintOf(head + "start: " + repeated("[", 100'000) + repeated("]", 100'000)),
+      "problem.yaml:5: has lists and maps nested more than 64 deep; no valid file needs more");
 }
 
 TEST_F(Limits, YamlNodes) {
   EXPECT_EQ(YamlLimits{}.nodes, 10'000'000u);
   const YamlLimits limits{1000, 64};
-  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 999), limits), "no complaint");  // and the list
+  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 999), limits),
+            "no complaint");  // the list counts, too
   const std::string told = ": has more than 1000 keys and values; split the file";
   EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 1000), limits), "a.yaml:1000" + told);
   EXPECT_EQ(complaintOfYaml(repeated("- a: {b: \n    []}\n", 1000), limits), "a.yaml:400" + told);
 }
 
-/// Each list of ten of the one before: 10^9 of the first.
+/// Nine lists, each of ten aliases of the list before: expanded, they would have 10^9 values.
 TEST_F(Limits, YamlAliases) {
   std::string laughs = "a: &a [lol, lol, lol, lol, lol, lol, lol, lol, lol, lol]\n";
   for (char c = 'b'; c < 'j'; ++c) {
@@ -64,7 +65,7 @@ TEST_F(Limits, YamlAliases) {
             "a.yaml:2: aliases (*name) are not read here; write the value out");
 }
 
-/// Nothing is quadratic in the keys of a map.
+/// 200,000 keys in one map: reading must not take quadratic time.
 TEST_F(Limits, YamlKeys) {
   std::string text = "same: 1\n";
   for (int i = 0; i < 200'000; ++i) text += "key" + std::to_string(i) + ": " + "1\n";
@@ -89,8 +90,7 @@ TEST_F(Limits, FaultsAreListedUpToAThousand) {
 
 TEST_F(Limits, Json) {
   const std::string deep =
-      ": has lists and objects more than 64 deep in each other; a set needs "
-      "no more than six";
+      ": has lists and objects nested more than 64 deep; a set needs no more than six";
   for (const std::string& open : {std::string("["), std::string("{\"a\": ")})
     EXPECT_EQ(complaint(write("a.json", repeated(open, 100'000))), "a.json" + deep);
   EXPECT_EQ(complaint(write("a.json", "[" + repeated("[],", 10'000'000) + "1]")),
@@ -109,7 +109,7 @@ TEST_F(Limits, CfgLines) {
 }
 
 TEST_F(Limits, PairsOfBodies) {
-  // 4,600 spheres on joints of a robot's each: above 10^7 pairs.
+  // 4,600 spheres, each on a joint of its own, have more than 10^7 pairs.
   std::string urdf = "<robot name=\"r\">\n<link name=\"l0\"/>\n", state;
   for (int i = 1; i <= 4600; ++i) {
     const std::string n = std::to_string(i);

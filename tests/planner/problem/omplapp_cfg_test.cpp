@@ -14,9 +14,9 @@ namespace {
 class OmplAppCfg : public ProblemTest {
  protected:
   std::filesystem::path cfg(const std::string& text) const { return write("problem.cfg", text); }
-  /// Lines 1 to 3.
+  /// Lines 1 to 3 of a file.
   inline static const std::string meshes = "[problem]\nrobot = wedge.obj\nworld=wedge.obj\n";
-  /// Lines 4 to 9.
+  /// Lines 4 to 9 of a file.
   inline static const std::string planar =
       "start.x = 5\nstart.y = 0\nstart.theta = 7\ngoal.x = 0\ngoal.y = 5\ngoal.theta = 0\n";
   inline static const std::string spatial =
@@ -85,8 +85,7 @@ TEST_F(OmplAppCfg, PlannersAreChosenOnlyWhereThereIsOne) {
 TEST_F(OmplAppCfg, IncompleteVolumeIsIgnored) {
   const Problem p = readProblem(cfg(meshes + planar + "volume.min.x = -100\n"));
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
-  EXPECT_THAT(p.notes,
-              testing::Contains("bounds: those of the world, since volume is not given whole"));
+  EXPECT_THAT(p.notes, testing::Contains("bounds: those of the world, since volume is incomplete"));
 }
 
 TEST_F(OmplAppCfg, Faults) {
@@ -128,14 +127,14 @@ TEST_F(OmplAppCfg, Faults) {
       "problem.cfg:10: volume.min.x: 3 is above volume.max.x, 2");
 }
 
-/// OMPL.app's own problems, against figures worked out by an independent reading of its files.
+/// Values of one of OMPL.app's own problems, which an independent reader computed from its files.
 struct Reference {
   const char* file;
   bool spatial;
   std::size_t robotTriangles, worldTriangles;
   int importedVertices;
-  Vec3 centre;    ///< of the robot, in its file
-  Vec3 robotMin;  ///< of the robot's bounding box, before recentring
+  Vec3 centre;    ///< centre of the robot, in its file's coordinates
+  Vec3 robotMin;  ///< lower corner of the robot's bounding box, before recentring
   Vec3 worldMin, worldMax;
 };
 
@@ -224,7 +223,8 @@ const std::vector<Reference>& references() {
   return all;
 }
 
-/// The figures have five digits.
+/// Compares with a tolerance of 1e-4 (relative above 1), since the reference values have five
+/// digits.
 void expectNear(const Vec3& a, const Vec3& b, const std::string& what) {
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(a[k], b[k], 1e-4 * std::max(1.0, std::abs(b[k]))) << what << " "
@@ -264,7 +264,7 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
     const auto [worldMin, worldMax] = boundsOf(world);
     expectNear(worldMin, r.worldMin, "world's lower corner");
     expectNear(worldMax, r.worldMax, "world's upper corner");
-    // The centre: what recentring took from the robot as its file has it.
+    // The centre is what recentring subtracted from the robot's coordinates in its file.
     const OmplAppMesh file = readOmplAppMesh(p.bodies[0].shapes[0].file);
     EXPECT_EQ(file.importedVertices, r.importedVertices);
     const Vec3 centre = boundsOf(file.mesh).first - boundsOf(robot).first;
@@ -298,8 +298,8 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
   EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").planner.time, 300);
 }
 
-/// OMPL.app's sample solutions: states that its checker found free, which a wrong placement would
-/// not leave so.
+/// Reads the poses of one of OMPL.app's sample solutions. Its checker found them free; with a wrong
+/// placement of the meshes some of them would be in contact.
 std::vector<Transform> posesOf(const std::filesystem::path& file, bool spatial) {
   std::vector<Transform> poses;
   std::ifstream stream(file);
@@ -332,7 +332,7 @@ TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
   struct Sample {
     const char* name;
     std::size_t states;
-    int contactsIfNotRecentred;  ///< -1: not known
+    int contactsIfNotRecentred;  ///< -1: unknown
   };
   for (const Sample& sample :
        {Sample{"2D/BugTrap_planar", 115, -1}, Sample{"2D/Maze_planar", 77, -1},

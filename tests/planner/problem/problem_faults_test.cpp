@@ -6,10 +6,10 @@
 namespace corridor::test {
 namespace {
 
-/// The text of every message, whole. Users read these: change them with care.
+/// Pins the complete text of every message. Users read these: change them with care.
 class ProblemFaults : public ProblemTest {
  protected:
-  /// Of a spatial problem with these lines, from line 8, added.
+  /// Returns the complaint about a spatial problem with these lines added from line 8 on.
   std::string with(const std::string& lines) const { return complaintOf(head + poses + lines); }
 };
 
@@ -51,8 +51,7 @@ TEST_F(ProblemFaults, Syntax) {
   EXPECT_EQ(with("margin: &m 1\nseed: *m\n"),
             "problem.yaml:9: aliases (*name) are not read here; write the value out");
   EXPECT_EQ(with("[1]: 2\n"), "problem.yaml:8: a key must be a word");
-  EXPECT_EQ(with("---\na: 1\n"),
-            "problem.yaml: has more than one YAML document (---); one is read");
+  EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");
 }
 
 TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
@@ -149,22 +148,22 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:6: goal.at: a number is needed, not \"x\"");
 }
 
-/// Words that are known, but not together.
+/// Each word is known, but they do not belong together.
 TEST_F(ProblemFaults, VolumesAndWhatTheyHave) {
   EXPECT_EQ(
       with("checker:\n  volume: sphere\n  overlap: gjk\n"),
-      "problem.yaml:10: checker.overlap: \"gjk\" is of volume obb-binary; of sphere there is: "
+      "problem.yaml:10: checker.overlap: \"gjk\" is for volume obb-binary; volume sphere has: "
       "centers");
   EXPECT_EQ(
       with("checker: {overlap: lp}\n"),
-      "problem.yaml:8: checker.overlap: \"lp\" is of volume obb-binary; of obb there is: sat");
+      "problem.yaml:8: checker.overlap: \"lp\" is for volume obb-binary; volume obb has: sat");
   EXPECT_EQ(
       with("checker: {volume: aabb, fit: hull}\n"),
-      "problem.yaml:8: checker.fit: \"hull\" is of volume obb, obb-binary, rss; of aabb there "
-      "is: plain");
+      "problem.yaml:8: checker.fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb "
+      "has: plain");
   EXPECT_EQ(with("checker: {edges: adaptive, volume: obb-binary, overlap: gjk}\n"),
-            "problem.yaml:8: checker.overlap: \"gjk\" is of edges certified and discrete; adaptive "
-            "asks how far volumes are apart");
+            "problem.yaml:8: checker.overlap: \"gjk\" is for edges certified and discrete; "
+            "adaptive measures distances between volumes: leave overlap out");
 }
 
 TEST_F(ProblemFaults, Ranges) {
@@ -188,7 +187,7 @@ TEST_F(ProblemFaults, Ranges) {
   EXPECT_EQ(with("checker: {tolerance: 0}\n"),
             "problem.yaml:8: checker.tolerance: must be above 0, not 0");
   EXPECT_EQ(with("checker: {resolution: 1}\n"),
-            "problem.yaml:8: checker.resolution: must lie between 0 and 1, not at 1");
+            "problem.yaml:8: checker.resolution: must be between 0 and 1, not 1");
   EXPECT_EQ(
       complaintOf(head + "start: {at: [5, .nan, 0]}\ngoal: {at: [0, 5, 0], within: {at: -1}}\n"),
       "problem.yaml:5: start.at: a finite number is needed, not \".nan\"\n"
@@ -201,7 +200,7 @@ TEST_F(ProblemFaults, Rotations) {
   };
   EXPECT_EQ(start("quat_xyzw: [0, 0, 0, 0]"),
             "problem.yaml:5: start.quat_xyzw: a quaternion of zeros is no rotation; [0, 0, 0, 1] "
-            "turns nothing");
+            "is the identity");
   EXPECT_EQ(start("quat_xyzw: [0, 0, 1, 1]"),
             "problem.yaml:5: start.quat_xyzw: [x, y, z, w] of norm 1 is needed, not of norm "
             "1.4142135623730951; a mistyped number?");
@@ -212,7 +211,8 @@ TEST_F(ProblemFaults, Rotations) {
   EXPECT_EQ(start("rpy_deg: [0, 0]"),
             "problem.yaml:5: start.rpy_deg: a list of 3 numbers is needed, not a list of 2");
   EXPECT_EQ(start("rpy_deg: [0, 0, 0], rpy: [0, 0, 0]"),
-            "problem.yaml:5: start.rpy: one rotation is needed, and rpy_deg says it already");
+            "problem.yaml:5: start.rpy: one rotation is needed, and rpy_deg is given already; "
+            "leave one out");
   EXPECT_EQ(start("within: {at: 1}"),
             "problem.yaml:5: unknown key \"within\" in start (known: at, rpy_deg, rpy, quat_xyzw, "
             "yaw_deg, yaw)");
@@ -274,15 +274,15 @@ TEST_F(ProblemFaults, WhatIsNotSupportedYetSaysWhatIs) {
 }
 
 TEST_F(ProblemFaults, KeysThatAreNotForRigidRobots) {
-  EXPECT_EQ(
-      with("base: {at: [0, 0, 0]}\ntube: {joints: 0.1}\n"),
-      "problem.yaml:8: base: a rigid robot moves freely: start and goal say where it is; leave "
-      "it out\n"
-      "problem.yaml:9: tube.joints: rigid bodies have position (m) and rotation or "
-      "rotation_deg");
+  EXPECT_EQ(with("base: {at: [0, 0, 0]}\ntube: {joints: 0.1}\n"),
+            "problem.yaml:8: base: a rigid robot has no base: start and goal give its pose; leave "
+            "base out\n"
+            "problem.yaml:9: tube.joints: there are no revolute or prismatic joints here; use "
+            "position (m) and rotation or rotation_deg");
   EXPECT_EQ(complaintOf(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0], within: {joints: "
                                "1}}\n"),
-            "problem.yaml:6: goal.within.joints: there are no joints here; say at and angle");
+            "problem.yaml:6: goal.within.joints: there are no revolute or prismatic joints here; "
+            "use at and angle");
   EXPECT_EQ(complaintOfRobot(std::string(robot3) + "srdf: a.srdf\nweights: {joints: {pan: 1}}\n"),
             "robot.yaml:5: srdf: is for robots with joints (urdf: FILE); this one is rigid\n"
             "robot.yaml:6: weights.joints: this robot is rigid and has no joints");
@@ -314,8 +314,8 @@ TEST_F(ProblemFaults, Robots) {
       "problem.yaml:2: robot: no.yaml: no such file");
   EXPECT_EQ(
       complaintOfRobot("format: corridor-robot-1\n"),
-      "robot.yaml: missing one of rigid and urdf: rigid: SE3 (moves and turns freely), rigid: "
-      "SE2 (moves in x and y, turns about z), or urdf: arm.urdf (has joints)");
+      "robot.yaml: missing one of rigid and urdf: rigid: SE3 (moves and rotates freely), rigid: "
+      "SE2 (moves in x and y, rotates about z), or urdf: arm.urdf (has joints)");
   EXPECT_EQ(complaintOfRobot("format: corridor-robot-1\nrigid: SE3\n"),
             "robot.yaml: missing key \"shapes\": the robot's shapes, such as shapes: [{mesh: "
             "piano.obj, unit: m}]");
@@ -343,7 +343,7 @@ TEST_F(ProblemFaults, AllOfAFileAndOfItsRobotAtOnce) {
       std::string("problem.yaml:5: start of the wrong kind: the robot moves in SE3 (rigid: "
                   "SE3), so {at: [x, y, z], rpy_deg: [roll, pitch, yaw]} is needed\n"
                   "problem.yaml:6: goal.quat_xyzw: a quaternion of zeros is no rotation; "
-                  "[0, 0, 0, 1] turns nothing\n"
+                  "[0, 0, 0, 1] is the identity\n"
                   "problem.yaml:7: margin: must be 0 or more, not -1\n"
                   "problem.yaml:8: unknown key \"simplfy\"; did you mean \"simplify\"?") +
           topKeys +
@@ -354,7 +354,7 @@ TEST_F(ProblemFaults, AllOfAFileAndOfItsRobotAtOnce) {
           "robot.yaml:3: shapes[0].mesh: gone.stl: no such file");
 }
 
-/// Files with a letter changed, lost or doubled are read or refused, and nothing else.
+/// Files with random damage are read or refused by an InputError; nothing else may happen.
 TEST_F(ProblemFaults, DamagedFilesAreRefusedInWords) {
   const std::string whole =
       head + poses +

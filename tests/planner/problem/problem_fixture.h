@@ -18,12 +18,12 @@ inline const ProblemBody& bodyOf(const Problem& problem, const std::string& name
     if (body.name == name) return body;
   throw std::runtime_error("no body " + name);
 }
-/// The mesh of a body, of its shape i.
+/// Returns the mesh of shape i of a body.
 inline const TriangleMesh& meshOf(const Problem& problem, const std::string& name,
                                   std::size_t i = 0) {
   return bodyOf(problem, name).shapes.at(i).mesh.value().mesh;
 }
-/// Bounds of the robot that moves as a whole.
+/// Returns the lower corner of the bounds of a rigid robot's position.
 inline Vec3 lowerOf(const Problem& problem) {
   return boundsOf(problem, problem.space.groups().front()).lower;
 }
@@ -39,7 +39,7 @@ inline Configuration numbers(std::initializer_list<double> list) {
   return q;
 }
 
-/// Tests that write small problems into a folder of their own, with a robot and a mesh beside them.
+/// Writes small problem files into a temporary folder, with a robot and a mesh beside them.
 class ProblemTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -57,7 +57,7 @@ class ProblemTest : public testing::Test {
 
   Problem read(const std::string& text) const { return readProblem(write("problem.yaml", text)); }
 
-  /// What reading complains of, with the folder taken out.
+  /// Returns the message of the InputError that reading throws, without the folder's path.
   std::string complaint(const std::filesystem::path& path) const {
     try {
       readProblem(path);
@@ -82,12 +82,12 @@ class ProblemTest : public testing::Test {
       "format: corridor-robot-1\nname: wedge\nrigid: SE3\nshapes: [{mesh: wedge.obj}]\n";
   static constexpr const char* robot2 =
       "format: corridor-robot-1\nrigid: SE2\nshapes: [{mesh: wedge.obj}]\n";
-  /// Lines 1 to 4.
+  /// Lines 1 to 4 of a problem file.
   inline static const std::string head =
       "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  rock: {mesh: wedge.obj}\n";
   inline static const std::string planarHead =
       "format: corridor-problem-1\nrobot: flat.yaml\nworld:\n  rock: {mesh: wedge.obj}\n";
-  /// Lines 5 to 7.
+  /// Lines 5 to 7 of a problem file.
   inline static const std::string poses =
       "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\nbounds: {at: [[-9, -9, -9], [9, 9, 9]]}\n";
   inline static const std::string planarPoses =

@@ -16,7 +16,7 @@ class ProblemYaml : public ProblemTest {};
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Says every legal key of a spatial problem.
+/// A spatial problem with every legal key.
 const char* const everything = R"(format: corridor-problem-1
 robot: robot.yaml
 world:
@@ -100,13 +100,14 @@ TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
   EXPECT_EQ(p.sampler, "uniform");
   EXPECT_EQ(p.checker.edges, "certified");
   EXPECT_EQ(p.checker.volume, "obb");
-  EXPECT_EQ(treesNamed(p.checker.trees()).trees, TreeKind::wideObb);
+  EXPECT_EQ(treesNamed(p.checker.trees()).trees, TreeKind::obb4);
   EXPECT_EQ(p.margin, 0);
   EXPECT_EQ(p.tube.head(3), Vec3::Constant(0x1p-40 * 5)) << "of the longest range";
   EXPECT_EQ(p.tube[3], 0x1p-40 * 2 * std::numbers::pi);
   EXPECT_TRUE(p.simplify);
   EXPECT_EQ(p.seed, 1u);
-  // Of the quaternion angle: half a metre per radian of rotation.
+  // The weight is per radian of the quaternion's angle, so 1 is half a metre per radian of
+  // rotation.
   EXPECT_EQ(p.space.coordinates().at(3).weight, 1);
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
   EXPECT_EQ(upperOf(p), Vec3(5, 5, 3));
@@ -129,9 +130,10 @@ TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
 TEST_F(ProblemYaml, MeshesArePlacedOnceInDouble) {
   const Problem p = read(everything);
   const auto& rock = meshOf(p, "rock").vertices;
-  // (0, 2, 0) in cm, y up: (0, 0, 0.02); a quarter turn about z leaves it; then the shift.
+  // (0, 2, 0) in cm with y up is (0, 0, 0.02). The rotation by 90° about z leaves it, and the
+  // translation is added.
   EXPECT_EQ(rock[2], Vec3(1, 2, 3 + 0.01 * 2));
-  // (1, 0, 0) in cm: x goes to y, and not a last bit goes elsewhere.
+  // (1, 0, 0) in cm: the rotation by 90° takes x to y exactly.
   EXPECT_EQ(rock[1], Vec3(1, 2 + 0.01, 3));
   const auto& stone = meshOf(p, "stone").vertices;
   EXPECT_EQ(stone[1], Vec3(-1, 0, 0));
@@ -147,9 +149,8 @@ TEST_F(ProblemYaml, PlanarPosesAndWrappedYaws) {
   EXPECT_EQ(p.start, numbers({5, 0, -90 * degree}));
   EXPECT_EQ(p.goals[0], numbers({0, 5, -1}));
   EXPECT_EQ(p.space.coordinates().at(2).weight, 0.5);
-  EXPECT_THAT(
-      p.notes,
-      ElementsAre("start.yaw_deg: 270 is read as -90, which is the same but for full turns"));
+  EXPECT_THAT(p.notes,
+              ElementsAre("start.yaw_deg: 270 is read as -90, the same angle up to full turns"));
   p = read(planarHead + "start: {at: [5, 0], yaw_deg: -180}\ngoal: {at: [0, 5], yaw: 10}\n" +
            bounds);
   EXPECT_EQ(p.start[2], std::numbers::pi);
@@ -173,7 +174,7 @@ weights: {rotation: 3}
   ASSERT_EQ(shapes.size(), 3u);
   EXPECT_EQ(shapes[0].name, "twins/left");
   EXPECT_EQ(shapes[1].name, "twins/2");
-  // Eight distinct vertices: the repeated shape does not count twice.
+  // The average of the eight distinct vertices: the repeated shape does not count twice.
   const Vec3 centroid(2.25, 0.5, 0.75);
   EXPECT_EQ(meshOf(p, "twins", 0).vertices[3], Vec3(0, 0, 3) - centroid);
   EXPECT_EQ(meshOf(p, "twins", 2).vertices[0], Vec3(4, 0, 0) - centroid);

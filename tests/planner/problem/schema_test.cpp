@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Follows references, and of alternatives takes the one that is a map with keys of its own.
+/// Follows references, and takes the first alternative that is a map with keys of its own.
 const Json& resolved(const Json& root, const Json& schema) {
   if (schema.contains("$ref"))
     return resolved(root,
@@ -25,7 +25,8 @@ const Json& resolved(const Json& root, const Json& schema) {
   return schema;
 }
 
-/// The schema of the map at `path` of the key lists: "", "world.*", "shapes[]", "goal.within".
+/// Returns the schema of the map at `path`, as in the key lists: "", "world.*", "shapes[]",
+/// "goal.within".
 const Json& schemaOf(const Json& root, const std::string& path) {
   const Json* at = &root;
   for (std::size_t begin = 0; begin < path.size();) {
@@ -41,7 +42,7 @@ const Json& schemaOf(const Json& root, const std::string& path) {
   return *at;
 }
 
-/// Maps that have names of robots and joints among their keys.
+/// Maps whose keys may be names of robots and joints.
 const std::set<std::string> open{"start", "goal", "bounds"};
 
 void collectMaps(const Json& schema, std::set<const Json*>& maps) {

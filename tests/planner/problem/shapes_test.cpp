@@ -76,23 +76,25 @@ TEST_F(Shapes, Faults) {
       "problem.yaml:4: world.rock.convex: a mesh file or points [[x, y, z], …] are needed, not "
       "a map");
   EXPECT_EQ(rock("{box: [1, 1, 1], sphere: 1}"),
-            "problem.yaml:4: world.rock.sphere: one shape is needed, and box says it already");
+            "problem.yaml:4: world.rock.sphere: one shape is needed, and box is given already; "
+            "leave one out");
   EXPECT_EQ(rock("{box: [1, 1, 1], unit: mm, solid: true}"),
             "problem.yaml:4: world.rock.unit: is for mesh files; lengths of a box are in metres\n"
-            "problem.yaml:4: world.rock.solid: is for meshes; a box always is solid");
+            "problem.yaml:4: world.rock.solid: is for meshes; a box is always solid");
   EXPECT_EQ(
       rock("{shapes: []}"),
       "problem.yaml:4: world.rock.shapes: a list of at least one shape, such as [{mesh: FILE}], "
       "is needed, not an empty one");
-  EXPECT_EQ(rock("{mesh: wedge.obj, shapes: [{sphere: 1}]}"),
-            "problem.yaml:4: world.rock.mesh: stands with one shape, and shapes lists several; say "
-            "it there");
+  EXPECT_EQ(
+      rock("{mesh: wedge.obj, shapes: [{sphere: 1}]}"),
+      "problem.yaml:4: world.rock.mesh: belongs to one shape; put it into the items of shapes");
   EXPECT_EQ(rock("{box: [1, 1, 1], at: [1e308, 0, 0], rpy_deg: [0, 0, 45]}"), "no complaint");
   EXPECT_EQ(rock("{box: [1e308, 1e308, 1], at: [1.7e308, 0, 0]}"),
             "problem.yaml:4: world.rock.at: moves the shape out of the range of doubles");
   write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(rock("{mesh: open.obj, solid: true}"),
-            "problem.yaml:4: world.rock.solid: needs a watertight mesh, and open.obj is none: 3 of "
+            "problem.yaml:4: world.rock.solid: needs a watertight mesh, and open.obj is not "
+            "watertight: 3 of "
             "its edges have a triangle on one side only");
 }
 

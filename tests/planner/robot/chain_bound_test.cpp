@@ -1,4 +1,5 @@
-// The bounds that `travelOf` derives from EdgeMotion's screws: never exceeded, and attained.
+// The motion bounds that `motionBound` derives from EdgeMotion's screws are never exceeded, and
+// they are attained.
 #include <functional>
 #include <iostream>
 #include <numbers>
@@ -18,11 +19,11 @@ using test::Real;
 using test::ReferenceKinematics;
 using test::Vec3L;
 
-/// Moves both ends so that all of the edge strays from the nominal one by at most `tube`.
+/// Moves both ends so that the whole edge stays within the tube of the nominal one.
 void stray(RandomTrees& random, const Configuration& tube, Configuration& from, Configuration& to) {
   for (const Coordinate& c : random.space.coordinates()) {
     const auto i = static_cast<Eigen::Index>(c.first);
-    // A little less than the tube, for the rounding of what is done here.
+    // Slightly less than the tube, to allow for the rounding of this function.
     const double by = 0.999 * tube[i] * (random.oneIn(2) ? 1 : random.real());
     if (c.kind == Coordinate::Kind::rotation) {
       const Eigen::Quaterniond turn(Eigen::AngleAxisd(by, random.direction()));
@@ -35,8 +36,9 @@ void stray(RandomTrees& random, const Configuration& tube, Configuration& from, 
   }
 }
 
-/// Every point at every place of the window stays within the cap, and within the twist and the
-/// remainder along any direction; strays by the tube included.
+/// Every point at every time of the interval stays within the isotropic bound. Along any direction
+/// it stays within the first-order motion plus the remainder. Perturbations within the tube are
+/// included.
 TEST(ChainBound, IsNeverExceeded) {
   RandomTrees random(test::testSeed(1));
   const int count = test::stressAsked() ? 2'000'000 : 150'000;
@@ -55,49 +57,49 @@ TEST(ChainBound, IsNeverExceeded) {
     if (motion.ambiguous()) continue;
     const double h = std::ldexp(0.5, -static_cast<int>(random.index(8)));
     const double t = h + 2 * h * std::floor(random.real(0, 0.5 / h));
-    const MotionWindow w = motion.window(0, t, h);
+    const RelativeMotion w = motion.relativeMotion(0, t, h);
     const Vec3 p = random.vector(n % 7 ? 1 : 100), direction = random.direction();
     const Vec3 x = w.X_AB * p, y = w.X_AB.m * p;
-    const PointTravel travel = travelOf(w, x, 0);
-    // A point of a ball about x does no more than the ball's bound.
+    const MotionBound bound = motionBound(w, x, 0);
+    // A point of a sphere about x stays within the bound of the sphere.
     const Vec3 other = p + random.real(0, 1) * random.direction();
     const double radius = (other - p).norm() * (1 + 1e-12);
-    const PointTravel ball = travelOf(w, x, radius);
+    const MotionBound ball = motionBound(w, x, radius);
     Configuration from = random.from, to = random.to;
     stray(random, tube, from, to);
     const ReferenceKinematics reference(random.tree, random.space, from, to);
-    const double noise = 1e-17 * (1 + p.norm() + x.norm());  // of the reference
+    const double noise = 1e-17 * (1 + p.norm() + x.norm());  // rounding of the reference
     for (const double s : {-1.0, 1.0, random.real(), 0.0}) {
       const auto real = reference.relative(pair[0].a, pair[0].b, t + static_cast<Real>(s) * h);
       const Vec3L moved = real.at(p) - test::exactly(w.X_AB, p);
       const Vec3L otherMoved = real.at(other) - test::exactly(w.X_AB, other);
-      ASSERT_LE(moved.norm(), travel.cap + travel.pad + noise) << "case " << n;
-      ASSERT_LE(otherMoved.norm(), ball.cap + ball.pad + noise) << "case " << n;
+      ASSERT_LE(moved.norm(), bound.isotropic + bound.pad + noise) << "case " << n;
+      ASSERT_LE(otherMoved.norm(), ball.isotropic + ball.pad + noise) << "case " << n;
       const Vec3 step = s * (w.linear + w.angular.cross(y));
       const auto off =
           static_cast<double>(std::abs((moved - step.cast<Real>()).dot(direction.cast<Real>())));
-      const double remainder =
-          travel.bend * direction.cross(w.angular).norm() + travel.curvature + travel.pad;
+      const double remainder = bound.secondOrderAcross * direction.cross(w.angular).norm() +
+                               bound.secondOrder + bound.pad;
       ASSERT_LE(off, remainder + noise) << "case " << n;
       const auto way = static_cast<double>(moved.norm());
-      if (!strays && way > 1e-3) tightest = std::max(tightest, way / (travel.cap + travel.pad));
+      if (!strays && way > 1e-3) tightest = std::max(tightest, way / (bound.isotropic + bound.pad));
       if (!strays && off > 1e-3) tightestAlong = std::max(tightestAlong, off / remainder);
-      if (strays && s == 0 && way > 1e-6) tightestStray = std::max(tightestStray, way / travel.pad);
+      if (strays && s == 0 && way > 1e-6) tightestStray = std::max(tightestStray, way / bound.pad);
     }
   }
-  std::cout << "share of the bounds: cap " << tightest << ", remainder " << tightestAlong
+  std::cout << "share of the bounds: isotropic " << tightest << ", remainder " << tightestAlong
             << ", tube " << tightestStray << '\n';
   EXPECT_GT(tightest, 0.999);
   EXPECT_GT(tightestAlong, 0.9);
   EXPECT_GT(tightestStray, 0.9);
 }
 
-/// A chain of joints along which a search looks for the largest share of the bound.
+/// A chain of joints on which a random search looks for a motion that attains the bound.
 struct Chain {
   const char* name;
   std::function<Scene::FramePair(KinematicTree&)> build;
   std::size_t variables;
-  double share;  ///< of the bound that must be attained
+  double share;  ///< share of the bound that must be attained
 };
 
 std::size_t addJoint(KinematicTree& tree, std::size_t parent, Frame::Joint joint, const Vec3& axis,
@@ -118,56 +120,56 @@ TEST(ChainBound, IsAttained) {
   const Chain chains[] = {
       {"one turn",
        [=](KinematicTree& tree) {
-         return Scene::FramePair{0, addJoint(tree, 0, Joint::turn, Z, 0)};
+         return Scene::FramePair{0, addJoint(tree, 0, Joint::revolute, Z, 0)};
        },
        1, 0.99},
       {"parallel axes",
        [=](KinematicTree& tree) {
-         std::size_t f = addJoint(tree, 0, Joint::turn, Z, 0);
-         f = addJoint(tree, f, Joint::turn, Z, 1);
-         return Scene::FramePair{0, addJoint(tree, f, Joint::turn, Z, 2)};
+         std::size_t f = addJoint(tree, 0, Joint::revolute, Z, 0);
+         f = addJoint(tree, f, Joint::revolute, Z, 1);
+         return Scene::FramePair{0, addJoint(tree, f, Joint::revolute, Z, 2)};
        },
        3, 0.99},
       {"intersecting axes",
        [=](KinematicTree& tree) {
-         const std::size_t f = addJoint(tree, 0, Joint::turn, Z, 0);
-         return Scene::FramePair{0, addJoint(tree, f, Joint::turn, Y, 1, Vec3::Zero())};
+         const std::size_t f = addJoint(tree, 0, Joint::revolute, Z, 0);
+         return Scene::FramePair{0, addJoint(tree, f, Joint::revolute, Y, 1, Vec3::Zero())};
        },
        2, 0.99},
       {"slide after turn",
        [=](KinematicTree& tree) {
-         const std::size_t f = addJoint(tree, 0, Joint::turn, Z, 0);
-         return Scene::FramePair{0, addJoint(tree, f, Joint::slide, Y, 1)};
+         const std::size_t f = addJoint(tree, 0, Joint::revolute, Z, 0);
+         return Scene::FramePair{0, addJoint(tree, f, Joint::prismatic, Y, 1)};
        },
        2, 0.99},
       {"turn after slide",
        [=](KinematicTree& tree) {
-         const std::size_t f = addJoint(tree, 0, Joint::slide, X, 0);
-         return Scene::FramePair{0, addJoint(tree, f, Joint::turn, Z, 1)};
+         const std::size_t f = addJoint(tree, 0, Joint::prismatic, X, 0);
+         return Scene::FramePair{0, addJoint(tree, f, Joint::revolute, Z, 1)};
        },
        2, 0.99},
       {"two branches",
        [=](KinematicTree& tree) {
-         const std::size_t a = addJoint(tree, 0, Joint::turn, Z, 0);
-         const std::size_t b = addJoint(tree, 0, Joint::turn, Z, 1, -X);
+         const std::size_t a = addJoint(tree, 0, Joint::revolute, Z, 0);
+         const std::size_t b = addJoint(tree, 0, Joint::revolute, Z, 1, -X);
          return Scene::FramePair{a, b};
        },
        2, 0.99},
       {"mimic on another branch",
        [=](KinematicTree& tree) {
-         const std::size_t a = addJoint(tree, 0, Joint::turn, Z, 0);
-         const std::size_t b = addJoint(tree, 0, Joint::turn, Z, 0, -X, -0.8);
+         const std::size_t a = addJoint(tree, 0, Joint::revolute, Z, 0);
+         const std::size_t b = addJoint(tree, 0, Joint::revolute, Z, 0, -X, -0.8);
          return Scene::FramePair{a, b};
        },
        1, 0.99},
       {"arm of six",
        [=](KinematicTree& tree) {
-         std::size_t f = addJoint(tree, 0, Joint::turn, Z, 0);
-         f = addJoint(tree, f, Joint::turn, Y, 1, {0, 0, 1});
-         f = addJoint(tree, f, Joint::turn, Y, 2);
-         f = addJoint(tree, f, Joint::turn, Z, 3);
-         f = addJoint(tree, f, Joint::turn, Y, 4, Vec3::Zero());
-         return Scene::FramePair{0, addJoint(tree, f, Joint::turn, Z, 5, Vec3::Zero())};
+         std::size_t f = addJoint(tree, 0, Joint::revolute, Z, 0);
+         f = addJoint(tree, f, Joint::revolute, Y, 1, {0, 0, 1});
+         f = addJoint(tree, f, Joint::revolute, Y, 2);
+         f = addJoint(tree, f, Joint::revolute, Z, 3);
+         f = addJoint(tree, f, Joint::revolute, Y, 4, Vec3::Zero());
+         return Scene::FramePair{0, addJoint(tree, f, Joint::revolute, Z, 5, Vec3::Zero())};
        },
        6, 0.95},
   };
@@ -179,19 +181,19 @@ TEST(ChainBound, IsAttained) {
     for (std::size_t i = 0; i < chain.variables; ++i) space.add({});
     const auto count = static_cast<Eigen::Index>(chain.variables);
     EdgeMotion motion(tree, space, pair, Configuration::Zero(count));
-    // The middle, the half steps (up to over π) and the point.
+    // v: the configuration at the middle, the half steps (up to more than π), and the point.
     const auto share = [&](const Eigen::VectorXd& v) {
       const Configuration from = v.head(count) - v.segment(count, count),
                           to = v.head(count) + v.segment(count, count);
       motion.set(from, to);
-      const MotionWindow w = motion.window(0, 0.5, 0.5);
+      const RelativeMotion w = motion.relativeMotion(0, 0.5, 0.5);
       const Vec3 p = v.tail<3>();
-      const PointTravel travel = travelOf(w, w.X_AB * p, 0);
+      const MotionBound bound = motionBound(w, w.X_AB * p, 0);
       const Vec3L moved =
           ReferenceKinematics(tree, space, from, to).relative(pair[0].a, pair[0].b, 1).at(p) -
           test::exactly(w.X_AB, p);
-      EXPECT_LE(moved.norm(), travel.cap + travel.pad) << chain.name;
-      return static_cast<double>(moved.norm()) / travel.cap;
+      EXPECT_LE(moved.norm(), bound.isotropic + bound.pad) << chain.name;
+      return static_cast<double>(moved.norm()) / bound.isotropic;
     };
     double attained = 0;
     for (int start = 0; start < 20 && attained < 0.999; ++start) {
@@ -204,7 +206,7 @@ TEST(ChainBound, IsAttained) {
         const double size = std::pow(10.0, random.real(-4, 0));
         for (double& number : next)
           if (random.oneIn(2)) number += size * random.real();
-        // No tiny steps: they attain the bound to first order.
+        // Exclude tiny steps, which attain the bound trivially, to first order.
         for (Eigen::Index k = 0; k < count; ++k) next[count + k] = std::max(0.3, next[count + k]);
         if (const double s = share(next); s > best) {
           best = s;

@@ -1,4 +1,5 @@
-// Corridor's edges and distances: every angle, half turns, the circle's seam, bit for bit ends.
+// Edges and distances: every angle, half turns, the seam of a circle, and ends that are equal bit
+// for bit.
 #include "planner/robot/configuration_space.h"
 
 #include <cmath>
@@ -29,7 +30,7 @@ Coordinate coordinate(Kind kind, std::string name, double weight = 1, double low
   return c;
 }
 
-/// One coordinate of that kind.
+/// A space of one coordinate of that kind.
 ConfigurationSpace single(Kind kind) {
   ConfigurationSpace space;
   space.addGroup({CoordinateGroup::Kind::joints, "", {space.add(coordinate(kind, "q"))}});
@@ -69,7 +70,7 @@ Configuration turned(double angle, const Vec3& axis = Vec3(1, 2, 3).normalized()
 
 TEST(ConfigurationSpace, SmallAndLargeRotationsAreFollowed) {
   const ConfigurationSpace space = single(Kind::rotation);
-  // OMPL 1.5.2 stays at `from` below 9e-5.
+  // OMPL 1.5.2 returns `from` for angles below 9e-5.
   for (const double angle :
        {1e-300, 1e-12, 1e-9, 5e-5, 8.9e-5, 9e-5, 9.1e-5, 0.1, 1.0, 3.0, pi - 1e-6}) {
     const Configuration from = turned(0), to = turned(angle);
@@ -102,7 +103,7 @@ TEST(ConfigurationSpace, HalfTurnsAreAmbiguousAndNearlyHalfTurnsAreNot) {
   EXPECT_TRUE(circle.ambiguous(values({-pi / 2}), values({pi / 2})));
   EXPECT_FALSE(circle.ambiguous(values({-pi / 2}), values({pi / 2 - 2e-9})));
   EXPECT_FALSE(single(Kind::line).ambiguous(values({-pi / 2}), values({pi / 2})));
-  // Close to it, on either side, the way is the shorter one.
+  // Close to a half turn, on either side, the edge goes the shorter way.
   for (const double angle : {pi - 1e-8, pi + 1e-8}) {
     const Configuration middle = rotation.interpolate(turned(0), turned(angle), 0.5);
     const double expected = angle < pi ? angle / 2 : (angle - 2 * pi) / 2;
@@ -122,7 +123,7 @@ TEST(ConfigurationSpace, CirclesTakeTheShorterWayAcrossTheSeam) {
   EXPECT_EQ(space.distance(values({pi}), values({-pi})), 0);
   EXPECT_TRUE(space.equal(values({pi}), values({-pi})));
   EXPECT_NEAR(space.largestTurn(values({3}), values({-3})), 2 * pi - 6, 1e-15);
-  // Out of range: comes back inside.
+  // A circle out of range is brought back.
   EXPECT_NEAR(at(7, 7.5, 0), 7 - 2 * pi, 1e-15);
   EXPECT_NEAR(at(7, 7.5, 1), 7.5 - 2 * pi, 1e-15);
   EXPECT_NEAR(at(100, -100, 0.5), std::remainder(100 + std::remainder(-200, 2 * pi) / 2, 2 * pi),
@@ -191,7 +192,7 @@ TEST(ConfigurationSpace, DistanceIsZeroForEqualConfigurationsOnly) {
   a << 1, 2, 3, 3 * turned(1);
   b = a;
   body.normalise(b);
-  EXPECT_TRUE(body.equal(a, b));  // the same state, normalised
+  EXPECT_TRUE(body.equal(a, b));  // equal after normalising
   b.tail<4>() = turned(1 + 1e-7);
   EXPECT_FALSE(body.equal(a, b));
   EXPECT_GT(body.distance(a, b), 0);

@@ -1,4 +1,4 @@
-// Relative motions of frames against an independent long double kinematics.
+// Relative motions of frames are compared with independent kinematics in long double.
 #include "planner/robot/edge_motion.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/motion/rigid_motion.h"
 #include "tests/planner/robot/random_trees.h"
 #include "tests/planner/robot/reference_kinematics.h"
 #include "tests/support/support.h"
@@ -22,22 +23,22 @@ using test::ReferenceKinematics;
 
 constexpr double pi = std::numbers::pi;
 
-/// Windows are exact in t, as `certifyMotion` makes them.
-std::pair<double, double> window(RandomTrees& random) {
+/// A random time interval with exact doubles, as `certifyMotion` uses them.
+std::pair<double, double> interval(RandomTrees& random) {
   const double h = std::ldexp(0.5, -static_cast<int>(random.index(12)));
   return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
 }
 
-/// Of the reference: 2^-64 a rounding, some 100 of them.
+/// Rounding of the reference: some 100 roundings of 2^-64.
 double noise(const MovingPose& real, double reach) {
   return 1e-17 * (1 + reach + static_cast<double>(real.t.norm()));
 }
 
-/// The header's promise: places and first-order displacements of all points within fixedError +
-/// reachError·|y|, the tube being zero.
+/// With a tube of zero, places and first-order displacements of all points are within fixedError +
+/// reachError·|y|, as the header promises.
 TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
   RandomTrees random(test::testSeed(1));
-  double worst = 0, worstTwist = 0;  // of the errors as a share of their bound
+  double worst = 0, worstTwist = 0;  // largest error, as a share of its bound
   std::vector<double> shares;
   const int count = test::stressAsked() ? 1'000'000 : 100'000;
   for (int n = 0; n < count; ++n) {
@@ -47,10 +48,10 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());
     motion.set(random.from, random.to);
     const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
-    const auto [t, h] = window(random);
+    const auto [t, h] = interval(random);
     const MovingPose real = reference.relative(pair[0].a, pair[0].b, t);
     for (const double half : {0.0, h}) {
-      const MotionWindow w = motion.window(0, t, half);
+      const RelativeMotion w = motion.relativeMotion(0, t, half);
       const Vec3 p = random.vector(n % 2 ? 3 : 0.01);
       const Vec3 y = w.X_AB.m * p;
       const double bound = w.fixedError + w.reachError * y.norm() + noise(real, p.norm());
@@ -84,11 +85,11 @@ TEST(EdgeMotion, FarFromTheOriginNothingIsLostBetweenLinks) {
     space.add(c);
   }
   Frame base, shoulder, elbow;
-  base.joint = Frame::Joint::shift;
+  base.joint = Frame::Joint::translation;
   base.count = 3;
   base.variable = 0;
   shoulder.parent = tree.add(base);
-  shoulder.joint = elbow.joint = Frame::Joint::turn;
+  shoulder.joint = elbow.joint = Frame::Joint::revolute;
   shoulder.variable = 3;
   elbow.parent = tree.add(shoulder);
   elbow.fixed.p = {1, 0, 0};
@@ -98,14 +99,14 @@ TEST(EdgeMotion, FarFromTheOriginNothingIsLostBetweenLinks) {
   EdgeMotion motion(tree, space, pairs, Configuration::Zero(5));
   motion.set((Configuration(5) << 1e6, 0, 0, 1, 2).finished(),
              (Configuration(5) << 1.1e6, 3, 4, 1.5, 1).finished());
-  const MotionWindow w = motion.window(0, 0.5, 0.5);
+  const RelativeMotion w = motion.relativeMotion(0, 0.5, 0.5);
   EXPECT_LT(w.fixedError, 1e-13);
   EXPECT_EQ(w.screws.size(), 2u);
-  EXPECT_GT(motion.window(1, 0.5, 0.5).fixedError, 1e-10);
+  EXPECT_GT(motion.relativeMotion(1, 0.5, 0.5).fixedError, 1e-10);
 }
 
-/// The chain of `screws` is the motion: with each joint's share of the way applied at the middle's
-/// axes, it leads to the end of the window.
+/// The product of the `screws`, each applied by its amount about the axes at the middle, leads to
+/// the end of the interval.
 TEST(EdgeMotion, ScrewsAreTheMotion) {
   RandomTrees random(test::testSeed(2));
   for (int n = 0; n < 20'000; ++n) {
@@ -114,20 +115,20 @@ TEST(EdgeMotion, ScrewsAreTheMotion) {
     const Scene::FramePair pair[] = {random.pair()};
     EdgeMotion motion(random.tree, random.space, pair, random.noTube());
     motion.set(random.from, random.to);
-    const auto [t, h] = window(random);
-    const MotionWindow w = motion.window(0, t, h);
+    const auto [t, h] = interval(random);
+    const RelativeMotion w = motion.relativeMotion(0, t, h);
     const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
-    // Screws have no sign: one of the 2^k combinations of it must be right, and is the one whose
-    // twist is the window's.
+    // Screws have no sign. Of the 2^k combinations of signs, the one whose twist is the interval's
+    // must lead to the end.
     const std::size_t k = w.screws.size();
     bool found = false;
     for (std::size_t signs = 0; signs < (std::size_t{1} << k) && !found; ++signs) {
       Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
       Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
       for (std::size_t j = 0; j < k; ++j) {
-        const ScrewTravel& screw = w.screws[j];
+        const ScrewMotion& screw = w.screws[j];
         const double amount = (signs >> j & 1) ? -screw.amount : screw.amount;
-        if (screw.kind == ScrewTravel::Kind::slide) {
+        if (screw.kind == ScrewMotion::Kind::prismatic) {
           linear += amount * screw.axis;
           X = X * Eigen::Translation3d(amount * screw.axis);
         } else {
@@ -160,9 +161,9 @@ TEST(EdgeMotion, ManyPairsShareWhatTheyHaveInCommon) {
       all.set(random.from, random.to);
       const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
       for (int k = 0; k < 3; ++k) {
-        const auto [t, h] = window(random);
+        const auto [t, h] = interval(random);
         for (std::size_t i = 0; i < pairs.size(); ++i) {
-          const MotionWindow w = all.window(i, t, h);
+          const RelativeMotion w = all.relativeMotion(i, t, h);
           const MovingPose real = reference.relative(pairs[i].a, pairs[i].b, t);
           ASSERT_LE((w.X_AB.t.cast<Real>() - real.t).norm(), w.fixedError + noise(real, 0))
               << n << ' ' << i;
@@ -174,7 +175,7 @@ TEST(EdgeMotion, ManyPairsShareWhatTheyHaveInCommon) {
   }
 }
 
-/// One frame that turns about z by a coordinate of that kind.
+/// One frame that rotates about z by a coordinate of that kind.
 struct OneTurn {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -185,7 +186,7 @@ struct OneTurn {
     c.kind = kind;
     space.add(c);
     Frame frame;
-    frame.joint = Frame::Joint::turn;
+    frame.joint = Frame::Joint::revolute;
     frame.variable = 0;
     frame.multiplier = multiplier;
     tree.add(frame);
@@ -197,17 +198,17 @@ struct OneTurn {
   }
 };
 
-double yaw(const MotionWindow& w) {
+double yaw(const RelativeMotion& w) {
   return std::atan2(w.X_AB.m(1, 0), w.X_AB.m(0, 0));
 }
 
 TEST(EdgeMotion, CirclesTakeTheShorterWay) {
   const OneTurn circle(Coordinate::Kind::circle), line(Coordinate::Kind::line);
-  EXPECT_NEAR(std::abs(yaw(circle.motion(3, -3)->window(0, 0.5, 0))), pi, 1e-15);
-  EXPECT_NEAR(circle.motion(3, -3)->window(0, 0.5, 0.5).angle, pi - 3, 1e-13);
-  EXPECT_NEAR(yaw(circle.motion(7, 1)->window(0, 1, 0)), 1, 1e-14);
-  EXPECT_NEAR(yaw(line.motion(3, -3)->window(0, 0.5, 0)), 0, 1e-15);
-  EXPECT_NEAR(line.motion(3, -3)->window(0, 0.5, 0.5).angle, 3, 1e-13);
+  EXPECT_NEAR(std::abs(yaw(circle.motion(3, -3)->relativeMotion(0, 0.5, 0))), pi, 1e-15);
+  EXPECT_NEAR(circle.motion(3, -3)->relativeMotion(0, 0.5, 0.5).angle, pi - 3, 1e-13);
+  EXPECT_NEAR(yaw(circle.motion(7, 1)->relativeMotion(0, 1, 0)), 1, 1e-14);
+  EXPECT_NEAR(yaw(line.motion(3, -3)->relativeMotion(0, 0.5, 0)), 0, 1e-15);
+  EXPECT_NEAR(line.motion(3, -3)->relativeMotion(0, 0.5, 0.5).angle, 3, 1e-13);
 }
 
 TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
@@ -217,7 +218,7 @@ TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
   EXPECT_FALSE(circle.motion(pi / 2, -pi / 2 + 1e-8)->ambiguous());
   EXPECT_FALSE(circle.motion(pi, -pi)->ambiguous());
   EXPECT_FALSE(line.motion(0, pi)->ambiguous());
-  // Beyond the seam a joint that follows by halves would jump.
+  // A joint that follows a circle by a half would jump at the seam.
   EXPECT_TRUE(OneTurn(Coordinate::Kind::circle, 0.5).motion(3, -3)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, 0.5).motion(1, -1)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, -2).motion(3, -3)->ambiguous());
@@ -225,20 +226,20 @@ TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
 
 TEST(EdgeMotion, TubesFollowTheMultiplierAndStayWhereNothingMoves) {
   const OneTurn follower(Coordinate::Kind::line, -2);
-  const auto motion = follower.motion(0, 1, 0.01);  // a window's screws are the motion's
-  const MotionWindow moving = motion->window(0, 0.5, 0.5);
+  const auto motion = follower.motion(0, 1, 0.01);  // its memory holds the intervals' screws
+  const RelativeMotion moving = motion->relativeMotion(0, 0.5, 0.5);
   ASSERT_EQ(moving.screws.size(), 1u);
   EXPECT_NEAR(moving.screws[0].amount, 1, 1e-14);
   EXPECT_GE(moving.screws[0].amount, 1);
   EXPECT_NEAR(moving.screws[0].tube, 0.02, 1e-16);
   const auto still = follower.motion(1, 1, 0.01);
-  ASSERT_EQ(still->window(0, 0.5, 0.5).screws.size(), 1u);
-  EXPECT_EQ(still->window(0, 0.5, 0.5).screws[0].amount, 0);
+  ASSERT_EQ(still->relativeMotion(0, 0.5, 0.5).screws.size(), 1u);
+  EXPECT_EQ(still->relativeMotion(0, 0.5, 0.5).screws[0].amount, 0);
   const auto nothing = follower.motion(1, 1, 0);
-  EXPECT_TRUE(nothing->window(0, 0.5, 0.5).screws.empty());
+  EXPECT_TRUE(nothing->relativeMotion(0, 0.5, 0.5).screws.empty());
 }
 
-/// A floating joint: the position on a straight line, the orientation about one axis.
+/// A floating joint: the position moves on a straight line, the orientation about one axis.
 struct Floating {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -254,11 +255,11 @@ struct Floating {
     rotation.kind = Coordinate::Kind::rotation;
     space.add(rotation);
     Frame shift, rotate;
-    shift.joint = Frame::Joint::shift;
+    shift.joint = Frame::Joint::translation;
     shift.count = 3;
     shift.variable = 0;
     rotate.parent = tree.add(shift);
-    rotate.joint = Frame::Joint::rotate;
+    rotate.joint = Frame::Joint::rotation;
     rotate.variable = 3;
     tree.add(rotate);
   }
@@ -280,9 +281,9 @@ TEST(EdgeMotion, ARigidBodyMovesAsRigidMotionSays) {
         RigidMotion::spatial({from.head<3>(), Eigen::Quaterniond(from.tail<4>())},
                              {to.head<3>(), Eigen::Quaterniond(to.tail<4>())}, {});
     EXPECT_EQ(motion.ambiguous(), rigid.ambiguous());
-    const auto [t, h] = window(random);
-    std::array<ScrewTravel, 2> screws;
-    const MotionWindow a = motion.window(0, t, h), b = rigid.window(t, h, screws);
+    const auto [t, h] = interval(random);
+    std::array<ScrewMotion, 2> screws;
+    const RelativeMotion a = motion.relativeMotion(0, t, h), b = rigid.relativeMotion(t, h, screws);
     const double fixed = a.fixedError + b.fixedError, reach = a.reachError + b.reachError;
     EXPECT_LE((a.X_AB.t - b.X_AB.t).norm(), fixed);
     EXPECT_LE((a.X_AB.m - b.X_AB.m).norm(), 2 * reach);

@@ -1,4 +1,4 @@
-// Robots that are too large, or made to explode: an error at once.
+// Robots that are too large, or made to use all memory, are refused quickly.
 #include "tests/planner/robot/urdf_fixture.h"
 
 namespace corridor::test {
@@ -8,7 +8,7 @@ using testing::HasSubstr;
 
 class RobotLimits : public UrdfTest {
  protected:
-  /// A chain of so many links, at joints that turn.
+  /// A chain of this many links with revolute joints.
   static std::string chain(int links) {
     std::string parts = link("l0");
     for (int i = 1; i < links; ++i) {
@@ -44,7 +44,7 @@ TEST_F(RobotLimits, Shapes) {
             "r.urdf:1: the robot has 100001 <collision>; at most 100000 are read");
 }
 
-/// Each shape has a copy of its mesh.
+/// Each shape has a copy of its mesh, so their sum is limited.
 TEST_F(RobotLimits, Triangles) {
   std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
   for (int i = 0; i < 20'000; ++i) fan += " 1 2 3";
@@ -67,18 +67,18 @@ TEST_F(RobotLimits, Faults) {
 TEST_F(RobotLimits, Xml) {
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
-  EXPECT_THAT(complaintOfParts(deep), HasSubstr("is not sound XML: elements are nested too deep"));
+  EXPECT_THAT(complaintOfParts(deep), HasSubstr("is not valid XML: elements are nested too deep"));
   std::string many;
   for (int i = 0; i < 10'000'000; ++i) many += "<a/>";
   EXPECT_EQ(complaintOfParts(many), "r.urdf: has more than 10000000 tags and attributes");
   std::string attributes = "<link";
   for (int i = 0; i < 1'000'000; ++i) attributes += " a" + std::to_string(i) + "=''";
   EXPECT_EQ(complaintOfParts(attributes + "/>"), "r.urdf: has a tag of more than 100 attributes");
-  // Banners and text are none.
+  // An = in a comment or in text doesn't count as an attribute.
   modelOf("<!-- " + std::string(1000, '=') + " -->\n" + link("a", std::string(1000, '=')));
 }
 
-/// A billion laughs are not laughed: nothing but XML's own five entities is expanded.
+/// The "billion laughs" attack has no effect, because only XML's own five entities are expanded.
 TEST_F(RobotLimits, Entities) {
   std::string entities = "<!DOCTYPE robot [\n<!ENTITY a \"lol\">\n";
   for (char c = 'b'; c <= 'j'; ++c) {
@@ -88,7 +88,7 @@ TEST_F(RobotLimits, Entities) {
     entities += "\">\n";
   }
   EXPECT_THAT(complaintOf(entities + "]>\n<robot name=\"&j;\">\n" + link("a&amp;b") + "</robot>\n"),
-              testing::AnyOf("no complaint", HasSubstr("is not sound XML")));
+              testing::AnyOf("no complaint", HasSubstr("is not valid XML")));
 }
 
 TEST_F(RobotLimits, SrdfCounts) {

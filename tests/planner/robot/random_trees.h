@@ -9,9 +9,9 @@
 
 namespace corridor::test {
 
-/// Random robots and edges, with everything that a tree may have: all kinds of joints, branches,
-/// fixed frames, joints held, joints that follow another one (with negative multipliers, on other
-/// branches), parallel and intersecting axes, quaternions and axes of any length.
+/// Random robots and edges with everything that a tree may contain: all kinds of joints, branches,
+/// fixed frames, held joints, joints that follow another (with negative multipliers, or on other
+/// branches), parallel and intersecting axes, and quaternions and axes of any length.
 class RandomTrees {
  public:
   explicit RandomTrees(std::uint64_t seed) : random_(seed) {}
@@ -30,26 +30,26 @@ class RandomTrees {
   ConfigurationSpace space;
   Configuration from, to;
 
-  /// A tree of up to `joints` joints of one freedom or more, at a base at most `far` from the
-  /// world's origin.
+  /// A tree of up to `joints` joints, each of one or more degrees of freedom. Its base is at most
+  /// `far` from the world's origin.
   void makeTree(std::size_t joints, double far = 1) {
     tree = {};
     space = {};
     for (std::size_t n = 0; n < joints; ++n) {
       Frame frame;
-      // Mostly chains.
+      // Mostly unbranched chains.
       frame.parent = n == 0 ? 0 : oneIn(4) ? index(tree.frames.size()) : tree.frames.size() - 1;
       frame.fixed.p = oneIn(5) ? Vec3::Zero() : vector(n == 0 ? far : 0.5);
       if (!oneIn(3)) frame.fixed.q = quaternion();
       if (oneIn(6)) {
-        frame.parent = tree.add(frame);  // a fixed one first
+        frame.parent = tree.add(frame);  // a fixed frame first
         frame.fixed.p = vector(0.2);
       }
       addJoint(frame);
     }
   }
 
-  /// An edge between two random configurations; `size`: of the steps, rad or m.
+  /// An edge between two random configurations. `size` scales the steps, rad or m.
   void makeEdge(double size, double range = 3) {
     from = Configuration(static_cast<Eigen::Index>(space.size()));
     to = from;
@@ -97,7 +97,7 @@ class RandomTrees {
     const std::size_t kind = index(12);
     if (kind == 0 || kind == 1) {  // planar or floating
       const bool planar = kind == 0;
-      frame.joint = Frame::Joint::shift;
+      frame.joint = Frame::Joint::translation;
       frame.count = planar ? 2 : 3;
       for (std::size_t k = 0; k < frame.count; ++k) {
         const std::size_t number = firstOf(Coordinate::Kind::line);
@@ -105,12 +105,12 @@ class RandomTrees {
       }
       Frame turn;
       turn.parent = tree.add(frame);
-      turn.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+      turn.joint = planar ? Frame::Joint::revolute : Frame::Joint::rotation;
       turn.variable = firstOf(planar ? Coordinate::Kind::circle : Coordinate::Kind::rotation);
       tree.add(turn);
       return;
     }
-    frame.joint = kind <= 4 ? Frame::Joint::slide : Frame::Joint::turn;
+    frame.joint = kind <= 4 ? Frame::Joint::prismatic : Frame::Joint::revolute;
     if (oneIn(8)) {
       frame.offset = real(-3, 3);  // held
     } else {
@@ -121,18 +121,19 @@ class RandomTrees {
         frame.offset = oneIn(2) ? 0 : real();
       } else {
         frame.variable =
-            firstOf(frame.joint == Frame::Joint::turn && oneIn(3) ? Coordinate::Kind::circle
-                                                                  : Coordinate::Kind::line);
+            firstOf(frame.joint == Frame::Joint::revolute && oneIn(3) ? Coordinate::Kind::circle
+                                                                      : Coordinate::Kind::line);
       }
     }
     tree.add(frame);
   }
 
-  /// A line that another single joint has, now and then.
+  /// Sometimes returns the number of another single joint, which the new joint then follows.
   std::size_t followed() {
     if (!oneIn(4)) return Frame::noVariable;
     const Frame& other = tree.frames[index(tree.frames.size())];
-    const bool single = other.joint == Frame::Joint::turn || other.joint == Frame::Joint::slide;
+    const bool single =
+        other.joint == Frame::Joint::revolute || other.joint == Frame::Joint::prismatic;
     if (!single || other.variable == Frame::noVariable) return Frame::noVariable;
     for (const Coordinate& c : space.coordinates())
       if (c.first == other.variable && c.kind == Coordinate::Kind::line) return other.variable;

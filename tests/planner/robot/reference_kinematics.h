@@ -16,7 +16,7 @@ using Vec3L = Eigen::Matrix<Real, 3, 1>;
 using Mat3L = Eigen::Matrix<Real, 3, 3>;
 using Vec4L = Eigen::Matrix<Real, 4, 1>;
 
-/// A pose and what it does per unit of t.
+/// A pose and its derivatives by t.
 struct MovingPose {
   Mat3L m = Mat3L::Identity(), dm = Mat3L::Zero();
   Vec3L t = Vec3L::Zero(), dt = Vec3L::Zero();
@@ -38,13 +38,13 @@ inline Mat3L crossL(const Vec3L& a) {
   return K;
 }
 
-/// What the doubles of a map say in long double.
+/// Maps a point by the stored doubles, in long double.
 inline Vec3L exactly(const Transform& X, const Vec3& p) {
   return X.m.cast<Real>() * p.cast<Real>() + X.t.cast<Real>();
 }
 
-/// The definition of an edge and of forward kinematics once more, in long double and by other
-/// formulas than the code under test: quaternions joint by joint, slerp by the two sine weights,
+/// An independent implementation of the edge and of forward kinematics, in long double. Its
+/// formulas differ from the tested code: quaternions joint by joint, slerp by the two sine weights,
 /// derivatives by the product rule.
 class ReferenceKinematics {
  public:
@@ -57,7 +57,8 @@ class ReferenceKinematics {
     for (std::size_t f = 1; f < all.size(); ++f) all[f] = all[tree_.frames[f].parent] * place(f, t);
     return all;
   }
-  /// Of b, as seen from a; what they have in common is left out, so that its rounding is, too.
+  /// The motion of b as seen from a. The common part of both chains is left out, so its rounding
+  /// is, too.
   MovingPose relative(std::size_t a, std::size_t b, Real t) const {
     MovingPose ofA, ofB;
     while (a != b) {
@@ -68,7 +69,7 @@ class ReferenceKinematics {
   }
 
  private:
-  /// Of a frame in its parent's.
+  /// The motion of a frame in its parent's frame.
   MovingPose place(std::size_t f, Real t) const {
     const Frame& frame = tree_.frames[f];
     MovingPose fixed;
@@ -82,7 +83,7 @@ class ReferenceKinematics {
       if (c.first == number) return c;
     throw std::logic_error("no such coordinate");
   }
-  /// Value and rate of a number of the configuration.
+  /// Value and derivative of a number of the configuration.
   std::pair<Real, Real> number(std::size_t i, Real t) const {
     const auto k = static_cast<Eigen::Index>(i);
     const Real q0 = from_[k];
@@ -96,7 +97,7 @@ class ReferenceKinematics {
     const Vec3L axis = frame.axis.cast<Real>().stableNormalized();
     Real value = frame.offset, rate = 0;
     if (frame.variable != Frame::noVariable &&
-        (frame.joint == Frame::Joint::turn || frame.joint == Frame::Joint::slide)) {
+        (frame.joint == Frame::Joint::revolute || frame.joint == Frame::Joint::prismatic)) {
       const auto [q, dq] = number(frame.variable, t);
       value = frame.multiplier * q + frame.offset;
       rate = frame.multiplier * dq;
@@ -104,21 +105,21 @@ class ReferenceKinematics {
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
-      case Frame::Joint::turn: {
+      case Frame::Joint::revolute: {
         X.m = rotation((Vec4L() << std::sin(value / 2) * axis, std::cos(value / 2)).finished());
         X.dm = rate * crossL(axis) * X.m;
         break;
       }
-      case Frame::Joint::slide:
+      case Frame::Joint::prismatic:
         X.t = value * axis;
         X.dt = rate * axis;
         break;
-      case Frame::Joint::shift:
+      case Frame::Joint::translation:
         for (std::size_t k = 0; k < frame.count; ++k)
           std::tie(X.t[static_cast<Eigen::Index>(k)], X.dt[static_cast<Eigen::Index>(k)]) =
               number(frame.variable + k, t);
         break;
-      case Frame::Joint::rotate: {
+      case Frame::Joint::rotation: {
         const auto first = static_cast<Eigen::Index>(frame.variable);
         const Vec4L q0 = from_.segment<4>(first).cast<Real>().stableNormalized();
         Vec4L q1 = to_.segment<4>(first).cast<Real>().stableNormalized();

@@ -1,4 +1,5 @@
-// Scenes of many frames that move: what the scene skips, against every pair asked by itself.
+// Scenes of many moving frames: leaving out far pairs doesn't change the verdict of testing every
+// pair alone.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -7,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/motion/check_evidence.h"
+#include "collision/motion/check_certificate.h"
 #include "collision/world/body_queries.h"
 #include "planner/robot/edge_motion.h"
 #include "tests/planner/robot/random_trees.h"
@@ -19,7 +20,7 @@ namespace {
 
 using test::RandomTrees;
 
-/// A body on every frame that moves and some on the world; all pairs but those of one frame.
+/// One body on every frame that moves, and some on the world; all pairs except those of one frame.
 Scene randomScene(RandomTrees& random) {
   std::vector<Scene::Placed> bodies;
   const auto box = [&](double size) {
@@ -52,7 +53,7 @@ std::optional<Contact> firstTouching(const Scene& scene, std::span<const Transfo
   return std::nullopt;
 }
 
-/// The scene's pairs as they are asked where nobody knows how bodies move in the world.
+/// The scene's pairs without what the scene knows about the motion of bodies in the world.
 std::vector<MotionPair> pairsAlone(const Scene& scene) {
   std::vector<MotionPair> pairs;
   const std::vector<Scene::FramePair>& frames = scene.framePairs();
@@ -98,15 +99,15 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
       free += told.verdict == MotionVerdict::free;
       contact += told.verdict == MotionVerdict::contact;
       if (told.verdict == MotionVerdict::contact && options.earliest) {
-        // Both brackets hold the first contact.
+        // Both brackets contain the first contact.
         EXPECT_LE(told.certifiedUntil, byPairs.contactTime) << n;
         EXPECT_LE(byPairs.certifiedUntil, told.contactTime) << n;
       }
       if (told.verdict != MotionVerdict::free || motion.ambiguous()) continue;
       for (const double t : {0.0, 0.17, 0.5, 0.83, 1.0}) {
         for (const MotionPair& pair : alone)
-          ASSERT_FALSE(
-              interference(*pair.a, {}, *pair.b, motion.window(pair.motion, t, 0).X_AB, other))
+          ASSERT_FALSE(interference(*pair.a, {}, *pair.b,
+                                    motion.relativeMotion(pair.motion, t, 0).X_AB, other))
               << n << ", edge " << k << " at " << t;
       }
     }
@@ -119,8 +120,9 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
   EXPECT_LT(poses, posesAlone);
 }
 
-/// Evidence of scenes holds by other means, whoever told bodies apart.
-TEST(SceneMotion, EvidenceHolds) {
+/// `checkCertificate` accepts the certificates of scenes, including pairs that the scene left out
+/// by its own bounds.
+TEST(SceneMotion, CertificateHolds) {
   RandomTrees random(test::testSeed(83));
   QueryContext context;
   int free = 0, contact = 0, unproved = 0;
@@ -133,32 +135,33 @@ TEST(SceneMotion, EvidenceHolds) {
     EdgeMotion motion(random.tree, random.space, scene.framePairs(), random.noTube());
     MotionOptions options;
     options.tolerance = 1e-6;
-    options.reserve = 1e-6;
+    options.clearanceSlack = 1e-6;
     options.margin = n % 3 ? 0 : random.real(0, 0.05);
     options.earliest = n % 2 == 0;
     random.makeEdge(std::pow(10.0, random.real(-2, 0.3)));
     motion.set(random.from, random.to);
-    MotionEvidence evidence;
-    const MotionResult told = scene.certify(motion, options, context, evidence);
+    MotionCertificate certificate;
+    const MotionResult told = scene.certify(motion, options, context, certificate);
     ASSERT_EQ(told.verdict, scene.certify(motion, options, context).verdict);
     if (told.verdict == MotionVerdict::undecided) continue;
     const double until = told.verdict == MotionVerdict::free ? 1 : told.certifiedUntil;
     free += told.verdict == MotionVerdict::free;
     contact += told.verdict == MotionVerdict::contact;
-    EXPECT_EQ(evidence.point_A.has_value(), told.verdict == MotionVerdict::contact);
-    intervals += evidence.free.size();
+    EXPECT_EQ(certificate.point_A.has_value(), told.verdict == MotionVerdict::contact);
+    intervals += certificate.free.size();
     const auto fault =
-        checkEvidence(motion, scene.motionPairs(), options, until, evidence, context);
-    // Of long chains the isotropic bound of the audit may not suffice.
-    unproved += fault && fault->kind == EvidenceFault::Kind::unproved;
-    ASSERT_TRUE(!fault || fault->kind == EvidenceFault::Kind::unproved)
+        checkCertificate(motion, scene.motionPairs(), options, until, certificate, context);
+    // The isotropic bound of `checkCertificate` may be too weak for long chains.
+    unproved += fault && fault->kind == CertificateFault::Kind::unproved;
+    ASSERT_TRUE(!fault || fault->kind == CertificateFault::Kind::unproved)
         << n << ": " << static_cast<int>(fault->kind) << " of pair " << fault->pair << " at "
         << fault->t;
-    // What isn't there is missed.
-    if (until == 0 || evidence.free.empty()) continue;
-    evidence.free.erase(evidence.free.begin() +
-                        static_cast<std::ptrdiff_t>(random.index(evidence.free.size())));
-    const auto missed = checkEvidence(motion, scene.motionPairs(), options, 1, evidence, context);
+    // A certificate with an interval missing must be refused.
+    if (until == 0 || certificate.free.empty()) continue;
+    certificate.free.erase(certificate.free.begin() +
+                           static_cast<std::ptrdiff_t>(random.index(certificate.free.size())));
+    const auto missed =
+        checkCertificate(motion, scene.motionPairs(), options, 1, certificate, context);
     EXPECT_TRUE(missed) << n;
   }
   std::cout << free << " free and " << contact << " contacts proved anew by " << intervals
@@ -178,7 +181,7 @@ TEST(SceneMotion, StatesOfRandomTrees) {
     const Scene scene = randomScene(random);
     random.makeEdge(1);
     std::vector<Transform> X_WF = framePoses(random.tree, random.from);
-    // Maps that are rigid to four digits only, and a world that is anywhere.
+    // Maps that are rigid to four digits only, and a world frame anywhere.
     if (n % 3 == 0)
       for (Transform& X : X_WF) X.m *= 1 + 1e-4 * random.real();
     if (n % 4 == 0)
@@ -195,7 +198,8 @@ TEST(SceneMotion, StatesOfRandomTrees) {
     }
     const double clearance = scene.clearance(X_WF, context);
     if (least < HUGE_VAL) {
-      // Each of the two within the 1e-12·d + 4·2^-53·S that queries/distance.h promises; S < 100.
+      // Each of the two is within the 1e-12·d + 4·2^-53·S that queries/distance.h promises; S <
+      // 100.
       EXPECT_NEAR(clearance, least, 2e-12 * least + 1e-13) << n;
     } else {
       EXPECT_EQ(clearance, least);

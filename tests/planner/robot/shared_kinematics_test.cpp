@@ -1,4 +1,4 @@
-// Forward kinematics of the shared data's robots, from URDF to frames, against the reference.
+// Forward kinematics of the shared data's robots, from URDF to frames, agrees with the reference.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace corridor {
 namespace {
 
-/// Metres, and of quaternions; the reference has 12 digits.
+/// For metres and for quaternions; the reference has 12 digits.
 constexpr double kTolerance = 1e-9;
 
 void expectPose(const Transform& X, const std::vector<double>& expected, const std::string& link) {
@@ -65,7 +65,7 @@ TEST(SharedKinematics, EveryLinkIsWhereTheReferenceHasIt) {
         const std::string& name = model->links[link].name;
         const std::vector<double> expected = state.at("links").at(name);
         expectPose(rigidInverse(placed[root]) * placed[frames[link]], expected, name);
-        expectPose(motion.window(link, 1, 0).X_AB, expected, name);
+        expectPose(motion.relativeMotion(link, 1, 0).X_AB, expected, name);
         ++poses;
       }
     }

@@ -1,4 +1,4 @@
-// The robots of the shared data against the tables of its guide.
+// The robots of the shared data agree with the tables of its guide.
 #include <algorithm>
 
 #include "collision/geometry/mesh_health.h"
@@ -123,7 +123,7 @@ TEST_F(SharedRobots, ColladaMeshesAreReadByRossRule) {
 TEST_F(SharedRobots, SrdfPairsGroupsAndStates) {
   SKIP_WITHOUT_DATA();
   const auto disabled = [](const RobotModel& model) {
-    // Those that joints join already keep their first reason.
+    // Links joined by a joint keep their first reason, "adjacent".
     return std::count_if(model.allowed.begin(), model.allowed.end(),
                          [](const AllowedPair& pair) { return pair.reason.starts_with("SRDF: "); });
   };

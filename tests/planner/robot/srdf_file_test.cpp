@@ -3,7 +3,7 @@
 namespace corridor::test {
 namespace {
 
-/// A trunk with two arms of two joints, and a base on a planar joint.
+/// A trunk with two arms of two joints each, on a base with a planar joint.
 class SrdfFile : public UrdfTest {
  protected:
   void SetUp() override {
@@ -114,7 +114,7 @@ r.srdf:4: robot "r": <groups> is not known; did you mean <group>?)");
                                 ":3: robot \"r\": <mask> is not known, and is ignored"));
 }
 
-/// Three of the next in each of forty: paths among them are 3^40.
+/// Each of forty groups contains the next one three times, so there are 3^40 paths through them.
 TEST_F(SrdfFile, GroupsInGroupsTakeNoTime) {
   std::string text;
   for (int i = 0; i < 40; ++i) {
@@ -149,14 +149,14 @@ r.srdf:3: group "b": there is no group "aa" in this file; did you mean "a"?
 r.srdf:4: group "c" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
 r.srdf:5: group "d" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
 r.srdf:6: <group> has no name
-r.srdf:7: the groups e, f, e are in each other in a circle
-r.srdf:9: group "f" is there already, on line 8; names are unique
+r.srdf:7: the groups e, f, e contain each other in a circle
+r.srdf:9: group "f" is already defined on line 8; names must be unique
 r.srdf:10: state "s": there is no group "g" in this file
 r.srdf:10: state "s": joint "left1": joint value: a number is needed, not "x"
 r.srdf:11: state "t": the robot has no joint "lft1"; did you mean "left1"?
 r.srdf:11: state "t": <joint> has no value
 r.srdf:12: state "t": joint "base": joint value: 3 numbers are needed, not "1"
-r.srdf:12: state "t" is there already, on line 11; names are unique in a group
+r.srdf:12: state "t" is already defined on line 11; names must be unique in a group
 r.srdf:13: the robot has no link "l3"; did you mean "l1"?
 r.srdf:14: <disable_collisions> has no link2
 r.srdf:15: the robot has no joint "p"

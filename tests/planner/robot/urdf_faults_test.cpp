@@ -7,11 +7,11 @@ namespace {
 
 class UrdfFaults : public UrdfTest {
  protected:
-  /// Of two links and a joint on line 4.
+  /// The faults of two links and a joint on line 4.
   std::string complaintOfJoint(const std::string& type, const std::string& content) {
     return complaintOfParts(link("a") + link("b") + joint("j", type, "a", "b", content));
   }
-  /// Of a collision element on line 2.
+  /// The faults of a collision element on line 2.
   std::string complaintOfCollision(const std::string& content) {
     return complaintOfParts(link("a", "<collision>" + content + "</collision>"));
   }
@@ -28,18 +28,18 @@ TEST_F(UrdfFaults, Files) {
   EXPECT_EQ(complaintOf(std::string("<robot>\n\0", 9)),
             "r.urdf:2: is not text: it has a byte 0; UTF-8 is needed");
   EXPECT_EQ(complaintOf("<robot name=\"r\">\n<link name=\"a\">\n</robot>\n"),
-            "r.urdf:2: is not sound XML: the element that begins here is not closed by an end of "
-            "its own name");
+            "r.urdf:2: is not valid XML: the element that begins here has no end tag of its own "
+            "name");
   EXPECT_EQ(complaintOf("<robot name=\"r\">\n<link name=a/>\n</robot>\n"),
-            "r.urdf:2: is not sound XML: an attribute cannot be read; name=\"value\" is needed");
+            "r.urdf:2: is not valid XML: an attribute cannot be read; name=\"value\" is needed");
   EXPECT_EQ(complaintOf("<!-- nothing -->"),
             "r.urdf: <robot> is missing; a robot (URDF) is needed");
   EXPECT_EQ(complaintOf("<?xml version=\"1.0\"?>\n<mujoco/>"),
-            "r.urdf:2: <robot> is needed, not <mujoco>; a robot (URDF) is needed");
+            "r.urdf:2: the root element is <mujoco>, not <robot>; a robot (URDF) is needed");
   EXPECT_EQ(complaintOf("<robot name=\"r\"><link name=\"a\"/></robot>\n<robot name=\"s\"/>\n"),
-            "r.urdf:2: what follows </robot> belongs to nothing");
+            "r.urdf:2: another element follows </robot>; only one root is allowed");
   EXPECT_EQ(complaintOf("<robot/>"),
-            "r.urdf:1: <robot> has no name\nr.urdf:1: the robot has no <link>; one at least is "
+            "r.urdf:1: <robot> has no name\nr.urdf:1: the robot has no <link>; at least one is "
             "needed");
   EXPECT_EQ(complaintOfParts(link("a", "\n<xacro:if value=\"1\"/>\n")),
             "r.urdf:3: <xacro:if>: this is a xacro file; expand it first: xacro FILE > "
@@ -55,12 +55,12 @@ TEST_F(UrdfFaults, Names) {
             "r.urdf:3: joint \"\": <child link=\"…\"/> is missing");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("a") + joint("j", "fixed", "a", "b") +
                              joint("j", "fixed", "a", "b")),
-            "r.urdf:4: link \"a\" is there already, on line 2; names are unique\n"
-            "r.urdf:6: joint \"j\" is there already, on line 5; names are unique");
-  // What the joint left out would have joined is no second root.
+            "r.urdf:4: link \"a\" is already defined on line 2; names must be unique\n"
+            "r.urdf:6: joint \"j\" is already defined on line 5; names must be unique");
+  // The child of a joint that was left out isn't reported as a second root.
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "b") +
                              joint("j", "fixed", "b", "c")),
-            "r.urdf:6: joint \"j\" is there already, on line 5; names are unique");
+            "r.urdf:6: joint \"j\" is already defined on line 5; names must be unique");
 }
 
 TEST_F(UrdfFaults, Trees) {
@@ -72,15 +72,16 @@ TEST_F(UrdfFaults, Trees) {
             "\"hand\"?\n"
             "r.urdf:5: joint \"k\": its parent \"elsewhere\" is not a link of this file");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + joint("j", "fixed", "a", "a")),
-            "r.urdf:4: joint \"j\": link \"a\" is its parent and its child");
+            "r.urdf:4: joint \"j\": its parent and its child are the same link \"a\"");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c") +
                              joint("k", "fixed", "b", "c")),
-            "r.urdf:6: joint \"k\": its child \"c\" is the child of joint \"j\" already, on line "
+            "r.urdf:6: joint \"k\": its child \"c\" is already the child of joint \"j\" on line "
             "5; a link has one parent");
-  EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c")),
-            "r.urdf:3: link \"b\" is no joint's child, and neither is \"a\" on line 2; a robot "
-            "has one root");
-  // A circle beside the root, which urdfdom lets through; and one that is all there is.
+  EXPECT_EQ(
+      complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c")),
+      "r.urdf:3: link \"b\" is not a child of any joint, and neither is \"a\" on line 2; a robot "
+      "has one root");
+  // A circle beside the root, which urdfdom accepts; then a circle without any root.
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
                              joint("i", "fixed", "c", "d") + joint("j", "fixed", "b", "c") +
                              joint("k", "fixed", "c", "b")),
@@ -121,7 +122,7 @@ TEST_F(UrdfFaults, Joints) {
             "prismatic, planar, floating is needed");
   EXPECT_EQ(complaintOfJoint("revolute", ""),
             "r.urdf:4: joint \"j\": <limit lower=\"…\" upper=\"…\" effort=\"…\" "
-            "velocity=\"…\"/> is missing; without limits the type is continuous");
+            "velocity=\"…\"/> is missing; a joint without limits is of type continuous");
   EXPECT_EQ(complaintOfJoint("prismatic", ""),
             "r.urdf:4: joint \"j\": <limit lower=\"…\" upper=\"…\" effort=\"…\" "
             "velocity=\"…\"/> is missing");
@@ -135,8 +136,9 @@ TEST_F(UrdfFaults, Joints) {
             "r.urdf:4: joint \"j\": the axis is zero; a direction is needed, such as xyz=\"0 0 "
             "1\"");
   EXPECT_EQ(complaintOfJoint("planar", "<axis/>"), "r.urdf:4: joint \"j\": <axis> has no xyz");
-  EXPECT_EQ(complaintOfJoint("fixed", "<origin/>\n<origin/>"),
-            "r.urdf:5: joint \"j\": a second <origin>, after that on line 4; one is needed");
+  EXPECT_EQ(
+      complaintOfJoint("fixed", "<origin/>\n<origin/>"),
+      "r.urdf:5: joint \"j\": a second <origin>; the first is on line 4; only one is allowed");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") +
                              "<joint name=\"j\" type=\"fixed\"><parent/></joint>"),
             "r.urdf:4: joint \"j\": <parent> has no link\n"
@@ -190,11 +192,11 @@ TEST_F(UrdfFaults, Mimics) {
             "r.urdf:7: joint \"tilt\" is floating, and only a joint of one variable can mimic "
             "another");
   EXPECT_EQ(complaint("continuous", "revolute", R"(joint="pan" multiplier="0.5")"),
-            "r.urdf:7: joint \"tilt\" mimics \"pan\", which is continuous and the same after a "
-            "full turn, times 0.5; a whole number is needed, or a revolute \"pan\"");
+            "r.urdf:7: joint \"tilt\" mimics \"pan\", which is continuous and repeats after a "
+            "full turn, by the multiplier 0.5; use a whole multiplier or a revolute \"pan\"");
   EXPECT_EQ(complaint("continuous", "prismatic", R"(joint="pan")"),
             "r.urdf:7: joint \"tilt\" is prismatic and mimics \"pan\", which is continuous and "
-            "the same after a full turn; one of them needs another type");
+            "repeats after a full turn; change the type of one of them");
   EXPECT_EQ(complaint("continuous", "revolute", R"(joint="pan" multiplier="-2")"), "no complaint");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
                              joint("j", "revolute", "a", "b", limit + "<mimic joint=\"k\"/>") +
@@ -269,7 +271,7 @@ TEST_F(UrdfFaults, WhatWouldBeLost) {
   EXPECT_EQ(complaintOfJoint("fixed", "<origin xyz=\"0 0 1\" ryp=\"0 0 1\"/>"),
             "r.urdf:4: joint \"j\": origin: ryp is not known; did you mean \"rpy\"?");
   EXPECT_EQ(complaintOfJoint("fixed", "<origin quat_xyzw=\"0 0 0 1\"/>"),
-            "r.urdf:4: joint \"j\": origin quat_xyzw is not read; rpy is needed");
+            "r.urdf:4: joint \"j\": origin quat_xyzw is not supported; use rpy");
   EXPECT_EQ(complaintOfJoint("continuous", "<axes xyz=\"0 0 1\"/>"),
             "r.urdf:4: joint \"j\": <axes> is not known; did you mean <axis>?");
   EXPECT_EQ(complaintOfJoint("revolute", R"(<limit lowr="-1" upper="2" effort="0" velocity="0"/>)"),
@@ -293,20 +295,19 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("package://arm_description/none.stl"),
             of + "\"package://arm_description/none.stl\": none.stl: no such file");
   EXPECT_EQ(complaint("package://arm_descripton/a.stl"),
-            of + "\"package://arm_descripton/a.stl\": package \"arm_descripton\" has no folder; "
-                 "did you mean \"arm_description\"?, and arm_descripton/a.stl is no file");
+            of + "\"package://arm_descripton/a.stl\": arm_descripton/a.stl is not a file, and "
+                 "package \"arm_descripton\" has no folder; did you mean \"arm_description\"?");
   EXPECT_EQ(complaint("package://hand/a.stl"),
-            of + "\"package://hand/a.stl\": package \"hand\" has no folder (robot.yaml: packages: "
-                 "{hand: FOLDER}), and hand/a.stl is no file");
-  // An unreadable mesh is told where the URDF names it, each file once.
+            of + "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
+                 "folder; add robot.yaml: packages: {hand: FOLDER}");
+  // An unreadable mesh is reported where the URDF names it first, once per file.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +
                                            collision("<mesh filename=\"bad.obj\"/>")) +
                              link("b")),
-            of +
-                "\"bad.obj\": bad.obj:2: coordinate \"nan\" is not finite\n"
-                "r.urdf:3: link \"b\" is no joint's child, and neither is \"a\" on line 2; a robot "
-                "has one root");
+            of + "\"bad.obj\": bad.obj:2: coordinate \"nan\" is not finite\n"
+                 "r.urdf:3: link \"b\" is not a child of any joint, and neither is \"a\" on line "
+                 "2; a robot has one root");
   write("worse.obj", "v 0 0 0\nv 1 0 nan\nv 1 0 inf\n");
   EXPECT_EQ(complaint("worse.obj"),
             of + "\"worse.obj\": worse.obj:2: coordinate \"nan\" is not finite (and 1 more)");

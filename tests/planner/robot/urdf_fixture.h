@@ -13,7 +13,7 @@
 
 namespace corridor::test {
 
-/// Tests that write small URDF and SRDF files into a folder of their own, with a mesh beside them.
+/// Fixture that writes small URDF and SRDF files, and a mesh, into a temporary folder.
 class UrdfTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -32,7 +32,7 @@ class UrdfTest : public testing::Test {
     return folder_ / name;
   }
 
-  /// The faults, one a line, with the folder taken out.
+  /// The faults, one per line, without the folder's name.
   std::string textOf(const std::vector<Fault>& faults) const {
     if (faults.empty()) return "no complaint";
     std::string text = InputError(faults).what();
@@ -48,7 +48,8 @@ class UrdfTest : public testing::Test {
     EXPECT_EQ(model.has_value(), faults.empty());
     return textOf(faults);
   }
-  /// Of elements in a <robot> that begins on line 1, one a line from line 2 on.
+  /// The faults of elements in a <robot> that begins on line 1; the elements follow from line 2,
+  /// one per line.
   std::string complaintOfParts(const std::string& parts) {
     return complaintOf("<robot name=\"r\">\n" + parts + "\n</robot>\n");
   }
@@ -66,7 +67,7 @@ class UrdfTest : public testing::Test {
   std::vector<std::filesystem::path> files_;
 };
 
-/// One line each.
+/// Elements of one line each.
 inline std::string link(const std::string& name, const std::string& content = "") {
   return "<link name=\"" + name + "\">" + content + "</link>\n";
 }

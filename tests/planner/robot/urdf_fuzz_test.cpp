@@ -1,5 +1,5 @@
-// Damaged URDF and SRDF files never crash or hang the readers: what comes back is a sound model or
-// faults in plain words.
+// Damaged URDF and SRDF files never crash or hang the readers. The result is a sound model, or
+// faults in readable words.
 #include <random>
 
 #include "tests/planner/robot/urdf_fixture.h"
@@ -102,7 +102,7 @@ class UrdfFuzz : public UrdfTest {
         for (const char c : fault.text) ASSERT_TRUE(c >= ' ' || c < 0) << fault.text;
       }
     }
-    EXPECT_GT(sound, mutations / 100);  // else the mutations are too wild to test much
+    EXPECT_GT(sound, mutations / 100);  // else the mutations are too destructive to test much
     EXPECT_GT(refused, mutations / 10);
   }
 };
@@ -140,7 +140,7 @@ TEST_F(UrdfFuzz, Srdf) {
 TEST_F(UrdfFuzz, DeepNestingIsRefused) {
   std::string text = "<robot name=\"r\">";
   for (int i = 0; i < 100000; ++i) text += "<a>";
-  EXPECT_EQ(complaintOf(text), "r.urdf:1: is not sound XML: elements are nested too deep");
+  EXPECT_EQ(complaintOf(text), "r.urdf:1: is not valid XML: elements are nested too deep");
 }
 
 }  // namespace

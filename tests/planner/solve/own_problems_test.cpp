@@ -1,4 +1,4 @@
-// The problems that come with the project, as their users run them.
+// The problems in problems/ are solved, certified and verified with their own defaults.
 #include <algorithm>
 #include <filesystem>
 #include <random>
@@ -44,7 +44,7 @@ TEST(OwnProblems, AllAreListedHere) {
   EXPECT_EQ(folders, 12);
 }
 
-/// Without its pairs of one arm with the other the same problem has other answers.
+/// Without the pairs between the arms, some states must become free.
 TEST(TwoArms, AreTestedAgainstEachOther) {
   Problem problem = ownProblem("two_arms");
   const auto between = [&](const ProblemPair& pair) {
@@ -59,7 +59,7 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
       pair.skipped = "left out by this test";
     }
   EXPECT_GT(tested, 0u);
-  // Many states are free but for the other arm.
+  // Many states are free except for contacts with the other arm.
   const Checker together(problem), alone(apart);
   std::mt19937_64 random(1);
   int differ = 0;
@@ -75,8 +75,8 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
   EXPECT_GT(differ, 0);
 }
 
-/// A blade of 2 mm and a plate of 0.1 mm: steps of 1 % jump it. Sampled edges return paths straight
-/// through, certified ones never do.
+/// A paper plane of 1 mm and a plate of 0.1 mm: steps of 1 % jump over the plate. Sampled edges
+/// give paths straight through it, certified edges never do.
 TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   Problem problem = ownProblem("thin_plate");
   const auto verdict = [&](std::uint64_t seed) {

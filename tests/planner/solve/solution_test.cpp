@@ -1,4 +1,4 @@
-// Solution files: bit-for-bit round trips, strict reading, OMPL.app's .path.
+// Solution files: bit-for-bit round trips, strict reading, OMPL.app's .path files.
 #include "planner/solve/solution.h"
 
 #include <filesystem>

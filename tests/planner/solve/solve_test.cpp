@@ -1,5 +1,5 @@
-// Solving: names and parameters, start and goal, goal regions, repeating, certified paths and their
-// refutation.
+// `solveProblem`: names and parameters, start and goals, goal regions, repeatability, certified
+// paths, and the refutation of wrong ones.
 #include "planner/solve/solve.h"
 
 #include <algorithm>
@@ -91,7 +91,7 @@ TEST_P(Spaces, GoalRegion) {
 TEST_P(Spaces, AThresholdOfZeroCanBeReached) {
   Problem problem = hallProblem(GetParam());
   problem.goalThreshold = 0;
-  problem.planner.name = "RRT";  // asks the goal whether it is reached
+  problem.planner.name = "RRT";  // ends by the goal's own test
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_EQ(report.path.back().head(2), problem.goals[0].head(2));
@@ -146,9 +146,9 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
       hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
 }
 
-/// Solves; the memory that OMPL 1.5.2 loses by itself is no finding of the leak sanitizer. (Each of
-/// these planners, run alone, leaves states that it allocated or cloned: LazyPRM 944 in three
-/// seconds, SST 14,636; the others lose none, and are watched.)
+/// Solves with the leak sanitizer off for the planners of OMPL 1.5.2 that leak. Each of them, run
+/// alone, leaves states that it allocated or cloned: LazyPRM 944 in three seconds, SST 14,636. The
+/// other planners leak none, and stay under the sanitizer.
 SolveReport solveWithOmplsLeaks(const Problem& problem) {
 #ifdef __SANITIZE_ADDRESS__
   const std::string& name = problem.planner.name;
@@ -160,8 +160,8 @@ SolveReport solveWithOmplsLeaks(const Problem& problem) {
   return solveProblem(problem);
 }
 
-/// Every name solves an easy problem, and none ends the program. (FMT and SST may find nothing in
-/// so little time.)
+/// Every planner solves an easy problem, and none ends the program. FMT and SST may find nothing in
+/// the short time.
 TEST(Solve, EveryPlannerSolves) {
   for (const PlannerInfo& info : knownPlanners()) {
     Problem problem = hallProblem(Rigid::SE2);
@@ -196,7 +196,8 @@ TEST(Solve, BadNamesListWhatThereIs) {
   problem.planner.name = "RRT";
   problem.planner.params = {{"goal_bias", "7"}};
   EXPECT_THAT(complaintOf(problem), HasSubstr("RRT's parameter goal_bias: \"7\" is above 1"));
-  // Each of these ended the program, or was called an error of its own.
+  // Without Corridor's own test OMPL accepts each of these values and then ends the program, or
+  // throws.
   const char* const refused[][4] = {
       {"SST", "range", "-1", "below 0"},
       {"RRTstar", "rewire_factor", "-1", "below 0"},
@@ -241,7 +242,8 @@ TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
   }
 }
 
-/// The gap in the wall is 3 m wide, the bar 0.2 m: short paths cut its corner, clear ones don't.
+/// The gap in the wall is 3 m wide, the bar 0.2 m. Short paths pass close to its corner; paths of
+/// large clearance must not.
 TEST(Solve, MaximisesTheLeastClearance) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.planner.name = "RRTstar";
@@ -260,13 +262,13 @@ TEST(Solve, MaximisesTheLeastClearance) {
   };
   const double ofShortest = leastClearance();
   problem.objective = "max_min_clearance";
-  problem.objectiveThreshold = 0.5;  // enough: it stops there
+  problem.objectiveThreshold = 0.5;  // m; the planner stops at this clearance
   problem.planner.time = 300 * test::kSlowdown;
   const double ofClearest = leastClearance();
   std::cout << "least clearance " << ofShortest << " m of the shortest, " << ofClearest
             << " m of the clearest path\n";
   EXPECT_LT(ofShortest, 0.1);
-  // Between OMPL's samples of an edge, some 0.15 m apart, it may be less.
+  // Not 0.5: the clearance may be less between OMPL's samples of an edge, some 0.15 m apart.
   EXPECT_GT(ofClearest, 0.4);
 }
 
@@ -286,14 +288,14 @@ TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
   const std::string complaint = complaintOf(problem);
   EXPECT_THAT(complaint, StartsWith("hall.yaml:4: start is in contact: \"bar\" (triangle "));
   EXPECT_THAT(complaint, HasSubstr(" and \"wall\" (triangle "));
-  // The tip is 0.1005 m beyond the wall's face.
+  // The bar's tip is 0.1005 m past the wall's near face.
   EXPECT_THAT(complaint, HasSubstr(" touch; the nearest free position found is 0.1"));
   problem.goals[0].head(3) = Vec3(0.3, -2, 0);
   EXPECT_THAT(complaintOf(problem),
               HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
 }
 
-/// What the message tells is free as its reader types it in, to the last digit.
+/// The configuration in the message must be free with exactly the digits that are printed.
 TEST(Solve, AdviceForAStartInContactHolds) {
   for (const double x : {-0.4, -0.1, 0.05, 0.3, 0.5}) {
     Problem problem = hallProblem(Rigid::SE3);
@@ -311,7 +313,7 @@ TEST(Solve, AdviceForAStartInContactHolds) {
   }
 }
 
-/// Also where the way out keeps one number, which few digits would move into a plate.
+/// The start's y must be kept to its last digits: rounded to few, the bar would touch a plate.
 TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
   Problem problem = hallProblem(Rigid::SE2);
   const double y = -2.000004321, gap = 1e-6;
@@ -333,8 +335,8 @@ TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
   EXPECT_TRUE(Checker(problem).certifiedState(problem.start)) << complaint;
 }
 
-/// A validator that believes every edge that is longer than the planner's: simplified versions go
-/// through the wall, and what is returned is one that doesn't.
+/// The validator here accepts every edge that is longer than the planner's, so that simplified
+/// versions go through the wall. The result must be a version that does not.
 TEST(Solve, TheLastVersionThatHoldsIsReturned) {
   class Believes final : public ompl::base::MotionValidator {
    public:
@@ -370,7 +372,7 @@ TEST(Solve, TheLastVersionThatHoldsIsReturned) {
 
 TEST(Solve, MarginAndTube) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.start.head(3) = Vec3(-0.6, -2, 0);  // 0.0995 from the wall
+  problem.start.head(3) = Vec3(-0.6, -2, 0);  // the bar is 0.0995 m from the wall
   problem.margin = 0.2;
   EXPECT_THAT(complaintOf(problem),
               HasSubstr("are closer than the margin of 0.2 m; the nearest free position"));
@@ -388,10 +390,8 @@ TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
   problem = hallProblem(Rigid::SE3);
   problem.goals[0].head(3) = Vec3(0, -2, 0);
   problem.goalRegion = Problem::GoalRegion{0.01, 0.01, 0};
-  EXPECT_THAT(
-      complaintOf(problem),
-      StartsWith(
-          "hall.yaml:5: no free state was found within the goal; its middle: goal is in contact"));
+  EXPECT_THAT(complaintOf(problem), StartsWith("hall.yaml:5: no free state was found in the goal "
+                                               "region; at its middle: goal is in contact"));
 }
 
 Problem armAt(double shoulder, double elbow, double wrist) {
@@ -452,7 +452,7 @@ TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreTold) {
 TEST(Arm, GoalRegionOfJoints) {
   Problem problem = armProblem();
   problem.goalRegion = Problem::GoalRegion{0, 0, 0.1};
-  problem.goals = {Vec3(std::numbers::pi, 1.6, 0.3)};  // across the seam of the shoulder
+  problem.goals = {Vec3(std::numbers::pi, 1.6, 0.3)};  // the region crosses the shoulder's ±π
   problem.planner.name = "RRT";
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
@@ -467,7 +467,7 @@ TEST(Arm, StartInSelfContactNamesTheLinks) {
 
 TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});  // no gap
+  problem.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});  // a wall without gap
   for (const char* planner : {"RRTConnect", "RRT", "PRM", "RRTstar", "KPIECE1"}) {
     problem.planner.name = planner;
     problem.planner.time = 0.5;

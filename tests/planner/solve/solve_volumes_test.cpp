@@ -1,4 +1,4 @@
-// Solving with trees of any bounding volume: the same paths, at another cost.
+// Solving with trees of any bounding volume gives the same paths, at another cost.
 #include <gtest/gtest.h>
 
 #include "planner/solve/solution.h"
@@ -17,7 +17,7 @@ INSTANTIATE_TEST_SUITE_P(Both, SolveOnVolumes, testing::Values(Rigid::SE2, Rigid
 TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
   Problem problem = hallProblem(GetParam());
   const SolveReport usual = solveProblem(problem);
-  const auto solved = [&](const std::string& edges, const TreeWords& words,
+  const auto solved = [&](const std::string& edges, const TreeNames& words,
                           const std::string& told) {
     problem.checker.edges = edges;
     problem.checker.resolution = 0.001;
@@ -30,11 +30,12 @@ TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
     EXPECT_NE(report.counters.boxTests, usual.counters.boxTests) << told;
     const Solution solution = makeSolution(problem, report);
     EXPECT_EQ(solution.checker, told);
-    if (edges == "discrete") return;  // which may step over the wall
+    if (edges == "discrete") return;  // such a path may step over the wall
     EXPECT_TRUE(report.certified) << told;
     EXPECT_EQ(verifySolution(problem, solution).verdict, PathVerdict::proved) << told;
     if (edges != "certified") return;
-    EXPECT_EQ(report.path, usual.path) << told << ": no verdict depends on it, so no path does";
+    EXPECT_EQ(report.path, usual.path)
+        << told << ": the path differs, though verdicts must not depend on the trees";
   };
   solved("certified", {"sphere", "", ""}, "certified, sphere");
   solved("certified", {"kdop26", "", ""}, "certified, kdop26");

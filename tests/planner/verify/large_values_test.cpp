@@ -1,5 +1,5 @@
-// Angles of any size on full circles: the edge is the shorter way between the stored doubles in
-// real arithmetic. What rounding can't decide is undecided, and never proved or refuted wrongly.
+// Angles of any size on circles: the edge is the shorter way between the stored doubles in real
+// arithmetic. What rounding can't decide is undecided, never wrongly proved or refuted.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -19,7 +19,7 @@
 namespace corridor {
 namespace {
 
-/// Digits enough for 10^308 rad and what is left of a turn there.
+/// Enough digits for 10^308 rad and the remaining part of a turn.
 using Many = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<400>>;
 
 const Many& pi() {
@@ -35,25 +35,25 @@ Many trueWay(double from, double to) {
   return reduced(Many(to) - Many(from));
 }
 
-/// ±10^k and something, k = 4 … 25 in turn.
+/// About ±10^k, with k = 4 … 25 in turn.
 double large(std::mt19937_64& random, int n) {
   const double size = std::pow(10.0, 4 + n % 22);
   return (n % 2 ? -1 : 1) * size * std::uniform_real_distribution(1.0, 3.0)(random);
 }
 
-/// Of an edge: both ends large, or one of them.
+/// The ends of an edge: both are large, or one of them.
 struct Ends {
   double from, to;
   Ends(std::mt19937_64& random, int n) {
     std::uniform_real_distribution<double> small(-3, 3);
     from = n / 44 % 3 == 0 ? small(random) : large(random, n);
     to = n / 44 % 3 == 1 ? small(random) : large(random, n / 2);
-    if (n / 44 % 3 == 2 && n % 5 == 0) to = from + small(random);  // near each other, and large
+    if (n / 44 % 3 == 2 && n % 5 == 0) to = from + small(random);  // large, and near each other
   }
 };
 
-/// A rod on a full circle about z (an arm's joint, or a planar body's yaw), and a post where the
-/// rod passes at an angle.
+/// A rod on a circle about z (an arm's joint, or a planar body's yaw), and a post that the rod
+/// passes at one angle.
 struct Sweep {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -71,7 +71,7 @@ struct Sweep {
         group.coordinates.push_back(space.add(line));
       }
       Frame shift;
-      shift.joint = Frame::Joint::shift;
+      shift.joint = Frame::Joint::translation;
       shift.variable = 0;
       shift.count = 2;
       tree.add(shift);
@@ -83,7 +83,7 @@ struct Sweep {
     space.addGroup(group);
     Frame turn;
     turn.parent = tree.frames.size() - 1;
-    turn.joint = Frame::Joint::turn;
+    turn.joint = Frame::Joint::revolute;
     turn.variable = circle;
     turn.multiplier = multiplier;
     tree.add(turn);
@@ -128,7 +128,7 @@ TEST(LargeValues, TheWayRoundACircleIsExact) {
     if (n % 7 == 0) ends.to *= std::pow(10.0, n % 280);  // up to the largest doubles
     if (!std::isfinite(ends.to)) continue;
     const Many way = trueWay(ends.from, ends.to);
-    if (abs(abs(way) - pi()) < 1e-12) continue;  // either way
+    if (abs(abs(way) - pi()) < 1e-12) continue;  // both ways are right
     const Many off = abs(Many(verify::circleWay(ends.from, ends.to)) - way);
     ASSERT_LE(off, Many(std::ldexp(1.0, -59))) << ends.from << " to " << ends.to;
     const CircleTurn turn = circleTurn(ends.from, ends.to);
@@ -139,7 +139,7 @@ TEST(LargeValues, TheWayRoundACircleIsExact) {
   }
 }
 
-/// A post in the middle of the true way, and one half a turn from there.
+/// A post in the middle of the true way is met; one at a half turn from there is not.
 TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
   std::mt19937_64 random(test::testSeed(4));
   int refuted = 0, proved = 0, contact = 0, free = 0;
@@ -148,7 +148,7 @@ TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
     const bool planar = n % 3 == 0;
     const int multiplier = planar ? 1 : n % 4 - 2 == 0 ? 3 : n % 4 - 2;
     const Many way = trueWay(ends.from, ends.to);
-    if (abs(multiplier * way) > 2.8 || abs(abs(way) - pi()) < 1e-6) continue;  // the rod passes all
+    if (abs(multiplier * way) > 2.8 || abs(abs(way) - pi()) < 1e-6) continue;  // meets both posts
     const Many middle = multiplier * (Many(ends.from) + way / 2);
     const std::string what = std::to_string(n) + ": " + std::to_string(ends.from) + " to " +
                              std::to_string(ends.to) + " times " + std::to_string(multiplier);
@@ -190,7 +190,7 @@ TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
   EXPECT_GT(free, 100);
 }
 
-/// States, which nobody wraps: the verdict is that of the angle as it is.
+/// States are not brought into [−π, π]: the verdict is that of the angle as it is.
 TEST(LargeValues, StatesAreTakenAsTheyAre) {
   std::mt19937_64 random(test::testSeed(5));
   for (int n = 0; n < 1'000; ++n) {
@@ -206,7 +206,7 @@ TEST(LargeValues, StatesAreTakenAsTheyAre) {
   }
 }
 
-/// Through the seam a joint that mimics the circle by a fraction would jump.
+/// A joint that mimics a circle by a fraction would jump at ±180°.
 TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
   for (const double multiplier : {0.5, -1.5, 2.0}) {
     const Sweep sweep(pi() / 2, multiplier, false);
@@ -215,11 +215,11 @@ TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
     EXPECT_EQ(report.verdict, whole ? PathVerdict::proved : PathVerdict::refuted) << multiplier;
     if (!whole) {
       EXPECT_EQ(report.findings[0].reason,
-                "a joint that mimics a full circle by a fraction would jump");
+                "a joint that mimics a continuous joint would jump where that passes 180 degrees");
     }
     EXPECT_EQ(sweep.checked(3, -3).verdict, whole ? MotionVerdict::free : MotionVerdict::undecided)
         << multiplier;
-    // Away from the seam, and from the post.
+    // Away from ±180° and from the post.
     EXPECT_EQ(verifyPath(sweep.problem, {sweep.at(2), sweep.at(2.2)}).verdict, PathVerdict::proved);
     EXPECT_EQ(sweep.checked(2, 2.2).verdict, MotionVerdict::free) << multiplier;
   }

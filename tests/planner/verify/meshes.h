@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "collision/motion/relative_motion.h"
 #include "planner/verify/verify_path.h"
 
 namespace corridor::test {
@@ -41,7 +42,7 @@ inline RigidPose randomPose(std::mt19937_64& random, double size) {
   return {randomVec(random, size), Eigen::Quaterniond(w, x, y, z)};
 }
 
-/// A rigid body (SE3, or SE2 for `planar`) among obstacles at rest, as a kinematic tree.
+/// A rigid body (SE3, or SE2 with `planar`) among fixed obstacles, as a kinematic tree.
 struct RigidWorld {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -65,12 +66,12 @@ struct RigidWorld {
     turn.name = planar ? "yaw" : "rotation";
     space.add(turn);
     Frame shift;
-    shift.joint = Frame::Joint::shift;
+    shift.joint = Frame::Joint::translation;
     shift.variable = 0;
     shift.count = lines.size();
     Frame rotate;
     rotate.parent = tree.add(shift);
-    rotate.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+    rotate.joint = planar ? Frame::Joint::revolute : Frame::Joint::rotation;
     rotate.axis = Vec3::UnitZ();
     rotate.variable = lines.size();
     tree.add(rotate);
@@ -116,7 +117,7 @@ inline RigidPose poseIn(const Configuration& q) {
   return {q.head<3>(), Eigen::Quaterniond(q[6], q[3], q[4], q[5])};
 }
 
-/// Triangles of edge length about `edge`, scattered over a cube of half edge `size`.
+/// Triangles with edges of about `edge`, scattered over a cube of half width `size`.
 inline TriangleMesh randomSoup(std::mt19937_64& random, int triangles, double size, double edge) {
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(triangles); ++i) {

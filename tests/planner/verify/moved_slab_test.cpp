@@ -1,4 +1,4 @@
-// The slab between two moving bodies: what it says of strays and motion, against what they do.
+// The slab between two moving bodies is compared with the motion and perturbations that it bounds.
 #include "planner/verify/moved_slab.h"
 
 #include <gtest/gtest.h>
@@ -28,29 +28,30 @@ Real gapAlong(const ConvexSet& a, const ConvexSet& b, const RealVec& n) {
   return n.dot(b.farthest(-n)) - b.ball() - n.dot(a.farthest(n)) - a.ball();
 }
 
-/// How far the farthest point is from the origin, with its ball or disc.
+/// Distance of the farthest point from the origin, including its sphere or disc.
 Real radiusOf(const ConvexSet& set) {
   Real radius = 0;
   for (const RealVec& x : set.points) radius = std::max(radius, x.norm());
   return radius + set.radius;
 }
 
-/// Two bodies on an arm, in a part of an edge, with a tube; and the slab between them along `n`.
+/// Two bodies on an arm, in a time interval of an edge with a tube, and the slab between them along
+/// `n`.
 struct Case {
   const Arm& arm;
-  Limb limbA, limbB;
+  KinematicChain chainA, chainB;
   ConvexSet a, b;  // in their frames
   Configuration from, to, tube;
   Real middle, half;
   std::optional<EdgeCurve> curve;
   PairMotion motion;
   Placement atA;  // at the middle
-  RealVec n;      // in a's frame there, unit
+  RealVec n;      // unit, in a's frame at the middle
 
   Case(const Arm& onArm, bool fork, std::mt19937_64& random, double size, int kinds)
       : arm(onArm),
-        limbA(limbOf(arm.tree, fork ? 3 : 0, fork ? arm.side : 0)),
-        limbB(limbOf(arm.tree, fork ? 3 : 0, arm.tip)),
+        chainA(chainOf(arm.tree, fork ? 3 : 0, fork ? arm.side : 0)),
+        chainB(chainOf(arm.tree, fork ? 3 : 0, arm.tip)),
         a(randomSet(random, kinds % 5, Vec3::Zero())),
         b(randomSet(random, kinds / 5 % 5, randomVec(random, 0.3))),
         from(arm.random(random)),
@@ -65,12 +66,12 @@ struct Case {
     curve.emplace(arm.tree, arm.space.coordinates(), from, to);
     middle = static_cast<Real>(0.5 + 0.2 * uniform(random));
     half = static_cast<Real>(0.3 * uniform(random));
-    const FrameState stateA = curve->at(limbA, middle), stateB = curve->at(limbB, middle);
+    const FrameState stateA = curve->at(chainA, middle), stateB = curve->at(chainB, middle);
     atA = stateA.at;
     motion.half = half;
-    motion.a = motionSeenFrom(atA, stateA, curve->straysAt(limbA, middle, tube));
-    motion.b = motionSeenFrom(atA, stateB, curve->straysAt(limbB, middle, tube));
-    for (const auto& [limb, set] : {std::pair{&limbA, &a}, std::pair{&limbB, &b}}) {
+    motion.a = motionSeenFrom(atA, stateA, curve->perturbationAt(chainA, middle, tube));
+    motion.b = motionSeenFrom(atA, stateB, curve->perturbationAt(chainB, middle, tube));
+    for (const auto& [limb, set] : {std::pair{&chainA, &a}, std::pair{&chainB, &b}}) {
       const Reach reach = curve->reach(*limb, radiusOf(*set), tube);
       motion.travel += reach.speed * half;
       motion.tube += reach.tube;
@@ -82,24 +83,25 @@ struct Case {
   Case(const Case&) = delete;
 
   ConvexSet placedB() const {
-    const Placement at = curve->at(limbB, middle).at;
+    const Placement at = curve->at(chainB, middle).at;
     const RealMat back = atA.rotation.transpose();
     return moved(b, {back * at.rotation, back * (at.position - atA.position)});
   }
   Real firstOrder() const { return MovedSlab(motion.a, motion.b, half, n).width(a, placedB()); }
   Real still() const { return gapAlong(a, placedB(), n); }
 
-  /// The width along n at the time middle + s, of a curve that strays by `share` ∈ [−1, 1] of each
-  /// tube, and turns by `turn` after its rotation (in the base's coordinates; base 0 only).
+  /// The width along n at the time middle + s, of a perturbed curve. `share` ∈ [−1, 1] is its
+  /// perturbation as a share of the tube in each number. `turn` rotates it after its free rotation
+  /// (in the base's coordinates; base 0 only).
   Real widthAt(Real s, const Configuration& share, const RealVec& turn) const {
     Configuration q = curve->configuration(middle + s);
     const Eigen::Quaterniond rotation(q[6], q[3], q[4], q[5]);
     q += share.cwiseProduct(tube);
     q.segment<4>(3) = rotation.coeffs();
     if (turn.norm() > 0) {
-      // From the base's coordinates into those of the joint: before it, a shift's frame and its
-      // own.
-      const RealMat before = curve->at(limbOf(arm.tree, 0, 1), middle).at.rotation *
+      // From the base's coordinates into the joint's. Before the joint are the frame of a
+      // translation and its own fixed frame.
+      const RealMat before = curve->at(chainOf(arm.tree, 0, 1), middle).at.rotation *
                              placementOf(arm.tree.frames[2].fixed).rotation;
       const Eigen::Vector3d w = (before.transpose() * turn).cast<double>();
       const Eigen::Quaterniond by(Eigen::AngleAxisd(w.norm(), w.normalized()));
@@ -107,17 +109,17 @@ struct Case {
     }
     const EdgeCurve stray(arm.tree, arm.space.coordinates(), q, q);
     const RealVec along = atA.rotation * n;
-    return gapAlong(moved(a, stray.at(limbA, 0).at), moved(b, stray.at(limbB, 0).at), along);
+    return gapAlong(moved(a, stray.at(chainA, 0).at), moved(b, stray.at(chainB, 0).at), along);
   }
 
-  /// The least width found: all corners of the tube's box, at both ends, and turns about the axes
-  /// that count for each corner of b; and some of what is inside.
+  /// The least width found over curves in the tube: all corners of the tube's box at both ends of
+  /// the interval, rotations about the worst axis for each corner of b, and some curves inside.
   Real leastWidth(std::mt19937_64& random) const {
     const Eigen::Index numbers[] = {0, 1, 2, 7, 8, 9};
     std::uniform_real_distribution<double> uniform(-1, 1);
     std::vector<RealVec> turns = {RealVec::Zero()};
     if (!motion.b.strays.pivots.empty()) {
-      const Strays::Pivot& pivot = motion.b.strays.pivots[0];
+      const Perturbation::PivotRotation& pivot = motion.b.strays.pivots[0];
       for (const RealVec& x : placedB().points)
         turns.push_back(atA.rotation * ((x - pivot.at).cross(-n).normalized() * pivot.angle));
     }
@@ -150,14 +152,14 @@ TEST(MovedSlab, NoCurveOfTheTubeGetsBelowIt) {
   EXPECT_GT(fullest, 0.999L);
 }
 
-// Where motion and tube are small, the first order is all, and some curve attains it.
+// With small motion and tube the first order dominates, and some curve attains it.
 TEST(MovedSlab, IsAttained) {
   std::mt19937_64 random(test::testSeed(9));
   Real worst = kInfinity, gained = 0;
   int cases = 0;
   for (int i = 0; i < 150; ++i) {
     const Arm arm(random);
-    for (const int kind : {0, 1, 3, 4}) {  // no cylinders: bounds of a disc
+    for (const int kind : {0, 1, 3, 4}) {  // no cylinders: the bound of a disc is not attained
       const Case one(arm, i % 2 == 1, random, 1e-6, kind + 5 * kind);
       const Real lost = one.still() - one.firstOrder() + one.motion.secondOrder;
       worst = std::min(worst, (one.still() - one.leastWidth(random)) / lost);
@@ -166,18 +168,18 @@ TEST(MovedSlab, IsAttained) {
     }
   }
   EXPECT_GT(worst, 0.999L);
-  EXPECT_LT(gained / cases, 0.35L);  // of what it is whatever the direction
+  EXPECT_LT(gained / cases, 0.35L);  // relative to the isotropic bound
 }
 
-// A point that turns about z comes closer to what is between it and the axis in second order only,
-// by 1 − cos(h|Δ| + τ): motion and stray together, not each for itself.
+// A point that rotates about z approaches an obstacle between it and the axis in second order only,
+// by 1 − cos(h|Δ| + τ). Motion and perturbation count together, not each alone.
 TEST(MovedSlab, SecondOrderIsOfMotionAndStrayTogether) {
   KinematicTree tree;
   ConfigurationSpace space;
   Frame turn;
-  turn.joint = Frame::Joint::turn;
+  turn.joint = Frame::Joint::revolute;
   turn.variable = space.coordinates()[space.add(Coordinate{})].first;
-  const Limb limb = limbOf(tree, 0, tree.add(turn));
+  const KinematicChain limb = chainOf(tree, 0, tree.add(turn));
   const ConvexSet a{{RealVec(0.5L, 0, 0)}, 0, false, RealVec::Zero()},
       b{{RealVec(1, 0, 0)}, 0, false, RealVec::Zero()};
   for (const double way : {0.0, 0.02, 0.05, 0.2})
@@ -186,7 +188,7 @@ TEST(MovedSlab, SecondOrderIsOfMotionAndStrayTogether) {
                           tube = Configuration::Constant(1, stray);
       const EdgeCurve curve(tree, space.coordinates(), from, to);
       const BodyMotion moving =
-          motionSeenFrom({}, curve.at(limb, 0.5L), curve.straysAt(limb, 0.5L, tube));
+          motionSeenFrom({}, curve.at(limb, 0.5L), curve.perturbationAt(limb, 0.5L, tube));
       const Reach reach = curve.reach(limb, 1, tube);
       const Real bound = MovedSlab({}, moving, 0.5L, RealVec::UnitX()).width(a, b) -
                          (0.25L * reach.bend + 0.5L * reach.bendCross + reach.bendTube) / 2;

@@ -1,5 +1,5 @@
-// The parts of the verifier: rational contacts, bracketed distances, the search in two trees, the
-// curve of an edge.
+// The verifier's components: rational contacts, bounds of distances, the search in two trees, and
+// the curve of an edge.
 #include <fstream>
 #include <sstream>
 
@@ -60,14 +60,14 @@ TEST(ExactContact, DegenerateTriangles) {
   EXPECT_TRUE(touches(needle, point));
   EXPECT_TRUE(touches(point, point));
   EXPECT_FALSE(touches(kFlat, away));
-  EXPECT_FALSE(touches(needle, away));  // on one line, apart
+  EXPECT_FALSE(touches(needle, away));  // collinear, apart
   EXPECT_FALSE(touches(point, away));
   EXPECT_TRUE(touches(needle, {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 1, 3)}));
 }
 
 TEST(ExactContact, QuaternionIsNormalisedExactly) {
-  // 3² + 4²: a rotation by rational numbers whatever the norm; (5, 0, 0) goes to (-1.4, 4.8, 0),
-  // not quite doubles.
+  // 3² + 4² = 5², so the rotation is by rational numbers for any norm. (5, 0, 0) goes to (-1.4,
+  // 4.8, 0), whose coordinates are not exactly doubles.
   RigidPose pose;
   pose.q = Eigen::Quaterniond(3, 0, 0, 4);
   const Corners needle = {Vec3(25, 0, 0), Vec3(26, 0, 0), Vec3(26, 1, 0)};
@@ -120,7 +120,7 @@ TEST(TriangleGap, BracketIsTightAndItsWitnessesLieInTheTriangles) {
   int apart = 0;
   for (int i = 0; i < 20000; ++i) {
     RealVec a[3], b[3];
-    const double flat = i % 4 == 1 ? 1e-9 : 1;  // needles, plates, parallel ones among them
+    const double flat = i % 4 == 1 ? 1e-9 : 1;  // includes needles, plates and parallel triangles
     const Vec3 shift = randomVec(random, 3);
     for (int j = 0; j < 3; ++j) {
       Vec3 p = randomVec(random, 1), q = randomVec(random, 1);
@@ -185,12 +185,12 @@ TEST(BodyDistance, EqualsTheDoubleLoop) {
       }
     const auto never = [](PiecePair) { return false; };
     const BodyGap found = distance.measure(guess, 0, infinity, never);
-    // Pairs within 2^-30 of the closest may stand for it.
+    // A pair within 2^-30 of the closest may be returned in its place.
     EXPECT_LE(std::abs(found.upper - upper), 0x1p-29L * upper);
     EXPECT_LE(std::abs(found.lower - lower), 0x1p-29L * upper);
     EXPECT_FALSE(found.touching);
     guess = found.pair;
-    // Stopped short, the bound is still one.
+    // If the search stops early, the bound is still valid.
     EXPECT_LE(distance.measure({}, 0, upper / 2, never).lower, upper);
     EXPECT_GE(distance.measure({}, 0, lower / 2, never).lower, lower / 2 * (1 - 0x1p-29L));
     std::vector<PiecePair> near;
@@ -217,7 +217,7 @@ TEST(EdgeCurve, PointsStayWithinTheirReach) {
     if (curve.ambiguous()) continue;
     const std::size_t frame = i % 2 ? arm.tip : arm.side;
     for (const std::size_t base : {std::size_t(0), std::size_t(3)}) {
-      const Limb limb = limbOf(arm.tree, base, frame);
+      const KinematicChain limb = chainOf(arm.tree, base, frame);
       const Vec3 x = randomVec(random, 0.5);
       const Reach reach = curve.reach(limb, x.norm(), Configuration::Zero(from.size()));
       const auto image = [&](Real t) -> RealVec {
@@ -241,7 +241,7 @@ TEST(EdgeCurve, PointsStayWithinTheirReach) {
       }
     }
   }
-  EXPECT_GT(fullestSpeed, 0.5);  // not absurdly far from what happens
+  EXPECT_GT(fullestSpeed, 0.5);  // the bound is not absurdly large
   EXPECT_GT(fullestBend, 0.2);
 }
 
@@ -253,7 +253,7 @@ TEST(EdgeCurve, EndsWhereItShould) {
     const EdgeCurve curve(arm.tree, arm.space.coordinates(), from, to);
     for (const auto& [t, q] : {std::pair{Real(0), from}, std::pair{Real(1), to}}) {
       const EdgeCurve still(arm.tree, arm.space.coordinates(), q, q);
-      const Limb limb = limbOf(arm.tree, 0, arm.tip);
+      const KinematicChain limb = chainOf(arm.tree, 0, arm.tip);
       const Placement a = curve.at(limb, t).at, b = still.at(limb, 0.5L).at;
       EXPECT_LE((a.rotation - b.rotation).norm(), 1e-17L);
       EXPECT_LE((a.position - b.position).norm(), 1e-17L);
@@ -277,7 +277,7 @@ TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {
     worst = std::max(worst, gap.upper - gap.lower);
     const TriangleGap swapped = convexGap(b, a);
     EXPECT_NEAR(static_cast<double>(swapped.upper), static_cast<double>(gap.upper), 1e-13);
-    // No pair of points of the two is closer than `lower`.
+    // No two points of the sets are closer than `lower`.
     std::normal_distribution<double> normal;
     for (int k = 0; k < 20; ++k) {
       const RealVec d(normal(random), normal(random), normal(random));
@@ -288,7 +288,7 @@ TEST(ConvexGap, BracketsTheDistanceOfAllKinds) {
     }
   }
   EXPECT_GT(apart, 5000);
-  EXPECT_LT(worst, 1e-9L);  // cylinders; the others: rounding
+  EXPECT_LT(worst, 1e-9L);  // largest for cylinders; rounding for the others
 }
 
 TEST(ConvexGap, ClosedForms) {

@@ -9,7 +9,7 @@ inline verify::Placement placementOf(const RigidPose& pose) {
   return {pose.q.normalized().toRotationMatrix().cast<verify::Real>(), pose.p.cast<verify::Real>()};
 }
 
-/// A tree of joints of each kind, one of which follows another.
+/// A tree with a joint of each kind; one joint follows another.
 struct Arm {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -37,12 +37,12 @@ struct Arm {
                       pan = variable(Coordinate::Kind::line),
                       lift = variable(Coordinate::Kind::circle),
                       slide = variable(Coordinate::Kind::line);
-    std::size_t at = frame(0, Frame::Joint::shift, x);
-    at = frame(at, Frame::Joint::rotate, q);
-    const std::size_t fork = at = frame(at, Frame::Joint::turn, pan);
-    at = frame(at, Frame::Joint::turn, lift);
-    tip = frame(at, Frame::Joint::slide, slide);
-    side = frame(fork, Frame::Joint::turn, pan);
+    std::size_t at = frame(0, Frame::Joint::translation, x);
+    at = frame(at, Frame::Joint::rotation, q);
+    const std::size_t fork = at = frame(at, Frame::Joint::revolute, pan);
+    at = frame(at, Frame::Joint::revolute, lift);
+    tip = frame(at, Frame::Joint::prismatic, slide);
+    side = frame(fork, Frame::Joint::revolute, pan);
     tree.frames[side].multiplier = -0.7;
     tree.frames[side].offset = 0.2;
   }
@@ -54,7 +54,7 @@ struct Arm {
   }
 };
 
-/// A ball, a rod, a cylinder, a box or a triangle, about `shift`.
+/// A sphere, a rod, a cylinder, a box or a triangle about `shift`.
 inline verify::ConvexSet randomSet(std::mt19937_64& random, int kind, const Vec3& shift) {
   ConvexPart part;
   if (kind == 0) part = {{Vec3::Zero()}, 0.4, false};

@@ -1,4 +1,4 @@
-// Paths of arms, primitives and solids: closed forms, and random ones against dense sampling.
+// Paths of arms, primitives and solids: closed forms, and random paths against dense sampling.
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ ConvexPart boxPart(const Vec3& lower, const Vec3& upper) {
   return {boxMesh(lower, upper).vertices, 0, false};
 }
 
-/// A chain of `joints` turns about z, one a metre, each with a rod of a metre after it.
+/// A chain of `joints` revolute joints about z, one per metre, each followed by a rod of a metre.
 struct Chain {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -35,7 +35,7 @@ struct Chain {
       Frame frame;
       frame.parent = j == 0 ? 0 : tree.frames.size() - 1;
       frame.fixed.p = Vec3(j == 0 ? 0 : 1, 0, 0);
-      frame.joint = Frame::Joint::turn;
+      frame.joint = Frame::Joint::revolute;
       frame.variable = static_cast<std::size_t>(j);
       space.add(c);
       tree.add(frame);
@@ -61,7 +61,8 @@ Configuration joints(std::initializer_list<double> values) {
   return q;
 }
 
-// The stretched chain turns as one about the first joint: its tip is at 1.9 + 0.05 from there.
+// The stretched chain rotates as one body about the first joint. Its tip is at 1.9 + 0.05 from
+// there.
 TEST(VerifyChain, StretchedArmPastAPoint) {
   for (const double gap : {1e-1, 1e-3, 1e-6, -1e-6, -1e-3}) {
     const double r = 1.95 + gap, angle = 0.7;
@@ -79,7 +80,7 @@ TEST(VerifyChain, StretchedArmPastAPoint) {
   }
 }
 
-// A folded chain meets itself: the third rod turns onto the first, which turns along.
+// A folding chain meets itself: the third rod rotates onto the first, which moves, too.
 TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
   Chain chain(3, {{Vec3(50, 0, 0)}, 0.1, false});
   // Equilateral: rod 3 would end at the start of rod 1.
@@ -90,25 +91,26 @@ TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
   EXPECT_EQ(report.findings.at(0).b, "rod3");
   EXPECT_EQ(verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, 1.7, 1.7})}).verdict,
             PathVerdict::proved);
-  // Nothing moves but what carries both: constant, whatever the first joint does.
+  // Only the joint that carries both rods moves, so their distance is constant.
   report = verifyPath(chain.problem, {joints({-3, 1.7, 1.7}), joints({3, 1.7, 1.7})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
   chain.problem.pairs = {{1, 3}};
   report = verifyPath(chain.problem, {joints({-3, 1.7, 1.7}), joints({3, 1.7, 1.7})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
   EXPECT_LE(report.distanceQueries, 5u);
-  // Without its pairs the same path isn't looked at.
+  // Without its pair the same path isn't tested.
   chain.problem.pairs.clear();
   EXPECT_EQ(verifyPath(chain.problem, {joints({-1, 0, 0}), joints({2, corner, corner})}).verdict,
             PathVerdict::proved);
 }
 
-// Beside the tip of a stretched arm, which the tubes of both turns move it to.
+// The obstacle is beside the tip of a stretched arm. Perturbations of both joints move the tip
+// towards it.
 TEST(VerifyChain, TubesOfJointsCount) {
   Chain chain(2, {{Vec3(1.9, 0.05 + 0.01, 0)}, 0, false});
   const std::vector<Configuration> path = {joints({0, 0}), joints({0, 0})};
   EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
-  // 1.9·τ + 0.9·τ of 0.01, and half of (1.95 + 3·0.95) τ²
+  // The perturbations take 1.9·τ + 0.9·τ of the 0.01, and half of (1.95 + 3·0.95) τ².
   chain.problem.tube = joints({0.00355, 0.00355});
   EXPECT_EQ(verifyPath(chain.problem, path).verdict, PathVerdict::proved);
   EXPECT_EQ(verifyPath(chain.problem, {path[0]}).verdict, PathVerdict::proved);
@@ -120,18 +122,17 @@ TEST(VerifyChain, TubesOfJointsCount) {
 }
 
 TEST(VerifyChain, WhatATubeDoesAcrossTheDirectionTakesNothing) {
-  // In front of a stretched arm, where turns within the tube move it sideways.
+  // The obstacle is in front of a stretched arm. Rotations within the tube move the arm sideways.
   Chain chain(2, boxPart(Vec3(1.952, -0.2, -0.2), Vec3(2.2, 0.2, 0.2)));
   chain.problem.tube = joints({0.001, 0.001});
   EXPECT_EQ(verifyPath(chain.problem, {joints({0, 0})}).verdict, PathVerdict::proved);
-  // A turn by 0.1 moves no end of the second rod by less than its radius times that, to second
-  // order.
+  // With a tube of 0.1 the bound's second-order term exceeds the gap of 0.002.
   chain.problem.tube = joints({0.1, 0.1});
   EXPECT_EQ(verifyPath(chain.problem, {joints({0, 0})}).verdict, PathVerdict::undecided);
 }
 
-// All joints turn about z, a millimetre above a table: their tubes of 30 mm at the tip are along
-// it. Beside a wall they take what there is.
+// All joints rotate about z, a millimetre above a table. Their tubes displace the tip by 30 mm, but
+// only along the table. Beside a wall the tubes take the clearance.
 TEST(VerifyChain, AnArmSlidesOverATableWithATube) {
   Chain chain(3, boxPart(Vec3(-4, -4, -1), Vec3(4, 4, -0.051)));
   chain.problem.tube = joints({0.01, 0.01, 0.01});
@@ -146,13 +147,13 @@ TEST(VerifyChain, AnArmSlidesOverATableWithATube) {
   beside.problem.tube = joints({0, 0, 0});
   EXPECT_EQ(verifyPath(beside.problem, along).verdict, PathVerdict::proved);
   EXPECT_EQ(verifyPath(beside.problem, {joints({0.01, 0.01, 0.01})}).verdict,
-            PathVerdict::refuted);  // a state within that tube
+            PathVerdict::refuted);  // a state within that tube touches
   beside.problem.tube = joints({0.003, 0.003, 0.003});
   EXPECT_EQ(verifyPath(beside.problem, along).verdict, PathVerdict::proved);
 }
 
-// A joint that turns back what the one before it turned: the hand stays level, and its far end
-// strays sideways only, as all of it.
+// One joint undoes the rotation of the joint before it. The hand keeps its direction, and
+// perturbations displace all of the hand, up to its far end, sideways only.
 TEST(VerifyChain, JointsThatFollowOneVariableStrayAsOne) {
   Chain chain(2, boxPart(Vec3(-2, -0.2, -0.2), Vec3(2, 0.948, 0.2)));
   chain.tree.frames[2].variable = 0;
@@ -206,7 +207,7 @@ TEST(VerifyChain, RandomPathsAgainstDenseSampling) {
   EXPECT_EQ(proved + refuted, paths);
 }
 
-/// Two meshes at rest.
+/// Verifies two fixed meshes.
 PathVerdict still(const TriangleMesh& a, bool solidA, const TriangleMesh& b, bool solidB) {
   const KinematicTree tree;
   const ConfigurationSpace space;
@@ -235,7 +236,8 @@ TEST(VerifyChain, SolidsHoldWhatIsInside) {
   EXPECT_EQ(still(large, true, small, false), PathVerdict::refuted);
   EXPECT_EQ(still(small, false, large, true), PathVerdict::refuted);
   EXPECT_EQ(still(far, true, small, true), PathVerdict::proved);
-  // One component inside, the other not; a cavity is no room, as any closed component is solid.
+  // One component is inside, the other is not. A cavity is solid, too, because any closed component
+  // is.
   EXPECT_EQ(still(large, true, both(far, small), false), PathVerdict::refuted);
   EXPECT_EQ(still(both(far, large), true, small, false), PathVerdict::refuted);
   TriangleMesh mirrored = large;
@@ -248,7 +250,7 @@ TEST(VerifyChain, ShellsThatMeetInACornerAreSolidsOfTheirOwn) {
   TriangleMesh inward = small;
   for (auto& t : inward.triangles) std::swap(t[0], t[1]);
   const auto crumb = [](double x) { return boxMesh(Vec3::Constant(x), Vec3::Constant(x + 0.1)); };
-  // Together they turn twice, or not at all, about what is in both.
+  // Together both shells wind twice, or not at all, round the points inside both.
   for (const TriangleMesh& inner : {small, inward}) {
     EXPECT_EQ(still(both(large, inner), true, crumb(1), false), PathVerdict::refuted);
     EXPECT_EQ(still(both(large, inner), true, crumb(3), false), PathVerdict::refuted);

@@ -1,4 +1,4 @@
-// Paths whose clearance is known in closed form, and random ones against dense sampling.
+// Paths with a clearance known in closed form, and random paths against dense sampling.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,11 +60,12 @@ TEST(VerifyPath, BoxPastAWall) {
     EXPECT_TRUE(report.findings.empty());
     EXPECT_NEAR(report.smallestDistanceMet, clearance, 1e-12);
     EXPECT_LE(report.provenClearance, clearance);
-    EXPECT_GE(report.provenClearance, (clearance < 0.1 ? 0.6 : 0.89) * clearance);  // the cap
+    // Refining ends at 90 % of the smallest distance met.
+    EXPECT_GE(report.provenClearance, (clearance < 0.1 ? 0.6 : 0.89) * clearance);
   }
 }
 
-/// Where the processor rounds otherwise no bound holds: every edge is undecided, for that reason.
+/// In a floating-point mode in which no bound holds, every edge is undecided, for that reason.
 TEST(VerifyPath, OtherArithmeticIsRefused) {
   World world(boxMesh(Vec3(-1, -1, -1), Vec3(1, 1, 1)), boxMesh(Vec3(-9, 2, -9), Vec3(9, 3, 9)));
   const Poses path = {poseOf(Vec3(-5, 0, 0)), poseOf(Vec3(0, 0, 0)), poseOf(Vec3(5, 0, 0))};
@@ -101,7 +102,7 @@ TEST(VerifyPath, ExactTouchingIsRefuted) {
   EXPECT_EQ(finding.gap, 0);
   EXPECT_EQ(finding.point.y(), 0.5);
   EXPECT_EQ(report.provenClearance, 0);
-  // It is what it says: exact, at the pose reported, between the triangles reported.
+  // The reported contact is exact at the reported pose, between the reported triangles.
   const auto corners = [](const TriangleMesh& mesh, std::uint32_t i) {
     return verify::Corners{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
   };
@@ -131,9 +132,9 @@ TEST(VerifyPath, OneStateIsCheckedAsItIs) {
   EXPECT_EQ(world.verify(Poses{poseOf({0.5 - 1e-6, 0, 0})}).verdict, PathVerdict::proved);
 }
 
-// A blade from the reference point to radius 1 turns past the point at radius 1 + gap, by an angle
-// that has the closest pose at an odd t. With a reach of half the truth this is proved at once, for
-// the middle pose is far from the point.
+// A blade of length 1 rotates past a point at radius 1 + gap. The closest pose is at a t that
+// bisection doesn't hit. The middle pose is far from the point: a verifier that took only half of
+// the reach weight R_j would wrongly prove paths with a negative gap at once.
 TEST(VerifyPath, BladePastAPoint) {
   for (const double angle : {0.31, 0.77, 1.9}) {
     for (const double gap : {1e-1, 1e-3, 1e-4, 1e-5, 1e-6, -1e-6, -1e-5, -1e-4, -1e-3, -1e-1}) {
@@ -143,11 +144,11 @@ TEST(VerifyPath, BladePastAPoint) {
                   oneTriangle(tip, tip + Vec3(0, 0, 1), tip + Vec3(0, 0, -1)));
       const PathReport report = world.verify(Poses{poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
       EXPECT_EQ(report.verdict, gap > 0 ? PathVerdict::proved : PathVerdict::undecided)
-          << angle << " " << gap;  // a segment meets a segment exactly at no rounded pose
-      // Given a width, the blade meets it.
+          << angle << " " << gap;  // at rounded poses two segments never meet exactly
+      // A blade with a width meets the point.
       World wide(boxMesh({0, -1e-3, -0.1}, {1, 1e-3, 0.1}), world.obstacle);
       const PathReport second = wide.verify(Poses{poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)});
-      // its corners reach sqrt(1 + 1e-6): 5e-7 further
+      // its corners reach sqrt(1 + 1e-6), 5e-7 farther
       EXPECT_EQ(second.verdict, gap > 6e-7 ? PathVerdict::proved : PathVerdict::refuted)
           << angle << " " << gap;
       if (gap > 0) {
@@ -159,8 +160,8 @@ TEST(VerifyPath, BladePastAPoint) {
 }
 
 TEST(VerifyPath, TranslationsOfAWideEdgeAreNotJumped) {
-  // The middle pose is 0.45 from the plate, which the body passes at a quarter of the way: half a
-  // bound would prove it.
+  // The middle pose is 0.45 from the plate, which the body passes at a quarter of the way. Half of
+  // the true motion bound would prove it.
   World world(boxMesh(Vec3(-0.005, 0, 0), Vec3(0.005, 0.01, 0.01)),
               boxMesh(Vec3(-0.47, -1, -1), Vec3(-0.46, 1, 1)));
   const PathReport report = world.verify(Poses{poseOf({-0.9, 0, 0}), poseOf({0.9, 0, 0})});
@@ -180,9 +181,32 @@ TEST(VerifyPath, ThinPlateIsNotJumped) {
   EXPECT_NEAR(report.findings[0].configuration[0], 3.33, 0.02);
 }
 
+// The blade rotates past a point 1e-12 beyond its tip, which cannot be decided, and then through a
+// box. The box refutes the edge, in whatever order the two obstacles come.
+TEST(VerifyPath, AnUndecidedPairHidesNoContact) {
+  const Vec3 tip = (1 + 1e-12) * Vec3(std::cos(0.77), std::sin(0.77), 0);
+  const TriangleMesh post = oneTriangle(tip, tip + Vec3(0, 0, 1), tip + Vec3(0, 0, -1));
+  const TriangleMesh plate = boxMesh({0.43, 0.52, -1}, {0.53, 0.62, 1});
+  const Poses path = {poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, 2.8)};
+  for (const bool postFirst : {true, false}) {
+    World world(oneTriangle({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}), postFirst ? post : plate);
+    world.problem.tolerance = 1e-5;
+    world.problem.fixed = {{"first", &world.obstacle}};
+    EXPECT_EQ(world.verify(path).verdict,
+              postFirst ? PathVerdict::undecided : PathVerdict::refuted);
+    world.problem.fixed.push_back({"second", postFirst ? &plate : &post});
+    const PathReport report = world.verify(path);
+    EXPECT_EQ(report.verdict, PathVerdict::refuted);
+    ASSERT_EQ(report.findings.size(), 1U);
+    EXPECT_EQ(report.findings[0].a, postFirst ? "second" : "first");
+    EXPECT_EQ(report.findings[0].reason, "contact");
+    EXPECT_EQ(report.edgesProved, 0);
+  }
+}
+
 TEST(VerifyPath, RodThroughASlot) {
-  // A plate with a square hole of edge 0.2 and a rod of 1 % play, that turns about its axis' normal
-  // by a little.
+  // A rod slides through a square hole of edge 0.2 in a plate, with 1 % play: first parallel to the
+  // axis of the hole, then slightly tilted.
   World world(boxMesh(Vec3(-1, -0.099, -0.099), Vec3(1, 0.099, 0.099)),
               boxMesh(Vec3(-0.05, 0.1, -1), Vec3(0.05, 1, 1)));
   const TriangleMesh below = boxMesh(Vec3(-0.05, -1, -1), Vec3(0.05, -0.1, 1));
@@ -195,8 +219,8 @@ TEST(VerifyPath, RodThroughASlot) {
   EXPECT_EQ(report.verdict, PathVerdict::proved);
   EXPECT_NEAR(report.smallestDistanceMet, 0.001, 1e-12);
   EXPECT_GE(report.provenClearance, 0.0006);
-  // Turned by 0.03 about y: inside the plate of half thickness 0.05 the rod rises by 0.05·tan 0.03
-  // > 0.001.
+  // Tilted by 0.03 about z, the rod rises by 0.05·tan 0.03 > 0.001 inside the plate, whose half
+  // thickness is 0.05.
   report = world.verify(
       Poses{poseOf({-3, 0, 0}, 0.03, Vec3::UnitZ()), poseOf({3, 0, 0}, 0.03, Vec3::UnitZ())});
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
@@ -229,16 +253,16 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
     world.problem.margin = margin;
     return world.verify(path).verdict;
   };
-  // Each of x, y, z may stray by it, but only y counts.
+  // The tube displaces x, y and z, but only y counts.
   EXPECT_EQ(verdict(0.249, 0, 0), PathVerdict::proved);
   EXPECT_EQ(verdict(0.25, 0, 0), PathVerdict::refuted);  // displaced by 0.25 it touches
-  // A turn by τ lifts the corner (1, 1, 1)/2 by sin τ/√2 − (1 − cos τ)/2, which the bound takes for
+  // A rotation by τ lifts the corner (1, 1, 1)/2 by sin τ/√2 − (1 − cos τ)/2. The bound for it is
   // τ/√2 + √0.75 τ²/2.
   EXPECT_EQ(verdict(0, 0.2985, 0), PathVerdict::proved);
   EXPECT_NE(verdict(0, 0.432, 0), PathVerdict::proved);
   EXPECT_EQ(verdict(0.049, 0.1, 0.12), PathVerdict::proved);
   EXPECT_NE(verdict(0.065, 0.1, 0.12), PathVerdict::proved);
-  // What is proved is said of the whole tube.
+  // The proved clearance holds for the whole tube.
   world.problem.tube = {0.1, 0};
   world.problem.margin = 0;
   const PathReport report = world.verify(path);
@@ -246,7 +270,7 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
   EXPECT_GE(report.provenClearance, 0.07);
 }
 
-// A planar tube doesn't reach out of the plane: what is above a floor stays above it.
+// A planar tube stays in the plane, so a body above a floor stays above it.
 TEST(VerifyPath, PlanarTubesDoNotRefuteThroughTheFloor) {
   const TriangleMesh floor = boxMesh({-9, -9, -1}, {9, 9, 0}),
                      wall = boxMesh({-9, 0.501, 0.1}, {9, 1, 1});
@@ -261,7 +285,7 @@ TEST(VerifyPath, PlanarTubesDoNotRefuteThroughTheFloor) {
 }
 
 TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
-  // From 3 to −3 through π: the blade never points to +x, where the obstacle is.
+  // From 3 to −3 through π, the blade never points to +x, where the first obstacle is.
   const TriangleMesh blade = boxMesh(Vec3(0, -0.01, -0.1), Vec3(1, 0.01, 0.1));
   World front(blade, boxMesh(Vec3(0.9, -0.1, -1), Vec3(1.1, 0.1, 1)));
   World back(blade, boxMesh(Vec3(-1.1, -0.01, -1), Vec3(-0.9, 0.01, 1)));
@@ -272,7 +296,7 @@ TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_NEAR(std::abs(report.findings[0].configuration[2]), kPi, 0.1);
-  // Out of range is the same angle.
+  // An angle out of range is the same angle.
   EXPECT_EQ(front.verify(Planar{{0, 0, 3 + 20 * kPi}, {0, 0, -3 - 8 * kPi}}).verdict,
             PathVerdict::proved);
   EXPECT_EQ(front.verify(Planar{{0, 0, 3}, {0, 0, 1}, {0, 0, -1}}).verdict, PathVerdict::refuted);
@@ -301,14 +325,14 @@ TEST(VerifyPath, HalfTurnsAreAmbiguous) {
                   Poses{poseOf({0, 0, 0}), poseOf({1, 0, 0}, kPi + offset, Vec3(1, 2, 3))})),
               "");
   }
-  // q and −q are one rotation.
+  // q and −q are the same rotation.
   RigidPose negative = poseOf({1, 0, 0}, 0.1);
   negative.q.coeffs() *= -2.5;
   EXPECT_EQ(world.verify(Poses{poseOf({0, 0, 0}), negative}).verdict, PathVerdict::proved);
 }
 
 TEST(VerifyPath, SlidingAlongAWallTakesNoMoreThanTheStates) {
-  // A gap of 1e-9, a hundredth of the tolerance, but nothing goes towards the wall.
+  // The gap of 1e-9 is a hundredth of the tolerance, but nothing moves towards the wall.
   World world(kCube, boxMesh(Vec3(-3, 0.5 + 1e-9, -1), Vec3(3, 2, 1)));
   const PathReport report = world.verify(Poses{poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
@@ -316,8 +340,8 @@ TEST(VerifyPath, SlidingAlongAWallTakesNoMoreThanTheStates) {
   EXPECT_LE(report.distanceQueries, 200u);
 }
 
-// A rod of 1 % play slides through its hole, tilting as it goes: the count of intervals goes with
-// the root of length over clearance, not with length over clearance.
+// A rod with 1 % play slides through its hole and tilts. The number of intervals must grow with the
+// root of length over clearance, not with length over clearance.
 TEST(VerifyPath, AnInsertionTakesFewIntervals) {
   World world(boxMesh(Vec3(-1, -0.099, -0.099), Vec3(1, 0.099, 0.099)),
               boxMesh(Vec3(-0.05, 0.1, -1), Vec3(0.05, 1, 1)));
@@ -330,7 +354,7 @@ TEST(VerifyPath, AnInsertionTakesFewIntervals) {
 }
 
 TEST(VerifyPath, GapUnderTheToleranceIsUndecided) {
-  // A blade of length 1 turns past a point that is 1e-12 beyond its tip.
+  // A blade of length 1 rotates past a point 1e-12 beyond its tip.
   const double angle = 0.77, r = 1 + 1e-12;
   const Vec3 tip(r * std::cos(angle), r * std::sin(angle), 0);
   World world(oneTriangle({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}),
@@ -356,7 +380,7 @@ TEST(VerifyPath, BadStatesAndProblems) {
     EXPECT_EQ(report.verdict, PathVerdict::refuted);
     ASSERT_EQ(report.findings.size(), 1u);
     EXPECT_EQ(report.findings[0].edge, 1);
-    EXPECT_EQ(report.findings[0].reason, "not a state");
+    EXPECT_EQ(report.findings[0].reason, "not a valid state");
   }
   EXPECT_THROW(world.verify(Poses{}), std::invalid_argument);
   world.problem.margin = -1;
@@ -371,7 +395,8 @@ TEST(VerifyPath, BadStatesAndProblems) {
   EXPECT_EQ(report.provenClearance, std::numeric_limits<double>::infinity());
 }
 
-/// Smallest distance over `samples` + 1 even poses, by checks of single states.
+/// Returns the smallest distance over `samples` + 1 evenly spaced poses, each verified as a single
+/// state.
 double sampledDistance(World& world, const RigidPose& from, const RigidPose& to, int samples) {
   double smallest = std::numeric_limits<double>::infinity();
   const Eigen::Quaterniond q0 = from.q.normalized(), q1 = to.q.normalized();
@@ -403,7 +428,7 @@ TEST(VerifyPath, RandomPathsAgainstDenseSampling) {
     if (sampled == 0) {
       EXPECT_EQ(report.verdict, PathVerdict::refuted) << i;
     }
-    // Reversed, it is the same curve.
+    // The reversed path is the same curve.
     EXPECT_EQ(world.verify(Poses{to, from}).verdict, report.verdict) << i;
   }
   EXPECT_GT(proved, paths / 10);

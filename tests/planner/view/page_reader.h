@@ -10,7 +10,7 @@
 
 namespace corridor::test {
 
-/// The data of a page, as a browser finds it.
+/// Reads the data of a page, as a browser does.
 class PageReader {
  public:
   explicit PageReader(const std::string& page)
@@ -27,7 +27,7 @@ class PageReader {
     }
   }
 
-  /// Of ["f4", offset, count] and the like.
+  /// Returns the array of an entry like ["f4", offset, count].
   template <class Number>
   std::vector<Number> array(const nlohmann::json& view) const {
     const std::string type = view.at(0);

@@ -1,4 +1,5 @@
-// Pieces of pages: nothing in a name or a mesh can end a script, an attribute or a template.
+// Text functions of pages: nothing in a name or a mesh can end a script, an attribute or a
+// template.
 #include "planner/view/page_text.h"
 
 #include <stdexcept>

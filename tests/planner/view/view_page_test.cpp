@@ -1,5 +1,5 @@
-// What a page shows is what the problem is: meshes, poses on Corridor's own edges, distances,
-// boxes, findings; whatever the names in it are.
+// A page shows the problem as it is: meshes, poses on Corridor's own edges, distances, boxes and
+// findings, whatever names it contains.
 #include "planner/view/view_page.h"
 
 #include <cmath>
@@ -24,7 +24,7 @@ Problem ownProblem(const std::string& name) {
   return readProblem(std::string(CORRIDOR_SOURCE_DIR "/problems/") + name);
 }
 
-/// A path of these states, verified.
+/// Returns a path of these states, verified.
 ViewedPath viewed(const Problem& problem, const Path& path) {
   ViewedPath result;
   result.solution.path = path;
@@ -33,7 +33,7 @@ ViewedPath viewed(const Problem& problem, const Path& path) {
   return result;
 }
 
-/// Straight from start to goal, by way of the middle.
+/// Returns a straight path from start to goal with a state between.
 Path straight(const Problem& problem) {
   return {problem.start, problem.space.interpolate(problem.start, problem.goals.at(0), 0.4),
           problem.goals.at(0)};
@@ -43,7 +43,7 @@ Vec3 vectorOf(const nlohmann::json& j) {
   return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
 }
 
-/// Of float's rounding: of lengths to `size`.
+/// Returns a bound of the rounding to float, for lengths up to `size`.
 double rounding(double size) {
   return 0x1p-22 * size + 1e-12;
 }
@@ -75,7 +75,7 @@ TEST(ViewPage, MeshesAreThoseOfTheProblem) {
       for (const std::uint32_t index : indices) ASSERT_LT(index, positions.size() / 3);
       std::size_t vertex = 0, corner = 0;
       for (const PlacedShape& shape : problem.bodies[b].shapes) {
-        if (!shape.mesh) break;  // curved ones are tessellated
+        if (!shape.mesh) break;  // curved shapes are tessellated
         const std::size_t first = vertex;
         for (const Vec3& p : shape.mesh->mesh.vertices) {
           for (int i = 0; i < 3; ++i)
@@ -93,7 +93,7 @@ TEST(ViewPage, MeshesAreThoseOfTheProblem) {
   EXPECT_LE(arms.json["meshes"].size() + 7, arms.json["bodies"].size()) << "two arms of one kind";
 }
 
-/// Far away floats are coarse: positions are told from near by.
+/// Floats are coarse far from the origin, so positions must be relative to a point near by.
 TEST(ViewPage, WhatIsFarAwayIsAsFine) {
   Problem problem = ownProblem("piano");
   const Vec3 far(3e6, -2e6, 1e5);
@@ -141,7 +141,7 @@ TEST(ViewPage, PosesAreThoseOfCorridorsEdges) {
     EXPECT_EQ(at.back(), 1);
     for (std::size_t i = 0; i < t.size(); ++i) {
       ASSERT_GE(at[i], i > 0 ? at[i - 1] : 0);
-      // t is a float: the pose is told of the double.
+      // The page's t is a float, while its pose was computed for the double.
       const std::vector<Transform> real = framePoses(
           problem.tree, problem.space.interpolate(path[edge[i]], path[edge[i] + 1], t[i]));
       std::size_t k = 0;
@@ -237,7 +237,7 @@ TEST(ViewPage, FindingsHaveTheirPlaces) {
   }
 }
 
-/// Of each level: every corner of the mesh is in one of its boxes, or in a leaf above.
+/// On each level every vertex of the mesh must be in one of its boxes, or in a leaf above.
 TEST(ViewPage, BoxesHoldTheirMeshOnEveryLevel) {
   const Problem problem = ownProblem("piano");
   const PageReader page(viewPage(problem, std::nullopt));

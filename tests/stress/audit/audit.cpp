@@ -12,25 +12,26 @@
 namespace corridor::audit {
 namespace {
 
-constexpr TreeKind kTrees[] = {TreeKind::wideObb, TreeKind::wideObb,          TreeKind::wideObb,
-                               TreeKind::wideObb, TreeKind::wideObb,          TreeKind::obb,
-                               TreeKind::obbGjk,  TreeKind::obbLinearProgram, TreeKind::obbEdgeFace,
-                               TreeKind::aabb,    TreeKind::sphere,           TreeKind::rss,
-                               TreeKind::kdop14,  TreeKind::kdop18,           TreeKind::kdop26};
-constexpr EdgeMethod kMethods[] = {EdgeMethod::certified, EdgeMethod::certified,
-                                   EdgeMethod::certified, EdgeMethod::adaptive,
+constexpr TreeKind kTrees[] = {
+    TreeKind::obb4,        TreeKind::obb4,      TreeKind::obb4,   TreeKind::obb4,
+    TreeKind::obb4,        TreeKind::obbBinary, TreeKind::obbGjk, TreeKind::obbLinearProgram,
+    TreeKind::obbEdgeFace, TreeKind::aabb,      TreeKind::sphere, TreeKind::rss,
+    TreeKind::kdop14,      TreeKind::kdop18,    TreeKind::kdop26};
+constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::directional,
+                                   EdgeMethod::directional, EdgeMethod::adaptive,
                                    EdgeMethod::advancement};
 constexpr int kGaps = 6;
 
-/// How a case is asked, and how far the two are apart at it. Work is in proportion to 1/√tolerance
-/// where bodies pass along each other, and more so by methods on distances. Elsewhere gap and
-/// tolerance may be so small that nothing but rounding is between free and contact.
+/// Chooses method, trees, tolerance and work limit of a case; returns its gap, metres, with this
+/// sign. The work grows as 1/√tolerance where bodies pass along each other, and faster for methods
+/// by distances: these get larger tolerances. Other cases may have a gap and a tolerance so small
+/// that only rounding separates free from contact.
 double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, Question& question) {
   MotionOptions& o = question.options;
   const double size = graze.size();
   o.trees = dice.of(std::span<const TreeKind>(kTrees));
-  question.method = fine ? EdgeMethod::certified : dice.of(std::span<const EdgeMethod>(kMethods));
-  const bool certified = question.method == EdgeMethod::certified;
+  question.method = fine ? EdgeMethod::directional : dice.of(std::span<const EdgeMethod>(kMethods));
+  const bool certified = question.method == EdgeMethod::directional;
   o.tolerance =
       std::max(4 * graze.rounding(), size * (certified ? dice.power(-7, -5) : dice.power(-4, -3)));
   o.workLimit = 100'000;
@@ -101,10 +102,10 @@ void Audit::make(long number) {
   question.rigidMotion = isRigidBody(edge) && dice.oneIn(2);
   MotionOptions& o = question.options;
   if (dice.oneIn(4)) o.margin = size * dice.power(-4, -0.5);
-  if (dice.oneIn(8)) o.reserve = size * dice.power(-8, -1);
+  if (dice.oneIn(8)) o.clearanceSlack = size * dice.power(-8, -1);
   o.earliest = dice.oneIn(3);
   if (question.inTube) setTube(dice, edge, size, question.rigidMotion);
-  const double keep = o.margin + o.reserve;
+  const double keep = o.margin + o.clearanceSlack;
   ++constructions_;
   const Graze graze(dice, edge, {size, keep, question.inTube});
   if (!graze.usable()) return;
@@ -121,13 +122,13 @@ void Audit::make(long number) {
     EXPECT_FALSE(truth.violates && truth.apart > keep) << "the audit contradicts itself: " << name;
     const Case c{edge, graze, rest, truth, question, name};
     ask(c, row);
-    // The verifier knows of no reserve.
-    if (o.reserve == 0 && dice.oneIn(plan_.verify)) verify(c, row);
+    // The verifier has no `clearanceSlack`: with one, its true verdict would be another.
+    if (o.clearanceSlack == 0 && dice.oneIn(plan_.verify)) verify(c, row);
   }
 }
 
-/// Each number's part of the tube: of one size for all lengths, of one for all angles, or 0; half
-/// of the time only one has any.
+/// Sets the tube's half width of each coordinate: one size for all lengths, one for all angles,
+/// some 0; half of the time all are 0 except one.
 void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
   const double position = size * dice.power(-9, -1), rotation = dice.power(-9, -1.5);
   const auto& coordinates = edge.space.coordinates();
@@ -137,7 +138,7 @@ void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
     const Coordinate& c = coordinates[i];
     const bool turns =
         std::any_of(edge.tree.frames.begin(), edge.tree.frames.end(), [&](const Frame& frame) {
-          return frame.joint == Frame::Joint::turn && frame.variable == c.first;
+          return frame.joint == Frame::Joint::revolute && frame.variable == c.first;
         });
     double& tube = edge.tube[static_cast<Eigen::Index>(c.first)];
     tube = turns || c.kind != Coordinate::Kind::line ? rotation : position;
@@ -152,7 +153,7 @@ void Audit::ask(const Case& c, const std::string& row) {
   if (r && r->verdict == MotionVerdict::free) answer = Table::free;
   if (r && r->verdict == MotionVerdict::contact) answer = Table::contact;
   if (r && r->reason == UndecidedReason::workLimit) answer = Table::atLimit;
-  const double keep = c.question.options.margin + c.question.options.reserve;
+  const double keep = c.question.options.margin + c.question.options.clearanceSlack;
   checker_.count(row, c.truth, keep, answer, !fault.empty());
   if (!fault.empty()) complain("checker", fault, c);
 }

@@ -8,24 +8,26 @@
 
 namespace corridor::audit {
 
-/// Makes cases, puts them to the checker and the verifier, judges the answers, and counts them.
+/// Makes cases, runs the checker and the verifier on them, compares the answers with the true
+/// verdicts, and counts them.
 class Audit {
  public:
   struct Plan {
-    bool states = false;                ///< edges of zero length
-    bool fine = false;                  ///< gaps and tolerances of the size of rounding only
-    std::size_t verify = 6;             ///< one case in so many is put to the verifier, too
-    std::optional<Family> family = {};  ///< only this one; else all by turns
-    Mode mode = Mode::usual;            ///< of floating point while a query runs
+    bool states = false;     ///< make states: edges of zero length
+    bool fine = false;       ///< only gaps and tolerances of the size of rounding errors
+    std::size_t verify = 6;  ///< the verifier gets one of this many cases; the checker all
+    std::optional<Family> family = {};  ///< make only this one; unset: all in turn
+    Mode mode = Mode::usual;            ///< floating-point mode while a query runs
   };
   Audit(std::uint64_t seed, const Plan& plan);
 
-  /// Puts `count` cases to the checker. With CORRIDOR_AUDIT_CASE, a number that a failure prints,
-  /// only the six cases of that construction.
+  /// Runs the checker on `count` cases. If CORRIDOR_AUDIT_CASE is set to a number that a failure
+  /// printed, runs only the six cases of that construction.
   void run(long count);
-  /// Prints the tables, and fails the test where an answer was wrong.
+  /// Prints the tables. Fails the test if an answer was wrong.
   void report(const std::string& title) const;
-  /// Fails the test where too few cases were known or decided: silence is no agreement.
+  /// Fails the test if the true verdict is known for too few cases, or if too few cases are
+  /// decided: an audit in which everything is undecided would find nothing.
   void expectDecided() const;
 
  private:
@@ -43,11 +45,11 @@ class Audit {
   int complaints_ = 0;
 };
 
-/// The dice of a case: each has its own, so that it can be repeated alone.
+/// Returns the random numbers of one construction: each has its own, so it can be repeated alone.
 Dice diceOf(std::uint64_t seed, long number);
 
-/// `normally`, or `stress` with CORRIDOR_STRESS; fewer where the build is slow.
-/// CORRIDOR_AUDIT_COUNT sets another count for all tests.
+/// Returns the number of cases of a test: `normally`, or `stress` if CORRIDOR_STRESS is set,
+/// divided by the slowdown of sanitizers. CORRIDOR_AUDIT_COUNT replaces it, for all tests.
 long countOf(long normally, long stress);
 
 }  // namespace corridor::audit

@@ -1,5 +1,5 @@
-// The audit: bodies that graze by construction, whose verdict is known in 128 bits, put to the
-// checker and the verifier. ../README.md says what is in it.
+// The audit: the checker and the verifier decide bodies that graze by construction, whose true
+// verdict is known in 128 bits. ../README.md describes it.
 #include "tests/stress/audit/audit.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ TEST(Audit, States) {
   audit.expectDecided();
 }
 
-/// Bodies that stick in each other by no more than poses are rounded: only the bounds of the
-/// rounding are between a proof and a contact.
+/// Bodies penetrate by no more than the rounding of poses: an error bound that is too small would
+/// prove them free.
 TEST(Audit, DepthsOfRounding) {
   for (const bool states : {false, true}) {
     Audit audit(9, {.states = states, .fine = true, .verify = 20});
@@ -31,8 +31,8 @@ TEST(Audit, DepthsOfRounding) {
   }
 }
 
-/// Values of circles of up to 10^25 rad, as `from`, as `to`, as both: where they are so large that
-/// rounding decides which way is the shorter one, no answer but `undecided` is right.
+/// Angles of continuous joints up to 10^25 rad, as `from`, as `to`, as both. Where rounding decides
+/// which way round is the shorter one, only `undecided` is right.
 TEST(Audit, LargeValuesOfCircles) {
   for (const bool states : {false, true}) {
     Audit audit(3, {.states = states, .verify = 1, .family = Family::largeCircles});
@@ -41,7 +41,7 @@ TEST(Audit, LargeValuesOfCircles) {
   }
 }
 
-/// Floating point in another mode while the query runs: an answer is right, or it is a refusal.
+/// Queries run in another floating-point mode: each answer must be right or a refusal.
 /// Flush-to-zero is no reason to refuse.
 class Modes : public testing::TestWithParam<Mode> {};
 

@@ -1,5 +1,5 @@
-// What certificates may not claim, and edges that are none: forged evidence, half turns, a body
-// inside a solid, mimics beyond the seam of a circle. ../README.md says what is in it.
+// Tests of certificates that must be refused, and of edges that have no proof: forged certificates,
+// half turns, a body inside a solid, mimics over the seam of a circle. ../README.md describes them.
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -16,12 +16,12 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr EdgeMethod kMethods[] = {EdgeMethod::certified, EdgeMethod::adaptive,
+constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::adaptive,
                                    EdgeMethod::advancement};
 
-/// Whatever evidence claims: where the two are closer than the margin, it is not accepted. (Of what
-/// a claim says beyond the margin, half is proved.) And what the query itself says of a free edge
-/// is.
+/// A certificate is refused wherever the bodies are closer than the margin, whatever clearance it
+/// claims. (`checkCertificate` proves the margin plus half of the claim beyond it.) At least nine
+/// in ten certificates of free edges, as the query returns them, are accepted.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   const std::uint64_t seed = test::testSeed(5);
   const long count = countOf(500, 50'000);
@@ -43,13 +43,13 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
     o.tolerance = std::max(1e-7 * size, 4 * graze.rounding());
     o.workLimit = 100'000;
     for (const double sign : {-1.0, 1.0}) {
-      // Up to all of the margin is missing, or something sticks in something.
+      // Up to 0.9 of the margin is missing, or the bodies penetrate.
       const double gap = sign * std::max(size * dice.power(-4, -1), dice.real(0, 0.9) * keep);
       Truth truth;
       const Shape rest = graze.rest(gap, truth);
       const Case c{edge,  graze,    rest,
                    truth, question, nameOf(family) + ", number " + std::to_string(number)};
-      const Evidence answer = askForEvidence(c);
+      const Certificate answer = askForEvidence(c);
       if (answer.result.verdict == MotionVerdict::free) {
         ++honest;
         accepted += answer.accepted;
@@ -74,7 +74,8 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   EXPECT_GE(static_cast<double>(accepted), 0.9 * static_cast<double>(honest));
 }
 
-/// Half turns within 1e-9 rad: no edge, whatever is far away.
+/// A rotation within 1e-9 rad of a half turn has no defined direction: neither checker nor verifier
+/// may decide it, even if all bodies are far apart.
 TEST(Certificates, HalfTurnsAreNoEdges) {
   const std::uint64_t seed = test::testSeed(6);
   const long count = countOf(1'000, 50'000);
@@ -84,12 +85,12 @@ TEST(Certificates, HalfTurnsAreNoEdges) {
     Edge edge;
     Frame shift, turn;
     const bool planar = dice.oneIn(2);
-    shift.joint = Frame::Joint::shift;
+    shift.joint = Frame::Joint::translation;
     shift.variable = 0;
     shift.count = planar ? 2 : 3;
     for (std::size_t k = 0; k < shift.count; ++k) edge.space.add({});
     turn.parent = edge.tree.add(shift);
-    turn.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+    turn.joint = planar ? Frame::Joint::revolute : Frame::Joint::rotation;
     turn.variable = shift.count;
     Coordinate last;
     last.kind = planar ? Coordinate::Kind::circle : Coordinate::Kind::rotation;
@@ -125,11 +126,11 @@ TEST(Certificates, HalfTurnsAreNoEdges) {
   }
   EXPECT_EQ(free, 0) << "half turns that the checker decides";
   EXPECT_EQ(proved, 0) << "half turns that the verifier proves";
-  EXPECT_EQ(accepted, 0) << "half turns for which evidence is accepted";
+  EXPECT_EQ(accepted, 0) << "half turns for which certificate is accepted";
 }
 
-/// A small body all through an edge inside a solid box: surfaces stay apart, and no certificate
-/// holds.
+/// A small body stays inside a solid box along the edge. The surfaces stay apart, but it is not
+/// free.
 TEST(Certificates, NothingIsFreeInsideASolid) {
   Dice dice = diceOf(test::testSeed(7), 0);
   int free = 0, accepted = 0;
@@ -145,13 +146,13 @@ TEST(Certificates, NothingIsFreeInsideASolid) {
     KinematicTree tree;
     ConfigurationSpace space;
     Frame shift;
-    shift.joint = Frame::Joint::shift;
+    shift.joint = Frame::Joint::translation;
     shift.variable = 0;
     shift.count = 3;
     for (int k = 0; k < 4; ++k) space.add({});
     Frame turn;
     turn.parent = tree.add(shift);
-    turn.joint = Frame::Joint::turn;
+    turn.joint = Frame::Joint::revolute;
     turn.variable = 3;
     tree.add(turn);
     EdgeMotion motion(tree, space, scene.framePairs(), Configuration::Zero(4));
@@ -165,17 +166,18 @@ TEST(Certificates, NothingIsFreeInsideASolid) {
     QueryContext context;
     for (const EdgeMethod method : kMethods)
       free += scene.certify(motion, options, context, method).verdict == MotionVerdict::free;
-    MotionEvidence forged;
+    MotionCertificate forged;
     forged.free.push_back({0, 0, 1, 0.1});
     accepted +=
-        !checkEvidence(motion, scene.motionPairs(), options, 1, forged, context).has_value();
+        !checkCertificate(motion, scene.motionPairs(), options, 1, forged, context).has_value();
   }
   EXPECT_EQ(free, 0) << "free inside a solid";
-  EXPECT_EQ(accepted, 0) << "evidence accepted inside a solid";
+  EXPECT_EQ(accepted, 0) << "certificate accepted inside a solid";
 }
 
-/// A joint that follows a circle by a fraction doesn't come round with it: an edge over the seam
-/// has no motion that ends in its last state, which touches. Short of the seam it is like a line.
+/// A joint that mimics a circle by a fraction does not return with it. If the circle passes its
+/// seam, no motion ends in the edge's last state, in which the bodies touch: so the edge must not
+/// be free. An edge that does not pass the seam is decided as usual.
 TEST(Certificates, MimicsOverTheSeamOfACircle) {
   const std::uint64_t seed = test::testSeed(8);
   const long count = countOf(1'000, 50'000);
@@ -188,13 +190,13 @@ TEST(Certificates, MimicsOverTheSeamOfACircle) {
     circle.kind = Coordinate::Kind::circle;
     edge.space.add(circle);
     Frame leader, follower;
-    leader.joint = Frame::Joint::turn;
+    leader.joint = Frame::Joint::revolute;
     leader.axis = dice.vector();
     leader.variable = 0;
     const bool both = dice.oneIn(2);
     if (both) follower.parent = edge.tree.add(leader);
     follower.fixed.p = dice.vector();
-    follower.joint = dice.oneIn(3) ? Frame::Joint::slide : Frame::Joint::turn;
+    follower.joint = dice.oneIn(3) ? Frame::Joint::prismatic : Frame::Joint::revolute;
     follower.axis = dice.vector();
     follower.variable = 0;
     follower.multiplier = dice.oneIn(2) ? 0.5 : dice.real(-2.5, 2.5);

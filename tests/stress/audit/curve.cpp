@@ -50,8 +50,9 @@ void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted, const 
                ? circleWay(edge.from[i], edge.to[i])
                : Quad(edge.to[i]) - Quad(edge.from[i]);
   };
-  if (f.joint == Frame::Joint::turn || f.joint == Frame::Joint::slide) {
-    // multiplier·q fits into 106 bits; the sum with the offset is kept whole until turns are off.
+  if (f.joint == Frame::Joint::revolute || f.joint == Frame::Joint::prismatic) {
+    // multiplier·q is exact in 106 bits. The sum with the offset stays exact until whole
+    // revolutions are removed.
     Twofold value{f.offset, 0};
     if (!held) {
       value = sum(Quad(f.multiplier) * edge.from[first], f.offset);
@@ -61,7 +62,7 @@ void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted, const 
     }
     const Quad aside = held ? Quad(0) : f.multiplier * strayOf(f.variable);
     const auto way = static_cast<double>(magnitude(e.way));
-    if (f.joint == Frame::Joint::turn) {
+    if (f.joint == Frame::Joint::revolute) {
       e.value = withoutTurns(value) + aside;
       turned_ += way;
       turning_ += e.way != 0;
@@ -71,7 +72,7 @@ void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted, const 
       length_ += static_cast<double>(magnitude(e.value)) + way;
     }
   }
-  if (f.joint == Frame::Joint::shift && !held) {
+  if (f.joint == Frame::Joint::translation && !held) {
     for (std::size_t k = 0; k < f.count; ++k) {
       e.shift[k] = edge.from[first + static_cast<Eigen::Index>(k)] + strayOf(f.variable + k);
       e.shiftWay[k] = wayOf(f.variable + k);
@@ -80,7 +81,7 @@ void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted, const 
     slid_ += way;
     length_ += static_cast<double>(audit::length(e.shift)) + way;
   }
-  if (f.joint == Frame::Joint::rotate && !held) {
+  if (f.joint == Frame::Joint::rotation && !held) {
     e.q0 = normalised(edge.from.data() + first);
     e.q1 = normalised(edge.to.data() + first);
     Quad product = 0, less = 0, more = 0;

@@ -7,44 +7,48 @@
 
 namespace corridor::audit {
 
-/// An edge as plain data, and the two frames whose bodies may meet.
+/// An edge as plain data, and the two frames that carry the bodies.
 struct Edge {
   KinematicTree tree;
   ConfigurationSpace space;
   Configuration from, to;
-  Configuration tube;                 ///< as EdgeMotion takes it; mostly zero
+  Configuration tube;                 ///< as `EdgeMotion` takes it; mostly zero
   std::size_t first = 0, second = 0;  ///< frames
 };
 
-/// A stray from a curve: what is added to each number of a configuration. A rotation's first three
-/// numbers are a rotation vector, about which it turns besides.
+/// A perturbation of a curve: what is added to each number of its configurations. For a rotation
+/// the first three numbers are a rotation vector, applied after it.
 using Stray = std::vector<Quad>;
 
-/// The motion of one frame as seen from another along an edge, by the definition of an edge:
-/// numbers linear in t, circles the shorter way of the real difference modulo 2π, rotations by
-/// slerp of the quaternions normalised, the shorter arc; joints follow by multiplier·q + offset.
+/// The motion of one frame as seen from another along an edge. It follows the definition of an
+/// edge:
+/// - lines: linear in t;
+/// - circles: linear in t, the shorter way round, of the exact difference modulo 2π;
+/// - rotations: slerp of the normalised quaternions along the shorter arc;
+/// - a joint's value: multiplier·q + offset.
 template <class S>
 class Curve {
  public:
   /// @param stray  empty: none.
   Curve(const Edge& edge, std::size_t watcher, std::size_t watched, const Stray& stray = {});
-  /// The same curve with fewer digits.
+  /// Copies a curve into another number type, of fewer digits.
   template <class Other>
   explicit Curve(const Curve<Other>& other);
 
-  /// The map from the watched frame to the watcher's.
+  /// Returns the map from the watched frame to the watcher's at t.
   Pose<S> at(S t) const;
 
-  /// Bounds for points of the watched frame at most `radius` from its origin: |x'| and |x''|. With
-  /// Ω the sum of all turns, V of all slides and R of all lengths: ΩR + V, and Ω²R + 2ΩV.
+  /// Return bounds of |x'| and |x''| for points x of the watched frame within `radius` of its
+  /// origin. With Ω the sum of all rotations, V of all translations, and R of all lengths (`radius`
+  /// included), these are ΩR + V and Ω²R + 2ΩV.
   double speed(double radius) const { return turned_ * (length_ + radius) + slid_; }
   double bend(double radius) const { return turned_ * (speed(radius) + slid_); }
-  double turned() const { return turned_; }    ///< rad, of all joints
-  double length() const { return length_; }    ///< m, no less than the way through all joints
-  double largest() const { return largest_; }  ///< rad, of any joint's values as stored
-  /// Where only one joint turns, all accelerations are at a right angle to its axis.
+  double turned() const { return turned_; }    ///< Ω, rad
+  double length() const { return length_; }    ///< m; bounds the chain's length at every t
+  double largest() const { return largest_; }  ///< the largest stored value of a joint, rad or m
+  /// Returns whether a single joint rotates: then all accelerations are orthogonal to its axis.
   bool oneTurn() const { return turning_ == 1; }
-  /// The axis of it at t, in the watcher's frame; unit.
+  /// Returns the unit axis of the first joint that rotates, at t, in the watcher's frame.
   Vec<S> axisAt(S t) const;
 
   std::size_t joints() const { return elements_.size(); }
@@ -57,22 +61,22 @@ class Curve {
     Frame::Joint joint = Frame::Joint::none;
     bool inverted = false;
     Pose<S> fixed;
-    Vec<S> axis;           // of a turn or slide
-    S value = 0, way = 0;  // of a turn or slide at t = 0, and in all
+    Vec<S> axis;           // axis of a rotation, or direction of a translation
+    S value = 0, way = 0;  // its value at t = 0, and the change over the edge
     Vec<S> shift, shiftWay;
     std::array<S, 4> q0{}, q1{};
     S omega = 0, sineOfOmega = 0;
-    Mat<S> stray;  // of a rotation, before it
+    Mat<S> stray;  // perturbation of a rotation: multiplied from the left
   };
   Pose<S> poseOf(const Element& e, S t) const;
   void add(const Edge& edge, std::size_t frame, bool inverted, const Stray& stray);
 
-  std::vector<Element> elements_;  // from the watcher to the watched
+  std::vector<Element> elements_;  // from the frame `watcher` to the frame `watched`
   double turned_ = 0, slid_ = 0, length_ = 0, largest_ = 0;
   int turning_ = 0;
 };
 
-/// How far a circle goes from one value to another, the shorter way; exact to 33 digits.
+/// Returns the change of a circle from one value to another, the shorter way round, to 33 digits.
 Quad circleWay(double from, double to);
 
 template <class S>
@@ -107,18 +111,18 @@ Pose<S> Curve<S>::poseOf(const Element& e, S t) const {
   switch (e.joint) {
     case Frame::Joint::none:
       break;
-    case Frame::Joint::turn: {
+    case Frame::Joint::revolute: {
       const S phi = e.value + t * e.way;
       joint.R = turnAbout(e.axis, sine(phi), cosine(phi));
       break;
     }
-    case Frame::Joint::slide:
+    case Frame::Joint::prismatic:
       joint.p = e.axis * (e.value + t * e.way);
       break;
-    case Frame::Joint::shift:
+    case Frame::Joint::translation:
       joint.p = e.shift + e.shiftWay * t;
       break;
-    case Frame::Joint::rotate: {
+    case Frame::Joint::rotation: {
       const bool turns = e.sineOfOmega > 0;
       const S a = turns ? sine((1 - t) * e.omega) / e.sineOfOmega : 1 - t;
       const S b = turns ? sine(t * e.omega) / e.sineOfOmega : t;
@@ -143,9 +147,9 @@ Vec<S> Curve<S>::axisAt(S t) const {
   Pose<S> X;
   for (const Element& e : elements_) {
     const Pose<S> own = poseOf(e, t);
-    if (e.joint == Frame::Joint::turn && e.way != 0)
+    if (e.joint == Frame::Joint::revolute && e.way != 0)
       return e.inverted ? X.R * e.axis : (X * e.fixed).R * e.axis;
-    if (e.joint == Frame::Joint::rotate && e.omega > 0) {
+    if (e.joint == Frame::Joint::rotation && e.omega > 0) {
       // The vector part of q1·q0⁻¹, in the frame after `fixed`: w0 v1 − w1 v0 − v1 × v0.
       const Vec<S> v0(e.q0[0], e.q0[1], e.q0[2]), v1(e.q1[0], e.q1[1], e.q1[2]);
       const Vec<S> k = e.stray * unit(v1 * e.q0[3] - v0 * e.q1[3] - cross(v1, v0));

@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 using Kind = Coordinate::Kind;
 
-/// Makes trees and the edges on them, a coordinate at a time.
+/// Makes kinematic trees and edges in their configuration spaces, one coordinate at a time.
 struct Maker {
   explicit Maker(Dice& d) : dice(d) {}
 
@@ -67,14 +67,14 @@ struct Maker {
     f.axis = dice.oneIn(3) ? Vec3(Vec3::Unit(static_cast<Eigen::Index>(dice.index(3))))
                            : Vec3(dice.power(-2, 2) * dice.vector());
     if (dice.oneIn(3)) {
-      f.joint = Frame::Joint::slide;
+      f.joint = Frame::Joint::prismatic;
       f.variable = line(slideAt * scale, std::min(step, 3.0) * scale);
     } else {
-      f.joint = Frame::Joint::turn;
+      f.joint = Frame::Joint::revolute;
       f.variable = circles && dice.oneIn(3) ? circle() : line(valueAt, step);
     }
-    if (dice.oneIn(10)) {  // held
-      f.offset = dice.real(-3, 3) * (f.joint == Frame::Joint::slide ? scale : 1);
+    if (dice.oneIn(10)) {  // held at a constant value
+      f.offset = dice.real(-3, 3) * (f.joint == Frame::Joint::prismatic ? scale : 1);
       f.variable = Frame::noVariable;
     }
     return edge.tree.add(f);
@@ -82,7 +82,7 @@ struct Maker {
   std::size_t base(std::size_t parent, bool planar, double far = 0) {
     Frame shift = far > 0 ? place(parent, far) : Frame{};
     shift.parent = parent;
-    shift.joint = Frame::Joint::shift;
+    shift.joint = Frame::Joint::translation;
     shift.count = planar ? 2 : 3;
     for (std::size_t k = 0; k < shift.count; ++k) {
       const std::size_t n = line(slideAt * 2 * scale, step * scale);
@@ -90,7 +90,7 @@ struct Maker {
     }
     Frame turn;
     turn.parent = edge.tree.add(shift);
-    turn.joint = planar ? Frame::Joint::turn : Frame::Joint::rotate;
+    turn.joint = planar ? Frame::Joint::revolute : Frame::Joint::rotation;
     turn.variable = planar ? circle() : rotation();
     return edge.tree.add(turn);
   }
@@ -98,8 +98,7 @@ struct Maker {
     for (; count > 0; --count) parent = single(parent);
     return parent;
   }
-  /// A joint that follows another single joint: a line by any multiplier, a circle that turns by a
-  /// whole one.
+  /// Adds a joint that mimics another joint: a line with any multiplier, a circle with a whole one.
   std::size_t follower(std::size_t parent) {
     Frame f = place(parent, 0.7 * scale);
     f.axis = dice.vector();
@@ -110,24 +109,24 @@ struct Maker {
     }
     const double whole[] = {-1, 1, -2, 2, 3, -3};
     if (!around.empty() && (lines.empty() || dice.oneIn(2))) {
-      f.joint = Frame::Joint::turn;
+      f.joint = Frame::Joint::revolute;
       f.variable = dice.of(std::span<const std::size_t>(around));
       f.multiplier = dice.of(std::span<const double>(whole));
     } else {
-      f.joint = dice.oneIn(3) ? Frame::Joint::slide : Frame::Joint::turn;
+      f.joint = dice.oneIn(3) ? Frame::Joint::prismatic : Frame::Joint::revolute;
       f.variable = dice.of(std::span<const std::size_t>(lines));
       f.multiplier = dice.oneIn(4) ? -1 : dice.oneIn(4) ? 0.5 : dice.real(-2.5, 2.5);
-      if (f.joint == Frame::Joint::slide) f.multiplier *= scale;
+      if (f.joint == Frame::Joint::prismatic) f.multiplier *= scale;
     }
-    if (dice.oneIn(2)) f.offset = dice.real() * (f.joint == Frame::Joint::slide ? scale : 1);
+    if (dice.oneIn(2)) f.offset = dice.real() * (f.joint == Frame::Joint::prismatic ? scale : 1);
     return edge.tree.add(f);
   }
-  void onlyTurns(std::size_t count) {  // that are circles
+  void onlyTurns(std::size_t count) {  // a chain of continuous joints
     std::size_t parent = 0;
     for (; count > 0; --count) {
       Frame f = place(parent, 0.7 * scale);
       f.axis = dice.vector();
-      f.joint = Frame::Joint::turn;
+      f.joint = Frame::Joint::revolute;
       f.variable = circle();
       parent = edge.tree.add(f);
     }
@@ -226,17 +225,17 @@ Edge randomEdge(Dice& dice, Family family, bool still, double& size) {
     case Family::offsets: {
       Frame far;
       far.fixed.p = dice.power(2, 6) * dice.vector();
-      if (dice.oneIn(2)) {  // two bodies that meet far from the world's origin
+      if (dice.oneIn(2)) {  // two moving bodies that meet far from the world's origin
         m.edge.first = m.base(0, dice.oneIn(2));
         m.edge.second = m.base(0, dice.oneIn(2));
         far.fixed.p[2] = 0;
         for (const Frame& f : m.edge.tree.frames)
-          for (std::size_t k = 0; f.joint == Frame::Joint::shift && k < f.count; ++k)
+          for (std::size_t k = 0; f.joint == Frame::Joint::translation && k < f.count; ++k)
             for (std::vector<double>* state : {&m.from, &m.to})
               (*state)[f.variable + k] += far.fixed.p[static_cast<Eigen::Index>(k)];
         break;
       }
-      if (dice.oneIn(2)) {  // the bodies are far from their frames, and meet far from the world's
+      if (dice.oneIn(2)) {  // large translations: the bodies meet far from the world's origin
         m.slideAt = dice.power(2, 5);
         m.anything();
       } else {  // the robot is far from the world's origin
@@ -255,12 +254,12 @@ Edge randomEdge(Dice& dice, Family family, bool still, double& size) {
     case Family::reachingArm: {
       bodies = 0.2;
       Frame turn = m.place(0, 0.7), slide;
-      turn.joint = Frame::Joint::turn;
+      turn.joint = Frame::Joint::revolute;
       turn.variable = m.line(3, 0);
       slide.parent = m.edge.tree.add(turn);
-      slide.joint = Frame::Joint::slide;
+      slide.joint = Frame::Joint::prismatic;
       slide.fixed.p = Vec3(dice.real(1, 3), 0, dice.real());
-      slide.axis = Vec3(1, 0, dice.real());  // away from the turn's axis
+      slide.axis = Vec3(1, 0, dice.real());  // away from the axis of rotation
       slide.variable = m.line(1, 2);
       m.edge.second = m.edge.tree.add(slide);
       break;
@@ -285,7 +284,7 @@ Edge randomEdge(Dice& dice, Family family, bool still, double& size) {
 
 bool isRigidBody(const Edge& edge) {
   return edge.first == 0 && edge.second == 2 && edge.tree.frames.size() == 3 &&
-         edge.tree.frames[1].joint == Frame::Joint::shift &&
+         edge.tree.frames[1].joint == Frame::Joint::translation &&
          edge.tree.frames[1].fixed.p.isZero(0) &&
          edge.tree.frames[1].fixed.q.coeffs() == Eigen::Vector4d(0, 0, 0, 1);
 }

@@ -6,21 +6,22 @@
 namespace corridor::audit {
 namespace {
 
-/// Looks at poses until a case is given up: most need some hundred and some fifty.
+/// The maximum number of poses that are evaluated, in long double and in 128 bits, before a case is
+/// given up. Most cases need about a hundred in long double, and about fifty in 128 bits.
 constexpr int kLooks = 4000, kQuadLooks = 250;
-/// Intervals shorter than this are left to 128 bits.
+/// Intervals shorter than this are evaluated in 128 bits.
 constexpr long double kShort = 0x1p-14L;
 
 Vec<Quad> randomUnit(Dice& dice) {
   return unit(Vec<Quad>(dice.vector()));
 }
 
-/// The point on the line through p along d (not unit) closest to x, from 0 at p to 1 at p + d.
+/// Returns the parameter of the closest point to x on the line from p (0) to p + d (1).
 Quad closestOn(const Vec<Quad>& p, const Vec<Quad>& d, const Vec<Quad>& x) {
   return dot(x - p, d) / dot(d, d);
 }
 
-/// Does the segment cross the triangle, by more than 128 bits round?
+/// Returns whether the segment crosses the triangle, by more than the rounding of 128 bits.
 bool crossesTriangle(const Vec<Quad>& from, const Vec<Quad>& to, const std::array<Vec<Quad>, 3>& t,
                      double scale) {
   const Vec<Quad> n = unit(cross(t[1] - t[0], t[2] - t[0]));
@@ -77,11 +78,12 @@ Graze::Look<S> Graze::look(const Curve<S>& curve, const Shape& rest, S t) const 
   return l;
 }
 
-/// No less than this apart between two times: the lesser of the two, less f''·w²/8, where f'' is
-/// the largest that the second derivative may be. Height of a point along a fixed direction: f'' ≤
-/// bend. Distance |y| of two points, or of a point from a line: f'' ≤ bend + |y'|²/|y|. Distance
-/// n·y of two lines, n = u/|u|, u the cross product of unit vectors, so that |u'| ≤ Ω and |u''| ≤
-/// Ω²: with s = |u|, |n'| ≤ Ω/s and |n''| ≤ Ω²/s + 3Ω²/s².
+/// Returns a lower bound of the bodies' distance between two times w apart: the smaller of both
+/// distances minus f''·w²/8, where f'' bounds the second derivative:
+/// - height of a point along a fixed direction: f'' ≤ bend;
+/// - distance |y| of two points, or of a point from a line: f'' ≤ bend + |y'|²/|y|;
+/// - distance n·y of two lines: n = u/|u|, u the cross product of their unit vectors, |u'| ≤ Ω,
+///   |u''| ≤ Ω²; with s = |u| follow |n'| ≤ Ω/s and |n''| ≤ Ω²/s + 3Ω²/s².
 template <class S>
 S Graze::boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) const {
   const S w = b.t - a.t;
@@ -117,7 +119,7 @@ void Graze::proveHeights() {
     lowest_ = static_cast<double>(std::max(first.flat, first.along)) - 1e-30 * scale;
     return;
   }
-  // Out of the rounding of long double, and above the plane.
+  // First in long double: intervals whose height is above the plane by more than its rounding.
   const Curve<long double> rough(*curve_);
   const long double error = 0x1p-57L * scale * static_cast<long double>(rough.joints() + 2);
   using Rough = Look<long double>;
@@ -134,7 +136,7 @@ void Graze::proveHeights() {
     last = next;
   }
   long double lowest = HUGE_VALL;
-  if (curve_->speed(std::max(tip_.reach, base_.reach)) < 1e-3 * size_) {  // all of it is close
+  if (curve_->speed(std::max(tip_.reach, base_.reach)) < 1e-3 * size_) {  // all is close
     open.clear();
     close.emplace_back(0, 1);
   }
@@ -176,7 +178,7 @@ void Graze::proveHeights() {
       }
       if (++looks > kQuadLooks) return;
       const Look<Quad> middle = look(*curve_, base_, (part.a.t + part.b.t) / 2);
-      // It comes closer than at `time_`: that is to be proved then.
+      // The bodies are closer here than at `time_`: the bound to prove is lowered to this distance.
       const Quad met = std::max(middle.flat, middle.along) - 1e-15 * size_;
       enough = std::min(enough, met);
       parts128.push_back({middle, part.b});
@@ -186,7 +188,8 @@ void Graze::proveHeights() {
   lowest_ = static_cast<double>(least) - 1e-30 * scale;
 }
 
-/// The plane's normal at the touching point, in the rest's frame.
+/// Chooses the plane's normal at the meeting point, in the rest's frame, so that the tip meets the
+/// plane as `meeting` says. Returns false if the edge can't meet it so.
 bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
   const Vec<Quad> x(touch_);
   const Quad e = Quad(1e-9) / std::max(1.0, curve_->turned());
@@ -200,7 +203,7 @@ bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
   switch (meeting) {
     case Meeting::along:
       normal_ = unit(normal_ - forward * dot(forward, normal_));
-      if (dice.oneIn(4)) {  // straight against what it curves around
+      if (dice.oneIn(4)) {  // along the normal part of the acceleration
         const Vec<Quad> in = bent - forward * dot(forward, bent);
         if (dot(in, in) > 0) normal_ = unit(in);
       }
@@ -221,7 +224,8 @@ bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
   return true;
 }
 
-/// The corner of the edge's tube at which the tip is lowest at `time_`, to first order.
+/// Replaces the curve by the one at the corner of the edge's tube where the tip is lowest at
+/// `time_`, to first order.
 void Graze::strayToWorst(const Edge& edge) {
   const Quad e = 1e-12;
   const Vec<Quad> at = curve_->at(time_) * touch_;
@@ -256,14 +260,16 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Meeting meetings[] = {Meeting::along, Meeting::along, Meeting::along,
                               Meeting::start, Meeting::end,   Meeting::slide};
   Meeting meeting = meetings[dice.index(6)];
-  // What a tube takes may grow up to the end: only there is it all of it.
+  // The effect of a tube may grow along the edge: so tubes often meet at an end.
   if (inTube_ && dice.oneIn(2)) meeting = dice.oneIn(2) ? Meeting::start : Meeting::end;
   const double depth = std::exp2(1 + static_cast<double>(dice.index(10)));
   time_ = dice.oneIn(2) ? std::floor(dice.real(0, depth)) / depth : dice.real(0, 1);
   passesAlong_ = curve_->speed(1) > 0 && (meeting == Meeting::along || meeting == Meeting::slide);
   if (meeting == Meeting::start) time_ = 0;
   if (meeting == Meeting::end) time_ = 1;
-  const double away = swapped ? curve_->length() : 0;  // a tip at rest is near what comes
+  // A tip on the first frame, which often stands still, is put where the rest's frame is at
+  // `time_`.
+  const double away = swapped ? curve_->length() : 0;
   touch_ = Vec<Quad>(Vec3(size_ * dice.real(0, 2) * dice.vector()));
   if (away > 0) {
     const Vec<Quad> seen = curve_->at(time_).inverse() * touch_;
@@ -271,7 +277,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   }
   if (!chooseNormal(dice, meeting)) return;
   if (inTube_) {
-    if (dice.oneIn(2)) {  // along what one number of the tube does
+    if (dice.oneIn(2)) {  // normal along the effect of one number of the tube
       std::vector<std::size_t> strays;
       for (const Coordinate& c : edge.space.coordinates())
         if (edge.tube[static_cast<Eigen::Index>(c.first)] > 0) strays.push_back(c.first);
@@ -283,7 +289,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
       if (dot(way, way) > 0) normal_ = unit(way);
     }
     strayToWorst(edge);
-    if (meeting == Meeting::along) {  // so does the curve that meets
+    if (meeting == Meeting::along) {  // the perturbed curve, too, must move along the plane
       const Quad e = 1e-12;
       const Vec<Quad> v = unit(curve_->at(time_ + e) * touch_ - curve_->at(time_) * touch_);
       normal_ = unit(normal_ - v * dot(v, normal_));
@@ -299,7 +305,7 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Vec<Quad> other = along * std::cos(turn) + cross(normal_, along) * std::sin(turn);
   Plan tip = randomPlan(dice, tips[which], p, normal_, along, size_);
   const bool round = tip.radius > 0 && !tip.flatEnds;
-  // Against a corner something round is needed for the two to have a known depth.
+  // Against an edge or a corner a tip's corner must be round: else the depth is not known.
   Feature restFeature = rests[which];
   if (restFeature == Feature::corner && dice.oneIn(2)) restFeature = Feature::edge;
   if (restFeature != Feature::face && tips[which] == Feature::corner && !round)

@@ -7,50 +7,56 @@
 
 namespace corridor::audit {
 
-/// What is known of a case: from stored doubles, in 128 bits.
+/// The facts from which the true verdict of a case follows. Computed from the stored doubles in 128
+/// bits.
 struct Truth {
-  double t = 0;              ///< where the two come closest, by construction
-  bool violates = false;     ///< at t, and so on the edge, they are closer than `keep`, or touch
-  double apart = -HUGE_VAL;  ///< no less than this apart all along the edge, metres
+  double t = 0;              ///< where the two bodies come closest, by construction
+  bool violates = false;     ///< at t the bodies are closer than `keep`, or touch
+  double apart = -HUGE_VAL;  ///< lower bound of their distance along the whole edge, metres
 };
 
-/// Two bodies that just meet, by construction. A body with a feature (the tip) is put above a plane
-/// with another feature (the rest) at a time t, such that the tip moves along the plane there, or
-/// leaves it, or comes to it at the end. Then `rest(gap)` puts the other body below the plane at a
-/// distance, and the truth follows.
+/// Two bodies that just meet, by construction.
 ///
-/// The plane is in the frame of the rest: the pair of frames is seen from either side. Heights
-/// above it are proved over the whole edge by intervals: between two times a height is at least the
-/// lesser one less bend·w²/8. Long double proves what is far from the plane, 128 bits the rest.
+/// At a time t one body, the tip, ends with a feature in a plane, and lies above it. At t the tip
+/// moves along the plane, or leaves it at the start, or reaches it at the end. The other body lies
+/// below the plane, at a distance: `rest(gap)` returns it. From this the true verdict follows.
+///
+/// The plane is fixed in the frame of this other body, which is either of the edge's two frames.
+/// The height of the tip above the plane is bounded from below over the whole edge, by intervals:
+/// between two times that differ by w, the height is at least the smaller of its two values minus
+/// bend·w²/8. This is computed in long double far from the plane, in 128 bits close to it.
 class Graze {
  public:
   enum class Meeting { along, start, end, slide };
 
   struct Wish {
-    double size = 1;      ///< m, of the bodies
-    double keep = 0;      ///< m, the distance at gap 0
-    bool inTube = false;  ///< a curve in the edge's tube is what meets
+    double size = 1;      ///< m, size of the bodies
+    double keep = 0;      ///< m, distance of the bodies at gap 0
+    bool inTube = false;  ///< a curve in the edge's tube meets, not the edge itself
   };
   Graze(Dice& dice, const Edge& edge, const Wish& wish);
 
-  /// Something can be said: else the case is to be thrown away.
+  /// Returns whether the construction succeeded; if not, it must be dropped.
   bool usable() const { return usable_; }
 
   double size() const { return size_; }
   const Shape& tip() const { return tip_; }
   std::size_t tipFrame() const { return tipFrame_; }
   std::size_t restFrame() const { return restFrame_; }
-  /// The other body, `gap` metres farther down. @param[out] truth  of the two.
+  /// Returns the other body, `gap` metres farther below the plane.
+  /// @param[out] truth the facts about the case with this body.
   Shape rest(double gap, Truth& truth) const;
-  /// How far apart the two are at a time, at least: along the best direction known.
+  /// Returns a lower bound of the bodies' distance at t, along the better of two directions.
   double apartAt(const Shape& rest, double t) const;
 
-  /// No less than what rounding may do to poses anywhere, as Corridor's README promises it: 2^-43
-  /// of all lengths for each joint, and 2^-48 of what angles of many turns are worth.
+  /// Returns the rounding of poses that Corridor may have, metres: 2^-43 of all lengths for each
+  /// joint and two more, plus 2^-48 of them for each radian (metre) of the largest joint value
+  /// (../README.md).
   double rounding() const { return rounding_; }
-  /// What one operation may round, metres: 2^-53 of all lengths.
+  /// Returns the rounding of one operation, metres: 2^-53 of all lengths.
   double ulp() const { return ulp_; }
-  /// The tip moves along the plane where they meet; else straight to it or from it, or not at all.
+  /// Returns whether the tip moves along the plane at t. Otherwise the tip moves towards the plane
+  /// or away from it, or stands still.
   bool passesAlong() const { return passesAlong_; }
 
  private:
@@ -58,11 +64,11 @@ class Graze {
   struct Look {
     S t = 0;
     Pose<S> X;
-    Vec<S> normal;   // a direction from the rest's feature to the tip's
-    S flat = 0;      // apart along the plane's normal
-    S along = 0;     // apart along `normal`
-    S features = 0;  // the features alone, along `normal`
-    S sine = 1;      // between two edges
+    Vec<S> normal;   // direction from the rest's feature to the tip's
+    S flat = 0;      // distance of the bodies along the plane's normal
+    S along = 0;     // distance of the bodies along `normal`
+    S features = 0;  // distance of the features along `normal`
+    S sine = 1;      // sine of the angle between two edges
   };
   template <class S>
   Look<S> look(const Curve<S>& curve, const Shape& rest, S t) const;
@@ -80,11 +86,12 @@ class Graze {
   bool inTube_;
   std::optional<Curve<Quad>> curve_;
   std::optional<Curve<Quad>> nominal_;
-  Vec<Quad> normal_, touch_;  // in the rest's frame: the plane's, upwards; and where they meet
+  // The plane's upward normal, in the other body's frame; the meeting point, in the tip's frame.
+  Vec<Quad> normal_, touch_;
   Plan restPlan_;
   Shape tip_, base_;
   double baseError_ = 0;
-  double lowest_ = -HUGE_VAL;  // proved: with the rest at gap 0
+  double lowest_ = -HUGE_VAL;  // proved lower bound of the distance along the edge, at gap 0
 };
 
 }  // namespace corridor::audit

@@ -6,13 +6,15 @@
 #include <numbers>
 #include <sstream>
 
+#include "collision/motion/rigid_motion.h"
 #include "planner/robot/edge_motion.h"
 
 namespace corridor::audit {
 namespace {
 
-/// Of the bodies' size, the square root of the unit roundoff. At a distance d the direction between
-/// closest points is off by 2^-53·size/d, which costs wide bodies size times as much of d.
+/// The smallest clearance that doubles resolve, as a fraction of the bodies' size: about the square
+/// root of the unit roundoff. At a distance d the direction between closest points is off by
+/// 2^-53·size/d, so wide bodies lose size·2^-53·size/d of d.
 constexpr double kResolved = 0x1p-26;
 
 RigidPose poseOf(const Configuration& q) {
@@ -104,16 +106,16 @@ std::optional<PathReport> askVerifier(const Case& c) {
   }
 }
 
-Evidence askForEvidence(const Case& c) {
+Certificate askForEvidence(const Case& c) {
   const Scene scene = c.scene();
   EdgeMotion motion(c.edge.tree, c.edge.space, scene.framePairs(), c.edge.tube);
   motion.set(c.edge.from, c.edge.to);
   QueryContext context;
-  MotionEvidence evidence;
-  Evidence answer{scene.certify(motion, c.question.options, context, evidence)};
+  MotionCertificate certificate;
+  Certificate answer{scene.certify(motion, c.question.options, context, certificate)};
   if (answer.result.verdict == MotionVerdict::free)
     answer.accepted =
-        !checkEvidence(motion, scene.motionPairs(), c.question.options, 1, evidence, context);
+        !checkCertificate(motion, scene.motionPairs(), c.question.options, 1, certificate, context);
   return answer;
 }
 
@@ -122,10 +124,11 @@ bool acceptsForged(const Case& c, double clearance, int intervals) {
   EdgeMotion motion(c.edge.tree, c.edge.space, scene.framePairs(), c.edge.tube);
   motion.set(c.edge.from, c.edge.to);
   QueryContext context;
-  MotionEvidence evidence;
+  MotionCertificate certificate;
   for (int i = 0; i < intervals; ++i)
-    evidence.free.push_back({0, double(i) / intervals, double(i + 1) / intervals, clearance});
-  return !checkEvidence(motion, scene.motionPairs(), c.question.options, 1, evidence, context);
+    certificate.free.push_back({0, double(i) / intervals, double(i + 1) / intervals, clearance});
+  return !checkCertificate(motion, scene.motionPairs(), c.question.options, 1, certificate,
+                           context);
 }
 
 double leftToHalfTurn(const Edge& edge) {
@@ -171,7 +174,7 @@ std::string faultOf(const Case& c, const MotionResult& r) {
   if (r.reason == UndecidedReason::ambiguous && !(leftToHalfTurn(c.edge) < 1.1e-9))
     fault << " ambiguous, though it is no half turn";
   if (r.reason == UndecidedReason::clearance && !c.question.inTube &&
-      c.truth.apart > o.margin + o.reserve + c.undecidedBelow())
+      c.truth.apart > o.margin + o.clearanceSlack + c.undecidedBelow())
     fault << " undecided at a clearance of " << c.truth.apart - o.margin << " m, gap " << r.gap;
   return fault.str();
 }
@@ -242,8 +245,8 @@ std::string describe(const Case& c) {
       text << " (" << t[0] << " " << t[1] << " " << t[2] << ")";
   }
   const MotionOptions& o = c.question.options;
-  text << "\ntolerance " << o.tolerance << ", margin " << o.margin << ", reserve " << o.reserve
-       << std::defaultfloat << ", earliest " << o.earliest << ", trees "
+  text << "\ntolerance " << o.tolerance << ", margin " << o.margin << ", clearanceSlack "
+       << o.clearanceSlack << std::defaultfloat << ", earliest " << o.earliest << ", trees "
        << static_cast<int>(o.trees) << ", method "
        << edgeMethodNames()[static_cast<std::size_t>(c.question.method)]
        << (c.question.rigidMotion ? ", by RigidMotion" : "") << ", mode "

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/motion/check_evidence.h"
+#include "collision/motion/check_certificate.h"
 #include "collision/motion/edge_method.h"
 #include "collision/world/scene.h"
 #include "planner/verify/verify_path.h"
@@ -16,57 +16,58 @@
 
 namespace corridor::audit {
 
-/// How a case is asked.
+/// The options with which a case is queried.
 struct Question {
   MotionOptions options;
-  EdgeMethod method = EdgeMethod::certified;
-  bool rigidMotion = false;  ///< by `RigidMotion` in place of `EdgeMotion`
-  bool inTube = false;       ///< the truth is that of one curve in the tube
+  EdgeMethod method = EdgeMethod::directional;
+  bool rigidMotion = false;  ///< use `RigidMotion` instead of `EdgeMotion`
+  bool inTube = false;       ///< the true verdict is that of one curve in the tube
   Mode mode = Mode::usual;
 };
 
-/// One case: two bodies on an edge, what is true of them, and how it is asked.
+/// One case: two bodies on an edge, the facts known about them, and the query.
 struct Case {
   const Edge& edge;
   const Graze& graze;
   const Shape& rest;
   Truth truth;
   Question question;
-  std::string name;  ///< what repeats it
+  std::string name;  ///< how to repeat it
 
   Body body(bool tip) const;
   Scene scene() const;
   PathProblem problem() const;
-  /// Clearances above this, beyond margin and reserve, are to be decided: twice the tolerance, or
-  /// twice of what doubles resolve where that is more.
+  /// Returns the clearance, beyond margin and `clearanceSlack`, above which an answer must be
+  /// decided: twice the tolerance, or twice what doubles resolve if that is more.
   double undecidedBelow() const;
 };
 
-/// The answers of the checker and the verifier. Where the mode isn't usual, an exception is a
-/// refusal: none.
+/// Return the answers of the checker and of the verifier; nullopt if they refuse by an exception,
+/// which is allowed only in an unusual floating-point mode.
 std::optional<MotionResult> askChecker(const Case& c);
 std::optional<PathReport> askVerifier(const Case& c);
-/// The answer with evidence, and whether the check of evidence accepts it; by `certified` only.
-struct Evidence {
+/// An answer of the method `certified`, and whether `checkCertificate` accepts its certificate.
+struct Certificate {
   MotionResult result;
   bool accepted = false;
 };
-Evidence askForEvidence(const Case& c);
-/// Is evidence accepted that claims the margin, and the reserve, all along the edge?
+Certificate askForEvidence(const Case& c);
+/// Returns whether `checkCertificate` accepts a forged certificate: it claims this clearance along
+/// the whole edge, in this many intervals.
 bool acceptsForged(const Case& c, double clearance, int intervals);
 
-/// π less the largest angle that a circle or a rotation turns, and less what the rounding of large
-/// values may take of it; radians.
+/// Returns π minus the largest rotation of a circle or an orientation along the edge, minus the
+/// rounding of large values; radians.
 double leftToHalfTurn(const Edge& edge);
 
-/// What is wrong with an answer; empty: nothing.
+/// Return what is wrong with an answer, or "".
 std::string faultOf(const Case& c, const MotionResult& answer);
 std::string faultOf(const Case& c, const PathReport& answer);
 
-/// Everything of a case, as text: numbers are exact.
+/// Returns all data of a case as text, numbers in hexadecimal: exact.
 std::string describe(const Case& c);
 
-/// Counts of answers, a row each, printed as a table.
+/// Counts answers, one row per family, and prints them as a table.
 class Table {
  public:
   enum Column { cases, truthFree, truthContact, free, contact, undecided, atLimit, wrong, columns };

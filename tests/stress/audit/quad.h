@@ -8,9 +8,9 @@
 
 #include "collision/core/transform.h"
 
-/// Vectors, matrices and angles in 128 bits, from scratch: the audit's truth uses no arithmetic of
-/// Corridor's. Everything is a template, so that the same formulas also run in long double, where
-/// many samples are needed and few digits.
+/// Vectors, matrices and angles in 128 bits, written for the audit alone: it shares no arithmetic
+/// with Corridor. All are templates, because the same formulas also run in long double where many
+/// samples and few digits are needed.
 namespace corridor::audit {
 
 __extension__ typedef __float128 Quad;
@@ -72,13 +72,13 @@ template <class S>
 S length(const Vec<S>& a) {
   return root(dot(a, a));
 }
-/// Of length 1; the zero vector stays.
+/// Returns the vector scaled to length 1; the zero vector is returned as it is.
 template <class S>
 Vec<S> unit(const Vec<S>& a) {
   S largest = 0;
   for (const S& x : a.c) largest = magnitude(x) > largest ? magnitude(x) : largest;
   if (largest == 0) return a;
-  const Vec<S> b = a * (1 / largest);  // squares of tiny and huge numbers would be lost
+  const Vec<S> b = a * (1 / largest);  // squares of tiny or huge numbers would under- or overflow
   return b * (1 / length(b));
 }
 
@@ -117,7 +117,7 @@ struct Pose {
   }
 };
 
-/// The turn about a unit axis, by its sine and cosine.
+/// Returns the rotation about the unit axis k, given sine and cosine of its angle.
 template <class S>
 Mat<S> turnAbout(const Vec<S>& k, S s, S c) {
   const S v = 1 - c;
@@ -128,7 +128,7 @@ Mat<S> turnAbout(const Vec<S>& k, S s, S c) {
   return R;
 }
 
-/// The rotation of a quaternion x, y, z, w of any length but 0.
+/// Returns the rotation of a quaternion x, y, z, w of any norm above 0.
 template <class S>
 Mat<S> rotationOf(const std::array<S, 4>& q) {
   const S k = 2 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -140,16 +140,16 @@ Mat<S> rotationOf(const std::array<S, 4>& q) {
   return R;
 }
 
-/// A number of some 226 bits, for angles of up to 10^30 rad: the sum of the two.
+/// A number of some 226 bits, high + low: for angles of up to 10^30 rad.
 struct Twofold {
   Quad high = 0, low = 0;
 };
-/// a + b, exactly.
+/// Returns a + b exactly (Knuth's TwoSum).
 inline Twofold sum(Quad a, Quad b) {
   const Quad s = a + b, c = s - a;
   return {s, (a - (s - c)) + (b - c)};
 }
-/// What is left of an angle when whole turns are taken off, in [−π, π], to 33 digits.
+/// Returns the angle modulo 2π, in [−π, π], to 33 digits.
 inline Quad withoutTurns(Twofold angle) {
   static const Quad pi = acosq(-1), piLow = sinq(pi);  // π = pi + sin(pi) to twice the digits
   const Quad turns = roundq(angle.high / (2 * pi));

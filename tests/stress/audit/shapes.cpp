@@ -5,10 +5,10 @@
 namespace corridor::audit {
 namespace {
 
-/// A little less than 1, by more than 128 bits round in any of these formulas.
+/// Less than 1 by more than the rounding of 128 bits in any formula of this file.
 const Quad kInside = 1 - Quad(0x1p-90);
 
-/// Triangles beyond the feature, so that trees have depth.
+/// Adds triangles above the feature, so that trees have depth.
 void addCompany(Dice& dice, Plan& plan, const Vec<Quad>& q, const Vec<Quad>& up,
                 const Vec<Quad>& along, double size) {
   const Vec<Quad> across = cross(up, along);
@@ -21,7 +21,7 @@ void addCompany(Dice& dice, Plan& plan, const Vec<Quad>& q, const Vec<Quad>& up,
   }
 }
 
-/// The surface of a parallelepiped whose corners are numbered by bits.
+/// Adds the faces of a parallelepiped; bit i of a corner's number selects the end of edge i.
 void addBoxFaces(Plan& plan) {
   plan.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
@@ -71,7 +71,7 @@ Plan randomPlan(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>
     return plan;
   }
   if (kind == meshBox || kind == box) {
-    // Edges from corner 0 of the box: at right angles to each other, all above the plane.
+    // The edges from corner 0 of the box: orthogonal, and all above the plane.
     Vec<Quad> a = unit(along * dice.real() + across * dice.real() + up * dice.real(0.4, 1.5));
     Vec<Quad> b = unit(cross(a, unit(along * dice.real() + across * dice.real())));
     Vec<Quad> from = q;
@@ -97,7 +97,7 @@ Plan randomPlan(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>
     plan.flatEnds = true;
     if (feature == Feature::face) {
       plan.points = {q, q + up * (size * height())};
-    } else {  // its rim: the lowest point of it is q
+    } else {  // the rim, whose lowest point is q
       const Vec<Quad> axis = unit(up * dice.real(0.3, 0.9) + along * dice.real() + across * 0.3);
       const Vec<Quad> inward = unit(up - axis * dot(axis, up));
       plan.points.push_back(q + inward * plan.radius);
@@ -141,14 +141,15 @@ Shape stored(const Plan& plan, const Pose<Quad>& X, const Vec<Quad>& shift, cons
     if (plan.feature == Feature::face) {
       const Vec<Quad> x = unit(cross(axis, Vec<Quad>(axis.rounded().unitOrthogonal()))),
                       y = cross(axis, x);
-      const Vec<Quad> in = (other - end) * (1 - kInside);  // off the end by less than it rounds
+      const Vec<Quad> in = (other - end) * (1 - kInside);  // a shift into the cylinder
       shape.core = {end + in + x * r, end + in - x * (r / 2) + y * (r * 0.8),
                     end + in - x * (r / 2) - y * (r * 0.8)};
     } else {
       const Vec<Quad> outward = unit(axis * dot(axis, n) - n);
       shape.core = {end + outward * r + (other - end) * (1 - kInside), end, other};
     }
-    // A cylinder leans by what its ends are rounded by; so does its cap, as far as it is wide.
+    // Rounding the two ends tilts the axis, which moves the rim of a cap by radius/length times as
+    // much.
     off *= 1 + 4 * plan.radius / static_cast<double>(length(other - end));
   }
   if (error) *error = static_cast<double>(off) * (1 + 1e-12);

@@ -10,7 +10,7 @@
 
 namespace corridor::audit {
 
-/// Random numbers of one case.
+/// The random numbers of one construction.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : random_(seed) {}
@@ -21,7 +21,7 @@ class Dice {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
   }
   bool oneIn(std::size_t n) { return index(n) == 0; }
-  /// 10^x, x evenly between the two.
+  /// Returns 10^x, with x uniform in [low, high].
   double power(double low, double high) { return std::pow(10.0, real(low, high)); }
   double sign() { return oneIn(2) ? 1 : -1; }
   Vec3 vector() {
@@ -37,46 +37,49 @@ class Dice {
   std::mt19937_64 random_;
 };
 
-/// With what a body meets another: a corner (of a curved body the centre of its ball), an edge (of
-/// a capsule its axis), or a face.
+/// The feature with which a body meets another: a corner (for a sphere its centre), an edge (for a
+/// capsule its axis), or a face.
 enum class Feature { corner, edge, face };
 
-/// A convex or nearly convex body above its feature, before it is rounded: in any frame.
+/// A convex or nearly convex body before it is rounded to doubles, in any frame. It lies above its
+/// feature.
 struct Plan {
   Feature feature = Feature::corner;
   bool mesh = false, flatEnds = false;
   double radius = 0;
-  std::vector<Vec<Quad>> points;  ///< of a mesh its vertices
+  std::vector<Vec<Quad>> points;  ///< for a mesh its vertices
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A body that ends in `feature` at the point `q`, everything else of it on the side of the unit
-/// vector `up`, some `size` large. The edge goes along the unit vector `along`, at a right angle to
-/// `up`. A curved body's surface touches the plane through q, so that its feature is above it.
+/// Returns a body of about `size` metres whose `feature` is at the point `q`. All other points are
+/// on the side of the unit vector `up`. An edge runs along the unit vector `along`, orthogonal to
+/// `up`. The surface of a curved body touches the plane through q, so its feature is above that
+/// plane.
 Plan randomPlan(Dice& dice, Feature feature, const Vec<Quad>& q, const Vec<Quad>& up,
                 const Vec<Quad>& along, double size);
 
-/// A body as it is stored, in doubles, and what the truth needs of it.
+/// A body as it is stored, in doubles, and the data from which the true verdict is computed.
 struct Shape {
   Feature feature = Feature::corner;
   bool isMesh = false;
   TriangleMesh mesh;
   ConvexPart part;
-  /// Points of the body, its feature first (a corner, two ends, three corners): their hull is in
-  /// it, rounding included. With a radius they are points of its core.
+  /// Points whose hull lies in the body, rounding included: first those of its feature (a corner,
+  /// two ends, three corners). If `coreRadius` > 0, they are points of the core, which is swept by
+  /// a sphere of that radius.
   std::array<Vec<Quad>, 3> core;
-  double coreRadius = 0;  ///< around the core
+  double coreRadius = 0;  ///< metres
 
-  double reach = 0;  ///< m, from the frame's origin
+  double reach = 0;  ///< m; no point is farther from the frame's origin
 
-  /// The largest of m·x over the body; m unit, in its frame.
+  /// Returns the largest m·x over all points x of the body; m is a unit vector in its frame.
   template <class S>
   S support(const Vec<S>& m) const;
   const std::vector<Vec3>& points() const { return isMesh ? mesh.vertices : part.points; }
 };
 
-/// Rounds `plan` under the map X (to the body's frame) after a shift of the plan.
-/// @param up  of the plan. @param[out] error  no less than any point is off by, metres.
+/// Moves `plan` by `shift`, maps it to the body's frame by X, and rounds it to doubles.
+/// @param up  the plan's. @param[out] error  an upper bound of the rounding of any point, metres.
 Shape stored(const Plan& plan, const Pose<Quad>& X, const Vec<Quad>& shift, const Vec<Quad>& up,
              double* error = nullptr);
 

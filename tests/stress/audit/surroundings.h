@@ -6,17 +6,17 @@
 
 namespace corridor::audit {
 
-/// What a program may have done to floating point before it calls a library.
+/// Floating-point modes that a program may have set before it calls the library.
 enum class Mode {
   usual,
-  flushToZero,  ///< subnormal numbers are 0, as operands and as results
+  flushToZero,  ///< subnormal operands and results become 0
   upward,
   downward,
   towardZero,
-  shortX87,  ///< long double computes with 53 bits
+  shortX87,  ///< long double is rounded to 53 bits
 };
 
-/// Floating point is in a mode as long as this lives.
+/// Sets a floating-point mode, and restores the previous one when it is destroyed.
 class Surroundings {
  public:
   explicit Surroundings(Mode mode) : csr_(_mm_getcsr()) {

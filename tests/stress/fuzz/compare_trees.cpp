@@ -1,12 +1,12 @@
-// Two bodies under two maps: wide trees and binary ones of every volume give one answer, within the
-// errors that collision/queries promises.
+// Fuzz target: two bodies under two maps. Queries on 4-wide OBB trees and on binary trees of every
+// volume must agree, within the errors that collision/queries promises.
 #include <cmath>
 #include <set>
 
 #include "collision/geometry/mesh_health.h"
 #include "collision/hierarchy/with_volume.h"
 #include "collision/queries/contacts.h"
-#include "collision/queries/interference_wide.h"
+#include "collision/queries/interference_obb4.h"
 #include "collision/world/body_queries.h"
 #include "tests/stress/fuzz/decode.h"
 #include "tests/stress/fuzz/fuzz.h"
@@ -18,7 +18,7 @@ struct Kind {
   std::string name;
   TreeKind trees;
 };
-/// The wide one first.
+/// Returns all kinds of trees, the 4-wide OBB tree first.
 const std::vector<Kind>& everyKind() {
   static const std::vector<Kind> kinds = [] {
     std::vector<Kind> all;
@@ -31,7 +31,7 @@ const std::vector<Kind>& everyKind() {
   return kinds;
 }
 
-/// nullopt: the bytes are no sound body.
+/// Returns a body, or nullopt if the bytes make no sound body.
 std::optional<Body> decodeBody(Decoder& in) {
   const std::size_t kind = in.below(4);
   if (kind == 0) {
@@ -51,11 +51,11 @@ std::optional<Body> decodeBody(Decoder& in) {
     return Body(solid ? "solid" : "surface", std::move(mesh), solid, params);
   } catch (const std::invalid_argument&) {
     if (!solid) throw;
-    return std::nullopt;  // corners coincide: nothing is closed
+    return std::nullopt;  // corners coincide, so the surface is not closed
   }
 }
 
-/// The largest Σ|m||v| + |t| of the corners, with radii.
+/// Returns the largest Σ|m||v| + |t| of all corners v, radii included: the scale of rounding.
 double reachOf(const Body& body, const Transform& X) {
   double most = 0;
   const auto add = [&](const Vec3& v, double radius) {
@@ -85,7 +85,8 @@ void compare(const Case& c, double asked) {
   const double S = std::max(reachOf(c.a, c.X_WA), reachOf(c.b, c.X_WB));
   if (!std::isfinite(S)) return;
   const bool meshes = !c.a.part() && !c.b.part();
-  // Primitives: touching is decided in a band of 2^-44 of the largest coordinate.
+  // Contact of primitives is exact only outside a band of 2^-44 of the largest coordinate; 2^-42
+  // leaves room.
   const double band = meshes ? 0 : 0x1p-42 * S;
   const auto error = [&](double d) { return 1e-12 * d + 4 * 0x1p-53 * S + band + 0x1p-998; };
 
@@ -94,7 +95,7 @@ void compare(const Case& c, double asked) {
     double distance;
   };
   std::vector<Told> told;
-  QueryContext context;  // one for all: what it remembers may change no answer
+  QueryContext context;  // one for all queries: what it remembers must not change an answer
   for (const Kind& kind : everyKind()) {
     const bool touch = interference(c.a, c.X_WA, c.b, c.X_WB, context, kind.trees).has_value();
     const Distance d = distance(c.a, c.X_WA, c.b, c.X_WB, {}, context, kind.trees);
@@ -152,13 +153,13 @@ void compareContacts(const Case& c) {
   QueryContext context;
   const Pairs wide = pairsOf(contacts(c.a.tree(), c.X_WA, c.b.tree(), c.X_WB, context));
   for (const Kind& kind : everyKind()) {
-    if (kind.trees == TreeKind::wideObb) continue;
+    if (kind.trees == TreeKind::obb4) continue;
     const Pairs pairs = onVolumeTrees(
         kind.trees, c.a, c.b, [&]<class Overlap>(Overlap, const auto& a, const auto& b) {
           return pairsOf(contacts<Overlap>(a, c.X_WA, b, c.X_WB, context));
         });
     if (pairs != wide)
-      fail(kind.name + ": " + std::to_string(pairs.size()) + " contacts, wide trees have " +
+      fail(kind.name + ": " + std::to_string(pairs.size()) + " contacts, 4-wide trees have " +
            std::to_string(wide.size()));
   }
 }

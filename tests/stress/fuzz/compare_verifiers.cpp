@@ -1,5 +1,5 @@
-// An edge of a small robot among small bodies: the checker and the verifier, which share no code,
-// never contradict each other. `undecided` contradicts nothing.
+// Fuzz target: an edge of a small robot among small bodies. The checker and the verifier, which
+// share no code, must not contradict each other. `undecided` contradicts nothing.
 #include <cmath>
 
 #include "collision/geometry/mesh_health.h"
@@ -24,7 +24,7 @@ struct Robot {
   ConfigurationSpace space;
   Configuration from, to, tube;
   std::vector<Shape> shapes;
-  double size = 0;  ///< of all coordinates together, metres: what roundings go by
+  double size = 0;  ///< sum of all lengths, metres: the scale of rounding
 
   std::size_t variable(Coordinate::Kind kind) {
     Coordinate c;
@@ -41,23 +41,23 @@ void addJoint(Decoder& in, Robot& robot) {
   frame.axis = in.direction();
   switch (in.below(8)) {
     case 0:  // floating
-      frame.joint = Frame::Joint::shift;
+      frame.joint = Frame::Joint::translation;
       frame.count = 3;
       frame.variable = robot.variable(Kind::line);
       robot.variable(Kind::line), robot.variable(Kind::line);
       break;
     case 1:  // planar
-      frame.joint = Frame::Joint::shift;
+      frame.joint = Frame::Joint::translation;
       frame.count = 2;
       frame.variable = robot.variable(Kind::line);
       robot.variable(Kind::line);
       break;
     case 2:
-      frame.joint = Frame::Joint::slide;
+      frame.joint = Frame::Joint::prismatic;
       frame.variable = robot.variable(Kind::line);
       break;
-    case 3: {  // follows the first line or circle, or is held
-      frame.joint = in.oneIn(2) ? Frame::Joint::slide : Frame::Joint::turn;
+    case 3: {  // mimics the first line or circle; held if there is none
+      frame.joint = in.oneIn(2) ? Frame::Joint::prismatic : Frame::Joint::revolute;
       frame.multiplier = in.real();
       frame.offset = in.real();
       for (const Coordinate& c : robot.space.coordinates())
@@ -66,18 +66,18 @@ void addJoint(Decoder& in, Robot& robot) {
       break;
     }
     case 4:
-      frame.joint = Frame::Joint::turn;
+      frame.joint = Frame::Joint::revolute;
       frame.variable = robot.variable(Kind::circle);
       break;
     default:
-      frame.joint = Frame::Joint::turn;
+      frame.joint = Frame::Joint::revolute;
       frame.variable = robot.variable(Kind::line);
   }
   const std::size_t added = robot.tree.add(frame);
-  if (frame.joint != Frame::Joint::shift) return;
+  if (frame.joint != Frame::Joint::translation) return;
   Frame turn;
   turn.parent = added;
-  turn.joint = frame.count == 3 ? Frame::Joint::rotate : Frame::Joint::turn;
+  turn.joint = frame.count == 3 ? Frame::Joint::rotation : Frame::Joint::revolute;
   turn.variable = robot.variable(frame.count == 3 ? Kind::rotation : Kind::circle);
   robot.tree.add(turn);
 }
@@ -95,14 +95,14 @@ void decodeEdge(Decoder& in, Robot& robot) {
     } else {
       robot.from[i] = in.real();
       robot.to[i] = little ? robot.from[i] + 1e-3 * in.real() : in.real();
-      if (c.kind == Coordinate::Kind::circle && in.oneIn(4))  // many turns
+      if (c.kind == Coordinate::Kind::circle && in.oneIn(4))  // many revolutions
         (in.oneIn(2) ? robot.from : robot.to)[i] *= std::pow(10.0, in.below(25));
     }
     if (tube) robot.tube[i] = std::min(std::abs(in.real()), 1.0) * 1e-3;
   }
 }
 
-/// nullopt: the bytes are no sound scene.
+/// Returns a robot with bodies, or nullopt if the bytes make no sound scene.
 std::optional<Robot> decodeRobot(Decoder& in) {
   Robot robot;
   for (std::size_t n = 1 + in.below(4); n > 0; --n) addJoint(in, robot);
@@ -110,7 +110,7 @@ std::optional<Robot> decodeRobot(Decoder& in) {
   const std::size_t bodies = 2 + in.below(3);
   for (std::size_t n = 0; n < bodies; ++n) {
     Shape shape;
-    // One stands on the last frame, one in the world.
+    // The first body is on the last frame, the second in the world.
     shape.frame = n == 0   ? robot.tree.frames.size() - 1
                   : n == 1 ? 0
                            : in.below(robot.tree.frames.size());
@@ -132,7 +132,7 @@ std::optional<Robot> decodeRobot(Decoder& in) {
   }
   for (const Frame& frame : robot.tree.frames) {
     robot.size += length(frame.fixed.p);
-    if (frame.joint == Frame::Joint::slide || frame.joint == Frame::Joint::shift) {
+    if (frame.joint == Frame::Joint::prismatic || frame.joint == Frame::Joint::translation) {
       double most = std::abs(frame.offset);
       if (frame.variable != Frame::noVariable)
         for (std::size_t k = 0; k < frame.count; ++k) {
@@ -169,7 +169,7 @@ void compare(const Robot& robot, Decoder& in) {
                         shape.frame});
     } catch (const std::invalid_argument&) {
       if (!shape.solid) throw;
-      return;  // corners coincide: nothing is closed
+      return;  // corners coincide, so the surface is not closed
     }
   }
   std::vector<Scene::Pair> pairs;
@@ -184,7 +184,7 @@ void compare(const Robot& robot, Decoder& in) {
   MotionOptions options;
   const double rounding = 0x1p-40 * robot.size;
   options.tolerance = std::max(scene.defaultTolerance(), 4 * rounding);
-  options.reserve = options.tolerance;
+  options.clearanceSlack = options.tolerance;
   options.margin = in.oneIn(3) ? std::min(std::abs(in.real()), 0.1) : 0;
   options.earliest = in.oneIn(4);
   options.workLimit = 20'000;
@@ -207,13 +207,13 @@ void compare(const Robot& robot, Decoder& in) {
       if (finding.verdict == PathVerdict::refuted)
         fail(who + "free, but refuted at t = " + number(finding.t) + " (" + finding.reason +
              "), gap " + number(finding.gap) + ", " + finding.a + " and " + finding.b);
-  // A pose is rounded where the checker finds its contact, and need not touch before.
+  // The checker finds contacts at rounded poses, so a contact may be off by the rounding.
   if (checked.verdict == MotionVerdict::contact && verified.verdict == PathVerdict::proved &&
       verified.provenClearance > options.margin + rounding)
     fail(who + "contact at t = " + number(checked.contactTime) +
          ", but proved with a clearance of " + number(verified.provenClearance));
 
-  // States, without margin and tube.
+  // The two states by themselves, without margin and tube.
   problem.margin = 0;
   problem.tube.setZero();
   for (const Configuration& q : {robot.from, robot.to}) {

@@ -18,20 +18,21 @@
 
 namespace corridor::fuzz {
 
-/// Small scenes from the bytes of an input. Any bytes are a scene; bytes that are used up are 0.
+/// Makes small scenes from the bytes of an input. Any bytes make a scene; after their end zeros
+/// follow.
 ///
-/// Numbers are mostly from coarse grids, or earlier ones again, or these a few last digits off: so
-/// coplanar, touching and grazing features are as likely as others.
+/// Most numbers are from coarse grids, or repeat an earlier number, or differ from an earlier
+/// number in a few last digits. So coplanar, touching and grazing features are as likely as others.
 class Decoder {
  public:
   Decoder(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
 
   std::uint8_t byte() { return at_ == end_ ? 0 : *at_++; }
-  /// In [0, count).
+  /// Returns a number in [0, count).
   std::size_t below(std::size_t count) { return byte() % count; }
   bool oneIn(std::size_t n) { return below(n) == n - 1; }
 
-  /// Numbers from here on have at most this magnitude, and are not nearer to 0 than its inverse.
+  /// Limits the magnitude of all further numbers: at most `largest`, and 0 or at least 1/`largest`.
   void limit(double largest) { largest_ = largest; }
 
   double real() {
@@ -47,18 +48,18 @@ class Decoder {
     const double x = real(), y = real();
     return {x, y, real()};
   }
-  /// Not zero.
+  /// Returns a vector that is not zero.
   Vec3 direction() {
     if (oneIn(2)) return Vec3::Unit(static_cast<Eigen::Index>(below(3)));
     const Vec3 v = vector();
     return v.stableNorm() > 0 ? v : Vec3(0, 0, 1);
   }
-  /// Not zero, of any norm.
+  /// Returns a quaternion that is not zero, of any norm.
   Eigen::Quaterniond quaternion() {
     switch (below(4)) {
       case 0:
         return Eigen::Quaterniond::Identity();
-      case 1: {  // a multiple of a quarter turn
+      case 1: {  // multiples of quarter turns, and one about a diagonal
         const double h = std::numbers::sqrt2 / 2;
         const Eigen::Quaterniond turns[] = {{h, h, 0, 0},    {h, 0, h, 0}, {h, 0, 0, h},
                                             {0, 1, 0, 0},    {0, 0, 1, 0}, {0, 0, 0, 1},
@@ -79,12 +80,12 @@ class Decoder {
     const Vec3 p = vector();
     return {p, quaternion()};
   }
-  /// Mostly a rotation and a shift, rounded.
+  /// Returns a rigid map, rounded.
   Transform map() {
     const RigidPose rigid = pose();
     return {rigid.q.normalized().toRotationMatrix(), rigid.p};
   }
-  /// Scaled, sheared, mirrored or flat.
+  /// Returns a map that scales, shears, mirrors or flattens, or any other.
   Transform anyMap() {
     Transform X = map();
     const double s = real();
@@ -122,14 +123,14 @@ class Decoder {
     if (oneIn(3)) addCopies(mesh);
     return mesh;
   }
-  /// A closed surface that may be flat, or turned inside out.
+  /// Returns a closed surface, which may be flat, or inside out.
   TriangleMesh closedMesh() {
     TriangleMesh mesh;
     oneIn(2) ? addBox(mesh) : addTetrahedron(mesh);
     if (oneIn(4)) addCopies(mesh);
     return mesh;
   }
-  /// A sound primitive, placed.
+  /// Returns a sound primitive at some pose.
   ConvexPart part() {
     Primitive primitive;
     switch (below(5)) {
@@ -169,7 +170,7 @@ class Decoder {
         return static_cast<std::int8_t>(byte()) / 8.0;
       case 2:
         return earlier();
-      case 3: {  // last digits off
+      case 3: {  // some last digits off
         double value = earlier();
         const int steps = static_cast<std::int8_t>(byte()) % 8;
         for (int i = 0; i < std::abs(steps); ++i)
@@ -217,7 +218,8 @@ class Decoder {
     }
   }
   double earlier() { return earlier_.empty() ? 1 : earlier_[below(earlier_.size())]; }
-  /// In range: what is not keeps its digits and loses its power of two.
+  /// Returns the value in the range of `limit`. A number out of range keeps its digits, with
+  /// another power of two.
   double bounded(double value) const {
     if (std::isnan(value)) return 1;
     if (std::isinf(value)) return std::copysign(largest_, value);
@@ -256,7 +258,7 @@ class Decoder {
       addTriangle(mesh, corners);
     }
   }
-  /// The mesh in a row of copies.
+  /// Adds copies of the mesh, in a row.
   void addCopies(TriangleMesh& mesh) {
     const TriangleMesh one = mesh;
     const Vec3 step = vector();

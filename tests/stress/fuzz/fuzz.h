@@ -14,12 +14,12 @@
 
 #include "collision/core/error.h"
 
-/// What every fuzz target has: libFuzzer, or replay.cpp, calls it for each input.
+/// The entry point of every fuzz target; libFuzzer, or replay.cpp, calls it for each input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace corridor::fuzz {
 
-/// A finding: prints it and ends the program, so that the fuzzer keeps the input.
+/// Reports a finding: prints it and aborts, so that the fuzzer keeps the input.
 [[noreturn]] inline void fail(const std::string& what) {
   std::fprintf(stderr, "FINDING: %s\n", what.c_str());
   std::abort();
@@ -29,7 +29,8 @@ inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A folder for the files of one process, under TMPDIR; removed when the process ends regularly.
+/// A folder under TMPDIR for the files of one process. It is removed when the process ends
+/// regularly.
 class Folder {
  public:
   Folder()
@@ -56,12 +57,14 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// An input for readers of several formats: its first line is the ending of the file's name.
+/// An input of targets that read several formats. Its first line is the extension of the file's
+/// name.
 struct NamedInput {
   std::string ending;
   std::string_view bytes;
 };
-/// nullopt where the first line is no ending: 1 to 12 letters and digits.
+/// Splits an input. Returns nullopt if the first line is no extension, of 1 to 12 letters and
+/// digits.
 inline std::optional<NamedInput> namedInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = textOf(data, size);
   const std::size_t end = text.find('\n');
@@ -72,7 +75,7 @@ inline std::optional<NamedInput> namedInput(const std::uint8_t* data, std::size_
   return NamedInput{std::string(text.substr(0, end)), text.substr(end + 1)};
 }
 
-/// Faults are one line each, and not empty.
+/// Checks that every fault is one line of plain text, and not empty.
 inline void checkFaults(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) {
     if (fault.text.empty()) fail("a fault without a text");

@@ -1,5 +1,6 @@
-// Mesh files that assimp reads: of any ending that our own readers leave to it, and all endings by
-// OMPL.app's rules. The first line of an input is the ending.
+// Fuzz target: mesh files that assimp reads. These are all files that Corridor's own readers leave
+// to it, and every file read by OMPL.app's rules. The first line of an input is the file's
+// extension.
 #include <algorithm>
 
 #include "collision/geometry/mesh_file.h"

@@ -1,4 +1,4 @@
-// Campaign files (corridor-campaign-1), beside small problems.
+// Fuzz target: campaign files (corridor-campaign-1), beside small problems.
 #include "planner/benchmark/campaign_yaml.h"
 #include "tests/stress/fuzz/small_world.h"
 

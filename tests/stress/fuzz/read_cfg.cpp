@@ -1,4 +1,4 @@
-// OMPL.app's .cfg files, beside small meshes.
+// Fuzz target: OMPL.app's .cfg files, beside small meshes.
 #include "planner/problem/problem.h"
 #include "tests/stress/fuzz/small_world.h"
 

@@ -1,4 +1,5 @@
-// Mesh files of our own readers: OBJ, STL, PLY, OFF. The first line of an input is the ending.
+// Fuzz target: mesh files of Corridor's own readers: OBJ, STL, PLY, OFF. The first line of an input
+// is the file's extension.
 #include "collision/geometry/mesh_file.h"
 #include "collision/geometry/mesh_health.h"
 #include "tests/stress/fuzz/fuzz.h"

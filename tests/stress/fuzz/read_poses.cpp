@@ -1,4 +1,4 @@
-// Poses and motions of `corridor query`, 12 and 24 numbers a line.
+// Fuzz target: poses and motions of `corridor query`, 12 and 24 numbers per line.
 #include "planner/app/query_poses.h"
 #include "tests/stress/fuzz/fuzz.h"
 

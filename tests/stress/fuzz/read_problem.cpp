@@ -1,5 +1,5 @@
-// Problem files (corridor-problem-1), beside small robots and meshes. What is read is built, too:
-// the checker takes any problem that the reader lets pass.
+// Fuzz target: problem files (corridor-problem-1), beside small robots and meshes. The checker must
+// accept every problem that the reader accepts.
 #include "planner/checker/checker.h"
 #include "tests/stress/fuzz/small_world.h"
 

@@ -1,4 +1,4 @@
-// MotionBenchMaker's sets (mbm-scene-1, JSON), beside a small arm.
+// Fuzz target: MotionBenchMaker's sets (mbm-scene-1, JSON), beside a small arm.
 #include "planner/problem/problem.h"
 #include "tests/stress/fuzz/small_world.h"
 

@@ -1,5 +1,5 @@
-// Solution files, YAML and .path, for problems in the plane, in space and of joints. The first line
-// of an input is the ending.
+// Fuzz target: solution files, YAML and .path, for problems in SE(2), in SE(3) and of joints. The
+// first line of an input is the file's extension.
 #include "planner/solve/solution.h"
 #include "tests/stress/fuzz/fuzz.h"
 
@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (solution.path.empty()) fuzz::fail("a solution without a state");
       for (const Configuration& q : solution.path)
         if (std::size_t(q.size()) != space.size() || !space.isFinite(q))
-          fuzz::fail("a state that is none");
+          fuzz::fail("a state that is not one of the space");
     });
   return 0;
 }

@@ -1,4 +1,4 @@
-// SRDF files of a small arm.
+// Fuzz target: SRDF files of a small arm.
 #include "planner/robot/urdf_file.h"
 #include "tests/stress/fuzz/small_world.h"
 

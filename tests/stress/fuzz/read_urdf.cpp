@@ -1,4 +1,4 @@
-// URDF files, beside a small mesh.
+// Fuzz target: URDF files, beside a small mesh.
 #include "planner/robot/urdf_file.h"
 #include "tests/stress/fuzz/small_world.h"
 
@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const JointModel& joint : model->joints)
       if (!joint.axis.allFinite() || joint.axis.isZero(0) || !(joint.lower <= joint.upper) ||
           !joint.X_PJ.p.allFinite() || !(joint.X_PJ.q.norm() > 0.9))
-        fuzz::fail("joint " + joint.name + " is none");
+        fuzz::fail("joint " + joint.name + " has an axis, limits or a pose that are not valid");
   });
   return 0;
 }

@@ -1,9 +1,9 @@
-// A fuzz target without libFuzzer: runs every file named, or in the folders named, and then
-// mutations of them.
+// The main program of a fuzz target that is built without libFuzzer. Runs the target on files, on
+// all files in folders, and then on N mutations of them.
 //   fuzz_TARGET [--mutations N] [--longest SECONDS] FILE|FOLDER…
-// An input that takes longer than SECONDS (10) is a finding.
-// Same seed (CORRIDOR_SEED), same mutations. Each input is written to TMPDIR/input before it runs:
-// where the program ends in it, that file is the reproducer.
+// An input that takes longer than SECONDS (default 10) is a finding.
+// The same seed (CORRIDOR_SEED) makes the same mutations. Each input is written to TMPDIR/input
+// before it runs: if the program crashes, that file is the reproducer.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -31,7 +31,7 @@ std::string bytesOf(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// An input with a few bytes changed, cut, repeated, or taken from another one.
+/// Returns an input with a few bytes changed, removed, repeated, or taken from another input.
 std::string mutated(std::string bytes, const std::vector<std::string>& inputs, Random& random) {
   for (std::size_t times = 1 + below(random, 4); times > 0; --times) {
     const std::size_t at = below(random, bytes.size());
@@ -50,7 +50,7 @@ std::string mutated(std::string bytes, const std::vector<std::string>& inputs, R
         bytes.insert(at, other.substr(below(random, other.size()), below(random, 64)));
         break;
       }
-      case 4: {  // a number of digits becomes another one
+      case 4: {  // a digit becomes another number
         const std::size_t digit = bytes.find_first_of("0123456789", at);
         static const char* const numbers[] = {"0", "-1", "1e999", "nan", "4294967296", "1e-320"};
         if (digit != bytes.npos) bytes.replace(digit, 1, numbers[below(random, 6)]);

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# run.sh BUILD SECONDS TARGET…: runs fuzz targets, which are built, for SECONDS each, one after the other. What is found
-# goes to BUILD/findings, what covers more than the seeds to BUILD/corpus. Exit status 1: something was found.
+# run.sh BUILD SECONDS TARGET…: runs built fuzz targets for SECONDS each, one after the other. Writes findings to
+# BUILD/findings, and inputs that cover more than the seeds to BUILD/corpus. Exit status 1 if anything was found.
 set -euo pipefail
 build=$(cd "$1" && pwd) seconds=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 project=$(cd "$here/../../.." && pwd)
 
-# The words of a format: those in quotes in the code that reads it.
+# words TARGET: prints the words of a format for libFuzzer's dictionary: all quoted words in the code that reads it.
 words() {
   cd "$project"
   case $1 in
@@ -21,7 +21,7 @@ words() {
   grep -oh '"[A-Za-z_][A-Za-z_0-9-]*"' "$@" | sort -u
 }
 
-folder=/dev/shm  # files that are written for each input
+folder=/dev/shm  # a file is written for each input
 [[ -d $folder && -w $folder ]] || folder=${TMPDIR:-/tmp}
 TMPDIR=$(mktemp -d "$folder/corridor_fuzz.XXXXXX")
 export TMPDIR
@@ -36,7 +36,7 @@ for target in "$@"; do
   "$here/seeds.sh" "$target" "$build/seeds/$target"
   words "$target" >"$build/seeds/$target.dict"
   longest=10
-  [[ $target == read_assimp ]] && longest=200  # three times what one file may take of assimp
+  [[ $target == read_assimp ]] && longest=200  # assimp may take 60 s for a file, and each is read three times
   found=none
   if ! "$build/tests/stress/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=$longest -rss_limit_mb=2048 \
     -malloc_limit_mb=1024 -print_final_stats=1 -dict="$build/seeds/$target.dict" \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# seeds.sh TARGET FOLDER: fills FOLDER with the inputs that fuzzing TARGET starts from: files of the project that are
-# small enough, and those in seeds/TARGET. Targets that read several formats have a first line with the file's ending.
+# seeds.sh TARGET FOLDER: fills FOLDER with the inputs from which fuzzing TARGET starts: the files in seeds/TARGET, and
+# small files of the project. For targets that read several formats, the first line is the file's extension.
 set -euo pipefail
 mkdir -p "$2"
 target=$1 folder=$(cd "$2" && pwd)
@@ -11,7 +11,7 @@ shopt -s nullglob
 
 rm -f "$folder"/*
 
-# seeds FILE…: with the ending in the first line, where the target wants one.
+# seeds FILE…: copies seeds, with the extension as first line if the target needs it.
 seeds() {
   local file name
   for file in "$@"; do
@@ -34,7 +34,7 @@ case $target in
   read_urdf) seeds robots/*/*.urdf ;;
   read_srdf) seeds robots/*/*.srdf ;;
 esac
-# Any bytes are a scene: some to begin with, always the same.
+# Any bytes make a scene: 64 inputs of random bytes, always the same.
 if [[ $target == compare_* ]]; then
   for i in {1..64}; do
     RANDOM=$i bytes=

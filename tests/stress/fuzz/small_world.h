@@ -6,7 +6,7 @@
 
 namespace corridor::fuzz {
 
-/// A tetrahedron in the format of a file's ending, or "".
+/// Returns a tetrahedron in the format of a file's extension; "" for other formats.
 inline std::string tetrahedron(const std::string& ending) {
   if (ending == ".obj")
     return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
@@ -26,9 +26,9 @@ inline std::string tetrahedron(const std::string& ending) {
   return text + "endsolid t\n";
 }
 
-/// The project's problems/ and robots/ in a folder, with a tetrahedron for every mesh: inputs that
-/// name robots and meshes find them, and reading them takes no time. The meshes of all problems are
-/// in problems/p/, too: problem files are written there.
+/// Copies the project's problems/ and robots/ into a folder, with a tetrahedron for every mesh. So
+/// inputs that name robots and meshes find them, and reading them is fast. All meshes are in
+/// problems/p/, too, because the inputs are written there.
 inline void writeSmallWorld(const Folder& folder) {
   const std::filesystem::path source = CORRIDOR_SOURCE_DIR;
   for (const char* part : {"problems", "robots"})
@@ -46,7 +46,8 @@ inline void writeSmallWorld(const Folder& folder) {
     }
 }
 
-/// An arm with all kinds of joints, for files that name a URDF.
+/// A small arm, for files that name a URDF: continuous, revolute, fixed, prismatic and mimicking
+/// joints.
 inline constexpr const char* kArmUrdf = R"(<robot name='armbot'>
 <link name='base'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>
 <link name='upper'><collision><origin xyz='0 0 0.25'/><geometry><mesh filename='wedge.obj' scale='0.1 0.1 0.5'/></geometry></collision></link>

@@ -24,14 +24,14 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 WORK = ROOT / "build" / "mutations"
 TREE, RESULTS = WORK / "tree", WORK / "results.json"
-BUILD = TREE / "build" / "release"  # where the preset has it: a compiler cache knows most of it already
+BUILD = TREE / "build" / "release"  # the preset's folder
 
-NAMED_LIMIT = 300  # seconds, of one program with a filter; longer is a hang, which counts as caught
-WHOLE_LIMIT = 900  # seconds, of one whole program
+NAMED_LIMIT = 300  # seconds for one program with a filter; longer is a hang, which counts as caught
+WHOLE_LIMIT = 900  # seconds for one whole program
 
 
 class Failure(Exception):
-    """Nothing can be said of any mutation."""
+    """A fault that makes the results of all mutations meaningless."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -41,10 +41,10 @@ class Mutation:
     old: str
     new: str
     tests: tuple[str, ...]     # "program filter", likely catchers first
-    programs: tuple[str, ...]  # run as a whole where none of `tests` fails
+    programs: tuple[str, ...]  # run as a whole if none of `tests` fails
 
     def key(self, text):
-        """Names what a result speaks of: the mutation and the file that it is seeded into."""
+        """Identifies a result: by the mutation and the text of the file that it changes."""
         return hashlib.sha256(repr((dataclasses.astuple(self), text)).encode()).hexdigest()[:16]
 
 
@@ -58,10 +58,10 @@ def readMutations():
             except KeyError as error:
                 raise Failure(f"{path.name}: a mutation has no {error}") from None
             if entry:
-                raise Failure(f"{path.name}: «{mutations[-1].name}» has unknown keys: {', '.join(entry)}")
+                raise Failure(f'{path.name}: mutation "{mutations[-1].name}" has unknown keys: {", ".join(entry)}')
     names = [m.name for m in mutations]
     for name in {n for n in names if names.count(n) > 1}:
-        raise Failure(f"two mutations have the name «{name}»")
+        raise Failure(f'two mutations have the name "{name}"')
     return mutations
 
 
@@ -70,7 +70,7 @@ def git(*arguments):
 
 
 def copyTree():
-    """Makes TREE what HEAD is. A file that is already the same keeps its time, so that little is built again."""
+    """Makes TREE equal to HEAD. An unchanged file keeps its time, so that little is built again."""
     archive = tarfile.open(fileobj=io.BytesIO(git("archive", "HEAD")))
     kept = set()
     for member in archive.getmembers():
@@ -95,7 +95,7 @@ def configure():
 
 
 def build(ninja, programs):
-    """Returns what went wrong, or nothing."""
+    """Builds programs. Returns the errors, or None."""
     done = subprocess.run([*ninja, "-C", BUILD, *programs], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode == 0:
         return None
@@ -104,7 +104,7 @@ def build(ninja, programs):
 
 
 def run(program, testFilter, limit):
-    """Runs tests until one fails. Returns (how many passed, what failed or nothing)."""
+    """Runs tests until one fails. Returns (number that passed, the failure or None)."""
     command = [BUILD / "tests" / program, f"--gtest_filter={testFilter}", "--gtest_fail_fast", "--gtest_brief=0",
                "--gtest_color=no"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
@@ -131,7 +131,7 @@ def run(program, testFilter, limit):
 
 
 def checkTestsPass(mutations, ninja, results):
-    """On the tree as it is, every named test must exist and pass: else it can't catch anything."""
+    """Requires that every named test exists and passes on the unchanged tree: otherwise it can catch nothing."""
     tree = git("rev-parse", "HEAD^{tree}").decode().strip()
     passed = results.setdefault("passed", {})
     if passed.get("tree") != tree:
@@ -140,22 +140,22 @@ def checkTestsPass(mutations, ninja, results):
     tests = [t for t in dict.fromkeys(t for m in mutations for t in m.tests) if t not in passed]
     if not tests:
         return
-    print(f"{len(tests)} named tests on the tree as it is", flush=True)
+    print(f"{len(tests)} named tests on the unchanged tree", flush=True)
     if errors := build(ninja, sorted({t.split()[0] for t in tests})):
-        raise Failure(f"the tree as it is can't be built:\n{errors}")
+        raise Failure(f"the unchanged tree can't be built:\n{errors}")
     for test in tests:
         start = time.monotonic()
         count, failed = run(*test.split(), NAMED_LIMIT)
         if failed:
-            raise Failure(f"without any mutation, «{test}» fails: {failed}")
+            raise Failure(f'without any mutation, "{test}" fails: {failed}')
         if count == 0:
-            raise Failure(f"«{test}» runs no test here, or skips all")
+            raise Failure(f'"{test}" runs no test here, or skips all')
         passed[test] = round(time.monotonic() - start, 1)
         store(results)
 
 
 def catch(mutation, ninja, quick):
-    """Builds and runs the tests of a mutation that has been seeded. Returns (outcome, by what)."""
+    """Builds and runs the tests of a seeded mutation. Returns (outcome, by which test)."""
     tried = set()
     tests = [(*t.split(), NAMED_LIMIT) for t in mutation.tests]
     if not quick:
@@ -205,21 +205,21 @@ def table(mutations, results):
 def main():
     parser = argparse.ArgumentParser(description="Seed faults into the numerics and report which test catches each.")
     parser.add_argument("--list", action="store_true", help="print the mutations and their results, run none")
-    parser.add_argument("--only", metavar="PATTERN", default="*", help="only those whose name or file matches, * and ? are wildcards")
+    parser.add_argument("--only", metavar="PATTERN", default="*", help="run only those whose name or file matches; * and ? are wildcards")
     parser.add_argument("--again", metavar="NAME", action="append", default=[], help="run this one again (repeatable)")
-    parser.add_argument("--fresh", action="store_true", help="forget all results; otherwise a run resumes")
-    parser.add_argument("--quick", action="store_true", help="run the named tests only, no whole programs; what they miss stays open")
-    parser.add_argument("--count", metavar="N", type=int, help="stop after so many mutations")
-    parser.add_argument("--ninja", default="ninja", help="command that builds, may have arguments (default: ninja)")
+    parser.add_argument("--fresh", action="store_true", help="discard all results; otherwise a run resumes")
+    parser.add_argument("--quick", action="store_true", help="run only the named tests, no whole programs; mutations that these miss stay open")
+    parser.add_argument("--count", metavar="N", type=int, help="stop after N mutations")
+    parser.add_argument("--ninja", default="ninja", help="the build command, which may have arguments (default: ninja)")
     options = parser.parse_args()
 
     mutations = readMutations()
     if unknown := set(options.again) - {m.name for m in mutations}:
-        raise Failure(f"--again: no mutation has the name «{unknown.pop()}»; --list prints them")
+        raise Failure(f'--again: no mutation has the name "{unknown.pop()}"; --list prints all names')
     pattern = options.only if set(options.only) & set("*?") else f"*{options.only}*"
     chosen = [m for m in mutations if fnmatch.fnmatch(m.name, pattern) or fnmatch.fnmatch(m.file, pattern)]
     if not chosen:
-        raise Failure(f"--only: no mutation's name or file matches «{options.only}»")
+        raise Failure(f'--only: no mutation\'s name or file matches "{options.only}"; --list prints them')
     WORK.mkdir(parents=True, exist_ok=True)
     results = {} if options.fresh or not RESULTS.exists() else json.loads(RESULTS.read_text())
     done = results.setdefault("mutations", {})

@@ -1,0 +1,86 @@
+#include "collision/core/spelling.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace corridor {
+namespace {
+
+std::string lowered(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  // Rows i − 2, i − 1 and i of the table of distances between prefixes.
+  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = last;
+    last = row;
+  }
+  return last[b.size()];
+}
+
+std::optional<std::string> mostSimilar(std::string_view word,
+                                       const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 100;  // longer than any key; bounds the time of a hostile file
+  if (word.size() > longest) return std::nullopt;
+  std::optional<std::string> best;
+  std::size_t bestDistance = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    const std::size_t limit = std::max<std::size_t>(1, longer / 3);
+    if (longer - std::min(word.size(), candidate.size()) > limit) continue;
+    const std::size_t distance = editDistance(lowered(word), lowered(candidate));
+    if (distance <= limit && distance < word.size() && (!best || distance < bestDistance)) {
+      best = candidate;
+      bestDistance = distance;
+    }
+  }
+  return best;
+}
+
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
+  const auto near = mostSimilar(word, candidates);
+  return near ? "; did you mean \"" + *near + "\"?" : "";
+}
+
+std::string knownWords(const std::vector<std::string>& words) {
+  return " (known: " + joinedFirst(words) + ")";
+}
+
+std::string joinedFirst(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 30;
+  if (words.size() <= most) return joined(words);
+  const std::vector<std::string> first(words.begin(), words.begin() + most);
+  return joined(first) + " and " + std::to_string(words.size() - most) + " more";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string quotedWord(std::string_view word) {
+  constexpr std::size_t longest = 60;
+  std::size_t end = std::min(word.size(), longest);
+  while (end < word.size() && end > 0 && (word[end] & 0xC0) == 0x80)
+    --end;  // never cut inside a UTF-8 character
+  std::string text = "\"";
+  for (const char c : word.substr(0, end))
+    text += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+  return text + (end < word.size() ? "…\"" : "\"");
+}
+
+}  // namespace corridor

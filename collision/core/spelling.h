@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace corridor {
+
+/// Returns how many bytes must be inserted, removed, replaced, or swapped with their neighbour to
+/// turn `a` into `b` (optimal string alignment).
+std::size_t editDistance(std::string_view a, std::string_view b);
+
+/// Returns the candidate that a user may have meant: the first with the least edit distance,
+/// ignoring case. The distance must be at most a third of the longer word's length, or 1, and less
+/// than the length of `word`. Words of more than 100 bytes get no suggestion.
+std::optional<std::string> mostSimilar(std::string_view word,
+                                       const std::vector<std::string>& candidates);
+
+/// Returns `; did you mean "…"?` with the nearest candidate, or "".
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Returns ` (known: a, b, c)`, shortened as by `joinedFirst`.
+std::string knownWords(const std::vector<std::string>& words);
+
+/// Returns "a, b, c", or the first 30 words and the number of the others: "a, b, c and 970 more".
+std::string joinedFirst(const std::vector<std::string>& words);
+
+/// Returns all words: "a, b, c".
+std::string joined(const std::vector<std::string>& words);
+
+/// Returns the word for a message: in double quotes, at most 60 bytes, control characters as '?'.
+std::string quotedWord(std::string_view word);
+
+}  // namespace corridor

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "collision/hierarchy/obb4_tree.h"
+
+namespace corridor {
+
+/// The result of building: everything in an `Obb4Tree` except the mesh itself.
+struct Obb4Layout {
+  Obb1 root;
+  std::vector<Obb4Tree::Node> nodes;
+  std::vector<std::uint32_t> order;  ///< the mesh's triangles in leaf order
+  Vec3 origin = Vec3::Zero();
+  double length = 1;  ///< length of the tree's unit, metres
+  double radius = 0;
+};
+
+/// Returns the layout of the tree over `mesh`. It is the same for any number of threads and any
+/// instruction set.
+Obb4Layout layOutObb4(const TriangleMesh& mesh, ObbFit fit, unsigned threads);
+
+}  // namespace corridor

@@ -1,0 +1,160 @@
+// The traversal of two 4-wide OBB trees. Included once per SIMD target by foreach_target.h.
+
+// clang-format off
+#if defined(CORRIDOR_OBB4_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)  // Highway's include guard
+#ifdef CORRIDOR_OBB4_WALK_INL_H_
+#undef CORRIDOR_OBB4_WALK_INL_H_
+#else
+#define CORRIDOR_OBB4_WALK_INL_H_
+#endif
+// clang-format on
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "hwy/highway.h"
+
+#include "collision/core/query_context.h"
+#include "collision/hierarchy/obb4_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The lanes of a node that hold a box, and those that hold a leaf.
+struct Lanes {
+  unsigned held, leaves;
+  explicit Lanes(const Obb4Tree::Node& node) {
+    const hn::CappedTag<std::int32_t, 4> d;
+    alignas(16) std::uint8_t bits[8] = {};
+    const auto child = hn::BitCast(d, hn::Load(hn::CappedTag<std::uint32_t, 4>(), node.child));
+    hn::StoreMaskBits(d, hn::Lt(child, hn::Zero(d)), bits);
+    const unsigned top = bits[0];
+    hn::StoreMaskBits(d, hn::Ne(child, hn::Set(d, -1)), bits);
+    held = bits[0];
+    leaves = top & held;
+  }
+};
+
+/// Traverses node pairs of two trees. An item is a node of a, a node of b, and those of the sixteen
+/// pairs of their boxes that are requested (bit 4·i + j). These are tested at once. Then the walk
+/// descends both nodes, or only the one with clearly larger boxes, or only the one that is no leaf.
+///
+/// A Query has
+///   bool skip(const Item&): returns true to drop an item. The item's `key` is already set.
+///   unsigned boxes(const Item&, const Node& a, const Node& b, float* keys): returns which of the
+///     item's pairs to continue with, and sets a key for each. Other pairs may get any answer.
+///   kSorted: if true, items that were pushed together are visited in the order of their keys. If
+///     false, only the one of the least key comes first.
+///   bool leaves(const Item&, const Node& a, const Node& b, unsigned pairs, const float* keys):
+///     handles pairs of leaves. Returns true to end the walk.
+///
+/// The stack belongs to the context: once it is large enough, no query allocates memory. The walk
+/// starts from the items that are on the stack. If `leaves` ends the walk, the items not yet
+/// visited stay on the stack. The current item is then on top; some of its pairs may have been
+/// handled. Every new item is written, and kept only if it has a pair. This needs no branch; a
+/// branch would often be mispredicted.
+///
+/// @param count  number of items to start from
+/// @return the number of items that are left
+template <class Query>
+std::size_t walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB, QueryContext& context,
+                     Query& query, std::size_t count) {
+  using Item = QueryContext::NodePair4;
+  constexpr unsigned kAll = 15, kAllPairs = 0xffff;
+  constexpr std::size_t kMostPushed = 16 + 1;  // the last one is written and not kept
+  // Two nodes whose sizes differ by less than this factor are descended together. Measured: 1.3 to
+  // 2.5 cost the same near contact. The smaller, the better for a small body far inside a large
+  // one.
+  constexpr float kLarger = 1.3F;
+  const auto size = [](const Obb4Tree::Node& node) {
+    return std::max(std::max(node.half[0][0], node.half[0][1]),
+                    std::max(node.half[0][2], node.half[0][3]));
+  };
+  // Returns all pairs of a's boxes in these lanes: bit r becomes the four bits of row r.
+  const auto rowsOf = [](unsigned lanes) {
+    return (lanes & 1) * 0xfU | (lanes & 2) * 0x78U | (lanes & 4) * 0x3c0U | (lanes & 8) * 0x1e00U;
+  };
+  auto& stack = context.stack4;
+  std::size_t top = count;
+  const auto makeRoom = [&] {
+    if (stack.size() < top + kMostPushed) stack.resize(2 * (top + kMostPushed));
+  };
+  makeRoom();
+  while (top > 0) {
+    Item item = stack[--top];
+    if (query.skip(item)) continue;
+    const Obb4Tree::Node &na = a.nodes()[item.a], &nb = b.nodes()[item.b];
+    const Lanes lanesA(na), lanesB(nb);
+    item.pairs &= rowsOf(lanesA.held) & lanesB.held * 0x1111U;
+    context.counters.boxTests += static_cast<unsigned>(std::popcount(item.pairs));
+    alignas(64) float keys[16];
+    const unsigned open = query.boxes(item, na, nb, keys) & item.pairs;
+    if (!open) continue;
+    const unsigned leafRows = rowsOf(lanesA.leaves), leafColumns = lanesB.leaves * 0x1111U;
+    if (const unsigned pairs = open & leafRows & leafColumns)
+      if (query.leaves(item, na, nb, pairs, keys)) return top + 1;
+    const float sizeA = size(na), sizeB = size(nb) * scaleB;
+    const unsigned splitA = sizeB > kLarger * sizeA ? 0 : ~0U,
+                   splitB = sizeA > kLarger * sizeB ? 0 : ~0U;
+    // Pairs of boxes where the walk descends both boxes, only a's, or only b's. The pairs of one
+    // row (only a's) or of one column (only b's) continue as one item.
+    const unsigned inner = open & ~leafRows & ~leafColumns;
+    const unsigned both = inner & splitA & splitB;
+    const unsigned onlyA = (open & ~leafRows & leafColumns) | (inner & ~splitB);
+    const unsigned onlyB = (open & leafRows & ~leafColumns) | (inner & ~splitA);
+    if (!(both | onlyA | onlyB)) continue;
+    makeRoom();
+    Item* const begin = stack.data() + top;
+    Item* end = begin;
+    for (unsigned rest = both; rest; rest &= rest - 1) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+      *end++ = {na.child[bit / 4], nb.child[bit % 4], keys[bit], kAllPairs};
+    }
+    if (onlyA | onlyB) {
+      const auto keyOf = [&](unsigned pairs, unsigned pair) {
+        return pairs >> pair & 1 ? keys[pair] : HUGE_VALF;
+      };
+      for (unsigned r = 0; r < 4; ++r) {
+        const unsigned row = onlyA >> 4 * r & kAll;
+        const float key = std::min(std::min(keyOf(onlyA, 4 * r), keyOf(onlyA, 4 * r + 1)),
+                                   std::min(keyOf(onlyA, 4 * r + 2), keyOf(onlyA, 4 * r + 3)));
+        *end = {na.child[r], item.b, key, row * 0x1111U};
+        end += row != 0;
+      }
+      for (unsigned c = 0; c < 4; ++c) {
+        const unsigned column = onlyB >> c & 0x1111U;
+        const unsigned rows = (column | column >> 3 | column >> 6 | column >> 9) & kAll;
+        const float key = std::min(std::min(keyOf(onlyB, c), keyOf(onlyB, c + 4)),
+                                   std::min(keyOf(onlyB, c + 8), keyOf(onlyB, c + 12)));
+        *end = {item.a, nb.child[c], key, rowsOf(rows)};
+        end += rows != 0;
+      }
+    }
+    if constexpr (Query::kSorted) {
+      std::sort(begin, end, [](const Item& x, const Item& y) { return x.key > y.key; });
+    } else {
+      Item* least = begin;
+      for (Item* i = begin + 1; i < end; ++i) least = i->key < least->key ? i : least;
+      std::swap(*least, end[-1]);
+    }
+    top += static_cast<std::size_t>(end - begin);
+  }
+  return 0;
+}
+
+/// The same for both trees as a whole.
+template <class Query>
+void walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB, QueryContext& context,
+              Query& query) {
+  context.startAtRoots();
+  walkObb4(a, b, scaleB, context, query, 1);
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,124 @@
+#include "collision/motion/check_certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "collision/core/rounding.h"
+#include "collision/queries/containment.h"
+#include "collision/queries/distance.h"
+
+namespace corridor {
+namespace {
+
+using Kind = CertificateFault::Kind;
+
+/// Returns the motion bound of all of b in the interval, tube and rounding included.
+MotionBound motionBoundOf(const Body& b, const RelativeMotion& relative) {
+  const Vec3 y = relative.X_AB.m * b.sphereCenter();
+  // The computed centre of the sphere is off by less than 8u of its terms per coordinate: 16u as a
+  // length.
+  const double terms = y.cwiseAbs().sum() + relative.X_AB.t.cwiseAbs().sum();
+  return motionBound(relative, y + relative.X_AB.t,
+                     roundedUp(b.sphereRadius() + 16 * kUnit * terms));
+}
+
+class CertificateCheck {
+ public:
+  CertificateCheck(MotionSource& motion, std::span<const MotionPair> pairs,
+                   const MotionOptions& options, QueryContext& context)
+      : motion_(motion), pairs_(pairs), options_(options), context_(context) {
+    const std::uint64_t done = context.counters.work();
+    workEnd_ = done + std::min(options.workLimit, std::numeric_limits<std::uint64_t>::max() - done);
+  }
+
+  /// Proves, for all of [t0, t1], the margin plus half of what the interval claims beyond it.
+  std::optional<CertificateFault> faultIn(const FreeInterval& i) {
+    const MotionPair& pair = pairs_[i.pair];
+    const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
+    if (context_.counters.work() >= workEnd_)
+      return CertificateFault{Kind::workLimit, i.pair, middle};
+    const RelativeMotion relative = motion_.relativeMotion(pair.motion, middle, h);
+    const auto closer = [&](double d) {
+      return closerThan(pair.a->binaryTree(), {}, pair.b->binaryTree(), relative.X_AB, d, context_);
+    };
+    const MotionBound bound = motionBoundOf(*pair.b, relative);
+    const double beyond = std::max(0.0, i.clearance - options_.margin);
+    const double needed =
+        roundedUp(options_.margin + roundedUp(beyond / 2) + bound.isotropic + bound.pad);
+    if (needed < HUGE_VAL && !closer(needed)) {
+      // No body passes through a surface between t = 0 and here, so one that is outside at t = 0
+      // stays so.
+      if (i.t0 > 0 || !insideEachOther(*pair.a, {}, *pair.b, relative.X_AB, context_))
+        return std::nullopt;
+      return CertificateFault{Kind::refuted, i.pair, 0};
+    }
+    // Shorter intervals would not help: the missing clearance is lost to `pad`, or the claim is
+    // false.
+    if (!(bound.isotropic >= std::max(beyond, options_.tolerance) / 4) ||
+        !(i.t0 < middle && middle < i.t1))
+      return CertificateFault{
+          closer(options_.margin + 0.75 * beyond) ? Kind::refuted : Kind::unproved, i.pair, middle};
+    const auto first = faultIn({i.pair, i.t0, middle, i.clearance});
+    return first ? first : faultIn({i.pair, middle, i.t1, i.clearance});
+  }
+
+ private:
+  MotionSource& motion_;
+  std::span<const MotionPair> pairs_;
+  const MotionOptions& options_;
+  QueryContext& context_;
+  std::uint64_t workEnd_ = 0;
+};
+
+/// Reports whether the interval is on the grid of time intervals, so that all their middles are
+/// exact.
+bool isOnGrid(const FreeInterval& i) {
+  const auto onGrid = [](double t) {
+    return t >= 0 && t <= 1 && std::ldexp(t, 48) == std::floor(std::ldexp(t, 48));
+  };
+  return onGrid(i.t0) && onGrid(i.t1) && i.t0 < i.t1;
+}
+
+bool areOptions(const MotionOptions& options) {
+  const auto finite = [](double x) { return x >= 0 && x < HUGE_VAL; };
+  return finite(options.margin) && finite(options.clearanceSlack) && finite(options.tolerance) &&
+         options.tolerance > 0;
+}
+
+}  // namespace
+
+std::optional<CertificateFault> checkCertificate(MotionSource& motion,
+                                                 std::span<const MotionPair> pairs,
+                                                 const MotionOptions& options, double until,
+                                                 const MotionCertificate& certificate,
+                                                 QueryContext& context) {
+  if (!standardFloatingPoint()) return CertificateFault{Kind::floatingPoint, 0, 0};
+  if (!areOptions(options) || !(until >= 0 && until <= 1))
+    return CertificateFault{Kind::malformed, 0, until};
+  const bool claims = until > 0 || !certificate.free.empty();
+  if (claims && motion.ambiguous()) return CertificateFault{Kind::ambiguous, 0, 0};
+  std::vector<FreeInterval> intervals = certificate.free;
+  const double least = roundedDown(options.margin + options.clearanceSlack);
+  for (const FreeInterval& i : intervals)
+    if (i.pair >= pairs.size() || !isOnGrid(i) ||
+        !(i.clearance >= least && i.clearance > 0 && i.clearance < HUGE_VAL))
+      return CertificateFault{Kind::malformed, i.pair, i.t0};
+  std::sort(intervals.begin(), intervals.end(), [](const FreeInterval& x, const FreeInterval& y) {
+    return x.pair != y.pair ? x.pair < y.pair : x.t0 < y.t0;
+  });
+  auto next = intervals.begin();
+  for (std::size_t k = 0; k < pairs.size() && until > 0; ++k) {
+    double covered = 0;
+    for (; next != intervals.end() && next->pair == k; ++next)
+      if (next->t0 <= covered) covered = std::max(covered, next->t1);
+    if (covered < until) return CertificateFault{Kind::gap, k, covered};
+  }
+  CertificateCheck check(motion, pairs, options, context);
+  for (const FreeInterval& i : intervals)
+    if (auto fault = check.faultIn(i)) return fault;
+  return std::nullopt;
+}
+
+}  // namespace corridor

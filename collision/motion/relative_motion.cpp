@@ -1,0 +1,130 @@
+#include "collision/motion/relative_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/rounding.h"
+
+/// Derivation. Let T_j(φ) be the rotation by φ about the j-th axis, or the translation along it,
+/// where that axis is at the interval's middle. A point of b that is at x at the middle follows
+///   x(s, ε) = T_1(sδ_1 + ε_1) … T_k(sδ_k + ε_k) x        (product of exponentials),
+/// with δ_j ≥ 0 (after flipping axes) and |s| ≤ 1. Let r_j be the distance of x from axis j (for a
+/// pivot rotation: from its point). Let z_j = T_j(sδ_j) … T_k(sδ_k) x be the point as moved by the
+/// joints from j on only.
+///
+/// Isotropic bound, `isotropic` (no enlargement).
+///   x(s) − x = Σ_j T_1(sδ_1) … T_(j−1)(sδ_(j−1)) [T_j(sδ_j) x − x]:
+/// the factors before the bracket are an isometry, and x in the bracket is at the middle. The
+/// bracket of a rotation is a chord, 2 r_j sin(min(|sδ_j|, π)/2); that of a translation is |sδ_j|.
+/// Let D_j be the sum of these over all i ≥ j, at s = 1. Then |z_j − x| ≤ D_j and |x(s) − x| ≤ D_1.
+/// The variable `displaced` is D_(j+1) before joint j is added to it.
+///
+/// Remainder. ∂x/∂φ_j is a_j × (z_(j+1) − p_j), rotated by the joints before j. Its length is the
+/// distance of z_(j+1) from axis j, at most r̄_j = r_j + D_(j+1); for a translation it is 1. A
+/// second derivative by a joint i ≤ j rotates that vector about axis i: its length is at most the
+/// same if i is a rotation, and 0 if i is a translation. Therefore
+///   |x''(s)| ≤ Σ_(rotations j) δ_j² r̄_j + 2 Σ_(rotations i) δ_i Σ_(j > i) δ_j r̄_j
+/// with r̄_j = 1 for translations. By Taylor's formula, for any n,
+///   |n·(x(s) − x − s x'(0))| ≤ ½ max|x''|·|n|.
+/// The variable `rate` is the inner sum.
+///
+/// A single rotation by δ about k, with no translation after it. (Translations before it only add
+/// terms linear in s.) Let y be the lever from the axis, |y − (k·y)k| = r_j, and φ = sδ. Rodrigues'
+/// formula leaves the remainder
+///   (1 − cos φ) k × (k × y) + (sin φ − φ) k × y.
+/// It is orthogonal to k and has the length r|e^(iφ) − 1 − iφ| ≤ r φ²/2. Along n it is at most
+///   ½ r δ²|n × k| = ½ r δ |n × angular|:
+/// this is `secondOrderAcross`. Two errors of the stored `angular` are added to `secondOrder`:
+/// * Its direction is off by rounding, which contributes `tilt`·r δ².
+/// * Its length is off from δ by the interval's reachError e (the rounding of the rate). This
+///   contributes ½ r δ e here, and r δ e where the second order is computed in full
+///   (moving_triangles.cpp). `amount` is no less than the real δ and at most e above |angular|, so
+///   that ½ r (δ² − |angular|²) ≤ r·amount·e, which is the term added.
+///
+/// Tube. x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1), where the
+/// joints after j are nominal. A bracket is at most |ε_j| times the distance of z_(j+1) from axis
+/// j, which is again at most r̄_j (1 for translations). At the middle D = 0, so r_j τ_j, with τ_j
+/// the joint's `tube`, goes to `pad`. The rest, D_(j+1) τ_j, goes to `isotropic` and `secondOrder`:
+/// it is smaller in a shorter interval.
+///
+/// Rounding. The relative motion states the error of its own numbers (`fixedError`, `reachError`):
+/// for a point at x it is at most E = fixedError + reachError·|y|, y its lever. The distances from
+/// the axes are off by at most E as well, so every r_j grows by E. In this function y, x − p_j and
+/// the products are off by a few u of their terms: `loose`. Each sum of positive terms is off by a
+/// few u, which the factor `scale` covers at the end.
+namespace corridor {
+namespace {
+
+double taxicab(const Vec3& v) {
+  return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
+}
+
+double length(double x, double y, double z) {
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+/// Returns |a × b| without building the cross product as a vector.
+double lengthOfCross(const Vec3& a, const Vec3& b) {
+  return length(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
+
+/// Metres: squares below 2^-1022 underflow, and with them lengths below 2^-511.
+constexpr double kLeastLength = 0x1p-500;
+
+}  // namespace
+
+MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double radius) {
+  const Vec3 y = x_A - relative.X_AB.t;
+  const double loose = 16 * kUnit * (taxicab(y) + taxicab(relative.X_AB.t) + radius) + kLeastLength;
+  const double lever = length(y[0], y[1], y[2]);
+  const double error = relative.fixedError + relative.reachError * (lever + radius + loose);
+  const double grown = radius + error + loose;
+
+  const double scale = 1 + kUnit * static_cast<double>(64 + 8 * relative.screws.size());
+  double displaced = 0, rate = 0, second = 0, pad = error, stray = 0;
+  double sole = 0;  // r δ of a rotation that is the only joint so far
+  int turns = 0;
+  for (std::size_t j = relative.screws.size(); j-- > 0;) {
+    const ScrewMotion& screw = relative.screws[j];
+    if (screw.kind == ScrewMotion::Kind::prismatic) {
+      displaced += screw.amount;
+      rate += screw.amount;
+      pad += screw.tube;
+      continue;
+    }
+    const Vec3 d = x_A - screw.point;
+    const double r = (screw.kind == ScrewMotion::Kind::revolute ? lengthOfCross(screw.axis, d)
+                                                                : length(d[0], d[1], d[2])) +
+                     grown + 16 * kUnit * taxicab(d);
+    pad += r * screw.tube;
+    stray += displaced * screw.tube;
+    if (screw.amount == 0) continue;
+    const double onward = (r + displaced) * screw.amount;
+    sole = turns == 0 && rate == 0 ? onward : 0;
+    ++turns;
+    second += screw.amount * (onward + 2 * rate);
+    rate += onward;
+    displaced += r * chord(screw.amount);
+  }
+
+  MotionBound bound;
+  bound.pad = scale * pad;
+  if (displaced == 0) return bound;  // only a tube is left: all of it is in `pad`
+  const Vec3& l = relative.linear;
+  const Vec3& w = relative.angular;
+  const double firstOrder =
+      length(l[0] + (w[1] * y[2] - w[2] * y[1]), l[1] + (w[2] * y[0] - w[0] * y[2]),
+             l[2] + (w[0] * y[1] - w[1] * y[0])) +
+      relative.angle * grown + 16 * kUnit * (relative.speed + relative.angle * lever) +
+      0.5 * second;
+  bound.isotropic = scale * (std::min(displaced, firstOrder) + stray);
+  const bool bends = sole > 0 && turns == 1;
+  const double tilt = bends ? relative.reachError + 8 * kUnit : 0.5;
+  bound.secondOrderAcross = bends ? scale * 0.5 * sole : 0;
+  bound.secondOrder = scale * (tilt * second + (bends ? relative.reachError * sole : 0) + stray);
+  return bound;
+}
+
+}  // namespace corridor

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "collision/core/rounding.h"
+#include "collision/core/transform.h"
+
+namespace corridor {
+
+/// The neighbourhood of a nominal motion that its proof covers: each coordinate of the position may
+/// differ by at most `position` (metres), and the orientation by a rotation of at most `rotation`
+/// (radians).
+struct Tube {
+  double position = 0;
+  double rotation = 0;
+};
+
+/// The share of one joint in a relative motion during a time interval, at the interval's middle,
+/// expressed in frame A of body a.
+struct ScrewMotion {
+  enum class Kind {
+    revolute,   ///< rotation about `axis` through `point`
+    prismatic,  ///< translation along `axis`; `point` has no meaning
+    /// A pivot rotation: about any axis through `point`. Only for the tube of an unconstrained
+    /// rotation; `amount` is 0.
+    spherical,
+  };
+  Kind kind = Kind::revolute;
+  Vec3 axis = Vec3::Zero();   ///< of unit length up to rounding
+  Vec3 point = Vec3::Zero();  ///< metres
+  double amount = 0;  ///< half of the joint's motion in the interval, ≥ 0, rounded up; rad or m
+  double tube = 0;    ///< largest perturbation beyond that, ≥ 0; rad or m
+};
+
+/// The relative motion of a body b, as seen from a body a, in a time interval [t − h, t + h],
+/// described from its middle t.
+///
+/// Both bodies may move; frame A of a is at rest here. The motion is that of the kinematic chain
+/// from a to b. At time t + s·h, |s| ≤ 1, its exact map is
+///   X_AB(s) = T_1(s·δ_1 + ε_1) … T_k(s·δ_k + ε_k),   |δ_j| = screws[j].amount, |ε_j| ≤ tube,
+/// where each T_j is a rotation about, or a translation along, an axis that the joints before it
+/// carry along.
+///
+/// To first order a point x of b moves by s·(linear + angular × y), where y = x − X_AB.t is its
+/// lever from b's origin. `motionBound` bounds the remainder.
+struct RelativeMotion {
+  Transform X_AB;               ///< the map at the middle, rounded
+  Vec3 linear = Vec3::Zero();   ///< half of the displacement of b's origin in the interval, metres
+  Vec3 angular = Vec3::Zero();  ///< half of the interval's rotation vector, radians
+  double speed = 0;             ///< |linear|, rounded up
+  double angle = 0;             ///< |angular|, rounded up
+  std::span<const ScrewMotion> screws;  ///< the joints in order from a to b
+  /// Errors of all the numbers above. At every s, each point of the real b is within fixedError +
+  /// reachError·|y| metres of the place that these numbers, taken as exact, give it. The same bound
+  /// holds for the error of its distances from the axes. The errors may include perturbations
+  /// besides rounding: a tube, or the clearance slack of a query.
+  double fixedError = 0;
+  double reachError = 0;
+  /// The shares of a tube, as opposed to rounding, in `fixedError` and `reachError`.
+  double fixedTube = 0, reachTube = 0;
+};
+
+/// A motion bound for all points of b within a radius of a given point. For every vector n
+///   |n·(x(s) − x(0) − s·(linear + angular × y))| ≤ secondOrderAcross·|n × angular| +
+///   secondOrder·|n|
+/// and |x(s) − x(0)| ≤ isotropic. Tube and rounding add `pad` to both. What the tube adds at the
+/// middle is in `pad`; its growth along the interval is in `isotropic` and `secondOrder`. All four
+/// are in metres, except `secondOrderAcross` (metres per radian of `angular`), and are rounded up.
+struct MotionBound {
+  double isotropic = 0, secondOrderAcross = 0, secondOrder = 0, pad = 0;
+};
+
+/// Returns |v|, rounded up. Below 2^-480 (metres or radians) squares underflow and the result may
+/// be less than |v|; the least errors of the relative motions cover that. The result for a zero
+/// vector is exactly 0: the constant that `roundedUp` adds would be lost in every sum, and would
+/// make products subnormal, which is slow. NaN stays NaN.
+inline double lengthFromAbove(const Vec3& v) {
+  const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  return square == 0 && v.isZero(0) ? 0 : roundedUp(std::sqrt(square));
+}
+
+/// Returns an upper bound of 2 sin(min(δ, π)/2), the chord of a rotation by δ ≥ 0 at radius 1. It
+/// is at most 0.5 % above it: Taylor's polynomial of degree 5 is above the sine, and increases up
+/// to δ = 3, where it is 2.002.
+inline double chord(double amount) {
+  if (!(amount < 3)) return 2;
+  const double square = amount * amount;
+  return amount * (1 - square * (1.0 / 24 - square / 1920));
+}
+
+/// Returns the motion bound of all points of b within `radius` of a point. The derivation is in
+/// relative_motion.cpp (see also collision/NUMERICS.md, "Chain bound, no enlargement" and
+/// "Directional bounds").
+/// @param x_A the point at the interval's middle, in A, metres.
+MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double radius);
+
+}  // namespace corridor

@@ -1,0 +1,282 @@
+#include "collision/queries/distance_obb4.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "collision/core/rounding.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/closer_triangles.h"
+#include "collision/queries/interference_obb4.h"
+#include "collision/queries/nearest_triangles.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "collision/queries/distance_obb4.cpp"
+#include "hwy/foreach_target.h"
+// Highway requires this include after foreach_target.h.
+#include "hwy/highway.h"
+
+#include "collision/hierarchy/obb4_walk-inl.h"
+#include "collision/queries/obb4_leaves-inl.h"
+#include "collision/queries/triangle_distances-inl.h"
+#include "collision/volumes/overlap_obb4_obb4-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace corridor::HWY_NAMESPACE {
+
+/// The distance query on two 4-wide OBB trees. Bounds pairs of triangles in float, sixteen at a
+/// time. Pairs that may be the closest are bounded again in double, and measured in double-double
+/// if they still may be.
+class Nearest {
+ public:
+  Nearest(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
+          const Obb4TreePose& pose, const DistanceOptions& options, QueryContext& context)
+      : a_(a),
+        b_(b),
+        pose_(pose),
+        options_(options),
+        counters_(context.counters),
+        leaves_(a, b, pose, counters_),
+        candidates_(context.bounded),
+        nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context) {
+    candidates_.clear();
+  }
+
+  static constexpr bool kSorted = true;
+  bool skip(const QueryContext::NodePair4& item) const { return beyond(item.key); }
+
+  unsigned boxes(const QueryContext::NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
+                 float* squares) const {
+    return nearBoxes<true>(a, b, pose_.floats, limit_, squares);
+  }
+
+  /// Measures the nearest leaf pairs first, because they may rule out the others, in batches of at
+  /// most sixteen pairs of triangles.
+  bool leaves(const QueryContext::NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb,
+              unsigned pairs, const float* keys) {
+    while (pairs) {
+      NodeLeafPairs some(na, nb);
+      while (pairs) {
+        auto least = static_cast<unsigned>(std::countr_zero(pairs));
+        for (unsigned rest = pairs & (pairs - 1); rest; rest &= rest - 1) {
+          const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+          if (keys[bit] < keys[least]) least = bit;
+        }
+        if (beyond(keys[least])) pairs = 0;
+        if (!pairs || (some.count() && some.count() + some.sizeOf(least) > 16)) break;
+        some.add(least);
+        pairs &= ~(1U << least);
+      }
+      if (some.count()) measure(some);
+    }
+    return false;
+  }
+
+  /// Takes a pair of triangles to start from, numbered in leaf order and at most `upper` metres
+  /// apart.
+  void start(std::uint32_t s, std::uint32_t t, double upper) {
+    const float limit = pose_.limitOf(upper);
+    if (!(limit < HUGE_VALF)) return;
+    least_ = limit;
+    closest_ = {s, t};
+    lowerLimit(upper);
+  }
+  /// Returns the pair with the least upper bound, for the next query to start from.
+  std::optional<TrianglePair> closest() const {
+    return least_ < HUGE_VALF ? std::optional(closest_) : std::nullopt;
+  }
+
+  Distance result() {
+    // Because of the allowed error, the limit may be below the bound of the pair that set it.
+    if (least_ < HUGE_VALF) look(closest_.a, closest_.b);
+    std::erase_if(candidates_, [&](const auto& c) { return c.bound > limit_; });
+    std::ranges::sort(candidates_, {}, [](const auto& c) { return std::tuple(c.bound, c.a, c.b); });
+    for (const auto& [s, t, bound] : candidates_)
+      if (!(bound > limit_) && !(s == closest_.a && t == closest_.b)) look(s, t);
+    return nearest_.result(a_, b_);
+  }
+
+ private:
+  bool beyond(float square) const {
+    return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F);
+  }
+
+  void measure(NodeLeafPairs& pairs) {
+    leaves_.forEachNearSixteen(
+        pairs, [&] { return limit_; },
+        [&](const TriangleCorners& a, const TriangleCorners& b, unsigned first, unsigned open) {
+          alignas(64) float lower[16], upper[16];
+          triangleDistances(a, b, pairs.from(first), pose_.leafError, lower, upper);
+          for (unsigned rest = open; rest; rest &= rest - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+            if (!(upper[bit] < least_)) continue;
+            least_ = upper[bit];
+            closest_ = pairs.triangles(first + bit);
+          }
+          if (least_ < HUGE_VALF) lowerLimit(least_ / pose_.unitA * (2 - pose_.shrink));
+          for (unsigned rest = open; rest; rest &= rest - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+            const auto [s, t] = pairs.triangles(first + bit);
+            if (upper[bit] == HUGE_VALF) {  // too far for floats: doubles lower the limit
+              look(s, t);
+            } else if (!(lower[bit] > limit_)) {
+              candidates_.push_back({s, t, lower[bit]});
+            }
+          }
+          return false;
+        });
+  }
+
+  void look(std::uint32_t s, std::uint32_t t) {
+    nearest_.look(s, a_.triangle(s), t, b_.triangle(t), counters_);
+    lowerLimit(nearest_.upper());
+  }
+  /// Lowers the limit, given that the distance is at most `metres`: pairs that can't improve it by
+  /// more than the options allow are skipped.
+  void lowerLimit(double metres) {
+    const double most = (metres - options_.absolute) / (1 + options_.relative);
+    limit_ = std::min(limit_, pose_.limitOf(std::max(0.0, most)));
+  }
+
+  const Obb4Tree &a_, &b_;
+  const Obb4TreePose& pose_;
+  const DistanceOptions& options_;
+  Counters& counters_;
+  Obb4Leaves leaves_;
+  /// Pairs of triangles, numbered in leaf order, with lower bounds of their distances in a's unit.
+  std::vector<QueryContext::BoundedPair>& candidates_;
+  NearestTriangles nearest_;
+  float least_ = HUGE_VALF;  // least upper bound so far, in a's unit
+  TrianglePair closest_;     // the pair that has it, in leaf order
+  float limit_ = HUGE_VALF;  // in a's unit: pairs that are farther apart are skipped
+};
+
+Distance obb4Distance(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
+                      const Transform& X_WB, const Obb4TreePose& pose,
+                      const DistanceOptions& options, QueryContext& context) {
+  Nearest query(a, X_WA, b, X_WB, pose, options, context);
+  LastPair& last = context.lastPairs.of(&a, &b);
+  if (last.isIn(a.triangleCount(), b.triangleCount())) {
+    const TriangleDistances bounds(X_WA, a.reach(), X_WB, b.reach());
+    query.start(last.a, last.b, bounds(a.triangle(last.a), b.triangle(last.b)).upper);
+    ++context.counters.triangleTests;
+  }
+  walkObb4(a, b, pose.floats.scale, context, query);
+  if (const auto closest = query.closest()) last.found(closest->a, closest->b);
+  return query.result();
+}
+
+class Closer {
+ public:
+  Closer(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
+         const Obb4TreePose& pose, double d, Counters& counters)
+      : a_(a),
+        b_(b),
+        pose_(pose),
+        counters_(counters),
+        leaves_(a, b, pose, counters),
+        closer_(X_WA, a.reach(), X_WB, b.reach(), d),
+        limit_(pose.limitOf(d)) {}
+
+  static constexpr bool kSorted = true;
+  static bool skip(const QueryContext::NodePair4&) { return false; }
+
+  unsigned boxes(const QueryContext::NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
+                 float* squares) const {
+    return nearBoxes<false>(a, b, pose_.floats, limit_, squares);
+  }
+
+  bool leaves(const QueryContext::NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb,
+              unsigned pairs, const float*) {
+    found_ = leaves_.forEachNear(
+        na, nb, pairs, [&] { return limit_; },
+        [&](std::uint32_t s, std::uint32_t t) {
+          if (!closer_(a_.triangle(s), b_.triangle(t), counters_)) return false;
+          pair_ = {s, t};
+          return true;
+        });
+    return found_;
+  }
+
+  std::optional<TrianglePair> found() const { return found_ ? std::optional(pair_) : std::nullopt; }
+
+ private:
+  const Obb4Tree &a_, &b_;
+  const Obb4TreePose& pose_;
+  Counters& counters_;
+  Obb4Leaves leaves_;
+  CloserTriangles closer_;
+  float limit_;
+  bool found_ = false;
+  TrianglePair pair_;
+};
+
+std::optional<TrianglePair> obb4CloserThan(const Obb4Tree& a, const Transform& X_WA,
+                                           const Obb4Tree& b, const Transform& X_WB,
+                                           const Obb4TreePose& pose, double d,
+                                           QueryContext& context) {
+  Closer query(a, X_WA, b, X_WB, pose, d, context.counters);
+  walkObb4(a, b, pose.floats.scale, context, query);
+  return query.found();
+}
+
+}  // namespace corridor::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace corridor {
+
+HWY_EXPORT(obb4Distance);
+HWY_EXPORT(obb4CloserThan);
+
+namespace {
+
+/// Returns true only if two triangles are at most d apart in real arithmetic. Every search then
+/// returns true, so starting from the remembered pair can't change the answer. (Distances within
+/// rounding of d are called closer by `CloserTriangles` only.)
+bool provedCloser(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                  const Transform& X_WB, const TriangleDistances& bounds, double d,
+                  Counters& counters) {
+  return trianglesTouch(a, X_WA, b, X_WB, counters) || bounds(a, b).upper <= d;
+}
+
+}  // namespace
+
+Distance distance(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
+                  const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
+  ++context.counters.states;
+  const Obb4TreePose pose(a, X_WA, b, X_WB, HUGE_VAL);
+  // A search for contact alone ends far sooner: the search below would visit all pairs that may
+  // touch.
+  if (const auto hit = touchingLeafTriangles(a, X_WA, b, X_WB, pose, context)) {
+    const WitnessPoints w = witnessPoints(a.triangle(hit->a), X_WA, b.triangle(hit->b), X_WB);
+    return {0, w.p_WA, w.p_WB, a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
+  }
+  return HWY_DYNAMIC_DISPATCH(obb4Distance)(a, X_WA, b, X_WB, pose, options, context);
+}
+
+bool closerThan(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
+                double d, QueryContext& context) {
+  if (d == 0) return interference(a, X_WA, b, X_WB, context).has_value();
+  ++context.counters.states;
+  const Obb4TreePose pose(a, X_WA, b, X_WB, d);
+  if (pose.apart) {
+    ++context.counters.boxTests;
+    return false;
+  }
+  LastPair& last = context.lastPairs.of(&a, &b);
+  if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
+    const bool closer = provedCloser(a.triangle(last.a), X_WA, b.triangle(last.b), X_WB,
+                                     {X_WA, a.reach(), X_WB, b.reach()}, d, context.counters);
+    last.tested(closer);
+    if (closer) return true;
+  }
+  const auto pair = HWY_DYNAMIC_DISPATCH(obb4CloserThan)(a, X_WA, b, X_WB, pose, d, context);
+  if (pair) last.found(pair->a, pair->b);
+  return pair.has_value();
+}
+
+}  // namespace corridor
+#endif

@@ -1,0 +1,96 @@
+#include "planner/benchmark/competitors.h"
+
+#include <dlfcn.h>
+#include <filesystem>
+#include <mutex>
+#include <stdexcept>
+
+#include <ompl/base/StateValidityChecker.h>
+
+#include "planner/checker/problem_state_space.h"
+
+namespace corridor {
+namespace {
+
+struct Module {
+  decltype(&corridorFclScene) scene = nullptr;
+  std::string version;
+  std::string why;  ///< why the module is not available
+};
+
+/// Opens the module beside the program, or else the one in the build folder.
+Module openModule() {
+#ifdef CORRIDOR_FCL_MODULE
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::string name = CORRIDOR_FCL_MODULE;
+  for (const auto& file : {(program.parent_path() / name).string(),
+                           (std::filesystem::path(CORRIDOR_FCL_DIR) / name).string()})
+    if (void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+      void* const scene = dlsym(module, "corridorFclScene");
+      void* const version = dlsym(module, "corridorFclVersion");
+      if (scene && version)
+        return {reinterpret_cast<decltype(&corridorFclScene)>(scene),
+                reinterpret_cast<decltype(&corridorFclVersion)>(version)(), ""};
+    }
+  const char* const reason = dlerror();
+  return {nullptr, "", std::string("its module can't be opened: ") + (reason ? reason : "unknown")};
+#else
+  return {nullptr, "",
+          "Corridor was built without it; install Debian's libfcl-dev and build again"};
+#endif
+}
+
+const Module& fclModule() {
+  static const Module module = openModule();
+  return module;
+}
+
+class CompetitorStates final : public ompl::base::StateValidityChecker {
+ public:
+  CompetitorStates(const ompl::base::SpaceInformationPtr& si, const Checker& checker,
+                   std::unique_ptr<CompetitorScene> scene)
+      : StateValidityChecker(si), checker_(checker), scene_(std::move(scene)) {}
+  bool isValid(const ompl::base::State* state) const override {
+    const Configuration q = configurationOf(*si_, state);
+    if (!checker_.inBounds(q)) return false;
+    const std::lock_guard lock(mutex_);  // for planners with several threads
+    return !scene_->touches(framePoses(checker_.problem().tree, q));
+  }
+
+ private:
+  const Checker& checker_;
+  mutable std::mutex mutex_;
+  std::unique_ptr<CompetitorScene> scene_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& peerNames() {
+  static const std::vector<std::string> names{"fcl"};
+  return names;
+}
+
+std::string whyNoPeer(const std::string&) {
+  return fclModule().why;
+}
+
+BenchmarkCompetitor peerNamed(const std::string& name) {
+  const auto makeScene = fclModule().scene;
+  if (!makeScene) throw std::logic_error(name + " is not available: " + fclModule().why);
+  BenchmarkCompetitor peer{name, [makeScene](const auto& si, const Checker& checker) {
+                             return std::make_shared<CompetitorStates>(
+                                 si, checker, std::unique_ptr<CompetitorScene>(makeScene(checker)));
+                           }};
+  peer.version = fclModule().version;
+  return peer;
+}
+
+std::vector<BenchmarkCompetitor> peersHere() {
+  std::vector<BenchmarkCompetitor> peers;
+  for (const std::string& name : peerNames())
+    if (whyNoPeer(name).empty()) peers.push_back(peerNamed(name));
+  return peers;
+}
+
+}  // namespace corridor

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/benchmark/variant.h"
+
+namespace corridor {
+
+/// A problem's scene in another library, a competitor.
+class CompetitorScene {
+ public:
+  virtual ~CompetitorScene() = default;
+  /// Returns whether any tested pair touches. @param X_WF poses of all frames of the problem's
+  /// tree.
+  virtual bool touches(const std::vector<Transform>& X_WF) = 0;
+
+ protected:
+  CompetitorScene() = default;
+  CompetitorScene(const CompetitorScene&) = default;
+  CompetitorScene& operator=(const CompetitorScene&) = default;
+};
+
+extern "C" {
+/// The functions that the FCL module exports under these names. The module is opened at first need,
+/// so that the program does not depend on FCL. The caller owns the scene, which may keep a
+/// reference to the checker. @throws std::runtime_error for shapes that fcl_scene.h can't convert.
+CompetitorScene* corridorFclScene(const Checker& checker);
+const char* corridorFclVersion();  ///< "FCL 0.7.0"
+}
+
+/// Returns the names of all competitors that Corridor knows.
+const std::vector<std::string>& peerNames();
+/// Returns why a competitor is not available here; "" if it is. @pre the name is one of
+/// `peerNames`.
+std::string whyNoPeer(const std::string& name);
+/// Returns the competitor `fcl`: FCL tests the states (fcl_scene.h: meshes as surfaces, no margin),
+/// and edges are sampled by OMPL's rule. @pre it is available here.
+BenchmarkCompetitor peerNamed(const std::string& name);
+/// Returns all competitors that are available here.
+std::vector<BenchmarkCompetitor> peersHere();
+
+}  // namespace corridor

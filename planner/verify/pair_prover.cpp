@@ -1,0 +1,311 @@
+#include "planner/verify/pair_prover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/verify/winding.h"
+
+namespace corridor::verify {
+namespace {
+
+constexpr const char* kTooLarge = "value too large: its rounding exceeds the clearance";
+
+void require(const PathProblem& problem, const std::vector<Configuration>& states) {
+  const auto refuse = [](const std::string& what) {
+    throw std::invalid_argument("verifyPath: " + what);
+  };
+  if (!problem.tree || !problem.space) refuse("tree and space must not be null");
+  if (states.empty()) refuse("states must not be empty");
+  if (!(problem.margin >= 0 && std::isfinite(problem.margin)))
+    refuse("margin must be finite and not negative");
+  if (!(problem.tolerance > 0 && std::isfinite(problem.tolerance)))
+    refuse("tolerance must be finite and positive");
+  if (static_cast<std::size_t>(problem.tube.size()) != problem.space->size())
+    refuse("tube must have as many numbers as a configuration");
+  if (!problem.tube.allFinite() || (problem.tube.array() < 0).any())
+    refuse("tube must be finite and not negative");
+  for (const VerifyBody& body : problem.bodies)
+    if ((body.mesh == nullptr) == (body.part == nullptr) ||
+        (body.mesh && body.mesh->triangles.empty()) || (body.part && body.part->points.empty()))
+      refuse("body " + body.name + " needs a mesh or a part");
+  for (const VerifyPair& pair : problem.pairs)
+    if (pair.a >= problem.bodies.size() || pair.b >= problem.bodies.size())
+      refuse("a pair names a body that does not exist");
+}
+
+}  // namespace
+
+PairProver::PairProver(const PathProblem& problem, const std::vector<Configuration>& states)
+    : problem_(problem) {
+  require(problem, states);
+  trees_.reserve(problem.bodies.size());
+  for (const VerifyBody& body : problem.bodies)
+    body.mesh ? trees_.emplace_back(*body.mesh) : trees_.emplace_back(*body.part);
+  for (const VerifyPair& pair : problem.pairs) {
+    const std::size_t fa = problem.bodies[pair.a].frame, fb = problem.bodies[pair.b].frame;
+    const std::size_t base = commonAncestor(*problem.tree, fa, fb);
+    pairs_.push_back({pair.a, pair.b, limb(base, fa), limb(base, fb)});
+  }
+  frameStates_.resize(chains_.size());
+  const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
+  for (std::size_t e = 0; e < edges; ++e)
+    addEdge(states[e], states[std::min(e + 1, states.size() - 1)]);
+}
+
+void PairProver::addEdge(const Configuration& from, const Configuration& to) {
+  const std::size_t edge = curves_.size();
+  const bool valid = isState(from) && isState(to);
+  const Configuration some = Configuration::Ones(problem_.tube.size());
+  const EdgeCurve& curve = curves_.emplace_back(*problem_.tree, problem_.space->coordinates(),
+                                                valid ? from : some, valid ? to : some);
+  PathFinding finding;
+  finding.verdict = PathVerdict::refuted;
+  finding.edge = static_cast<int>(edge);
+  finding.configuration = isState(from) && !valid ? to : from;
+  if (!valid)
+    finding.reason = "not a valid state";
+  else if (curve.ambiguous())
+    finding.reason = "ambiguous half turn";
+  else if (curve.jumps())
+    finding.reason =
+        "a joint that mimics a continuous joint would jump where that passes 180 degrees";
+  noCurve_.push_back(finding.reason.empty() ? std::nullopt : std::optional(std::move(finding)));
+  std::vector<PairReach> reaches;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) reaches.push_back(reachOf(edge, p));
+  reaches_.push_back(std::move(reaches));
+}
+
+bool PairProver::isState(const Configuration& state) const {
+  if (static_cast<std::size_t>(state.size()) != problem_.space->size() || !state.allFinite())
+    return false;
+  for (const Coordinate& c : problem_.space->coordinates())
+    if (c.kind == Coordinate::Kind::rotation &&
+        state.segment<4>(static_cast<Eigen::Index>(c.first)).isZero(0))
+      return false;
+  return true;
+}
+
+std::size_t PairProver::limb(std::size_t base, std::size_t frame) {
+  for (std::size_t i = 0; i < chains_.size(); ++i)
+    if (chains_[i].base == base && chains_[i].frame == frame) return i;
+  chains_.push_back(chainOf(*problem_.tree, base, frame));
+  return chains_.size() - 1;
+}
+
+PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair) const {
+  const Pair& p = pairs_[pair];
+  PairReach reach;
+  Reach& sum = reach.sum;
+  for (const auto& [limb, body] : {std::pair{p.chainA, p.a}, std::pair{p.chainB, p.b}}) {
+    const Reach one = curves_[edge].reach(chains_[limb], trees_[body].radius(), problem_.tube);
+    sum.speed += one.speed;
+    sum.bend += one.bend;
+    sum.tube += one.tube;
+    sum.bendCross += one.bendCross;
+    sum.bendTube += one.bendTube;
+    sum.size += one.size;
+    sum.lengths += one.lengths;
+  }
+  // 2^-50·size = 2^14·u·size for each chain. The relative placement, the boxes (32u), the slabs
+  // (16u) and the displacements together add no more than that.
+  reach.rounding = 0x1p-49L * sum.size;
+  reach.sharp = reach.rounding <= std::max<Real>(0x1p-48L * sum.lengths, problem_.tolerance);
+  return reach;
+}
+
+const FrameState& PairProver::stateOf(std::size_t edge, std::size_t limb, Real t) {
+  if (edgeAt_ != edge) {
+    for (auto& [time, unused] : frameStates_) time = -1;
+    edgeAt_ = edge;
+  }
+  auto& [time, state] = frameStates_[limb];
+  if (time != t) {
+    state = curves_[edge].at(chains_[limb], t);
+    time = t;
+  }
+  return state;
+}
+
+/// Returns how close the two closest points come under displacements within the tube. This is
+/// computed for a body whose chain begins with a translation, against a body that is fixed in the
+/// base. Such a body can be displaced in any direction by the smallest number of its tube; with a
+/// planar translation, only in the plane. For other pairs it is the distance at the pose.
+Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
+  const RealVec between = m.gap.onB - m.gap.onA;
+  const KinematicChain& limb = chains_[pairs_[pair].chainB];
+  if (limb.path.empty() || !chains_[pairs_[pair].chainA].path.empty()) return m.gap.upper;
+  const Frame& frame = problem_.tree->frames[limb.path.front()];
+  if (frame.joint != Frame::Joint::translation) return m.gap.upper;
+  const auto first = static_cast<Eigen::Index>(frame.variable);
+  const Real stray =
+      problem_.tube.segment(first, static_cast<Eigen::Index>(frame.count)).minCoeff();
+  Real across = 0;
+  if (frame.count == 2) {
+    const Eigen::Quaternion<Real> q(frame.fixed.q.cast<Real>());
+    across = std::abs(between.dot(q.normalized() * RealVec::UnitZ()));
+  }
+  const Real along = std::sqrt(std::max<Real>(0, between.squaredNorm() - across * across));
+  return std::hypot(std::max<Real>(along - stray, 0), across);
+}
+
+/// Returns why the path is refuted at these poses, or null if it is not. Poses that may be far from
+/// the path refute nothing: then it returns why the pair is undecided, if it is.
+const char* PairProver::whyRefuted(const PairReach& reach, std::size_t pair,
+                                   const Measured& m) const {
+  if (!reach.sharp) return m.gap.upper <= problem_.margin + reach.rounding ? kTooLarge : nullptr;
+  if (m.gap.touching) return "contact";
+  if (problem_.margin > 0 && m.gap.upper <= problem_.margin) return "closer than the margin";
+  // Some curve in the tube is displaced by this much, so it touches or comes as close as the
+  // margin.
+  if (std::isfinite(m.gap.upper) && leastInTube(pair, m) <= problem_.margin)
+    return "closer than the tube allows";
+  return nullptr;
+}
+
+/// Returns why no shorter interval about this middle can be proved.
+const char* PairProver::whyStuck(const PairReach& reach, const Measured& m) const {
+  const Real clear = m.gap.lower - problem_.margin;
+  if (clear - reach.rounding > problem_.tolerance) return "the tube may take all of the clearance";
+  return clear > problem_.tolerance ? kTooLarge : "clearance below the tolerance";
+}
+
+PairProver::Measured PairProver::measure(const TimeInterval& interval, std::size_t pair,
+                                         PiecePair guess, Real stop) {
+  const Pair& p = pairs_[pair];
+  const PairReach& reach = reaches_[interval.edge][pair];
+  Measured m;
+  m.a = stateOf(interval.edge, p.chainA, interval.middle);
+  m.b = stateOf(interval.edge, p.chainB, interval.middle);
+  const RealMat back = m.a.at.rotation.transpose();
+  const Placement X_AB{back * m.b.at.rotation, back * (m.b.at.position - m.a.at.position)};
+  distance_.place(trees_[p.a], trees_[p.b], X_AB);
+  const auto touches = [&](PiecePair pieces) {
+    if (!reach.sharp) return false;
+    const Piece &a = trees_[p.a].piece(pieces.a), &b = trees_[p.b].piece(pieces.b);
+    if (a.part || b.part) return distance_.gap(pieces).upper <= reach.rounding;
+    RigidPose pose;
+    pose.p = X_AB.position.cast<double>();
+    pose.q = Eigen::Quaternion<Real>(X_AB.rotation).cast<double>();
+    m.contact = exactContact(pose, b.corners, a.corners);
+    return m.contact.has_value();
+  };
+  m.gap =
+      distance_.measure(guess, reach.sharp ? reach.rounding : 0, stop + reach.rounding, touches);
+  return m;
+}
+
+PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open,
+                              Real interesting) {
+  const PairReach& reach = reaches_[interval.edge][open.pair];
+  const Real travel = reach.sum.speed * interval.half, pad = reach.sum.tube + reach.rounding;
+  const Real margin = problem_.margin;
+  const Real stop = std::max<Real>(margin, interesting) + travel + pad;
+  const Measured m = measure(interval, open.pair, open.guess, stop);
+  PairAnswer answer;
+  answer.closest = m.gap.pair;
+  answer.upper = m.gap.upper;
+  answer.point = m.contact ? RealVec(m.contact->cast<Real>()) : m.gap.onB;
+  answer.reason = whyRefuted(reach, open.pair, m);
+  if (answer.reason) {
+    answer.verdict = reach.sharp ? PathVerdict::refuted : PathVerdict::undecided;
+    return answer;
+  }
+  answer.bound = std::max(open.bound, m.gap.lower - travel - pad);
+  if (answer.bound <= margin && (interval.half > 0 || tubeMatters(reach)))
+    answer.bound = std::max(answer.bound, boundPiecewise(interval, open.pair, m, interesting));
+  if (answer.bound > margin) {
+    answer.verdict = PathVerdict::proved;
+  } else {
+    answer.reason = whyStuck(reach, m);
+    if (travel <= problem_.tolerance) answer.verdict = PathVerdict::undecided;
+  }
+  return answer;
+}
+
+Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
+                                Real interesting) {
+  const PairReach& reach = reaches_[interval.edge][pair];
+  const Real half = interval.half;
+  PairMotion motion;
+  motion.half = half;
+  motion.travel = reach.sum.speed * half;
+  motion.tube = reach.sum.tube;
+  motion.rounding = reach.rounding;
+  Perturbation a, b;
+  if (tubeMatters(reach)) {
+    const EdgeCurve& curve = curves_[interval.edge];
+    a = curve.perturbationAt(chains_[pairs_[pair].chainA], interval.middle, problem_.tube);
+    b = curve.perturbationAt(chains_[pairs_[pair].chainB], interval.middle, problem_.tube);
+    motion.secondOrder =
+        (half * half * reach.sum.bend + half * reach.sum.bendCross + reach.sum.bendTube) / 2;
+  } else {
+    motion.secondOrder = half * half * reach.sum.bend / 2 + reach.sum.tube;
+  }
+  motion.a = motionSeenFrom(m.a.at, m.a, std::move(a));
+  motion.b = motionSeenFrom(m.a.at, m.b, std::move(b));
+  const Real little = problem_.margin + problem_.tolerance;
+  return boundBySlabs(distance_, m.gap, motion,
+                      {problem_.margin, little, std::max(little, interesting)}, near_);
+}
+
+std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other,
+                                            const Placement& X_SolidOther) const {
+  const VerifyBody &s = problem_.bodies[solid], &o = problem_.bodies[other];
+  if (!s.mesh || !s.solid) return std::nullopt;
+  const auto shells = componentsOf(*s.mesh);
+  std::vector<Vec3> points;
+  if (o.part) {
+    points.push_back(o.part->points[0]);
+  } else {
+    for (const auto& component : componentsOf(*o.mesh))
+      points.push_back(o.mesh->corner(component[0], 0));
+  }
+  for (const Vec3& point : points) {
+    const RealVec p = X_SolidOther.rotation * point.cast<Real>() + X_SolidOther.position;
+    if (insideAny(*s.mesh, shells, p)) return Vec3(p.cast<double>());
+  }
+  return std::nullopt;
+}
+
+std::optional<PairAnswer> PairProver::insideAtStart(std::size_t pair) {
+  const Pair& p = pairs_[pair];
+  const FrameState a = stateOf(0, p.chainA, 0), b = stateOf(0, p.chainB, 0);
+  const RealMat backA = a.at.rotation.transpose(), backB = b.at.rotation.transpose();
+  const Placement X_AB{backA * b.at.rotation, backA * (b.at.position - a.at.position)};
+  const Placement X_BA{backB * a.at.rotation, backB * (a.at.position - b.at.position)};
+  PairAnswer answer;
+  answer.verdict = PathVerdict::refuted;
+  answer.reason = "inside";
+  answer.upper = 0;
+  if (const auto inA = pointInside(p.a, p.b, X_AB))
+    answer.point = inA->cast<Real>();
+  else if (const auto inB = pointInside(p.b, p.a, X_BA))
+    answer.point = X_AB.rotation * inB->cast<Real>() + X_AB.position;
+  else
+    return std::nullopt;
+  return answer;
+}
+
+PathFinding PairProver::finding(const TimeInterval& interval, std::size_t pair,
+                                const PairAnswer& answer) const {
+  const Pair& p = pairs_[pair];
+  const EdgeCurve& curve = curves_[interval.edge];
+  PathFinding finding;
+  finding.verdict = *answer.verdict;
+  finding.edge = static_cast<int>(interval.edge);
+  finding.t = static_cast<double>(interval.middle);
+  finding.configuration = curve.configuration(interval.middle);
+  finding.a = problem_.bodies[p.a].name;
+  finding.b = problem_.bodies[p.b].name;
+  finding.triangleA = trees_[p.a].piece(answer.closest.a).triangle;
+  finding.triangleB = trees_[p.b].piece(answer.closest.b).triangle;
+  const KinematicChain fromRoot = chainOf(*problem_.tree, 0, problem_.bodies[p.a].frame);
+  const Placement X_WA = curve.at(fromRoot, interval.middle).at;
+  finding.point = (X_WA.rotation * answer.point + X_WA.position).cast<double>();
+  finding.gap = static_cast<double>(answer.upper);
+  finding.reason = answer.reason;
+  return finding;
+}
+
+}  // namespace corridor::verify

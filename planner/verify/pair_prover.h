@@ -1,0 +1,120 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "planner/verify/box_tree.h"
+#include "planner/verify/edge_curve.h"
+#include "planner/verify/moved_slab.h"
+#include "planner/verify/verify_path.h"
+
+namespace corridor::verify {
+
+/// The times [middle − half, middle + half] of an edge, with t in [0, 1]. half = 0 is a single
+/// time.
+struct TimeInterval {
+  std::size_t edge = 0;
+  Real middle = 0.5L, half = 0.5L;
+};
+
+/// A pair of bodies in a time interval, and what is known from a longer interval.
+struct OpenPair {
+  std::size_t pair = 0;
+  PiecePair guess;  ///< a pair of leaf primitives that is likely close
+  Real bound = -std::numeric_limits<Real>::infinity();  ///< proved; see PairAnswer::bound
+};
+
+/// The answer about a pair of bodies in a time interval. Lengths in metres.
+struct PairAnswer {
+  /// - proved: `bound` exceeds the margin.
+  /// - refuted: `reason` says why.
+  /// - undecided: no shorter interval about the same middle can be proved; `reason` says why.
+  /// - empty: halve the interval.
+  std::optional<PathVerdict> verdict;
+  /// Every curve in the tube keeps at least this distance in the whole interval.
+  Real bound = -std::numeric_limits<Real>::infinity();
+  Real upper = std::numeric_limits<Real>::infinity();  ///< ≥ the distance at the middle
+  PiecePair closest;                ///< the closest pair of leaf primitives at the middle
+  RealVec point = RealVec::Zero();  ///< a contact, or the closest point of b; in a's frame
+  const char* reason = nullptr;     ///< without a verdict: the reason if halving doesn't help
+};
+
+/// Decides one pair of bodies in one time interval of one edge. verifyPath() bisects with it. No
+/// answer depends on earlier queries.
+///
+/// It holds what depends only on the problem (box trees, kinematic chains) or only on an edge (its
+/// curve and reach weights). It also caches the frames' states at the latest time.
+class PairProver {
+ public:
+  /// @throws std::invalid_argument as verifyPath() does.
+  PairProver(const PathProblem& problem, const std::vector<Configuration>& states);
+
+  std::size_t edges() const { return curves_.size(); }
+  std::size_t pairs() const { return pairs_.size(); }
+  /// The finding `refuted` if the edge defines no curve: an end is not a state, a half turn is
+  /// ambiguous, or a joint jumps. Such an edge must not be passed to the functions below.
+  const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
+
+  /// @param interesting a bound of the clearance larger than this is of no use.
+  PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real interesting);
+
+  /// Refutes a pair if one body has a point inside the other body, which is solid, at t = 0 of the
+  /// first edge. nullopt otherwise. @pre they do not touch there.
+  std::optional<PairAnswer> insideAtStart(std::size_t pair);
+
+  /// Returns the finding that reports an answer. @pre the answer has a verdict.
+  PathFinding finding(const TimeInterval& interval, std::size_t pair,
+                      const PairAnswer& answer) const;
+
+  const Reach& reach(std::size_t edge, std::size_t pair) const { return reaches_[edge][pair].sum; }
+
+ private:
+  struct Pair {
+    std::size_t a, b, chainA, chainB;
+  };
+  /// Motion bounds of both bodies along an edge, by their reach weights.
+  struct PairReach {
+    Reach sum;
+    Real rounding = 0;  ///< metres; bound for every computed distance and displacement
+    bool sharp = true;  ///< the poses are so close to the path that a contact there refutes it
+  };
+  /// Both bodies at the middle of an interval.
+  struct Measured {
+    BodyGap gap;
+    std::optional<Vec3> contact;  ///< a common point of two triangles, in a's frame
+    FrameState a, b;
+  };
+
+  bool isState(const Configuration& state) const;
+  void addEdge(const Configuration& from, const Configuration& to);
+  std::size_t limb(std::size_t base, std::size_t frame);
+  PairReach reachOf(std::size_t edge, std::size_t pair) const;
+  const FrameState& stateOf(std::size_t edge, std::size_t limb, Real t);
+  Measured measure(const TimeInterval& interval, std::size_t pair, PiecePair guess, Real stop);
+  /// Returns a lower bound of the clearance by boundBySlabs().
+  Real boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
+                      Real interesting);
+  Real leastInTube(std::size_t pair, const Measured& m) const;
+  const char* whyRefuted(const PairReach& reach, std::size_t pair, const Measured& m) const;
+  const char* whyStuck(const PairReach& reach, const Measured& m) const;
+  std::optional<Vec3> pointInside(std::size_t solid, std::size_t other,
+                                  const Placement& X_SolidOther) const;
+  /// Returns whether the tube exceeds the tolerance. Only then bounding it by direction may change
+  /// a verdict.
+  bool tubeMatters(const PairReach& reach) const { return reach.sum.tube > problem_.tolerance; }
+
+  const PathProblem& problem_;
+  std::vector<BoxTree> trees_;
+  std::vector<KinematicChain> chains_;
+  std::vector<Pair> pairs_;
+  std::vector<EdgeCurve> curves_;
+  std::vector<std::optional<PathFinding>> noCurve_;       // one per edge
+  std::vector<std::vector<PairReach>> reaches_;           // [edge][pair]
+  std::vector<std::pair<Real, FrameState>> frameStates_;  // one per chain, at a time of edgeAt_
+  std::size_t edgeAt_ = SIZE_MAX;
+  BodyDistance distance_;
+  std::vector<PiecePair> near_;  // scratch memory of boundPiecewise()
+};
+
+}  // namespace corridor::verify

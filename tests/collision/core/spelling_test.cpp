@@ -1,0 +1,37 @@
+#include "collision/core/spelling.h"
+
+#include <gtest/gtest.h>
+
+namespace corridor::test {
+namespace {
+
+TEST(EditDistance, CountsChanges) {
+  EXPECT_EQ(editDistance("", ""), 0u);
+  EXPECT_EQ(editDistance("", "abc"), 3u);
+  EXPECT_EQ(editDistance("checkr", "checker"), 1u);
+  EXPECT_EQ(editDistance("rnage", "range"), 1u);
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
+  EXPECT_EQ(editDistance("ca", "abc"), 3u);  // optimal string alignment; Damerau-Levenshtein has 2
+}
+
+TEST(Spelling, SuggestsOnlyWhatMayBeMeant) {
+  const std::vector<std::string> planners{"RRT", "RRTConnect", "PRM", "KPIECE1"};
+  EXPECT_EQ(mostSimilar("rrtconect", planners), "RRTConnect");
+  EXPECT_EQ(mostSimilar("KPIECE", planners), "KPIECE1");
+  EXPECT_EQ(mostSimilar("prm", planners), "PRM");
+  EXPECT_EQ(mostSimilar("RTT", planners), "RRT");
+  EXPECT_EQ(mostSimilar("w", {"x", "y"}), std::nullopt);
+  EXPECT_EQ(mostSimilar("AStar", planners), std::nullopt);
+  EXPECT_EQ(mostSimilar(std::string(100000, 'R'), planners), std::nullopt);
+  EXPECT_EQ(didYouMean("rrt", planners), "; did you mean \"RRT\"?");
+  EXPECT_EQ(didYouMean("dijkstra", planners), "");
+}
+
+TEST(Spelling, QuotesForMessages) {
+  EXPECT_EQ(quotedWord("a\nb"), "\"a?b\"");
+  EXPECT_EQ(quotedWord("Tür"), "\"Tür\"");
+  EXPECT_EQ(quotedWord(std::string(59, 'x') + "ü"), "\"" + std::string(59, 'x') + "…\"");
+}
+
+}  // namespace
+}  // namespace corridor::test

@@ -1,0 +1,357 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/motion/check_certificate.h"
+#include "collision/queries/distance.h"
+#include "tests/collision/motion/bodies.h"
+#include "tests/collision/queries/every_target.h"
+#include "tests/support/floating_point.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::add;
+using test::at;
+using test::blob;
+using test::bodyOf;
+using test::box;
+using test::randomEdge;
+using test::turned;
+using Kind = CertificateFault::Kind;
+
+/// A motion, its answer with a certificate, and the result of the check.
+struct Case {
+  const Body &fixed, &moving;
+  RigidMotion motion;
+  MotionOptions options;
+  MotionResult result;
+  MotionCertificate certificate;
+  QueryContext context;
+
+  Case(const Body& fixed_, const Body& moving_, const RigidMotion& motion_, double tolerance = 1e-7)
+      : fixed(fixed_), moving(moving_), motion(motion_) {
+    options.tolerance = tolerance;
+    options.earliest = true;
+  }
+  MotionPair pair() const { return {&fixed, &moving}; }
+  void run() {
+    RigidEdge edge(motion);
+    const MotionPair one = pair();
+    result = certifyMotion(edge, {&one, 1}, options, context, &certificate);
+  }
+  std::optional<CertificateFault> check() {
+    RigidEdge edge(motion);
+    const MotionPair one = pair();
+    return checkCertificate(edge, {&one, 1}, options, result.certifiedUntil, certificate, context);
+  }
+  double leastClearance() const {
+    double least = HUGE_VAL;
+    for (const FreeInterval& i : certificate.free) least = std::min(least, i.clearance);
+    return least;
+  }
+};
+
+class Certificate : public test::EveryTarget {};
+INSTANTIATE_TEST_SUITE_P(Simd, Certificate, testing::ValuesIn(test::simdTargets()),
+                         test::targetName);
+
+TEST_P(Certificate, ASlideHasTheClearanceOfItsGap) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  for (const double gap : {0.25, 1e-2, 1e-3}) {
+    Case slide(wall, cube,
+               RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)), {}));
+    slide.run();
+    ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
+    EXPECT_FALSE(slide.certificate.point_A);
+    EXPECT_LE(slide.leastClearance(), gap * (1 + 1e-12));
+    // The axis of two edges is not of unit length, so it may prove only a fraction of the gap.
+    EXPECT_GE(slide.leastClearance(), 0.1 * gap);
+    EXPECT_FALSE(slide.check());
+  }
+}
+
+TEST_P(Certificate, KeepsWhatWasAskedFor) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  Case slide(wall, cube,
+             RigidMotion::spatial(at(Vec3(-5, 0.4, 0)), at(Vec3(5, 0.4, 0)),
+                                  {.position = 0.01, .rotation = 0}));
+  slide.options.margin = 0.05;
+  slide.options.clearanceSlack = 0.02;
+  slide.run();
+  ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
+  EXPECT_GE(slide.leastClearance(), 0.07 * (1 - 1e-12)) << "margin and clearance slack";
+  // The tube may add 0.01 along each coordinate: as a length √3 of that, as far as the proof knows.
+  EXPECT_LE(slide.leastClearance(), 0.09 * (1 + 1e-12)) << "the tube takes its own";
+  EXPECT_FALSE(slide.check());
+}
+
+TEST_P(Certificate, TamperedWithItFails) {
+  // The bar's corner comes as near as 0.03 at the end of its turn.
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             bar = bodyOf(box(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1)));
+  Case swing(wall, bar,
+             RigidMotion::spatial(at(Vec3(-2, 0.15, 0)),
+                                  turned(Vec3(2, 0.15, 0), 0.85, Vec3::UnitZ()), {}));
+  swing.run();
+  ASSERT_EQ(swing.result.verdict, MotionVerdict::free);
+  ASSERT_GT(swing.certificate.free.size(), 2U);
+  ASSERT_FALSE(swing.check());
+  const MotionCertificate whole = swing.certificate;
+  const auto fault = [&] {
+    const auto found = swing.check();
+    swing.certificate = whole;
+    EXPECT_TRUE(found);
+    return found ? found->kind : Kind::malformed;
+  };
+
+  for (std::size_t i = 0; i < whole.free.size(); ++i) {
+    swing.certificate.free.erase(swing.certificate.free.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_EQ(fault(), Kind::gap) << i;
+  }
+  auto least = std::min_element(
+      swing.certificate.free.begin(), swing.certificate.free.end(),
+      [](const FreeInterval& x, const FreeInterval& y) { return x.clearance < y.clearance; });
+  least->clearance = 1;  // the bar comes nearer than half of that
+  EXPECT_EQ(fault(), Kind::refuted);
+  swing.certificate.free[0].pair = 1;
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.certificate.free[0].clearance = std::nan("");
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.certificate.free[0].clearance = 0;
+  EXPECT_EQ(fault(), Kind::malformed) << "claims nothing";
+  swing.certificate.free[0].t1 = 0.1;
+  EXPECT_EQ(fault(), Kind::malformed) << "on no grid";
+  swing.certificate.free[0].t1 = 1.5;
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.certificate.free[0].t1 = swing.certificate.free[0].t0;
+  EXPECT_EQ(fault(), Kind::malformed);
+  swing.options.margin = 1;
+  EXPECT_EQ(fault(), Kind::malformed) << "less than what was asked for";
+}
+
+/// A claim that leaves less than the margin is not accepted, however small the shortfall.
+TEST_P(Certificate, AMarginIsProvedInFull) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  for (const double gap : {0.08, 0.095, 0.0999999, 0.1, 0.11, 0.2}) {
+    Case slide(wall, cube,
+               RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)), {}),
+               1e-9);
+    slide.options.margin = 0.1;
+    slide.options.workLimit = 500'000;
+    slide.result.certifiedUntil = 1;
+    slide.certificate.free = {{0, 0, 1, 0.1}};
+    EXPECT_EQ(slide.check().has_value(), gap <= 0.1) << gap;
+    // The tube is proved in full, too: two millimetres along y.
+    slide.motion = RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)),
+                                        {.position = 0.002, .rotation = 0});
+    EXPECT_EQ(slide.check().has_value(), gap <= 0.102) << gap << " with a tube";
+  }
+}
+
+TEST_P(Certificate, OtherArithmeticIsRefused) {
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  Case slide(wall, cube, RigidMotion::spatial(at(Vec3(-5, 0, 0)), at(Vec3(5, 0, 0)), {}));
+  slide.run();
+  for (const auto& setting : test::floatingPointSettings()) {
+    std::optional<CertificateFault> fault;
+    {
+      const test::WithFloatingPoint set(setting);
+      fault = slide.check();
+    }
+    ASSERT_EQ(fault.has_value(), !setting.standard()) << setting.name;
+    if (fault) {
+      EXPECT_EQ(fault->kind, Kind::floatingPoint);
+    }
+  }
+}
+
+TEST_P(Certificate, AHalfTurnIsNoEdge) {
+  const Body wall = bodyOf(box(Vec3(-10, 5, -10), Vec3(10, 6, 10))),
+             cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
+  Case turn(
+      wall, cube,
+      RigidMotion::spatial(at(Vec3::Zero()), {Vec3::Zero(), Eigen::Quaterniond(0, 0, 0, 1)}, {}));
+  turn.result.certifiedUntil = 1;
+  turn.certificate.free = {{0, 0, 1, 0.1}};
+  ASSERT_TRUE(turn.check());
+  EXPECT_EQ(turn.check()->kind, Kind::ambiguous);
+}
+
+TEST_P(Certificate, WhatIsInsideASolidIsNotFree) {
+  const TriangleMesh shell = box(Vec3(-3, -3, -3), Vec3(3, 3, 3)),
+                     small = box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5));
+  const Body surface = bodyOf(shell), solid("solid", shell, true), cube = bodyOf(small),
+             ball("ball", ConvexPart{{Vec3::Zero()}, 0.5, false});
+  for (const Body* moving : {&cube, &ball})
+    for (const Body* fixed : {&surface, &solid}) {
+      Case inside(*fixed, *moving, RigidMotion::spatial(at(Vec3(-1, 0, 0)), at(Vec3(1, 0, 0)), {}));
+      inside.result.certifiedUntil = 1;
+      inside.certificate.free = {{0, 0, 1, 0.5}};
+      const auto fault = inside.check();
+      EXPECT_EQ(fault.has_value(), fixed == &solid);
+      if (fault) {
+        EXPECT_EQ(fault->kind, Kind::refuted);
+      }
+      // The other way round: the shell moves around the body inside it.
+      Case around(*moving, *fixed, RigidMotion::spatial(at(Vec3(-1, 0, 0)), at(Vec3(1, 0, 0)), {}));
+      around.result.certifiedUntil = 1;
+      around.certificate.free = {{0, 0, 1, 0.5}};
+      EXPECT_EQ(around.check().has_value(), fixed == &solid);
+    }
+}
+
+TEST_P(Certificate, TheWorkLimitEndsTheCheck) {
+  std::mt19937_64 random(test::testSeed(42));
+  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cloud = bodyOf(blob(random, 200, 0.5, 0.3));
+  Case slide(wall, cloud, RigidMotion::spatial(at(Vec3(-5, -1, 0)), at(Vec3(5, -1, 0)), {}));
+  slide.run();
+  ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
+  ASSERT_FALSE(slide.check());
+  slide.options.workLimit = 3;
+  ASSERT_TRUE(slide.check());
+  EXPECT_EQ(slide.check()->kind, Kind::workLimit);
+}
+
+/// Claims as large as possible, true or not: what is accepted holds at samples, margin and tube
+/// included.
+TEST_P(Certificate, WhatIsAcceptedHolds) {
+  std::mt19937_64 random(test::testSeed(43));
+  int accepted = 0, refused = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Body fixed = bodyOf(blob(random, 20, 2, 0.3)), moving = bodyOf(blob(random, 6, 0.3, 0.3));
+    const auto [a, b] = randomEdge(random);
+    const Tube tube{n % 2 ? 0.01 : 0, n % 4 / 2 ? 0.01 : 0};
+    Case c(fixed, moving, RigidMotion::spatial(a, b, tube), 1e-6);
+    c.options.margin = n % 3 ? 0.1 * std::uniform_real_distribution(0.0, 1.0)(random) : 0;
+    // At samples of the nominal motion, and of motions at the edge of the tube.
+    double least = HUGE_VAL, leastInTube = HUGE_VAL;
+    for (int k = 0; k <= 64; ++k) {
+      Transform X = c.motion.at(k / 64.0);
+      const auto apart = [&] {
+        return distance(fixed.binaryTree(), {}, moving.binaryTree(), X, {}, c.context).distance;
+      };
+      least = std::min(least, apart());
+      const Vec3 away = Vec3::NullaryExpr([&] { return random() % 2 ? 1.0 : -1.0; });
+      X.m = Eigen::AngleAxisd(tube.rotation, away.normalized()) * X.m;
+      X.t += tube.position * away;
+      leastInTube = std::min(leastInTube, apart());
+    }
+    const double claim = c.options.margin + std::pow(10.0, -(n % 6)) * least;
+    c.result.certifiedUntil = 1;
+    c.certificate.free = {{0, 0, 1, claim + 1e-12}};
+    if (c.check()) {
+      ++refused;
+      continue;
+    }
+    ++accepted;
+    ASSERT_GT(leastInTube, c.options.margin) << n;
+    // Whatever the direction, the tube can move the body by its position towards the other.
+    ASSERT_GT(least, c.options.margin + tube.position) << n;
+  }
+  EXPECT_GT(accepted, 20);
+  EXPECT_GT(refused, 20);
+}
+
+/// The check assumes the tube's effect on the farthest point for the whole body. It may therefore
+/// fail to prove a true claim, but must not call it false.
+TEST_P(Certificate, WhatATubeTakesIsNotRefuted) {
+  TriangleMesh two;
+  add(two, Vec3::Zero(), Vec3(0.01, 0, 0), Vec3(0, 0, 0.01));
+  add(two, Vec3(10, 5, 0), Vec3(10.01, 5, 0), Vec3(10, 5, 0.01));
+  TriangleMesh floor;
+  add(floor, Vec3(-0.1, -0.006, -0.1), Vec3(0.1, -0.006, -0.1), Vec3(0, -0.006, 0.1));
+  const Body fixed = bodyOf(floor), moving = bodyOf(two);
+  Case c(fixed, moving, RigidMotion::spatial(at(Vec3::Zero()), at(Vec3(0, 0.001, 0)), {0, 0.01}));
+  c.run();
+  ASSERT_EQ(c.result.verdict, MotionVerdict::free);
+  const auto fault = c.check();
+  if (fault) {
+    EXPECT_EQ(fault->kind, Kind::unproved);
+  }
+}
+
+/// Two bodies pass through each other. No claim, however small, may be accepted. Lengths whose
+/// products overflow must not change that, nor make the check run for ever.
+TEST_P(Certificate, FalseClaimsAreNotBelieved) {
+  for (const double size : {1.0, 1e160}) {
+    const Body fixed = bodyOf(box(-size * Vec3::Ones(), size * Vec3::Ones())),
+               moving = bodyOf(box(-size * Vec3::Ones(), size * Vec3::Ones()));
+    for (const double claim : {1.0, 1e-3, 1e-17, 1e-300}) {
+      Case c(fixed, moving,
+             RigidMotion::spatial(at(Vec3(-3 * size, 0, 0)),
+                                  turned(Vec3(3 * size, 0, 0), 1e-3, Vec3::UnitZ()), {0, 1e-3}));
+      c.result.certifiedUntil = 1;
+      c.certificate.free = {{0, 0, 1, claim}};
+      EXPECT_TRUE(c.check()) << size << ' ' << claim;
+      c.result.certifiedUntil = std::nan("");
+      EXPECT_TRUE(c.check());
+    }
+  }
+}
+
+/// All certificates of random motions hold: for the check, and against distances at samples, which
+/// are computed independently.
+TEST_P(Certificate, RandomMotions) {
+  std::mt19937_64 random(test::testSeed(41));
+  int free = 0, contact = 0;
+  for (int n = 0; n < 200; ++n) {
+    // Every third time a convex part instead of a mesh, on either side.
+    const auto make = [&](int which, int count, double spread) {
+      return n % 3 == which ? Body("", ConvexPart{{Vec3::Zero(), spread * Vec3(0.3, 0.2, 0.1)},
+                                                  0.2 * spread,
+                                                  false})
+                            : bodyOf(blob(random, count, spread, 0.3));
+    };
+    const Body fixed = make(0, 60, 2), moving = make(1, 12, 0.3);
+    const auto [a, b] = randomEdge(random);
+    Case c(fixed, moving, RigidMotion::spatial(a, b, {}));
+    c.options.earliest = n % 2;
+    c.run();
+    const MotionResult result = c.result;
+    RigidEdge edge(c.motion);
+    const MotionPair pair = c.pair();
+    const MotionResult bare = certifyMotion(edge, {&pair, 1}, c.options, c.context);
+    ASSERT_EQ(bare.verdict, result.verdict) << n;
+    EXPECT_EQ(bare.certifiedUntil, result.certifiedUntil);
+    EXPECT_EQ(bare.contactTime, result.contactTime);
+    const auto fault = c.check();
+    EXPECT_FALSE(fault) << n << ": kind " << int(fault->kind) << " at " << fault->t;
+    for (const FreeInterval& i : c.certificate.free)
+      for (int k = 0; k <= 4; ++k) {
+        const Transform X = c.motion.at(i.t0 + (i.t1 - i.t0) * k / 4);
+        const double d =
+            distance(fixed.binaryTree(), {}, moving.binaryTree(), X, {}, c.context).distance;
+        ASSERT_GE(d, i.clearance * (1 - 1e-12) - 1e-14) << n;
+      }
+    free += result.verdict == MotionVerdict::free;
+    if (result.verdict != MotionVerdict::contact) {
+      EXPECT_FALSE(c.certificate.point_A);
+      continue;
+    }
+    ++contact;
+    ASSERT_TRUE(c.certificate.point_A) << n;
+    TriangleMesh dot;
+    const Vec3 p = *c.certificate.point_A;
+    add(dot, p, p, p);
+    const Body point = bodyOf(dot);
+    const Transform X = c.motion.at(result.contactTime);
+    for (const auto& [body, pose] : {std::pair(&fixed, Transform()), std::pair(&moving, X)})
+      EXPECT_LT(distance(body->binaryTree(), pose, point.binaryTree(), {}, {}, c.context).distance,
+                1e-13)
+          << n;
+  }
+  EXPECT_GT(free, 30);
+  EXPECT_GT(contact, 30);
+}
+
+}  // namespace
+}  // namespace corridor

@@ -1,0 +1,190 @@
+// Queries on 4-wide OBB trees start from the pair of triangles that answered last. Answers don't
+// depend on that pair: a context that was used for other poses, trees and orders answers as a fresh
+// one does.
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <random>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "collision/core/rounding.h"
+#include "collision/predicates/triangle_contact.h"
+#include "collision/queries/distance_obb4.h"
+#include "collision/queries/interference_obb4.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/meshes.h"
+#include "tests/support/reference_distance.h"
+#include "tests/support/soups.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using test::anyPose;
+using test::corners;
+using test::errorScale;
+using test::soup;
+
+struct Body {
+  explicit Body(const TriangleMesh& m) : mesh(m), tree(m) {}
+  TriangleMesh mesh;
+  Obb4Tree tree;
+};
+
+/// Runs every query on two bodies, with `used` and with fresh contexts, and compares the answers;
+/// returns whether the bodies touch.
+bool expectSame(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
+                QueryContext& used, const std::string& where) {
+  SCOPED_TRACE(where);
+  QueryContext fresh;
+  const auto hit = interference(a.tree, X_WA, b.tree, X_WB, fresh),
+             warm = interference(a.tree, X_WA, b.tree, X_WB, used);
+  EXPECT_EQ(warm.has_value(), hit.has_value());
+  if (warm) {
+    EXPECT_TRUE(
+        trianglesTouchExact(corners(a.mesh, warm->a), X_WA, corners(b.mesh, warm->b), X_WB));
+  }
+  const Distance d = distance(a.tree, X_WA, b.tree, X_WB, {}, fresh),
+                 e = distance(a.tree, X_WA, b.tree, X_WB, {}, used);
+  EXPECT_EQ(e.distance == 0, hit.has_value());
+  const double size = std::max(errorScale(a.mesh, X_WA), errorScale(b.mesh, X_WB)),
+               allowed = 2e-12 * d.distance + 8 * kUnit * size;
+  EXPECT_NEAR(e.distance, d.distance, allowed);
+  // The witness points are on the triangles reported.
+  EXPECT_LE(test::referenceDistance(e.p_WA, corners(a.mesh, e.a), X_WA), 4 * kUnit * size);
+  EXPECT_LE(test::referenceDistance(e.p_WB, corners(b.mesh, e.b), X_WB), 4 * kUnit * size);
+  const Distance loose = distance(a.tree, X_WA, b.tree, X_WB, {0.1, 0.001}, used);
+  EXPECT_GE(loose.distance, d.distance - allowed);
+  EXPECT_LE(loose.distance, 1.1 * d.distance + 0.001 + allowed);
+  for (const double tolerance : {0.0, 0.01, 0.999 * d.distance, d.distance, 1.001 * d.distance}) {
+    QueryContext other;
+    EXPECT_EQ(closerThan(a.tree, X_WA, b.tree, X_WB, tolerance, used),
+              closerThan(a.tree, X_WA, b.tree, X_WB, tolerance, other))
+        << tolerance;
+  }
+  return hit.has_value();
+}
+
+/// Bodies move in small steps, in and out of contact. Every pair of them is tested in both orders
+/// with one context.
+TEST(Obb4LastPair, MotionsOfManyBodies) {
+  std::mt19937_64 random(test::testSeed(41));
+  int touching = 0, cases = 0;
+  for (int n = 0; n < 6; ++n) {
+    std::deque<Body> bodies;
+    for (const int count : {1, 12, 60, 200}) bodies.emplace_back(soup(random, count, 0.15));
+    std::vector<Transform> from, to;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      from.push_back(anyPose(random, 1.2));
+      to.push_back(anyPose(random, 1.2));
+    }
+    QueryContext context;
+    const int steps = (n % 2 ? 400 : 40) / test::kSlowdown;
+    for (int k = 0; k <= 30 / test::kSlowdown; ++k) {
+      std::vector<Transform> X;
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const double t = static_cast<double>(k) / steps;
+        const Eigen::Quaterniond q(from[i].m), r(to[i].m);
+        X.push_back({q.slerp(t, r).toRotationMatrix(), from[i].t + t * (to[i].t - from[i].t)});
+      }
+      for (std::size_t i = 0; i < bodies.size(); ++i)
+        for (std::size_t j = 0; j < bodies.size(); ++j) {
+          if (i == j) continue;
+          touching += expectSame(bodies[i], X[i], bodies[j], X[j], context,
+                                 "bodies " + std::to_string(i) + " " + std::to_string(j) +
+                                     " step " + std::to_string(k));
+          ++cases;
+        }
+    }
+  }
+  EXPECT_GT(touching, cases / 10);
+  EXPECT_LT(touching, cases - cases / 10);
+}
+
+/// Returns a stack of slats, 0.1 apart, with their triangles in order.
+TriangleMesh slats(int count) {
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i)
+    test::addBox(mesh, Vec3(0, 0, 0.1 * i), Vec3(1, 1, 0.1 * i + 0.05));
+  return mesh;
+}
+
+/// The pair that answered before is tested first: the next query tests no box, or far fewer.
+TEST(Obb4LastPair, AnswersTheNextOne) {
+  std::mt19937_64 random(test::testSeed(42));
+  const Body a(slats(40)), b(soup(random, 100, 0.1));
+  Transform X;
+  X.t = Vec3(0, 0, 2);
+  QueryContext context;
+  const auto boxTests = [&](auto&& ask) {
+    context.counters = {};
+    ask();
+    return context.counters.boxTests;
+  };
+  const auto touch = [&] { EXPECT_TRUE(interference(a.tree, {}, b.tree, X, context)); };
+  const auto close = [&] { EXPECT_TRUE(closerThan(a.tree, {}, b.tree, X, 0.01, context)); };
+  const auto far = [&] { EXPECT_GT(distance(a.tree, {}, b.tree, X, {}, context).distance, 0); };
+  EXPECT_GT(boxTests(touch), 0U);
+  EXPECT_GT(boxTests(touch), 0U) << "a pair that was found once is not trusted yet";
+  EXPECT_EQ(boxTests(touch), 0U);
+  EXPECT_EQ(boxTests(close), 0U);
+  EXPECT_EQ(boxTests([&] { (void)distance(a.tree, {}, b.tree, X, {}, context); }), 0U);
+  X.t = Vec3(0, 0, 9);
+  const auto cold = boxTests(far);
+  EXPECT_LT(boxTests(far), cold);
+}
+
+/// Unrelated queries cost at most a thousandth more triangle tests than without the remembered
+/// pair.
+TEST(Obb4LastPair, CostsNothingWhereItHelpsNothing) {
+  std::mt19937_64 random(test::testSeed(43));
+  const Body a(soup(random, 300, 0.1)), b(soup(random, 300, 0.1));
+  QueryContext used;
+  std::uint64_t more = 0, all = 0;
+  for (int n = 0; n < 300; ++n) {
+    const Transform X = anyPose(random, 0.7);
+    QueryContext fresh;
+    used.counters = {};
+    (void)interference(a.tree, {}, b.tree, X, used);
+    (void)interference(a.tree, {}, b.tree, X, fresh);
+    // A guess that fails costs one more pair of triangles.
+    more += used.counters.triangleTests - fresh.counters.triangleTests;
+    all += fresh.counters.triangleTests;
+  }
+  EXPECT_LE(1000 * more, all);
+}
+
+/// A tree may be destroyed and another one built at its address: smaller, elsewhere, touching or
+/// not. The remembered pair is then only a guess about the wrong tree.
+TEST(Obb4LastPair, TreesAtTheSameAddress) {
+  std::mt19937_64 random(test::testSeed(44));
+  TriangleMesh far = slats(1);
+  for (Vec3& v : far.vertices) v += Vec3(0, 0, 50);
+  const std::vector<Body> bodies = {Body(slats(60)), Body(soup(random, 150, 0.2)), Body(far),
+                                    Body(soup(random, 1, 0.3)), Body(slats(2))};
+  QueryContext context;
+  std::optional<Obb4Tree> a, b;
+  const auto* const home = &a.emplace(bodies[0].mesh);
+  for (int n = 0; n < 200 / test::kSlowdown; ++n) {
+    const Body &bodyA = bodies[random() % bodies.size()], &bodyB = bodies[random() % bodies.size()];
+    ASSERT_EQ(&a.emplace(bodyA.mesh), home);
+    b.emplace(bodyB.mesh);
+    Transform X = anyPose(random, 0.3);
+    X.t.z() += n % 2 ? 3 : 0;
+    const bool touch = test::bruteForceTouch(bodyA.mesh, {}, bodyB.mesh, X),
+               close = test::bruteForceDistance(bodyA.mesh, {}, bodyB.mesh, X) <= 1e-3;
+    for (int i = 0; i < 3; ++i) {  // so that the remembered pair is trusted
+      EXPECT_EQ(interference(*a, {}, *b, X, context).has_value(), touch) << n;
+      EXPECT_EQ(closerThan(*a, {}, *b, X, 1e-3, context), close) << n;
+      const Distance d = distance(*a, {}, *b, X, {}, context);
+      EXPECT_EQ(d.distance == 0, touch) << n;
+      EXPECT_LT(d.a, bodyA.mesh.triangles.size());
+      EXPECT_LT(d.b, bodyB.mesh.triangles.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace corridor
