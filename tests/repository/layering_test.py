@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Enforces the layers of planner/ARCHITECTURE.md: a file includes only from its own folder or from lower ones."""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# From low to high.
+LAYERS = [
+    "collision/core", "collision/predicates", "collision/geometry", "collision/convex", "collision/volumes",
+    "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
+    "planner/robot", "planner/problem", "planner/checker", "planner/verify", "planner/solve", "planner/view",
+    "planner/benchmark", "planner/app",
+]
+
+# The verifier shares plain data with the checker, and no code: its includes are listed one by one.
+VERIFIER = {
+    "collision/core/floating_point.h",
+    "collision/core/rigid_pose.h",
+    "collision/core/transform.h",
+    "collision/geometry/convex_part.h",
+    "collision/geometry/triangle_mesh.h",
+    "planner/robot/kinematic_tree.h",
+}
+
+
+def includesOf(path):
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        if found := re.match(r'\s*#\s*include\s+"([^"]+)"', line):
+            yield number, found[1]
+
+
+def faultsOf(path):
+    name = path.relative_to(ROOT).as_posix()
+    own = "/".join(name.split("/")[:2])
+    if own not in LAYERS:
+        yield f"{name}: the folder {own} has no place among the layers"
+        return
+    for number, included in includesOf(path):
+        folder = "/".join(included.split("/")[:2])
+        if folder not in LAYERS:
+            if (ROOT / included).exists():
+                yield f"{name}:{number}: {included} is in no layer"
+        elif LAYERS.index(folder) > LAYERS.index(own):
+            yield f"{name}:{number}: {included} is in a higher layer"
+        elif own == "planner/verify" and folder != own and included not in VERIFIER:
+            yield f"{name}:{number}: the verifier must not include {included}"
+
+
+def main():
+    files = [f for top in ("collision", "planner") for f in sorted((ROOT / top).rglob("*"))
+             if f.suffix in (".h", ".cpp")]
+    faults = [fault for f in files for fault in faultsOf(f)]
+    print("\n".join(faults))
+    print(f"{len(files)} files, {len(faults)} faults")
+    return 1 if faults or len(files) < 100 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
