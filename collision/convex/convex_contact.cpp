@@ -4,8 +4,7 @@
 
 namespace corridor {
 
-bool convexSetsTouch(const PosedSet& a, const PosedSet& b, Counters& counters) {
-  ++counters.triangleTests;
+PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b) {
   const double size = a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm();
   double radii = a.set().ball + b.set().ball;
   // The errors of both projections and of their sum; each projection is below `size`.
@@ -17,7 +16,7 @@ bool convexSetsTouch(const PosedSet& a, const PosedSet& b, Counters& counters) {
   // band.
   double near = radii + 0x1p-49 * size;
   gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
-  if (quick.accepted) return false;
+  if (quick.accepted) return {false, false};
   const bool whole = !(a.keepsBall() && b.keepsBall());
   // The search above measures the distance of the cores, and takes the swept spheres' radii as they
   // are. Where a map makes an ellipsoid of a sphere, this search may report a contact where there
@@ -26,11 +25,10 @@ bool convexSetsTouch(const PosedSet& a, const PosedSet& b, Counters& counters) {
     radii = 0;
     near = 0x1p-49 * size;
     quick = gjk::search<double>(a, b, size, near, apart, whole);
-    if (quick.accepted) return false;
+    if (quick.accepted) return {false, false};
   }
-  if (quick.overlap || quick.upper <= near) return true;
-  ++counters.exactTests;
-  return !gjk::search<DoubleDouble>(a, b, size, near, apart, whole).accepted;
+  if (quick.overlap || quick.upper <= near) return {true, false};
+  return {!gjk::search<DoubleDouble>(a, b, size, near, apart, whole).accepted, true};
 }
 
 }  // namespace corridor

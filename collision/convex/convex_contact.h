@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collision/convex/convex_set.h"
-#include "collision/core/counters.h"
+#include "collision/core/predicate_result.h"
 
 namespace corridor {
 
@@ -11,6 +11,6 @@ namespace corridor {
 /// axis exists, with all rounding covered. `true` is right unless the sets are closer than a band
 /// of 2^-44 of the largest coordinate involved (times ‖M‖ if a map is not rigid). Within the band
 /// either answer is possible for sets that do not touch. (PROMISES.md, promise 1.)
-bool convexSetsTouch(const PosedSet& a, const PosedSet& b, Counters& counters);
+PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b);
 
 }  // namespace corridor

@@ -190,8 +190,7 @@ class Pair {
 }  // namespace
 
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
-                              double absolute, Counters& counters) {
-  ++counters.triangleTests;
+                              double absolute) {
   const Pair pair(a, b);
   // Searches end at half of the allowed error; rounding may take the rest. 1e-12 > 2^-40, so the
   // relative half is 2^-41. Half of 2^-51·S is above 2^-55·`size`: ‖M‖|p| + |t| is below 3 S, and
@@ -215,15 +214,24 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
       gjk::Simplex<double>(), agreed(pair.radii(), pair.near(), 0x1p-50 * pair.size()), never);
   const bool met = found.overlap || found.upper <= pair.near();
   const double gap = pair.gap(found.direction);
+  bool exact = false;
   if (!(gap > pair.band())) {
     const bool balls = a.keepsBall() && b.keepsBall();
     const bool deep = found.overlap || found.upper + pair.band() <= pair.radii();
-    if ((deep && balls) || convexSetsTouch(a, b, counters)) {
-      if (met && balls && pair.met(quick)) return pair.contact(quick, false);
+    const PredicateResult touch = deep && balls ? PredicateResult{true} : convexSetsTouch(a, b);
+    exact = touch.exact;
+    if (touch) {
+      if (met && balls && pair.met(quick)) {
+        ConvexDistance contact = pair.contact(quick, false);
+        contact.exact = exact;
+        return contact;
+      }
       gjk::Search<DoubleDouble> finer(a, b, pair.size(), !balls);
       const double near = pair.near() - (balls ? 0 : pair.radii());
       finer.run(quick.simplex, agreed(HUGE_VAL, near, 0x1p-50 * pair.size()), never);
-      return pair.contact(finer, !balls);
+      ConvexDistance contact = pair.contact(finer, !balls);
+      contact.exact = true;
+      return contact;
     }
   }
 
@@ -231,22 +239,22 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   if (!met) {
     result = pair.apart(quick, false);
     result.lower = gap;
+    result.exact = exact;
     if (fine(result, pair.error())) return result;
   }
-  ++counters.exactTests;
   gjk::Search<DoubleDouble> finer(a, b, pair.size());
   finer.run(quick.simplex, agreed(pair.radii(), -1, 0), never);
   result = pair.apart(finer, false);
+  result.exact = true;
   if (fine(result, 0) || pair.radii() == 0) return result;
   gjk::Search<DoubleDouble> whole(a, b, pair.size(), true);
   whole.run(finer.simplex, agreed(0, -1, 0), never);
-  const ConvexDistance other = pair.apart(whole, true);
+  ConvexDistance other = pair.apart(whole, true);
+  other.exact = true;
   return other.distance - other.lower < result.distance - result.lower ? other : result;
 }
 
-ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near,
-                                Counters& counters) {
-  ++counters.triangleTests;
+ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near) {
   const Pair pair(a, b);
   gjk::Search<double> search(a, b, pair.size());
   double lower = 0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "collision/convex/convex_set.h"
-#include "collision/core/counters.h"
 
 namespace corridor {
 
@@ -11,6 +10,7 @@ struct ConvexDistance {
   double lower = 0;              ///< proved lower bound of the distance
   Vec3 normal_W = Vec3::Zero();  ///< the direction that proves `lower`, from a to b: unit, rounded
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();  ///< witness points of a and b
+  bool exact = false;                             ///< the search used double-double
 };
 
 /// Computes the distance of two convex sets, each under its own affine map, and witness points.
@@ -36,8 +36,8 @@ struct ConvexDistance {
 /// and less than 2 in double-double. At most 100 in tests with gaps down to 10^-13, which
 /// `tests/collision/convex/gjk_test.cpp` prints.
 /// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. 0, 0: full accuracy.
-ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
-                              double absolute, Counters& counters);
+ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative = 0,
+                              double absolute = 0);
 
 /// A proved range of a distance, metres. If lower > 0, the sets do not touch.
 struct ConvexRange {
@@ -49,7 +49,6 @@ struct ConvexRange {
 /// ends are within some 2^-45·S of the distance, or 2^-20 of it; the range may be wider where caps
 /// of cylinders face each other, or where the map of a sphere is not rigid.
 /// @param beyond, near  metres.
-ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near,
-                                Counters& counters);
+ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near);
 
 }  // namespace corridor

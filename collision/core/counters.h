@@ -20,6 +20,11 @@ struct Counters {
   std::uint64_t states = 0;     ///< static queries
   std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`
 
+  /// Counts a tested pair of triangles or convex parts.
+  void addTest(bool exact) {
+    ++triangleTests;
+    exactTests += exact;
+  }
   /// Returns the sum that work limits are compared with: box tests and triangle tests.
   std::uint64_t work() const { return boxTests + triangleTests; }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include <Eigen/Geometry>
 
@@ -33,11 +34,9 @@ struct Body::Impl {
   mutable std::once_flag once, componentsOnce;
   mutable std::atomic<bool> built = false;
   mutable std::optional<Obb4Tree> tree;
-  mutable std::tuple<LazyTree<VolumeTree<Obb>>, LazyTree<VolumeTree<Aabb>>,
-                     LazyTree<VolumeTree<BoundingSphere>>, LazyTree<VolumeTree<Rss>>,
-                     LazyTree<VolumeTree<Kdop<14>>>, LazyTree<VolumeTree<Kdop<18>>>,
-                     LazyTree<VolumeTree<Kdop<26>>>>
-      volumeTrees;
+#define CORRIDOR_LAZY_TREE(Volume) LazyTree<VolumeTree<Volume>>,
+  mutable std::tuple<CORRIDOR_EACH_VOLUME(CORRIDOR_LAZY_TREE) std::monostate> volumeTrees;
+#undef CORRIDOR_LAZY_TREE
   mutable MeshComponents components;
 };
 

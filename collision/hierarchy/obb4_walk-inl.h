@@ -13,10 +13,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "hwy/highway.h"
 
-#include "collision/core/query_context.h"
+#include "collision/core/counters.h"
+#include "collision/hierarchy/node_pair4.h"
 #include "collision/hierarchy/obb4_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -52,18 +54,18 @@ struct Lanes {
 ///   bool leaves(const Item&, const Node& a, const Node& b, unsigned pairs, const float* keys):
 ///     handles pairs of leaves. Returns true to end the walk.
 ///
-/// The stack belongs to the context: once it is large enough, no query allocates memory. The walk
-/// starts from the items that are on the stack. If `leaves` ends the walk, the items not yet
-/// visited stay on the stack. The current item is then on top; some of its pairs may have been
-/// handled. Every new item is written, and kept only if it has a pair. This needs no branch; a
-/// branch would often be mispredicted.
+/// Every new item is written to the stack, and kept only if it has a pair. This needs no branch; a
+/// branch would often be mispredicted. Once the stack is large enough, no walk allocates memory.
 ///
-/// @param count  number of items to start from
-/// @return the number of items that are left
+/// @param start  the items to start from, the last one first. The query may change them while the
+/// walk runs.
+/// @return the items that were not visited, if `leaves` ended the walk. The current item is the
+/// last of them; some of its pairs may have been handled. Valid until the stack is used again.
 template <class Query>
-std::size_t walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB, QueryContext& context,
-                     Query& query, std::size_t count) {
-  using Item = QueryContext::NodePair4;
+std::span<const NodePair4> walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB,
+                                    std::span<const NodePair4> start, Obb4Stack& memory,
+                                    Counters& counters, Query& query) {
+  using Item = NodePair4;
   constexpr unsigned kAll = 15, kAllPairs = 0xffff;
   constexpr std::size_t kMostPushed = 16 + 1;  // the last one is written and not kept
   // Two nodes whose sizes differ by less than this factor are descended together. Measured: 1.3 to
@@ -78,25 +80,26 @@ std::size_t walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB, QueryCo
   const auto rowsOf = [](unsigned lanes) {
     return (lanes & 1) * 0xfU | (lanes & 2) * 0x78U | (lanes & 4) * 0x3c0U | (lanes & 8) * 0x1e00U;
   };
-  auto& stack = context.stack4;
-  std::size_t top = count;
+  std::vector<Item>& stack = memory.items;
+  std::size_t top = start.size();
   const auto makeRoom = [&] {
     if (stack.size() < top + kMostPushed) stack.resize(2 * (top + kMostPushed));
   };
   makeRoom();
+  std::copy(start.begin(), start.end(), stack.begin());
   while (top > 0) {
     Item item = stack[--top];
     if (query.skip(item)) continue;
     const Obb4Tree::Node &na = a.nodes()[item.a], &nb = b.nodes()[item.b];
     const Lanes lanesA(na), lanesB(nb);
     item.pairs &= rowsOf(lanesA.held) & lanesB.held * 0x1111U;
-    context.counters.boxTests += static_cast<unsigned>(std::popcount(item.pairs));
+    counters.boxTests += static_cast<unsigned>(std::popcount(item.pairs));
     alignas(64) float keys[16];
     const unsigned open = query.boxes(item, na, nb, keys) & item.pairs;
     if (!open) continue;
     const unsigned leafRows = rowsOf(lanesA.leaves), leafColumns = lanesB.leaves * 0x1111U;
     if (const unsigned pairs = open & leafRows & leafColumns)
-      if (query.leaves(item, na, nb, pairs, keys)) return top + 1;
+      if (query.leaves(item, na, nb, pairs, keys)) return {stack.data(), top + 1};
     const float sizeA = size(na), sizeB = size(nb) * scaleB;
     const unsigned splitA = sizeB > kLarger * sizeA ? 0 : ~0U,
                    splitB = sizeA > kLarger * sizeB ? 0 : ~0U;
@@ -143,15 +146,7 @@ std::size_t walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB, QueryCo
     }
     top += static_cast<std::size_t>(end - begin);
   }
-  return 0;
-}
-
-/// The same for both trees as a whole.
-template <class Query>
-void walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB, QueryContext& context,
-              Query& query) {
-  context.startAtRoots();
-  walkObb4(a, b, scaleB, context, query, 1);
+  return {};
 }
 
 }  // namespace corridor::HWY_NAMESPACE

@@ -5,6 +5,13 @@
 
 namespace corridor {
 
+/// A pair of nodes of two binary trees.
+struct NodePair {
+  std::uint32_t a, b;
+};
+/// The stack of traversals that need no more than the nodes' numbers.
+using NodePairs = std::vector<NodePair>;
+
 /// Traverses two trees from the node pairs on `stack`. Every query on binary trees uses it.
 /// Query::Item has the nodes' numbers as `a` and `b`. Uses no call stack, and allocates nothing
 /// once `stack` has grown. For two inner nodes, the one of larger radius is descended. Pairs that

@@ -43,16 +43,20 @@ std::optional<InvalidName> wrongOf(const VolumeKind& volume, const std::string& 
 }  // namespace
 
 const std::vector<VolumeKind>& volumeKinds() {
-  static const Words axes = {"triangles", "vertices", "hull"}, none = {"plain"};
-  static const std::vector<VolumeKind> kinds = {
-      {"obb", axes, {"sat"}, TreeKind::obb4},
-      {"obb-binary", axes, {"sat", "gjk", "lp", "edge-face"}, TreeKind::obbBinary},
-      {"aabb", none, {"sat"}, TreeKind::aabb},
-      {"sphere", none, {"centers"}, TreeKind::sphere},
-      {"rss", axes, {"rectangles"}, TreeKind::rss},
-      {"kdop14", none, {"intervals"}, TreeKind::kdop14},
-      {"kdop18", none, {"intervals"}, TreeKind::kdop18},
-      {"kdop26", none, {"intervals"}, TreeKind::kdop26}};
+  static const Words oriented = {"triangles", "vertices", "hull"}, plain = {"plain"};
+  static const std::vector<VolumeKind> kinds = [] {
+    std::vector<VolumeKind> all = {{"obb", oriented, {"sat"}, TreeKind::obb4}};
+    const auto add = [&](TreeKind kind, bool isOriented, const char* volume, const char* overlap) {
+      if (all.back().name != volume)
+        all.push_back({volume, isOriented ? oriented : plain, {}, kind});
+      all.back().overlaps.push_back(overlap);
+    };
+#define CORRIDOR_ADD(kind, Volume, Overlap, volumeName, overlapName) \
+  add(TreeKind::kind, Volume::kOriented, volumeName, overlapName);
+    CORRIDOR_EACH_OVERLAP(CORRIDOR_ADD)
+#undef CORRIDOR_ADD
+    return all;
+  }();
   return kinds;
 }
 

@@ -5,23 +5,21 @@
 #include <vector>
 
 #include "collision/volumes/obb.h"
+#include "collision/volumes/pair_tests.h"
 
 namespace corridor {
 
 /// The kind of trees that a query walks, and the overlap test of their volumes. It changes what a
 /// query costs, never its verdict.
+///
+/// `obb4` are 4-wide OBB trees (obb4_tree.h): sixteen pairs per test, the fast ones. All others are
+/// binary trees (volume_tree.h) of a volume with one of its overlap tests, in the order of the list
+/// CORRIDOR_EACH_OVERLAP: obbBinary, obbGjk, …, kdop26.
 enum class TreeKind {
-  obb4,       ///< 4-wide OBB trees (obb4_tree.h): sixteen pairs per test, the fast one
-  obbBinary,  ///< from here on binary trees (volume_tree.h): boxes by separating axes, …
-  obbGjk,     ///< … by closest features, …
-  obbLinearProgram,
-  obbEdgeFace,
-  aabb,
-  sphere,
-  rss,
-  kdop14,
-  kdop18,
-  kdop26,
+  obb4,
+#define CORRIDOR_KIND(kind, Volume, Overlap, volumeName, overlapName) kind,
+  CORRIDOR_EACH_OVERLAP(CORRIDOR_KIND)
+#undef CORRIDOR_KIND
 };
 
 /// A kind of bounding volume under the name that users write, with its fits and overlap tests. The

@@ -113,7 +113,7 @@ class Bisection {
 
 MotionResult certifyByBisection(MotionSource& motion, std::span<const MotionPair> pairs,
                                 const MotionOptions& options, QueryContext& context) {
-  return answered(motion, options.earliest, context, [&] {
+  return answered(motion, options.earliest, [&] {
     DistanceSteps steps(motion, pairs, options, context);
     return Bisection(steps).run(pairs.size());
   });

@@ -41,7 +41,8 @@ class CertificateCheck {
       return CertificateFault{Kind::workLimit, i.pair, middle};
     const RelativeMotion relative = motion_.relativeMotion(pair.motion, middle, h);
     const auto closer = [&](double d) {
-      return closerThan(pair.a->binaryTree(), {}, pair.b->binaryTree(), relative.X_AB, d, context_);
+      return closerThan(Posed(pair.a->binaryTree()), Posed(pair.b->binaryTree(), relative.X_AB), d,
+                        context_);
     };
     const MotionBound bound = motionBoundOf(*pair.b, relative);
     const double beyond = std::max(0.0, i.clearance - options_.margin);
@@ -50,7 +51,7 @@ class CertificateCheck {
     if (needed < HUGE_VAL && !closer(needed)) {
       // No body passes through a surface between t = 0 and here, so one that is outside at t = 0
       // stays so.
-      if (i.t0 > 0 || !insideEachOther(*pair.a, {}, *pair.b, relative.X_AB, context_))
+      if (i.t0 > 0 || !insideEachOther(Posed(*pair.a), Posed(*pair.b, relative.X_AB), context_))
         return std::nullopt;
       return CertificateFault{Kind::refuted, i.pair, 0};
     }

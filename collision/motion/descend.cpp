@@ -27,7 +27,7 @@ namespace corridor::HWY_NAMESPACE {
 
 class Moving {
  public:
-  using Item = QueryContext::NodePair4;
+  using Item = NodePair4;
   using Node = Obb4Tree::Node;
 
   Moving(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
@@ -105,9 +105,10 @@ class Moving {
       const double margin = options_.margin;
       const ConvexPart *pa = a_.part(), *pb = b_.part();
       const MovingTrianglesAnswer answer =
-          !pa  ? decideMovingParts(a_.triangle(s), *pb, relative_, margin, counters_)
-          : pb ? decideMovingParts(*pa, *pb, relative_, margin, counters_)
-               : decideMovingParts(*pa, b_.triangle(t), relative_, margin, counters_);
+          !pa  ? decideMovingParts(a_.triangle(s), *pb, relative_, margin)
+          : pb ? decideMovingParts(*pa, *pb, relative_, margin)
+               : decideMovingParts(*pa, b_.triangle(t), relative_, margin);
+      counters_.addTest(answer.exact);
       return take(answer, s, t, leaves, open);
     });
   }
@@ -138,9 +139,9 @@ class Moving {
               continue;
             }
             const auto [s, t] = pairs.triangles(first + bit);
-            --counters_.triangleTests;  // the filter has counted the pair
-            const MovingTrianglesAnswer answer = decideMovingTriangles(
-                a_.triangle(s), b_.triangle(t), relative_, options_.margin, counters_);
+            const MovingTrianglesAnswer answer =
+                decideMovingTriangles(a_.triangle(s), b_.triangle(t), relative_, options_.margin);
+            counters_.exactTests += answer.exact;  // the filter has counted the pair
             if (take(answer, s, t, pair, open)) return true;
           }
           return false;
@@ -169,17 +170,17 @@ class Moving {
   Descent result_;
 };
 
-Descent descendObb4(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
-                    const DescentOptions& options, std::size_t count,
-                    std::vector<QueryContext::NodePair4>& later, QueryContext& context) {
+Descent descendObb4(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
+                    const RelativeMotion& relative, const DescentOptions& options,
+                    std::vector<NodePair4>& later, QueryContext& context) {
   // The infinite pad keeps `Obb4TreePose` from separating the root bounds: it does not know the
   // motion.
   const Obb4TreePose pose(a, {}, b, relative.X_AB, HUGE_VAL);
   Moving query(a, b, relative, pose, options, later, context.counters);
-  const std::size_t left = walkObb4(a, b, pose.floats.scale, context, query, count);
+  const std::span<const NodePair4> left = walkObb4(
+      a, b, pose.floats.scale, start, context.scratch.of<Obb4Stack>(), context.counters, query);
   if (query.result().kind == Descent::Kind::contact)
-    later.insert(later.end(), context.stack4.begin(),
-                 context.stack4.begin() + static_cast<std::ptrdiff_t>(left));
+    later.insert(later.end(), left.begin(), left.end());
   return query.result();
 }
 
@@ -191,10 +192,10 @@ namespace corridor {
 
 HWY_EXPORT(descendObb4);
 
-Descent descend(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
-                const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::NodePair4>& later, QueryContext& context) {
-  return HWY_DYNAMIC_DISPATCH(descendObb4)(a, b, relative, options, count, later, context);
+Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
+                const RelativeMotion& relative, const DescentOptions& options,
+                std::vector<NodePair4>& later, QueryContext& context) {
+  return HWY_DYNAMIC_DISPATCH(descendObb4)(start, a, b, relative, options, later, context);
 }
 
 }  // namespace corridor

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "collision/core/query_context.h"
+#include "collision/hierarchy/node_pair4.h"
 #include "collision/hierarchy/obb4_tree.h"
 #include "collision/motion/moving_triangles.h"
 #include "collision/motion/relative_motion.h"
+#include "collision/volumes/pair_tests.h"
 
 namespace corridor {
 
@@ -67,20 +71,28 @@ inline LeafOutcome outcomeOf(const MovingTrianglesAnswer& answer, std::uint32_t 
   return LeafOutcome::left;
 }
 
-/// Walks the trees below the given node pairs, b moving by the relative motion `relative`. Appends
-/// the node pairs that it cannot separate in this interval to `later`.
+/// Walks the trees below the node pairs `start`, b moving by the relative motion `relative`.
+/// Appends the node pairs that it cannot separate in this interval to `later`. `start` may be a
+/// part of `later`.
 ///
 /// Boxes are separated by the 15 axes, each with the motion bound along it for the whole interval
 /// (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated along the direction of their
 /// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: a
 /// pair of boxes that move farther than they are large is left to shorter intervals.
 ///
-/// @param count the number of items of `context.stack4` to start from.
 /// @return If the kind is `contact`, `later` also receives everything that was not tested and the
 /// pair that touches. If it is `undecided` or `workLimit`, the contents appended to `later` have no
 /// meaning.
-Descent descend(const Obb4Tree& a, const Obb4Tree& b, const RelativeMotion& relative,
-                const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::NodePair4>& later, QueryContext& context);
+Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
+                const RelativeMotion& relative, const DescentOptions& options,
+                std::vector<NodePair4>& later, QueryContext& context);
+/// The same for code that works on any kind of trees (`withTrees`): 4-wide trees have only one
+/// overlap test.
+template <std::same_as<StandardOverlap> Overlap>
+Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
+                const RelativeMotion& relative, const DescentOptions& options,
+                std::vector<NodePair4>& later, QueryContext& context) {
+  return descend(start, a, b, relative, options, later, context);
+}
 
 }  // namespace corridor

@@ -31,11 +31,10 @@ class MovingVolumes {
  public:
   using Tree = VolumeTree<Volume>;
   using Node = typename Tree::Node;
-  using Item = QueryContext::NodePair;
+  using Item = NodePair;
 
   MovingVolumes(const Tree& a, const Tree& b, const RelativeMotion& relative,
-                const DescentOptions& options, std::vector<QueryContext::NodePair4>& later,
-                Counters& counters)
+                const DescentOptions& options, std::vector<NodePair4>& later, Counters& counters)
       : a_(a),
         b_(b),
         relative_(relative),
@@ -62,17 +61,17 @@ class MovingVolumes {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
         if (outOfWork()) return true;
+        const MovingTrianglesAnswer answer = decide(s, t);
+        counters_.addTest(answer.exact);
         const LeafOutcome pair =
-            outcomeOf(decide(s, t), a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
+            outcomeOf(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
         if (pair == LeafOutcome::left) return leave();
         if (pair == LeafOutcome::last) return true;
       }
     return false;
   }
 
-  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
-    stack.push_back({i, k, 0});
-  }
+  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) { stack.push_back({i, k}); }
   void opened(std::vector<Item>&, std::size_t) {}
 
   /// Leaves the node pair tested last to shorter intervals. Returns false: its nodes are not
@@ -82,9 +81,7 @@ class MovingVolumes {
     ++left_;
     return false;
   }
-  void leave(const Item& item) {
-    later_.push_back({item.a, item.b, 0, QueryContext::kWholeTrees.pairs});
-  }
+  void leave(const Item& item) { later_.push_back({item.a, item.b, 0, kWholeTrees[0].pairs}); }
 
   const Descent& result() const { return result_; }
 
@@ -121,10 +118,10 @@ class MovingVolumes {
   MovingTrianglesAnswer decide(std::uint32_t s, std::uint32_t t) {
     const ConvexPart *pa = a_.part(s), *pb = b_.part(t);
     const double margin = options_.margin;
-    if (pa && pb) return decideMovingParts(*pa, *pb, relative_, margin, counters_);
-    if (pa) return decideMovingParts(*pa, b_.triangle(t), relative_, margin, counters_);
-    if (pb) return decideMovingParts(a_.triangle(s), *pb, relative_, margin, counters_);
-    return decideMovingTriangles(a_.triangle(s), b_.triangle(t), relative_, margin, counters_);
+    if (pa && pb) return decideMovingParts(*pa, *pb, relative_, margin);
+    if (pa) return decideMovingParts(*pa, b_.triangle(t), relative_, margin);
+    if (pb) return decideMovingParts(a_.triangle(s), *pb, relative_, margin);
+    return decideMovingTriangles(a_.triangle(s), b_.triangle(t), relative_, margin);
   }
 
   bool outOfWork() {
@@ -137,7 +134,7 @@ class MovingVolumes {
   const RelativeMotion& relative_;
   const PairTest<Volume, Overlap> test_;
   const DescentOptions& options_;
-  std::vector<QueryContext::NodePair4>& later_;
+  std::vector<NodePair4>& later_;
   Counters& counters_;
   Item item_{};  // tested last
   std::uint32_t travelNode_ = ~std::uint32_t{0};
@@ -149,23 +146,26 @@ class MovingVolumes {
 }  // namespace
 
 template <class Overlap, BoundingVolume Volume>
-Descent descend(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
-                const RelativeMotion& relative, const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::NodePair4>& later, QueryContext& context) {
+Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,
+                const VolumeTree<Volume>& b, const RelativeMotion& relative,
+                const DescentOptions& options, std::vector<NodePair4>& later,
+                QueryContext& context) {
   MovingVolumes<Volume, Overlap> query(a, b, relative, options, later, context.counters);
-  context.stackFrom(count);
-  traverseFrom(a, b, context.stack, query);
+  auto& stack = context.scratch.of<NodePairs>();
+  stack.clear();
+  for (const NodePair4& pair : start) stack.push_back({pair.a, pair.b});
+  traverseFrom(a, b, stack, query);
   if (query.result().kind == Descent::Kind::contact) {
     query.leave();
-    for (const QueryContext::NodePair& item : context.stack) query.leave(item);
+    for (const NodePair& item : stack) query.leave(item);
   }
   return query.result();
 }
 
-#define CORRIDOR_DESCEND(Volume, Overlap)                                                      \
-  template Descent descend<Overlap>(const VolumeTree<Volume>&, const VolumeTree<Volume>&,      \
-                                    const RelativeMotion&, const DescentOptions&, std::size_t, \
-                                    std::vector<QueryContext::NodePair4>&, QueryContext&);
+#define CORRIDOR_DESCEND(kind, Volume, Overlap, volumeName, overlapName)                \
+  template Descent descend<Overlap>(                                                    \
+      std::span<const NodePair4>, const VolumeTree<Volume>&, const VolumeTree<Volume>&, \
+      const RelativeMotion&, const DescentOptions&, std::vector<NodePair4>&, QueryContext&);
 CORRIDOR_EACH_OVERLAP(CORRIDOR_DESCEND)
 #undef CORRIDOR_DESCEND
 

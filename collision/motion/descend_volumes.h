@@ -20,12 +20,12 @@ namespace corridor {
 /// `descend` on 4-wide OBB trees has motion bounds for boxes along the very axis tested, and
 /// therefore opens fewer nodes. The answers are the same.
 ///
-/// Only the node pairs in the items of `context.stack4` and `later` matter; their keys have no
-/// meaning.
-/// @param Overlap how two volumes are tested (overlap_obb_obb_variants.h).
+/// Only the nodes of the items of `start` and `later` have a meaning.
+/// @tparam Overlap  how two volumes are tested (overlap_obb_obb_variants.h).
 template <class Overlap, BoundingVolume Volume>
-Descent descend(const VolumeTree<Volume>& a, const VolumeTree<Volume>& b,
-                const RelativeMotion& relative, const DescentOptions& options, std::size_t count,
-                std::vector<QueryContext::NodePair4>& later, QueryContext& context);
+Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,
+                const VolumeTree<Volume>& b, const RelativeMotion& relative,
+                const DescentOptions& options, std::vector<NodePair4>& later,
+                QueryContext& context);
 
 }  // namespace corridor

@@ -76,19 +76,19 @@ DistanceSteps::Measurement DistanceSteps::measureAt(std::uint32_t pair, double t
   DistanceOptions measure;
   if (!exact) measure.relative = needed < HUGE_VAL ? bound / (4 * needed) : 0.25;
 
-  const std::uint64_t states = context_.counters.states;
-  const Distance found = surfaceDistance(a, {}, b, w.X_AB, measure, context_, options_.trees);
+  const Posed posedA(a), posedB(b, w.X_AB);
+  const Distance found =
+      surfaceDistance(posedA, posedB, measure, context_, options_.trees, &context_.lastPair(pair));
   measured.s = found.a;
   measured.t = found.b;
   measured.gap = std::max(0.0, found.distance - options_.margin);
   // If the pose overflows, "contact" only means that nothing is known.
   measured.contact =
       w.X_AB.isFinite() &&
-      (found.distance == 0 || distanceFromAbove(a, {}, b, w.X_AB, found) <= options_.margin);
+      (found.distance == 0 || distanceFromAbove(posedA, posedB, found) <= options_.margin);
   measured.hopeless = !(found.distance > needed - bound);
   if (found.distance > needed)
-    measured.lower = provedDistance(a, {}, b, w.X_AB, found, measure, context_, options_.trees);
-  context_.counters.states = states;  // part of an edge
+    measured.lower = provedDistance(posedA, posedB, found, measure, context_, options_.trees);
   return measured;
 }
 

@@ -4,6 +4,7 @@
 
 #include "collision/motion/adaptive_motion.h"
 #include "collision/motion/conservative_advancement.h"
+#include "collision/motion/motion_answer.h"
 
 namespace corridor {
 
@@ -22,6 +23,14 @@ std::optional<EdgeMethod> edgeMethodNamed(std::string_view name) {
 MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context) {
+  const MotionResult result = runEdgeMethod(method, motion, pairs, options, context);
+  count(motion, result, context.counters);
+  return result;
+}
+
+MotionResult runEdgeMethod(EdgeMethod method, MotionSource& motion,
+                           std::span<const MotionPair> pairs, const MotionOptions& options,
+                           QueryContext& context) {
   switch (method) {
     case EdgeMethod::directional:
       break;

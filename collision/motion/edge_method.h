@@ -24,8 +24,14 @@ const std::vector<std::string>& edgeMethodNames();
 /// Returns the method with this name, or nothing if there is none.
 std::optional<EdgeMethod> edgeMethodNamed(std::string_view name);
 
+/// Decides whether a motion is free, by a method (`certifyMotion`). Counts an edge, or a state if
+/// nothing moves.
 MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context);
+/// The same for a caller that counts edges itself.
+MotionResult runEdgeMethod(EdgeMethod method, MotionSource& motion,
+                           std::span<const MotionPair> pairs, const MotionOptions& options,
+                           QueryContext& context);
 
 }  // namespace corridor

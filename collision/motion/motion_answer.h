@@ -20,12 +20,10 @@ inline UndecidedReason reasonOf(const RelativeMotion& relative, const Body& b, d
   return sharp ? UndecidedReason::clearance : UndecidedReason::rounding;
 }
 
-/// Counts the query and returns the answer of `run`. The query is refused, as `undecided`, if the
-/// edge is ambiguous or no bound holds under the processor's floating-point settings.
+/// Returns the answer of `run`. The query is refused, as `undecided`, if the edge is ambiguous or
+/// no bound holds under the processor's floating-point settings.
 template <class Run>
-MotionResult answered(const MotionSource& motion, bool earliest, QueryContext& context,
-                      const Run& run) {
-  ++context.counters.edges;
+MotionResult answered(const MotionSource& motion, bool earliest, const Run& run) {
   const auto refused = [](UndecidedReason reason) {
     MotionResult result;
     result.verdict = MotionVerdict::undecided;
@@ -42,8 +40,13 @@ MotionResult answered(const MotionSource& motion, bool earliest, QueryContext& c
     result.certifiedUntil = 0;
     result.grazing = false;  // speaks of the whole way from `certifiedUntil` on
   }
-  context.counters.undecided += result.verdict == MotionVerdict::undecided;
   return result;
+}
+
+/// Counts a motion query: an edge, or a state if nothing moves.
+inline void count(const MotionSource& motion, const MotionResult& result, Counters& counters) {
+  ++(motion.still() ? counters.states : counters.edges);
+  counters.undecided += result.verdict == MotionVerdict::undecided;
 }
 
 }  // namespace corridor

@@ -97,8 +97,7 @@ class MovingPair {
 };
 
 MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const RelativeMotion& relative,
-                             double margin, Counters& counters) {
-  ++counters.triangleTests;
+                             double margin) {
   const MovingPair pair(a, b, relative);
   // |n| ≤ 1 + 4u, so margin and pad, which are lengths along a unit vector, may be too short by
   // that factor.
@@ -116,7 +115,8 @@ MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const Relat
     return gaps.moving > needed;
   };
   const auto apart = [&] {
-    return MovingTrianglesAnswer{.separated = true, .clearance = roundedDown(best.moving - needed)};
+    return MovingTrianglesAnswer{
+        .separated = true, .clearance = roundedDown(best.moving - needed), .exact = answer.exact};
   };
   gjk::Answer found = gjk::search<double>(pair.a(), pair.b(), pair.size(), near, attempt);
   if (found.accepted) return apart();
@@ -125,7 +125,7 @@ MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const Relat
   // search again with more digits.
   if (!met && !(best.middle > pair.slack() &&
                 best.middle - margin > 0.75 * (found.upper - pair.radii() - margin))) {
-    ++counters.exactTests;
+    answer.exact = true;
     found = gjk::search<DoubleDouble>(pair.a(), pair.b(), pair.size(), near, attempt);
     if (found.accepted) return apart();
   }
@@ -141,21 +141,18 @@ MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const Relat
 }  // namespace
 
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin,
-                                        Counters& counters) {
-  return decide(a, b, relative, margin, counters);
+                                        const RelativeMotion& relative, double margin) {
+  return decide(a, b, relative, margin);
 }
 
 MovingTrianglesAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin,
-                                        Counters& counters) {
-  return decide(a, b, relative, margin, counters);
+                                        const RelativeMotion& relative, double margin) {
+  return decide(a, b, relative, margin);
 }
 
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,
-                                        const RelativeMotion& relative, double margin,
-                                        Counters& counters) {
-  return decide(a, b, relative, margin, counters);
+                                        const RelativeMotion& relative, double margin) {
+  return decide(a, b, relative, margin);
 }
 
 }  // namespace corridor

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "collision/core/counters.h"
 #include "collision/geometry/convex_part.h"
 #include "collision/motion/moving_triangles.h"
 #include "collision/motion/relative_motion.h"
@@ -13,14 +12,11 @@ namespace corridor {
 /// rounded pose at the middle the parts are closer than 2^-44 of the largest coordinate, or proved
 /// to be within the margin.
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin,
-                                        Counters& counters);
+                                        const RelativeMotion& relative, double margin);
 /// The same with a triangle on one side (a closed patch of surface, not a solid).
 MovingTrianglesAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin,
-                                        Counters& counters);
+                                        const RelativeMotion& relative, double margin);
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,
-                                        const RelativeMotion& relative, double margin,
-                                        Counters& counters);
+                                        const RelativeMotion& relative, double margin);
 
 }  // namespace corridor

@@ -120,9 +120,7 @@ MovingTrianglesAnswer apart(double moving, double needed) {
 }  // namespace
 
 MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
-                                            const RelativeMotion& relative, double margin,
-                                            Counters& counters) {
-  ++counters.triangleTests;
+                                            const RelativeMotion& relative, double margin) {
   const MovingCorners corners(b, relative);
   const Triangle& posed = corners.posed;
   double largest = 0;
@@ -151,8 +149,9 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
   if (margin > 0 && distance + slack <= margin) {
     answer.contact = true;
   } else if (!(gaps.middle > slack)) {  // otherwise n proves it for the rounded pose
-    answer.contact = trianglesTouch(a, {}, b, relative.X_AB, counters);
-    --counters.triangleTests;  // the same pair
+    const PredicateResult touch = trianglesTouch(a, {}, b, relative.X_AB);
+    answer.contact = touch;
+    answer.exact = touch.exact;
   }
   if (answer.contact) return answer;
 
@@ -163,7 +162,11 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
       if (other.moving > gaps.moving) gaps.moving = other.moving;
       if (other.still > gaps.still) gaps.still = other.still;
     });
-    if (gaps.moving > needed) return apart(gaps.moving, needed);
+    if (gaps.moving > needed) {
+      MovingTrianglesAnswer proved = apart(gaps.moving, needed);
+      proved.exact = answer.exact;
+      return proved;
+    }
   }
   answer.stuck = !(gaps.still > needed);
   return answer;

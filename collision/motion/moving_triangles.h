@@ -1,6 +1,5 @@
 #pragma once
 
-#include "collision/core/counters.h"
 #include "collision/motion/relative_motion.h"
 #include "collision/predicates/triangle.h"
 
@@ -19,6 +18,7 @@ struct MovingTrianglesAnswer {
   /// If neither separated nor in contact: distance at the middle beyond the margin, metres.
   /// Rounded, for reports only.
   double gap = 0;
+  bool exact = false;  ///< double could not decide the pair
 };
 
 /// Decides a pair of triangles in a time interval, b moving by the relative motion `relative`. It
@@ -26,7 +26,6 @@ struct MovingTrianglesAnswer {
 /// b has its own directional motion bound. Any direction is valid: its rounding may cost a proof,
 /// but never makes one wrong. If they are not separated, contact at the middle is decided exactly.
 MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
-                                            const RelativeMotion& relative, double margin,
-                                            Counters& counters);
+                                            const RelativeMotion& relative, double margin);
 
 }  // namespace corridor

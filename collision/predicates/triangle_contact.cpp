@@ -95,13 +95,11 @@ struct Filter {
 
 }  // namespace
 
-bool trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
-                    const Transform& X_WB, Counters& counters) {
-  ++counters.triangleTests;
+PredicateResult trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                               const Transform& X_WB) {
   const int decided = Filter(a, X_WA, b, X_WB).decide();
-  if (decided >= 0) return decided == 1;
-  ++counters.exactTests;
-  return trianglesTouchExact(a, X_WA, b, X_WB);
+  if (decided >= 0) return {decided == 1, false};
+  return {trianglesTouchExact(a, X_WA, b, X_WB), true};
 }
 
 }  // namespace corridor

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collision/core/counters.h"
+#include "collision/core/predicate_result.h"
 #include "collision/predicates/triangle.h"
 
 namespace corridor {
@@ -10,14 +10,14 @@ namespace corridor {
 /// Exact: the answer is that of real arithmetic on the given doubles, for any finite coordinates
 /// and maps. Degenerate triangles count as the segments or points that they are. Touching is
 /// contact. A filter in double with a proved error bound decides first; integers decide the rest
-/// (`counters.exactTests`).
+/// (`PredicateResult::exact`).
 ///
 /// Method: signs of orientation determinants as in Guigue, Devillers, "Fast and robust
 /// triangle-triangle overlap test using orientation predicates", JGT 8(1), 2003; degenerate
 /// positions by segment-triangle tests.
 /// @pre all numbers are finite.
-bool trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
-                    const Transform& X_WB, Counters& counters);
+PredicateResult trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
+                               const Transform& X_WB);
 
 /// The same without the filter in double: its fallback, and an independent path for tests.
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,

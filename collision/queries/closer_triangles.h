@@ -23,9 +23,8 @@ class CloserTriangles {
     const DistanceRange range = bounds_(a, b);
     if (range.lower > d_) return false;
     if (range.upper <= d_) return true;
-    Counters own;  // the caller has already counted this pair
-    const bool touches = trianglesTouch(a, X_WA_, b, X_WB_, own);
-    counters.exactTests += own.exactTests;
+    const PredicateResult touches = trianglesTouch(a, X_WA_, b, X_WB_);
+    counters.exactTests += touches.exact;  // the caller has counted the pair
     if (touches) return true;
     const WitnessPoints w = witnessPoints(a, X_WA_, b, X_WB_);
     return w.distance <= roundedUp(d_ + w.error);

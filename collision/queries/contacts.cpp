@@ -6,26 +6,24 @@
 
 namespace corridor {
 template <class Overlap, BoundingVolume Volume>
-std::vector<TriangleContact> contacts(const VolumeTree<Volume>& a, const Transform& X_WA,
-                                      const VolumeTree<Volume>& b, const Transform& X_WB,
-                                      QueryContext& context) {
-  ++context.counters.states;
-  const auto test = pairTestOf<Volume, Overlap>(a, X_WA, b, X_WB);
+std::vector<TriangleContact> contacts(const Posed<VolumeTree<Volume>>& a,
+                                      const Posed<VolumeTree<Volume>>& b, QueryContext& context) {
+  const auto test = pairTestOf<Volume, Overlap>(a, b);
   std::vector<TriangleContact> all;
   const auto add = [&](std::uint32_t s, std::uint32_t t) {
-    const Segment segment = triangleIntersection(a.triangles()[s], X_WA, b.triangles()[t], X_WB);
-    all.push_back({a.meshTriangle(s), b.meshTriangle(t), segment.p, segment.q});
+    const Segment segment =
+        triangleIntersection(a.shape.triangle(s), a.X_W, b.shape.triangle(t), b.X_W);
+    all.push_back({a.shape.meshTriangle(s), b.shape.meshTriangle(t), segment.p, segment.q});
     return false;
   };
-  TouchingPairs query(a, X_WA, b, X_WB, test, context.counters, add);
-  traverse(a, b, QueryContext::NodePair{0, 0, 0}, context.stack, query);
+  TouchingPairs query(a, b, test, context.counters, add);
+  traverse(a.shape, b.shape, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
   return all;
 }
 
-#define CORRIDOR_CONTACTS(Volume, Overlap)                                                      \
-  template std::vector<TriangleContact> contacts<Overlap>(                                      \
-      const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
-      QueryContext&);
+#define CORRIDOR_CONTACTS(kind, Volume, Overlap, volumeName, overlapName) \
+  template std::vector<TriangleContact> contacts<Overlap>(                \
+      const Posed<VolumeTree<Volume>>&, const Posed<VolumeTree<Volume>>&, QueryContext&);
 CORRIDOR_EACH_OVERLAP(CORRIDOR_CONTACTS)
 #undef CORRIDOR_CONTACTS
 

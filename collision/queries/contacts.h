@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision/core/posed.h"
 #include "collision/core/query_context.h"
-#include "collision/core/transform.h"
 #include "collision/hierarchy/volume_tree.h"
 
 namespace corridor {
@@ -20,8 +20,8 @@ struct TriangleContact {
   Vec3 p_W = Vec3::Zero(), q_W = Vec3::Zero();
 };
 
-/// Returns all pairs of touching triangles of `a` under X_WA and `b` under X_WB, each pair once, in
-/// the order in which the traversal finds them.
+/// Returns all pairs of touching triangles of two trees, each pair once, in the order in which the
+/// traversal finds them.
 ///
 /// The set of pairs is exact, as for `interference`. Each coordinate of a segment's ends is off by
 /// at most 2^-50·S, where S is the largest Σ|m||v| + |t| of the mapped corners, however flat the
@@ -29,8 +29,7 @@ struct TriangleContact {
 /// @pre Both are trees of triangles, not of convex parts; the maps are finite.
 /// @tparam Overlap  as in `interference`.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>
-std::vector<TriangleContact> contacts(const VolumeTree<Volume>& a, const Transform& X_WA,
-                                      const VolumeTree<Volume>& b, const Transform& X_WB,
-                                      QueryContext& context);
+std::vector<TriangleContact> contacts(const Posed<VolumeTree<Volume>>& a,
+                                      const Posed<VolumeTree<Volume>>& b, QueryContext& context);
 
 }  // namespace corridor

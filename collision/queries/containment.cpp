@@ -28,6 +28,11 @@ Vec3 direction(int cast) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
+/// Numbers of the nodes still to visit.
+struct RayStack {
+  std::vector<std::uint32_t> nodes;
+};
+
 enum class Crossing { none, one, degenerate };
 
 /// Tests whether the segment from q to `end` crosses the triangle. @pre `end` is on no triangle.
@@ -66,18 +71,17 @@ std::optional<int> crossings(const MeshBody& solid, std::uint32_t k, const Trans
                      roundedUp(box.center.norm()), {});
   const MappedPoint end{X_WS, end_S};
   int count = 0;
-  auto& stack = context.stack;
-  stack.clear();
-  stack.push_back({0, 0, 0});
+  auto& stack = context.scratch.of<RayStack>().nodes;
+  stack.assign(1, 0);
   while (!stack.empty()) {
-    const std::uint32_t i = stack.back().a;
+    const std::uint32_t i = stack.back();
     stack.pop_back();
     const ObbTree::Node& node = tree.node(i);
     ++context.counters.boxTests;
     if (obbsSeparated(node.box, box, {}, margins, error)) continue;
     if (!node.isLeaf()) {
-      stack.push_back({node.right, 0, 0});
-      stack.push_back({i + 1, 0, 0});
+      stack.push_back(node.right);
+      stack.push_back(i + 1);
       continue;
     }
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
@@ -93,8 +97,10 @@ std::optional<int> crossings(const MeshBody& solid, std::uint32_t k, const Trans
 
 }  // namespace
 
-std::optional<std::uint32_t> containing(const MeshBody& solid, const Transform& X_WS, const Vec3& p,
+std::optional<std::uint32_t> containing(const Posed<MeshBody>& posed, const Vec3& p,
                                         const Transform& X_WP, QueryContext& context) {
+  const MeshBody& solid = posed.shape;
+  const Transform& X_WS = posed.X_W;
   assert(standardFloatingPoint());
   const Transform X_SP = rigidInverse(X_WS) * X_WP;
   const Vec3 q_S = X_SP * p;
@@ -120,37 +126,40 @@ std::optional<std::uint32_t> containing(const MeshBody& solid, const Transform& 
   return std::nullopt;
 }
 
-std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_WS,
-                                     const MeshBody& inner, const Transform& X_WI,
+std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<MeshBody>& inner,
                                      QueryContext& context) {
-  for (const Component& component : inner.components.components)
-    if (const auto triangle = containing(solid, X_WS, component.corner, X_WI, context))
+  for (const Component& component : inner.shape.components.components)
+    if (const auto triangle = containing(solid, component.corner, inner.X_W, context))
       return TrianglePair{*triangle, component.triangle};
   return std::nullopt;
 }
 
-std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_WS,
-                                     const ConvexPart& inner, const Transform& X_WI,
+std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<ConvexPart>& inner,
                                      QueryContext& context) {
-  if (const auto triangle = containing(solid, X_WS, inner.points[0], X_WI, context))
+  if (const auto triangle = containing(solid, inner.shape.points[0], inner.X_W, context))
     return TrianglePair{*triangle, 0};
   return std::nullopt;
 }
 
-std::optional<TrianglePair> enclosed(const Body& solid, const Transform& X_WS, const Body& inner,
-                                     const Transform& X_WI, QueryContext& context) {
-  if (!solid.solid() || solid.part()) return std::nullopt;
-  const MeshBody around{solid.binaryTree(), solid.components()};
-  if (inner.part()) return enclosed(around, X_WS, *inner.part(), X_WI, context);
-  return enclosed(around, X_WS, {inner.binaryTree(), inner.components()}, X_WI, context);
+std::optional<TrianglePair> enclosed(const Posed<Body>& solid, const Posed<Body>& inner,
+                                     QueryContext& context) {
+  if (!solid.shape.solid() || solid.shape.part()) return std::nullopt;
+  const auto meshOf = [](const Body& body) {
+    return MeshBody{body.binaryTree(), body.components()};
+  };
+  const MeshBody around = meshOf(solid.shape);
+  const Posed posed(around, solid.X_W);
+  if (inner.shape.part()) return enclosed(posed, Posed(*inner.shape.part(), inner.X_W), context);
+  const MeshBody within = meshOf(inner.shape);
+  return enclosed(posed, Posed(within, inner.X_W), context);
 }
 
-std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
-                                            const Transform& X_WB, QueryContext& context) {
-  if (!X_WA.isFinite() || !X_WB.isFinite())
+std::optional<TrianglePair> insideEachOther(const Posed<Body>& a, const Posed<Body>& b,
+                                            QueryContext& context) {
+  if (!a.X_W.isFinite() || !b.X_W.isFinite())
     throw std::invalid_argument("the pose of a body must be finite");
-  if (const auto hit = enclosed(a, X_WA, b, X_WB, context)) return hit;
-  if (const auto hit = enclosed(b, X_WB, a, X_WA, context)) return TrianglePair{hit->b, hit->a};
+  if (const auto hit = enclosed(a, b, context)) return hit;
+  if (const auto hit = enclosed(b, a, context)) return TrianglePair{hit->b, hit->a};
   return std::nullopt;
 }
 

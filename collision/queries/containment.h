@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "collision/core/posed.h"
 #include "collision/core/query_context.h"
 #include "collision/geometry/mesh_components.h"
 #include "collision/hierarchy/body.h"
@@ -24,29 +25,27 @@ struct MeshBody {
 /// several components, or in the hollow of a shell, is inside. Exact under both maps in real
 /// arithmetic; a point on the surface itself may be reported as either.
 /// @pre The maps are finite, and standardFloatingPoint() holds (asserted in debug builds).
-std::optional<std::uint32_t> containing(const MeshBody& solid, const Transform& X_WS, const Vec3& p,
+std::optional<std::uint32_t> containing(const Posed<MeshBody>& solid, const Vec3& p,
                                         const Transform& X_WP, QueryContext& context);
 
 /// Returns a pair of triangles if a component of `inner` is inside `solid`, else nullopt: `a`
 /// belongs to the component around, `b` to the component inside.
 /// @pre The surfaces don't touch (`interference`): then one point of a component decides for all of
 /// it.
-std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_WS,
-                                     const MeshBody& inner, const Transform& X_WI,
+std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<MeshBody>& inner,
                                      QueryContext& context);
 /// The same for a convex part as `inner`; `b` is 0. Same precondition.
-std::optional<TrianglePair> enclosed(const MeshBody& solid, const Transform& X_WS,
-                                     const ConvexPart& inner, const Transform& X_WI,
+std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<ConvexPart>& inner,
                                      QueryContext& context);
 /// The same for two bodies. Returns nullopt unless `solid` is a solid mesh: a body inside a convex
 /// part touches it, so `interference` reports it. Same precondition.
-std::optional<TrianglePair> enclosed(const Body& solid, const Transform& X_WS, const Body& inner,
-                                     const Transform& X_WI, QueryContext& context);
+std::optional<TrianglePair> enclosed(const Posed<Body>& solid, const Posed<Body>& inner,
+                                     QueryContext& context);
 /// Returns a pair (of a, of b) if one of two bodies, or a component of it, is inside the other,
 /// else nullopt.
 /// @pre The surfaces don't touch.
 /// @throws std::invalid_argument for a pose that is not finite.
-std::optional<TrianglePair> insideEachOther(const Body& a, const Transform& X_WA, const Body& b,
-                                            const Transform& X_WB, QueryContext& context);
+std::optional<TrianglePair> insideEachOther(const Posed<Body>& a, const Posed<Body>& b,
+                                            QueryContext& context);
 
 }  // namespace corridor

@@ -47,15 +47,15 @@ class Nearest {
  public:
   using Tree = VolumeTree<Volume>;
   using Node = typename Tree::Node;
-  using Item = QueryContext::BoundedPair;
+  using Item = BoundedPair;
 
-  Nearest(const Tree& a, const Transform& X_WA, const Tree& b, const Transform& X_WB,
-          const DistanceOptions& options, QueryContext& context)
-      : a_(a),
-        b_(b),
-        volumes_(pairTestOf<Volume>(a, X_WA, b, X_WB)),
-        shrink_(shrinkOf(X_WA)),
-        nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context),
+  Nearest(const Posed<Tree>& a, const Posed<Tree>& b, const DistanceOptions& options,
+          QueryContext& context)
+      : a_(a.shape),
+        b_(b.shape),
+        volumes_(pairTestOf<Volume>(a, b)),
+        shrink_(shrinkOf(a.X_W)),
+        nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context),
         counters_(context.counters) {}
 
   bool enter(const Item& item, const Node&, const Node&) { return nearest_.canImprove(item.bound); }
@@ -91,24 +91,21 @@ class Closer {
  public:
   using Tree = VolumeTree<Volume>;
   using Node = typename Tree::Node;
-  using Item = QueryContext::NodePair;
+  using Item = NodePair;
 
-  Closer(const Tree& a, const Transform& X_WA, const Tree& b, const Transform& X_WB, double d,
-         QueryContext& context)
-      : a_(a),
-        b_(b),
-        volumes_(pairTestOf<Volume>(a, X_WA, b, X_WB)),
-        closer_(X_WA, a.reach(), X_WB, b.reach(), d),
-        pad_(roundedUp(d / shrinkOf(X_WA))),
+  Closer(const Posed<Tree>& a, const Posed<Tree>& b, double d, QueryContext& context)
+      : a_(a.shape),
+        b_(b.shape),
+        volumes_(pairTestOf<Volume>(a, b)),
+        closer_(a.X_W, a_.reach(), b.X_W, b_.reach(), d),
+        pad_(roundedUp(d / shrinkOf(a.X_W))),
         counters_(context.counters) {}
 
   bool enter(const Item&, const Node& na, const Node& nb) {
     ++counters_.boxTests;
     return !volumes_.separated(na.box, nb.box, pad_);
   }
-  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
-    stack.push_back({i, k, 0});
-  }
+  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) { stack.push_back({i, k}); }
   void opened(std::vector<Item>&, std::size_t) {}
   bool leaves(const Node& na, const Node& nb) {
     for (std::uint32_t s = na.first; s < na.first + na.count && !found; ++s)
@@ -129,47 +126,47 @@ class Closer {
   Counters& counters_;
 };
 
+/// The stack of distance searches.
+using BoundedPairs = std::vector<BoundedPair>;
+
 template <class Items, class Volume>
-Distance nearest(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
-                 const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
-  ++context.counters.states;
-  Nearest<Volume, Items> query(a, X_WA, b, X_WB, options, context);
-  traverse(a, b, QueryContext::BoundedPair{0, 0, 0}, context.bounded, query);
+Distance nearest(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b,
+                 const DistanceOptions& options, QueryContext& context) {
+  Nearest<Volume, Items> query(a, b, options, context);
+  traverse(a.shape, b.shape, BoundedPair{0, 0, 0}, context.scratch.of<BoundedPairs>(), query);
   return query.result();
 }
 
 template <class Items, class Volume>
-bool closer(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
-            const Transform& X_WB, double d, QueryContext& context) {
-  ++context.counters.states;
-  Closer<Volume, Items> query(a, X_WA, b, X_WB, d, context);
-  traverse(a, b, QueryContext::NodePair{0, 0, 0}, context.stack, query);
+bool closer(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,
+            QueryContext& context) {
+  Closer<Volume, Items> query(a, b, d, context);
+  traverse(a.shape, b.shape, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
   return query.found;
 }
 
 }  // namespace
 
 template <BoundingVolume Volume>
-Distance distance(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
-                  const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
-  return a.part() || b.part() ? nearest<Parts>(a, X_WA, b, X_WB, options, context)
-                              : nearest<Triangles>(a, X_WA, b, X_WB, options, context);
+Distance distance(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b,
+                  const DistanceOptions& options, QueryContext& context) {
+  return a.shape.part() || b.shape.part() ? nearest<Parts>(a, b, options, context)
+                                          : nearest<Triangles>(a, b, options, context);
 }
 
 template <BoundingVolume Volume>
-bool closerThan(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
-                const Transform& X_WB, double d, QueryContext& context) {
-  if (d == 0) return interference(a, X_WA, b, X_WB, context).has_value();
-  return a.part() || b.part() ? closer<Parts>(a, X_WA, b, X_WB, d, context)
-                              : closer<Triangles>(a, X_WA, b, X_WB, d, context);
+bool closerThan(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,
+                QueryContext& context) {
+  if (d == 0) return interference(a, b, context).has_value();
+  return a.shape.part() || b.shape.part() ? closer<Parts>(a, b, d, context)
+                                          : closer<Triangles>(a, b, d, context);
 }
 
-#define CORRIDOR_DISTANCE(Volume)                                                                  \
-  template Distance distance(const VolumeTree<Volume>&, const Transform&,                          \
-                             const VolumeTree<Volume>&, const Transform&, const DistanceOptions&,  \
-                             QueryContext&);                                                       \
-  template bool closerThan(const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, \
-                           const Transform&, double, QueryContext&);
+#define CORRIDOR_DISTANCE(Volume)                                                                \
+  template Distance distance(const Posed<VolumeTree<Volume>>&, const Posed<VolumeTree<Volume>>&, \
+                             const DistanceOptions&, QueryContext&);                             \
+  template bool closerThan(const Posed<VolumeTree<Volume>>&, const Posed<VolumeTree<Volume>>&,   \
+                           double, QueryContext&);
 CORRIDOR_EACH_VOLUME(CORRIDOR_DISTANCE)
 #undef CORRIDOR_DISTANCE
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "collision/core/posed.h"
 #include "collision/core/query_context.h"
-#include "collision/core/transform.h"
 #include "collision/hierarchy/obb_tree.h"
 #include "collision/hierarchy/volume_tree.h"
 
@@ -24,8 +24,8 @@ struct Distance {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Computes the distance between the leaf primitives of `a` under X_WA and those of `b` under X_WB.
-/// Leaf primitives are triangles or convex parts; convex parts are solid.
+/// Computes the distance between the leaf primitives of two trees. Leaf primitives are triangles or
+/// convex parts; convex parts are solid.
 ///
 /// The result is 0 if and only if `interference` reports contact; then both witness points are one
 /// point that the two leaf primitives share. Otherwise the error, beyond what the options allow, is
@@ -38,8 +38,8 @@ struct Distance {
 /// double-double (`witnessPoints`, `convexDistance`).
 /// @pre The maps are finite; the options are not negative.
 template <BoundingVolume Volume>
-Distance distance(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
-                  const Transform& X_WB, const DistanceOptions& options, QueryContext& context);
+Distance distance(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b,
+                  const DistanceOptions& options, QueryContext& context);
 
 /// Tests whether the bodies are at most `d` metres apart (the tolerance query).
 ///
@@ -48,7 +48,7 @@ Distance distance(const VolumeTree<Volume>& a, const Transform& X_WA, const Volu
 /// the band of `convexSetsTouch`. For d = 0 it is `interference`.
 /// @pre as for `distance`; d ≥ 0.
 template <BoundingVolume Volume>
-bool closerThan(const VolumeTree<Volume>& a, const Transform& X_WA, const VolumeTree<Volume>& b,
-                const Transform& X_WB, double d, QueryContext& context);
+bool closerThan(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,
+                QueryContext& context);
 
 }  // namespace corridor

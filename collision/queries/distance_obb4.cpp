@@ -31,31 +31,31 @@ namespace corridor::HWY_NAMESPACE {
 /// if they still may be.
 class Nearest {
  public:
-  Nearest(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
-          const Obb4TreePose& pose, const DistanceOptions& options, QueryContext& context)
-      : a_(a),
-        b_(b),
+  Nearest(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
+          const DistanceOptions& options, QueryContext& context)
+      : a_(a.shape),
+        b_(b.shape),
         pose_(pose),
         options_(options),
         counters_(context.counters),
-        leaves_(a, b, pose, counters_),
-        candidates_(context.bounded),
-        nearest_(X_WA, a.reach(), X_WB, b.reach(), options, context) {
+        leaves_(a_, b_, pose, counters_),
+        candidates_(context.scratch.of<Candidates>().pairs),
+        nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context) {
     candidates_.clear();
   }
 
   static constexpr bool kSorted = true;
-  bool skip(const QueryContext::NodePair4& item) const { return beyond(item.key); }
+  bool skip(const NodePair4& item) const { return beyond(item.key); }
 
-  unsigned boxes(const QueryContext::NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
+  unsigned boxes(const NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
                  float* squares) const {
     return nearBoxes<true>(a, b, pose_.floats, limit_, squares);
   }
 
   /// Measures the nearest leaf pairs first, because they may rule out the others, in batches of at
   /// most sixteen pairs of triangles.
-  bool leaves(const QueryContext::NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb,
-              unsigned pairs, const float* keys) {
+  bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
+              const float* keys) {
     while (pairs) {
       NodeLeafPairs some(na, nb);
       while (pairs) {
@@ -99,6 +99,10 @@ class Nearest {
   }
 
  private:
+  struct Candidates {
+    std::vector<BoundedPair> pairs;
+  };
+
   bool beyond(float square) const {
     return square > 0 && square > limit_ * limit_ * (1 + 0x1p-20F);
   }
@@ -146,50 +150,50 @@ class Nearest {
   Counters& counters_;
   Obb4Leaves leaves_;
   /// Pairs of triangles, numbered in leaf order, with lower bounds of their distances in a's unit.
-  std::vector<QueryContext::BoundedPair>& candidates_;
+  std::vector<BoundedPair>& candidates_;
   NearestTriangles nearest_;
   float least_ = HUGE_VALF;  // least upper bound so far, in a's unit
   TrianglePair closest_;     // the pair that has it, in leaf order
   float limit_ = HUGE_VALF;  // in a's unit: pairs that are farther apart are skipped
 };
 
-Distance obb4Distance(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
-                      const Transform& X_WB, const Obb4TreePose& pose,
-                      const DistanceOptions& options, QueryContext& context) {
-  Nearest query(a, X_WA, b, X_WB, pose, options, context);
-  LastPair& last = context.lastPairs.of(&a, &b);
-  if (last.isIn(a.triangleCount(), b.triangleCount())) {
-    const TriangleDistances bounds(X_WA, a.reach(), X_WB, b.reach());
-    query.start(last.a, last.b, bounds(a.triangle(last.a), b.triangle(last.b)).upper);
+Distance obb4Distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
+                      const DistanceOptions& options, QueryContext& context, LastPair* last) {
+  const Obb4Tree &treeA = a.shape, &treeB = b.shape;
+  Nearest query(a, b, pose, options, context);
+  if (last && last->isIn(treeA.triangleCount(), treeB.triangleCount())) {
+    const TriangleDistances bounds(a.X_W, treeA.reach(), b.X_W, treeB.reach());
+    query.start(last->a, last->b, bounds(treeA.triangle(last->a), treeB.triangle(last->b)).upper);
     ++context.counters.triangleTests;
   }
-  walkObb4(a, b, pose.floats.scale, context, query);
-  if (const auto closest = query.closest()) last.found(closest->a, closest->b);
+  walkObb4(treeA, treeB, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+           context.counters, query);
+  if (const auto closest = query.closest(); closest && last) last->found(closest->a, closest->b);
   return query.result();
 }
 
 class Closer {
  public:
-  Closer(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
-         const Obb4TreePose& pose, double d, Counters& counters)
-      : a_(a),
-        b_(b),
+  Closer(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose, double d,
+         Counters& counters)
+      : a_(a.shape),
+        b_(b.shape),
         pose_(pose),
         counters_(counters),
-        leaves_(a, b, pose, counters),
-        closer_(X_WA, a.reach(), X_WB, b.reach(), d),
+        leaves_(a_, b_, pose, counters),
+        closer_(a.X_W, a_.reach(), b.X_W, b_.reach(), d),
         limit_(pose.limitOf(d)) {}
 
   static constexpr bool kSorted = true;
-  static bool skip(const QueryContext::NodePair4&) { return false; }
+  static bool skip(const NodePair4&) { return false; }
 
-  unsigned boxes(const QueryContext::NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
+  unsigned boxes(const NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
                  float* squares) const {
     return nearBoxes<false>(a, b, pose_.floats, limit_, squares);
   }
 
-  bool leaves(const QueryContext::NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb,
-              unsigned pairs, const float*) {
+  bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
+              const float*) {
     found_ = leaves_.forEachNear(
         na, nb, pairs, [&] { return limit_; },
         [&](std::uint32_t s, std::uint32_t t) {
@@ -213,12 +217,12 @@ class Closer {
   TrianglePair pair_;
 };
 
-std::optional<TrianglePair> obb4CloserThan(const Obb4Tree& a, const Transform& X_WA,
-                                           const Obb4Tree& b, const Transform& X_WB,
+std::optional<TrianglePair> obb4CloserThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                                            const Obb4TreePose& pose, double d,
                                            QueryContext& context) {
-  Closer query(a, X_WA, b, X_WB, pose, d, context.counters);
-  walkObb4(a, b, pose.floats.scale, context, query);
+  Closer query(a, b, pose, d, context.counters);
+  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+           context.counters, query);
   return query.found();
 }
 
@@ -239,42 +243,44 @@ namespace {
 bool provedCloser(const Triangle& a, const Transform& X_WA, const Triangle& b,
                   const Transform& X_WB, const TriangleDistances& bounds, double d,
                   Counters& counters) {
-  return trianglesTouch(a, X_WA, b, X_WB, counters) || bounds(a, b).upper <= d;
+  const PredicateResult touch = trianglesTouch(a, X_WA, b, X_WB);
+  counters.addTest(touch.exact);
+  return touch || bounds(a, b).upper <= d;
 }
 
 }  // namespace
 
-Distance distance(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
-                  const Transform& X_WB, const DistanceOptions& options, QueryContext& context) {
-  ++context.counters.states;
-  const Obb4TreePose pose(a, X_WA, b, X_WB, HUGE_VAL);
+Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                  const DistanceOptions& options, QueryContext& context, LastPair* last) {
+  const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, HUGE_VAL);
   // A search for contact alone ends far sooner: the search below would visit all pairs that may
   // touch.
-  if (const auto hit = touchingLeafTriangles(a, X_WA, b, X_WB, pose, context)) {
-    const WitnessPoints w = witnessPoints(a.triangle(hit->a), X_WA, b.triangle(hit->b), X_WB);
-    return {0, w.p_WA, w.p_WB, a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
+  if (const auto hit = touchingLeafTriangles(kWholeTrees, a, b, pose, context, last)) {
+    const WitnessPoints w =
+        witnessPoints(a.shape.triangle(hit->a), a.X_W, b.shape.triangle(hit->b), b.X_W);
+    return {0, w.p_WA, w.p_WB, a.shape.meshTriangle(hit->a), b.shape.meshTriangle(hit->b)};
   }
-  return HWY_DYNAMIC_DISPATCH(obb4Distance)(a, X_WA, b, X_WB, pose, options, context);
+  return HWY_DYNAMIC_DISPATCH(obb4Distance)(a, b, pose, options, context, last);
 }
 
-bool closerThan(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
-                double d, QueryContext& context) {
-  if (d == 0) return interference(a, X_WA, b, X_WB, context).has_value();
-  ++context.counters.states;
-  const Obb4TreePose pose(a, X_WA, b, X_WB, d);
+bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, QueryContext& context,
+                LastPair* last) {
+  if (d == 0) return interference(a, b, context, last).has_value();
+  const Obb4Tree &treeA = a.shape, &treeB = b.shape;
+  const Obb4TreePose pose(treeA, a.X_W, treeB, b.X_W, d);
   if (pose.apart) {
     ++context.counters.boxTests;
     return false;
   }
-  LastPair& last = context.lastPairs.of(&a, &b);
-  if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
-    const bool closer = provedCloser(a.triangle(last.a), X_WA, b.triangle(last.b), X_WB,
-                                     {X_WA, a.reach(), X_WB, b.reach()}, d, context.counters);
-    last.tested(closer);
+  if (last && last->trusted() && last->isIn(treeA.triangleCount(), treeB.triangleCount())) {
+    const bool closer =
+        provedCloser(treeA.triangle(last->a), a.X_W, treeB.triangle(last->b), b.X_W,
+                     {a.X_W, treeA.reach(), b.X_W, treeB.reach()}, d, context.counters);
+    last->tested(closer);
     if (closer) return true;
   }
-  const auto pair = HWY_DYNAMIC_DISPATCH(obb4CloserThan)(a, X_WA, b, X_WB, pose, d, context);
-  if (pair) last.found(pair->a, pair->b);
+  const auto pair = HWY_DYNAMIC_DISPATCH(obb4CloserThan)(a, b, pose, d, context);
+  if (pair && last) last->found(pair->a, pair->b);
   return pair.has_value();
 }
 

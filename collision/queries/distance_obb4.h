@@ -1,5 +1,6 @@
 #pragma once
 
+#include "collision/core/last_pair.h"
 #include "collision/hierarchy/obb4_tree.h"
 #include "collision/queries/distance.h"
 
@@ -7,15 +8,15 @@ namespace corridor {
 
 /// `distance` (distance.h, with the same guarantees) for 4-wide OBB trees, several times faster.
 ///
-/// Starts from the closest pair of the last query of these trees, which the context remembers.
-/// Earlier queries change the answer only within the guaranteed error. They may change which of
-/// several closest pairs of triangles is reported.
-Distance distance(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
-                  const Transform& X_WB, const DistanceOptions& options, QueryContext& context);
+/// @param last  if not null, the closest pair of the last query of these trees: the search starts
+/// from it, and the pair found is stored there. It changes the answer only within the guaranteed
+/// error, and may change which of several closest pairs of triangles is reported.
+Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                  const DistanceOptions& options, QueryContext& context, LastPair* last = nullptr);
 
 /// `closerThan` (distance.h, with the same guarantees) for 4-wide OBB trees, several times faster.
-/// What the context remembers never changes the answer.
-bool closerThan(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
-                double d, QueryContext& context);
+/// @param last  as for `distance`; it never changes the answer.
+bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, QueryContext& context,
+                LastPair* last = nullptr);
 
 }  // namespace corridor

@@ -6,67 +6,72 @@
 namespace corridor {
 namespace {
 
-/// Finds the first contact below the node pairs in `context.stack`.
+/// Finds the first contact below the node pairs `start`.
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
-std::optional<TrianglePair> firstContactBelow(const TreeA& a, const Transform& X_WA, const TreeB& b,
-                                              const Transform& X_WB, QueryContext& context,
-                                              std::uint64_t workEnd = kNoWorkLimit) {
-  ++context.counters.states;
-  const auto test = pairTestOf<Volume, Overlap>(a, X_WA, b, X_WB);
-  std::optional<TrianglePair> found;
+std::optional<TrianglePair> firstContact(std::span<const NodePair4> start, const Posed<TreeA>& a,
+                                         const Posed<TreeB>& b, QueryContext& context,
+                                         LastPair* last = nullptr,
+                                         std::uint64_t workEnd = kNoWorkLimit) {
+  const auto test = pairTestOf<Volume, Overlap>(a, b);
+  std::optional<TrianglePair> found;  // numbered in leaf order
   const auto first = [&](std::uint32_t s, std::uint32_t t) {
-    found = TrianglePair{a.meshTriangle(s), b.meshTriangle(t)};
+    found = TrianglePair{s, t};
     return true;
   };
-  TouchingPairs query(a, X_WA, b, X_WB, test, context.counters, first, workEnd);
-  traverseFrom(a, b, context.stack, query);
-  return found;
-}
-
-template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
-std::optional<TrianglePair> firstContact(const TreeA& a, const Transform& X_WA, const TreeB& b,
-                                         const Transform& X_WB, QueryContext& context) {
-  context.stack.assign(1, {0, 0, 0});
-  return firstContactBelow<Volume, Overlap>(a, X_WA, b, X_WB, context);
+  TouchingPairs query(a, b, test, context.counters, first, workEnd);
+  const bool known =
+      last && last->trusted() && last->isIn(a.shape.triangles().size(), b.shape.triangles().size());
+  if (known) {
+    if (query.touch(last->a, last->b)) found = TrianglePair{last->a, last->b};
+    last->tested(found.has_value());
+  }
+  if (!found) {
+    auto& stack = context.scratch.of<NodePairs>();
+    stack.clear();
+    for (const NodePair4& pair : start) stack.push_back({pair.a, pair.b});
+    traverseFrom(a.shape, b.shape, stack, query);
+    if (found && last) last->found(found->a, found->b);
+  }
+  if (!found) return found;
+  return TrianglePair{a.shape.meshTriangle(found->a), b.shape.meshTriangle(found->b)};
 }
 
 }  // namespace
 
 template <class Overlap, BoundingVolume Volume>
-std::optional<TrianglePair> interference(const VolumeTree<Volume>& a, const Transform& X_WA,
-                                         const VolumeTree<Volume>& b, const Transform& X_WB,
-                                         QueryContext& context) {
-  return firstContact<Volume, Overlap>(a, X_WA, b, X_WB, context);
+std::optional<TrianglePair> interference(const Posed<VolumeTree<Volume>>& a,
+                                         const Posed<VolumeTree<Volume>>& b, QueryContext& context,
+                                         LastPair* last) {
+  return firstContact<Volume, Overlap>(kWholeTrees, a, b, context, last);
 }
 
 template <class Overlap, BoundingVolume Volume>
-std::optional<TrianglePair> interferenceBelow(const VolumeTree<Volume>& a, const Transform& X_WA,
-                                              const VolumeTree<Volume>& b, const Transform& X_WB,
-                                              std::size_t count, QueryContext& context,
+std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
+                                              const Posed<VolumeTree<Volume>>& a,
+                                              const Posed<VolumeTree<Volume>>& b,
+                                              QueryContext& context, LastPair* last,
                                               std::uint64_t workEnd) {
-  context.stackFrom(count);
-  return firstContactBelow<Volume, Overlap>(a, X_WA, b, X_WB, context, workEnd);
+  return firstContact<Volume, Overlap>(start, a, b, context, last, workEnd);
 }
 
-#define CORRIDOR_INTERFERENCE(Volume, Overlap)                                                  \
-  template std::optional<TrianglePair> interference<Overlap>(                                   \
-      const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
-      QueryContext&);                                                                           \
-  template std::optional<TrianglePair> interferenceBelow<Overlap>(                              \
-      const VolumeTree<Volume>&, const Transform&, const VolumeTree<Volume>&, const Transform&, \
-      std::size_t, QueryContext&, std::uint64_t);
+#define CORRIDOR_INTERFERENCE(kind, Volume, Overlap, volumeName, overlapName)                  \
+  template std::optional<TrianglePair> interference<Overlap>(const Posed<VolumeTree<Volume>>&, \
+                                                             const Posed<VolumeTree<Volume>>&, \
+                                                             QueryContext&, LastPair*);        \
+  template std::optional<TrianglePair> interferenceBelow<Overlap>(                             \
+      std::span<const NodePair4>, const Posed<VolumeTree<Volume>>&,                            \
+      const Posed<VolumeTree<Volume>>&, QueryContext&, LastPair*, std::uint64_t);
 CORRIDOR_EACH_OVERLAP(CORRIDOR_INTERFERENCE)
 #undef CORRIDOR_INTERFERENCE
 
-std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA, const Octree& b,
-                                         const Transform& X_WB, QueryContext& context) {
-  return firstContact<Aabb>(a, X_WA, b, X_WB, context);
+std::optional<TrianglePair> interference(const Posed<Octree>& a, const Posed<Octree>& b,
+                                         QueryContext& context) {
+  return firstContact<Aabb>(kWholeTrees, a, b, context);
 }
 
-std::optional<TrianglePair> interference(const Octree& a, const Transform& X_WA,
-                                         const VolumeTree<Aabb>& b, const Transform& X_WB,
+std::optional<TrianglePair> interference(const Posed<Octree>& a, const Posed<VolumeTree<Aabb>>& b,
                                          QueryContext& context) {
-  return firstContact<Aabb>(a, X_WA, b, X_WB, context);
+  return firstContact<Aabb>(kWholeTrees, a, b, context);
 }
 
 }  // namespace corridor

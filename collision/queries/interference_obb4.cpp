@@ -36,39 +36,41 @@ struct ItemSet {
 template <class Found>
 class Touching {
  public:
-  Touching(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
-           const Obb4TreePose& pose, Counters& counters, const Found& found, std::uint64_t workEnd)
-      : a_(a),
-        b_(b),
-        X_WA_(X_WA),
-        X_WB_(X_WB),
+  Touching(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
+           Counters& counters, const Found& found, std::uint64_t workEnd)
+      : a_(a.shape),
+        b_(b.shape),
+        X_WA_(a.X_W),
+        X_WB_(b.X_W),
         pose_(pose),
         counters_(counters),
-        leaves_(a, b, pose, counters),
+        leaves_(a_, b_, pose, counters),
         found_(found),
         workEnd_(workEnd) {}
 
   static constexpr bool kSorted = false;
-  bool skip(const QueryContext::NodePair4&) const { return counters_.work() >= workEnd_; }
+  bool skip(const NodePair4&) const { return counters_.work() >= workEnd_; }
 
-  unsigned boxes(const QueryContext::NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
+  unsigned boxes(const NodePair4&, const Obb4Tree::Node& a, const Obb4Tree::Node& b,
                  float* gaps) const {
     return overlappingBoxes(a, b, pose_.floats, gaps);
   }
 
-  bool leaves(const QueryContext::NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb,
-              unsigned pairs, const float*) {
+  bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
+              const float*) {
     if (a_.part() || b_.part())
       return forEachItem(na, nb, pairs, [&](unsigned, std::uint32_t s, std::uint32_t t) {
         const ItemSet setA(a_, s), setB(b_, t);
-        return convexSetsTouch({setA.set, X_WA_}, {setB.set, X_WB_}, counters_) && found_(s, t);
+        const PredicateResult touch = convexSetsTouch({setA.set, X_WA_}, {setB.set, X_WB_});
+        counters_.addTest(touch.exact);
+        return touch && found_(s, t);
       });
     return leaves_.forEachNear(
         na, nb, pairs, [] { return 0.0F; },
         [&](std::uint32_t s, std::uint32_t t) {
-          Counters own;  // the filter has already counted this pair
-          const bool touch = trianglesTouch(a_.triangle(s), X_WA_, b_.triangle(t), X_WB_, own);
-          counters_.exactTests += own.exactTests;
+          const PredicateResult touch =
+              trianglesTouch(a_.triangle(s), X_WA_, b_.triangle(t), X_WB_);
+          counters_.exactTests += touch.exact;  // the filter has counted the pair
           return touch && found_(s, t);
         });
   }
@@ -83,30 +85,31 @@ class Touching {
   std::uint64_t workEnd_;
 };
 
-std::optional<TrianglePair> firstTouching(const Obb4Tree& a, const Transform& X_WA,
-                                          const Obb4Tree& b, const Transform& X_WB,
-                                          const Obb4TreePose& pose, std::size_t count,
-                                          QueryContext& context, std::uint64_t workEnd) {
+std::optional<TrianglePair> firstTouching(std::span<const NodePair4> start,
+                                          const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                          const Obb4TreePose& pose, QueryContext& context,
+                                          std::uint64_t workEnd) {
   std::optional<TrianglePair> hit;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
     hit = TrianglePair{s, t};
     return true;
   };
-  Touching query(a, X_WA, b, X_WB, pose, context.counters, found, workEnd);
-  walkObb4(a, b, pose.floats.scale, context, query, count);
+  Touching query(a, b, pose, context.counters, found, workEnd);
+  walkObb4(a.shape, b.shape, pose.floats.scale, start, context.scratch.of<Obb4Stack>(),
+           context.counters, query);
   return hit;
 }
 
-std::vector<TrianglePair> allTouching(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
-                                      const Transform& X_WB, const Obb4TreePose& pose,
-                                      QueryContext& context) {
+std::vector<TrianglePair> allTouching(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                      const Obb4TreePose& pose, QueryContext& context) {
   std::vector<TrianglePair> all;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
     all.push_back({s, t});
     return false;
   };
-  Touching query(a, X_WA, b, X_WB, pose, context.counters, found, kNoWorkLimit);
-  walkObb4(a, b, pose.floats.scale, context, query);
+  Touching query(a, b, pose, context.counters, found, kNoWorkLimit);
+  walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
+           context.counters, query);
   return all;
 }
 
@@ -119,71 +122,56 @@ namespace corridor {
 HWY_EXPORT(firstTouching);
 HWY_EXPORT(allTouching);
 
-namespace {
-
-/// Returns the first touching pair found below the first `count` entries of `context.stack4`,
-/// numbered in leaf order. Tests the remembered pair first, if it is trusted.
-std::optional<TrianglePair> touchingBelow(const Obb4Tree& a, const Transform& X_WA,
-                                          const Obb4Tree& b, const Transform& X_WB,
-                                          const Obb4TreePose& pose, std::size_t count,
-                                          QueryContext& context, std::uint64_t workEnd) {
-  LastPair& last = context.lastPairs.of(&a, &b);
-  if (last.trusted() && last.isIn(a.triangleCount(), b.triangleCount())) {
-    const bool touch =
-        trianglesTouch(a.triangle(last.a), X_WA, b.triangle(last.b), X_WB, context.counters);
-    last.tested(touch);
-    if (touch) return TrianglePair{last.a, last.b};
+std::optional<TrianglePair> touchingLeafTriangles(std::span<const NodePair4> start,
+                                                  const Posed<Obb4Tree>& a,
+                                                  const Posed<Obb4Tree>& b,
+                                                  const Obb4TreePose& pose, QueryContext& context,
+                                                  LastPair* last, std::uint64_t workEnd) {
+  const Obb4Tree &treeA = a.shape, &treeB = b.shape;
+  if (last && last->trusted() && last->isIn(treeA.triangleCount(), treeB.triangleCount())) {
+    const PredicateResult touch =
+        trianglesTouch(treeA.triangle(last->a), a.X_W, treeB.triangle(last->b), b.X_W);
+    context.counters.addTest(touch.exact);
+    last->tested(touch);
+    if (touch) return TrianglePair{last->a, last->b};
   }
-  const auto hit =
-      HWY_DYNAMIC_DISPATCH(firstTouching)(a, X_WA, b, X_WB, pose, count, context, workEnd);
-  if (hit) last.found(hit->a, hit->b);
+  const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(start, a, b, pose, context, workEnd);
+  if (hit && last) last->found(hit->a, hit->b);
   return hit;
 }
 
-}  // namespace
-
-std::optional<TrianglePair> interference(const Obb4Tree& a, const Transform& X_WA,
-                                         const Obb4Tree& b, const Transform& X_WB,
-                                         QueryContext& context, std::uint64_t workEnd) {
-  context.startAtRoots();
-  return interferenceBelow(a, X_WA, b, X_WB, 1, context, workEnd);
+std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                         QueryContext& context, LastPair* last,
+                                         std::uint64_t workEnd) {
+  return interferenceBelow(kWholeTrees, a, b, context, last, workEnd);
 }
 
-std::optional<TrianglePair> interferenceBelow(const Obb4Tree& a, const Transform& X_WA,
-                                              const Obb4Tree& b, const Transform& X_WB,
-                                              std::size_t count, QueryContext& context,
+std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
+                                              const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                              QueryContext& context, LastPair* last,
                                               std::uint64_t workEnd) {
-  ++context.counters.states;
-  const Obb4TreePose pose(a, X_WA, b, X_WB, 0);
+  const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, 0);
   if (pose.apart) {
     ++context.counters.boxTests;
     return std::nullopt;
   }
-  const auto hit = touchingBelow(a, X_WA, b, X_WB, pose, count, context, workEnd);
+  const auto hit = touchingLeafTriangles(start, a, b, pose, context, last, workEnd);
   if (!hit) return hit;
-  return TrianglePair{a.meshTriangle(hit->a), b.meshTriangle(hit->b)};
+  return TrianglePair{a.shape.meshTriangle(hit->a), b.shape.meshTriangle(hit->b)};
 }
 
-std::optional<TrianglePair> touchingLeafTriangles(const Obb4Tree& a, const Transform& X_WA,
-                                                  const Obb4Tree& b, const Transform& X_WB,
-                                                  const Obb4TreePose& pose, QueryContext& context,
-                                                  std::uint64_t workEnd) {
-  context.startAtRoots();
-  return touchingBelow(a, X_WA, b, X_WB, pose, 1, context, workEnd);
-}
-
-std::vector<TriangleContact> contacts(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
-                                      const Transform& X_WB, QueryContext& context) {
-  ++context.counters.states;
+std::vector<TriangleContact> contacts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                      QueryContext& context) {
   std::vector<TriangleContact> found;
-  const Obb4TreePose pose(a, X_WA, b, X_WB, 0);
+  const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, 0);
   if (pose.apart) {
     ++context.counters.boxTests;
     return found;
   }
-  for (const auto& [s, t] : HWY_DYNAMIC_DISPATCH(allTouching)(a, X_WA, b, X_WB, pose, context)) {
-    const Segment segment = triangleIntersection(a.triangle(s), X_WA, b.triangle(t), X_WB);
-    found.push_back({a.meshTriangle(s), b.meshTriangle(t), segment.p, segment.q});
+  for (const auto& [s, t] : HWY_DYNAMIC_DISPATCH(allTouching)(a, b, pose, context)) {
+    const Segment segment =
+        triangleIntersection(a.shape.triangle(s), a.X_W, b.shape.triangle(t), b.X_W);
+    found.push_back({a.shape.meshTriangle(s), b.shape.meshTriangle(t), segment.p, segment.q});
   }
   return found;
 }

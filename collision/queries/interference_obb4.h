@@ -1,12 +1,15 @@
 #pragma once
 
-#include <cstddef>
+#include <concepts>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "collision/core/last_pair.h"
+#include "collision/core/posed.h"
 #include "collision/core/query_context.h"
-#include "collision/core/transform.h"
+#include "collision/hierarchy/node_pair4.h"
 #include "collision/hierarchy/obb4_tree.h"
 #include "collision/hierarchy/obb4_tree_pose.h"
 #include "collision/queries/contacts.h"
@@ -20,35 +23,56 @@ namespace corridor {
 /// tested by `convexSetsTouch`, with its guarantee.
 /// @pre The maps are finite.
 ///
-/// The pair that touched last, which the context remembers, is tested first. Earlier queries may
-/// change which touching pair is reported, and the counts, but never the verdict.
-///
 /// Gives up and returns nullopt soon after the counted box and triangle tests reach `workEnd`.
 ///
 /// SIMD by run-time dispatch. Every target gives the same verdict. All targets with fused
 /// multiply-add (all except SSE) give the same counts.
-std::optional<TrianglePair> interference(const Obb4Tree& a, const Transform& X_WA,
-                                         const Obb4Tree& b, const Transform& X_WB,
-                                         QueryContext& context,
+///
+/// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
+/// pair found is stored there. It may change which touching pair is reported, and the counts, but
+/// never the verdict.
+std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                         QueryContext& context, LastPair* last = nullptr,
                                          std::uint64_t workEnd = kNoWorkLimit);
 
-/// The same test, only below the first `count` entries of `context.stack4`, and on the pair that
-/// touched last.
-std::optional<TrianglePair> interferenceBelow(const Obb4Tree& a, const Transform& X_WA,
-                                              const Obb4Tree& b, const Transform& X_WB,
-                                              std::size_t count, QueryContext& context,
+/// The same test, only below the node pairs `start`, and on the pair `last`.
+std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
+                                              const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                              QueryContext& context, LastPair* last = nullptr,
                                               std::uint64_t workEnd = kNoWorkLimit);
+
+/// The same two for code that works on any kind of trees (`withTrees`): 4-wide trees have only one
+/// overlap test.
+template <std::same_as<StandardOverlap> Overlap>
+std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                         QueryContext& context, LastPair* last = nullptr) {
+  return interference(a, b, context, last);
+}
+template <std::same_as<StandardOverlap> Overlap>
+std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
+                                              const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                              QueryContext& context, LastPair* last,
+                                              std::uint64_t workEnd) {
+  return interferenceBelow(start, a, b, context, last, workEnd);
+}
 
 /// The same test for queries that have already computed the pose. The result numbers triangles in
 /// leaf order. @pre `!pose.apart`.
-std::optional<TrianglePair> touchingLeafTriangles(const Obb4Tree& a, const Transform& X_WA,
-                                                  const Obb4Tree& b, const Transform& X_WB,
+std::optional<TrianglePair> touchingLeafTriangles(std::span<const NodePair4> start,
+                                                  const Posed<Obb4Tree>& a,
+                                                  const Posed<Obb4Tree>& b,
                                                   const Obb4TreePose& pose, QueryContext& context,
+                                                  LastPair* last,
                                                   std::uint64_t workEnd = kNoWorkLimit);
 
 /// `contacts` (contacts.h, with the same guarantees) for 4-wide OBB trees. Allocates what it
 /// returns.
-std::vector<TriangleContact> contacts(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b,
-                                      const Transform& X_WB, QueryContext& context);
+std::vector<TriangleContact> contacts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                      QueryContext& context);
+template <std::same_as<StandardOverlap> Overlap>
+std::vector<TriangleContact> contacts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                      QueryContext& context) {
+  return contacts(a, b, context);
+}
 
 }  // namespace corridor

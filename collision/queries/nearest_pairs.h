@@ -11,14 +11,22 @@
 
 namespace corridor {
 
+/// A pair of nodes or of leaf primitives (in leaf order), with a lower bound of its distance,
+/// metres.
+struct BoundedPair {
+  std::uint32_t a, b;
+  double bound;
+};
+
 /// The leaf side of a distance query, for any trees and leaf primitives. Keeps the pairs that may
 /// be the closest, each with a proved range of its distance, and in the end measures them with all
 /// digits.
 class NearestPairs {
  public:
-  /// Clears `context.candidates` and keeps its list there.
   NearestPairs(const DistanceOptions& options, QueryContext& context)
-      : options_(options), relative_(options.relative + kGiven), candidates_(context.candidates) {
+      : options_(options),
+        relative_(options.relative + kGiven),
+        candidates_(context.scratch.of<Candidates>().pairs) {
     candidates_.clear();
   }
 
@@ -70,6 +78,9 @@ class NearestPairs {
   }
 
  private:
+  struct Candidates {
+    std::vector<BoundedPair> pairs;
+  };
   /// A share of the error 1e-12·d that distance.h allows. Pairs that tie within this share, as all
   /// triangles around one corner do, are measured only once. The share is spent twice, because the
   /// pair that ruled out another may itself be left unmeasured. If that pair is measured,
@@ -78,7 +89,7 @@ class NearestPairs {
 
   const DistanceOptions& options_;
   double relative_;
-  std::vector<QueryContext::BoundedPair>& candidates_;
+  std::vector<BoundedPair>& candidates_;
   double upper_ = HUGE_VAL;
   bool contact_ = false;
 };

@@ -26,10 +26,10 @@ class NearestParts : public NearestPairs {
   bool look(std::uint32_t s, const ConvexSet& a, std::uint32_t t, const ConvexSet& b,
             Counters& counters) {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);
-    Counters own;  // the caller has already counted this pair
-    const ConvexRange range = convexDistanceRange(posedA, posedB, upper(), 0, own);
-    const bool touches = range.lower == 0 && convexSetsTouch(posedA, posedB, own);
-    counters.exactTests += own.exactTests;
+    const ConvexRange range = convexDistanceRange(posedA, posedB, upper(), 0);
+    const PredicateResult touches =
+        range.lower == 0 ? convexSetsTouch(posedA, posedB) : PredicateResult{};
+    counters.exactTests += touches.exact;  // the caller has counted the pair
     if (touches)
       keepContact(s, t);
     else
@@ -42,16 +42,14 @@ class NearestParts : public NearestPairs {
   template <class Tree>
   Distance result(const Tree& a, const Tree& b) {
     const auto measure = [&](std::uint32_t s, std::uint32_t t) {
-      Counters own;
-      ConvexDistance d =
-          convexDistance({convexSetOf(a, s), X_WA_}, {convexSetOf(b, t), X_WB_}, 0, 0, own);
-      context_.counters.exactTests += own.exactTests;
+      const ConvexDistance d =
+          convexDistance({convexSetOf(a, s), X_WA_}, {convexSetOf(b, t), X_WB_});
+      context_.counters.exactTests += d.exact;
       return d;
     };
     Distance best = closest(a, b, measure);
     if (!contact() && best.distance > band_) return best;
-    --context_.counters.states;  // the caller counts this as one query
-    const bool touches = interference(a, X_WA_, b, X_WB_, context_).has_value();
+    const bool touches = interference(Posed(a, X_WA_), Posed(b, X_WB_), context_).has_value();
     best.distance = touches ? 0 : std::max(best.distance, std::numeric_limits<double>::min());
     return best;
   }
@@ -72,13 +70,12 @@ class CloserParts {
   /// `false` is a proof that they are farther apart than d.
   bool operator()(const ConvexSet& a, const ConvexSet& b, Counters& counters) const {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);
-    Counters own;
-    const ConvexRange range = convexDistanceRange(posedA, posedB, d_, d_, own);
-    bool closer = range.upper <= d_;
-    if (!closer && !(range.lower > d_))
-      closer = !(convexDistance(posedA, posedB, 0, 0, own).lower > d_);
-    counters.exactTests += own.exactTests;
-    return closer;
+    const ConvexRange range = convexDistanceRange(posedA, posedB, d_, d_);
+    if (range.upper <= d_) return true;
+    if (range.lower > d_) return false;
+    const ConvexDistance distance = convexDistance(posedA, posedB);
+    counters.exactTests += distance.exact;
+    return !(distance.lower > d_);
   }
 
  private:

@@ -42,9 +42,8 @@ class NearestTriangles : public NearestPairs {
 
  private:
   bool touch(const Triangle& a, const Triangle& b, Counters& counters) const {
-    Counters own;  // the caller has already counted this pair
-    const bool touches = trianglesTouch(a, X_WA_, b, X_WB_, own);
-    counters.exactTests += own.exactTests;
+    const PredicateResult touches = trianglesTouch(a, X_WA_, b, X_WB_);
+    counters.exactTests += touches.exact;  // the caller has counted the pair
     return touches;
   }
 

@@ -30,7 +30,9 @@ Corners sharedFirst(const Triangle& t, const Triangle& other) {
 
 /// Tests whether the convex hulls of up to three points each touch.
 bool touch(const Triangle& a, const Triangle& b, Counters& counters) {
-  return trianglesTouch(a, {}, b, {}, counters);
+  const PredicateResult result = trianglesTouch(a, {}, b, {});
+  counters.addTest(result.exact);
+  return result;
 }
 Triangle edge(const Vec3& p, const Vec3& q) {
   return {p, q, q};
@@ -67,13 +69,13 @@ bool meetBeyond(const Corners& a, const Corners& b, Counters& counters) {
 /// order only.
 class SelfPairs {
  public:
-  using Item = QueryContext::NodePair;
+  using Item = NodePair;
   using Tree = VolumeTree<Aabb>;
   using Node = Tree::Node;
 
   /// @param qualities  indexed by a triangle's number in the mesh.
   SelfPairs(const Tree& tree, const std::vector<TriangleQuality>& qualities, Counters& counters)
-      : tree_(tree), test_(pairTestOf<Aabb>(tree, {}, tree, {})), counters_(counters) {
+      : tree_(tree), test_(pairTestOf<Aabb>(Posed(tree), Posed(tree))), counters_(counters) {
     // `degenerate` is a bound for people and includes small triangles of a large mesh. It is 1e-12
     // of the squared diagonal, where rounding is below 1e-15 of it. So it includes every triangle
     // whose corners lie on a line, and the exact test finds these.
@@ -93,9 +95,7 @@ class SelfPairs {
         if (intersect(s, t)) found_.push_back(numbered(s, t));
     return false;
   }
-  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
-    stack.push_back({i, k, 0});
-  }
+  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) { stack.push_back({i, k}); }
   void opened(std::vector<Item>&, std::size_t) {}
 
   std::vector<TrianglePair> found() && { return std::move(found_); }
@@ -127,7 +127,7 @@ std::vector<TrianglePair> selfIntersections(const TriangleMesh& mesh, QueryConte
   const std::vector<TriangleQuality> qualities = triangleQualities(mesh);
   const VolumeTree<Aabb> tree(mesh);
   SelfPairs query(tree, qualities, context.counters);
-  traverse(tree, tree, QueryContext::NodePair{0, 0, 0}, context.stack, query);
+  traverse(tree, tree, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
   std::vector<TrianglePair> found = std::move(query).found();
   std::sort(found.begin(), found.end(), [](const TrianglePair& x, const TrianglePair& y) {
     return x.a != y.a ? x.a < y.a : x.b < y.b;

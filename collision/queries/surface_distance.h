@@ -1,5 +1,7 @@
 #pragma once
 
+#include "collision/core/last_pair.h"
+#include "collision/core/posed.h"
 #include "collision/hierarchy/body.h"
 #include "collision/hierarchy/tree_kinds.h"
 #include "collision/queries/distance.h"
@@ -13,26 +15,27 @@ namespace corridor {
 /// @param trees  the kind of trees. Distance queries bound distances of volumes and never test
 /// overlap, so the kinds that differ in their overlap tests are equivalent. A convex part has no
 /// 4-wide tree for distances: a binary tree of OBBs replaces it.
-Distance surfaceDistance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                         const DistanceOptions& options, QueryContext& context,
-                         TreeKind trees = TreeKind::obb4);
-bool surfacesCloserThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                        double d, QueryContext& context, TreeKind trees = TreeKind::obb4);
+/// @param last  as for `distance` and `closerThan` of 4-wide OBB trees; other trees don't use it.
+Distance surfaceDistance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOptions& options,
+                         QueryContext& context, TreeKind trees = TreeKind::obb4,
+                         LastPair* last = nullptr);
+bool surfacesCloserThan(const Posed<Body>& a, const Posed<Body>& b, double d, QueryContext& context,
+                        TreeKind trees = TreeKind::obb4, LastPair* last = nullptr);
 
 /// Returns a proved lower bound of the surfaces' distance in real arithmetic, metres; 0 if nothing
 /// can be proved, or if they touch.
 ///
-/// For meshes the bound is the distance in `told` minus its guaranteed error. For convex parts, for
-/// which the lower and upper bound of the search nearly always agree, the tolerance query proves
-/// the bound again.
-/// @param told  the result of `surfaceDistance` for the same bodies and maps, with these options.
+/// For meshes the bound is the distance in `measured` minus its guaranteed error. For convex parts,
+/// for which the lower and upper bound of the search nearly always agree, the tolerance query
+/// proves the bound again.
+/// @param measured  the result of `surfaceDistance` for the same bodies and maps, with these
+/// options.
 /// @pre The maps are within 2^-20 of rotations.
-double provedDistance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                      const Distance& told, const DistanceOptions& options, QueryContext& context,
+double provedDistance(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured,
+                      const DistanceOptions& options, QueryContext& context,
                       TreeKind trees = TreeKind::obb4);
 
-/// Returns an upper bound of the surfaces' distance, metres. `told` as above.
-double distanceFromAbove(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                         const Distance& told);
+/// Returns an upper bound of the surfaces' distance, metres. `measured` as above.
+double distanceFromAbove(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured);
 
 }  // namespace corridor

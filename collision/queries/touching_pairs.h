@@ -6,20 +6,22 @@
 #include <vector>
 
 #include "collision/convex/convex_contact.h"
-#include "collision/core/query_context.h"
+#include "collision/core/counters.h"
+#include "collision/core/posed.h"
+#include "collision/hierarchy/traverse.h"
 #include "collision/predicates/triangle_contact.h"
 #include "collision/queries/relative_pose.h"
 #include "collision/volumes/pair_tests.h"
 
 namespace corridor {
 
-/// Returns the test of two trees' volumes under two maps.
+/// Returns the test of two trees' volumes under their maps.
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
-PairTest<Volume, Overlap> pairTestOf(const TreeA& a, const Transform& X_WA, const TreeB& b,
-                                     const Transform& X_WB) {
+PairTest<Volume, Overlap> pairTestOf(const Posed<TreeA>& a, const Posed<TreeB>& b) {
   assert(standardFloatingPoint());
-  const Transform X_AB = rigidInverse(X_WA) * X_WB;
-  return {a.bounds(), b.bounds(), X_AB, relativePoseError(X_WA, X_AB, X_WB, b.reach())};
+  const Transform X_AB = rigidInverse(a.X_W) * b.X_W;
+  return {a.shape.bounds(), b.shape.bounds(), X_AB,
+          relativePoseError(a.X_W, X_AB, b.X_W, b.shape.reach())};
 }
 
 /// Returns a tree's leaf primitive, numbered in leaf order, as a convex set. It is a convex part,
@@ -32,19 +34,18 @@ ConvexSet convexSetOf(const Tree& tree, std::uint32_t item) {
 /// The query that `traverse` (hierarchy/traverse.h) runs to find touching leaf primitives of two
 /// trees. It drops node pairs whose volumes are separated, and calls `Found(s, t)`, numbered in
 /// leaf order, for each touching pair until that returns true. It ends, as if there were no more
-/// pairs, once the counted tests reach `workEnd`.
+/// pairs, once the counted tests reach `workEnd`. All arguments must outlive it.
 template <class TreeA, class TreeB, class Test, class Found>
 class TouchingPairs {
  public:
-  using Item = QueryContext::NodePair;
+  using Item = NodePair;
 
-  TouchingPairs(const TreeA& a, const Transform& X_WA, const TreeB& b, const Transform& X_WB,
-                const Test& test, Counters& counters, const Found& found,
-                std::uint64_t workEnd = kNoWorkLimit)
-      : a_(a),
-        b_(b),
-        X_WA_(X_WA),
-        X_WB_(X_WB),
+  TouchingPairs(const Posed<TreeA>& a, const Posed<TreeB>& b, const Test& test, Counters& counters,
+                const Found& found, std::uint64_t workEnd = kNoWorkLimit)
+      : a_(a.shape),
+        b_(b.shape),
+        X_WA_(a.X_W),
+        X_WB_(b.X_W),
         test_(test),
         counters_(counters),
         found_(found),
@@ -61,20 +62,22 @@ class TouchingPairs {
         if (counters_.work() >= workEnd_ || (touch(s, t) && found_(s, t))) return true;
     return false;
   }
-  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) {
-    stack.push_back({i, k, 0});
-  }
+  void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) { stack.push_back({i, k}); }
   void opened(std::vector<Item>& stack, std::size_t first) {  // visit the first child first
     std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end());
   }
 
- private:
+  /// Tests one pair of leaf primitives, numbered in leaf order.
   bool touch(std::uint32_t s, std::uint32_t t) const {
-    if (a_.part() || b_.part())
-      return convexSetsTouch({convexSetOf(a_, s), X_WA_}, {convexSetOf(b_, t), X_WB_}, counters_);
-    return trianglesTouch(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_, counters_);
+    const PredicateResult result =
+        a_.part() || b_.part()
+            ? convexSetsTouch({convexSetOf(a_, s), X_WA_}, {convexSetOf(b_, t), X_WB_})
+            : trianglesTouch(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_);
+    counters_.addTest(result.exact);
+    return result;
   }
 
+ private:
   const TreeA& a_;
   const TreeB& b_;
   const Transform &X_WA_, &X_WB_;

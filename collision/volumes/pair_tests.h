@@ -8,12 +8,25 @@
 #include "collision/volumes/overlap_rss_rss.h"
 #include "collision/volumes/overlap_sphere_sphere.h"
 
-// Lists for explicit instantiation: every volume, and every volume with each of its overlap tests.
+// The list of all volumes, and of all volumes with each of their overlap tests. Explicit
+// instantiations, `TreeKind`, the trees of a `Body`, dispatch and the names that users write follow
+// from it.
+//
+// CORRIDOR_EACH_OVERLAP(F) expands F(name in TreeKind, Volume, Overlap, the volume's name for
+// users, the test's name for users). The tests of one volume are adjacent; the first is its
+// default.
 // clang-format off
 #define CORRIDOR_EACH_VOLUME(F) \
   F(Obb) F(Aabb) F(BoundingSphere) F(Rss) F(Kdop<14>) F(Kdop<18>) F(Kdop<26>)
-#define CORRIDOR_EACH_OVERLAP(F)                                                         \
-  F(Obb, StandardOverlap) F(Obb, Gjk) F(Obb, LinearProgram) F(Obb, EdgeFace)             \
-  F(Aabb, StandardOverlap) F(BoundingSphere, StandardOverlap) F(Rss, StandardOverlap)    \
-  F(Kdop<14>, StandardOverlap) F(Kdop<18>, StandardOverlap) F(Kdop<26>, StandardOverlap)
+#define CORRIDOR_EACH_OVERLAP(F)                                        \
+  F(obbBinary, Obb, StandardOverlap, "obb-binary", "sat")               \
+  F(obbGjk, Obb, Gjk, "obb-binary", "gjk")                              \
+  F(obbLinearProgram, Obb, LinearProgram, "obb-binary", "lp")           \
+  F(obbEdgeFace, Obb, EdgeFace, "obb-binary", "edge-face")              \
+  F(aabb, Aabb, StandardOverlap, "aabb", "sat")                         \
+  F(sphere, BoundingSphere, StandardOverlap, "sphere", "centers")       \
+  F(rss, Rss, StandardOverlap, "rss", "rectangles")                     \
+  F(kdop14, Kdop<14>, StandardOverlap, "kdop14", "intervals")           \
+  F(kdop18, Kdop<18>, StandardOverlap, "kdop18", "intervals")           \
+  F(kdop26, Kdop<26>, StandardOverlap, "kdop26", "intervals")
 // clang-format on

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "collision/hierarchy/with_volume.h"
+#include "collision/hierarchy/with_trees.h"
 #include "collision/queries/containment.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
@@ -12,8 +12,8 @@
 namespace corridor {
 namespace {
 
-void require(const Transform& X_WA, const Transform& X_WB) {
-  if (!X_WA.isFinite() || !X_WB.isFinite())
+void require(const Posed<Body>& a, const Posed<Body>& b) {
+  if (!a.X_W.isFinite() || !b.X_W.isFinite())
     throw std::invalid_argument("the pose of a body must be finite");
 }
 
@@ -23,49 +23,57 @@ void require(double x, const char* what) {
 }
 
 /// Returns a point of the part of `inner` that `enclosed` found.
-Vec3 pointOf(const Body& inner, std::uint32_t number, const Transform& X_WI) {
-  return X_WI * (inner.part() ? inner.part()->points[0] : inner.mesh().corner(number, 0));
+Vec3 pointOf(const Posed<Body>& inner, std::uint32_t number) {
+  const Body& body = inner.shape;
+  return inner.X_W * (body.part() ? body.part()->points[0] : body.mesh().corner(number, 0));
 }
 
 }  // namespace
 
-std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
-                                         const Transform& X_WB, QueryContext& context,
-                                         TreeKind trees) {
-  require(X_WA, X_WB);
+std::optional<TrianglePair> interference(const Posed<Body>& a, const Posed<Body>& b,
+                                         QueryContext& context, TreeKind trees, LastPair* last) {
+  require(a, b);
   const auto hit =
-      trees == TreeKind::obb4
-          ? interference(a.tree(), X_WA, b.tree(), X_WB, context)
-          : onVolumeTrees(trees, a, b, [&](auto overlap, const auto& ta, const auto& tb) {
-              return interference<decltype(overlap)>(ta, X_WA, tb, X_WB, context);
-            });
+      withTrees(trees, a.shape, b.shape, [&](auto overlap, const auto& ta, const auto& tb) {
+        return interference<decltype(overlap)>(Posed(ta, a.X_W), Posed(tb, b.X_W), context, last);
+      });
   if (hit) return hit;
-  return insideEachOther(a, X_WA, b, X_WB, context);
+  return insideEachOther(a, b, context);
 }
 
-Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                  const DistanceOptions& options, QueryContext& context, TreeKind trees) {
-  require(X_WA, X_WB);
+std::vector<TriangleContact> contacts(const Posed<Body>& a, const Posed<Body>& b,
+                                      QueryContext& context, TreeKind trees) {
+  require(a, b);
+  if (a.shape.part() || b.shape.part())
+    throw std::invalid_argument("contacts are between triangles; a convex part has none");
+  return withTrees(trees, a.shape, b.shape, [&](auto overlap, const auto& ta, const auto& tb) {
+    return contacts<decltype(overlap)>(Posed(ta, a.X_W), Posed(tb, b.X_W), context);
+  });
+}
+
+Distance distance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOptions& options,
+                  QueryContext& context, TreeKind trees, LastPair* last) {
+  require(a, b);
   require(options.relative, "a distance's relative error");
   require(options.absolute, "a distance's absolute error");
-  Distance d = surfaceDistance(a, X_WA, b, X_WB, options, context, trees);
+  Distance d = surfaceDistance(a, b, options, context, trees, last);
   if (d.distance == 0) return d;
-  if (const auto hit = enclosed(a, X_WA, b, X_WB, context)) {
-    const Vec3 p_W = pointOf(b, hit->b, X_WB);
+  if (const auto hit = enclosed(a, b, context)) {
+    const Vec3 p_W = pointOf(b, hit->b);
     d = {0, p_W, p_W, hit->a, hit->b};
-  } else if (const auto other = enclosed(b, X_WB, a, X_WA, context)) {
-    const Vec3 p_W = pointOf(a, other->b, X_WA);
+  } else if (const auto other = enclosed(b, a, context)) {
+    const Vec3 p_W = pointOf(a, other->b);
     d = {0, p_W, p_W, other->b, other->a};
   }
   return d;
 }
 
-bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                double d, QueryContext& context, TreeKind trees) {
-  require(X_WA, X_WB);
+bool closerThan(const Posed<Body>& a, const Posed<Body>& b, double d, QueryContext& context,
+                TreeKind trees, LastPair* last) {
+  require(a, b);
   require(d, "a tolerance");
-  return surfacesCloserThan(a, X_WA, b, X_WB, d, context, trees) ||
-         insideEachOther(a, X_WA, b, X_WB, context).has_value();
+  return surfacesCloserThan(a, b, d, context, trees, last) ||
+         insideEachOther(a, b, context).has_value();
 }
 
 }  // namespace corridor

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "collision/core/last_pair.h"
+#include "collision/core/posed.h"
+#include "collision/queries/contacts.h"
 #include "collision/queries/containment.h"
 #include "collision/queries/distance.h"
 #include "collision/queries/triangle_pair.h"
@@ -19,24 +23,33 @@ namespace corridor {
 /// always uses the binary tree of boxes. They throw std::invalid_argument for maps that are not
 /// finite, and for numbers that are not finite or negative. Threads may call them in parallel, with
 /// one context per thread.
+///
+/// `last`, if not null, is the pair of triangles of the last query of the same two bodies. Queries
+/// start from it and store the pair that they find. If bodies move in small steps, this saves most
+/// of the search. It never changes a verdict, nor a distance beyond its error.
 
 /// Returns a pair of triangles or convex parts that touch, or a triangle of a solid mesh and one of
 /// the body inside it. Returns nothing if the bodies are separated. Exact for meshes; with a convex
 /// part, in the band of `convexSetsTouch` the answer may be contact.
-std::optional<TrianglePair> interference(const Body& a, const Transform& X_WA, const Body& b,
-                                         const Transform& X_WB, QueryContext& context,
-                                         TreeKind trees = TreeKind::obb4);
+std::optional<TrianglePair> interference(const Posed<Body>& a, const Posed<Body>& b,
+                                         QueryContext& context, TreeKind trees = TreeKind::obb4,
+                                         LastPair* last = nullptr);
+
+/// Returns all pairs of triangles of two meshes that touch, each with the segment that they share
+/// (queries/contacts.h).
+/// @throws std::invalid_argument for a convex part, which has no triangles.
+std::vector<TriangleContact> contacts(const Posed<Body>& a, const Posed<Body>& b,
+                                      QueryContext& context, TreeKind trees = TreeKind::obb4);
 
 /// Returns the distance with a pair of witness points; the errors are those of queries/distance.h.
 /// The distance is 0 if and only if `interference` reports contact. If one body is inside a solid
 /// mesh, both witness points are the same point of the body inside.
-Distance distance(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                  const DistanceOptions& options, QueryContext& context,
-                  TreeKind trees = TreeKind::obb4);
+Distance distance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOptions& options,
+                  QueryContext& context, TreeKind trees = TreeKind::obb4, LastPair* last = nullptr);
 
 /// The tolerance query: reports whether the bodies are at most d metres apart. `false` is a proof
 /// that they are farther apart.
-bool closerThan(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                double d, QueryContext& context, TreeKind trees = TreeKind::obb4);
+bool closerThan(const Posed<Body>& a, const Posed<Body>& b, double d, QueryContext& context,
+                TreeKind trees = TreeKind::obb4, LastPair* last = nullptr);
 
 }  // namespace corridor

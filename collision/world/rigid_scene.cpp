@@ -34,13 +34,6 @@ void require(const Tube& tube) {
       throw std::invalid_argument("a tube must be finite and not negative");
 }
 
-/// Counts the query as a state, not as an edge.
-MotionResult asState(const MotionResult& result, QueryContext& context) {
-  --context.counters.edges;
-  ++context.counters.states;
-  return result;
-}
-
 }  // namespace
 
 RigidScene::RigidScene(std::vector<Body> moving, std::vector<Body> fixed)
@@ -72,12 +65,12 @@ MotionResult RigidScene::certifyEdgePlanar(const Vec3& from, const Vec3& to,
 
 MotionResult RigidScene::certifyState(const RigidPose& pose, const MotionOptions& options,
                                       QueryContext& context, const Tube& tube) const {
-  return asState(certifyEdge(pose, pose, options, context, tube), context);
+  return certifyEdge(pose, pose, options, context, tube);
 }
 
 MotionResult RigidScene::certifyStatePlanar(const Vec3& xyYaw, const MotionOptions& options,
                                             QueryContext& context, const Tube& tube) const {
-  return asState(certifyEdgePlanar(xyYaw, xyYaw, options, context, tube), context);
+  return certifyEdgePlanar(xyYaw, xyYaw, options, context, tube);
 }
 
 }  // namespace corridor

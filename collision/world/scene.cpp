@@ -12,7 +12,9 @@
 
 #include "collision/core/rounding.h"
 #include "collision/motion/may_meet.h"
+#include "collision/motion/motion_answer.h"
 #include "collision/motion/rigid_motion.h"
+#include "collision/motion/swept_spheres.h"
 #include "collision/queries/surface_distance.h"
 #include "collision/world/body_queries.h"
 
@@ -134,14 +136,15 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
     for (const std::size_t frame : {pair.a, pair.b})
       if (frame >= X_WF.size() || !X_WF[frame].isFinite())
         throw std::invalid_argument("every frame must have a finite pose");
-  context.spheres.makeRoom(bodies_.size());
-  context.spheres.forget();
+  auto& spheres = context.scratch.of<SweptSpheres>();
+  spheres.makeRoom(bodies_.size());
+  spheres.forget();
   const auto worldSphere = [&](std::size_t body) -> const SweptSphere& {
     const Placed& placed = bodies_[body];
-    return context.spheres.of(body,
-                              [&] { return sweptSphere(placed.body, atRest(X_WF[placed.frame])); });
+    return spheres.of(body, [&] { return sweptSphere(placed.body, atRest(X_WF[placed.frame])); });
   };
-  for (const MotionPair& pair : motionPairs_) {
+  for (std::size_t k = 0; k < motionPairs_.size(); ++k) {
+    const MotionPair& pair = motionPairs_[k];
     const FramePair& frames = framePairs_[pair.motion];
     const Transform &X_WA = X_WF[frames.a], &X_WB = X_WF[frames.b];
     if (X_WA == Transform()) {
@@ -154,17 +157,19 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
           within > 0 ? roundedUp(within * (1 + 4 * orthonormalityDefect(X_WA.m))) : within;
       if (!mayMeet(*pair.a, sweptSphere(*pair.b, atRest(X_WA, X_WB)), inA)) continue;
     }
-    if (visit(pair, X_WA, X_WB)) return;
+    if (visit(pair, Posed(*pair.a, X_WA), Posed(*pair.b, X_WB), context.lastPair(k))) return;
   }
 }
 
 std::optional<Contact> Scene::interference(std::span<const Transform> X_WF, QueryContext& context,
                                            TreeKind trees) const {
+  ++context.counters.states;
   std::optional<Contact> contact;
   forNearPairs(
-      X_WF, 0, context, [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
-        const auto hit = corridor::interference(*pair.a, X_WA, *pair.b, X_WB, context, trees);
-        if (hit) contact = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
+      X_WF, 0, context,
+      [&](const MotionPair& pair, const Posed<Body>& a, const Posed<Body>& b, LastPair& last) {
+        if (const auto hit = corridor::interference(a, b, context, trees, &last))
+          contact = Contact{pair.bodyA, pair.bodyB, hit->a, hit->b};
         return contact.has_value();
       });
   return contact;
@@ -172,11 +177,11 @@ std::optional<Contact> Scene::interference(std::span<const Transform> X_WF, Quer
 
 double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context,
                         TreeKind trees) const {
+  ++context.counters.states;
   double least = std::numeric_limits<double>::infinity();
   forNearPairs(X_WF, least, context,
-               [&](const MotionPair& pair, const Transform& X_WA, const Transform& X_WB) {
-                 const Distance d = distance(*pair.a, X_WA, *pair.b, X_WB, {}, context, trees);
-                 least = std::min(least, d.distance);
+               [&](const MotionPair&, const Posed<Body>& a, const Posed<Body>& b, LastPair& last) {
+                 least = std::min(least, distance(a, b, {}, context, trees, &last).distance);
                  return least == 0;
                });
   return least;
@@ -193,7 +198,7 @@ std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion,
     const RelativeMotion relative = motion.relativeMotion(pair.motion, t, 0);
     const double reach = (relative.X_AB.m * pair.b->sphereCenter()).norm() + pair.b->sphereRadius();
     const double error = roundedUp(relative.fixedError + relative.reachError * roundedUp(reach));
-    if (!surfacesCloserThan(*pair.a, {}, *pair.b, relative.X_AB, error, context))
+    if (!surfacesCloserThan(Posed(*pair.a), Posed(*pair.b, relative.X_AB), error, context))
       return relative.X_AB;
   }
   return std::nullopt;
@@ -205,7 +210,7 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
                                  const MotionOptions& options, QueryContext& context,
                                  EdgeMethod method, MotionCertificate* certificate) const {
   MotionResult result = certificate ? certifyMotion(motion, pairs, options, context, certificate)
-                                    : certifyMotionBy(method, motion, pairs, options, context);
+                                    : runEdgeMethod(method, motion, pairs, options, context);
   if (!solidMeshes_) return result;
   if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
   const double until = result.verdict == MotionVerdict::free ? 1 : result.certifiedUntil;
@@ -217,9 +222,9 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
     if (!mayMeet(*pair.a, sweptSphere(*pair.b, motion.relativeMotion(pair.motion, 0, 0)), 0))
       continue;
     const auto X_AB = poseApart(pair, motion, until, context);
-    const auto hit = X_AB ? insideEachOther(*pair.a, {}, *pair.b, *X_AB, context) : std::nullopt;
+    const auto hit =
+        X_AB ? insideEachOther(Posed(*pair.a), Posed(*pair.b, *X_AB), context) : std::nullopt;
     if (X_AB && !hit) continue;
-    context.counters.undecided -= result.verdict == MotionVerdict::undecided;
     if (certificate) *certificate = {};
     result = {};
     result.certifiedUntil = 0;
@@ -231,7 +236,6 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
       result.verdict = MotionVerdict::undecided;
       result.reason = UndecidedReason::rounding;
       result.pair = Contact{pair.bodyA, pair.bodyB, 0, 0};
-      ++context.counters.undecided;
     }
     break;
   }
@@ -241,14 +245,18 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, EdgeMethod method) const {
   require(options);
-  return certifyPairs(motionPairs_, motion, options, context, method);
+  const MotionResult result = certifyPairs(motionPairs_, motion, options, context, method);
+  count(motion, result, context.counters);
+  return result;
 }
 
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, MotionCertificate& certificate) const {
   require(options);
-  return certifyPairs(motionPairs_, motion, options, context, EdgeMethod::directional,
-                      &certificate);
+  const MotionResult result =
+      certifyPairs(motionPairs_, motion, options, context, EdgeMethod::directional, &certificate);
+  count(motion, result, context.counters);
+  return result;
 }
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,
@@ -256,9 +264,13 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   require(options);
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
-  for (std::size_t i = 0; i < pairs_.size(); ++i)
-    results[order_[i]] =
-        certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::directional);
+  MotionResult worst;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    MotionResult& result = results[order_[i]];
+    result = certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::directional);
+    if (result.verdict == MotionVerdict::undecided) worst = result;
+  }
+  count(motion, worst, context.counters);
   return results;
 }
 

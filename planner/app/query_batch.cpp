@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
-#include "collision/hierarchy/with_volume.h"
+#include "collision/hierarchy/with_trees.h"
 #include "collision/motion/rigid_motion.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/distance_obb4.h"
@@ -24,21 +23,19 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 /// Runs and measures `ask(pose number, context)` for `count` poses, `passes` times. A pass runs
 /// over all poses, instead of repeating each: so a query finds the processor's caches as other
-/// poses left them. The remembered last pair of the trees at addresses `a` and `b` is cleared
-/// before each query: so cost and answer of a pose do not depend on the poses before it.
+/// poses left them. No query starts from the pair of triangles that the last one found: so cost and
+/// answer of a pose do not depend on the poses before it.
 template <class Ask>
-std::vector<Answer> timed(std::size_t count, int passes, const void* a, const void* b,
-                          const Ask& ask) {
+std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
   std::vector<Answer> answers(count);
   const auto repeat = static_cast<std::size_t>(passes);
   std::vector<double> ns(answers.size() * repeat);
   QueryContext context;
-  LastPair& last = context.lastPairs.of(a, b);
   for (std::size_t pass = 0; pass < repeat; ++pass)
     for (std::size_t i = 0; i < answers.size(); ++i) {
       Answer& answer = answers[i];
       const auto once = [&] {
-        last = {};
+        context.lastPairs.clear();
         answer.hit = ask(i, context);
       };
       const auto first = [&] {
@@ -56,24 +53,6 @@ std::vector<Answer> timed(std::size_t count, int passes, const void* a, const vo
   return answers;
 }
 
-/// Returns whether the trees touch; `allContacts` returns all contacts. The 4-wide OBB tree has a
-/// single overlap test, so `Overlap` is unused for it.
-template <class Overlap, class Tree>
-bool touching(const Tree& a, const Tree& b, const Transform& X, QueryContext& context) {
-  if constexpr (std::is_same_v<Tree, Obb4Tree>)
-    return interference(a, {}, b, X, context).has_value();
-  else
-    return interference<Overlap>(a, {}, b, X, context).has_value();
-}
-template <class Overlap, class Tree>
-std::vector<TriangleContact> allContacts(const Tree& a, const Tree& b, const Transform& X,
-                                         QueryContext& context) {
-  if constexpr (std::is_same_v<Tree, Obb4Tree>)
-    return contacts(a, {}, b, X, context);
-  else
-    return contacts<Overlap>(a, {}, b, X, context);
-}
-
 /// Builds both trees by `make(mesh)` and runs the batch on them.
 template <class Overlap, class Make>
 BatchResult runOn(const Batch& batch, const Make& make) {
@@ -86,35 +65,34 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   result.buildMsB = millisecondsSince(start);
   result.bytesA = a.bytes();
   result.bytesB = b.bytes();
-  const Transform X_WA;
   switch (batch.asked) {
     case Asked::interference:
-      result.answers = timed(batch.poses.size(), batch.repeat, &a, &b,
-                             [&](std::size_t i, QueryContext& context) {
-                               return touching<Overlap>(a, b, batch.poses[i], context);
-                             });
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
+            return interference<Overlap>(Posed(a), Posed(b, batch.poses[i]), context).has_value();
+          });
       break;
     case Asked::distance:
       result.distances.resize(batch.poses.size());
-      result.answers = timed(
-          batch.poses.size(), batch.repeat, &a, &b, [&](std::size_t i, QueryContext& context) {
-            result.distances[i] = distance(a, X_WA, b, batch.poses[i], {}, context);
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
+            result.distances[i] = distance(Posed(a), Posed(b, batch.poses[i]), {}, context);
             return result.distances[i].distance == 0;
           });
       break;
     case Asked::tolerance:
-      result.answers = timed(
-          batch.poses.size(), batch.repeat, &a, &b, [&](std::size_t i, QueryContext& context) {
-            return closerThan(a, X_WA, b, batch.poses[i], batch.tolerance, context);
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
+            return closerThan(Posed(a), Posed(b, batch.poses[i]), batch.tolerance, context);
           });
       break;
     case Asked::contacts: {
       std::vector<std::vector<TriangleContact>> found(batch.poses.size());
-      result.answers = timed(batch.poses.size(), batch.repeat, &a, &b,
-                             [&](std::size_t i, QueryContext& context) {
-                               found[i] = allContacts<Overlap>(a, b, batch.poses[i], context);
-                               return !found[i].empty();
-                             });
+      result.answers =
+          timed(batch.poses.size(), batch.repeat, [&](std::size_t i, QueryContext& context) {
+            found[i] = contacts<Overlap>(Posed(a), Posed(b, batch.poses[i]), context);
+            return !found[i].empty();
+          });
       for (std::size_t i = 0; i < found.size(); ++i)
         for (const TriangleContact& c : found[i])
           result.contacts.push_back({i, c.a, c.b, c.p_W, c.q_W});
@@ -124,16 +102,15 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   return result;
 }
 
-/// A body's tree, and what building it took.
+/// What building a body's tree took.
 struct BuiltTree {
-  const void* at = nullptr;
   std::size_t bytes = 0;
   double ms = 0;  ///< time to build it
 };
 BuiltTree builtTree(const Body& body, TreeKind trees) {
   const auto start = std::chrono::steady_clock::now();
   const auto told = [&](const auto& tree) {
-    return BuiltTree{&tree, tree.bytes(), millisecondsSince(start)};
+    return BuiltTree{tree.bytes(), millisecondsSince(start)};
   };
   if (trees == TreeKind::obb4) return told(body.tree());
   return withVolume(trees,
@@ -184,14 +161,13 @@ BatchResult runMotions(TriangleMesh meshA, TriangleMesh meshB,
         RigidMotion::spatial(motion.from, motion.to, {.position = 0, .rotation = motion.defect}));
   const MotionPair pair{&a, &b, 0, 0, 1};
   result.motions.resize(motions.size());
-  result.answers =
-      timed(motions.size(), repeat, treeA.at, treeB.at, [&](std::size_t i, QueryContext& context) {
-        MotionAnswer& answer = result.motions[i];
-        const std::uint64_t splits = context.counters.splits;
-        answer.result = certifyMotionBy(method, edges[i], {&pair, 1}, options, context);
-        answer.splits = context.counters.splits - splits;
-        return answer.result.verdict == MotionVerdict::contact;
-      });
+  result.answers = timed(motions.size(), repeat, [&](std::size_t i, QueryContext& context) {
+    MotionAnswer& answer = result.motions[i];
+    const std::uint64_t splits = context.counters.splits;
+    answer.result = certifyMotionBy(method, edges[i], {&pair, 1}, options, context);
+    answer.splits = context.counters.splits - splits;
+    return answer.result.verdict == MotionVerdict::contact;
+  });
   return result;
 }
 

@@ -119,10 +119,7 @@ MotionResult Checker::state(const Configuration& q) const {
   if (!standardFloatingPoint()) return refused();
   Workspace& workspace = mine();
   workspace.motion.set(q, q);
-  const MotionResult result = scene_.certify(workspace.motion, options_, workspace.context);
-  --workspace.context.counters.edges;
-  ++workspace.context.counters.states;
-  return result;
+  return scene_.certify(workspace.motion, options_, workspace.context);
 }
 
 MotionResult Checker::edge(const Configuration& from, const Configuration& to,
@@ -142,32 +139,21 @@ MotionResult Checker::edge(const Configuration& from, const Configuration& to, b
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
   requireStandardFloatingPoint();
-  QueryContext& context = mine().context;
-  const std::uint64_t before = context.counters.states;
-  const std::optional<Contact> contact =
-      scene_.interference(framePoses(problem_.tree, q), context, options_.trees);
-  context.counters.states = before + 1;  // a state, not pairs of bodies
-  return contact;
+  return scene_.interference(framePoses(problem_.tree, q), mine().context, options_.trees);
 }
 
 double Checker::clearance(const Configuration& q) const {
   requireStandardFloatingPoint();
-  QueryContext& context = mine().context;
-  const std::uint64_t before = context.counters.states;
-  const double least = scene_.clearance(framePoses(problem_.tree, q), context, options_.trees);
-  context.counters.states = before + 1;  // a state, not pairs of bodies
-  return least - options_.margin;
+  return scene_.clearance(framePoses(problem_.tree, q), mine().context, options_.trees) -
+         options_.margin;
 }
 
 std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) const {
   requireStandardFloatingPoint();
   Workspace& workspace = mine();
   workspace.motion.set(q, q);
-  const Counters before = workspace.context.counters;
   const std::vector<MotionResult> results =
       scene_.certifyEachPair(workspace.motion, options_, workspace.context);
-  workspace.context.counters.edges = before.edges;
-  workspace.context.counters.states = before.states + 1;
   std::vector<PairNotFree> pairs;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].verdict == MotionVerdict::free) continue;

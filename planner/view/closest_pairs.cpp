@@ -25,10 +25,11 @@ std::optional<ClosestPair> closestPair(const Checker& checker, const std::vector
     if (closest && bound >= closest->distance) break;
     const Scene::Pair& pair = scene.pairs()[i];
     const Scene::Placed &a = scene.bodies()[pair.a], &b = scene.bodies()[pair.b];
-    if (closest &&
-        !closerThan(a.body, X_WF[a.frame], b.body, X_WF[b.frame], closest->distance, context))
+    if (closest && !closerThan(Posed(a.body, X_WF[a.frame]), Posed(b.body, X_WF[b.frame]),
+                               closest->distance, context))
       continue;
-    const Distance d = distance(a.body, X_WF[a.frame], b.body, X_WF[b.frame], {}, context);
+    const Distance d =
+        distance(Posed(a.body, X_WF[a.frame]), Posed(b.body, X_WF[b.frame]), {}, context);
     if (!closest || d.distance < closest->distance)
       closest = {d.distance, checker.bodyOf(pair.a), checker.bodyOf(pair.b), d.p_WA, d.p_WB};
   }

@@ -106,25 +106,31 @@ class Ours {
   std::size_t bytes() const { return a_.bytes() + b_.bytes(); }
   void prepare(const std::vector<Transform>& poses) { poses_ = poses; }
   /// Clears the remembered pair, so that a repeated query is not made cheap by the answer before.
-  void forget() { context_.lastPairs.of(&a_, &b_) = {}; }
+  void forget() { last_ = {}; }
   Answer answer(std::size_t i) {
     Answer answer;
     context_.counters = {};
     const Transform& X = poses_[i];
     switch (query_) {
       case Query::interference:
-        answer.hit = interference(a_, {}, b_, X, context_).has_value();
+        answer.hit = touching(X).has_value();
         break;
       case Query::distance:
-        if constexpr (requires { distance(a_, X, b_, X, {}, context_).distance; }) {
-          answer.distance = distance(a_, {}, b_, X, {}, context_).distance;
+        if constexpr (requires { distance(Posed(a_), Posed(b_, X), {}, context_).distance; }) {
+          if constexpr (requires { distance(Posed(a_), Posed(b_, X), {}, context_, &last_); })
+            answer.distance = distance(Posed(a_), Posed(b_, X), {}, context_, &last_).distance;
+          else
+            answer.distance = distance(Posed(a_), Posed(b_, X), {}, context_).distance;
           answer.hit = answer.distance == 0;
           break;
         }
         throw std::runtime_error("this tree has no distance query");
       case Query::tolerance:
-        if constexpr (requires { closerThan(a_, X, b_, X, tolerance_, context_); }) {
-          answer.hit = closerThan(a_, {}, b_, X, tolerance_, context_);
+        if constexpr (requires { closerThan(Posed(a_), Posed(b_, X), tolerance_, context_); }) {
+          if constexpr (requires { closerThan(Posed(a_), Posed(b_, X), 1.0, context_, &last_); })
+            answer.hit = closerThan(Posed(a_), Posed(b_, X), tolerance_, context_, &last_);
+          else
+            answer.hit = closerThan(Posed(a_), Posed(b_, X), tolerance_, context_);
           break;
         }
         throw std::runtime_error("this tree has no tolerance query");
@@ -135,11 +141,19 @@ class Ours {
   }
 
  private:
+  auto touching(const Transform& X) {
+    if constexpr (requires { interference(Posed(a_), Posed(b_, X), context_, &last_); })
+      return interference(Posed(a_), Posed(b_, X), context_, &last_);
+    else
+      return interference(Posed(a_), Posed(b_, X), context_);
+  }
+
   Query query_;
   double tolerance_;
   Tree a_, b_;
   std::vector<Transform> poses_;
   QueryContext context_;
+  LastPair last_;
 };
 
 #ifdef CORRIDOR_WITH_FCL

@@ -104,12 +104,12 @@ struct Recorded {
     const ObbTree a(w.a), b(w.b);
     QueryContext context;
     for (std::size_t i = 0; i < w.poses.size(); ++i) {
-      const auto test = pairTestOf<Obb>(a, {}, b, w.poses[i]);
+      const Posed posedA(a), posedB(b, w.poses[i]);
+      const auto test = pairTestOf<Obb>(posedA, posedB);
       const Recorder recorder{test, i, apart, meet};
-      const Transform identity;
       const auto first = [](std::uint32_t, std::uint32_t) { return true; };
-      TouchingPairs query(a, identity, b, w.poses[i], recorder, context.counters, first);
-      traverse(a, b, QueryContext::NodePair{0, 0, 0}, context.stack, query);
+      TouchingPairs query(posedA, posedB, recorder, context.counters, first);
+      traverse(a, b, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
     }
     for (Sample* sample : {&apart, &meet}) std::ranges::sort(sample->kept, {}, &BoxPair::met);
     bounds_[0] = a.bounds();
@@ -197,7 +197,7 @@ class Wide {
   }
   void pass() {
     for (std::size_t i = 0; i < costs_.size(); ++i) {
-      const auto ask = [&] { interference(a_, {}, b_, r_.w.poses[i], context_); };
+      const auto ask = [&] { interference(Posed(a_), Posed(b_, r_.w.poses[i]), context_); };
       context_.counters = {};
       ask();
       costs_[i].boxTests = static_cast<double>(context_.counters.boxTests);

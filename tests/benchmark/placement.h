@@ -25,7 +25,7 @@ inline std::vector<Transform> posesAtGap(const Obb4Tree& a, const Obb4Tree& b, d
     Transform X{randomRotation(random), Vec3::Zero()};
     for (int i = 0; i < 1000 && along > 0; ++i) {
       X.t = along * from;
-      const double free = distance(a, {}, b, X, {}, context).distance - gap;
+      const double free = distance(Posed(a), Posed(b, X), {}, context).distance - gap;
       if (free <= 0.01 * gap) {
         poses.push_back(X);
         break;

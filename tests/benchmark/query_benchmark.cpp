@@ -165,7 +165,7 @@ std::vector<bool> rejectedByRoot(const test::Workload& w) {
   std::vector<bool> rejected;
   for (const Transform& X : w.poses) {
     QueryContext context;
-    const bool hit = interference(a, {}, b, X, context).has_value();
+    const bool hit = interference(Posed(a), Posed(b, X), context).has_value();
     rejected.push_back(!hit && context.counters.boxTests == 1);
   }
   return rejected;

@@ -68,10 +68,10 @@ Cost ask(const Tree& a, const Tree& b, const std::vector<Transform>& poses) {
   const auto count = static_cast<double>(poses.size());
   for (const Transform& X : poses) {
     context.counters = {};
-    interference(a, {}, b, X, context);
+    interference(Posed(a), Posed(b, X), context);
     cost.boxTests += static_cast<double>(context.counters.boxTests) / count;
     cost.triangleTests += static_cast<double>(context.counters.triangleTests) / count;
-    const auto query = [&] { interference(a, {}, b, X, context); };
+    const auto query = [&] { interference(Posed(a), Posed(b, X), context); };
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) least = std::min(least, app::nanosecondsOf(query, query));
     ns.push_back(least);

@@ -115,18 +115,15 @@ void measure(test::Touching& make, Shape sa, Shape sb, double gap) {
     c.X_WB.t = (c.X_WB.t.cast<long double>() + normal.cast<long double>() * gap).cast<double>();
     cases.push_back(std::move(c));
   }
-  Counters counters;
   std::vector<Competitor> all;
-  all.push_back(
-      {"ours", [&](std::size_t i) {
-         const Case& c = cases[i];
-         return convexDistance({c.a.part, c.X_WA}, {c.b.part, c.X_WB}, 0, 0, counters).distance;
-       }});
-  all.push_back(
-      {"ours to 1e-6", [&](std::size_t i) {
-         const Case& c = cases[i];
-         return convexDistance({c.a.part, c.X_WA}, {c.b.part, c.X_WB}, 0, 1e-6, counters).distance;
-       }});
+  all.push_back({"ours", [&](std::size_t i) {
+                   const Case& c = cases[i];
+                   return convexDistance({c.a.part, c.X_WA}, {c.b.part, c.X_WB}).distance;
+                 }});
+  all.push_back({"ours to 1e-6", [&](std::size_t i) {
+                   const Case& c = cases[i];
+                   return convexDistance({c.a.part, c.X_WA}, {c.b.part, c.X_WB}, 0, 1e-6).distance;
+                 }});
 #ifdef CORRIDOR_WITH_FCL
   std::vector<FclCase> theirs;
   for (const Case& c : cases)

@@ -37,7 +37,7 @@ TriangleMesh scaled(TriangleMesh mesh, double factor) {
 /// nullopt if that never happens.
 std::optional<Transform> widened(const Obb4Tree& a, const Obb4Tree& b, Transform X, double wanted,
                                  double accuracy, QueryContext& context) {
-  const Distance start = distance(a, {}, b, X, {}, context);
+  const Distance start = distance(Posed(a), Posed(b, X), {}, context);
   const Vec3 away = (start.p_WB - start.p_WA) / start.distance;
   const Vec3 from = X.t;
   double moved = 0, gap = start.distance;
@@ -46,7 +46,7 @@ std::optional<Transform> widened(const Obb4Tree& a, const Obb4Tree& b, Transform
     moved += wanted - gap;
     if (moved > 4 * (wanted - start.distance)) return {};
     X.t = from + moved * away;
-    gap = distance(a, {}, b, X, {}, context).distance;
+    gap = distance(Posed(a), Posed(b, X), {}, context).distance;
     if (std::abs(wanted - gap) <= accuracy) return X;
   }
   return {};
@@ -70,27 +70,27 @@ Row measure(const test::Workload& w, double relative, const Options& o) {
   QueryContext context;
   const auto inner = [&](const Transform& X) {  // free, and not decided by the roots alone
     context.counters = {};
-    const bool hit = interference(a, {}, b, X, context).has_value();
+    const bool hit = interference(Posed(a), Posed(b, X), context).has_value();
     return !hit && context.counters.boxTests > Obb4Tree::kWidth * Obb4Tree::kWidth;
   };
   Row row;
   for (const Transform& X : w.poses) {
     if (row.poses == o.poses) break;
     if (!inner(X)) continue;
-    const double gap = distance(a, {}, b, X, {}, context).distance;
+    const double gap = distance(Posed(a), Posed(b, X), {}, context).distance;
     std::optional<Transform> wide;
     const Obb4Tree* other = &a;
     if (concentric) {
       other = &smaller;
-      if (std::abs(distance(smaller, {}, b, X, {}, context).distance - gap - tolerance) <=
+      if (std::abs(distance(Posed(smaller), Posed(b, X), {}, context).distance - gap - tolerance) <=
           0.01 * gap)
         wide = X;
     } else {
       wide = widened(a, b, X, gap + tolerance, 0.01 * gap, context);
     }
     if (!wide) continue;
-    const auto touch = [&] { interference(a, {}, b, X, context); };
-    const auto close = [&] { closerThan(*other, {}, b, *wide, tolerance, context); };
+    const auto touch = [&] { interference(Posed(a), Posed(b, X), context); };
+    const auto close = [&] { closerThan(Posed(*other), Posed(b, *wide), tolerance, context); };
     double touchNs = std::numeric_limits<double>::infinity(), closeNs = touchNs;
     for (int i = 0; i < o.rounds; ++i) {
       touchNs = std::min(touchNs, app::nanosecondsOf(touch, touch));
@@ -100,7 +100,7 @@ Row measure(const test::Workload& w, double relative, const Options& o) {
     touch();
     const auto touchTests = static_cast<double>(context.counters.boxTests);
     context.counters = {};
-    if (closerThan(*other, {}, b, *wide, tolerance, context))
+    if (closerThan(Posed(*other), Posed(b, *wide), tolerance, context))
       throw std::logic_error(w.name + ": closerThan is true below the distance");
     ++row.poses;
     row.interferenceNs.push_back(touchNs);

@@ -148,10 +148,7 @@ constexpr Named kMethods[] = {
      [](const test::PlacedPair& p) { return Textbook<double>::touch(p.a, p.X_WA, p.b, p.X_WB); },
      false},
     {"ours",
-     [](const test::PlacedPair& p) {
-       Counters counters;
-       return trianglesTouch(p.a, p.X_WA, p.b, p.X_WB, counters);
-     },
+     [](const test::PlacedPair& p) { return trianglesTouch(p.a, p.X_WA, p.b, p.X_WB).holds; },
      false},
     {"integers",
      [](const test::PlacedPair& p) { return trianglesTouchExact(p.a, p.X_WA, p.b, p.X_WB); },

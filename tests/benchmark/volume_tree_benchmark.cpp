@@ -63,12 +63,13 @@ void measure(const char* name, const test::Workload& w, TreeBuilding building) {
   }
   QueryContext context;
   const double apart =
-      median(w, context, [&](const Transform& X) { distance(a, {}, b, X, {}, context); });
+      median(w, context, [&](const Transform& X) { distance(Posed(a), Posed(b, X), {}, context); });
   const double tolerance = 1e-3 * a.node(0).radius;
-  const double close =
-      median(w, context, [&](const Transform& X) { closerThan(a, {}, b, X, tolerance, context); });
+  const double close = median(w, context, [&](const Transform& X) {
+    closerThan(Posed(a), Posed(b, X), tolerance, context);
+  });
   const double touch =
-      median(w, context, [&](const Transform& X) { interference(a, {}, b, X, context); });
+      median(w, context, [&](const Transform& X) { interference(Posed(a), Posed(b, X), context); });
   std::printf("%s,%s,%.3f,%.3f,%zu,%.2f,%.2f,%.2f,", name,
               building == TreeBuilding::topDown ? "top-down" : "bottom-up", build / 1e3,
               refit / 1e3, a.bytes(), touch, apart, close);
@@ -82,7 +83,7 @@ void measureOctree(const test::Workload& w) {
     build = std::min(build, microseconds([&] { const Octree again(w.a); }));
   QueryContext context;
   const double touch =
-      median(w, context, [&](const Transform& X) { interference(a, {}, b, X, context); });
+      median(w, context, [&](const Transform& X) { interference(Posed(a), Posed(b, X), context); });
   std::printf("octree,over space,%.3f,,%zu,%.2f,,,", build / 1e3, a.bytes(), touch);
   printTests(w, context.counters);
 }

@@ -94,16 +94,19 @@ class SoupQueries : public testing::Test {
     const Obb4Tree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
     const bool touch = !expected.empty();
-    ASSERT_EQ(interference(a, s.X_WA, b, s.X_WB, context_).has_value(), touch);
-    ASSERT_EQ(interference(b, s.X_WB, a, s.X_WA, context_).has_value(), touch);
-    ASSERT_EQ(interference(binaryA, s.X_WA, binaryB, s.X_WB, context_).has_value(), touch);
-    const auto found = contacts(a, s.X_WA, b, s.X_WB, context_);
+    ASSERT_EQ(interference(Posed(a, s.X_WA), Posed(b, s.X_WB), context_).has_value(), touch);
+    ASSERT_EQ(interference(Posed(b, s.X_WB), Posed(a, s.X_WA), context_).has_value(), touch);
+    ASSERT_EQ(interference(Posed(binaryA, s.X_WA), Posed(binaryB, s.X_WB), context_).has_value(),
+              touch);
+    const auto found = contacts(Posed(a, s.X_WA), Posed(b, s.X_WB), context_);
     ASSERT_EQ(pairsOf(found), expected);
     ASSERT_EQ(found.size(), expected.size()) << "a pair came twice";
-    ASSERT_EQ(pairsOf(contacts(binaryA, s.X_WA, binaryB, s.X_WB, context_)), expected);
-    const double d = distance(a, s.X_WA, b, s.X_WB, {}, context_).distance,
-                 back = distance(b, s.X_WB, a, s.X_WA, {}, context_).distance,
-                 binary = distance(binaryA, s.X_WA, binaryB, s.X_WB, {}, context_).distance;
+    ASSERT_EQ(pairsOf(contacts(Posed(binaryA, s.X_WA), Posed(binaryB, s.X_WB), context_)),
+              expected);
+    const double d = distance(Posed(a, s.X_WA), Posed(b, s.X_WB), {}, context_).distance,
+                 back = distance(Posed(b, s.X_WB), Posed(a, s.X_WA), {}, context_).distance,
+                 binary = distance(Posed(binaryA, s.X_WA), Posed(binaryB, s.X_WB), {}, context_)
+                              .distance;
     ASSERT_EQ(d == 0, touch);
     ASSERT_EQ(back == 0, touch);
     ASSERT_EQ(binary == 0, touch);
@@ -111,10 +114,10 @@ class SoupQueries : public testing::Test {
     const double off = 1e-12 * d + 4 * kUnit * scale;
     ASSERT_LE(std::abs(d - binary), 2 * off);
     ASSERT_LE(std::abs(d - back), 2 * off);
-    ASSERT_EQ(closerThan(a, s.X_WA, b, s.X_WB, 0, context_), touch);
-    ASSERT_TRUE(closerThan(a, s.X_WA, b, s.X_WB, d + off, context_));
+    ASSERT_EQ(closerThan(Posed(a, s.X_WA), Posed(b, s.X_WB), 0, context_), touch);
+    ASSERT_TRUE(closerThan(Posed(a, s.X_WA), Posed(b, s.X_WB), d + off, context_));
     if (d > 2 * off) {
-      ASSERT_FALSE(closerThan(b, s.X_WB, a, s.X_WA, d - 2 * off, context_));
+      ASSERT_FALSE(closerThan(Posed(b, s.X_WB), Posed(a, s.X_WA), d - 2 * off, context_));
     }
   }
 
@@ -135,7 +138,7 @@ class SoupQueries : public testing::Test {
     for (TriangleMesh* mesh : {&q.a, &q.b})
       for (auto& t : mesh->triangles) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
     const Obb4Tree a(q.a), b(q.b);
-    ASSERT_EQ(pairsOf(contacts(a, q.X_WA, b, q.X_WB, context_)), expected);
+    ASSERT_EQ(pairsOf(contacts(Posed(a, q.X_WA), Posed(b, q.X_WB), context_)), expected);
   }
 
   /// Expects the same verdict, and when scaled the same distance bit for bit. When rotated, sums
@@ -146,8 +149,8 @@ class SoupQueries : public testing::Test {
     const auto told = [](const Soups& t) {
       const Tree a(t.a), b(t.b);
       QueryContext hit, far;  // new ones: a used context may change the last digits
-      return std::pair(interference(a, t.X_WA, b, t.X_WB, hit).has_value(),
-                       distance(a, t.X_WA, b, t.X_WB, {}, far).distance);
+      return std::pair(interference(Posed(a, t.X_WA), Posed(b, t.X_WB), hit).has_value(),
+                       distance(Posed(a, t.X_WA), Posed(b, t.X_WB), {}, far).distance);
     };
     const auto [hit, d] = told(s);
     const auto [hitTurned, dTurned] = told(turned);
@@ -189,10 +192,11 @@ TEST_F(SoupQueries, AgainstBruteForce) {
         test::add(s.a, at, at + size * more.vertices[1], at + size * more.vertices[2]);
       }
     const Obb4Tree a(s.a), b(s.b);
-    const TrianglePairs grown = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
+    const TrianglePairs grown = pairsOf(contacts(Posed(a, s.X_WA), Posed(b, s.X_WB), context_));
     ASSERT_TRUE(std::includes(grown.begin(), grown.end(), expected.begin(), expected.end()));
-    const double before = distance(Obb4Tree(old), s.X_WA, b, s.X_WB, {}, context_).distance,
-                 after = distance(a, s.X_WA, b, s.X_WB, {}, context_).distance;
+    const double before = distance(Posed(Obb4Tree(old), s.X_WA), Posed(b, s.X_WB), {}, context_)
+                              .distance,
+                 after = distance(Posed(a, s.X_WA), Posed(b, s.X_WB), {}, context_).distance;
     const double scale = std::max(test::errorScale(s.a, s.X_WA), test::errorScale(s.b, s.X_WB));
     ASSERT_EQ(after == 0, !grown.empty());
     ASSERT_LE(after, before + 2 * (1e-12 * before + 4 * kUnit * scale)) << "farther when grown";
@@ -253,9 +257,12 @@ TEST_F(SoupQueries, HugeSoups) {
     const Soups s = anySoups(random, count);
     const Obb4Tree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
-    const TrianglePairs pairs = pairsOf(contacts(a, s.X_WA, b, s.X_WB, context_));
-    ASSERT_EQ(pairs, pairsOf(contacts(binaryA, s.X_WA, binaryB, s.X_WB, context_))) << n;
-    ASSERT_EQ(interference(a, s.X_WA, b, s.X_WB, context_).has_value(), !pairs.empty()) << n;
+    const TrianglePairs pairs = pairsOf(contacts(Posed(a, s.X_WA), Posed(b, s.X_WB), context_));
+    ASSERT_EQ(pairs, pairsOf(contacts(Posed(binaryA, s.X_WA), Posed(binaryB, s.X_WB), context_)))
+        << n;
+    ASSERT_EQ(interference(Posed(a, s.X_WA), Posed(b, s.X_WB), context_).has_value(),
+              !pairs.empty())
+        << n;
     expectRationals(random, s, pairs, touching, apart);
     ASSERT_FALSE(HasFatalFailure()) << n;
     std::cout << pairs.size() << " contacts\n";

@@ -32,8 +32,7 @@ using test::PlacedPair;
 using Random = std::mt19937_64;
 
 bool touch(const PlacedPair& p) {
-  Counters counters;
-  return trianglesTouch(p.a, p.X_WA, p.b, p.X_WB, counters);
+  return trianglesTouch(p.a, p.X_WA, p.b, p.X_WB);
 }
 PlacedPair swapped(const PlacedPair& p) {
   return {p.b, p.a, p.X_WB, p.X_WA};
@@ -104,23 +103,25 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     const Obb4Tree a(meshA), b(meshB);
     const ObbTree binaryA(meshA), binaryB(meshB);
     QueryContext context;
-    ASSERT_EQ(interference(a, p.X_WA, b, p.X_WB, context).has_value(), expected);
-    ASSERT_EQ(interference(b, p.X_WB, a, p.X_WA, context).has_value(), expected);
-    ASSERT_EQ(interference(binaryA, p.X_WA, binaryB, p.X_WB, context).has_value(), expected);
-    const double d = distance(a, p.X_WA, b, p.X_WB, {}, context).distance;
+    ASSERT_EQ(interference(Posed(a, p.X_WA), Posed(b, p.X_WB), context).has_value(), expected);
+    ASSERT_EQ(interference(Posed(b, p.X_WB), Posed(a, p.X_WA), context).has_value(), expected);
+    ASSERT_EQ(interference(Posed(binaryA, p.X_WA), Posed(binaryB, p.X_WB), context).has_value(),
+              expected);
+    const double d = distance(Posed(a, p.X_WA), Posed(b, p.X_WB), {}, context).distance;
     ASSERT_EQ(d == 0, expected) << d;
-    ASSERT_EQ(distance(b, p.X_WB, a, p.X_WA, {}, context).distance == 0, expected);
-    ASSERT_EQ(distance(binaryA, p.X_WA, binaryB, p.X_WB, {}, context).distance == 0, expected);
+    ASSERT_EQ(distance(Posed(b, p.X_WB), Posed(a, p.X_WA), {}, context).distance == 0, expected);
+    ASSERT_EQ(distance(Posed(binaryA, p.X_WA), Posed(binaryB, p.X_WB), {}, context).distance == 0,
+              expected);
     // The error that distance.h promises. Without contact the distance is at least the smallest
     // normal number.
     const double scale = errorScale(p.a, p.X_WA, p.b, p.X_WB);
     const double off = 1e-12 * d + 4 * kUnit * scale + 0x1p-1022;
-    ASSERT_EQ(closerThan(a, p.X_WA, b, p.X_WB, 0, context), expected);
-    ASSERT_TRUE(closerThan(a, p.X_WA, b, p.X_WB, d + off, context)) << d;
-    ASSERT_TRUE(closerThan(binaryB, p.X_WB, binaryA, p.X_WA, d + off, context)) << d;
+    ASSERT_EQ(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), 0, context), expected);
+    ASSERT_TRUE(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), d + off, context)) << d;
+    ASSERT_TRUE(closerThan(Posed(binaryB, p.X_WB), Posed(binaryA, p.X_WA), d + off, context)) << d;
     const double below = d - 2 * off - 4 * kTiny;  // 4 kTiny: underflow in roundedUp
     if (below > 0) {
-      ASSERT_FALSE(closerThan(a, p.X_WA, b, p.X_WB, below, context)) << d;
+      ASSERT_FALSE(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), below, context)) << d;
     }
     if (expected) return expectSegment(random, p, scale);
     if (reference) {

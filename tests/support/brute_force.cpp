@@ -30,12 +30,11 @@ void forEachTouching(const TriangleMesh& a, const Transform& X_WA, const Triangl
     return all;
   };
   const auto rangesA = ranges(a, X_WA), rangesB = ranges(b, X_WB);
-  Counters counters;
   for (std::uint32_t s = 0; s < rangesA.size(); ++s)
     for (std::uint32_t t = 0; t < rangesB.size(); ++t)
       if (!(rangesA[s].low.array() > rangesB[t].high.array()).any() &&
           !(rangesB[t].low.array() > rangesA[s].high.array()).any() &&
-          trianglesTouch(corners(a, s), X_WA, corners(b, t), X_WB, counters) && found(s, t))
+          trianglesTouch(corners(a, s), X_WA, corners(b, t), X_WB) && found(s, t))
         return;
 }
 

@@ -15,7 +15,7 @@
 
 #include "collision/core/simd_target.h"
 #include "collision/geometry/mesh_file.h"
-#include "collision/hierarchy/with_volume.h"
+#include "collision/hierarchy/with_trees.h"
 #include "collision/motion/check_certificate.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/self_intersections.h"
@@ -66,26 +66,24 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
   for (const Body& a : bodies)
     for (const Body& b : bodies) {
       const Transform X_WA = test::anyPose(random, 0.5), X_WB = test::anyPose(random, 0.5);
-      addPair(interference(a, X_WA, b, X_WB, context, trees));
-      const Distance d = distance(a, X_WA, b, X_WB, {}, context, trees);
+      addPair(interference(Posed(a, X_WA), Posed(b, X_WB), context, trees));
+      const Distance d = distance(Posed(a, X_WA), Posed(b, X_WB), {}, context, trees);
       answers.add(d.distance);
       answers.add(d.p_WA);
       answers.add(d.p_WB);
       answers.add(d.a);
       answers.add(d.b);
       for (const double tolerance : {0.0, 0.01, 0.3})
-        answers.addVerdict(closerThan(a, X_WA, b, X_WB, tolerance, context, trees));
-      addPair(insideEachOther(a, X_WA, b, X_WB, context));
-      if (trees == TreeKind::obb4 || a.part() || b.part()) continue;
-      onVolumeTrees(trees, a, b, [&](auto overlap, const auto& treeA, const auto& treeB) {
-        for (const TriangleContact& contact :
-             contacts<decltype(overlap)>(treeA, X_WA, treeB, X_WB, context)) {
-          answers.add(contact.a);
-          answers.add(contact.b);
-          answers.add(contact.p_W);
-          answers.add(contact.q_W);
-        }
-      });
+        answers.addVerdict(closerThan(Posed(a, X_WA), Posed(b, X_WB), tolerance, context, trees));
+      addPair(insideEachOther(Posed(a, X_WA), Posed(b, X_WB), context));
+      if (a.part() || b.part()) continue;
+      for (const TriangleContact& contact :
+           contacts(Posed(a, X_WA), Posed(b, X_WB), context, trees)) {
+        answers.add(contact.a);
+        answers.add(contact.b);
+        answers.add(contact.p_W);
+        answers.add(contact.q_W);
+      }
     }
   for (const Body& body : bodies)
     if (!body.part())

@@ -33,7 +33,7 @@ class Obb4TreePoses : public test::EveryTarget {
   }
   double distanceOf(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                     const Transform& X_WB) {
-    return distance(ObbTree(a), X_WA, ObbTree(b), X_WB, {}, context_).distance;
+    return distance(Posed(ObbTree(a), X_WA), Posed(ObbTree(b), X_WB), {}, context_).distance;
   }
 
   std::mt19937_64 random_{testSeed(51)};

@@ -56,8 +56,8 @@ TEST_P(Fits, DeepTreesNeedNoCallStack) {
   const ObbTree tree(mesh, {GetParam()});
   EXPECT_GT(tree.depth(), 100U);
   QueryContext context;
-  EXPECT_TRUE(interference(tree, {}, tree, {}, context));
-  EXPECT_FALSE(interference(tree, {}, tree, {Mat3::Identity(), Vec3(0, 0, 2)}, context));
+  EXPECT_TRUE(interference(Posed(tree), Posed(tree), context));
+  EXPECT_FALSE(interference(Posed(tree), Posed(tree, {Mat3::Identity(), Vec3(0, 0, 2)}), context));
 }
 
 TEST_P(Fits, IdenticalTrianglesAreOneLeaf) {

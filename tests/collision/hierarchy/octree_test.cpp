@@ -42,9 +42,10 @@ TEST(Octree, AgreesWithBruteForceUnderTwoMaps) {
     for (Transform* X : {&X_WA, &X_WB}) X->t += (n % 3 ? 0 : 1e6) * Vec3(1, 2, 3);
     QueryContext context;
     const bool expected = test::bruteForceTouch(meshA, X_WA, meshB, X_WB);
-    ASSERT_EQ(interference(a, X_WA, b, X_WB, context).has_value(), expected) << n;
-    ASSERT_EQ(interference(b, X_WB, a, X_WA, context).has_value(), expected) << n;
-    ASSERT_EQ(interference(a, X_WA, objects, X_WB, context).has_value(), expected) << n;
+    ASSERT_EQ(interference(Posed(a, X_WA), Posed(b, X_WB), context).has_value(), expected) << n;
+    ASSERT_EQ(interference(Posed(b, X_WB), Posed(a, X_WA), context).has_value(), expected) << n;
+    ASSERT_EQ(interference(Posed(a, X_WA), Posed(objects, X_WB), context).has_value(), expected)
+        << n;
     touching += expected;
   }
   EXPECT_GT(touching, 10);
@@ -62,8 +63,9 @@ TEST(Octree, SharedWorkloads) {
     int wrong = 0;
     const std::size_t step = test::stressAsked() ? 1 : name[0] == 'a' ? 20 : 25;
     for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
-      wrong += interference(a, {}, b, w.poses[i], context).has_value() != (w.hit[i] == 1);
-      wrong += interference(a, {}, objects, w.poses[i], context).has_value() != (w.hit[i] == 1);
+      wrong += interference(Posed(a), Posed(b, w.poses[i]), context).has_value() != (w.hit[i] == 1);
+      wrong += interference(Posed(a), Posed(objects, w.poses[i]), context).has_value() !=
+               (w.hit[i] == 1);
     }
     EXPECT_EQ(wrong, 0) << name;
   }

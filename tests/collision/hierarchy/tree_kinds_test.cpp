@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/hierarchy/with_volume.h"
+#include "collision/hierarchy/with_trees.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
 

@@ -89,8 +89,9 @@ TYPED_TEST(VolumeTrees, DeepTreesNeedNoCallStack) {
         tree.depth(),
         params.split == SplitRule::mean && params.building == TreeBuilding::topDown ? 50U : 8U);
     QueryContext context;
-    EXPECT_TRUE(interference(tree, {}, tree, {}, context));
-    EXPECT_FALSE(interference(tree, {}, tree, {Mat3::Identity(), Vec3(0, 0, 2)}, context));
+    EXPECT_TRUE(interference(Posed(tree), Posed(tree), context));
+    EXPECT_FALSE(
+        interference(Posed(tree), Posed(tree, {Mat3::Identity(), Vec3(0, 0, 2)}), context));
   }
 }
 
@@ -127,8 +128,8 @@ TYPED_TEST(VolumeTrees, RefitContainsWhatMoved) {
       tree.refit(mesh);
       EXPECT_EQ(tree.check(), std::nullopt) << test::str(params);
       QueryContext context;
-      EXPECT_EQ(interference(tree, {}, b, {}, context).has_value(),
-                interference(VolumeTree<TypeParam>(mesh), {}, b, {}, context).has_value());
+      EXPECT_EQ(interference(Posed(tree), Posed(b), context).has_value(),
+                interference(Posed(VolumeTree<TypeParam>(mesh)), Posed(b), context).has_value());
     }
     // Refitted to the mesh that it was built from, a tree has volumes as good as new.
     const VolumeTree<TypeParam> fresh(mesh, params);

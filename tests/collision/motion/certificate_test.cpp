@@ -237,7 +237,8 @@ TEST_P(Certificate, WhatIsAcceptedHolds) {
     for (int k = 0; k <= 64; ++k) {
       Transform X = c.motion.at(k / 64.0);
       const auto apart = [&] {
-        return distance(fixed.binaryTree(), {}, moving.binaryTree(), X, {}, c.context).distance;
+        return distance(Posed(fixed.binaryTree()), Posed(moving.binaryTree(), X), {}, c.context)
+            .distance;
       };
       least = std::min(least, apart());
       const Vec3 away = Vec3::NullaryExpr([&] { return random() % 2 ? 1.0 : -1.0; });
@@ -329,7 +330,8 @@ TEST_P(Certificate, RandomMotions) {
       for (int k = 0; k <= 4; ++k) {
         const Transform X = c.motion.at(i.t0 + (i.t1 - i.t0) * k / 4);
         const double d =
-            distance(fixed.binaryTree(), {}, moving.binaryTree(), X, {}, c.context).distance;
+            distance(Posed(fixed.binaryTree()), Posed(moving.binaryTree(), X), {}, c.context)
+                .distance;
         ASSERT_GE(d, i.clearance * (1 - 1e-12) - 1e-14) << n;
       }
     free += result.verdict == MotionVerdict::free;
@@ -345,7 +347,8 @@ TEST_P(Certificate, RandomMotions) {
     const Body point = bodyOf(dot);
     const Transform X = c.motion.at(result.contactTime);
     for (const auto& [body, pose] : {std::pair(&fixed, Transform()), std::pair(&moving, X)})
-      EXPECT_LT(distance(body->binaryTree(), pose, point.binaryTree(), {}, {}, c.context).distance,
+      EXPECT_LT(distance(Posed(body->binaryTree(), pose), Posed(point.binaryTree()), {}, c.context)
+                    .distance,
                 1e-13)
           << n;
   }

@@ -129,8 +129,8 @@ TEST(CertifyMotion, RandomEdges) {
                                            : undecided)++;
     const double until = r.verdict == MotionVerdict::free ? 1 : first.certifiedUntil;
     for (int i = 0; i <= 100 && until > 0; ++i)
-      ASSERT_FALSE(interference(fixed.binaryTree(), {}, moving.binaryTree(),
-                                motion.at(until * i / 100), context))
+      ASSERT_FALSE(interference(Posed(fixed.binaryTree()),
+                                Posed(moving.binaryTree(), motion.at(until * i / 100)), context))
           << n << " at " << i;
     const MotionResult back =
         certify(moving, fixed, RigidMotion::spatial(b, a, {}), options, context);
@@ -141,11 +141,11 @@ TEST(CertifyMotion, RandomEdges) {
           << n;
     } else if (r.verdict == MotionVerdict::contact) {
       ASSERT_NE(back.verdict, MotionVerdict::free);
-      ASSERT_TRUE(interference(fixed.binaryTree(), {}, moving.binaryTree(),
-                               motion.at(first.contactTime), context))
+      ASSERT_TRUE(interference(Posed(fixed.binaryTree()),
+                               Posed(moving.binaryTree(), motion.at(first.contactTime)), context))
           << n;
-      ASSERT_TRUE(interference(fixed.binaryTree(), {}, moving.binaryTree(),
-                               motion.at(r.contactTime), context))
+      ASSERT_TRUE(interference(Posed(fixed.binaryTree()),
+                               Posed(moving.binaryTree(), motion.at(r.contactTime)), context))
           << n;
       options.margin = 0.1;
       ASSERT_NE(certify(moving, fixed, motion, options, context).verdict, MotionVerdict::free) << n;

@@ -145,8 +145,9 @@ TEST(CertifyMotion, RandomChainsAgainstSamples) {
     ++verdicts[static_cast<int>(r.verdict)];
     const auto touches = [&](double t) {
       const auto X = motion.pose(t);
-      return interference(bodyA.binaryTree(), {}, bodyB.binaryTree(),
-                          {X.R.cast<double>(), X.t.cast<double>()}, context);
+      return interference(Posed(bodyA.binaryTree()),
+                          Posed(bodyB.binaryTree(), {X.R.cast<double>(), X.t.cast<double>()}),
+                          context);
     };
     if (r.verdict == MotionVerdict::contact) {
       ASSERT_TRUE(touches(r.contactTime)) << n;

@@ -36,7 +36,8 @@ class EdgeMethods : public testing::TestWithParam<Proof> {
   }
   /// Reports contact at a static pose.
   bool touch(const Body& moving, const Body& fixed, const Transform& X) {
-    return interference(fixed.binaryTree(), {}, moving.binaryTree(), X, context_).has_value();
+    return interference(Posed(fixed.binaryTree()), Posed(moving.binaryTree(), X), context_)
+        .has_value();
   }
 
   MotionOptions options_;

@@ -87,7 +87,8 @@ TEST(MayMeet, RandomMotions) {
     sideways += without == 0;
     for (int k = -8; k <= 8; ++k) {
       const Transform X = motion.at(0.5 + h * k / 8);
-      const double d = distance(a.binaryTree(), {}, b.binaryTree(), X, {}, context).distance;
+      const double d =
+          distance(Posed(a.binaryTree()), Posed(b.binaryTree(), X), {}, context).distance;
       ASSERT_GE(d, bound * (1 - 1e-12) - 1e-14) << n << " at " << k;
     }
   }
@@ -143,8 +144,9 @@ TEST(MayMeet, RandomMotionsOfBoth) {
     }
     for (int k = -8; k <= 8; ++k) {
       const double t = 0.5 + h * k / 8;
-      const double d =
-          distance(a.binaryTree(), goesA.at(t), b.binaryTree(), goesB.at(t), {}, context).distance;
+      const double d = distance(Posed(a.binaryTree(), goesA.at(t)),
+                                Posed(b.binaryTree(), goesB.at(t)), {}, context)
+                           .distance;
       ASSERT_GE(d, bound * (1 - 1e-12) - 1e-14) << n << " at " << k;
     }
     ballA.secondOrder = HUGE_VAL;

@@ -80,7 +80,7 @@ TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
     const bool few = w.a.triangles.size() * w.b.triangles.size() < 40'000'000;
     for (std::size_t i = 0; i < w.poses.size(); i += step) {
       const Transform& X = w.poses[i];
-      const auto all = contacts(a, {}, b, X, context);
+      const auto all = contacts(Posed(a), Posed(b, X), context);
       Pairs pairs, mirrored;
       for (const TriangleContact& c : all) {
         pairs.insert({c.a, c.b});
@@ -93,7 +93,8 @@ TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
       if (few) {
         EXPECT_EQ(pairs, test::bruteForcePairs(w.a, {}, w.b, X)) << name << " pose " << i;
       }
-      for (const TriangleContact& c : contacts(b, X, a, {}, context)) mirrored.insert({c.b, c.a});
+      for (const TriangleContact& c : contacts(Posed(b, X), Posed(a), context))
+        mirrored.insert({c.b, c.a});
       EXPECT_EQ(mirrored, pairs) << name << " pose " << i;
       found += all.size();
     }
@@ -209,13 +210,14 @@ TEST(Contacts, UnderTwoMapsThatAreOnlyNearlyRigid) {
     const ObbTree a(meshes[0]), b(meshes[1]);
     QueryContext context;
     Pairs pairs;
-    for (const TriangleContact& c : contacts(a, maps[0], b, maps[1], context)) {
+    for (const TriangleContact& c : contacts(Posed(a, maps[0]), Posed(b, maps[1]), context)) {
       pairs.insert({c.a, c.b});
       expectSound({c.p_W, c.q_W}, corners(meshes[0], c.a), maps[0], corners(meshes[1], c.b),
                   maps[1]);
     }
     EXPECT_EQ(pairs, test::bruteForcePairs(meshes[0], maps[0], meshes[1], maps[1])) << "case " << n;
-    EXPECT_EQ(pairs.empty(), !interference(a, maps[0], b, maps[1], context)) << "case " << n;
+    EXPECT_EQ(pairs.empty(), !interference(Posed(a, maps[0]), Posed(b, maps[1]), context))
+        << "case " << n;
     found += pairs.size();
   }
   EXPECT_GT(found, 100u);

@@ -24,7 +24,7 @@ struct Solid {
 
 bool holds(const Solid& solid, const Vec3& p) {
   QueryContext context;
-  return containing(solid, {}, p, {}, context).has_value();
+  return containing(Posed<MeshBody>(solid), p, {}, context).has_value();
 }
 
 TEST(MeshComponents, SharedEdgesConnectSharedCornersDoNot) {
@@ -79,9 +79,9 @@ TEST(Containment, AHollowShellIsFilled) {
   EXPECT_TRUE(holds(robot, Vec3(0, 0, 0)));
   QueryContext context;
   const Solid obstacle(cube(Vec3(0.1, 0.2, 0.3), 0.1));
-  EXPECT_FALSE(interference(robot.tree, {}, obstacle.tree, {}, context));
-  EXPECT_TRUE(enclosed(robot, {}, obstacle, {}, context));
-  EXPECT_FALSE(enclosed(obstacle, {}, robot, {}, context));
+  EXPECT_FALSE(interference(Posed(robot.tree), Posed(obstacle.tree), context));
+  EXPECT_TRUE(enclosed(Posed<MeshBody>(robot), Posed<MeshBody>(obstacle), context));
+  EXPECT_FALSE(enclosed(Posed<MeshBody>(obstacle), Posed<MeshBody>(robot), context));
 }
 
 TEST(Containment, OneComponentInsideAnotherOutside) {
@@ -90,24 +90,25 @@ TEST(Containment, OneComponentInsideAnotherOutside) {
   test::addBox(mesh, Vec3(0.2, 0, 0.1), Vec3(0.4, 0.2, 0.3));
   const Solid inner(mesh);
   QueryContext context;
-  const auto hit = enclosed(solid, {}, inner, {}, context);
+  const auto hit = enclosed(Posed<MeshBody>(solid), Posed<MeshBody>(inner), context);
   ASSERT_TRUE(hit);
   EXPECT_LT(hit->a, 12U);
   EXPECT_GE(hit->b, 12U) << "a triangle of the component inside";
   const Transform away{Mat3::Identity(), Vec3(0, 4, 0)};
-  EXPECT_FALSE(enclosed(solid, away, inner, {}, context));
+  EXPECT_FALSE(enclosed(Posed<MeshBody>(solid, away), Posed<MeshBody>(inner), context));
 }
 
 TEST(Containment, PrimitivesInSolidMeshes) {
   const Solid solid(cube(Vec3(0, 0, 0), 1));
   QueryContext context;
   const ConvexPart ball{{Vec3(0.2, 0.1, 0)}, 0.1, false};
-  EXPECT_TRUE(enclosed(solid, {}, ball, {}, context));
-  EXPECT_FALSE(enclosed(solid, {}, ball, {Mat3::Identity(), Vec3(3, 0, 0)}, context));
+  EXPECT_TRUE(enclosed(Posed<MeshBody>(solid), Posed(ball), context));
+  EXPECT_FALSE(
+      enclosed(Posed<MeshBody>(solid), Posed(ball, {Mat3::Identity(), Vec3(3, 0, 0)}), context));
   // A convex part is solid by itself: a mesh inside it is reported by `interference`.
   const ObbTree big(ConvexPart{{Vec3(0, 0, 0)}, 5, false});
-  EXPECT_TRUE(interference(big, {}, solid.tree, {}, context));
-  EXPECT_TRUE(interference(solid.tree, {}, big, {}, context));
+  EXPECT_TRUE(interference(Posed(big), Posed(solid.tree), context));
+  EXPECT_TRUE(interference(Posed(solid.tree), Posed(big), context));
 }
 
 /// Points below the apex of a fan of thousands of needles, where the first ray may meet edges.
@@ -142,7 +143,8 @@ TEST(Containment, FineMeshesUnderTwoMaps) {
     const Transform X_SP{turn(), Vec3(real(), real(), real())};
     const Transform X_WP = X_WS * X_SP;
     const Vec3 local = X_SP.m.transpose() * (p - X_SP.t);
-    EXPECT_EQ(containing(solid, X_WS, local, X_WP, context).has_value(), depth > 0) << k;
+    EXPECT_EQ(containing(Posed<MeshBody>(solid, X_WS), local, X_WP, context).has_value(), depth > 0)
+        << k;
     inside += depth > 0;
   }
   EXPECT_GT(inside, 300);

@@ -52,39 +52,37 @@ template <class Tree>
 Distance checked(const Tree& a, const Items& itemsA, const Transform& X_WA, const Tree& b,
                  const Items& itemsB, const Transform& X_WB) {
   QueryContext context;
-  const bool touch = interference(a, X_WA, b, X_WB, context).has_value();
-  const Distance d = distance(a, X_WA, b, X_WB, {}, context),
-                 back = distance(b, X_WB, a, X_WA, {}, context);
+  const bool touch = interference(Posed(a, X_WA), Posed(b, X_WB), context).has_value();
+  const Distance d = distance(Posed(a, X_WA), Posed(b, X_WB), {}, context),
+                 back = distance(Posed(b, X_WB), Posed(a, X_WA), {}, context);
   EXPECT_EQ(d.distance == 0, touch);
   EXPECT_EQ(back.distance == 0, touch);
-  Counters counters;
   double truth = HUGE_VAL;
   for (std::size_t i = 0; i < itemsA.size(); ++i)
     for (std::size_t k = 0; k < itemsB.size(); ++k)
-      truth = std::min(
-          truth,
-          convexDistance({itemsA.set(i), X_WA}, {itemsB.set(k), X_WB}, 0, 0, counters).distance);
+      truth =
+          std::min(truth, convexDistance({itemsA.set(i), X_WA}, {itemsB.set(k), X_WB}).distance);
   const double size = reachOf(itemsA, X_WA) + reachOf(itemsB, X_WB),
                allowed = 1e-12 * truth + 4 * kUnit * size;
   const ConvexPart p{{d.p_WA}, 0, false}, q{{d.p_WB}, 0, false};
   const double surface = (touch ? 0x1p-44 : 16 * kUnit) * size;
-  EXPECT_LE(convexDistance({itemsA.set(d.a), X_WA}, {p, {}}, 0, 0, counters).distance, surface);
-  EXPECT_LE(convexDistance({itemsB.set(d.b), X_WB}, {q, {}}, 0, 0, counters).distance, surface);
+  EXPECT_LE(convexDistance({itemsA.set(d.a), X_WA}, {p, {}}).distance, surface);
+  EXPECT_LE(convexDistance({itemsB.set(d.b), X_WB}, {q, {}}).distance, surface);
   EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, 4 * kUnit * size);
-  EXPECT_EQ(closerThan(a, X_WA, b, X_WB, 0, context), touch);
+  EXPECT_EQ(closerThan(Posed(a, X_WA), Posed(b, X_WB), 0, context), touch);
   if (touch) {
     EXPECT_EQ(truth, 0);
-    EXPECT_TRUE(closerThan(a, X_WA, b, X_WB, 1e-9, context));
+    EXPECT_TRUE(closerThan(Posed(a, X_WA), Posed(b, X_WB), 1e-9, context));
     return d;
   }
   EXPECT_NEAR(d.distance, truth, allowed);
   EXPECT_NEAR(back.distance, truth, allowed);
-  EXPECT_TRUE(closerThan(a, X_WA, b, X_WB, d.distance + allowed, context));
+  EXPECT_TRUE(closerThan(Posed(a, X_WA), Posed(b, X_WB), d.distance + allowed, context));
   if (d.distance > 4 * allowed) {
-    EXPECT_FALSE(closerThan(a, X_WA, b, X_WB, d.distance - 2 * allowed, context));
-    EXPECT_FALSE(closerThan(b, X_WB, a, X_WA, d.distance / 2, context));
+    EXPECT_FALSE(closerThan(Posed(a, X_WA), Posed(b, X_WB), d.distance - 2 * allowed, context));
+    EXPECT_FALSE(closerThan(Posed(b, X_WB), Posed(a, X_WA), d.distance / 2, context));
   }
-  const Distance lax = distance(a, X_WA, b, X_WB, {0.1, 0.01}, context);
+  const Distance lax = distance(Posed(a, X_WA), Posed(b, X_WB), {0.1, 0.01}, context);
   EXPECT_GE(lax.distance, truth - allowed);
   EXPECT_LE(lax.distance, 1.1 * truth + 0.01 + allowed);
   return d;
@@ -142,12 +140,12 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
     Transform X_WB = anyPose(random, 1);
     if (n % 2) X_WB.m = X_WA.m;
     QueryContext context;
-    Distance truth = distance(meshA, X_WA, meshB, X_WB, {}, context);
+    Distance truth = distance(Posed(meshA, X_WA), Posed(meshB, X_WB), {}, context);
     // A box inside a box is a contact of solids, but not of surfaces.
-    if (truth.distance == 0 || interference(a, X_WA, b, X_WB, context)) continue;
+    if (truth.distance == 0 || interference(Posed(a, X_WA), Posed(b, X_WB), context)) continue;
     for (int round = 0; round < 2; ++round) {
       for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&a, &meshB), std::pair(&meshA, &b)}) {
-        const double found = distance(*s, X_WA, *t, X_WB, {}, context).distance;
+        const double found = distance(Posed(*s, X_WA), Posed(*t, X_WB), {}, context).distance;
         const double size = X_WA.t.norm() + X_WB.t.norm() + sizeA.norm() + sizeB.norm();
         EXPECT_NEAR(found, truth.distance, 2e-12 * truth.distance + 8 * kUnit * size) << n;
         ++apart;
@@ -155,7 +153,7 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
       // The second round is close to contact.
       const Vec3 way = truth.p_WA - truth.p_WB;
       X_WB.t += way * (1 - std::pow(10.0, -1 - n % 11));
-      truth = distance(meshA, X_WA, meshB, X_WB, {}, context);
+      truth = distance(Posed(meshA, X_WA), Posed(meshB, X_WB), {}, context);
       if (truth.distance == 0) break;
     }
   }
@@ -172,8 +170,8 @@ TEST(DistanceOfParts, LooksAtFewTriangles) {
   for (const ConvexPart& part : test::parts(random, 10, 0.2)) {
     const ObbTree b(part);
     const Transform X_WB{anyPose(random, 1).m, Vec3(1.5, 0.5, 0) + anyPose(random, 0.5).t};
-    distance(a, {}, b, X_WB, {}, context);
-    closerThan(a, {}, b, X_WB, 0.01, context);
+    distance(Posed(a), Posed(b, X_WB), {}, context);
+    closerThan(Posed(a), Posed(b, X_WB), 0.01, context);
     queries += 2;
   }
   std::cout << context.counters.triangleTests / queries << " of " << mesh.triangles.size()

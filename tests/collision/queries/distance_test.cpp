@@ -46,7 +46,7 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
     Transform X_WA = anyPose(random, scale), X_WB = X_WA;
     if (n % 3 == 0) X_WB = anyPose(random, scale);
     Counters counters;
-    if (trianglesTouch(a, X_WA, b, X_WB, counters)) continue;
+    if (trianglesTouch(a, X_WA, b, X_WB)) continue;
     const double truth = test::referenceDistance(a, X_WA, b, X_WB);
     const double size = std::max(errorScale(a, X_WA), errorScale(b, X_WB));
     const WitnessPoints w = witnessPoints(a, X_WA, b, X_WB);
@@ -121,9 +121,9 @@ TYPED_TEST(VolumeDistance, AgreesWithBruteForceAndIsSymmetric) {
     X_WB.t += anyPose(random, 1.5).t;
     if (n % 2) X_WB.m = anyPose(random, 1).m;
     QueryContext context;
-    const bool touch = interference(a, X_WA, b, X_WB, context).has_value();
-    const Distance d = distance(a, X_WA, b, X_WB, {}, context),
-                   back = distance(b, X_WB, a, X_WA, {}, context);
+    const bool touch = interference(Posed(a, X_WA), Posed(b, X_WB), context).has_value();
+    const Distance d = distance(Posed(a, X_WA), Posed(b, X_WB), {}, context),
+                   back = distance(Posed(b, X_WB), Posed(a, X_WA), {}, context);
     ASSERT_EQ(d.distance == 0, touch) << n;
     EXPECT_EQ(back.distance == 0, touch);
     if (touch) {
@@ -135,7 +135,7 @@ TYPED_TEST(VolumeDistance, AgreesWithBruteForceAndIsSymmetric) {
                  size = std::max(errorScale(meshA, X_WA), errorScale(meshB, X_WB));
     EXPECT_NEAR(d.distance, truth, 1e-12 * truth) << n;
     EXPECT_NEAR(back.distance, truth, 1e-12 * truth + 4 * kUnit * size) << n;
-    const Distance loose = distance(a, X_WA, b, X_WB, {0.1, 0.01}, context);
+    const Distance loose = distance(Posed(a, X_WA), Posed(b, X_WB), {0.1, 0.01}, context);
     EXPECT_GE(loose.distance, truth * (1 - 1e-12));
     EXPECT_LE(loose.distance, 1.1 * truth + 0.01 + 1e-10);
   }

@@ -30,8 +30,8 @@ TEST_P(Fits, SharedWorkloads) {
     const ObbTree a(w.a, {GetParam()}), b(w.b, {GetParam()});
     int wrong = 0;
     for (std::size_t i = 0; i < w.poses.size(); i += test::kSlowdown) {
-      wrong += interference(a, {}, b, w.poses[i], context).has_value() != (w.hit[i] == 1);
-      wrong += interference(b, w.poses[i], a, {}, context).has_value() != (w.hit[i] == 1);
+      wrong += interference(Posed(a), Posed(b, w.poses[i]), context).has_value() != (w.hit[i] == 1);
+      wrong += interference(Posed(b, w.poses[i]), Posed(a), context).has_value() != (w.hit[i] == 1);
     }
     EXPECT_EQ(wrong, 0) << name;
     poses += static_cast<int>(w.poses.size());
@@ -63,7 +63,7 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
     }
     QueryContext context;
     const bool expected = test::bruteForceTouch(meshA, X_WA, meshB, X_WB);
-    const auto found = interference(a, X_WA, b, X_WB, context);
+    const auto found = interference(Posed(a, X_WA), Posed(b, X_WB), context);
     ASSERT_EQ(found.has_value(), expected) << "case " << n;
     if (found) {
       EXPECT_TRUE(
@@ -99,11 +99,11 @@ TEST_P(Fits, ExactMapDecidesDeepInATree) {
         Vec3(real(), real(), real()) * 1e3};
     const ObbTree b(tip, {GetParam()});
     QueryContext context;
-    EXPECT_TRUE(interference(a, X_WA, b, X_WA, context))
+    EXPECT_TRUE(interference(Posed(a, X_WA), Posed(b, X_WA), context))
         << k;  // equal maps: the shared corner is shared exactly
     Transform X_WB = X_WA;
     X_WB.t[0] += k % 2 ? 1e-3 : 0;
-    EXPECT_EQ(interference(a, X_WA, b, X_WB, context).has_value(),
+    EXPECT_EQ(interference(Posed(a, X_WA), Posed(b, X_WB), context).has_value(),
               test::bruteForceTouch(mesh, X_WA, tip, X_WB));
   }
 }
@@ -118,7 +118,7 @@ TEST_P(Fits, ExtremeSizes) {
     const ObbTree a(meshA, {GetParam()}), b(meshB, {GetParam()});
     EXPECT_EQ(a.check(), std::nullopt) << exponent;
     QueryContext context;
-    EXPECT_EQ(interference(a, {}, b, {}, context).has_value(),
+    EXPECT_EQ(interference(Posed(a), Posed(b), context).has_value(),
               test::bruteForceTouch(meshA, {}, meshB, {}))
         << exponent;
   }

@@ -56,11 +56,11 @@ TEST(Obb4Distance, FarApart) {
     Transform X_WB = anyPose(random, 1);
     X_WB.t *= away;
     QueryContext context;
-    const Distance d = distance(a, {}, b, X_WB, {}, context),
-                   reference = distance(same, {}, same, X_WB, {}, context);
+    const Distance d = distance(Posed(a), Posed(b, X_WB), {}, context),
+                   reference = distance(Posed(same), Posed(same, X_WB), {}, context);
     const double size = errorScale(corners(mesh, d.b), X_WB);
     EXPECT_NEAR(d.distance, reference.distance, 1e-12 * d.distance + 8 * kUnit * size) << away;
-    EXPECT_FALSE(closerThan(a, {}, b, X_WB, 0.5 * d.distance, context));
+    EXPECT_FALSE(closerThan(Posed(a), Posed(b, X_WB), 0.5 * d.distance, context));
   }
 }
 
@@ -86,9 +86,9 @@ TEST(Obb4Distance, AgreesWithBruteForceAndIsSymmetric) {
     if (n % 2) X_WB.m = anyPose(random, 1).m;
     if (n % 7 == 0) X_WA.m += 1e-5 * anyPose(random, 1).m;
     QueryContext context;
-    const bool touch = interference(a, X_WA, b, X_WB, context).has_value();
-    const Distance d = distance(a, X_WA, b, X_WB, {}, context),
-                   back = distance(b, X_WB, a, X_WA, {}, context);
+    const bool touch = interference(Posed(a, X_WA), Posed(b, X_WB), context).has_value();
+    const Distance d = distance(Posed(a, X_WA), Posed(b, X_WB), {}, context),
+                   back = distance(Posed(b, X_WB), Posed(a, X_WA), {}, context);
     ASSERT_EQ(d.distance == 0, touch) << n;
     EXPECT_EQ(back.distance == 0, touch);
     touching += touch;
@@ -100,11 +100,12 @@ TEST(Obb4Distance, AgreesWithBruteForceAndIsSymmetric) {
                  size = std::max(errorScale(meshA, X_WA), errorScale(meshB, X_WB));
     EXPECT_NEAR(d.distance, truth, 1e-12 * truth) << n;
     EXPECT_NEAR(back.distance, truth, 1e-12 * truth + 4 * kUnit * size) << n;
-    const Distance loose = distance(a, X_WA, b, X_WB, {0.1, 0.01 * unit}, context);
+    const Distance loose = distance(Posed(a, X_WA), Posed(b, X_WB), {0.1, 0.01 * unit}, context);
     EXPECT_GE(loose.distance, truth * (1 - 1e-12));
     EXPECT_LE(loose.distance, 1.1 * truth + 0.01 * unit + 1e-10 * truth);
     for (const double factor : {0.5, 0.999, 1.001, 2.0})
-      EXPECT_EQ(closerThan(a, X_WA, b, X_WB, factor * truth, context), factor > 1) << n;
+      EXPECT_EQ(closerThan(Posed(a, X_WA), Posed(b, X_WB), factor * truth, context), factor > 1)
+          << n;
   }
   EXPECT_GT(touching, 20);
   EXPECT_LT(touching, 250);
@@ -125,8 +126,8 @@ TEST(Obb4Distance, FeetOnEdges) {
   QueryContext context;
   for (int n = 0; n < 100; ++n) {
     const Transform X{turned(n), Vec3::Zero()};
-    EXPECT_NEAR(distance(a, X, b, X, {}, context).distance, 0.1, 4 * kUnit) << n;
-    EXPECT_TRUE(closerThan(a, X, b, X, 0.1 + 4 * kUnit, context)) << n;
+    EXPECT_NEAR(distance(Posed(a, X), Posed(b, X), {}, context).distance, 0.1, 4 * kUnit) << n;
+    EXPECT_TRUE(closerThan(Posed(a, X), Posed(b, X), 0.1 + 4 * kUnit, context)) << n;
   }
 }
 
@@ -144,7 +145,7 @@ TEST(Obb4Distance, NearTies) {
       for (Vec3& v : m->vertices) v = turned(n) * v;
     const Obb4Tree a(low), b(high);
     QueryContext context;
-    const Distance d = distance(a, {}, b, {}, {}, context);
+    const Distance d = distance(Posed(a), Posed(b), {}, context);
     EXPECT_EQ(d.a, 0U) << n;
     EXPECT_EQ(d.b, 0U) << n;
     EXPECT_NEAR(d.distance, 0.001, 8 * kUnit) << n;  // 2 of them for the corners' own rounding

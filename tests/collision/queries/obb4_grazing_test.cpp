@@ -130,11 +130,11 @@ TEST_P(Obb4Grazing, ThoseThatJustMeetTouch) {
     QueryContext context, other;
     const bool touch = test::bruteForceTouch(p.a, p.X_WA, p.b, p.X_WB);
     touching += touch;
-    ASSERT_EQ(interference(a, p.X_WA, b, p.X_WB, context).has_value(), touch) << n;
-    ASSERT_EQ(interference(b, p.X_WB, a, p.X_WA, context).has_value(), touch) << n;
+    ASSERT_EQ(interference(Posed(a, p.X_WA), Posed(b, p.X_WB), context).has_value(), touch) << n;
+    ASSERT_EQ(interference(Posed(b, p.X_WB), Posed(a, p.X_WA), context).has_value(), touch) << n;
     if (!touch) continue;
-    ASSERT_TRUE(closerThan(a, p.X_WA, b, p.X_WB, 1e-20 * p.size, other)) << n;
-    ASSERT_TRUE(closerThan(b, p.X_WB, a, p.X_WA, 1e-20 * p.size, other)) << n;
+    ASSERT_TRUE(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), 1e-20 * p.size, other)) << n;
+    ASSERT_TRUE(closerThan(Posed(b, p.X_WB), Posed(a, p.X_WA), 1e-20 * p.size, other)) << n;
   }
   EXPECT_GT(touching, 500 / test::kSlowdown);
 }
@@ -147,10 +147,10 @@ TEST_P(Obb4Grazing, ThoseThatAreAKnownDistanceApartAreNotFarther) {
     const Obb4Tree a(p.a), b(p.b);
     const double most = gap + 1e-12 * gap + 32 * kUnit * p.size;
     QueryContext context, other;
-    ASSERT_TRUE(closerThan(a, p.X_WA, b, p.X_WB, most, context)) << n << " " << gap;
-    ASSERT_TRUE(closerThan(b, p.X_WB, a, p.X_WA, most, context)) << n << " " << gap;
-    const double d = distance(a, p.X_WA, b, p.X_WB, {}, context).distance,
-                 e = distance(b, p.X_WB, a, p.X_WA, {}, other).distance;
+    ASSERT_TRUE(closerThan(Posed(a, p.X_WA), Posed(b, p.X_WB), most, context)) << n << " " << gap;
+    ASSERT_TRUE(closerThan(Posed(b, p.X_WB), Posed(a, p.X_WA), most, context)) << n << " " << gap;
+    const double d = distance(Posed(a, p.X_WA), Posed(b, p.X_WB), {}, context).distance,
+                 e = distance(Posed(b, p.X_WB), Posed(a, p.X_WA), {}, other).distance;
     ASSERT_LE(d, most) << n << " " << gap;
     ASSERT_LE(e, most) << n << " " << gap;
     ASSERT_NEAR(d, e, 2e-12 * d + 8 * kUnit * p.size) << n;

@@ -40,8 +40,10 @@ TEST_P(Obb4Interference, SharedWorkloads) {
       const Obb4Tree a(w.a, fit), b(w.b, fit);
       int wrong = 0;
       for (const std::size_t i : poses) {
-        wrong += interference(a, {}, b, w.poses[i], context).has_value() != (w.hit[i] == 1);
-        wrong += interference(b, w.poses[i], a, {}, context).has_value() != (w.hit[i] == 1);
+        wrong +=
+            interference(Posed(a), Posed(b, w.poses[i]), context).has_value() != (w.hit[i] == 1);
+        wrong +=
+            interference(Posed(b, w.poses[i]), Posed(a), context).has_value() != (w.hit[i] == 1);
       }
       EXPECT_EQ(wrong, 0) << name << ", " << fitName;
     }
@@ -66,9 +68,10 @@ TEST_P(Obb4Interference, AgreesWithBruteForceUnderTwoMaps) {
     }
     QueryContext context;
     const bool expected = bruteForceTouch(meshA, X_WA, meshB, X_WB);
-    const auto found = interference(a, X_WA, b, X_WB, context);
+    const auto found = interference(Posed(a, X_WA), Posed(b, X_WB), context);
     ASSERT_EQ(found.has_value(), expected) << "case " << n;
-    ASSERT_EQ(interference(b, X_WB, a, X_WA, context).has_value(), expected) << "case " << n;
+    ASSERT_EQ(interference(Posed(b, X_WB), Posed(a, X_WA), context).has_value(), expected)
+        << "case " << n;
     if (found) {
       EXPECT_TRUE(
           trianglesTouchExact(corners(meshA, found->a), X_WA, corners(meshB, found->b), X_WB));
@@ -93,11 +96,11 @@ TEST_P(Obb4Interference, ExtremeSizesAndRatios) {
       const Obb4Tree treeA(a), treeB(b);
       QueryContext context;
       Transform X;
-      EXPECT_EQ(interference(treeA, {}, treeB, X, context).has_value(),
+      EXPECT_EQ(interference(Posed(treeA), Posed(treeB, X), context).has_value(),
                 bruteForceTouch(a, {}, b, X))
           << i << " " << k;
       X.t = a.vertices[4] - b.vertices[7];
-      EXPECT_EQ(interference(treeA, {}, treeB, X, context).has_value(),
+      EXPECT_EQ(interference(Posed(treeA), Posed(treeB, X), context).has_value(),
                 bruteForceTouch(a, {}, b, X))
           << i << " " << k;
     }
@@ -120,8 +123,10 @@ TEST_P(Obb4Interference, ExactTouch) {
                                    {Vec3(2, 3, 4 + 0x1p-40), false},
                                    {Vec3(0, -0x1p-40, 0), false}}) {
     turn.t = t;
-    EXPECT_EQ(interference(a, {}, b, turn, context).has_value(), touches) << t.transpose();
-    EXPECT_EQ(interference(b, turn, a, {}, context).has_value(), touches) << t.transpose();
+    EXPECT_EQ(interference(Posed(a), Posed(b, turn), context).has_value(), touches)
+        << t.transpose();
+    EXPECT_EQ(interference(Posed(b, turn), Posed(a), context).has_value(), touches)
+        << t.transpose();
   }
 }
 
@@ -140,7 +145,7 @@ TEST(Obb4InterferenceOf, TargetsCountAlike) {
     for (const std::int64_t target : test::simdTargets()) {
       hwy::SetSupportedTargetsForTest(target);
       QueryContext context;
-      (void)interference(a, {}, b, X, context);
+      (void)interference(Posed(a), Posed(b, X), context);
       const bool fused = !(target & (HWY_SSSE3 | HWY_SSE4));
       const Counters& same = first.try_emplace(fused, context.counters).first->second;
       EXPECT_EQ(context.counters.boxTests, same.boxTests) << hwy::TargetName(target);
@@ -158,8 +163,8 @@ TEST(Obb4InterferenceOf, ContextsAreReused) {
     const Obb4Tree a(soup(random, 50, 0.2)), b(soup(random, 50, 0.2));
     const Transform X = anyPose(random, 0.8);
     QueryContext fresh;
-    EXPECT_EQ(interference(a, {}, b, X, used).has_value(),
-              interference(a, {}, b, X, fresh).has_value());
+    EXPECT_EQ(interference(Posed(a), Posed(b, X), used).has_value(),
+              interference(Posed(a), Posed(b, X), fresh).has_value());
   }
 }
 

@@ -1,9 +1,8 @@
-// Queries on 4-wide OBB trees start from the pair of triangles that answered last. Answers don't
-// depend on that pair: a context that was used for other poses, trees and orders answers as a fresh
-// one does.
+// Queries on 4-wide OBB trees start from a `LastPair`, the pair of triangles that answered last.
+// Answers don't depend on it: queries that start from the pair of other poses, trees and orders
+// answer as those that know none.
 #include <cmath>
 #include <deque>
-#include <optional>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -33,21 +32,20 @@ struct Body {
   Obb4Tree tree;
 };
 
-/// Runs every query on two bodies, with `used` and with fresh contexts, and compares the answers;
+/// Runs every query on two bodies, starting from `last` and from no pair, and compares the answers;
 /// returns whether the bodies touch.
 bool expectSame(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
-                QueryContext& used, const std::string& where) {
+                QueryContext& context, LastPair& last, const std::string& where) {
   SCOPED_TRACE(where);
-  QueryContext fresh;
-  const auto hit = interference(a.tree, X_WA, b.tree, X_WB, fresh),
-             warm = interference(a.tree, X_WA, b.tree, X_WB, used);
+  const auto hit = interference(Posed(a.tree, X_WA), Posed(b.tree, X_WB), context),
+             warm = interference(Posed(a.tree, X_WA), Posed(b.tree, X_WB), context, &last);
   EXPECT_EQ(warm.has_value(), hit.has_value());
   if (warm) {
     EXPECT_TRUE(
         trianglesTouchExact(corners(a.mesh, warm->a), X_WA, corners(b.mesh, warm->b), X_WB));
   }
-  const Distance d = distance(a.tree, X_WA, b.tree, X_WB, {}, fresh),
-                 e = distance(a.tree, X_WA, b.tree, X_WB, {}, used);
+  const Distance d = distance(Posed(a.tree, X_WA), Posed(b.tree, X_WB), {}, context),
+                 e = distance(Posed(a.tree, X_WA), Posed(b.tree, X_WB), {}, context, &last);
   EXPECT_EQ(e.distance == 0, hit.has_value());
   const double size = std::max(errorScale(a.mesh, X_WA), errorScale(b.mesh, X_WB)),
                allowed = 2e-12 * d.distance + 8 * kUnit * size;
@@ -55,13 +53,13 @@ bool expectSame(const Body& a, const Transform& X_WA, const Body& b, const Trans
   // The witness points are on the triangles reported.
   EXPECT_LE(test::referenceDistance(e.p_WA, corners(a.mesh, e.a), X_WA), 4 * kUnit * size);
   EXPECT_LE(test::referenceDistance(e.p_WB, corners(b.mesh, e.b), X_WB), 4 * kUnit * size);
-  const Distance loose = distance(a.tree, X_WA, b.tree, X_WB, {0.1, 0.001}, used);
+  const Distance loose =
+      distance(Posed(a.tree, X_WA), Posed(b.tree, X_WB), {0.1, 0.001}, context, &last);
   EXPECT_GE(loose.distance, d.distance - allowed);
   EXPECT_LE(loose.distance, 1.1 * d.distance + 0.001 + allowed);
   for (const double tolerance : {0.0, 0.01, 0.999 * d.distance, d.distance, 1.001 * d.distance}) {
-    QueryContext other;
-    EXPECT_EQ(closerThan(a.tree, X_WA, b.tree, X_WB, tolerance, used),
-              closerThan(a.tree, X_WA, b.tree, X_WB, tolerance, other))
+    EXPECT_EQ(closerThan(Posed(a.tree, X_WA), Posed(b.tree, X_WB), tolerance, context, &last),
+              closerThan(Posed(a.tree, X_WA), Posed(b.tree, X_WB), tolerance, context))
         << tolerance;
   }
   return hit.has_value();
@@ -81,6 +79,7 @@ TEST(Obb4LastPair, MotionsOfManyBodies) {
       to.push_back(anyPose(random, 1.2));
     }
     QueryContext context;
+    LastPair last[4][4];
     const int steps = (n % 2 ? 400 : 40) / test::kSlowdown;
     for (int k = 0; k <= 30 / test::kSlowdown; ++k) {
       std::vector<Transform> X;
@@ -92,7 +91,7 @@ TEST(Obb4LastPair, MotionsOfManyBodies) {
       for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t j = 0; j < bodies.size(); ++j) {
           if (i == j) continue;
-          touching += expectSame(bodies[i], X[i], bodies[j], X[j], context,
+          touching += expectSame(bodies[i], X[i], bodies[j], X[j], context, last[i][j],
                                  "bodies " + std::to_string(i) + " " + std::to_string(j) +
                                      " step " + std::to_string(k));
           ++cases;
@@ -118,19 +117,27 @@ TEST(Obb4LastPair, AnswersTheNextOne) {
   Transform X;
   X.t = Vec3(0, 0, 2);
   QueryContext context;
+  LastPair last;
   const auto boxTests = [&](auto&& ask) {
     context.counters = {};
     ask();
     return context.counters.boxTests;
   };
-  const auto touch = [&] { EXPECT_TRUE(interference(a.tree, {}, b.tree, X, context)); };
-  const auto close = [&] { EXPECT_TRUE(closerThan(a.tree, {}, b.tree, X, 0.01, context)); };
-  const auto far = [&] { EXPECT_GT(distance(a.tree, {}, b.tree, X, {}, context).distance, 0); };
+  const auto touch = [&] {
+    EXPECT_TRUE(interference(Posed(a.tree), Posed(b.tree, X), context, &last));
+  };
+  const auto close = [&] {
+    EXPECT_TRUE(closerThan(Posed(a.tree), Posed(b.tree, X), 0.01, context, &last));
+  };
+  const auto far = [&] {
+    EXPECT_GT(distance(Posed(a.tree), Posed(b.tree, X), {}, context, &last).distance, 0);
+  };
   EXPECT_GT(boxTests(touch), 0U);
   EXPECT_GT(boxTests(touch), 0U) << "a pair that was found once is not trusted yet";
   EXPECT_EQ(boxTests(touch), 0U);
   EXPECT_EQ(boxTests(close), 0U);
-  EXPECT_EQ(boxTests([&] { (void)distance(a.tree, {}, b.tree, X, {}, context); }), 0U);
+  EXPECT_EQ(boxTests([&] { (void)distance(Posed(a.tree), Posed(b.tree, X), {}, context, &last); }),
+            0U);
   X.t = Vec3(0, 0, 9);
   const auto cold = boxTests(far);
   EXPECT_LT(boxTests(far), cold);
@@ -141,14 +148,14 @@ TEST(Obb4LastPair, AnswersTheNextOne) {
 TEST(Obb4LastPair, CostsNothingWhereItHelpsNothing) {
   std::mt19937_64 random(test::testSeed(43));
   const Body a(soup(random, 300, 0.1)), b(soup(random, 300, 0.1));
-  QueryContext used;
+  QueryContext used, fresh;
+  LastPair last;
   std::uint64_t more = 0, all = 0;
   for (int n = 0; n < 300; ++n) {
     const Transform X = anyPose(random, 0.7);
-    QueryContext fresh;
-    used.counters = {};
-    (void)interference(a.tree, {}, b.tree, X, used);
-    (void)interference(a.tree, {}, b.tree, X, fresh);
+    used.counters = fresh.counters = {};
+    (void)interference(Posed(a.tree), Posed(b.tree, X), used, &last);
+    (void)interference(Posed(a.tree), Posed(b.tree, X), fresh);
     // A guess that fails costs one more pair of triangles.
     more += used.counters.triangleTests - fresh.counters.triangleTests;
     all += fresh.counters.triangleTests;
@@ -156,29 +163,27 @@ TEST(Obb4LastPair, CostsNothingWhereItHelpsNothing) {
   EXPECT_LE(1000 * more, all);
 }
 
-/// A tree may be destroyed and another one built at its address: smaller, elsewhere, touching or
-/// not. The remembered pair is then only a guess about the wrong tree.
-TEST(Obb4LastPair, TreesAtTheSameAddress) {
+/// The pair may be of other trees: smaller, elsewhere, touching or not. It is then only a bad
+/// guess.
+TEST(Obb4LastPair, OfOtherTrees) {
   std::mt19937_64 random(test::testSeed(44));
   TriangleMesh far = slats(1);
   for (Vec3& v : far.vertices) v += Vec3(0, 0, 50);
   const std::vector<Body> bodies = {Body(slats(60)), Body(soup(random, 150, 0.2)), Body(far),
                                     Body(soup(random, 1, 0.3)), Body(slats(2))};
   QueryContext context;
-  std::optional<Obb4Tree> a, b;
-  const auto* const home = &a.emplace(bodies[0].mesh);
+  LastPair last;
   for (int n = 0; n < 200 / test::kSlowdown; ++n) {
     const Body &bodyA = bodies[random() % bodies.size()], &bodyB = bodies[random() % bodies.size()];
-    ASSERT_EQ(&a.emplace(bodyA.mesh), home);
-    b.emplace(bodyB.mesh);
+    const Obb4Tree &a = bodyA.tree, &b = bodyB.tree;
     Transform X = anyPose(random, 0.3);
     X.t.z() += n % 2 ? 3 : 0;
     const bool touch = test::bruteForceTouch(bodyA.mesh, {}, bodyB.mesh, X),
                close = test::bruteForceDistance(bodyA.mesh, {}, bodyB.mesh, X) <= 1e-3;
-    for (int i = 0; i < 3; ++i) {  // so that the remembered pair is trusted
-      EXPECT_EQ(interference(*a, {}, *b, X, context).has_value(), touch) << n;
-      EXPECT_EQ(closerThan(*a, {}, *b, X, 1e-3, context), close) << n;
-      const Distance d = distance(*a, {}, *b, X, {}, context);
+    for (int i = 0; i < 3; ++i) {  // so that the pair is trusted
+      EXPECT_EQ(interference(Posed(a), Posed(b, X), context, &last).has_value(), touch) << n;
+      EXPECT_EQ(closerThan(Posed(a), Posed(b, X), 1e-3, context, &last), close) << n;
+      const Distance d = distance(Posed(a), Posed(b, X), {}, context, &last);
       EXPECT_EQ(d.distance == 0, touch) << n;
       EXPECT_LT(d.a, bodyA.mesh.triangles.size());
       EXPECT_LT(d.b, bodyB.mesh.triangles.size());

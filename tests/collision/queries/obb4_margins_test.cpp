@@ -45,10 +45,10 @@ TEST_P(Obb4Margins, SmallTrianglesInARow) {
     TriangleMesh one;
     add(one, p + Vec3(-s, s, s), p, p + Vec3(-s, -s, s));
     const Obb4Tree b(one);
-    EXPECT_TRUE(interference(a, {}, b, {}, context)) << i;
-    EXPECT_TRUE(interference(b, {}, a, {}, context)) << i;
-    EXPECT_EQ(distance(b, {}, a, {}, {}, context).distance, 0) << i;
-    EXPECT_TRUE(closerThan(b, {}, a, {}, 0x1p-60, context)) << i;
+    EXPECT_TRUE(interference(Posed(a), Posed(b), context)) << i;
+    EXPECT_TRUE(interference(Posed(b), Posed(a), context)) << i;
+    EXPECT_EQ(distance(Posed(b), Posed(a), {}, context).distance, 0) << i;
+    EXPECT_TRUE(closerThan(Posed(b), Posed(a), 0x1p-60, context)) << i;
   }
 }
 
@@ -102,9 +102,9 @@ TEST_P(Obb4Margins, LargestMeshes) {
       ++touching;
       const Obb4Tree a(c.a), b(c.b);
       QueryContext context;
-      EXPECT_TRUE(interference(a, {}, b, c.X, context)) << exponent << " " << n;
-      EXPECT_TRUE(interference(b, c.X, a, {}, context)) << exponent << " " << n;
-      EXPECT_TRUE(closerThan(a, {}, b, c.X, 1, context)) << exponent << " " << n;
+      EXPECT_TRUE(interference(Posed(a), Posed(b, c.X), context)) << exponent << " " << n;
+      EXPECT_TRUE(interference(Posed(b, c.X), Posed(a), context)) << exponent << " " << n;
+      EXPECT_TRUE(closerThan(Posed(a), Posed(b, c.X), 1, context)) << exponent << " " << n;
     }
   EXPECT_GT(touching, 150 / test::kSlowdown);
 }
@@ -136,8 +136,8 @@ TEST_P(Obb4Margins, RadiusWhoseSquareIsFlushed) {
   const Flushing flushing;
   const Obb4Tree a(small), b(large);
   QueryContext context;
-  EXPECT_TRUE(interference(a, {}, b, X, context));
-  EXPECT_TRUE(interference(b, X, a, {}, context));
+  EXPECT_TRUE(interference(Posed(a), Posed(b, X), context));
+  EXPECT_TRUE(interference(Posed(b, X), Posed(a), context));
 }
 
 /// Small entries of a rotation that are flushed are multiplied by the unit of a large mesh.
@@ -152,8 +152,8 @@ TEST_P(Obb4Margins, EntriesThatAreFlushed) {
       const Flushing flushing;
       const Obb4Tree a(c.a), b(c.b);
       QueryContext context;
-      EXPECT_TRUE(interference(a, {}, b, c.X, context)) << exponent << " " << n;
-      EXPECT_TRUE(interference(b, c.X, a, {}, context)) << exponent << " " << n;
+      EXPECT_TRUE(interference(Posed(a), Posed(b, c.X), context)) << exponent << " " << n;
+      EXPECT_TRUE(interference(Posed(b, c.X), Posed(a), context)) << exponent << " " << n;
     }
   EXPECT_GT(touching, 80);
 }
@@ -189,8 +189,8 @@ TEST_P(Obb4Margins, DifferencesThatAreFlushed) {
     const Flushing flushing;
     const Obb4Tree treeA(a), treeB(b);
     QueryContext context;
-    ASSERT_TRUE(interference(treeA, {}, treeB, X, context)) << n;
-    ASSERT_TRUE(interference(treeB, X, treeA, {}, context)) << n;
+    ASSERT_TRUE(interference(Posed(treeA), Posed(treeB, X), context)) << n;
+    ASSERT_TRUE(interference(Posed(treeB, X), Posed(treeA), context)) << n;
   }
   EXPECT_GT(touching, 5'000 / test::kSlowdown);
 }
@@ -223,8 +223,8 @@ TEST_P(Obb4Margins, ProductsThatAreFlushed) {
     const Flushing flushing;
     const Obb4Tree treeA(a), treeB(b);
     QueryContext context;
-    ASSERT_TRUE(interference(treeA, {}, treeB, {}, context)) << n;
-    ASSERT_TRUE(interference(treeB, {}, treeA, {}, context)) << n;
+    ASSERT_TRUE(interference(Posed(treeA), Posed(treeB), context)) << n;
+    ASSERT_TRUE(interference(Posed(treeB), Posed(treeA), context)) << n;
   }
   EXPECT_GT(touching, 5'000 / test::kSlowdown);
 }
@@ -262,10 +262,10 @@ TEST_P(Obb4Margins, NearlyParallelEdges) {
       const Obb4Tree a(meshA), b(meshB);
       QueryContext context;
       const double above = truth * (1 + 1e-12);
-      EXPECT_TRUE(closerThan(a, {}, b, {}, above, context)) << truth << " " << i;
-      EXPECT_TRUE(closerThan(b, {}, a, {}, above, context)) << truth << " " << i;
-      EXPECT_NEAR(distance(a, {}, b, {}, {}, context).distance, truth, 0.01 * kUnit) << i;
-      EXPECT_NEAR(distance(b, {}, a, {}, {}, context).distance, truth, 0.01 * kUnit) << i;
+      EXPECT_TRUE(closerThan(Posed(a), Posed(b), above, context)) << truth << " " << i;
+      EXPECT_TRUE(closerThan(Posed(b), Posed(a), above, context)) << truth << " " << i;
+      EXPECT_NEAR(distance(Posed(a), Posed(b), {}, context).distance, truth, 0.01 * kUnit) << i;
+      EXPECT_NEAR(distance(Posed(b), Posed(a), {}, context).distance, truth, 0.01 * kUnit) << i;
     }
   }
 }

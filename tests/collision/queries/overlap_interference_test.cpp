@@ -44,8 +44,9 @@ TYPED_TEST(OverlapInterference, SharedWorkloads) {
       int wrong = 0;
       for (const std::size_t i : poses) {
         const bool hit = w.hit[i] == 1;
-        wrong += interference<TypeParam>(a, {}, b, w.poses[i], context).has_value() != hit;
-        wrong += interference(a, {}, b, w.poses[i], standard).has_value() != hit;
+        wrong +=
+            interference<TypeParam>(Posed(a), Posed(b, w.poses[i]), context).has_value() != hit;
+        wrong += interference(Posed(a), Posed(b, w.poses[i]), standard).has_value() != hit;
       }
       EXPECT_EQ(wrong, 0) << name << ", " << test::str(kParams[v]);
     }
@@ -68,8 +69,8 @@ TYPED_TEST(OverlapInterference, ContactsAreTheSame) {
       return numbers;
     };
     for (std::size_t i = 0; i < w.poses.size(); i += 7)
-      EXPECT_EQ(pairs(contacts<TypeParam>(a, {}, b, w.poses[i], context)),
-                pairs(contacts(a, {}, b, w.poses[i], context)))
+      EXPECT_EQ(pairs(contacts<TypeParam>(Posed(a), Posed(b, w.poses[i]), context)),
+                pairs(contacts(Posed(a), Posed(b, w.poses[i]), context)))
           << name << ", pose " << i;
   }
 }

@@ -64,9 +64,10 @@ template <class Tree>
 void expectRight(const Shell& shell, const Tree& a, const Tree& b) {
   QueryContext context;
   const double d = shell.distance;
-  EXPECT_NEAR(corridor::distance(a, shell.X_WA, b, shell.X_WB, {}, context).distance, d, 1e-11 * d);
-  EXPECT_TRUE(closerThan(a, shell.X_WA, b, shell.X_WB, d * (1 + 1e-9), context));
-  EXPECT_FALSE(closerThan(a, shell.X_WA, b, shell.X_WB, d * (1 - 1e-9), context));
+  EXPECT_NEAR(corridor::distance(Posed(a, shell.X_WA), Posed(b, shell.X_WB), {}, context).distance,
+              d, 1e-11 * d);
+  EXPECT_TRUE(closerThan(Posed(a, shell.X_WA), Posed(b, shell.X_WB), d * (1 + 1e-9), context));
+  EXPECT_FALSE(closerThan(Posed(a, shell.X_WA), Posed(b, shell.X_WB), d * (1 - 1e-9), context));
 }
 
 template <class Volume>

@@ -28,7 +28,7 @@ int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
     SCOPED_TRACE(w.name + ", " + built + ", pose " + std::to_string(i));
     const bool hit = w.hit[i] == 1;
     const Transform& X = w.poses[i];
-    const Distance d = distance(a, {}, b, X, {}, context);
+    const Distance d = distance(Posed(a), Posed(b, X), {}, context);
     EXPECT_EQ(d.distance == 0, hit);
     const double size =
         std::max({errorScale(corners(w.a, d.a), {}), errorScale(corners(w.b, d.b), X), a.reach()});
@@ -39,11 +39,11 @@ int expectTrueDistances(const Workload& w, const Tree& a, const Tree& b,
     EXPECT_LE(referenceDistance(d.p_WB, corners(w.b, d.b), X), 4 * kUnit * size);
     EXPECT_NEAR((d.p_WA - d.p_WB).norm(), d.distance, allowed + 4 * kUnit * size);
     // The tolerance query just above and just below the distance; at 0 it is `interference`.
-    EXPECT_TRUE(closerThan(a, {}, b, X, d.distance + allowed, context));
+    EXPECT_TRUE(closerThan(Posed(a), Posed(b, X), d.distance + allowed, context));
     if (d.distance > 4 * allowed) {
-      EXPECT_FALSE(closerThan(a, {}, b, X, d.distance - 4 * allowed, context));
+      EXPECT_FALSE(closerThan(Posed(a), Posed(b, X), d.distance - 4 * allowed, context));
     }
-    EXPECT_EQ(closerThan(a, {}, b, X, 0, context), hit);
+    EXPECT_EQ(closerThan(Posed(a), Posed(b, X), 0, context), hit);
     ++checked;
   }
   return checked;

@@ -40,8 +40,10 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
       const VolumeTree<TypeParam> a(w.a, kParams[v]), b(w.b, kParams[v]);
       int wrong = 0;
       for (const std::size_t i : poses) {
-        wrong += interference(a, {}, b, w.poses[i], context).has_value() != (w.hit[i] == 1);
-        wrong += interference(b, w.poses[i], a, {}, context).has_value() != (w.hit[i] == 1);
+        wrong +=
+            interference(Posed(a), Posed(b, w.poses[i]), context).has_value() != (w.hit[i] == 1);
+        wrong +=
+            interference(Posed(b, w.poses[i]), Posed(a), context).has_value() != (w.hit[i] == 1);
       }
       EXPECT_EQ(wrong, 0) << name << ", " << test::str(kParams[v]);
       poseCount[v] += poses.size();
@@ -69,8 +71,10 @@ TYPED_TEST(VolumeInterference, AgreesWithBruteForceUnderTwoMaps) {
     }
     QueryContext context;
     const bool expected = test::bruteForceTouch(meshA, X_WA, meshB, X_WB);
-    ASSERT_EQ(interference(a, X_WA, b, X_WB, context).has_value(), expected) << "case " << n;
-    ASSERT_EQ(interference(b, X_WB, a, X_WA, context).has_value(), expected) << "case " << n;
+    ASSERT_EQ(interference(Posed(a, X_WA), Posed(b, X_WB), context).has_value(), expected)
+        << "case " << n;
+    ASSERT_EQ(interference(Posed(b, X_WB), Posed(a, X_WA), context).has_value(), expected)
+        << "case " << n;
     touching += expected;
     ++cases;
   }
@@ -87,7 +91,7 @@ TYPED_TEST(VolumeInterference, ExtremeSizes) {
         v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
     const VolumeTree<TypeParam> a(meshA), b(meshB);
     QueryContext context;
-    EXPECT_EQ(interference(a, {}, b, {}, context).has_value(),
+    EXPECT_EQ(interference(Posed(a), Posed(b), context).has_value(),
               test::bruteForceTouch(meshA, {}, meshB, {}))
         << exponent;
   }
@@ -105,14 +109,13 @@ TYPED_TEST(VolumeInterference, ManyConvexParts) {
     QueryContext context;
     bool parts = false, soupHit = false;
     for (const ConvexPart& s : a.parts()) {
-      for (const ConvexPart& t : b.parts())
-        parts = parts || convexSetsTouch({s, X_WA}, {t, X_WB}, context.counters);
+      for (const ConvexPart& t : b.parts()) parts = parts || convexSetsTouch({s, X_WA}, {t, X_WB});
       for (const Triangle& t : mesh.triangles())
-        soupHit = soupHit || convexSetsTouch({s, X_WA}, {t, X_WB}, context.counters);
+        soupHit = soupHit || convexSetsTouch({s, X_WA}, {t, X_WB});
     }
-    const auto found = interference(a, X_WA, b, X_WB, context);
+    const auto found = interference(Posed(a, X_WA), Posed(b, X_WB), context);
     EXPECT_EQ(found.has_value(), parts) << n;
-    EXPECT_EQ(interference(mesh, X_WB, a, X_WA, context).has_value(), soupHit) << n;
+    EXPECT_EQ(interference(Posed(mesh, X_WB), Posed(a, X_WA), context).has_value(), soupHit) << n;
     if (found) {  // the numbers reported are those of the list
       bool same = false;
       for (std::size_t i = 0; i < a.parts().size(); ++i)

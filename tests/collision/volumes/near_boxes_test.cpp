@@ -136,7 +136,8 @@ TEST_P(NearBoxes, BoundTheirDistances) {
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const double d =
-            distance(ObbTree(meshOf(a, i)), {}, ObbTree(meshOf(b, j)), exact, {}, context).distance;
+            distance(Posed(ObbTree(meshOf(a, i))), Posed(ObbTree(meshOf(b, j)), exact), {}, context)
+                .distance;
         const double least = std::sqrt(squares[4 * i + j]);
         const double r = radius(a, i) + scale * radius(b, j), size = d + r;
         ASSERT_LE(least, d * (1 + 1e-9)) << n;

@@ -42,31 +42,32 @@ TEST(BodyQueries, InsideASolidMesh) {
   small.emplace_back("mesh", little);
   for (const Body& body : small) {
     SCOPED_TRACE(body.name());
-    EXPECT_TRUE(interference(solid, {}, body, in, context));
-    EXPECT_TRUE(interference(body, in, solid, {}, context));
-    for (const Distance& d :
-         {distance(solid, {}, body, in, {}, context), distance(body, in, solid, {}, {}, context)}) {
+    EXPECT_TRUE(interference(Posed(solid), Posed(body, in), context));
+    EXPECT_TRUE(interference(Posed(body, in), Posed(solid), context));
+    for (const Distance& d : {distance(Posed(solid), Posed(body, in), {}, context),
+                              distance(Posed(body, in), Posed(solid), {}, context)}) {
       EXPECT_EQ(d.distance, 0);
       EXPECT_EQ(d.p_WA, d.p_WB);
       EXPECT_LT((d.p_WA - in.t).norm(), 0.4);  // a point of the small body
     }
-    EXPECT_TRUE(closerThan(solid, {}, body, in, 0, context));
-    EXPECT_TRUE(closerThan(body, in, solid, {}, 1e-3, context));
+    EXPECT_TRUE(closerThan(Posed(solid), Posed(body, in), 0, context));
+    EXPECT_TRUE(closerThan(Posed(body, in), Posed(solid), 1e-3, context));
 
     // The surface alone does not touch the body: their distance is not 0.
-    EXPECT_FALSE(interference(surface, {}, body, in, context));
-    const Distance d = distance(surface, {}, body, in, {}, context);
+    EXPECT_FALSE(interference(Posed(surface), Posed(body, in), context));
+    const Distance d = distance(Posed(surface), Posed(body, in), {}, context);
     EXPECT_GT(d.distance, 0.4);
     EXPECT_LT(d.distance, 0.9);
-    EXPECT_FALSE(closerThan(surface, {}, body, in, 0.3, context));
-    EXPECT_TRUE(closerThan(surface, {}, body, in, 0.9, context));
+    EXPECT_FALSE(closerThan(Posed(surface), Posed(body, in), 0.3, context));
+    EXPECT_TRUE(closerThan(Posed(surface), Posed(body, in), 0.9, context));
 
     // Outside, a solid and its surface have the same distance.
-    const Distance beside = distance(solid, {}, body, out, {}, context);
+    const Distance beside = distance(Posed(solid), Posed(body, out), {}, context);
     EXPECT_GT(beside.distance, 2.5);
-    EXPECT_EQ(beside.distance, distance(surface, {}, body, out, {}, context).distance);
-    EXPECT_NEAR(beside.distance, distance(body, out, solid, {}, {}, context).distance, 1e-14);
-    EXPECT_FALSE(closerThan(solid, {}, body, out, 2.4, context));
+    EXPECT_EQ(beside.distance, distance(Posed(surface), Posed(body, out), {}, context).distance);
+    EXPECT_NEAR(beside.distance, distance(Posed(body, out), Posed(solid), {}, context).distance,
+                1e-14);
+    EXPECT_FALSE(closerThan(Posed(solid), Posed(body, out), 2.4, context));
   }
 }
 
@@ -74,15 +75,15 @@ TEST(BodyQueries, PrimitivesContainWhatIsInThem) {
   const Body box("box", placed(Box{Vec3(2, 2, 2)}, {})), mesh("mesh", cube(true));
   const Transform larger{2 * Mat3::Identity(), Vec3::Zero()};
   QueryContext context;
-  EXPECT_TRUE(interference(box, larger, mesh, {}, context));
-  EXPECT_EQ(distance(mesh, {}, box, larger, {}, context).distance, 0);
+  EXPECT_TRUE(interference(Posed(box, larger), Posed(mesh), context));
+  EXPECT_EQ(distance(Posed(mesh), Posed(box, larger), {}, context).distance, 0);
 }
 
 /// The hollow of a shell counts as inside (queries/containment.h).
 TEST(BodyQueries, Hollow) {
   const Body shell("shell", cube(true), true), ball("ball", placed(Sphere{0.1}, {}));
   QueryContext context;
-  EXPECT_EQ(distance(shell, {}, ball, {}, {}, context).distance, 0);
+  EXPECT_EQ(distance(Posed(shell), Posed(ball), {}, context).distance, 0);
 }
 
 /// All pairs of kinds at a known gap: the highest and lowest places of all bodies along z are
@@ -105,12 +106,14 @@ TEST(BodyQueries, AllPairs) {
       for (const double gap : {0.5, 1e-4, 1e-10, -1e-3}) {
         SCOPED_TRACE(bodies[i].name() + " " + bodies[k].name());
         const Transform X{Mat3::Identity(), Vec3(0, 0, high[i] - low[k] + gap)};
-        const Distance d = distance(bodies[i], {}, bodies[k], X, {}, context);
+        const Distance d = distance(Posed(bodies[i]), Posed(bodies[k], X), {}, context);
         const double expected = std::max(gap, 0.0);
         EXPECT_NEAR(d.distance, expected, 2e-15);
-        EXPECT_EQ(interference(bodies[i], {}, bodies[k], X, context).has_value(), gap < 0);
-        EXPECT_TRUE(closerThan(bodies[i], {}, bodies[k], X, expected + 3e-15, context));
-        EXPECT_EQ(closerThan(bodies[i], {}, bodies[k], X, expected / 2, context), gap < 0);
+        EXPECT_EQ(interference(Posed(bodies[i]), Posed(bodies[k], X), context).has_value(),
+                  gap < 0);
+        EXPECT_TRUE(closerThan(Posed(bodies[i]), Posed(bodies[k], X), expected + 3e-15, context));
+        EXPECT_EQ(closerThan(Posed(bodies[i]), Posed(bodies[k], X), expected / 2, context),
+                  gap < 0);
       }
 }
 
@@ -173,28 +176,28 @@ TEST(BodyQueries, RejectsWhatIsNotFinite) {
     }
     return "";
   };
-  EXPECT_EQ(message([&] { interference(a, bad, b, {}, context); }),
+  EXPECT_EQ(message([&] { interference(Posed(a, bad), Posed(b), context); }),
             "the pose of a body must be finite");
-  EXPECT_EQ(message([&] { distance(a, {}, b, bad, {}, context); }),
+  EXPECT_EQ(message([&] { distance(Posed(a), Posed(b, bad), {}, context); }),
             "the pose of a body must be finite");
-  EXPECT_EQ(message([&] { closerThan(a, {}, b, bad, 1, context); }),
+  EXPECT_EQ(message([&] { closerThan(Posed(a), Posed(b, bad), 1, context); }),
             "the pose of a body must be finite");
   const Body solid("solid", cube(), true);
   for (const Body* other : {&a, &b, &solid}) {
-    EXPECT_EQ(message([&] { insideEachOther(solid, {}, *other, bad, context); }),
+    EXPECT_EQ(message([&] { insideEachOther(Posed(solid), Posed(*other, bad), context); }),
               "the pose of a body must be finite");
-    EXPECT_EQ(message([&] { insideEachOther(*other, bad, solid, {}, context); }),
+    EXPECT_EQ(message([&] { insideEachOther(Posed(*other, bad), Posed(solid), context); }),
               "the pose of a body must be finite");
   }
   EXPECT_EQ(message([&] {
-              distance(a, {}, b, {}, {-1, 0}, context);
+              distance(Posed(a), Posed(b), {-1, 0}, context);
             }),
             "a distance's relative error must be finite and not negative");
   EXPECT_EQ(message([&] {
-              distance(a, {}, b, {}, {0, NAN}, context);
+              distance(Posed(a), Posed(b), {0, NAN}, context);
             }),
             "a distance's absolute error must be finite and not negative");
-  EXPECT_EQ(message([&] { closerThan(a, {}, b, {}, -0.1, context); }),
+  EXPECT_EQ(message([&] { closerThan(Posed(a), Posed(b), -0.1, context); }),
             "a tolerance must be finite and not negative");
 }
 

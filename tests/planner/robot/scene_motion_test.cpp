@@ -47,7 +47,8 @@ std::optional<Contact> firstTouching(const Scene& scene, std::span<const Transfo
                                      QueryContext& context) {
   for (const Scene::Pair& pair : scene.pairs()) {
     const Scene::Placed &a = scene.bodies()[pair.a], &b = scene.bodies()[pair.b];
-    if (const auto hit = interference(a.body, X_WF[a.frame], b.body, X_WF[b.frame], context))
+    if (const auto hit =
+            interference(Posed(a.body, X_WF[a.frame]), Posed(b.body, X_WF[b.frame]), context))
       return Contact{pair.a, pair.b, hit->a, hit->b};
   }
   return std::nullopt;
@@ -106,8 +107,8 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
       if (told.verdict != MotionVerdict::free || motion.ambiguous()) continue;
       for (const double t : {0.0, 0.17, 0.5, 0.83, 1.0}) {
         for (const MotionPair& pair : alone)
-          ASSERT_FALSE(interference(*pair.a, {}, *pair.b,
-                                    motion.relativeMotion(pair.motion, t, 0).X_AB, other))
+          ASSERT_FALSE(interference(
+              Posed(*pair.a), Posed(*pair.b, motion.relativeMotion(pair.motion, t, 0).X_AB), other))
               << n << ", edge " << k << " at " << t;
       }
     }
@@ -194,7 +195,8 @@ TEST(SceneMotion, StatesOfRandomTrees) {
     for (const Scene::Pair& pair : scene.pairs()) {
       const Scene::Placed &a = scene.bodies()[pair.a], &b = scene.bodies()[pair.b];
       least = std::min(
-          least, distance(a.body, X_WF[a.frame], b.body, X_WF[b.frame], {}, context).distance);
+          least, distance(Posed(a.body, X_WF[a.frame]), Posed(b.body, X_WF[b.frame]), {}, context)
+                     .distance);
     }
     const double clearance = scene.clearance(X_WF, context);
     if (least < HUGE_VAL) {

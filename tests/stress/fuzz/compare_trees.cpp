@@ -4,7 +4,7 @@
 #include <set>
 
 #include "collision/geometry/mesh_health.h"
-#include "collision/hierarchy/with_volume.h"
+#include "collision/hierarchy/with_trees.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/world/body_queries.h"
@@ -97,8 +97,9 @@ void compare(const Case& c, double asked) {
   std::vector<Told> told;
   QueryContext context;  // one for all queries: what it remembers must not change an answer
   for (const Kind& kind : everyKind()) {
-    const bool touch = interference(c.a, c.X_WA, c.b, c.X_WB, context, kind.trees).has_value();
-    const Distance d = distance(c.a, c.X_WA, c.b, c.X_WB, {}, context, kind.trees);
+    const bool touch =
+        interference(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), context, kind.trees).has_value();
+    const Distance d = distance(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), {}, context, kind.trees);
     if (!(d.distance >= 0 && std::isfinite(d.distance)))
       fail(kind.name + ": a distance of " + number(d.distance));
     if (touch != (d.distance == 0))
@@ -108,7 +109,8 @@ void compare(const Case& c, double asked) {
     if (!(std::abs(between - d.distance) <= 1e-11 * d.distance + 0x1p-44 * S + band + 0x1p-998))
       fail(kind.name + ": distance " + number(d.distance) + ", of points " + number(between) +
            " apart");
-    const bool back = interference(c.b, c.X_WB, c.a, c.X_WA, context, kind.trees).has_value();
+    const bool back =
+        interference(Posed(c.b, c.X_WB), Posed(c.a, c.X_WA), context, kind.trees).has_value();
     if (back != touch && d.distance > band)
       fail(kind.name + ": contact is " + std::to_string(touch) + ", the other way round " +
            std::to_string(back));
@@ -121,7 +123,7 @@ void compare(const Case& c, double asked) {
     if (std::abs(first.distance - d.distance) > error(first.distance) + error(d.distance))
       fail(both + ": distances " + number(first.distance) + " and " + number(d.distance));
     const double rough =
-        distance(c.a, c.X_WA, c.b, c.X_WB, {0.25, 0}, context, kind.trees).distance;
+        distance(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), {0.25, 0}, context, kind.trees).distance;
     if (!(rough >= d.distance - 2 * error(d.distance) &&
           rough <= 1.25 * d.distance + 3 * error(d.distance)))
       fail(kind.name + ": distance " + number(d.distance) + ", with a quarter allowed " +
@@ -131,7 +133,8 @@ void compare(const Case& c, double asked) {
   for (const double x : {asked, d, d * (1 + 1e-9), d * (1 - 1e-9), 0.5 * d}) {
     if (!std::isfinite(x)) continue;
     for (const Kind& kind : everyKind()) {
-      const bool closer = closerThan(c.a, c.X_WA, c.b, c.X_WB, x, context, kind.trees);
+      const bool closer =
+          closerThan(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), x, context, kind.trees);
       if (closer ? d > x + 2 * error(x) + error(d) : d < x - error(d))
         fail(kind.name + ": distance " + number(d) + ", but closer than " + number(x) + " is " +
              std::to_string(closer));
@@ -151,13 +154,10 @@ Pairs pairsOf(const Contacts& contacts) {
 void compareContacts(const Case& c) {
   if (c.a.part() || c.b.part()) return;
   QueryContext context;
-  const Pairs wide = pairsOf(contacts(c.a.tree(), c.X_WA, c.b.tree(), c.X_WB, context));
+  const Pairs wide = pairsOf(contacts(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), context));
   for (const Kind& kind : everyKind()) {
-    if (kind.trees == TreeKind::obb4) continue;
-    const Pairs pairs = onVolumeTrees(
-        kind.trees, c.a, c.b, [&]<class Overlap>(Overlap, const auto& a, const auto& b) {
-          return pairsOf(contacts<Overlap>(a, c.X_WA, b, c.X_WB, context));
-        });
+    const Pairs pairs =
+        pairsOf(contacts(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), context, kind.trees));
     if (pairs != wide)
       fail(kind.name + ": " + std::to_string(pairs.size()) + " contacts, 4-wide trees have " +
            std::to_string(wide.size()));

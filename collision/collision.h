@@ -1,0 +1,102 @@
+#pragma once
+
+/// Corridor's collision library in one header: its manual, and all that most programs need.
+///
+/// Everything is in namespace `corridor`. Lengths are metres, angles are radians. Vectors and
+/// matrices are Eigen's. `p_A` is a point in the coordinates of frame A; `X_WA` maps points of
+/// frame A to frame W.
+///
+/// # Types
+///
+/// * `Transform`: an affine map x ↦ m·x + t. It is used exactly as it is stored: a map that scales,
+///   shears or mirrors is legal.
+/// * `TriangleMesh`: vertices and triangles, as a point set. `readMeshFile` reads OBJ, STL, PLY,
+///   OFF, Collada, glTF and more. @throws InputError, which names the file and the line.
+/// * `ConvexPart`: a convex solid that is never tessellated: `placed(Box{size}, X)`, and Sphere,
+///   Capsule, Cylinder, Convex.
+/// * `Body`: a named mesh (its surface, or with `solid` also what it encloses) or convex part. Its
+///   trees are built when a query first needs them. @throws std::invalid_argument for a mesh
+///   without triangles, with an index out of range or a coordinate that is not finite.
+/// * `Posed`: a body or tree, and where it is: `Posed(cup, X_WCup)`; `Posed(table)` is at the
+///   origin.
+/// * `QueryContext`: counters and scratch memory. Each thread needs its own.
+/// * `LastPair`: where the last query of two bodies found its answer. Pass it again, and a query
+///   after a small step costs a tenth or less.
+///
+/// # Six questions about two bodies
+///
+///     #include "collision/collision.h"
+///     using namespace corridor;
+///
+///     const Body cup("cup", readMeshFile("cup.obj").mesh);
+///     const Body table("table", placed(Box{{1, 1, 0.05}}, Transform()));
+///     QueryContext context;
+///     const Posed a(cup, X_WCup), b(table);
+///
+/// 1. Do they touch? Exact: the verdict is that of real arithmetic on the stored numbers, and
+///    touching is contact. For a convex part, contact may be reported for gaps below 2^-44 of the
+///    largest coordinate. The cheapest question: microseconds for meshes of 10^5 triangles.
+///
+///        if (const auto hit = interference(a, b, context)) …        // hit->a, hit->b: triangles
+///
+/// 2. Which triangles touch, and where? Meshes only. The set of pairs is exact. The cost grows with
+///    the number of pairs.
+///
+///        for (const TriangleContact& c : contacts(a, b, context)) …  // c.a, c.b, c.p_W, c.q_W
+///
+/// 3. How far apart are they, and where are they closest? 0 if and only if they touch; otherwise
+///    the error is at most 1e-12 of the distance + 4·2^-53 of the coordinates, plus the error that
+///    the options allow. Costs 5 to 50 times as much as the first question.
+///
+///        const Distance d = distance(a, b, {}, context);             // d.distance, d.p_WA, d.p_WB
+///
+/// 4. Are they at most d apart? `false` is a proof. Cheaper than a distance.
+///
+///        if (closerThan(a, b, 0.05, context)) …
+///
+/// 5. Is one inside the other? Only of solid bodies; the questions above include the answer. Exact,
+///    for bodies whose surfaces do not touch.
+///
+///        if (insideEachOther(a, b, context)) …
+///
+/// 6. Do they touch along a motion, and when first? `free` is never wrong: it is proved for every t
+///    in [0, 1], rounding included. `contact` has an exact contact at `contactTime`. `undecided` is
+///    possible where the clearance is below twice the tolerance (PROMISES.md, promise 2). Costs
+///    some 10 to 100 times as much as the first question.
+///
+///        std::vector<Body> moving, fixed;        // bodies are moved into the scene
+///        moving.emplace_back("piano", piano);
+///        fixed.emplace_back("walls", walls);
+///        const RigidScene scene(std::move(moving), std::move(fixed));
+///        MotionOptions options;
+///        options.tolerance = scene.defaultTolerance();
+///        options.earliest = true;                // find the first contact, not just the verdict
+///        const MotionResult r = scene.certifyEdge(from, to, options, context);
+///        if (r.verdict == MotionVerdict::free) …
+///
+/// # Many bodies
+///
+/// `Scene` holds bodies on frames and the pairs to test. Its queries take the pose of each frame,
+/// or a `MotionSource` that describes how frames move relative to each other.
+///
+/// # Trees
+///
+/// Programs that need no `Body` build trees themselves: `Obb4Tree` (fast), or `VolumeTree<Volume>`
+/// of any bounding volume (for comparison). The questions 1 to 4 have the same names for trees.
+///
+/// # What every query assumes
+///
+/// The processor rounds to nearest, and the program is compiled without -ffast-math
+/// (core/floating_point.h). Threads may share bodies, trees and scenes.
+
+#include "collision/core/error.h"
+#include "collision/geometry/convex_part.h"
+#include "collision/geometry/mesh_file.h"
+#include "collision/queries/contacts.h"
+#include "collision/queries/distance.h"
+#include "collision/queries/distance_obb4.h"
+#include "collision/queries/interference.h"
+#include "collision/queries/interference_obb4.h"
+#include "collision/world/body_queries.h"
+#include "collision/world/rigid_scene.h"
+#include "collision/world/scene.h"

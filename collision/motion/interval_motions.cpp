@@ -1,0 +1,58 @@
+#include "collision/motion/interval_motions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/motion/may_meet.h"
+
+namespace corridor {
+
+IntervalMotions::IntervalMotions(MotionSource& source, std::span<const MotionPair> pairs,
+                                 QueryContext& context)
+    : source_(source), spheres_(context.scratch.of<SweptSpheres>()), counters_(context.counters) {
+  std::size_t bodies = 0;
+  for (const MotionPair& pair : pairs)
+    if (pair.worldB != MotionPair::kNone)  // others have no sphere in the world
+      bodies = std::max({bodies, pair.bodyA + 1, pair.bodyB + 1});
+  spheres_.makeRoom(bodies);
+}
+
+void IntervalMotions::select(double t, double h) {
+  if (t == t_ && h == h_) return;
+  t_ = t;
+  h_ = h;
+  posed_ = MotionPair::kNone;
+  spheres_.forget();
+}
+
+const RelativeMotion& IntervalMotions::relative(std::size_t motion) {
+  if (motion == posed_) return relative_;
+  posed_ = motion;
+  relative_ = source_.relativeMotion(motion, t_, h_);
+  ++counters_.poses;
+  return relative_;
+}
+
+const SweptSphere& IntervalMotions::worldSphere(std::size_t motion, const Body& body,
+                                                std::size_t index) {
+  return spheres_.of(index, [&] { return sweptSphere(body, relative(motion)); });
+}
+
+IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, double asked,
+                                                        bool best) {
+  const double enough = best ? HUGE_VAL : asked;
+  if (pair.worldA != MotionPair::kNone) {
+    const double clearance = clearanceBound(worldSphere(pair.worldA, *pair.a, pair.bodyA),
+                                            worldSphere(pair.worldB, *pair.b, pair.bodyB), enough);
+    if (clearance > asked) return {clearance};
+  }
+  // Only a motion as seen from the world has a sphere that other pairs can use.
+  const SweptSphere sphere = pair.worldB == pair.motion
+                                 ? worldSphere(pair.motion, *pair.b, pair.bodyB)
+                                 : sweptSphere(*pair.b, relative(pair.motion));
+  const bool far = sphere.isotropic > kFar * pair.b->sphereRadius() &&
+                   sphere.angular.squaredNorm() > kTurns * kTurns;
+  return {clearanceBound(*pair.a, sphere, enough), far};
+}
+
+}  // namespace corridor

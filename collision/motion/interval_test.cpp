@@ -1,0 +1,129 @@
+#include "collision/motion/interval_test.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/core/rounding.h"
+#include "collision/hierarchy/with_trees.h"
+#include "collision/motion/descend_volumes.h"
+#include "collision/queries/interference.h"
+#include "collision/queries/interference_obb4.h"
+
+namespace corridor {
+namespace {
+
+/// Returns the distance, metres, beyond which a pair of bodies is proved free.
+double askedOf(const MotionQuery& query) {
+  return roundedUp(query.options.margin + query.options.clearanceSlack);
+}
+
+/// Records that all of the group is separated in the interval. The node pairs that were separated
+/// last have this clearance, beyond margin and pads.
+void record(const MotionQuery& query, double t0, double t1, const WorkList::Group& group,
+            double clearance) {
+  if (!query.certificate) return;
+  const double beyond = std::min(group.clearance, clearance);
+  query.certificate->free.push_back(
+      {group.bodies, t0, t1,
+       roundedDown(query.options.margin + query.options.clearanceSlack + beyond)});
+}
+
+/// The outcome of testing the bounds of a whole pair of bodies.
+struct BodiesAnswer {
+  bool separated = false, far = false;
+};
+BodiesAnswer testBounds(const MotionQuery& query, double t0, double t1,
+                        const WorkList::Group& group, IntervalMotions& motions) {
+  const double asked = askedOf(query);
+  const auto [clearance, far] =
+      motions.separation(query.pairs[group.bodies], asked, query.certificate != nullptr);
+  if (!(clearance > asked)) return {false, far};
+  record(query, t0, t1, group, clearance - asked);
+  return {true, false};
+}
+
+/// Walks the trees of a pair of bodies below the node pairs of its group.
+Descent walkTrees(const MotionQuery& query, const WorkList::Group& group,
+                  const RelativeMotion& relative, const DescentOptions& asked, WorkList& list) {
+  if (!relative.X_AB.isFinite()) return {.kind = Descent::Kind::undecided};
+  const MotionPair& pair = query.pairs[group.bodies];
+  return withTrees(query.options.trees, *pair.a, *pair.b,
+                   [&](auto overlap, const auto& a, const auto& b) {
+                     return descend<decltype(overlap)>(list.nodePairsOf(group), a, b, relative,
+                                                       asked, list.nodePairs, query.context);
+                   });
+}
+
+}  // namespace
+
+IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
+                            IntervalMotions& motions, WorkList& list) {
+  using Rules = SplitRules;
+  const double h = interval.half();
+  motions.select(interval.middle(), h);
+  std::size_t tested = 0, left = 0;
+  for (std::size_t g = interval.begin; g < interval.end; ++g) {
+    WorkList::Group group = list.groups[g];
+    bool tooFar = false;
+    if (!interval.bodiesAreTested && list.isWhole(group)) {
+      const BodiesAnswer bodies = testBounds(query, interval.t0, interval.t1, group, motions);
+      if (bodies.separated) continue;
+      tooFar = bodies.far && h >= Rules::kShortestFar;
+    }
+    const std::size_t motion = query.pairs[group.bodies].motion;
+    const bool first = h == 0.5 && motions.relative(motion).angle > IntervalMotions::kTurns;
+    const SplitThresholds thresholds = first ? Rules::kFirst : Rules::kLater;
+    const bool tooMuch = left >= thresholds.pairsOfBodies && 4 * left > 3 * tested;
+    ++tested;
+    if (h > Rules::kShortest && (tooMuch || tooFar)) {
+      list.groups.push_back(group);
+      ++left;
+      continue;
+    }
+    RelativeMotion relative = motions.relative(motion);
+    relative.fixedError += query.options.clearanceSlack;  // a proof needs it, a contact does not
+    const std::size_t later = list.nodePairs.size();
+    const DescentOptions asked = {query.options.margin,    query.options.tolerance,
+                                  h <= Rules::kShortest,   query.workEnd,
+                                  thresholds.pairsOfNodes, query.certificate != nullptr};
+    const Descent found = walkTrees(query, group, relative, asked, list);
+    group.clearance = std::min(group.clearance, found.clearance);
+    if (list.nodePairs.size() > later) {
+      list.groups.push_back({group.bodies, later, list.nodePairs.size(), group.clearance});
+      ++left;
+    } else if (found.kind == Descent::Kind::done) {
+      record(query, interval.t0, interval.t1, group, HUGE_VAL);
+    }
+    if (found.kind == Descent::Kind::done) continue;
+    for (std::size_t k = g + 1; k < interval.end; ++k)
+      list.groups.push_back(WorkList::Group(list.groups[k]));  // not tested
+    return {found, group.bodies};
+  }
+  return {};
+}
+
+Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList& list, bool& far) {
+  motions.select(0.5, 0.5);
+  const std::size_t count = list.groups.size();
+  for (std::size_t g = 0; g < count; ++g) {
+    const WorkList::Group group = list.groups[g];
+    const BodiesAnswer bodies = testBounds(query, 0, 1, group, motions);
+    if (bodies.separated) continue;
+    list.groups.push_back(group);
+    far = far || bodies.far;
+  }
+  return {.t0 = 0, .t1 = 1, .begin = count, .end = list.groups.size(), .bodiesAreTested = true};
+}
+
+std::optional<TrianglePair> touchBelow(const MotionQuery& query, std::uint32_t bodies,
+                                       const Transform& X_AB, std::span<const NodePair4> start) {
+  if (!X_AB.isFinite()) return std::nullopt;  // overflow counts as overlap, but is no contact
+  const MotionPair& pair = query.pairs[bodies];
+  return withTrees(
+      query.options.trees, *pair.a, *pair.b, [&](auto overlap, const auto& a, const auto& b) {
+        return interferenceBelow<decltype(overlap)>(start, Posed(a), Posed(b, X_AB), query.context,
+                                                    &query.context.lastPair(bodies), query.workEnd);
+      });
+}
+
+}  // namespace corridor

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "collision/hierarchy/node_pair4.h"
+
+namespace corridor {
+
+/// The node pairs that time intervals leave to their halves, grouped by pair of bodies. A stack:
+/// each interval appends what it leaves, and `cut` discards it once its halves are done.
+struct WorkList {
+  /// The node pairs of one pair of bodies: a range of `nodePairs`.
+  struct Group {
+    std::uint32_t bodies;  ///< the number of the pair of bodies in the query
+    std::size_t begin, end;
+    /// Lower bound of the clearance of the node pairs that longer time intervals have separated
+    /// already, metres; only if the query needs it.
+    double clearance = HUGE_VAL;
+  };
+  /// The lengths of both lists.
+  struct Mark {
+    std::size_t nodePairs = 0, groups = 0;
+  };
+
+  std::vector<NodePair4> nodePairs;
+  std::vector<Group> groups;
+
+  /// Begins with whole trees for each of `count` pairs of bodies: group k is pair k.
+  void begin(std::size_t count) {
+    nodePairs.assign(count, kWholeTrees[0]);
+    groups.clear();
+    for (std::uint32_t k = 0; k < count; ++k) groups.push_back({k, k, k + std::size_t{1}});
+  }
+  Mark mark() const { return {nodePairs.size(), groups.size()}; }
+  void cut(const Mark& mark) {
+    nodePairs.resize(mark.nodePairs);
+    groups.resize(mark.groups);
+  }
+  /// Valid until `nodePairs` grows.
+  std::span<const NodePair4> nodePairsOf(const Group& group) const {
+    return std::span(nodePairs).subspan(group.begin, group.end - group.begin);
+  }
+  /// Returns whether the group is a pair of bodies of which nothing is separated yet.
+  bool isWhole(const Group& group) const {
+    const NodePair4& pair = nodePairs[group.begin];
+    return group.end - group.begin == 1 && pair.a == 0 && pair.b == 0 &&
+           pair.pairs == kWholeTrees[0].pairs;
+  }
+};
+
+}  // namespace corridor
