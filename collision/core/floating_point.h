@@ -33,6 +33,9 @@ enum class FloatingPoint {
 /// Returns how the processor computes in this thread. Costs a dozen additions, which raise the flag
 /// "inexact".
 inline FloatingPoint floatingPoint() {
+#ifdef CORRIDOR_UNDER_VALGRIND  // CMakeLists.txt: for counting instructions; no proof holds
+  return FloatingPoint::standard;
+#endif
   // `volatile`: otherwise the compiler computes the sums itself, always rounding to nearest.
   volatile double one = 1, little = 0x1p-60;
   if (one + little != 1 || -one - little != -1 || one - little != 1 || little - one != -1)
