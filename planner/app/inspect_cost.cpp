@@ -8,6 +8,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/simd_target.h"
+#include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"

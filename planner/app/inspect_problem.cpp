@@ -2,6 +2,7 @@
 #include <iostream>
 #include <map>
 
+#include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/checker/edge_costs.h"

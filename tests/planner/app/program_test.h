@@ -55,6 +55,15 @@ class ProgramTest : public testing::Test {
     EXPECT_EQ(result.out, "") << arguments;
   }
 
+  /// Expects the same, where only the line's first words are known.
+  void expectFaultThatBegins(const std::string& arguments, const std::string& told) const {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(result.err.starts_with(told)) << arguments << ": " << result.err;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+  }
+
   /// Returns the commands that `corridor --help` lists.
   std::vector<std::string> commands() const {
     std::vector<std::string> names;
