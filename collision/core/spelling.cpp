@@ -52,7 +52,7 @@ std::optional<std::string> mostSimilar(std::string_view word,
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
   const auto near = mostSimilar(word, candidates);
-  return near ? "; did you mean \"" + *near + "\"?" : "";
+  return near ? " (did you mean \"" + *near + "\"?)" : "";
 }
 
 std::string knownWords(const std::vector<std::string>& words) {

@@ -53,11 +53,11 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
   const std::vector<std::string> known{"box", "cylinder", "sphere", "mesh"};
   const auto near = mostSimilar(kind, known);
   file.fault(shape.GetLineNum(),
-             owner + ": unknown geometry <" + kind + ">; " +
-                 (kind == "capsule" ? "a capsule is a <cylinder> and two <sphere>, each in a "
+             owner + ": unknown geometry <" + kind + ">" +
+                 (kind == "capsule" ? "; a capsule is a <cylinder> and two <sphere>, each in a "
                                       "<collision> of its own"
-                  : near            ? "did you mean <" + *near + ">?"
-                                    : "<box>, <cylinder>, <sphere> or <mesh> is needed"));
+                  : near            ? " (did you mean <" + *near + ">?)"
+                                    : "; <box>, <cylinder>, <sphere> or <mesh> is needed"));
 }
 
 /// @returns roll, pitch and yaw.

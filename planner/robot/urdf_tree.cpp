@@ -85,7 +85,7 @@ class Tree {
     return true;
   }
 
-  /// "; did you mean …?" with the nearest name, or empty.
+  /// " (did you mean …?)" with the nearest name, or empty.
   template <class Named>
   std::string hint(const std::string& name, const std::vector<Named>& all) const {
     return file_.hints() ? didYouMean(name, namesOf(all)) : "";

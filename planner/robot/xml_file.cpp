@@ -207,7 +207,7 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
     if (contains(known, name)) continue;
     const std::string unknown = owner + ": <" + name + "> is not known";
     const auto near = mostSimilar(name, known);
-    const std::string hint = near ? "; did you mean <" + *near + ">?" : "";
+    const std::string hint = near ? " (did you mean <" + *near + ">?)" : "";
     if (near && contains(read, *near))
       fault(element->GetLineNum(), unknown + hint);
     else if (holdsGeometry(*element))

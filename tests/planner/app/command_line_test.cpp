@@ -63,7 +63,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   const auto said = [&](const std::string& arguments) { return run(arguments).err; };
   EXPECT_EQ(said(""), "A subcommand is required; see corridor --help\n");
   EXPECT_EQ(said("slove problem.yaml"),
-            "unknown command \"slove\"; did you mean \"solve\"?; there are: solve, verify, "
+            "unknown command \"slove\" (did you mean \"solve\"?); there are: solve, verify, "
             "view, benchmark, check, inspect, query\n");
   EXPECT_EQ(said("verify problem.yaml"), "SOLUTION is required; see corridor verify --help\n");
   for (const char* time : {"0", "-1", "nan", "inf", "20s"})
@@ -83,12 +83,13 @@ TEST_F(CommandLine, WordsThatNoCommandTakesAreTold) {
     expectFault(arguments,
                 told + "; see corridor " + arguments.substr(0, arguments.find(' ')) + " --help");
   };
-  fault("solve problem.yaml --stopp first", "unknown option \"--stopp\"; did you mean \"--stop\"?");
-  fault("solve problem.yaml --tme=3", "unknown option \"--tme\"; did you mean \"--time\"?");
+  fault("solve problem.yaml --stopp first",
+        "unknown option \"--stopp\" (did you mean \"--stop\"?)");
+  fault("solve problem.yaml --tme=3", "unknown option \"--tme\" (did you mean \"--time\"?)");
   fault("verify problem.yaml s.yaml more.yaml", "unexpected word \"more.yaml\"");
   fault("solve problem.yaml -- more.yaml", "unexpected word \"more.yaml\"");
   expectFault("--tme=3 solve problem.yaml",
-              "unknown option \"--tme\"; did you mean \"--time\"?; see corridor solve --help");
+              "unknown option \"--tme\" (did you mean \"--time\"?); see corridor solve --help");
   expectFault("more solve problem.yaml", "unexpected word \"more\"; see corridor solve --help");
   fault("solve problem.yaml --time 1 --time 2", "--time is given 2 times; once is enough");
   fault("solve problem.yaml -o a.yaml -o a.yaml", "--output is given 2 times; once is enough");

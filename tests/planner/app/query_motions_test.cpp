@@ -259,7 +259,7 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
     option(given, given.substr(0, given.find(' ')) + ": needs --grid, which is not given");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "p.txt"));
   option("--edges adaptiv",
-         "--edges: unknown method \"adaptiv\"; did you mean \"adaptive\"?; there are: certified, "
+         "--edges: unknown method \"adaptiv\" (did you mean \"adaptive\"?); there are: certified, "
          "adaptive, advancement");
   option("--edges discrete",
          "--edges: unknown method \"discrete\"; there are: certified, adaptive, advancement");

@@ -136,13 +136,13 @@ TEST_F(SolveCommand, BadInputIsOneLineAndExit2) {
   expectFaultThatBegins("solve problem.yaml --planner RRTx -o s.yaml",
                         "--planner: unknown planner \"RRTx\"");
   expectFaultThatBegins("solve problem.yaml --set rnge=1",
-                        "--set: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?");
+                        "--set: RRTConnect has no parameter \"rnge\" (did you mean \"range\"?)");
   expectFault("solve problem.yaml --set range", "--set: key=value is needed, not \"range\"");
   expectFault("solve problem.yaml --set range=long",
               "--set: RRTConnect's parameter range: \"long\" is not a number");
   expectFaultThatBegins(
       "solve problem.yaml --sampler max_clearence",
-      "--sampler: unknown sampler \"max_clearence\"; did you mean \"max_clearance\"?");
+      "--sampler: unknown sampler \"max_clearence\" (did you mean \"max_clearance\"?)");
   expectFault("solve problem.yaml problem.yaml -o s.yaml",
               "--output: names one file, but there are 2 problems");
   expectFault("solve problem.yaml -o none/s.yaml", "--output: there is no folder none");

@@ -279,7 +279,7 @@ TEST(Campaign, AllThatIsWrongIsToldBeforeAnythingRuns) {
   Campaign campaign = campaignOf({"certified", "discrete:0.1"}, 1);
   campaign.planners = named({"RRTConnect", "RTT"});
   EXPECT_THAT(complaintOf(campaign),
-              StartsWith("--planners: unknown planner \"RTT\"; did you mean \"RRT\"?; there are: "
+              StartsWith("--planners: unknown planner \"RTT\" (did you mean \"RRT\"?); there are: "
                          "RRTConnect, "));
   EXPECT_THAT(complaintOf(campaign),
               testing::Not(HasSubstr("\n")));  // reported once, not for each variant

@@ -48,7 +48,7 @@ TEST_F(MbmJson, Faults) {
             "sets/box.json: has no problem #0; there are 1 to 3");
   EXPECT_EQ(complaintOfSet(set("{\"index\": 1}"), "#1"), "sets/box.json: missing key \"objects\"");
   EXPECT_EQ(complaintOfSet(set(two, "\"lift\", \"pen\", \"wrist\""), "#2"),
-            "sets/box.json: joint_names: there is no joint \"pen\"; did you mean \"pan\"? (known: "
+            "sets/box.json: joint_names: there is no joint \"pen\" (did you mean \"pan\"?) (known: "
             "pan, lift, slide)\nsets/box.json: joint_names: wrist is fixed");
   EXPECT_EQ(complaintOfSet(set(two, "\"lift\""), "#2"),
             "sets/box.json: start: a list of 1 numbers is needed");
