@@ -78,10 +78,19 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
         secondsOf([&] { result = scene.certify(motion, checker.options(), context); });
     (result.verdict == MotionVerdict::free ? free : other).push_back(took);
     for (const MotionPair& pair : scene.motionPairs()) {
-      const Counters before = context.counters;
-      const double alone = secondsOf([&] {
-        certifyMotion(motion, {&pair, 1}, checker.options(), context);
-      });
+      Counters before;
+      const auto queryAlone = [&] {
+        before = context.counters;
+        return secondsOf([&] { certifyMotion(motion, {&pair, 1}, checker.options(), context); });
+      };
+      const auto treesBuilt = [&] {
+        return scene.bodies()[pair.bodyA].body.treeBuilt() +
+               scene.bodies()[pair.bodyB].body.treeBuilt();
+      };
+      const int trees = treesBuilt();
+      double alone = queryAlone();
+      // The queries of the whole edges end at the first contact, so they may leave a tree unbuilt.
+      if (treesBuilt() != trees) alone = queryAlone();
       std::size_t a = checker.bodyOf(pair.bodyA), b = checker.bodyOf(pair.bodyB);
       if (b < a) std::swap(a, b);
       EdgeCosts::OfPair& of = pairs[{a, b}];

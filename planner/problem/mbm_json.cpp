@@ -20,8 +20,8 @@ namespace {
 using Json = nlohmann::json;
 
 /// Limits of a set, which keep a damaged or hostile file from taking all memory or the stack. The
-/// parser reports two events for a list or an object (begin, end) and for a value in an object
-/// (key, value), so the limit is at least 10^7 keys and values.
+/// parser reports one event for a key, one for a value, and two for a value that is a list or an
+/// object (begin, end). So a file beyond the limit has more than 10^7 keys and values.
 constexpr std::size_t kMostEvents = 20'000'000;
 constexpr int kMostDepth = 64;
 
@@ -65,7 +65,8 @@ class MbmReader {
     std::size_t values = 0;
     const auto countValue = [&](int depth, Json::parse_event_t, const Json&) {
       if (++values > kMostEvents)
-        stop("has more than " + std::to_string(kMostEvents / 2) + " values; split the set");
+        stop("has more than " + std::to_string(kMostEvents / 2) +
+             " keys and values; split the set");
       if (depth > kMostDepth)
         stop("has lists and objects nested more than " + std::to_string(kMostDepth) +
              " deep; a set needs no more than six");

@@ -69,12 +69,13 @@ std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
   return 0.7 * weight;
 }
 
-/// Returns the report's words for the trees: ", sphere" or ", obb-binary, gjk"; "" for the default
-/// trees. A fit other than the default is not reported.
+/// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk".
+/// Leaves out what is the default; "" for the default trees.
 std::string treesTold(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
          (trees.overlap == usual.overlap ? "" : ", " + trees.overlap);
+         (trees.fit == usual.fit ? "" : ", " + trees.fit) +
 }
 
 }  // namespace

@@ -381,7 +381,7 @@ TEST_F(Report, HostileNames) {
 /// All clearances are equal: the plot's range must still span a decade.
 TEST_F(Report, OneValueOnADecade) {
   for (CampaignCell& cell : cells_)
-    for (BenchmarkRun& run : cell.runs) run.leastDistance = run.time = 1;
+    for (BenchmarkRun& run : cell.runs) run.leastDistance = run.processorTime = 1;
   for (const Plot& plot :
        {clearances(campaign_, cells_, 0), solvedOverTime(campaign_, cells_, 0)}) {
     ASSERT_TRUE(plot.rangeX);
