@@ -4,15 +4,12 @@
 #include <cctype>
 
 namespace corridor {
-namespace {
 
 std::string lowered(std::string_view word) {
   std::string text(word);
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
-
-}  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
   // Rows i − 2, i − 1 and i of the table of distances between prefixes.

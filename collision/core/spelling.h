@@ -7,6 +7,9 @@
 
 namespace corridor {
 
+/// Returns the word with its ASCII letters in lower case.
+std::string lowered(std::string_view word);
+
 /// Returns how many bytes must be inserted, removed, replaced, or swapped with their neighbour to
 /// turn `a` into `b` (optimal string alignment).
 std::size_t editDistance(std::string_view a, std::string_view b);

@@ -12,6 +12,7 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/standard_streams.h"
+#include "planner/benchmark/csv_text.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/state_yaml.h"
@@ -77,14 +78,6 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
   }
   checked.valid = checked.pairs.empty() && checked.outOfBounds.empty();
   return checked;
-}
-
-/// Quotes text as a field of a CSV line (RFC 4180): bodies' names may contain any characters.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
 }
 
 int checkStates(const Problem& problem, const CheckArguments& a) {

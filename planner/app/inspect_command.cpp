@@ -24,15 +24,8 @@
 #include "planner/problem/yaml_value.h"
 
 namespace corridor::app {
-namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json numbers(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-}  // namespace
 
 MeshFile meshFileAsked(const std::string& file, const InspectArguments& a) {
   MeshFileOptions options;
@@ -53,8 +46,8 @@ ordered_json meshJson(const MeshFile& file) {
                     {"float_vertices", file.floatVertices},
                     {"vertices", file.mesh.vertices.size()},
                     {"triangles", health.triangles},
-                    {"min", numbers(health.min)},
-                    {"max", numbers(health.max)},
+                    {"min", numbersJson(health.min)},
+                    {"max", numbersJson(health.max)},
                     {"components", health.components},
                     {"watertight", health.watertight},
                     {"distinct_triangles", health.distinctTriangles},

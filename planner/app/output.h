@@ -64,7 +64,7 @@ std::string tubeText(const ConfigurationSpace& space, const Configuration& tube)
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
 /// "x = 1, y = 2, yaw = 0.5"
 std::string stateText(const ConfigurationSpace& space, const Configuration& q);
-nlohmann::ordered_json numbersJson(const Configuration& q);
+nlohmann::ordered_json numbersJson(const Configuration& q);  ///< also of a Vec3
 /// Returns null for an infinity and for NaN, which JSON cannot represent.
 nlohmann::ordered_json numberJson(double value);
 

@@ -1,12 +1,11 @@
 #include "planner/app/query_output.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
 #include "collision/core/error.h"
+#include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
-#include "planner/app/query_timing.h"
 #include "planner/app/standard_streams.h"
 
 namespace corridor::app {
@@ -52,10 +51,6 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& wor
     triangleTests += static_cast<double>(answer.triangleTests);
   }
   const auto count = static_cast<double>(ns.size());
-  // The smallest time that at least 95 % of the times do not exceed.
-  const std::size_t rank = (95 * ns.size() + 99) / 100 - 1;
-  const double middle = median(ns);
-  std::nth_element(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(rank), ns.end());
   for (const std::string& word : words) std::cerr << word << '\n';
   std::cerr << "simd=" << simdTarget() << '\n';
   const auto tell = [](const char* key, const char* format, double value) {
@@ -63,9 +58,9 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& wor
     std::snprintf(text, sizeof text, format, value);
     std::cerr << key << '=' << text << '\n';
   };
-  tell("median_ns", "%.1f", middle);
+  tell("median_ns", "%.1f", medianOf(ns));
   tell("mean_ns", "%.1f", sum / count);
-  tell("p95_ns", "%.1f", ns[rank]);
+  tell("p95_ns", "%.1f", quantileOf(ns, 0.95));
   tell("bv_tests", "%.6g", boxTests / count);
   tell("triangle_tests", "%.6g", triangleTests / count);
   tell("build_ms_a", "%.4f", result.buildMsA);

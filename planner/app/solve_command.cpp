@@ -57,7 +57,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   for (const std::string& assignment : a.set) {
     const auto equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(Fault{"--set", 0, "key=value is needed, not \"" + assignment + "\""});
+      throw InputError(Fault{"--set", 0, "key=value is needed, not " + quotedWord(assignment)});
     const std::string key = assignment.substr(0, equals);
     if (set.count("planner.params." + key))
       throw InputError(Fault{"--set", 0, quotedWord(key) + " is set twice"});

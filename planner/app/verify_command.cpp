@@ -41,10 +41,6 @@ std::string text(const PathFinding& f, const Problem& problem) {
   return line + "; at " + stateText(problem.space, f.configuration);
 }
 
-ordered_json numbers(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 ordered_json jsonOf(const PathFinding& f) {
   return {{"verdict", nameOf(f.verdict)},
           {"reason", f.reason},
@@ -55,7 +51,7 @@ ordered_json jsonOf(const PathFinding& f) {
           {"triangle_a", f.triangleA},
           {"b", f.b},
           {"triangle_b", f.triangleB},
-          {"point", numbers(f.point)},
+          {"point", numbersJson(f.point)},
           {"gap_m", f.gap}};
 }
 

@@ -43,8 +43,7 @@ std::string pageName(const Problem& problem) {
 void requireExtension(const std::optional<std::string>& file, const char* option,
                       const std::string& kind, const std::vector<std::string>& extensions) {
   if (!file) return;
-  std::string extension = std::filesystem::path(*file).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lowered(std::filesystem::path(*file).extension().string());
   if (!extension.empty() &&
       std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw InputError(Fault{option, 0,

@@ -6,6 +6,7 @@
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
+#include "collision/core/shortest.h"
 #include "planner/benchmark/checking_tally.h"
 #include "planner/benchmark/child_process.h"
 #include "planner/problem/yaml_reader.h"

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <set>
 
+#include "collision/core/quantiles.h"
 #include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/ompl_log.h"
 #include "planner/benchmark/plot.h"

@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "collision/core/quantiles.h"
 #include "planner/robot/edge_motion.h"
 
 namespace corridor {
@@ -18,13 +19,6 @@ double secondsOf(const auto& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 Configuration randomState(const ConfigurationSpace& space, std::mt19937_64& random) {
@@ -100,8 +94,8 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
     }
   }
   costs.free = free.size();
-  costs.freeSeconds = median(free);
-  costs.otherSeconds = median(other);
+  if (!free.empty()) costs.freeSeconds = medianOf(free);
+  if (!other.empty()) costs.otherSeconds = medianOf(other);
   for (auto& [bodies, of] : pairs) {
     of.share = all > 0 ? of.share / all : 0;
     costs.pairs.push_back(of);

@@ -110,7 +110,7 @@ class MbmReader {
   }
 
   const Json& field(const Json& object, const std::string& key) const {
-    if (!object.is_object() || !object.contains(key)) stop("missing key \"" + key + "\"");
+    if (!object.is_object() || !object.contains(key)) stop("missing key " + quotedWord(key));
     return object[key];
   }
   const Json& list(const Json& object, const std::string& key) const {
@@ -158,7 +158,7 @@ class MbmReader {
     for (const auto& file : files) addFile(setup.files, file);
     addFile(setup.files, srdf);
     if (model) readSrdf(srdf, *model, found);
-    for (const Fault& one : found) faults_.add(one.file, one.line, one.text);
+    faults_.add(found);
     faults_.throwIfAny();
     setup.robot.model = std::move(*model);
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_limits.h"
 #include "planner/robot/joint_types.h"
@@ -169,8 +170,8 @@ bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
   };
   const double least = valueOf("lower", lower), most = valueOf("upper", upper);
   if (least > most)
-    file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortestText(least) +
-                                        " is above the upper limit " + shortestText(most));
+    file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortest(least) +
+                                        " is above the upper limit " + shortest(most));
   if (limit->FindAttribute("lower") || limit->FindAttribute("upper")) return true;
   if (!joint.FirstChildElement("mimic"))
     notes.push_back(file.at(

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_outline.h"
@@ -195,8 +196,7 @@ class Tree {
       file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) +
                                   ", which is continuous and repeats after a full turn, by the "
                                   "multiplier " +
-                                  shortestText(multiplier) +
-                                  "; use a whole multiplier or a revolute " +
+                                  shortest(multiplier) + "; use a whole multiplier or a revolute " +
                                   quotedWord(leader->name));
   }
 

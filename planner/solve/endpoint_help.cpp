@@ -48,7 +48,7 @@ std::string described(const Checker& checker, std::size_t shape, std::uint32_t t
   }
   if (!checker.scene().bodies()[shape].body.part())
     details += (details.empty() ? "" : ", ") + ("triangle " + std::to_string(triangle));
-  return "\"" + body.name + "\"" + (details.empty() ? "" : " (" + details + ")");
+  return quotedWord(body.name) + (details.empty() ? "" : " (" + details + ")");
 }
 
 std::string described(const Checker& checker, const Contact& pair) {

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <sstream>
+#include <utility>
 
 #include "collision/core/read_file.h"
 #include "planner/problem/format_key.h"

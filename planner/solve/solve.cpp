@@ -15,6 +15,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/fault_list.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
@@ -74,8 +75,8 @@ std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
 std::string treesTold(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
-         (trees.overlap == usual.overlap ? "" : ", " + trees.overlap);
          (trees.fit == usual.fit ? "" : ", " + trees.fit) +
+         (trees.overlap == usual.overlap ? "" : ", " + trees.overlap);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/yaml_reader.h"

@@ -15,6 +15,7 @@
 #include <iostream>
 #include <vector>
 
+#include "collision/core/quantiles.h"
 #include "planner/benchmark/competitors.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"

@@ -144,8 +144,7 @@ TEST_F(QueryCommand, SharedWorkload) {
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   const std::string folder = (*data / "collision").string();
   const auto w = corridor::test::loadWorkload(*data / "collision", "e_touching_boxes");
-  std::istringstream pair(
-      corridor::test::ProgramTest::contents(folder + "/e_touching_boxes/pair.txt"));
+  std::istringstream pair(corridor::test::contents(folder + "/e_touching_boxes/pair.txt"));
   std::string which, a, b;
   pair >> which >> a >> which >> b;
   const Result result = run("query '" + folder + "/" + a + "' '" + folder + "/" + b +

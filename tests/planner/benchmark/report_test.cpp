@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -63,8 +62,7 @@ class Report : public testing::Test {
   }
   std::string page() const {
     writeReport(campaign_, cells_, folder_);
-    std::ifstream in(folder_ / "report.html");
-    return {std::istreambuf_iterator<char>(in), {}};
+    return test::contents(folder_ / "report.html");
   }
 
   Campaign campaign_;
@@ -268,8 +266,7 @@ TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   const auto height = [&] {
     page();
-    std::ifstream in(folder_ / "plots" / "solved.hall.svg");
-    const std::string svg{std::istreambuf_iterator<char>(in), {}};
+    const std::string svg = test::contents(folder_ / "plots" / "solved.hall.svg");
     return std::atof(svg.substr(svg.find("viewBox=\"0 0 560 ") + 17, 4).c_str());
   };
   const double few = height();
@@ -279,8 +276,7 @@ TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
   // A longer name is cut at a boundary of UTF-8 characters.
   campaign_.variants[0].name = std::string(58, 'x') + "ßßßß";
   height();
-  std::ifstream in(folder_ / "plots" / "solved.hall.svg");
-  const std::string svg{std::istreambuf_iterator<char>(in), {}};
+  const std::string svg = test::contents(folder_ / "plots" / "solved.hall.svg");
   EXPECT_THAT(svg, HasSubstr(">" + std::string(58, 'x') + "…<"));
 }
 
@@ -317,8 +313,7 @@ TEST_F(Report, SaysHowItWasMeasured) {
   campaign_.planners = {{"short", "RRT", {{{"range", "0.2"}}}}, {"KPIECE1", "KPIECE1", {}}};
   campaign_.simplify = false;
   writeReport(campaign_, cells_, folder_, {{"2026-05-04 03:02:01", "abc", 2, 60}});
-  std::ifstream in(folder_ / "report.html");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = test::contents(folder_ / "report.html");
   for (const char* said :
        {"session of 2026-05-04 03:02:01 UTC</td><td>60 runs, 2 at a time, by commit abc<",
         "planner “short”</td><td>RRT, range: 0.2<", "OMPL 1.5.2", "simplified</td><td>no<",
