@@ -105,7 +105,7 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
     campaign.planners.push_back({name, name, {}});
   }
   faults.throwIfAny();
-  nameProblems(campaign);
+  identifyProblems(campaign);
   return campaign;
 }
 

@@ -35,8 +35,8 @@ void warn(const std::string& text);
 /// any other output; the problem's `notes` say so, too. @throws InputError as readProblem.
 Problem readProblemOf(const std::string& file);
 
-/// Verifies a solution. If its digest differs from the problem's, prints a warning first, and
-/// verifies nothing unless `ignoreDigest` is set.
+/// Verifies a solution. If its digest differs from the problem's, prints a warning, and verifies
+/// nothing unless `ignoreDigest` is set.
 VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
                          const std::string& problemFile, const std::string& solutionFile,
                          bool ignoreDigest);

@@ -19,6 +19,7 @@
 #include "planner/app/interrupt.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/problem/digest.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/solution.h"
@@ -165,6 +166,8 @@ struct Solved {
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
   Problem problem = readProblemOf(file);
+  // Before planning: later a file may be another than the one that was read.
+  const std::string digest = a.output ? digestOf(problem) : "";
   requireNotRead(a.output, "--output", problem.files, "the problem");
   requireNotRead(a.picture, "--picture", problem.files, "the problem");
   SolveOptions options;
@@ -182,7 +185,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
   if (report.outcome == SolveOutcome::solved) {
-    if (a.output) writeSolution(makeSolution(problem, report), *a.output);
+    if (a.output) writeSolution(makeSolution(problem, report, digest), *a.output);
     if (a.picture) writeWhole(*a.picture, svgPicture(problem, report.path));
   }
   return {std::move(problem), std::move(report)};

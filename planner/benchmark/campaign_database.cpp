@@ -405,11 +405,14 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].peer)
     checker["peer"] = campaign.variants[cell.variant].peer->name;
-  return nlohmann::ordered_json{
-      {"problem", planned.digest},       {"checker", checker},
-      {"planner", planned.planner.name}, {"params", planned.planner.params},
-      {"time", planned.planner.time},    {"memory_mb", campaign.limits.memory},
-      {"simplify", planned.simplify},    {"verify", campaign.verify}}
+  return nlohmann::ordered_json{{"problem", campaign.digests[cell.problem]},
+                                {"checker", checker},
+                                {"planner", planned.planner.name},
+                                {"params", planned.planner.params},
+                                {"time", planned.planner.time},
+                                {"memory_mb", campaign.limits.memory},
+                                {"simplify", planned.simplify},
+                                {"verify", campaign.verify}}
       .dump();
 }
 

@@ -50,7 +50,6 @@ class MbmReader {
     faults_.throwIfAny();
     setPairs({}, problem_);
     setTube({}, problem_);
-    problem_.digest = digestOfFiles(problem_.files);
     return std::move(problem_);
   }
 

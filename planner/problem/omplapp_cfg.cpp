@@ -286,7 +286,6 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
   noteUnused(ini, problem);
   setPairs({}, problem);
   setTube({}, problem);
-  problem.digest = digestOfFiles(problem.files);
   return problem;
 }
 

@@ -31,7 +31,7 @@ class Report : public testing::Test {
     campaign_.problems = {test::hallProblem(test::Rigid::SE3), test::hallProblem(test::Rigid::SE3)};
     for (const char* name : {"certified", "discrete:0.1", "discrete:0.01"})
       campaign_.variants.push_back(readVariant(name));
-    nameProblems(campaign_);
+    identifyProblems(campaign_);
     cells_ = cellsOf(campaign_);
     for (CampaignCell& cell : cells_)
       for (std::uint64_t seed = 1; seed <= 10; ++seed) cell.runs.push_back(run(cell, seed));
@@ -303,7 +303,7 @@ TEST_F(Report, TimesEndWhereTheLimitIs) {
 TEST_F(Report, OfManyProblems) {
   EXPECT_THAT(page(), Not(HasSubstr("<details>")));
   campaign_.problems.resize(10, campaign_.problems[0]);
-  nameProblems(campaign_);
+  identifyProblems(campaign_);
   cells_ = cellsOf(campaign_);
   for (CampaignCell& cell : cells_) cell.runs.push_back(run(cell, 1));
   EXPECT_THAT(page(), HasSubstr("<summary>Plots of all 10 problems</summary>"));
