@@ -43,7 +43,7 @@ inline void addLine(Plot& plot, const std::string& name, const std::vector<PlotP
 /// file can't be written.
 inline void writePlot(const Plot& plot, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  writeWhole(folder / (plot.name + ".svg"), svgOf(plot));
+  writeWhole(folder / (plot.name + ".svg"), svgOf(plot, 720, 440));
 }
 
 }  // namespace corridor::bench
