@@ -9,13 +9,9 @@ void FaultList::add(std::string file, int line, std::string text) {
   throwIfFull();
 }
 
-void FaultList::add(const InputError& error) {
-  faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
+void FaultList::add(const std::vector<Fault>& faults) {
+  faults_.insert(faults_.end(), faults.begin(), faults.end());
   throwIfFull();
-}
-
-void FaultList::throwIfFull() const {
-  if (size() >= kMost) throwIfAny();
 }
 
 void FaultList::throwIfAny() const {
@@ -31,7 +27,7 @@ void FaultList::throwIfAny() const {
   std::stable_sort(sorted.begin(), sorted.end(), [&](const Fault& a, const Fault& b) {
     return rank(a) != rank(b) ? rank(a) < rank(b) : a.line < b.line;
   });
-  if (size() >= kMost)
+  if (isFull())
     sorted.push_back(
         {mainFile_, 0,
          "reading stopped at " + std::to_string(size()) + " faults; there may be more"});

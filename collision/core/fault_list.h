@@ -9,22 +9,25 @@
 namespace corridor {
 
 /// Collects the faults of an input and of the files that it names, so that the user sees all of
-/// them at once. At the thousandth fault `add` throws all of them.
+/// them at once. At the last fault that it may hold, `add` throws all of them.
 class FaultList {
  public:
   static constexpr std::size_t kMost = 1000;
 
   /// @param mainFile  its faults are listed first; empty: no file is preferred.
-  explicit FaultList(std::string mainFile = {}) : mainFile_(std::move(mainFile)) {}
+  /// @param most  the number of faults at which `add` throws.
+  explicit FaultList(std::string mainFile = {}, std::size_t most = kMost)
+      : mainFile_(std::move(mainFile)), most_(most) {}
   void add(std::string file, int line, std::string text);
-  void add(const InputError& error);
+  void add(const std::vector<Fault>& faults);
+  void add(const InputError& error) { add(error.faults()); }
   /// Calls `step`; if it throws an InputError, keeps the faults instead.
   template <class Step>
   void collect(const Step& step) {
     try {
       step();
     } catch (const InputError& error) {
-      if (size() >= kMost) throw;
+      if (isFull()) throw;
       add(error);
     }
   }
@@ -36,9 +39,13 @@ class FaultList {
   void throwIfAny() const;
 
  private:
-  void throwIfFull() const;
+  bool isFull() const { return size() >= most_; }
+  void throwIfFull() const {
+    if (isFull()) throwIfAny();
+  }
 
   std::string mainFile_;
+  std::size_t most_;
   std::vector<Fault> faults_;
 };
 

@@ -4,15 +4,12 @@
 #include <cctype>
 
 namespace corridor {
-namespace {
 
 std::string lowered(std::string_view word) {
   std::string text(word);
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
-
-}  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
   // Rows i − 2, i − 1 and i of the table of distances between prefixes.
@@ -52,7 +49,7 @@ std::optional<std::string> mostSimilar(std::string_view word,
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
   const auto near = mostSimilar(word, candidates);
-  return near ? "; did you mean \"" + *near + "\"?" : "";
+  return near ? " (did you mean \"" + *near + "\"?)" : "";
 }
 
 std::string knownWords(const std::vector<std::string>& words) {

@@ -7,6 +7,9 @@
 
 namespace corridor {
 
+/// Returns the word with its ASCII letters in lower case.
+std::string lowered(std::string_view word);
+
 /// Returns how many bytes must be inserted, removed, replaced, or swapped with their neighbour to
 /// turn `a` into `b` (optimal string alignment).
 std::size_t editDistance(std::string_view a, std::string_view b);
@@ -17,7 +20,7 @@ std::size_t editDistance(std::string_view a, std::string_view b);
 std::optional<std::string> mostSimilar(std::string_view word,
                                        const std::vector<std::string>& candidates);
 
-/// Returns `; did you mean "…"?` with the nearest candidate, or "".
+/// Returns ` (did you mean "…"?)` with the nearest candidate, or "". A message can go on behind it.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
 /// Returns ` (known: a, b, c)`, shortened as by `joinedFirst`.

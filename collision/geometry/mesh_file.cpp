@@ -1,11 +1,11 @@
 #include "collision/geometry/mesh_file.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
 #include "collision/geometry/assimp_process.h"
 #include "collision/geometry/collada_asset.h"
 #include "collision/geometry/mesh_health.h"
@@ -17,16 +17,8 @@ namespace {
 
 constexpr const char* kWhat = "a mesh file";
 
-std::string shortest(double value) {
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
 std::string lowerExtension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lowered(file.extension().string());
 }
 
 void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {

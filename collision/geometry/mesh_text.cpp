@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <locale>
@@ -21,24 +22,15 @@ std::string inQuotes(std::string_view word) {
   return '"' + printable(word) + '"';
 }
 
-void MeshFaults::add(int line, std::string text) {
-  constexpr std::size_t most = 10;
-  faults_.push_back({file_, line, std::move(text)});
-  if (faults_.size() == most) throw InputError(faults_);
-}
-
 void MeshFaults::fail(int line, std::string text) {
-  faults_.push_back({file_, line, std::move(text)});
-  throw InputError(faults_);
+  add(line, std::move(text));
+  faults_.throwIfAny();
+  std::abort();  // not reached: there is a fault
 }
 
 void MeshFaults::failCount(std::uint64_t count, std::string_view what, int line) {
   fail(line, "has " + std::to_string(count) + " " + std::string(what) + " or more; at most " +
                  std::to_string(kMostOfAMesh) + " are read: use a coarser mesh, or split it");
-}
-
-void MeshFaults::throwIfAny() const {
-  if (!faults_.empty()) throw InputError(faults_);
 }
 
 std::optional<std::string> parseCoordinate(std::string_view word, double& value) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "collision/core/error.h"
+#include "collision/core/fault_list.h"
 #include "collision/geometry/mesh_limits.h"
 #include "collision/geometry/triangle_mesh.h"
 
@@ -22,12 +22,12 @@ std::string inQuotes(std::string_view word);
 /// information.
 class MeshFaults {
  public:
-  explicit MeshFaults(std::string file) : file_(std::move(file)) {}
+  explicit MeshFaults(std::string file) : file_(std::move(file)), faults_(file_, 10) {}
 
-  void add(int line, std::string text);
+  void add(int line, std::string text) { faults_.add(file_, line, std::move(text)); }
   /// Adds a fault after which the reader cannot go on, and throws all faults.
   [[noreturn]] void fail(int line, std::string text);
-  void throwIfAny() const;
+  void throwIfAny() const { faults_.throwIfAny(); }
   /// Fails if `count` of `what` (vertices or triangles) exceeds `kMostOfAMesh`.
   void requireFew(std::uint64_t count, std::string_view what, int line) {
     if (count > kMostOfAMesh) failCount(count, what, line);
@@ -41,7 +41,7 @@ class MeshFaults {
   [[noreturn]] void failCount(std::uint64_t count, std::string_view what, int line);
 
   std::string file_;
-  std::vector<Fault> faults_;
+  FaultList faults_;
 };
 
 /// Reads a whole word as a finite coordinate into `value`. Numbers too small for a double become 0,

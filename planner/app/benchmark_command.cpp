@@ -1,19 +1,23 @@
 #include <algorithm>
-#include <cmath>
+#include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <memory>
 #include <optional>
-#include <set>
+#include <string>
 #include <unistd.h>
-
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "collision/core/fault_list.h"
 #include "collision/core/spelling.h"
+#include "planner/app/benchmark_output.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
+#include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/campaign_yaml.h"
@@ -29,10 +33,18 @@
 namespace corridor::app {
 namespace {
 
-using nlohmann::ordered_json;
-
-/// Bytes that are not UTF-8, such as those of names in files, become U+FFFD in the JSON.
-constexpr auto kReplace = ordered_json::error_handler_t::replace;
+struct BenchmarkArguments {
+  std::vector<std::string> files;  ///< a campaign, or problems
+  /// Only with problems, not with a campaign. Each string is a comma-separated list; empty: the
+  /// defaults.
+  std::vector<std::string> variants, planners;
+  std::optional<std::uint64_t> runs, seed;
+  std::optional<double> time;    ///< limit of a run, seconds
+  std::optional<double> memory;  ///< limit of a run, MB
+  std::uint64_t jobs = 1;
+  std::optional<std::string> output;
+  bool resume = false, json = false;
+};
 
 [[noreturn]] void refuse(const std::string& option, const std::string& why) {
   throw InputError(Fault{option, 0, why});
@@ -93,7 +105,7 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
     campaign.planners.push_back({name, name, {}});
   }
   faults.throwIfAny();
-  nameProblems(campaign);
+  identifyProblems(campaign);
   return campaign;
 }
 
@@ -114,102 +126,10 @@ Campaign campaignOf(const BenchmarkArguments& a) {
   return campaign;
 }
 
-ordered_json jsonOf(const Row& row) {
-  ordered_json j;
-  for (const auto& [name, value] : row)
-    std::visit(
-        [&j, &key = name](const auto& held) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
-            j[key] = nullptr;
-          else
-            j[key] = held;
-        },
-        value);
-  return j;
-}
-
-ordered_json jsonOf(const Campaign& campaign, const CampaignResult& result) {
-  ordered_json j = {{"format", "corridor-benchmark-report-2"},
-                    {"campaign", campaign.name},
-                    {"seed", campaign.seed},
-                    {"runs", campaign.runs},
-                    {"interrupted", result.interrupted},
-                    {"notes", campaign.notes},
-                    {"results", ordered_json::array()}};
-  for (const CampaignCell& cell : result.cells) {
-    ordered_json of = jsonOf(summaryRow(campaign, cell));
-    of["rows"] = ordered_json::array();
-    for (const BenchmarkRun& run : cell.runs)
-      of["rows"].push_back(jsonOf(runRow(campaign, cell, run)));
-    j["results"].push_back(std::move(of));
-  }
-  return j;
-}
-
-/// "1:02:03", "4:05"
-std::string clockText(double seconds) {
-  const auto all = static_cast<std::uint64_t>(std::lround(std::min(seconds, 1e9)));
-  char text[32];
-  if (all >= 3600)
-    std::snprintf(text, sizeof text, "%d:%02d:%02d", static_cast<int>(all / 3600),
-                  static_cast<int>(all / 60 % 60), static_cast<int>(all % 60));
-  else
-    std::snprintf(text, sizeof text, "%d:%02d", static_cast<int>(all / 60),
-                  static_cast<int>(all % 60));
-  return text;
-}
-
-/// Prints a line over the line before:
-/// "[####······] 41 of 240, 2:10 left: piano, certified, RRT, seed 2".
-void showProgress(const Campaign& campaign, const CampaignProgress& p) {
-  constexpr std::uint64_t kWidth = 20;
-  const std::uint64_t full = p.done * kWidth / p.total;
-  std::string bar;
-  for (std::uint64_t i = 0; i < kWidth; ++i) bar += i < full ? "#" : "·";
-  const std::string left = p.secondsLeft < 0 ? "" : ", " + clockText(p.secondsLeft) + " left";
-  std::fprintf(stderr, "\r[%s] %s of %s%s: %s, %s, %s, seed %s\033[K", bar.c_str(),
-               grouped(p.done).c_str(), counted(p.total, "run").c_str(), left.c_str(),
-               campaign.problemNames[p.cell.problem].c_str(),
-               campaign.variants[p.cell.variant].name.c_str(), p.cell.planner.label.c_str(),
-               std::to_string(p.seed).c_str());
-}
-
-/// Returns a note if a competitor plans a problem with a margin, else "". Competitors test for
-/// contact only, so the verifier may refute their paths for the margin alone.
-std::string marginNote(const Campaign& campaign) {
-  const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
-                                  [](const Problem& p) { return p.margin > 0; });
-  for (const Variant& variant : campaign.variants)
-    if (margin && variant.peer)
-      return variant.peer->name +
-             " tests for contact without the margin, so its paths may be refuted for the margin "
-             "alone; least_distance_m in runs.csv shows which of them collide";
-  return "";
-}
-
-std::set<std::string> hostsOf(const std::vector<CampaignCell>& cells) {
-  std::set<std::string> hosts;
-  for (const CampaignCell& cell : cells)
-    for (const BenchmarkRun& run : cell.runs)
-      if (!run.ompl.host.empty()) hosts.insert(run.ompl.host);
-  return hosts;
-}
-
 bool anyRun(const std::vector<CampaignCell>& cells) {
   return std::any_of(cells.begin(), cells.end(),
                      [](const CampaignCell& cell) { return !cell.runs.empty(); });
 }
-
-/// Returns each commit once, in the order of the sessions.
-std::vector<std::string> commitsOf(const std::vector<CampaignSession>& sessions) {
-  std::vector<std::string> commits;
-  for (const CampaignSession& session : sessions)
-    if (std::find(commits.begin(), commits.end(), session.commit) == commits.end())
-      commits.push_back(session.commit);
-  return commits;
-}
-
-}  // namespace
 
 int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.resume && !a.output) refuse("--resume", "needs -o with the folder of the campaign");
@@ -249,19 +169,9 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   } catch (const InputError&) {
     unwritten = std::current_exception();
   }
-  if (const std::vector<std::string> builds = commitsOf(sessions); builds.size() > 1) {
-    campaign.notes.push_back("the runs are from several builds, whose times may differ: commits " +
-                             joined(builds));
-    warn(campaign.notes.back());
-  }
-  if (const std::string note = marginNote(campaign); !note.empty()) {
+  for (const std::string& note : notesOf(campaign, result.cells, sessions)) {
     campaign.notes.push_back(note);
     warn(note);
-  }
-  if (const std::set<std::string> hosts = hostsOf(result.cells); hosts.size() > 1) {
-    campaign.notes.push_back("the runs are from several machines, whose times differ: " +
-                             joined(std::vector<std::string>(hosts.begin(), hosts.end())));
-    warn(campaign.notes.back());
   }
   if (result.interrupted)
     warn(!any       ? "interrupted before the first run was done; nothing is written"
@@ -282,11 +192,84 @@ int benchmarkCommand(const BenchmarkArguments& a) {
     if (made) std::filesystem::remove(*a.output, ignored);
   }
   if (a.json)
-    std::cout << jsonOf(campaign, result).dump(2, ' ', false, kReplace) << '\n';
+    std::cout << campaignJson(campaign, result) << '\n';
   else if (any)
     std::cout << tableOf(summaryRows(campaign, result.cells));
   if (unwritten) std::rethrow_exception(unwritten);
   return result.interrupted ? interruptedStatus() : kDone;
+}
+
+}  // namespace
+
+void addBenchmark(CLI::App& program, int& status) {
+  const auto arguments = std::make_shared<BenchmarkArguments>();  // the callback keeps it
+  BenchmarkArguments& a = *arguments;
+  CLI::App* command = program.add_subcommand(
+      "benchmark", "Compare checkers and planners: run time, and how many paths are refuted");
+  command->add_option("CAMPAIGN|PROBLEM", a.files, "a campaign file, or problems as for solve")
+      ->required();
+  const char* compared = "Comparison (with problems; a campaign names its own)";
+  command
+      ->add_option("--variants", a.variants,
+                   "comma separated methods of checking edges, each with or without its parameter: "
+                   "certified:TOLERANCE (m), adaptive:TOLERANCE, advancement:TOLERANCE, "
+                   "discrete:RESOLUTION (OMPL's longest_valid_segment_fraction), fcl:RESOLUTION "
+                   "(default: certified,discrete:0.01)")
+      ->allow_extra_args(false)
+      ->group(compared);
+  command
+      ->add_option("--planners", a.planners,
+                   "comma separated, by OMPL's names (default: each problem's own planner)")
+      ->allow_extra_args(false)
+      ->group(compared);
+  const char* runs = "Runs (replaces settings of the campaign or the problems)";
+  command
+      ->add_option("--runs", a.runs,
+                   "runs of each combination of problem, variant and planner (default 10); all "
+                   "combinations use the same seeds")
+      ->check(isWithin<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
+      ->group(runs);
+  command
+      ->add_option("--seed", a.seed, "seed of the first run; each further run adds 1 (default 1)")
+      ->check(isWithin<std::uint64_t>(1, std::numeric_limits<std::uint32_t>::max(),
+                                      "a whole number from 1 to 2^32 - 1"))
+      ->group(runs);
+  command->add_option("--time", a.time, "time limit of a run, seconds")
+      ->check(isSeconds())
+      ->group(runs);
+  command->add_option("--memory", a.memory, "memory limit of a run, MB (default 4096)")
+      ->check(isWithin(1.0, 1e9, "a number of MB from 1 to 1e9"))
+      ->group(runs);
+  command
+      ->add_option("--jobs", a.jobs,
+                   "number of runs at the same time (default 1); more than 1 makes measured times "
+                   "longer")
+      ->check(isWithin<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
+      ->group(runs);
+  const char* results = "Results";
+  command
+      ->add_option(
+          "-o,--output", a.output,
+          "write to this folder: report.html with its plots, campaign.db (SQLite), runs.csv, "
+          "summary.csv and the logs of OMPL's Benchmark")
+      ->group(results);
+  command->add_flag("--resume", a.resume, "continue the campaign in the folder where it stopped")
+      ->group(results);
+  addJson(*command, a.json, results);
+  command->footer(
+      std::string(
+          "Example: corridor benchmark problems/campaigns/error.yaml -o results --jobs 2\n"
+          "Or without a file: corridor benchmark problems/thin_plate problems/piano --variants "
+          "certified,discrete:0.01,discrete:0.001 -o results\n"
+          "Each run is a separate process, under OMPL's Benchmark. The independent verifier tests "
+          "each path: `refuted` counts those that collide, or violate the problem's margin, "
+          "bounds, start or goal. Times and counts are medians over the solved runs.\n"
+          "Columns: *_s in seconds (time_s: all except reading files; time_p95_s: its 95 % "
+          "quantile; processor_s: of all threads), length_m in metres, rotation_rad in radians, "
+          "checking_share: checking's share of time_s. All columns, and the keys of campaigns: "
+          "planner/benchmark/README.md.\n") +
+      kExitStatus);
+  command->callback([arguments, &status] { status = benchmarkCommand(*arguments); });
 }
 
 }  // namespace corridor::app

@@ -1,13 +1,18 @@
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "planner/app/commands.h"
+#include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/standard_streams.h"
+#include "planner/benchmark/csv_text.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/state_yaml.h"
@@ -17,6 +22,12 @@
 
 namespace corridor::app {
 namespace {
+
+struct CheckArguments {
+  std::string problem;
+  std::optional<std::string> states;  ///< a file of states, one per line
+  bool json = false;
+};
 
 using nlohmann::ordered_json;
 
@@ -67,14 +78,6 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
   }
   checked.valid = checked.pairs.empty() && checked.outOfBounds.empty();
   return checked;
-}
-
-/// Quotes text as a field of a CSV line (RFC 4180): bodies' names may contain any characters.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
 }
 
 int checkStates(const Problem& problem, const CheckArguments& a) {
@@ -150,11 +153,30 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   return all ? kDone : kNo;
 }
 
-}  // namespace
-
 int checkCommand(const CheckArguments& a) {
   const Problem problem = readProblemOf(a.problem);
   return a.states ? checkStates(problem, a) : checkEnds(problem, a);
+}
+
+}  // namespace
+
+void addCheck(CLI::App& program, int& status) {
+  const auto arguments = std::make_shared<CheckArguments>();  // the callback keeps it
+  CheckArguments& a = *arguments;
+  CLI::App* command =
+      program.add_subcommand("check", "Check a problem, or many states of it, without planning");
+  command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
+  command->add_option("--states", a.states,
+                      "a file of states (-: standard input), one per line, numbers blank or comma "
+                      "separated, # starts a comment; prints a line state,valid,pairs for each");
+  addJson(*command, a.json);
+  command->footer(
+      std::string(
+          "Example: corridor check problems/arm_at_shelf --states states.txt > valid.csv\n"
+          "The numbers of a state are the values of the problem's joints, in the order that "
+          "`corridor inspect` prints.\n") +
+      kExitStatus);
+  command->callback([arguments, &status] { status = checkCommand(*arguments); });
 }
 
 }  // namespace corridor::app

@@ -1,13 +1,25 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "collision/geometry/mesh_file.h"
-#include "planner/app/commands.h"
 #include "planner/robot/placed_shape.h"
 
 /// The parts of `corridor inspect`, one per kind of file, and what they share.
 namespace corridor::app {
+
+struct InspectArguments {
+  std::string file;
+  std::optional<std::string> unit, up;  ///< how to read a mesh file
+  bool selfIntersections = false;       ///< mesh files: compute self-intersections
+  bool pairs = false;                   ///< problems: list every pair of bodies
+  std::optional<std::string> against;   ///< a second mesh file: measure queries of the two
+  std::optional<std::string> poses;     ///< file with poses of the second mesh, one per line
+  bool json = false;
+};
 
 int inspectProblem(const InspectArguments& arguments);
 int inspectRobot(const InspectArguments& arguments);  ///< a URDF or a robot.yaml

@@ -2,7 +2,10 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -15,20 +18,14 @@
 #include "collision/queries/self_intersections.h"
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
+#include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/problem/yaml_value.h"
 
 namespace corridor::app {
-namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json numbers(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-}  // namespace
 
 MeshFile meshFileAsked(const std::string& file, const InspectArguments& a) {
   MeshFileOptions options;
@@ -49,8 +46,8 @@ ordered_json meshJson(const MeshFile& file) {
                     {"float_vertices", file.floatVertices},
                     {"vertices", file.mesh.vertices.size()},
                     {"triangles", health.triangles},
-                    {"min", numbers(health.min)},
-                    {"max", numbers(health.max)},
+                    {"min", numbersJson(health.min)},
+                    {"max", numbersJson(health.max)},
                     {"components", health.components},
                     {"watertight", health.watertight},
                     {"distinct_triangles", health.distinctTriangles},
@@ -202,13 +199,55 @@ int inspectFile(const InspectArguments& a, bool inFolder) {
   return robot ? inspectRobot(a) : problem ? inspectProblem(a) : inspectMeshFile(a);
 }
 
-}  // namespace
-
 int inspectCommand(const InspectArguments& a) {
   InspectArguments of = a;
   const std::string robot = robotInFolder(a.file);
   if (!robot.empty()) of.file = robot;
   return inspectFile(of, !robot.empty());
+}
+
+}  // namespace
+
+void addInspect(CLI::App& program, int& status) {
+  const auto arguments = std::make_shared<InspectArguments>();  // the callback keeps it
+  InspectArguments& a = *arguments;
+  CLI::App* command = program.add_subcommand(
+      "inspect", "Report on a mesh, a robot or a problem, and on pairs that are never tested");
+  command
+      ->add_option("FILE", a.file,
+                   "a mesh file, a URDF or robot.yaml, a problem, or a folder that holds a problem "
+                   "or a robot")
+      ->required();
+  command->add_option("--unit", a.unit, "for a mesh file: its unit, m, cm, mm or in")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
+  command->add_option("--up", a.up, "for a mesh file: its up-axis, which is turned to z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  command->add_flag(
+      "--self-intersections", a.selfIntersections,
+      "for a mesh file: count the pairs of its triangles that intersect, except in the "
+      "corners and edges that they share (seconds for a million triangles; each pair "
+      "of coincident triangles counts)");
+  command->add_flag("--pairs", a.pairs,
+                    "for a problem: list every pair of bodies, and why it is not tested");
+  const char* cost = "Cost of queries of two meshes";
+  command
+      ->add_option(
+          "--against", a.against,
+          "a second mesh file; reports, for every bounding volume, the tests of an interference "
+          "query (N_v, N_p), the cost of a test (C_v, C_p), and how well "
+          "T = N_v C_v + N_p C_p predicts the time")
+      ->group(cost);
+  command
+      ->add_option("--poses", a.poses,
+                   "with --against: poses of the second mesh, as for corridor query (default: a "
+                   "grid over the bounds of both)")
+      ->group(cost);
+  addJson(*command, a.json);
+  command->footer(
+      std::string("Example: corridor inspect robots/piano/piano.obj\n"
+                  "         corridor inspect a.obj --against b.obj --poses poses.txt\n") +
+      kExitStatus);
+  command->callback([arguments, &status] { status = inspectCommand(*arguments); });
 }
 
 }  // namespace corridor::app

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
+#include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"
@@ -64,7 +66,7 @@ CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t
   }
   std::vector<double> calls;
   for (std::size_t i = count; i < result.answers.size(); ++i) calls.push_back(result.answers[i].ns);
-  row.callNs = median(calls);
+  row.callNs = medianOf(calls);
   row.cost = fittedCosts(seen, row.callNs);
   std::vector<double> ratios;
   for (const QueryCost& c : unseen) {
@@ -72,9 +74,9 @@ CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t
     row.predictedNs += row.cost.predicted(c) / static_cast<double>(unseen.size());
     ratios.push_back(row.cost.predicted(c) / c.ns);
   }
-  row.low = quantile(ratios, 0.05);
-  row.middle = quantile(ratios, 0.5);
-  row.high = quantile(ratios, 0.95);
+  row.low = quantileOf(ratios, 0.05);
+  row.middle = medianOf(ratios);
+  row.high = quantileOf(ratios, 0.95);
   return row;
 }
 

@@ -2,11 +2,13 @@
 #include <iostream>
 #include <map>
 
+#include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/checker/edge_costs.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/reach.h"
+#include "planner/problem/digest.h"
 #include "planner/solve/endpoint_help.h"
 #include "planner/solve/state_rows.h"
 
@@ -25,7 +27,7 @@ class ProblemReport {
     json_ = {{"format", "corridor-inspect-problem-4"},
              {"file", a_.file},
              {"name", problem_.name},
-             {"digest", problem_.digest}};
+             {"digest", digestOf(problem_)}};
     out_.line("problem", a_.file);
     out_.line("name", problem_.name);
     tellSpace();

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "collision/core/fault_list.h"
+#include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/problem/robot_file.h"

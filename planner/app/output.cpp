@@ -108,12 +108,13 @@ Problem readProblemOf(const std::string& file) {
 VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
                          const std::string& problemFile, const std::string& solutionFile,
                          bool ignoreDigest) {
-  if (digestState(problem, solution) == DigestState::differs)
+  VerifyReport report =
+      verifySolution(problem, solution, ignoreDigest ? OtherDigest::ignored : OtherDigest::refused);
+  if (report.digest == DigestState::differs)
     warn(solutionFile + ": made for other files than those of " + problemFile +
          " (the digests differ)" +
          (ignoreDigest ? "" : "; it is not verified: --ignore-digest verifies it anyway"));
-  return verifySolution(problem, solution,
-                        ignoreDigest ? OtherDigest::ignored : OtherDigest::refused);
+  return report;
 }
 
 void requireFolderFor(const std::optional<std::string>& file, const char* option) {

@@ -35,8 +35,8 @@ void warn(const std::string& text);
 /// any other output; the problem's `notes` say so, too. @throws InputError as readProblem.
 Problem readProblemOf(const std::string& file);
 
-/// Verifies a solution. If its digest differs from the problem's, prints a warning first, and
-/// verifies nothing unless `ignoreDigest` is set.
+/// Verifies a solution. If its digest differs from the problem's, prints a warning, and verifies
+/// nothing unless `ignoreDigest` is set.
 VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
                          const std::string& problemFile, const std::string& solutionFile,
                          bool ignoreDigest);
@@ -64,7 +64,7 @@ std::string tubeText(const ConfigurationSpace& space, const Configuration& tube)
 nlohmann::ordered_json tubeJson(const ConfigurationSpace& space, const Configuration& tube);
 /// "x = 1, y = 2, yaw = 0.5"
 std::string stateText(const ConfigurationSpace& space, const Configuration& q);
-nlohmann::ordered_json numbersJson(const Configuration& q);
+nlohmann::ordered_json numbersJson(const Configuration& q);  ///< also of a Vec3
 /// Returns null for an infinity and for NaN, which JSON cannot represent.
 nlohmann::ordered_json numberJson(double value);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "collision/core/quantiles.h"
 #include "collision/hierarchy/with_trees.h"
 #include "collision/motion/rigid_motion.h"
 #include "collision/queries/contacts.h"
@@ -48,7 +49,7 @@ std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
     }
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const auto begin = ns.begin() + static_cast<std::ptrdiff_t>(i * repeat);
-    answers[i].ns = median(std::vector<double>(begin, begin + passes));
+    answers[i].ns = medianOf(std::vector<double>(begin, begin + passes));
   }
   return answers;
 }

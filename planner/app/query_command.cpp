@@ -1,21 +1,39 @@
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 #include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "collision/core/error.h"
-#include "collision/core/simd_target.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
+#include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/query_batch.h"
+#include "planner/app/query_output.h"
 #include "planner/app/query_poses.h"
-#include "planner/app/query_timing.h"
-#include "planner/app/standard_streams.h"
 
 namespace corridor::app {
 namespace {
+
+struct QueryArguments {
+  std::string meshA, meshB;
+  std::optional<std::string> poses;               ///< a file of poses, one per line
+  std::optional<std::string> grid, lower, upper;  ///< "10x10x5", "x,y,z"
+  std::optional<std::uint64_t> rotations, seed;   ///< with `grid` only
+  std::optional<std::string> savePoses;           ///< with `grid` only: write its poses here
+  std::optional<std::string> motions;        ///< instead of poses: a file of motions, one per line
+  std::optional<std::string> edges;          ///< with `motions` only: the method; unset: the first
+  std::optional<std::string> query, volume;  ///< `query` with poses only; unset: the first
+  std::optional<std::string> fit, overlap;   ///< unset: the first that the volume has
+  std::optional<double> tolerance;           ///< metres; for the tolerance query and for motions
+  std::uint64_t repeat = 1;
+};
 
 /// The maximum number of queries of one command, all passes counted: each stores its time, 8 bytes.
 constexpr std::uint64_t kMostQueries = 1'000'000'000;
@@ -94,97 +112,6 @@ void checkOptions(const QueryArguments& a) {
   ofGrid("--save-poses", a.savePoses.has_value());
 }
 
-/// Prints all lines in a single write: quick for millions of lines, and stdout and stderr don't
-/// mix.
-void printCsv(const QueryKind& kind, const BatchResult& result) {
-  std::string text = kind.header + "\n";
-  char line[256];
-  if (kind.asked == Asked::contacts) {
-    for (const ContactRow& c : result.contacts) {
-      std::snprintf(line, sizeof line, "%zu,%u,%u,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", c.pose,
-                    c.a, c.b, c.p.x(), c.p.y(), c.p.z(), c.q.x(), c.q.y(), c.q.z());
-      text += line;
-    }
-  } else if (kind.asked == Asked::distance) {
-    for (std::size_t i = 0; i < result.distances.size(); ++i) {
-      const Distance& d = result.distances[i];
-      std::snprintf(line, sizeof line, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", i,
-                    d.distance, d.p_WA.x(), d.p_WA.y(), d.p_WA.z(), d.p_WB.x(), d.p_WB.y(),
-                    d.p_WB.z());
-      text += line;
-    }
-  } else if (kind.asked == Asked::tolerance) {
-    for (std::size_t i = 0; i < result.answers.size(); ++i)
-      text += std::to_string(i) + ',' + (result.answers[i].hit ? "1\n" : "0\n");
-  } else {
-    for (std::size_t i = 0; i < result.answers.size(); ++i) {
-      const Answer& answer = result.answers[i];
-      text += std::to_string(i) + ',' + (answer.hit ? '1' : '0') + ',' +
-              std::to_string(answer.boxTests) + ',' + std::to_string(answer.triangleTests) + '\n';
-    }
-  }
-  std::cout << text;
-  requireResultsWritten();
-}
-
-/// Prints the summary on stderr: `words`, which describe the query and count its answers, then
-/// times, mean counts, and the trees' build times and sizes.
-void printSummary(const BatchResult& result, const std::vector<std::string>& words) {
-  std::vector<double> ns;
-  double boxTests = 0, triangleTests = 0, sum = 0;
-  for (const Answer& answer : result.answers) {
-    ns.push_back(answer.ns);
-    sum += answer.ns;
-    boxTests += static_cast<double>(answer.boxTests);
-    triangleTests += static_cast<double>(answer.triangleTests);
-  }
-  const auto count = static_cast<double>(ns.size());
-  // The smallest time that at least 95 % of the times do not exceed.
-  const std::size_t rank = (95 * ns.size() + 99) / 100 - 1;
-  const double middle = median(ns);
-  std::nth_element(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(rank), ns.end());
-  for (const std::string& word : words) std::cerr << word << '\n';
-  std::cerr << "simd=" << simdTarget() << '\n';
-  const auto tell = [](const char* key, const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    std::cerr << key << '=' << text << '\n';
-  };
-  tell("median_ns", "%.1f", middle);
-  tell("mean_ns", "%.1f", sum / count);
-  tell("p95_ns", "%.1f", ns[rank]);
-  tell("bv_tests", "%.6g", boxTests / count);
-  tell("triangle_tests", "%.6g", triangleTests / count);
-  tell("build_ms_a", "%.4f", result.buildMsA);
-  tell("build_ms_b", "%.4f", result.buildMsB);
-  tell("bytes_a", "%.0f", static_cast<double>(result.bytesA));
-  tell("bytes_b", "%.0f", static_cast<double>(result.bytesB));
-  if (!std::cerr) throw InputError(Fault{"standard error", 0, "can't be written"});
-}
-
-void printMotions(const BatchResult& result) {
-  std::string text =
-      "motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,splits\n";
-  char line[256];
-  for (std::size_t i = 0; i < result.motions.size(); ++i) {
-    const MotionAnswer& motion = result.motions[i];
-    const MotionResult& r = motion.result;
-    const char* verdict = r.verdict == MotionVerdict::free      ? "free"
-                          : r.verdict == MotionVerdict::contact ? "contact"
-                                                                : "undecided";
-    std::snprintf(line, sizeof line, "%zu,%s,%.17g,%.17g,%.17g,%d,%d,%llu,%llu,%llu\n", i, verdict,
-                  r.certifiedUntil, r.contactTime, r.gap,
-                  r.pair ? static_cast<int>(r.pair->triangleA) : -1,
-                  r.pair ? static_cast<int>(r.pair->triangleB) : -1,
-                  static_cast<unsigned long long>(result.answers[i].boxTests),
-                  static_cast<unsigned long long>(result.answers[i].triangleTests),
-                  static_cast<unsigned long long>(motion.splits));
-    text += line;
-  }
-  std::cout << text;
-  requireResultsWritten();
-}
-
 void checkRepeats(const QueryArguments& a, std::size_t count, const char* what) {
   if (a.repeat <= kMostQueries / count) return;
   throw InputError(Fault{"--repeat", 0,
@@ -227,8 +154,6 @@ int queryMotions(const QueryArguments& a) {
   return kDone;
 }
 
-}  // namespace
-
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
   requireFolderFor(a.savePoses, "--save-poses");
@@ -257,6 +182,124 @@ int queryCommand(const QueryArguments& a) {
                         "overlap=" + trees.overlap, "poses=" + std::to_string(poses.size()),
                         "hits=" + std::to_string(hits)});
   return kDone;
+}
+
+}  // namespace
+
+void addQuery(CLI::App& program, int& status) {
+  const auto arguments = std::make_shared<QueryArguments>();  // the callback keeps it
+  QueryArguments& a = *arguments;
+  CLI::App* command = program.add_subcommand(
+      "query",
+      "Query two meshes at many poses, or along many motions: CSV on stdout, times on stderr");
+  command->add_option("A", a.meshA, "a mesh file, in metres; it does not move")->required();
+  command->add_option("B", a.meshB, "a mesh file, in metres; it takes the poses")->required();
+  const char* poses = "Poses of B";
+  command
+      ->add_option("--poses", a.poses,
+                   "a file of poses (-: standard input), one per line: r00 r01 r02 r10 r11 r12 r20 "
+                   "r21 r22 tx ty tz; a point b of B is at R b + t; # starts a comment")
+      ->group(poses);
+  command
+      ->add_option("--grid", a.grid,
+                   "NXxNYxNZ: put the centre of B's bounds on every point of a lattice, x changing "
+                   "first")
+      ->group(poses);
+  command
+      ->add_option("--lower", a.lower,
+                   "x,y,z in metres: the lattice's first point (default: A's bounds grown by half "
+                   "the diagonal of B's)")
+      ->group(poses);
+  command->add_option("--upper", a.upper, "x,y,z in metres: the lattice's last point")
+      ->group(poses);
+  command
+      ->add_option("--rotations", a.rotations,
+                   "repeat the lattice this many times, each with B in another random orientation; "
+                   "the first is the identity (default 1)")
+      ->check(isWithin<std::uint64_t>(1, 10'000'000, "a whole number from 1 to 10000000"))
+      ->group(poses);
+  command->add_option("--seed", a.seed, "random seed of the orientations (default 1)")
+      ->check(isSeed())
+      ->group(poses);
+  command
+      ->add_option("--save-poses", a.savePoses,
+                   "write the grid's poses to this file, as --poses reads them")
+      ->group(poses);
+  command
+      ->add_option("--motions", a.motions,
+                   "instead of poses: a file of B's motions (-: standard input), one per line: the "
+                   "first and the last pose, 12 numbers each, as for --poses. B moves straight and "
+                   "rotates the shorter way (slerp; a half turn is undecided). Reports the first "
+                   "contact of each motion")
+      ->group("Motions of B");
+  command
+      ->add_option(
+          "--edges", a.edges,
+          "the method that proves motions; the first is the default: " + joined(edgeMethodNames()))
+      ->group("Motions of B");
+  const char* asked = "Query (motions take all of these except --query)";
+  const auto named = [](const auto& kinds) {
+    std::vector<std::string> names;
+    for (const auto& kind : kinds) names.push_back(kind.name);
+    return joined(names);
+  };
+  const auto variants = [](std::vector<std::string> VolumeKind::*of) {
+    std::string text = "the first is the default";
+    for (const VolumeKind& kind : volumeKinds())
+      text += "; with " + kind.name + ": " + joined(kind.*of);
+    return text;
+  };
+  command
+      ->add_option("--query", a.query,
+                   "the query; the first is the default: " + named(queryKinds()))
+      ->group(asked);
+  command
+      ->add_option("--volume", a.volume,
+                   "the bounding volume; the first is the default: " + named(volumeKinds()))
+      ->group(asked);
+  command->add_option("--fit", a.fit, "what volumes are fitted to; " + variants(&VolumeKind::fits))
+      ->group(asked);
+  command
+      ->add_option("--overlap", a.overlap,
+                   "the overlap test of two volumes, for queries that use one; " +
+                       variants(&VolumeKind::overlaps))
+      ->group(asked);
+  command
+      ->add_option(
+          "--tolerance", a.tolerance,
+          "metres. With --query tolerance: report whether A and B are at most this far apart. With "
+          "--motions: above 0; a clearance below twice this may be undecided (default: 1e-7 of the "
+          "smaller one's radius, or what the rounding of poses needs if that is more)")
+      ->check(isWithin(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
+      ->group(asked);
+  command
+      ->add_option("--repeat", a.repeat,
+                   "number of passes over all poses or motions; the time of each is the median of "
+                   "its passes (default 1)")
+      ->check(isWithin<std::uint64_t>(1, 1'000'000, "a whole number from 1 to 1000000"))
+      ->group(asked);
+  command->footer(
+      std::string(
+          "Example: corridor query a.obj b.obj --poses poses.txt --repeat 5 > hits.csv\n"
+          "         corridor query a.obj b.obj --grid 20x20x20 --rotations 10 --query contacts\n"
+          "         corridor query a.obj b.obj --motions motions.txt > first_contacts.csv\n"
+          "CSV on stdout; poses, motions and triangles count from 0:\n"
+          "  interference: pose,hit,bv_tests,triangle_tests\n"
+          "  contacts: pose,a,b,px,py,pz,qx,qy,qz, a line per pair of triangles with the segment "
+          "that they share\n"
+          "  distance: pose,distance,ax,ay,az,bx,by,bz, with a closest point of each mesh\n"
+          "  tolerance: pose,closer\n"
+          "  motions: motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,"
+          "splits\n"
+          "Verdicts of motions: free; contact: none before t0, one at t1, at most 1/1024 of the "
+          "motion later unless the meshes graze; undecided: no contact before t0, and at t1 the "
+          "two triangles are gap metres apart. t is 0 at the start of a motion and 1 at its end; "
+          "-1 means none.\n"
+          "Touching is contact; meshes are surfaces. Times are those of one query on one core, "
+          "without reading and printing. A query shorter than 5 µs is repeated, and the mean "
+          "counts.\n") +
+      kExitStatus);
+  command->callback([arguments, &status] { status = queryCommand(*arguments); });
 }
 
 }  // namespace corridor::app

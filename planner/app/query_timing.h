@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <ctime>
-#include <vector>
 
 namespace corridor::app {
 
@@ -42,16 +40,6 @@ double nanosecondsOf(Ask&& ask, Again&& again) {
   const Clock::time_point batch = Clock::now();
   for (int i = 0; i < times; ++i) again();
   return since(batch) / times;
-}
-
-/// Returns the median: the middle number, or the mean of the two middle ones. @pre not empty.
-template <class Numbers>
-double median(Numbers numbers) {
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  const double upper = *middle;
-  if (numbers.size() % 2) return upper;
-  return (*std::max_element(numbers.begin(), middle) + upper) / 2;
 }
 
 }  // namespace corridor::app

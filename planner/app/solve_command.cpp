@@ -1,10 +1,15 @@
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <unistd.h>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -12,7 +17,10 @@
 #include "collision/core/spelling.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
+#include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/problem/digest.h"
+#include "planner/problem/keys.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/solution.h"
 #include "planner/solve/solve.h"
@@ -21,6 +29,16 @@
 
 namespace corridor::app {
 namespace {
+
+struct SolveArguments {
+  std::vector<std::string> problems;
+  std::optional<std::string> planner, sampler, stop, edges;
+  std::optional<double> time, resolution;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> set;  ///< key=value
+  std::optional<std::string> output, picture;
+  bool json = false, quiet = false, noSimplify = false;
+};
 
 using nlohmann::ordered_json;
 
@@ -40,7 +58,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   for (const std::string& assignment : a.set) {
     const auto equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(Fault{"--set", 0, "key=value is needed, not \"" + assignment + "\""});
+      throw InputError(Fault{"--set", 0, "key=value is needed, not " + quotedWord(assignment)});
     const std::string key = assignment.substr(0, equals);
     if (set.count("planner.params." + key))
       throw InputError(Fault{"--set", 0, quotedWord(key) + " is set twice"});
@@ -148,6 +166,8 @@ struct Solved {
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
   Problem problem = readProblemOf(file);
+  // Before planning: later a file may be another than the one that was read.
+  const std::string digest = a.output ? digestOf(problem) : "";
   requireNotRead(a.output, "--output", problem.files, "the problem");
   requireNotRead(a.picture, "--picture", problem.files, "the problem");
   SolveOptions options;
@@ -165,13 +185,11 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
   if (report.outcome == SolveOutcome::solved) {
-    if (a.output) writeSolution(makeSolution(problem, report), *a.output);
+    if (a.output) writeSolution(makeSolution(problem, report, digest), *a.output);
     if (a.picture) writeWhole(*a.picture, svgPicture(problem, report.path));
   }
   return {std::move(problem), std::move(report)};
 }
-
-}  // namespace
 
 int solveCommand(const SolveArguments& a) {
   if (a.problems.size() > 1 && (a.output || a.picture))
@@ -209,6 +227,72 @@ int solveCommand(const SolveArguments& a) {
     std::cout << ordered_json{{"format", "corridor-solve-report-1"}, {"problems", results}}.dump(2)
               << '\n';
   return status;
+}
+
+}  // namespace
+
+void addSolve(CLI::App& program, int& status) {
+  const auto arguments = std::make_shared<SolveArguments>();  // the callback keeps it
+  SolveArguments& a = *arguments;
+  CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
+  command
+      ->add_option("PROBLEM", a.problems,
+                   "problem.yaml, a folder that holds one, an OMPL.app .cfg, or SET.json#INDEX")
+      ->required();
+  const char* planning = "Planning (replaces settings of the problem)";
+  command
+      ->add_option("--planner", a.planner, "OMPL's name of the planner; an unknown name lists all")
+      ->group(planning);
+  command
+      ->add_option("--set", a.set,
+                   "key=value: sets a parameter of the planner, by OMPL's name; repeatable")
+      ->group(planning)
+      ->allow_extra_args(false);
+  command
+      ->add_option("--sampler", a.sampler,
+                   "sampler of valid states: uniform, gaussian, obstacle_based, bridge_test or "
+                   "max_clearance")
+      ->group(planning);
+  command->add_option("--time", a.time, "time limit, seconds")->check(isSeconds())->group(planning);
+  command
+      ->add_option("--stop", a.stop,
+                   "first: stop at the first solution; time: use all the time (default: time for "
+                   "planners that optimise, first for all others)")
+      ->check(CLI::IsMember({"first", "time"}))
+      ->group(planning);
+  command
+      ->add_option("--seed", a.seed,
+                   "random seed; with most planners the same seed gives the same path")
+      ->check(isSeed())
+      ->group(planning);
+  command
+      ->add_flag("--no-simplify", a.noSimplify, "return the planner's path without simplifying it")
+      ->group(planning);
+  const char* checking = "Checking";
+  command
+      ->add_option("--edges", a.edges,
+                   "how edges are checked: certified (default); adaptive or advancement: proved by "
+                   "distances, for comparison; discrete: tested at samples only, as a baseline")
+      ->check(CLI::IsMember(problemChoices().at("checker.edges")))
+      ->group(checking);
+  command
+      ->add_option("--resolution", a.resolution,
+                   "with --edges discrete: OMPL's longest_valid_segment_fraction, from 1e-9 to "
+                   "below 1")
+      ->check(isWithin(1e-9, 1.0, "a number from 1e-9 to 1"))
+      ->group(checking);
+  const char* results = "Results";
+  command->add_option("-o,--output", a.output, "write the solution to this file (YAML)")
+      ->group(results);
+  command->add_option("--picture", a.picture, "write an SVG of the scene and the path to this file")
+      ->group(results);
+  addJson(*command, a.json, results);
+  addQuiet(*command, a.quiet, results);
+  command->footer(
+      std::string(
+          "Example: corridor solve problems/piano -o piano.solution.yaml --picture piano.svg\n") +
+      kExitStatus);
+  command->callback([arguments, &status] { status = solveCommand(*arguments); });
 }
 
 }  // namespace corridor::app

@@ -1,15 +1,23 @@
-#include <cmath>
 #include <iostream>
+#include <memory>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "planner/app/commands.h"
+#include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/verify_solution.h"
 
 namespace corridor::app {
 namespace {
+
+struct VerifyArguments {
+  std::string problem, solution;
+  bool ignoreDigest = false;  ///< verify a solution although its digest is not the problem's
+  bool json = false, quiet = false;
+};
 
 using nlohmann::ordered_json;
 
@@ -33,10 +41,6 @@ std::string text(const PathFinding& f, const Problem& problem) {
   return line + "; at " + stateText(problem.space, f.configuration);
 }
 
-ordered_json numbers(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 ordered_json jsonOf(const PathFinding& f) {
   return {{"verdict", nameOf(f.verdict)},
           {"reason", f.reason},
@@ -47,7 +51,7 @@ ordered_json jsonOf(const PathFinding& f) {
           {"triangle_a", f.triangleA},
           {"b", f.b},
           {"triangle_b", f.triangleB},
-          {"point", numbers(f.point)},
+          {"point", numbersJson(f.point)},
           {"gap_m", f.gap}};
 }
 
@@ -95,8 +99,6 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line("distance queries", grouped(r.motion.distanceQueries));
 }
 
-}  // namespace
-
 int verifyCommand(const VerifyArguments& a) {
   const Problem problem = readProblemOf(a.problem);
   const Solution solution = readSolution(a.solution, problem.space);
@@ -107,6 +109,26 @@ int verifyCommand(const VerifyArguments& a) {
     std::cout << jsonOf(report, problem, a).dump(2) << '\n';
   }
   return report.verdict == PathVerdict::proved ? kDone : kNo;
+}
+
+}  // namespace
+
+void addVerify(CLI::App& program, int& status) {
+  const auto arguments = std::make_shared<VerifyArguments>();  // the callback keeps it
+  VerifyArguments& a = *arguments;
+  CLI::App* command = program.add_subcommand(
+      "verify", "Prove or refute a path, independently of the checker that planned it");
+  command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
+  command
+      ->add_option("SOLUTION", a.solution,
+                   "a solution file, or an OMPL.app .path file with one state per line")
+      ->required();
+  addIgnoreDigest(*command, a.ignoreDigest);
+  addJson(*command, a.json);
+  addQuiet(*command, a.quiet);
+  command->footer(std::string("Example: corridor verify problems/piano piano.solution.yaml\n") +
+                  kExitStatus);
+  command->callback([arguments, &status] { status = verifyCommand(*arguments); });
 }
 
 }  // namespace corridor::app

@@ -1,12 +1,18 @@
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
+#include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/problem.h"
 #include "planner/solve/whole_file.h"
@@ -15,6 +21,14 @@
 
 namespace corridor::app {
 namespace {
+
+struct ViewArguments {
+  std::string problem;
+  std::optional<std::string> solution;
+  std::optional<std::string> output, image, size;
+  bool ignoreDigest = false;  ///< as in `VerifyArguments`
+  bool quiet = false;
+};
 
 /// Returns "bookshelf_1.html", safe as a file's name: a problem's name may have any characters.
 std::string pageName(const Problem& problem) {
@@ -29,16 +43,13 @@ std::string pageName(const Problem& problem) {
 void requireExtension(const std::optional<std::string>& file, const char* option,
                       const std::string& kind, const std::vector<std::string>& extensions) {
   if (!file) return;
-  std::string extension = std::filesystem::path(*file).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lowered(std::filesystem::path(*file).extension().string());
   if (!extension.empty() &&
       std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw InputError(Fault{option, 0,
                            kind + ": a name that ends in " + extensions.front() +
                                " is needed, not " + quotedWord(*file)});
 }
-
-}  // namespace
 
 int viewCommand(const ViewArguments& a) {
   requireFolderFor(a.output, "--output");
@@ -84,6 +95,45 @@ int viewCommand(const ViewArguments& a) {
     out.line("image", *a.image);
   }
   return kDone;
+}
+
+}  // namespace
+
+void addView(CLI::App& program, int& status) {
+  const auto arguments = std::make_shared<ViewArguments>();  // the callback keeps it
+  ViewArguments& a = *arguments;
+  CLI::App* command = program.add_subcommand(
+      "view", "Show a problem and a path in 3D, as a page for any browser or as a picture");
+  command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
+  command->add_option("SOLUTION", a.solution,
+                      "a solution file, or an OMPL.app .path file; without it, only start and goal "
+                      "are shown");
+  addIgnoreDigest(*command, a.ignoreDigest);
+  const char* results = "Results";
+  command
+      ->add_option("-o,--output", a.output,
+                   "write the page to this file: HTML that loads no other file (default without "
+                   "--image: the problem's name with .html)")
+      ->group(results);
+  command
+      ->add_option("--image", a.image,
+                   "write a PNG of the scene, the path's poses and the verdict of verify to this "
+                   "file; needs Chromium, but no display")
+      ->group(results);
+  command
+      ->add_option("--size", a.size, "size of the image: WIDTHxHEIGHT, pixels (default 1366x768)")
+      ->group(results);
+  addQuiet(*command, a.quiet, results);
+  command->footer(
+      std::string(
+          "Example: corridor solve problems/two_arms -o arms.yaml && corridor view "
+          "problems/two_arms arms.yaml -o arms.html\n"
+          "The page plays the path. It can show the OBB trees, the closest pair of bodies with its "
+          "distance along the path, the pairs that are never tested and why, and the contact where "
+          "`corridor verify` refutes the path. The path is verified again for the page; the "
+          "verdict does not change the exit status.\n") +
+      kExitStatus);
+  command->callback([arguments, &status] { status = viewCommand(*arguments); });
 }
 
 }  // namespace corridor::app

@@ -6,6 +6,7 @@
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
+#include "collision/core/shortest.h"
 #include "planner/benchmark/checking_tally.h"
 #include "planner/benchmark/child_process.h"
 #include "planner/problem/yaml_reader.h"
@@ -85,20 +86,23 @@ class WholeSolve final : public ob::Planner {
 /// and change the planner's random numbers.
 class PlainSetup final : public og::SimpleSetup {
  public:
-  PlainSetup(const Solve& solve, const Problem& problem)
-      : SimpleSetup(solve.spaceInformation()), problem_(problem), checker_(solve.report().checker) {
+  PlainSetup(const Solve& solve, const Problem& problem, std::string digest)
+      : SimpleSetup(solve.spaceInformation()),
+        problem_(problem),
+        digest_(std::move(digest)),
+        checker_(solve.report().checker) {
     getProblemDefinition() = solve.definition();
   }
   void print(std::ostream& out) const override {
     out << "Problem " << problem_.file.string() << '\n'
-        << "SHA-256 " << problem_.digest << '\n'
+        << "SHA-256 " << digest_ << '\n'
         << "Edges " << checker_ << '\n';
     si_->getStateSpace()->printSettings(out);
   }
 
  private:
   const Problem& problem_;
-  std::string checker_;
+  std::string digest_, checker_;
 };
 
 const char* resultOf(SolveOutcome outcome) {
@@ -170,8 +174,9 @@ void checkRun(const Problem& planned, const std::map<std::string, std::string>& 
   solve.setUpEnds();
 }
 
-BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkCompetitor>& peer,
-                          double memory, Path& path) {
+BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
+                          const std::optional<BenchmarkCompetitor>& peer, double memory,
+                          Path& path) {
   CheckingTally checking;
   SolveOptions options;
   options.adaptChecking = [&](const ob::SpaceInformationPtr& si, const Checker& checker) {
@@ -186,7 +191,7 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkC
 
   BenchmarkRun run;
   run.seed = planned.seed;
-  PlainSetup setup(solve, planned);
+  PlainSetup setup(solve, planned, digest);
   const auto planner = std::make_shared<WholeSolve>(solve, checking, run);
   setup.setPlanner(planner);
   ompl::tools::Benchmark benchmark(setup, planned.name);
@@ -225,15 +230,16 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
   }
 }
 
-RunProcess::RunProcess(const Problem* problem, const Problem& planned,
+RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
                        const std::optional<BenchmarkCompetitor>& peer,
                        const BenchmarkLimits& limits)
     : seed_(planned.seed),
       process_(
           [&](const auto& send) {
             Path path;
-            BenchmarkRun run = peer && peer->run ? peer->run(planned, limits.memory, path)
-                                                 : runUnderOmpl(planned, peer, limits.memory, path);
+            BenchmarkRun run = peer && peer->run
+                                   ? peer->run(planned, limits.memory, path)
+                                   : runUnderOmpl(planned, digest, peer, limits.memory, path);
             send(text(run));
             if (run.solved && problem) verifyRun(*problem, path, run);
             send(text(run));

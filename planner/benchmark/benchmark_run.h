@@ -79,11 +79,13 @@ void checkRun(const Problem& planned, const std::map<std::string, std::string>& 
 /// Runs a planner once under OMPL's Benchmark, in this process: sets up, plans, simplifies and
 /// certifies as solveProblem does, with the same random numbers.
 /// @param planned the problem with the variant, planner, seed and time of the run.
+/// @param digest of the problem, for OMPL's record.
 /// @param memory MB, at which OMPL stops the planner.
 /// @param path receives the path if the run is solved.
 /// @throws InputError as solveProblem.
-BenchmarkRun runUnderOmpl(const Problem& planned, const std::optional<BenchmarkCompetitor>& peer,
-                          double memory, Path& path);
+BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
+                          const std::optional<BenchmarkCompetitor>& peer, double memory,
+                          Path& path);
 
 /// Verifies a run's path with the independent verifier: sets verdict, finding, verificationTime,
 /// provenClearance and leastDistance.
@@ -98,7 +100,7 @@ class RunProcess {
  public:
   /// Starts the process. @param problem as its file has it, for verifying the path; null: the path
   /// is not verified.
-  RunProcess(const Problem* problem, const Problem& planned,
+  RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
              const std::optional<BenchmarkCompetitor>& peer, const BenchmarkLimits& limits);
   ChildProcess& process() { return process_; }
   /// @pre the process is over.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/spelling.h"
+#include "planner/problem/digest.h"
 
 namespace corridor {
 namespace {
@@ -87,7 +88,7 @@ std::vector<Fault> faultsInChild(const Campaign& campaign) {
 
 }  // namespace
 
-void nameProblems(Campaign& campaign) {
+void identifyProblems(Campaign& campaign) {
   std::vector<std::string>& names = campaign.problemNames;
   names.clear();
   for (const Problem& problem : campaign.problems) {
@@ -97,6 +98,8 @@ void nameProblems(Campaign& campaign) {
       name = plain + "-" + std::to_string(i);
     names.push_back(name);
   }
+  campaign.digests.clear();
+  for (const Problem& problem : campaign.problems) campaign.digests.push_back(digestOf(problem));
 }
 
 std::vector<CampaignCell> cellsOf(const Campaign& c) {

@@ -27,7 +27,9 @@ struct CampaignPlanner {
 struct Campaign {
   std::string name;  ///< name of its file; "" if it came from the command line
   std::vector<Problem> problems;
-  std::vector<std::string> problemNames;  ///< names in the results, set by `nameProblems`
+  /// The problems' names in the results, and their digests (planner/problem/digest.h). Both are set
+  /// by `identifyProblems`.
+  std::vector<std::string> problemNames, digests;
   std::vector<Variant> variants;
   std::vector<CampaignPlanner> planners;  ///< empty: each problem's own planner
   std::uint64_t runs = 10, seed = 1;      ///< seeds: seed … seed + runs − 1
@@ -42,8 +44,10 @@ struct Campaign {
   std::vector<std::string> notes;  ///< what was left out, and why
 };
 
-/// Sets the problems' names for results: printable and distinct ("plate", "plate-2").
-void nameProblems(Campaign& campaign);
+/// Sets the problems' names for results, printable and distinct ("plate", "plate-2"), and their
+/// digests. To be called at once after reading the problems.
+/// @throws InputError if one of their files can't be read.
+void identifyProblems(Campaign& campaign);
 
 /// A problem with a variant and a planner, and the runs of these three.
 struct CampaignCell {

@@ -12,6 +12,7 @@
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
 #include "planner/benchmark/build_commit.h"
+#include "planner/benchmark/csv_text.h"
 #include "planner/benchmark/ompl_log.h"
 
 namespace corridor {
@@ -42,12 +43,6 @@ CREATE TABLE corridor_runs (cellid INTEGER, seed INTEGER, runid INTEGER UNIQUE, 
 CREATE TABLE corridor_sessions (id INTEGER PRIMARY KEY, started DATETIME, version TEXT,
   "commit" TEXT, jobs INTEGER);
 )";
-
-std::string quotedName(const std::string& name) {
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 /// A column from OMPL's words: "graph states INTEGER" is the column graph_states of type INTEGER.
 struct ColumnName {
@@ -308,7 +303,8 @@ class CampaignDatabase::Tables {
     for (const auto& [words, value] : omplParameters(campaign_, cell)) {
       const ColumnName column(words);
       addColumn("experiments", column);
-      execute("UPDATE experiments SET " + quotedName(column.name) + " = ? WHERE id = ?", value, id);
+      execute("UPDATE experiments SET " + inDoubleQuotes(column.name) + " = ? WHERE id = ?", value,
+              id);
     }
     return id;
   }
@@ -357,7 +353,7 @@ class CampaignDatabase::Tables {
     for (const auto& [words, value] : properties) {
       const ColumnName column(words);
       addColumn(table, column);
-      names += "," + quotedName(column.name), marks += ",?";
+      names += "," + inDoubleQuotes(column.name), marks += ",?";
     }
     SQLite::Statement row(*base_, "INSERT INTO " + table + " (" + names.substr(1) + ") VALUES (" +
                                       marks.substr(1) + ")");
@@ -377,7 +373,7 @@ class CampaignDatabase::Tables {
         while (known.executeStep()) columns_.insert({of, known.getColumn(1).getString()});
       }
     if (!columns_.insert({table, column.name}).second) return;
-    base_->exec("ALTER TABLE " + table + " ADD " + quotedName(column.name) + " " + column.type);
+    base_->exec("ALTER TABLE " + table + " ADD " + inDoubleQuotes(column.name) + " " + column.type);
   }
 
   std::filesystem::path file_;
@@ -409,11 +405,14 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].peer)
     checker["peer"] = campaign.variants[cell.variant].peer->name;
-  return nlohmann::ordered_json{
-      {"problem", planned.digest},       {"checker", checker},
-      {"planner", planned.planner.name}, {"params", planned.planner.params},
-      {"time", planned.planner.time},    {"memory_mb", campaign.limits.memory},
-      {"simplify", planned.simplify},    {"verify", campaign.verify}}
+  return nlohmann::ordered_json{{"problem", campaign.digests[cell.problem]},
+                                {"checker", checker},
+                                {"planner", planned.planner.name},
+                                {"params", planned.planner.params},
+                                {"time", planned.planner.time},
+                                {"memory_mb", campaign.limits.memory},
+                                {"simplify", planned.simplify},
+                                {"verify", campaign.verify}}
       .dump();
 }
 

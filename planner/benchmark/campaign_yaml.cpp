@@ -111,7 +111,7 @@ class CampaignReader {
     campaign_.simplify = map.boolean("simplify");
     campaign_.verify = map.boolean("verify").value_or(true);
     faults_.throwIfAny();
-    nameProblems(campaign_);
+    identifyProblems(campaign_);
     for (const char* key : {"planners", "runs"}) place(key, key);
     place("variants", "checkers");
     return std::move(campaign_);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <tuple>
 
+#include "collision/core/quantiles.h"
+
 namespace corridor {
 namespace {
 
@@ -33,9 +35,9 @@ VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
         ratios.push_back(query.ns / predicted);
   }
   if (ratios.empty()) return cost;
-  cost.ratioP5 = quantile(ratios, 0.05);
-  cost.ratioMedian = quantile(ratios, 0.5);
-  cost.ratioP95 = quantile(ratios, 0.95);
+  cost.ratioP5 = quantileOf(ratios, 0.05);
+  cost.ratioMedian = medianOf(ratios);
+  cost.ratioP95 = quantileOf(ratios, 0.95);
   return cost;
 }
 

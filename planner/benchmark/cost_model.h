@@ -1,8 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <vector>
 
 /// The cost model of queries, T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha 1996, eq. 1), fitted
@@ -50,14 +48,6 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
   // If the counts are proportional, both fit equally well up to the rounding of the sums; prefer
   // box tests.
   return boxes.box * v >= (1 - 1e-12) * triangles.triangle * p ? boxes : triangles;
-}
-
-/// Returns the element at rank share·(n − 1), rounded, of the sorted numbers. @pre not empty, 0 ≤
-/// share ≤ 1.
-inline double quantile(std::vector<double> numbers, double share) {
-  const std::ptrdiff_t rank = std::lround(share * static_cast<double>(numbers.size() - 1));
-  std::nth_element(numbers.begin(), numbers.begin() + rank, numbers.end());
-  return numbers[static_cast<std::size_t>(rank)];
 }
 
 }  // namespace corridor

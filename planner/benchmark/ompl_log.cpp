@@ -9,6 +9,7 @@
 #include <ompl/config.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
+#include "collision/core/shortest.h"
 #include "planner/benchmark/rows.h"
 #include "planner/problem/yaml_reader.h"
 

@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "collision/core/shortest.h"
+#include "planner/benchmark/csv_text.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -219,16 +221,11 @@ std::string csvOf(const Plot& plot) {
   std::ostringstream out;
   out << "series,x,y,from_x,to_x,from_y,to_y,text\n";
   const auto cell = [](double value) { return std::isnan(value) ? "" : shortest(value); };
-  const auto text = [](const std::string& words) {
-    std::string all = "\"";
-    for (const char c : words) all += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return all + "\"";
-  };
   for (const PlotSeries& s : plot.series)
     for (const PlotPoint& p : s.points)
-      out << text(s.name) << ',' << cell(p.x) << ',' << cell(p.y) << ',' << cell(p.fromX) << ','
-          << cell(p.toX) << ',' << cell(p.fromY) << ',' << cell(p.toY) << ',' << text(p.text)
-          << '\n';
+      out << inDoubleQuotes(s.name) << ',' << cell(p.x) << ',' << cell(p.y) << ',' << cell(p.fromX)
+          << ',' << cell(p.toX) << ',' << cell(p.fromY) << ',' << cell(p.toY) << ','
+          << inDoubleQuotes(p.text) << '\n';
   return out.str();
 }
 

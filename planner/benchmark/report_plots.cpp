@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <functional>
 
+#include "collision/core/quantiles.h"
+
 namespace corridor {
 namespace {
 

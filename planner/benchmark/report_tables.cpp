@@ -5,6 +5,7 @@
 #include <ctime>
 #include <set>
 
+#include "collision/core/quantiles.h"
 #include "planner/benchmark/build_commit.h"
 #include "planner/benchmark/ompl_log.h"
 #include "planner/benchmark/plot.h"
@@ -214,7 +215,7 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
     table.row({"variant “" + escapedHtml(variant.name) + "”", escapedHtml(checkerText(variant))});
   for (std::size_t p = 0; p < campaign.problems.size(); ++p)
     table.row({"problem “" + escapedHtml(campaign.problemNames[p]) + "”",
-               "SHA-256 " + campaign.problems[p].digest});
+               "SHA-256 " + campaign.digests[p]});
   return table.html();
 }
 

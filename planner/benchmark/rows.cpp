@@ -6,6 +6,9 @@
 #include <functional>
 #include <limits>
 
+#include "collision/core/quantiles.h"
+#include "collision/core/shortest.h"
+#include "planner/benchmark/csv_text.h"
 #include "planner/benchmark/statistics.h"
 #include "planner/problem/yaml_reader.h"
 
@@ -30,15 +33,8 @@ Row namesOf(const Campaign& campaign, const CampaignCell& cell) {
           {"planner", cell.planner.label}};
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string csvText(const RowValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return csvField(*text);
   if (const auto* yes = std::get_if<bool>(&value)) return *yes ? "1" : "0";
   if (const auto* count = std::get_if<std::uint64_t>(&value)) return std::to_string(*count);
   if (const auto* number = std::get_if<double>(&value)) return shortest(*number);

@@ -88,10 +88,11 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
                         cell, task.seed});
     }
     tasks.pop_front();
-    running.push_back({task, Clock::now(),
-                       RunProcess(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
-                                  plannedProblem(campaign, cell, task.seed),
-                                  campaign.variants[cell.variant].peer, campaign.limits)});
+    running.push_back(
+        {task, Clock::now(),
+         RunProcess(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
+                    plannedProblem(campaign, cell, task.seed), campaign.digests[cell.problem],
+                    campaign.variants[cell.variant].peer, campaign.limits)});
   };
   const auto end = [&](Running& one) {
     durations.add(one.task.cell, std::chrono::duration<double>(Clock::now() - one.since).count());

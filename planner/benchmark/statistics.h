@@ -3,14 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-/// Medians, quantiles and confidence intervals for reports.
+/// Confidence intervals for reports.
 namespace corridor {
-
-/// `medianOf` returns the middle value, or the mean of the two in the middle. `quantileOf` returns
-/// the smallest value v such that at least a share p of the values are ≤ v (the nearest rank: for
-/// ten values, 0.95 gives the largest). NaN without values.
-double medianOf(std::vector<double> values);
-double quantileOf(std::vector<double> values, double p);
 
 /// A confidence interval: holds the true value with probability `kConfidence`.
 struct Interval {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision/core/error.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/keys.h"

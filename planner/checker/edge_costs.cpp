@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "collision/core/quantiles.h"
 #include "planner/robot/edge_motion.h"
 
 namespace corridor {
@@ -18,13 +19,6 @@ double secondsOf(const auto& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 Configuration randomState(const ConfigurationSpace& space, std::mt19937_64& random) {
@@ -78,10 +72,19 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
         secondsOf([&] { result = scene.certify(motion, checker.options(), context); });
     (result.verdict == MotionVerdict::free ? free : other).push_back(took);
     for (const MotionPair& pair : scene.motionPairs()) {
-      const Counters before = context.counters;
-      const double alone = secondsOf([&] {
-        certifyMotion(motion, {&pair, 1}, checker.options(), context);
-      });
+      Counters before;
+      const auto queryAlone = [&] {
+        before = context.counters;
+        return secondsOf([&] { certifyMotion(motion, {&pair, 1}, checker.options(), context); });
+      };
+      const auto treesBuilt = [&] {
+        return scene.bodies()[pair.bodyA].body.treeBuilt() +
+               scene.bodies()[pair.bodyB].body.treeBuilt();
+      };
+      const int trees = treesBuilt();
+      double alone = queryAlone();
+      // The queries of the whole edges end at the first contact, so they may leave a tree unbuilt.
+      if (treesBuilt() != trees) alone = queryAlone();
       std::size_t a = checker.bodyOf(pair.bodyA), b = checker.bodyOf(pair.bodyB);
       if (b < a) std::swap(a, b);
       EdgeCosts::OfPair& of = pairs[{a, b}];
@@ -91,8 +94,8 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
     }
   }
   costs.free = free.size();
-  costs.freeSeconds = median(free);
-  costs.otherSeconds = median(other);
+  if (!free.empty()) costs.freeSeconds = medianOf(free);
+  if (!other.empty()) costs.otherSeconds = medianOf(other);
   for (auto& [bodies, of] : pairs) {
     of.share = all > 0 ? of.share / all : 0;
     costs.pairs.push_back(of);

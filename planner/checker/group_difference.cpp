@@ -1,18 +1,9 @@
 #include "planner/checker/group_difference.h"
 
-#include <cmath>
-
-#include <Eigen/Geometry>
-
 #include "collision/core/transform.h"
-#include "planner/robot/turns.h"
+#include "planner/robot/difference.h"
 
 namespace corridor {
-
-double differenceOf(const Coordinate& c, const Configuration& a, const Configuration& b) {
-  const auto i = static_cast<Eigen::Index>(c.first);
-  return std::abs(c.kind == Coordinate::Kind::circle ? circleTurn(a[i], b[i]).angle : b[i] - a[i]);
-}
 
 double positionDifference(const ConfigurationSpace& space, const CoordinateGroup& group,
                           const Configuration& a, const Configuration& b) {
@@ -26,9 +17,7 @@ double positionDifference(const ConfigurationSpace& space, const CoordinateGroup
 double rotationDifference(const ConfigurationSpace& space, const CoordinateGroup& group,
                           const Configuration& a, const Configuration& b) {
   const Coordinate& c = space.coordinates()[group.coordinates.back()];
-  if (c.kind == Coordinate::Kind::circle) return differenceOf(c, a, b);
-  return 2 * quaternionAngle(Eigen::Quaterniond(a.data() + c.first),
-                             Eigen::Quaterniond(b.data() + c.first));
+  return (c.kind == Coordinate::Kind::rotation ? 2 : 1) * differenceOf(c, a, b);
 }
 
 }  // namespace corridor

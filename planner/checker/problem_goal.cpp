@@ -6,6 +6,7 @@
 
 #include "collision/core/rounding.h"
 #include "planner/checker/group_difference.h"
+#include "planner/robot/difference.h"
 
 namespace corridor {
 namespace {

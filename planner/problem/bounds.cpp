@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/core/shortest.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {

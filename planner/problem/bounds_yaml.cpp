@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision/core/shortest.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"

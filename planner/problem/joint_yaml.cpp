@@ -1,5 +1,6 @@
 #include "planner/problem/joint_yaml.h"
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/keys.h"
 

@@ -17,7 +17,7 @@ std::optional<std::size_t> findJoint(const RobotModel& model, const std::string&
 /// Returns whether the joint is planar or floating: it then takes a pose, {at: …, yaw_deg: …}.
 bool isWhole(JointType type);
 
-/// Returns a message such as `there is no joint "pam"; did you mean "pan"?`.
+/// Returns a message such as `there is no joint "pam" (did you mean "pan"?)`.
 std::string noSuchJoint(const std::string& name, const RobotModel& model);
 /// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
 std::string whyNotActive(const RobotModel& model, std::size_t joint);

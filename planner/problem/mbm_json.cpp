@@ -20,8 +20,8 @@ namespace {
 using Json = nlohmann::json;
 
 /// Limits of a set, which keep a damaged or hostile file from taking all memory or the stack. The
-/// parser reports two events for a list or an object (begin, end) and for a value in an object
-/// (key, value), so the limit is at least 10^7 keys and values.
+/// parser reports one event for a key, one for a value, and two for a value that is a list or an
+/// object (begin, end). So a file beyond the limit has more than 10^7 keys and values.
 constexpr std::size_t kMostEvents = 20'000'000;
 constexpr int kMostDepth = 64;
 
@@ -50,7 +50,6 @@ class MbmReader {
     faults_.throwIfAny();
     setPairs({}, problem_);
     setTube({}, problem_);
-    problem_.digest = digestOfFiles(problem_.files);
     return std::move(problem_);
   }
 
@@ -65,7 +64,8 @@ class MbmReader {
     std::size_t values = 0;
     const auto countValue = [&](int depth, Json::parse_event_t, const Json&) {
       if (++values > kMostEvents)
-        stop("has more than " + std::to_string(kMostEvents / 2) + " values; split the set");
+        stop("has more than " + std::to_string(kMostEvents / 2) +
+             " keys and values; split the set");
       if (depth > kMostDepth)
         stop("has lists and objects nested more than " + std::to_string(kMostDepth) +
              " deep; a set needs no more than six");
@@ -109,7 +109,7 @@ class MbmReader {
   }
 
   const Json& field(const Json& object, const std::string& key) const {
-    if (!object.is_object() || !object.contains(key)) stop("missing key \"" + key + "\"");
+    if (!object.is_object() || !object.contains(key)) stop("missing key " + quotedWord(key));
     return object[key];
   }
   const Json& list(const Json& object, const std::string& key) const {
@@ -157,7 +157,7 @@ class MbmReader {
     for (const auto& file : files) addFile(setup.files, file);
     addFile(setup.files, srdf);
     if (model) readSrdf(srdf, *model, found);
-    for (const Fault& one : found) faults_.add(one.file, one.line, one.text);
+    faults_.add(found);
     faults_.throwIfAny();
     setup.robot.model = std::move(*model);
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/bounds.h"
@@ -285,7 +286,6 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
   noteUnused(ini, problem);
   setPairs({}, problem);
   setTube({}, problem);
-  problem.digest = digestOfFiles(problem.files);
   return problem;
 }
 

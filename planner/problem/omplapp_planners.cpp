@@ -1,7 +1,6 @@
 #include "planner/problem/omplapp_planners.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 #include "collision/core/spelling.h"
@@ -49,11 +48,6 @@ struct Instance {
   std::map<std::string, const IniFile::Entry*> params,
       problem;  ///< its own parameters, and the keys of the problem that it overrides
 };
-
-std::string lowered(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 }  // namespace
 

@@ -4,51 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision/core/shortest.h"
+#include "planner/robot/rpy.h"
 #include "planner/robot/turns.h"
 
 namespace corridor {
 namespace {
-
-struct SineCosine {
-  double sine, cosine;
-};
-
-SineCosine ofRadians(double angle) {
-  return {std::sin(angle), std::cos(angle)};
-}
-
-/// Exact at multiples of 90 degrees. At odd multiples of 45 degrees, sine and cosine are equal but
-/// for the sign.
-SineCosine ofDegrees(double degrees) {
-  int quarters = 0;
-  const double rest = std::remquo(degrees, 90, &quarters);  // exact; |rest| ≤ 45
-  SineCosine a = ofRadians(rest * (std::numbers::pi / 180));
-  if (std::abs(rest) == 45) a = {std::copysign(std::sqrt(0.5), rest), std::sqrt(0.5)};
-  switch (quarters & 3) {
-    case 1:
-      return {a.cosine, -a.sine};
-    case 2:
-      return {-a.sine, -a.cosine};
-    case 3:
-      return {-a.cosine, a.sine};
-    default:
-      return a;
-  }
-}
-
-Mat3 matrix(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
-  Mat3 aboutX, aboutY, aboutZ;
-  aboutX << 1, 0, 0, 0, x.cosine, -x.sine, 0, x.sine, x.cosine;
-  aboutY << y.cosine, 0, y.sine, 0, 1, 0, -y.sine, 0, y.cosine;
-  aboutZ << z.cosine, -z.sine, 0, z.sine, z.cosine, 0, 0, 0, 1;
-  return aboutZ * (aboutY * aboutX);
-}
-
-/// Takes the sines and cosines of the half angles.
-Eigen::Quaterniond quaternion(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
-  return Eigen::Quaterniond(z.cosine, 0, 0, z.sine) * Eigen::Quaterniond(y.cosine, 0, y.sine, 0) *
-         Eigen::Quaterniond(x.cosine, x.sine, 0, 0);
-}
 
 /// The largest deviation from 1 of the norm of a typed quaternion. Rounding to three digits after
 /// the point causes 0.001 at most: four components, each off by at most 0.0005, change the norm by
@@ -112,14 +73,12 @@ std::optional<double> readYaw(const YamlMap& map, std::vector<std::string>& note
 
 }  // namespace
 
-Orientation fromRpyDegrees(const Vec3& a) {
-  return {quaternion(ofDegrees(a.x() / 2), ofDegrees(a.y() / 2), ofDegrees(a.z() / 2)),
-          matrix(ofDegrees(a.x()), ofDegrees(a.y()), ofDegrees(a.z()))};
+Orientation fromRpyDegrees(const Vec3& degrees) {
+  return {quaternionFromRpyDegrees(degrees), matrixFromRpyDegrees(degrees)};
 }
 
-Orientation fromRpy(const Vec3& a) {
-  return {quaternion(ofRadians(a.x() / 2), ofRadians(a.y() / 2), ofRadians(a.z() / 2)),
-          matrix(ofRadians(a.x()), ofRadians(a.y()), ofRadians(a.z()))};
+Orientation fromRpy(const Vec3& radians) {
+  return {quaternionFromRpy(radians), matrixFromRpy(radians)};
 }
 
 double wrappedYaw(double radians) {

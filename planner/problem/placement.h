@@ -16,8 +16,7 @@ struct Orientation {
   Mat3 R = Mat3::Identity();
 };
 
-/// Returns the rotation about the fixed axes x (roll), then y (pitch), then z (yaw), as in URDF.
-/// R is exact where all three angles are multiples of 90 degrees.
+/// Return the rotation of roll, pitch and yaw (planner/robot/rpy.h).
 Orientation fromRpyDegrees(const Vec3& degrees);
 Orientation fromRpy(const Vec3& radians);
 

@@ -8,7 +8,6 @@
 #include "planner/problem/mbm_json.h"
 #include "planner/problem/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
-#include "planner/problem/sha256.h"
 
 namespace corridor {
 
@@ -42,17 +41,6 @@ std::optional<InvalidName> invalidNameIn(const Problem::CheckerSpec& checker) {
   return InvalidName{"overlap", quotedWord(checker.overlap) +
                                     " is for edges certified and discrete; " + checker.edges +
                                     " measures distances between volumes: leave overlap out"};
-}
-
-std::string digestOfFiles(const std::vector<std::filesystem::path>& files) {
-  Sha256 all;
-  for (const std::filesystem::path& file : files) {
-    Sha256 one;
-    one.update(readFile(file, "an input"));
-    const auto digest = one.finish();
-    all.update({reinterpret_cast<const char*>(digest.data()), digest.size()});
-  }
-  return toHex(all.finish());
 }
 
 }  // namespace corridor

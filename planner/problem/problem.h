@@ -49,8 +49,6 @@ struct ProblemPair {
 struct Problem {
   std::filesystem::path file;
   std::string name;
-  /// `digestOfFiles(files)`, 64 hexadecimal digits.
-  std::string digest;
   /// The problem file and every other file that it is made of, each once, in the order in which
   /// they are first named.
   std::vector<std::filesystem::path> files;
@@ -127,10 +125,5 @@ std::optional<InvalidName> invalidNameIn(const Problem::CheckerSpec& checker);
 /// MotionBenchMaker set, `FILE.json#INDEX`.
 /// @throws InputError with all faults of the file and of the files that it names.
 Problem readProblem(const std::filesystem::path& path);
-
-/// Returns the SHA-256 digest, in hexadecimal, of the files' SHA-256 digests (32 bytes each, one
-/// after the other). In a shell: sha256sum FILES | cut -c-64 | xxd -r -p | sha256sum.
-/// @throws InputError if a file can't be read.
-std::string digestOfFiles(const std::vector<std::filesystem::path>& files);
 
 }  // namespace corridor

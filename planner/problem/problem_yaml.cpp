@@ -176,7 +176,6 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   faults.throwIfAny();
   setPairs(allowed, problem);
   setTube(tube, problem);
-  problem.digest = digestOfFiles(problem.files);
   problem.lines = std::move(source.lines);
   return problem;
 }

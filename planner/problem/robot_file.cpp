@@ -4,6 +4,7 @@
 #include <array>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"

@@ -1,90 +1,46 @@
 #include "planner/problem/sha256.h"
 
-#include <algorithm>
-#include <bit>
-#include <cstring>
+#include <dlfcn.h>
+#include <openssl/opensslv.h>
+#include <openssl/sha.h>
+#include <stdexcept>
+
+#define CORRIDOR_TEXT_OF(macro) CORRIDOR_TEXT(macro)
+#define CORRIDOR_TEXT(words) #words
 
 namespace corridor {
 namespace {
 
-/// The first 32 bits of the fractional parts of the cube roots of the first 64 primes (FIPS
-/// 180-4, 4.2.2).
-constexpr std::array<std::uint32_t, 64> roundConstants{
-    0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
-    0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
-    0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f, 0x4a7484aa, 0x5cb0a9dc, 0x76f988da,
-    0x983e5152, 0xa831c66d, 0xb00327c8, 0xbf597fc7, 0xc6e00bf3, 0xd5a79147, 0x06ca6351, 0x14292967,
-    0x27b70a85, 0x2e1b2138, 0x4d2c6dfc, 0x53380d13, 0x650a7354, 0x766a0abb, 0x81c2c92e, 0x92722c85,
-    0xa2bfe8a1, 0xa81a664b, 0xc24b8b70, 0xc76c51a3, 0xd192e819, 0xd6990624, 0xf40e3585, 0x106aa070,
-    0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
-    0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
+using Function = decltype(&::SHA256);
+
+/// Opens the library, and leaves it open. A program that is linked to it would load it at every
+/// start.
+Function functionOfLibrary() {
+  constexpr const char* kLibrary = "libcrypto.so." CORRIDOR_TEXT_OF(OPENSSL_SHLIB_VERSION);
+  void* const library = ::dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
+  void* const function = library ? ::dlsym(library, "SHA256") : nullptr;
+  if (!function) {
+    const char* const why = ::dlerror();
+    throw std::runtime_error("digests need OpenSSL's libcrypto (Debian: libssl3): " +
+                             std::string(why ? why : kLibrary));
+  }
+  return reinterpret_cast<Function>(function);
+}
 
 }  // namespace
 
-void Sha256::block(const std::uint8_t* bytes) {
-  std::array<std::uint32_t, 64> w;
-  for (std::size_t i = 0; i < 16; ++i)
-    w[i] = std::uint32_t{bytes[4 * i]} << 24 | std::uint32_t{bytes[4 * i + 1]} << 16 |
-           std::uint32_t{bytes[4 * i + 2]} << 8 | std::uint32_t{bytes[4 * i + 3]};
-  for (std::size_t i = 16; i < 64; ++i) {
-    const std::uint32_t s0 = std::rotr(w[i - 15], 7) ^ std::rotr(w[i - 15], 18) ^ w[i - 15] >> 3;
-    const std::uint32_t s1 = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ w[i - 2] >> 10;
-    w[i] = w[i - 16] + s0 + w[i - 7] + s1;
-  }
-  auto [a, b, c, d, e, f, g, h] = state_;
-  for (std::size_t i = 0; i < 64; ++i) {
-    const std::uint32_t s1 = std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25);
-    const std::uint32_t t1 = h + s1 + ((e & f) ^ (~e & g)) + roundConstants[i] + w[i];
-    const std::uint32_t s0 = std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22);
-    const std::uint32_t t2 = s0 + ((a & b) ^ (a & c) ^ (b & c));
-    h = g, g = f, f = e, e = d + t1;
-    d = c, c = b, b = a, a = t1 + t2;
-  }
-  const std::array<std::uint32_t, 8> add{a, b, c, d, e, f, g, h};
-  for (std::size_t i = 0; i < 8; ++i) state_[i] += add[i];
-}
-
-void Sha256::update(std::string_view bytes) {
-  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  std::size_t left = bytes.size(), filled = length_ % 64;
-  length_ += left;
-  while (left > 0) {
-    if (filled == 0 && left >= 64) {
-      block(data);
-      data += 64, left -= 64;
-      continue;
-    }
-    const std::size_t n = std::min(left, 64 - filled);
-    std::memcpy(pending_.data() + filled, data, n);
-    data += n, left -= n, filled += n;
-    if (filled == 64) block(pending_.data()), filled = 0;
-  }
-}
-
-std::array<std::uint8_t, 32> Sha256::finish() {
-  const std::uint64_t bits = 8 * length_;
-  std::string padding(1 + (119 - length_ % 64) % 64, '\0');  // pads the length to 56 modulo 64
-  padding[0] = '\x80';
-  for (int shift = 56; shift >= 0; shift -= 8)
-    padding += static_cast<char>(static_cast<std::uint8_t>(bits >> shift));
-  update(padding);
-  std::array<std::uint8_t, 32> digest;
-  for (std::size_t i = 0; i < 32; ++i)
-    digest[i] = static_cast<std::uint8_t>(state_[i / 4] >> (24 - 8 * (i % 4)));
+std::array<std::uint8_t, 32> sha256(std::string_view bytes) {
+  static const Function compute = functionOfLibrary();
+  std::array<std::uint8_t, 32> digest{};
+  compute(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
   return digest;
 }
 
-std::string toHex(const std::array<std::uint8_t, 32>& digest) {
+std::string sha256Hex(std::string_view bytes) {
   std::string text;
-  for (const std::uint8_t byte : digest)
+  for (const std::uint8_t byte : sha256(bytes))
     for (const int digit : {byte >> 4, byte & 15}) text += "0123456789abcdef"[digit];
   return text;
-}
-
-std::string sha256Hex(std::string_view bytes) {
-  Sha256 hash;
-  hash.update(bytes);
-  return toHex(hash.finish());
 }
 
 }  // namespace corridor

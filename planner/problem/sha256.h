@@ -1,35 +1,19 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace corridor {
 
-/// Computes SHA-256 (NIST FIPS 180-4) of bytes that are given in portions of any size. For digests
-/// of input files, not for secrets.
-class Sha256 {
- public:
-  void update(std::string_view bytes);
-  /// Returns the digest of all bytes so far: 32 bytes, big endian. The object can't be used
-  /// afterwards.
-  std::array<std::uint8_t, 32> finish();
+/// Returns the SHA-256 (NIST FIPS 180-4) of the bytes: 32 bytes, big endian. For digests of input
+/// files, not for secrets. OpenSSL's libcrypto computes it. The first call opens this library,
+/// which takes 1 to 2 ms; most commands need no digest.
+/// @throws std::runtime_error if the library is not installed.
+std::array<std::uint8_t, 32> sha256(std::string_view bytes);
 
- private:
-  void block(const std::uint8_t* bytes);
-
-  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                      0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  std::array<std::uint8_t, 64> pending_{};
-  std::uint64_t length_ = 0;  ///< bytes so far
-};
-
-/// Returns the digest of `bytes` in 64 lower-case hexadecimal digits.
+/// Returns `sha256` in 64 lower-case hexadecimal digits.
 std::string sha256Hex(std::string_view bytes);
-
-/// Returns 32 bytes as 64 lower-case hexadecimal digits.
-std::string toHex(const std::array<std::uint8_t, 32>& digest);
 
 }  // namespace corridor

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/joint_yaml.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
@@ -13,10 +14,6 @@
 
 namespace corridor {
 namespace {
-
-void addAll(FaultList& faults, const std::vector<Fault>& found) {
-  for (const Fault& fault : found) faults.add(fault.file, fault.line, fault.text);
-}
 
 /// Returns the path that a key names, or nullopt if the key is absent or faulted.
 std::optional<std::filesystem::path> readFileName(const YamlMap& map, const char* key,
@@ -59,7 +56,7 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Pac
     addFile(files, *srdf);
     if (model) readSrdf(*srdf, *model, found);
   }
-  addAll(faults, found);
+  faults.add(found);
   return found.empty() ? std::move(model) : std::nullopt;
 }
 

@@ -10,11 +10,6 @@
 
 namespace corridor {
 
-std::string shortest(double value) {
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
 std::string described(const YamlValue& value) {
   switch (value.kind) {
     case YamlValue::Kind::Scalar:

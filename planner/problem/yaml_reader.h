@@ -124,7 +124,4 @@ std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size
 /// Returns a value's description for messages: `"text"`, `a list`, `a map` or `nothing`.
 std::string described(const YamlValue& value);
 
-/// Returns the shortest decimal digits that read back as this double, for messages and notes.
-std::string shortest(double value);
-
 }  // namespace corridor

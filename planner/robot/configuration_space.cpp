@@ -7,6 +7,7 @@
 
 #include "collision/core/rounding.h"
 #include "collision/core/transform.h"
+#include "planner/robot/difference.h"
 #include "planner/robot/turns.h"
 
 namespace corridor {
@@ -38,18 +39,6 @@ template <class Vector>
 double lengthOf(const Vector& v) {
   const double norm = v.norm();
   return norm > 1e-150 && norm < HUGE_VAL ? norm : v.stableNorm();
-}
-
-/// Returns how far b is from a in one coordinate, ≥ 0. For a rotation this is the quaternion angle,
-/// half of the rotation's.
-double differenceOf(const Coordinate& c, const double* a, const double* b) {
-  if (c.kind == Coordinate::Kind::rotation)
-    return quaternionAngle(Quaterniond(a + c.first), Quaterniond(b + c.first));
-  const double from = a[c.first], to = b[c.first];
-  return std::abs(c.kind == Coordinate::Kind::circle ? circleTurn(from, to).angle : to - from);
-}
-double differenceOf(const Coordinate& c, const Configuration& a, const Configuration& b) {
-  return differenceOf(c, a.data(), b.data());
 }
 
 }  // namespace

@@ -16,23 +16,32 @@ SineCosine ofEighths(int eighths) {
   return {sines[eighths & 7], sines[(eighths + 2) & 7]};
 }
 
-/// Returns sine and cosine of `angle / divisor`. @pre divisor is 1 or 2.
-SineCosine sineCosine(double angle, int divisor) {
+/// Returns sine and cosine of `radians / divisor`. @pre divisor is 1 or 2.
+SineCosine ofRadians(double radians, int divisor) {
   const long double quarter = std::numbers::pi_v<long double> / 2;
-  const long double quarters = std::nearbyint(angle / quarter);
+  const long double quarters = std::nearbyint(radians / quarter);
   // Up to 1,024 turns, as files hardly contain larger multiples of 90 degrees. Beyond that, doubles
   // are too sparse to recognise them.
-  if (std::abs(quarters) <= 4096 && static_cast<double>(quarters * quarter) == angle)
+  if (std::abs(quarters) <= 4096 && static_cast<double>(quarters * quarter) == radians)
     return ofEighths(static_cast<int>(quarters) * 2 / divisor);
-  const long double part = static_cast<long double>(angle) / divisor;
+  const long double part = static_cast<long double>(radians) / divisor;
   return {std::sin(part), std::cos(part)};
 }
 
-}  // namespace
+/// Returns sine and cosine of `degrees / divisor`. @pre divisor is 1 or 2.
+SineCosine ofDegrees(double degrees, int divisor) {
+  int eighths = 0;  // its lowest three bits are right
+  const long double rest =
+      std::remquo(static_cast<long double>(degrees) / divisor, 45.0L, &eighths);  // exact
+  const SineCosine whole = ofEighths(eighths);
+  if (rest == 0) return whole;
+  const long double radians = rest * (std::numbers::pi_v<long double> / 180);
+  const long double sine = std::sin(radians), cosine = std::cos(radians);
+  return {whole.sine * cosine + whole.cosine * sine, whole.cosine * cosine - whole.sine * sine};
+}
 
-Eigen::Quaterniond quaternionFromRpy(const Vec3& rpy) {
-  const SineCosine x = sineCosine(rpy.x(), 2), y = sineCosine(rpy.y(), 2),
-                   z = sineCosine(rpy.z(), 2);
+/// @param x, y, z  of the halves of roll, pitch and yaw.
+Eigen::Quaterniond quaternionOf(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   const auto rounded = [](long double value) { return static_cast<double>(value); };
   return {rounded(x.cosine * y.cosine * z.cosine + x.sine * y.sine * z.sine),
           rounded(x.sine * y.cosine * z.cosine - x.cosine * y.sine * z.sine),
@@ -40,9 +49,8 @@ Eigen::Quaterniond quaternionFromRpy(const Vec3& rpy) {
           rounded(x.cosine * y.cosine * z.sine - x.sine * y.sine * z.cosine)};
 }
 
-Mat3 matrixFromRpy(const Vec3& rpy) {
-  const SineCosine x = sineCosine(rpy.x(), 1), y = sineCosine(rpy.y(), 1),
-                   z = sineCosine(rpy.z(), 1);
+/// @param x, y, z  of roll, pitch and yaw.
+Mat3 matrixOf(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   Eigen::Matrix<long double, 3, 3> R;
   R << z.cosine * y.cosine, z.cosine * y.sine * x.sine - z.sine * x.cosine,
       z.cosine * y.sine * x.cosine + z.sine * x.sine,  //
@@ -50,6 +58,24 @@ Mat3 matrixFromRpy(const Vec3& rpy) {
       z.sine * y.sine * x.cosine - z.cosine * x.sine,  //
       -y.sine, y.cosine * x.sine, y.cosine * x.cosine;
   return R.cast<double>() + Mat3::Zero();  // turns -0 into 0
+}
+
+}  // namespace
+
+Eigen::Quaterniond quaternionFromRpy(const Vec3& a) {
+  return quaternionOf(ofRadians(a.x(), 2), ofRadians(a.y(), 2), ofRadians(a.z(), 2));
+}
+
+Mat3 matrixFromRpy(const Vec3& a) {
+  return matrixOf(ofRadians(a.x(), 1), ofRadians(a.y(), 1), ofRadians(a.z(), 1));
+}
+
+Eigen::Quaterniond quaternionFromRpyDegrees(const Vec3& a) {
+  return quaternionOf(ofDegrees(a.x(), 2), ofDegrees(a.y(), 2), ofDegrees(a.z(), 2));
+}
+
+Mat3 matrixFromRpyDegrees(const Vec3& a) {
+  return matrixOf(ofDegrees(a.x(), 1), ofDegrees(a.y(), 1), ofDegrees(a.z(), 1));
 }
 
 }  // namespace corridor

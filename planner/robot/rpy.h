@@ -4,13 +4,16 @@
 
 #include "collision/core/transform.h"
 
-/// Conversions of URDF's roll, pitch and yaw: rotations about the fixed axes x (roll), then y
-/// (pitch), then z (yaw), in radians. Results are computed in long double and rounded once. An
-/// angle that is the double nearest to a multiple of 90 degrees is taken for that multiple, with
-/// exact sine and cosine.
+/// Conversions of roll, pitch and yaw, as in URDF: rotations about the fixed axes x (roll), then y
+/// (pitch), then z (yaw). Results are computed in long double and rounded once. Multiples of 90
+/// degrees have exact sines and cosines. In radians, the double nearest to such a multiple is taken
+/// for it.
 namespace corridor {
 
-Eigen::Quaterniond quaternionFromRpy(const Vec3& rpy);
-Mat3 matrixFromRpy(const Vec3& rpy);
+Eigen::Quaterniond quaternionFromRpy(const Vec3& radians);
+Mat3 matrixFromRpy(const Vec3& radians);
+
+Eigen::Quaterniond quaternionFromRpyDegrees(const Vec3& degrees);
+Mat3 matrixFromRpyDegrees(const Vec3& degrees);
 
 }  // namespace corridor

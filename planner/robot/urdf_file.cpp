@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <urdf_model/model.h>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/robot/rpy.h"
 #include "planner/robot/urdf_outline.h"
@@ -60,8 +61,8 @@ MeshFile placedMesh(const MeshFile& source, const Vec3& scale, const Transform& 
   MeshFile result = source;
   if (scale != Vec3::Ones()) {
     for (Vec3& vertex : result.mesh.vertices) vertex = vertex.cwiseProduct(scale);
-    result.unitRule += "; times the URDF's scale " + shortestText(scale.x()) + " " +
-                       shortestText(scale.y()) + " " + shortestText(scale.z());
+    result.unitRule += "; times the URDF's scale " + shortest(scale.x()) + " " +
+                       shortest(scale.y()) + " " + shortest(scale.z());
   }
   if (!(X == Transform{}))
     for (Vec3& vertex : result.mesh.vertices) vertex = X * vertex;
@@ -70,7 +71,7 @@ MeshFile placedMesh(const MeshFile& source, const Vec3& scale, const Transform& 
 
 struct Range {
   double lower, upper;
-  std::string text() const { return "[" + shortestText(lower) + ", " + shortestText(upper) + "]"; }
+  std::string text() const { return "[" + shortest(lower) + ", " + shortest(upper) + "]"; }
 };
 
 class ModelBuilder {

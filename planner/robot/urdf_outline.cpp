@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_limits.h"
 #include "planner/robot/joint_types.h"
@@ -53,11 +54,11 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
   const std::vector<std::string> known{"box", "cylinder", "sphere", "mesh"};
   const auto near = mostSimilar(kind, known);
   file.fault(shape.GetLineNum(),
-             owner + ": unknown geometry <" + kind + ">; " +
-                 (kind == "capsule" ? "a capsule is a <cylinder> and two <sphere>, each in a "
+             owner + ": unknown geometry <" + kind + ">" +
+                 (kind == "capsule" ? "; a capsule is a <cylinder> and two <sphere>, each in a "
                                       "<collision> of its own"
-                  : near            ? "did you mean <" + *near + ">?"
-                                    : "<box>, <cylinder>, <sphere> or <mesh> is needed"));
+                  : near            ? " (did you mean <" + *near + ">?)"
+                                    : "; <box>, <cylinder>, <sphere> or <mesh> is needed"));
 }
 
 /// @returns roll, pitch and yaw.
@@ -169,8 +170,8 @@ bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
   };
   const double least = valueOf("lower", lower), most = valueOf("upper", upper);
   if (least > most)
-    file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortestText(least) +
-                                        " is above the upper limit " + shortestText(most));
+    file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortest(least) +
+                                        " is above the upper limit " + shortest(most));
   if (limit->FindAttribute("lower") || limit->FindAttribute("upper")) return true;
   if (!joint.FirstChildElement("mimic"))
     notes.push_back(file.at(

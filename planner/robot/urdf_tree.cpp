@@ -2,6 +2,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_outline.h"
@@ -85,7 +86,7 @@ class Tree {
     return true;
   }
 
-  /// "; did you mean …?" with the nearest name, or empty.
+  /// " (did you mean …?)" with the nearest name, or empty.
   template <class Named>
   std::string hint(const std::string& name, const std::vector<Named>& all) const {
     return file_.hints() ? didYouMean(name, namesOf(all)) : "";
@@ -195,8 +196,7 @@ class Tree {
       file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) +
                                   ", which is continuous and repeats after a full turn, by the "
                                   "multiplier " +
-                                  shortestText(multiplier) +
-                                  "; use a whole multiplier or a revolute " +
+                                  shortest(multiplier) + "; use a whole multiplier or a revolute " +
                                   quotedWord(leader->name));
   }
 

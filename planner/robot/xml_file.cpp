@@ -7,6 +7,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 
 namespace corridor {
@@ -98,11 +99,6 @@ std::string owned(const std::string& kind, std::string_view name) {
   return kind + " " + quotedWord(name);
 }
 
-std::string shortestText(double value) {
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
 XmlFile::XmlFile(std::filesystem::path file, const std::string& what) : path_(std::move(file)) {
   open(what);
 }
@@ -177,7 +173,7 @@ std::optional<std::vector<double>> XmlFile::numbers(Element& element, const char
   for (std::size_t i = 0; i < count; ++i) {
     if (const std::string complaint = parseNumber(words[i], values[i]); !complaint.empty())
       return complain(complaint);
-    plain += (i == 0 ? "" : " ") + shortestText(values[i]);
+    plain += (i == 0 ? "" : " ") + shortest(values[i]);
   }
   element.SetAttribute(attribute, plain.c_str());
   return values;
@@ -207,7 +203,7 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
     if (contains(known, name)) continue;
     const std::string unknown = owner + ": <" + name + "> is not known";
     const auto near = mostSimilar(name, known);
-    const std::string hint = near ? "; did you mean <" + *near + ">?" : "";
+    const std::string hint = near ? " (did you mean <" + *near + ">?)" : "";
     if (near && contains(read, *near))
       fault(element->GetLineNum(), unknown + hint);
     else if (holdsGeometry(*element))

@@ -72,6 +72,4 @@ class XmlFile {
 /// Formats kind and name: `joint "elbow"`.
 std::string owned(const std::string& kind, std::string_view name);
 
-std::string shortestText(double value);
-
 }  // namespace corridor

@@ -8,6 +8,9 @@
 #include <random>
 #include <vector>
 
+#include "collision/core/floating_point.h"
+#include "collision/core/spelling.h"
+
 namespace corridor {
 namespace {
 
@@ -45,7 +48,7 @@ std::string described(const Checker& checker, std::size_t shape, std::uint32_t t
   }
   if (!checker.scene().bodies()[shape].body.part())
     details += (details.empty() ? "" : ", ") + ("triangle " + std::to_string(triangle));
-  return "\"" + body.name + "\"" + (details.empty() ? "" : " (" + details + ")");
+  return quotedWord(body.name) + (details.empty() ? "" : " (" + details + ")");
 }
 
 std::string described(const Checker& checker, const Contact& pair) {
@@ -212,6 +215,19 @@ std::string outOfBounds(const std::string& name, const Configuration& q,
   return name + ": " + text;
 }
 
+/// Explains reasons that have nothing to do with the gap between two bodies.
+std::string whyUndecided(UndecidedReason reason) {
+  switch (reason) {
+    case UndecidedReason::floatingPoint:
+      return std::string("nothing can be proved with these floating-point settings: ") +
+             described(floatingPoint()) + "; restore them";
+    case UndecidedReason::ambiguous:
+      return "a value is so large that the pose overflows; reduce it";
+    default:
+      return "its test took too much work";
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> whyNotFree(const std::string& name, const Configuration& q,
@@ -239,7 +255,7 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
            pair + ", or the tolerance of " + number(options.tolerance) +
            " m; reduce the value (an angle by whole turns), or set a larger checker: {tolerance: "
            "…}";
-  if (result.verdict == MotionVerdict::undecided) return name + ": its test took too much work";
+  if (result.verdict == MotionVerdict::undecided) return name + ": " + whyUndecided(result.reason);
   return name + " is in contact: " + pair +
          (checker.interference(q)
               ? " touch"

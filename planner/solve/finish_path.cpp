@@ -9,6 +9,7 @@
 
 #include "planner/checker/group_difference.h"
 #include "planner/checker/problem_state_space.h"
+#include "planner/robot/difference.h"
 
 namespace corridor {
 

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <sstream>
+#include <utility>
 
 #include "collision/core/read_file.h"
 #include "planner/problem/format_key.h"
@@ -187,10 +188,10 @@ Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& s
 
 }  // namespace
 
-Solution makeSolution(const Problem& problem, const SolveReport& report) {
+Solution makeSolution(const Problem& problem, const SolveReport& report, std::string digest) {
   Solution solution;
   solution.problem = problem.file.string();
-  solution.digest = problem.digest;
+  solution.digest = std::move(digest);
   solution.space = rigidSpaceOf(problem.space);
   solution.numbers = problem.space.numberNames();
   solution.planner = report.planner;

@@ -26,7 +26,8 @@ struct Solution {
   Path path;
 };
 
-Solution makeSolution(const Problem& problem, const SolveReport& report);
+/// @param digest  of the problem (planner/problem/digest.h), or "".
+Solution makeSolution(const Problem& problem, const SolveReport& report, std::string digest = "");
 
 /// Writes a solution file. Numbers have enough digits to read back as the same doubles. The file is
 /// written whole or not at all.

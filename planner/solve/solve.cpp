@@ -15,6 +15,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/fault_list.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
@@ -69,11 +70,12 @@ std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
   return 0.7 * weight;
 }
 
-/// Returns the report's words for the trees: ", sphere" or ", obb-binary, gjk"; "" for the default
-/// trees. A fit other than the default is not reported.
+/// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk".
+/// Leaves out what is the default; "" for the default trees.
 std::string treesTold(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
+         (trees.fit == usual.fit ? "" : ", " + trees.fit) +
          (trees.overlap == usual.overlap ? "" : ", " + trees.overlap);
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
 #include "planner/problem/bounds.h"
+#include "planner/problem/digest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/verify/edge_curve.h"
 
@@ -167,6 +169,11 @@ double toleranceOf(const Problem& problem, const PathProblem& plain) {
   return 0.1 * defaultTolerance(problem, 1e-7 * smallest);
 }
 
+DigestState digestState(const Problem& problem, const Solution& solution) {
+  if (solution.digest.empty()) return DigestState::none;
+  return solution.digest == digestOf(problem) ? DigestState::same : DigestState::differs;
+}
+
 }  // namespace
 
 PathProblem plainProblem(const Problem& problem) {
@@ -195,11 +202,6 @@ PathProblem plainProblem(const Problem& problem) {
 
 const char* nameOf(DigestState state) {
   return state == DigestState::same ? "same" : state == DigestState::differs ? "differs" : "none";
-}
-
-DigestState digestState(const Problem& problem, const Solution& solution) {
-  if (solution.digest.empty()) return DigestState::none;
-  return solution.digest == problem.digest ? DigestState::same : DigestState::differs;
 }
 
 const char* nameOf(PathVerdict verdict) {

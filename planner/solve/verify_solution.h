@@ -8,14 +8,13 @@
 
 namespace corridor {
 
-/// The comparison of a solution's digest with that of a problem's files.
+/// The comparison of a solution's digest with that of a problem's files (planner/problem/digest.h).
 enum class DigestState {
   same,     ///< the solution was made for these files
   differs,  ///< the problem or one of its files has changed, or it is another problem
   none      ///< the solution has no digest: it was written by hand, or is a `.path` file
 };
 const char* nameOf(DigestState state);
-DigestState digestState(const Problem& problem, const Solution& solution);
 
 /// What to do with a solution whose digest differs from the problem's.
 enum class OtherDigest {
@@ -47,7 +46,9 @@ PathProblem plainProblem(const Problem& problem);
 
 /// Verifies that the path begins at the start, ends in the goal and stays in the bounds, and by
 /// planner/verify that every curve in the problem's tube around it keeps the problem's margin.
-/// planner/verify shares no bounds, poses or trees with the checker of the planner.
+/// planner/verify shares no bounds, poses or trees with the checker of the planner. If the solution
+/// has a digest, first reads the problem's files again and compares theirs.
+/// @throws InputError if one of these files can't be read.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
                             OtherDigest other = OtherDigest::refused);
 

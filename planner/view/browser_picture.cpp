@@ -9,8 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
-#include <iterator>
 #include <spawn.h>
 #include <sstream>
 #include <string_view>
@@ -21,6 +19,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "planner/solve/whole_file.h"
 
@@ -65,9 +64,13 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
+/// Returns what the browser wrote; "" if there is nothing.
 std::string contents(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  try {
+    return readFile(file, "a file of the browser");
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 /// Returns whether a picture is complete: on a full disk browsers leave a part of it.

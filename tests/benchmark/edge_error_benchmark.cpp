@@ -25,6 +25,7 @@
 #include <map>
 #include <optional>
 
+#include "collision/core/quantiles.h"
 #include "planner/benchmark/fcl_scene.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/edge_cases.h"
@@ -177,9 +178,7 @@ Tally run(const EdgeSet& set, const Method& method, int rounds) {
       answer = method(edge);
       times.push_back(processorTime() - begin);
     }
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    tally.us += *middle;
+    tally.us += medianOf(times);
     ++tally.edges;
     tally.contacts += edge.contact;
     tally.undecided += answer.verdict == MotionVerdict::undecided;
@@ -200,11 +199,19 @@ class Report {
   Report(const EdgeSet& set, int rounds)
       : set_(set),
         rounds_(rounds),
-        wrong_(set.name + ": contacts missed and free edges lost (none is drawn as 1 of " +
+        wrong_{"edge_error_" + underscored(set.name),
+               set.name + ": contacts missed and free edges lost (none is drawn as 1 of " +
                    std::to_string(2 * set.cases.size()) + ")",
-               "µs per edge", "share of the edges"),
-        late_(set.name + ": error of the time of first contact", "µs per edge",
-              "median, as a share of the edge") {}
+               "µs per edge",
+               "share of the edges",
+               true,
+               true},
+        late_{"edge_first_contact_" + underscored(set.name),
+              set.name + ": error of the time of first contact",
+              "µs per edge",
+              "median, as a share of the edge",
+              true,
+              true} {}
 
   void line(const std::string& method, double knob, const Method& ask) {
     Tally t = run(set_, ask, rounds_);
@@ -216,8 +223,8 @@ class Report {
     if (timed) std::cout << t.timeErrors[t.timeErrors.size() / 2] << ',' << t.timeErrors.back();
     std::cout << (timed ? "\n" : ",\n") << std::flush;
     if (t.edges < static_cast<int>(set_.cases.size())) return;  // incomplete: not comparable
-    const auto add = [&](std::vector<Series>& all, double error) {
-      if (all.empty() || all.back().name != method) all.push_back({method, {}});
+    const auto add = [&](std::vector<PlotSeries>& all, double error) {
+      if (all.empty() || all.back().name != method) all.push_back({.name = method, .points = {}});
       all.back().points.push_back({t.us, error});
     };
     const int wrong = t.missed + t.lost;
@@ -226,19 +233,22 @@ class Report {
     if (timed) add(lateOnes_, t.timeErrors[t.timeErrors.size() / 2]);
   }
   void write(const std::filesystem::path& folder) {
-    std::string name = set_.name;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    for (Series& series : wrongOnes_) wrong_.add(std::move(series));
-    wrong_.write(folder / ("edge_error_" + name + ".svg"));
-    for (Series& series : lateOnes_) late_.add(std::move(series));
-    if (!lateOnes_.empty()) late_.write(folder / ("edge_first_contact_" + name + ".svg"));
+    for (const PlotSeries& s : wrongOnes_) addLine(wrong_, s.name, s.points);
+    writePlot(wrong_, folder);
+    for (const PlotSeries& s : lateOnes_) addLine(late_, s.name, s.points);
+    if (!lateOnes_.empty()) writePlot(late_, folder);
   }
 
  private:
+  static std::string underscored(std::string name) {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+  }
+
   const EdgeSet& set_;
   int rounds_;
   Plot wrong_, late_;
-  std::vector<Series> wrongOnes_, lateOnes_;
+  std::vector<PlotSeries> wrongOnes_, lateOnes_;
 };
 
 void compare(const EdgeSet& set, int rounds, const std::string& folder) {

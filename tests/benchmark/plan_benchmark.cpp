@@ -15,6 +15,7 @@
 #include <iostream>
 #include <vector>
 
+#include "collision/core/quantiles.h"
 #include "planner/benchmark/competitors.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/run_campaign.h"
@@ -78,7 +79,7 @@ void run(const Arguments& arguments) {
     campaign.variants.push_back(readVariant(variant, peers()));
   for (const std::string& name : arguments.texts("--planner"))
     campaign.planners.push_back({name, name, {}});
-  nameProblems(campaign);
+  identifyProblems(campaign);
   campaign.runs = static_cast<std::uint64_t>(arguments.number("--runs", 10));
   campaign.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1));
   if (arguments.has("--time")) campaign.time = arguments.number("--time", 20);

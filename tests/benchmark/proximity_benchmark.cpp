@@ -17,6 +17,7 @@
 #include <iomanip>
 #include <iostream>
 
+#include "collision/core/quantiles.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
@@ -69,7 +70,7 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
     }
     cost.boxTests /= static_cast<double>(poses.size());
     cost.triangleTests /= static_cast<double>(poses.size());
-    cost.us = app::median(ns) / 1e3;
+    cost.us = medianOf(ns) / 1e3;
     costs.push_back(cost);
   }
   return costs;
@@ -104,29 +105,29 @@ void sweep(const Options& o, std::mt19937_64& random) {
       scales.push_back((1 + gap) / in);
     }
     const std::string n = std::to_string(sphere.triangles.size());
-    Plot nv("Two concentric spheres of " + n + " triangles", "1 / gap (radius 1)", "N_v"),
-        us("Two concentric spheres of " + n + " triangles", "1 / gap (radius 1)",
-           "µs per query (one core)");
+    const std::string title = "Two concentric spheres of " + n + " triangles";
+    Plot nv{"proximity_tests_" + n, title, "1 / gap (radius 1)", "N_v", true, true},
+        us{"proximity_time_" + n,     title, "1 / gap (radius 1)",
+           "µs per query (one core)", true,  true};
     for (const auto& [name, measure] : volumes()) {
       const std::vector<Cost> costs = measure(sphere, scales, poses);
-      Series counts{name, {}}, times = counts, unsaturated = counts;
+      std::vector<PlotPoint> counts, times, unsaturated;
       for (std::size_t i = 0; i < gaps.size(); ++i) {
         const Cost& c = costs[i];
         std::cout << n << "," << gaps[i] << "," << name << "," << c.boxTests << ","
                   << c.triangleTests << "," << c.us << std::endl;
-        counts.points.push_back({1 / gaps[i], c.boxTests});
-        times.points.push_back({1 / gaps[i], c.us});
-        if (c.triangleTests < 0.01 * c.boxTests) unsaturated.points.push_back(counts.points.back());
+        counts.push_back({1 / gaps[i], c.boxTests});
+        times.push_back({1 / gaps[i], c.us});
+        if (c.triangleTests < 0.01 * c.boxTests) unsaturated.push_back(counts.back());
       }
-      slopes += n + "," + name + "," + text(logSlope(counts.points)) + "," +
-                text(logSlope(unsaturated.points)) + "," +
-                std::to_string(unsaturated.points.size()) + "\n";
-      nv.add(counts);
-      us.add(times);
+      slopes += n + "," + name + "," + text(logSlope(counts)) + "," + text(logSlope(unsaturated)) +
+                "," + std::to_string(unsaturated.size()) + "\n";
+      addLine(nv, name, counts);
+      addLine(us, name, times);
     }
     if (!o.out.empty()) {
-      nv.write(o.out / ("proximity_tests_" + n + ".svg"));
-      us.write(o.out / ("proximity_time_" + n + ".svg"));
+      writePlot(nv, o.out);
+      writePlot(us, o.out);
     }
   }
   std::cout << "\ntriangles,volume,slope_all_gaps,slope_unsaturated,gaps_unsaturated\n" << slopes;

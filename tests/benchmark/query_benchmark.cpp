@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
 #include "collision/queries/interference.h"
 #include "planner/app/query_timing.h"
@@ -36,7 +37,6 @@
 namespace corridor {
 namespace {
 
-using app::median;
 using namespace bench;
 
 struct Options {
@@ -122,7 +122,7 @@ double medianOver(const Record& r, const Take& take) {
   std::vector<double> ns;
   for (std::size_t i = 0; i < r.ns.size(); ++i)
     if (take(i)) ns.push_back(r.ns[i]);
-  return ns.empty() ? 0 : median(ns);
+  return ns.empty() ? 0 : medianOf(ns);
 }
 
 /// Returns the time of the quickest other competitor over ours, or 0 if there is none.

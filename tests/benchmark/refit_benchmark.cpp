@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 
+#include "collision/core/quantiles.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 #include "collision/volumes/pair_tests.h"
@@ -76,7 +77,7 @@ Cost ask(const Tree& a, const Tree& b, const std::vector<Transform>& poses) {
     for (int i = 0; i < 3; ++i) least = std::min(least, app::nanosecondsOf(query, query));
     ns.push_back(least);
   }
-  cost.us = app::median(ns) / 1e3;
+  cost.us = medianOf(ns) / 1e3;
   return cost;
 }
 
@@ -92,9 +93,10 @@ struct Sums {
 /// Measures all frames with one kind of tree. Prints the rows; returns N_v after refitting over N_v
 /// after rebuilding.
 template <class Tree>
-Series sequence(const std::string& deformation, const std::string& name,
-                const std::vector<Frame>& frames, const TriangleMesh& sphere, Sums& sums) {
-  Series series{name, {}};
+std::vector<PlotPoint> sequence(const std::string& deformation, const std::string& name,
+                                const std::vector<Frame>& frames, const TriangleMesh& sphere,
+                                Sums& sums) {
+  std::vector<PlotPoint> ratios;
   const Tree b(sphere);
   Tree refitted(frames[0].mesh);
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -111,12 +113,12 @@ Series sequence(const std::string& deformation, const std::string& name,
     std::cout << deformation << "," << i << "," << name << "," << rebuild << "," << refit << ","
               << anew.boxTests << "," << kept.boxTests << "," << anew.triangleTests << ","
               << kept.triangleTests << "," << anew.us << "," << kept.us << std::endl;
-    series.points.push_back({static_cast<double>(i), kept.boxTests / anew.boxTests});
+    ratios.push_back({static_cast<double>(i), kept.boxTests / anew.boxTests});
     sums.rebuild += rebuild, sums.refit += refit, sums.frames += 1;
     sums.boxes += kept.boxTests / anew.boxTests, sums.us += kept.us / anew.us;
     sums.lastBoxes = kept.boxTests / anew.boxTests, sums.lastUs = kept.us / anew.us;
   }
-  return series;
+  return ratios;
 }
 
 void report(const Options& o) {
@@ -145,12 +147,12 @@ void report(const Options& o) {
         frames.back().poses.push_back(X);
       }
     }
-    Plot plot("Trees refitted since frame 0: " + deformation, "frame", "N_v refitted / N_v rebuilt",
-              false, false);
+    Plot plot{"refit_" + deformation, "Trees refitted since frame 0: " + deformation, "frame",
+              "N_v refitted / N_v rebuilt"};
     const auto measure = [&, &name = deformation]<class Tree>(const std::string& volume, Tree*) {
       Sums s;
-      Series series = sequence<Tree>(name, volume, frames, sphere, s);
-      if (s.refit > 0) plot.add(std::move(series));
+      const auto ratios = sequence<Tree>(name, volume, frames, sphere, s);
+      if (s.refit > 0) addLine(plot, volume, ratios);
       table += name + "," + volume + "," + text(s.rebuild / s.frames) + "," +
                text(s.refit / s.frames) + "," + text(s.boxes / s.frames) + "," + text(s.lastBoxes) +
                "," + text(s.us / s.frames) + "," + text(s.lastUs) + "\n";
@@ -163,7 +165,7 @@ void report(const Options& o) {
     measure("kdop18", static_cast<VolumeTree<Kdop<18>>*>(nullptr));
     measure("kdop26", static_cast<VolumeTree<Kdop<26>>*>(nullptr));
     measure("obb (wide)", static_cast<Obb4Tree*>(nullptr));
-    if (!o.out.empty()) plot.write(o.out / ("refit_" + deformation + ".svg"));
+    if (!o.out.empty()) writePlot(plot, o.out);
   }
   std::cout << table;
 }

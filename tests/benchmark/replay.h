@@ -183,7 +183,7 @@ inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& pat
   const auto record = [&](const auto& send) {
     Transcript transcript;
     Path ignored;
-    const BenchmarkRun run = runUnderOmpl(planned, transcriptPeer(transcript), memory, ignored);
+    const BenchmarkRun run = runUnderOmpl(planned, "", transcriptPeer(transcript), memory, ignored);
     if (!run.failure.empty()) throw std::runtime_error(run.failure);
     // The time may have run out, and the moment when it does isn't repeatable.
     if (!run.solved) throw std::runtime_error(run.why);
@@ -193,7 +193,7 @@ inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& pat
   const ChildEnd recorded = inChild(record, {{2 * planned.planner.time + 60}, 0});
   if (!recorded.failure.empty()) throw std::runtime_error("recording: " + recorded.failure);
   Transcript transcript = Transcript::read(file.get());
-  BenchmarkRun run = runUnderOmpl(planned, transcriptPeer(transcript), memory, path);
+  BenchmarkRun run = runUnderOmpl(planned, "", transcriptPeer(transcript), memory, path);
   if (run.failure.empty() && !transcript.done()) {
     run.failure = "replay: " + std::to_string(transcript.questions()) +
                   " questions were asked, and more were recorded";

@@ -15,6 +15,7 @@
 #include <iostream>
 #include <map>
 
+#include "collision/core/quantiles.h"
 #include "collision/queries/interference.h"
 #include "tests/benchmark/arguments.h"
 #include "tests/benchmark/competitors.h"
@@ -40,7 +41,7 @@ constexpr double kSize =
 /// One competitor's results at one gap, over the size of the mesh.
 struct Curve {
   double gap = 0;
-  std::vector<Point> us, boxTests;
+  std::vector<PlotPoint> us, boxTests;
 };
 
 /// Returns the distance of a facet of a torus of n triangles from its circle: radius 0.4, √(n/4)
@@ -101,7 +102,7 @@ void measure(std::size_t triangles, const Options& o, std::map<std::string, Curv
         boxTests += static_cast<double>(r.answers[i].boxTests) / o.poses;
         hits += r.answers[i].hit;
       }
-      const double middle = app::median(us);
+      const double middle = medianOf(us);
       std::cout << n << "," << o.gaps[g] << "," << r.name << "," << middle << "," << boxTests << ","
                 << hits << "," << r.buildMs / (2 * n) * 1e3 << "," << r.bytesPerTriangle
                 << std::endl;
@@ -119,13 +120,17 @@ void report(const Options& o) {
   std::map<std::string, Curve> curves;
   for (double n = 1e3; n < 1.1 * o.largest; n *= std::sqrt(10.0))
     measure(static_cast<std::size_t>(n), o, curves);
-  Plot plot("Interference, nothing touches, gap by size", "triangles of each mesh",
-            "µs per query (one core)");
+  Plot plot{"scaling",
+            "Interference, nothing touches, gap by size",
+            "triangles of each mesh",
+            "µs per query (one core)",
+            true,
+            true};
   std::cout << "\nwho,from_triangles,to_triangles,logarithm_grew,time_grew,N_v_grew\n";
   for (const auto& [name, curve] : curves) {
     const std::size_t last = curve.us.size() - 1;
     const auto row = [&, &name = name, &curve = curve](std::size_t first) {
-      const Point from = curve.us[first], to = curve.us[last];
+      const PlotPoint from = curve.us[first], to = curve.us[last];
       std::cout << '"' << name << "\"," << from.x << "," << to.x << ","
                 << text(std::log(to.x) / std::log(from.x)) << "," << text(to.y / from.y) << ",";
       if (curve.boxTests[first].y > 0)  // FCL's tests are not counted
@@ -136,9 +141,9 @@ void report(const Options& o) {
     std::size_t fine = 0;
     while (fine < last && sagitta(curve.us[fine].x) > curve.gap) ++fine;
     if (fine > 0) row(fine);
-    plot.add({name, curve.us});
+    addLine(plot, name, curve.us);
   }
-  if (!o.out.empty()) plot.write(o.out / "scaling.svg");
+  if (!o.out.empty()) writePlot(plot, o.out);
 }
 
 void run(const Arguments& arguments) {

@@ -15,6 +15,7 @@
 #include <limits>
 #include <optional>
 
+#include "collision/core/quantiles.h"
 #include "collision/core/simd_target.h"
 #include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference_obb4.h"
@@ -122,10 +123,10 @@ void run(const Arguments& arguments) {
       const Row row = measure(w, relative, o);
       std::cout << name << "," << relative << "," << row.poses;
       if (row.poses > 0) {
-        const double ratio = app::median(row.ratios);
-        std::cout << "," << text(app::median(row.interferenceNs), 4) << ","
-                  << text(app::median(row.toleranceNs), 4) << "," << text(ratio) << ","
-                  << text(app::median(row.testRatios));
+        const double ratio = medianOf(row.ratios);
+        std::cout << "," << text(medianOf(row.interferenceNs), 4) << ","
+                  << text(medianOf(row.toleranceNs), 4) << "," << text(ratio) << ","
+                  << text(medianOf(row.testRatios));
         worst = std::max(worst, ratio);
         logs += std::log(ratio), ++count;
       }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace corridor::test {
 
@@ -27,6 +28,9 @@ constexpr int kSlowdown = 1;
 
 /// Creates an empty folder for the files of one test. The test removes it at its end.
 std::filesystem::path newFolder();
+
+/// Returns a file's bytes; "" if it can't be read.
+std::string contents(const std::filesystem::path& file);
 
 /// Returns and prints the seed of a random test: CORRIDOR_SEED if set, else `fallback`.
 std::uint64_t testSeed(std::uint64_t fallback);

@@ -16,6 +16,7 @@
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/problem_state_space.h"
 #include "planner/checker/state_validity_checkers.h"
+#include "planner/problem/digest.h"
 #include "planner/robot/edge_motion.h"
 #include "planner/robot/urdf_file.h"
 #include "planner/solve/verify_solution.h"
@@ -211,7 +212,7 @@ TEST_P(Threads, ReadProblems) {
   inThreads([&](int k) {
     for (int i = 0; i < 3; ++i) {
       const Problem problem = ownProblem(GetParam());
-      seen[k] += problem.digest + std::to_string(problem.pairs.size());
+      seen[k] += digestOf(problem) + std::to_string(problem.pairs.size());
     }
   });
   EXPECT_FALSE(seen[0].empty());

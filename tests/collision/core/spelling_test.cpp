@@ -23,7 +23,7 @@ TEST(Spelling, SuggestsOnlyWhatMayBeMeant) {
   EXPECT_EQ(mostSimilar("w", {"x", "y"}), std::nullopt);
   EXPECT_EQ(mostSimilar("AStar", planners), std::nullopt);
   EXPECT_EQ(mostSimilar(std::string(100000, 'R'), planners), std::nullopt);
-  EXPECT_EQ(didYouMean("rrt", planners), "; did you mean \"RRT\"?");
+  EXPECT_EQ(didYouMean("rrt", planners), " (did you mean \"RRT\"?)");
   EXPECT_EQ(didYouMean("dijkstra", planners), "");
 }
 

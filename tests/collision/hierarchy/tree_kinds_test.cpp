@@ -62,7 +62,7 @@ TEST(TreeKinds, WithDefaults) {
 
 TEST(TreeKinds, WrongWordsAreToldWithWhatThereIs) {
   EXPECT_EQ(complaint({"spheres", "", ""}),
-            "volume: unknown volume \"spheres\"; did you mean \"sphere\"?; there are: obb, "
+            "volume: unknown volume \"spheres\" (did you mean \"sphere\"?); there are: obb, "
             "obb-binary, aabb, sphere, rss, kdop14, kdop18, kdop26");
   EXPECT_EQ(complaint({"sphere", "", "gjk"}),
             "overlap: \"gjk\" is for volume obb-binary; volume sphere has: centers");
@@ -71,10 +71,10 @@ TEST(TreeKinds, WrongWordsAreToldWithWhatThereIs) {
   EXPECT_EQ(complaint({"aabb", "hull", ""}),
             "fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
   EXPECT_EQ(complaint({"obb-binary", "", "gkj"}),
-            "overlap: unknown overlap \"gkj\"; did you mean \"gjk\"?; volume obb-binary has: "
+            "overlap: unknown overlap \"gkj\" (did you mean \"gjk\"?); volume obb-binary has: "
             "sat, gjk, lp, edge-face");
   EXPECT_EQ(complaint({"rss", "hul", ""}),
-            "fit: unknown fit \"hul\"; did you mean \"hull\"?; volume rss has: triangles, "
+            "fit: unknown fit \"hul\" (did you mean \"hull\"?); volume rss has: triangles, "
             "vertices, hull");
   EXPECT_THROW(treesNamed({"aabb", "hull", ""}), std::invalid_argument);
   EXPECT_THROW(withDefaults({"cone", "", ""}), std::invalid_argument);

@@ -121,7 +121,7 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "results")) << arguments;
   };
   refuse("hall.yaml --variants certifed",
-         "--variants: unknown variant \"certifed\"; did you mean \"certified\"?");
+         "--variants: unknown variant \"certifed\" (did you mean \"certified\"?)");
   refuse("hall.yaml --variants discrete:fine",
          "--variants: \"discrete:fine\": a resolution from 1e-09 to below 1 is needed");
   refuse("hall.yaml --variants discrete:2",
@@ -133,7 +133,7 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("set.json#5-3", "set.json: \"#5-3\" is not a range of 1 to 1000 problems, such as #1-10");
   refuse("hall.yaml --variants certified,certified", "--variants: \"certified\" is named twice");
   refuse("hall.yaml --planners RRTConect",
-         "--planners: unknown planner \"RRTConect\"; did you mean \"RRTConnect\"?");
+         "--planners: unknown planner \"RRTConect\" (did you mean \"RRTConnect\"?)");
   for (const std::string list : {"certified,,discrete:0.1", ",certified", "certified,", ","})
     refuse("hall.yaml --variants " + list, "--variants: an entry of \"" + list + "\" is empty");
   refuse("hall.yaml --planners RRT,,PRM", "--planners: an entry of \"RRT,,PRM\" is empty");

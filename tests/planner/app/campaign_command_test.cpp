@@ -185,8 +185,8 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
         "checkers:\n  certified: {edges: certified}\n");
   const Result result = run("benchmark campaign.yaml -o other");
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, StartsWith("campaign.yaml:3: planners: unknown planner \"RRTConect\"; "
-                                     "did you mean \"RRTConnect\"?"));
+  EXPECT_THAT(result.err, StartsWith("campaign.yaml:3: planners: unknown planner \"RRTConect\" "
+                                     "(did you mean \"RRTConnect\"?)"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "other"));
   write("results/campaign.db",
         "not a database, but long enough to be looked at as if it were one, "

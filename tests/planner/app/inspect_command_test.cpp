@@ -1,5 +1,5 @@
-// Tests of `corridor inspect` from outside: its reports on meshes and robots, and which file it
-// finds in a folder.
+// Tests of `corridor inspect` from outside: its reports on meshes, robots and problems, and which
+// file it finds in a folder.
 #include <filesystem>
 #include <string>
 
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/planner/app/program_test.h"
+#include "tests/planner/app/program_fixtures.h"
 
 namespace {
 
@@ -15,6 +15,8 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 using InspectCommand = corridor::test::ProgramTest;
+using InspectProblem = corridor::test::ArmTest;
+using InspectCube = corridor::test::CubeTest;
 
 /// The range of a joint that mimics another follows from that joint, even beyond its own limits.
 TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
@@ -106,6 +108,56 @@ TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
   const auto closed = nlohmann::json::parse(run("inspect closed.obj --json").out)["mesh"];
   EXPECT_EQ(closed["watertight"], true);
   EXPECT_FALSE(closed.contains("why_not_watertight"));
+}
+
+TEST_F(InspectProblem, InspectTellsPairsAndRobots) {
+  const Result problem = run("inspect arm.yaml --pairs");
+  EXPECT_EQ(problem.status, 0) << problem.err;
+  EXPECT_THAT(problem.out, HasSubstr("joint: \"elbow\": -2 to 2 rad\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pair: upper~lower: not tested: adjacent\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pair: lower~post: tested\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pairs tested: 2\n"));
+  EXPECT_THAT(problem.out, HasSubstr("pairs skipped: 1: adjacent\n"));
+  const auto json = nlohmann::json::parse(run("inspect arm.yaml --json").out);
+  EXPECT_EQ(json["pairs"]["tested"], 2);
+  EXPECT_EQ(json["pair_list"].size(), 3u);
+  double share = 0;
+  for (const auto& pair : json["random_edges"]["pairs"]) share += pair["share"].get<double>();
+  EXPECT_NEAR(share, 1, 1e-9);
+  EXPECT_EQ(json["random_edges"]["pairs"].size(), 2u);
+  EXPECT_GT(json["random_edges"]["free"], 0);
+  EXPECT_LE(json["random_edges"]["free"], json["random_edges"]["edges"]);
+  EXPECT_THAT(problem.out, HasSubstr("time goes to: "));
+  write("alone.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld: {}\n"
+        "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
+  EXPECT_THAT(run("inspect alone.yaml").out,
+              HasSubstr("pairs tested: 0: NOTHING IS TESTED, every state is valid\n"));
+  const Result robot = run("inspect arm.urdf");
+  EXPECT_EQ(robot.status, 0) << robot.err;
+  EXPECT_THAT(robot.out, HasSubstr("joint: \"elbow\": revolute, upper to lower, -2 to 2 rad\n"));
+  EXPECT_THAT(robot.out, HasSubstr("link: \"lower\": box\n"));
+  EXPECT_EQ(run("inspect robot.yaml").status, 0);
+}
+
+TEST_F(InspectCube, BadInputIsOneLineAndExit2) {
+  write("package.urdf",
+        "<robot name=\"r\">\n<link name=\"a\"><collision><geometry><mesh "
+        "filename=\"package://p/m.obj\"/></geometry></collision></link>\n</robot>\n");
+  expectFault("inspect package.urdf",
+              "package.urdf:2: link \"a\": mesh \"package://p/m.obj\": p/m.obj is not a file, "
+              "and package \"p\" has no folder; add robot.yaml: packages: {p: FOLDER}");
+  expectFault("inspect cube.obj --pairs", "--pairs: needs a problem, and cube.obj is a mesh");
+  expectFault("inspect problem.yaml --self-intersections",
+              "--self-intersections: needs a mesh, and problem.yaml is a problem");
+  expectFault("inspect cube.obj --against cube.obj --self-intersections",
+              "--self-intersections: can't be used with --against");
+  write("crossed.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_THAT(run("inspect crossed.obj --self-intersections").out,
+              HasSubstr("self-intersections: 1, the first between triangles 0 and 1 (from 0)"));
+  expectFault("inspect problem.yaml --unit mm",
+              "--unit: needs a mesh, and problem.yaml is a problem");
+  expectFault("inspect robot.yaml --up y", "--up: needs a mesh, and robot.yaml is a robot");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -28,10 +27,6 @@ class ProgramTest : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
-  static std::string contents(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   static std::vector<std::string> lines(const std::string& text) {
     std::vector<std::string> all;
     std::istringstream in(text);
@@ -53,6 +48,15 @@ class ProgramTest : public testing::Test {
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_EQ(result.err, told + "\n") << arguments;
     EXPECT_EQ(result.out, "") << arguments;
+  }
+
+  /// Expects the same, where only the line's first words are known.
+  void expectFaultThatBegins(const std::string& arguments, const std::string& told) const {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(result.err.starts_with(told)) << arguments << ": " << result.err;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
   }
 
   /// Returns the commands that `corridor --help` lists.

@@ -144,8 +144,7 @@ TEST_F(QueryCommand, SharedWorkload) {
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   const std::string folder = (*data / "collision").string();
   const auto w = corridor::test::loadWorkload(*data / "collision", "e_touching_boxes");
-  std::istringstream pair(
-      corridor::test::ProgramTest::contents(folder + "/e_touching_boxes/pair.txt"));
+  std::istringstream pair(corridor::test::contents(folder + "/e_touching_boxes/pair.txt"));
   std::string which, a, b;
   pair >> which >> a >> which >> b;
   const Result result = run("query '" + folder + "/" + a + "' '" + folder + "/" + b +
@@ -232,10 +231,10 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "empty.obj: the mesh has no faces; triangles or polygons are needed, lines and points are "
         "not read");
   fault("a.obj b.obj --poses poses.txt --query intereference",
-        "--query: unknown query \"intereference\"; did you mean \"interference\"?; there are: "
+        "--query: unknown query \"intereference\" (did you mean \"interference\"?); there are: "
         "interference, contacts, distance, tolerance");
   fault("a.obj b.obj --poses poses.txt --volume obbb",
-        "--volume: unknown volume \"obbb\"; did you mean \"obb\"?; there are: obb, obb-binary, "
+        "--volume: unknown volume \"obbb\" (did you mean \"obb\"?); there are: obb, obb-binary, "
         "aabb, sphere, "
         "rss, kdop14, kdop18, "
         "kdop26");
@@ -252,7 +251,7 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --poses poses.txt --volume aabb --fit hull",
         "--fit: \"hull\" is for volumes obb, obb-binary, rss; volume aabb has: plain");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap gkj",
-        "--overlap: unknown overlap \"gkj\"; did you mean \"gjk\"?; volume obb-binary has: sat, "
+        "--overlap: unknown overlap \"gkj\" (did you mean \"gjk\"?); volume obb-binary has: sat, "
         "gjk, lp, edge-face");
   fault("a.obj b.obj --poses poses.txt --volume obb-binary --overlap lp --query distance",
         "--overlap: \"lp\" needs --query interference or contacts; distance computes distances "

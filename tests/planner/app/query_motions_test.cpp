@@ -259,7 +259,7 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
     option(given, given.substr(0, given.find(' ')) + ": needs --grid, which is not given");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "p.txt"));
   option("--edges adaptiv",
-         "--edges: unknown method \"adaptiv\"; did you mean \"adaptive\"?; there are: certified, "
+         "--edges: unknown method \"adaptiv\" (did you mean \"adaptive\"?); there are: certified, "
          "adaptive, advancement");
   option("--edges discrete",
          "--edges: unknown method \"discrete\"; there are: certified, adaptive, advancement");
@@ -280,10 +280,10 @@ class SharedMotions : public QueryMotions {
     const auto folder = *corridor::test::dataFolder() / "collision";
     std::size_t undecided = 0;
     for (const std::string name : {"b_bunny_torus", "b_torus1_torus2_mixed"}) {
-      std::istringstream pair(contents(folder / "ccd" / name / "pair.txt"));
+      std::istringstream pair(corridor::test::contents(folder / "ccd" / name / "pair.txt"));
       std::string which, a, b;
       pair >> which >> a >> which >> b;
-      std::istringstream all(contents(folder / "ccd" / name / "motions.txt"));
+      std::istringstream all(corridor::test::contents(folder / "ccd" / name / "motions.txt"));
       std::string motions, line;
       for (std::size_t n = 0; n < most && std::getline(all, line);) {
         motions += line + '\n';
@@ -294,7 +294,7 @@ class SharedMotions : public QueryMotions {
                                 "' --motions motions.txt --edges " + edges);
       EXPECT_EQ(result.status, 0) << result.err;
       const std::vector<Row> rows = rowsOf(result.out);
-      std::istringstream truth(contents(folder / "ccd" / name / "truth.txt"));
+      std::istringstream truth(corridor::test::contents(folder / "ccd" / name / "truth.txt"));
       std::size_t i = 0, contacts = 0;
       while (i < rows.size() && std::getline(truth, line)) {
         if (line.starts_with('#')) continue;

@@ -5,12 +5,6 @@
 namespace corridor::app {
 namespace {
 
-TEST(QueryTiming, MedianOfOddAndEvenCounts) {
-  EXPECT_EQ(median(std::vector<double>{3}), 3);
-  EXPECT_EQ(median(std::vector<double>{9, 1, 5}), 5);
-  EXPECT_EQ(median(std::vector<double>{9, 1, 5, 3}), 4);
-}
-
 /// Runs `count` additions, each of which needs the sum before it.
 double work(int count) {
   volatile double x = 0;

@@ -36,7 +36,7 @@ Campaign hallCampaign(const std::vector<std::string>& variants) {
   for (const std::string& variant : variants) campaign.variants.push_back(readVariant(variant));
   campaign.runs = 2;
   campaign.time = 2.0 * test::kSlowdown;
-  nameProblems(campaign);
+  identifyProblems(campaign);
   return campaign;
 }
 
@@ -235,7 +235,7 @@ TEST_F(Database, WhatItRefuses) {
                 R"({"edges":"discrete","resolution":"0.2"} and is now )"
                 R"({"edges":"discrete","resolution":"0.3"};)"));
   other = campaign;
-  other.problems[0].digest = "another";
+  other.digests[0] = "another";
   EXPECT_THAT(complaint(Mode::resume, other),
               HasSubstr("was measured with other settings: problem was "));
   other = campaign;

@@ -38,7 +38,7 @@ Campaign campaignOf(const std::vector<std::string>& variants, std::uint64_t runs
   for (const std::string& variant : variants)
     campaign.variants.push_back(readVariant(variant, peers));
   campaign.runs = runs;
-  nameProblems(campaign);
+  identifyProblems(campaign);
   return campaign;
 }
 
@@ -75,7 +75,7 @@ TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
   Campaign campaign = campaignOf({"certified", "discrete:0.01"}, 3);
   campaign.problems = {
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / "thin_plate")};
-  nameProblems(campaign);
+  identifyProblems(campaign);
   campaign.time = 20.0 * test::kSlowdown;
   checkCampaign(campaign);
   const CampaignResult result = runCampaign(campaign);
@@ -201,7 +201,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 2);
   Problem& problem = campaign.problems[0];
   problem.name = "a hall";
-  nameProblems(campaign);
+  identifyProblems(campaign);
   problem.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
   campaign.planners = named({"RRTConnect", "RRTstar"});  // RRTstar reports its progress
   campaign.time = 2.0 * test::kSlowdown;
@@ -279,7 +279,7 @@ TEST(Campaign, AllThatIsWrongIsToldBeforeAnythingRuns) {
   Campaign campaign = campaignOf({"certified", "discrete:0.1"}, 1);
   campaign.planners = named({"RRTConnect", "RTT"});
   EXPECT_THAT(complaintOf(campaign),
-              StartsWith("--planners: unknown planner \"RTT\"; did you mean \"RRT\"?; there are: "
+              StartsWith("--planners: unknown planner \"RTT\" (did you mean \"RRT\"?); there are: "
                          "RRTConnect, "));
   EXPECT_THAT(complaintOf(campaign),
               testing::Not(HasSubstr("\n")));  // reported once, not for each variant
@@ -297,7 +297,7 @@ TEST(Campaign, ProblemsOfOneNameAreToldApart) {
   Campaign campaign = campaignOf({"discrete:0.02"}, 1);
   campaign.problems.push_back(campaign.problems[0]);
   campaign.problems.push_back(campaign.problems[0]);
-  nameProblems(campaign);
+  identifyProblems(campaign);
   EXPECT_THAT(campaign.problemNames, ElementsAre("hall", "hall-2", "hall-3"));
 }
 

@@ -190,7 +190,7 @@ TEST_F(CampaignYaml, Peers) {
   }
   EXPECT_THAT(
       faults(std::string(kStart) + "checkers: {x: {peer: fclo}}\n"),
-      ElementsAre("c.yaml:3: checkers.x.peer: unknown peer \"fclo\"; did you mean \"fcl\"?; "
+      ElementsAre("c.yaml:3: checkers.x.peer: unknown peer \"fclo\" (did you mean \"fcl\"?); "
                   "there are: fcl"));
   EXPECT_THAT(faults(std::string(kStart) + "checkers: {x: {peer: fcl}}\n"),
               ElementsAre("c.yaml:3: checkers.x.peer: fcl tests states only; set edges: discrete"));
@@ -211,14 +211,14 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
              "limits: {time: -1, memory: 5}\n"),
       ElementsAre(
           "c.yaml:2: problems: no such file or folder: nothing.yaml",
-          HasSubstr("c.yaml:3: unknown key \"planer\"; did you mean \"planners\"?"),
+          HasSubstr("c.yaml:3: unknown key \"planer\" (did you mean \"planners\"?)"),
           "c.yaml:4: missing key \"name\" in planners[]: OMPL's, such as RRTConnect",
           HasSubstr("c.yaml:6: checkers.a.edges: "), HasSubstr("c.yaml:6: checkers.a.resolution: "),
           "c.yaml:7: checkers.b: a map is needed, such as {edges: certified}, not \"certified\"",
           "c.yaml:8: checkers.c.resolution: a list must have one or more single values",
           HasSubstr("c.yaml:9: unknown key \"knob\" in checkers.d"),
           "c.yaml:10: runs: a whole number from 1 to 1,000,000 is needed, not \"0\"",
-          HasSubstr("c.yaml:11: unknown key \"memory\" in limits; did you mean \"memory_mb\"?"),
+          HasSubstr("c.yaml:11: unknown key \"memory\" in limits (did you mean \"memory_mb\"?)"),
           HasSubstr("c.yaml:11: limits.time: ")));
   EXPECT_THAT(
       faults("format: corridor-campaign-1\n"),
@@ -258,10 +258,10 @@ TEST_F(CampaignYaml, FaultsOfPlannersHaveTheirLines) {
   const std::string start = std::string(kStart) + "checkers: {a: {}}\nplanners:\n";
   EXPECT_THAT(
       faults(start + "  - RRT\n  - RRTConect\n  - label: mine\n    name: PMR\nruns: 0\n"),
-      ElementsAre(HasSubstr("c.yaml:6: planners: unknown planner \"RRTConect\"; did you mean "
-                            "\"RRTConnect\"?; there are: RRTConnect, RRT, "),
-                  HasSubstr("c.yaml:7: planners: unknown planner \"PMR\"; did you mean "
-                            "\"PRM\"?"),
+      ElementsAre(HasSubstr("c.yaml:6: planners: unknown planner \"RRTConect\" (did you mean "
+                            "\"RRTConnect\"?); there are: RRTConnect, RRT, "),
+                  HasSubstr("c.yaml:7: planners: unknown planner \"PMR\" (did you mean "
+                            "\"PRM\"?)"),
                   HasSubstr("c.yaml:9: runs: ")));
   const auto checked = [&](const std::string& planners) -> std::string {
     const Campaign campaign = read(start + planners);

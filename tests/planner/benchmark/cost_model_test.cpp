@@ -50,12 +50,5 @@ TEST(CostModel, WhatIsNotToldApartIsOneCost) {
   EXPECT_EQ(fittedCosts({{0, 0, 100}}).predicted({1, 1, 1}), 0);
 }
 
-TEST(CostModel, Quantiles) {
-  EXPECT_EQ(quantile({3, 1, 2}, 0), 1);
-  EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2);
-  EXPECT_EQ(quantile({3, 1, 2}, 1), 3);
-  EXPECT_EQ(quantile({5}, 0.95), 5);
-}
-
 }  // namespace
 }  // namespace corridor

@@ -22,7 +22,7 @@ CampaignResult resultOf(const std::string& planner, const std::vector<std::strin
   for (const std::string& variant : variants)
     campaign.variants.push_back(readVariant(variant, {replayPeer()}));
   campaign.planners = {{planner, planner, {}}};
-  nameProblems(campaign);
+  identifyProblems(campaign);
   campaign.runs = 2;
   campaign.time = 20.0 * test::kSlowdown;
   return runCampaign(campaign);

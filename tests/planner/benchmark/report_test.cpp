@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -32,7 +31,7 @@ class Report : public testing::Test {
     campaign_.problems = {test::hallProblem(test::Rigid::SE3), test::hallProblem(test::Rigid::SE3)};
     for (const char* name : {"certified", "discrete:0.1", "discrete:0.01"})
       campaign_.variants.push_back(readVariant(name));
-    nameProblems(campaign_);
+    identifyProblems(campaign_);
     cells_ = cellsOf(campaign_);
     for (CampaignCell& cell : cells_)
       for (std::uint64_t seed = 1; seed <= 10; ++seed) cell.runs.push_back(run(cell, seed));
@@ -63,8 +62,7 @@ class Report : public testing::Test {
   }
   std::string page() const {
     writeReport(campaign_, cells_, folder_);
-    std::ifstream in(folder_ / "report.html");
-    return {std::istreambuf_iterator<char>(in), {}};
+    return test::contents(folder_ / "report.html");
   }
 
   Campaign campaign_;
@@ -268,8 +266,7 @@ TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   const auto height = [&] {
     page();
-    std::ifstream in(folder_ / "plots" / "solved.hall.svg");
-    const std::string svg{std::istreambuf_iterator<char>(in), {}};
+    const std::string svg = test::contents(folder_ / "plots" / "solved.hall.svg");
     return std::atof(svg.substr(svg.find("viewBox=\"0 0 560 ") + 17, 4).c_str());
   };
   const double few = height();
@@ -279,8 +276,7 @@ TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
   // A longer name is cut at a boundary of UTF-8 characters.
   campaign_.variants[0].name = std::string(58, 'x') + "ßßßß";
   height();
-  std::ifstream in(folder_ / "plots" / "solved.hall.svg");
-  const std::string svg{std::istreambuf_iterator<char>(in), {}};
+  const std::string svg = test::contents(folder_ / "plots" / "solved.hall.svg");
   EXPECT_THAT(svg, HasSubstr(">" + std::string(58, 'x') + "…<"));
 }
 
@@ -307,7 +303,7 @@ TEST_F(Report, TimesEndWhereTheLimitIs) {
 TEST_F(Report, OfManyProblems) {
   EXPECT_THAT(page(), Not(HasSubstr("<details>")));
   campaign_.problems.resize(10, campaign_.problems[0]);
-  nameProblems(campaign_);
+  identifyProblems(campaign_);
   cells_ = cellsOf(campaign_);
   for (CampaignCell& cell : cells_) cell.runs.push_back(run(cell, 1));
   EXPECT_THAT(page(), HasSubstr("<summary>Plots of all 10 problems</summary>"));
@@ -317,8 +313,7 @@ TEST_F(Report, SaysHowItWasMeasured) {
   campaign_.planners = {{"short", "RRT", {{{"range", "0.2"}}}}, {"KPIECE1", "KPIECE1", {}}};
   campaign_.simplify = false;
   writeReport(campaign_, cells_, folder_, {{"2026-05-04 03:02:01", "abc", 2, 60}});
-  std::ifstream in(folder_ / "report.html");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = test::contents(folder_ / "report.html");
   for (const char* said :
        {"session of 2026-05-04 03:02:01 UTC</td><td>60 runs, 2 at a time, by commit abc<",
         "planner “short”</td><td>RRT, range: 0.2<", "OMPL 1.5.2", "simplified</td><td>no<",
@@ -381,7 +376,7 @@ TEST_F(Report, HostileNames) {
 /// All clearances are equal: the plot's range must still span a decade.
 TEST_F(Report, OneValueOnADecade) {
   for (CampaignCell& cell : cells_)
-    for (BenchmarkRun& run : cell.runs) run.leastDistance = run.time = 1;
+    for (BenchmarkRun& run : cell.runs) run.leastDistance = run.processorTime = 1;
   for (const Plot& plot :
        {clearances(campaign_, cells_, 0), solvedOverTime(campaign_, cells_, 0)}) {
     ASSERT_TRUE(plot.rangeX);

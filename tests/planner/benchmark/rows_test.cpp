@@ -6,22 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/benchmark/statistics.h"
-
 namespace corridor {
 namespace {
-
-TEST(Rows, MedianAndQuantile) {
-  EXPECT_EQ(medianOf({3, 1, 2}), 2);
-  EXPECT_EQ(medianOf({4, 1, 2, 3}), 2.5);
-  EXPECT_TRUE(std::isnan(medianOf({})));
-  std::vector<double> values;
-  for (int i = 100; i >= 1; --i) values.push_back(i);
-  EXPECT_EQ(quantileOf(values, 0.95), 95);
-  EXPECT_EQ(quantileOf({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, 0.95), 10);
-  EXPECT_EQ(quantileOf({7}, 0.95), 7);
-  EXPECT_TRUE(std::isnan(quantileOf({}, 0.95)));
-}
 
 TEST(Rows, CsvHasAllDigitsAndQuotesWhatNeedsIt) {
   const std::vector<Row> rows{

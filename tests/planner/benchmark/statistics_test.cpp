@@ -1,4 +1,4 @@
-// Medians and shares with their confidence intervals, tested against enumeration, simulation and
+// Confidence intervals of medians and shares, tested against enumeration, simulation and
 // published values.
 #include "planner/benchmark/statistics.h"
 

@@ -73,8 +73,8 @@ TEST(Variant, APeerSamples) {
 TEST(Variant, BadOnesAreToldInOneLine) {
   const std::string names = joined(problemChoices().at("checker.edges"));
   EXPECT_EQ(complaintOf("certifed"),
-            "--variants: unknown variant \"certifed\"; did you mean "
-            "\"certified\"?; there are: " +
+            "--variants: unknown variant \"certifed\" (did you mean "
+            "\"certified\"?); there are: " +
                 names + "; each may have a knob: discrete:0.01");
   EXPECT_THAT(complaintOf("other:0.1"), testing::StartsWith("--variants: unknown variant"));
   EXPECT_THAT(complaintOf(""), testing::StartsWith("--variants: unknown variant \"\""));

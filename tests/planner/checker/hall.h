@@ -102,7 +102,6 @@ inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
   problem.checker.volume = volume;
   problem.file = "hall.yaml";
   problem.name = "hall";
-  problem.digest = "0123456789abcdef";
   problem.bodies = {{"bar", 2, 0, {meshShape("bar", boxMesh({1, 0.2, 0.2}))}},
                     {"wall", 0, {}, {meshShape("wall", boxMesh({0.001, 7, 10}, {0, -1.5, 0}))}}};
   problem.pairs = {{0, 1, ""}};

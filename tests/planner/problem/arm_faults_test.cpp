@@ -26,7 +26,7 @@ class ArmFaults : public ArmTest {
 
 TEST_F(ArmFaults, States) {
   EXPECT_EQ(start("redy"),
-            "problem.yaml:5: start: there is no state \"redy\"; did you mean \"ready\"? (known: "
+            "problem.yaml:5: start: there is no state \"redy\" (did you mean \"ready\"?) (known: "
             "ready)");
   EXPECT_EQ(start("{from: home, pan: 1}"),
             "problem.yaml:5: start.from: there is no state \"home\" (known: ready)");
@@ -35,7 +35,7 @@ TEST_F(ArmFaults, States) {
       "problem.yaml:5: start: has no value for lift; all joints that are planned for need one");
   EXPECT_EQ(
       start("{pan: 1, lfit: 0}"),
-      "problem.yaml:5: start.lfit: there is no joint \"lfit\"; did you mean \"lift\"? (known: "
+      "problem.yaml:5: start.lfit: there is no joint \"lfit\" (did you mean \"lift\"?) (known: "
       "pan, lift, slide)");
   EXPECT_EQ(start("{pan: 1, lift: 0, slide: 0.02, wrist: 1, follow: 0}"),
             "problem.yaml:5: start.slide: is held at 0.01, and not planned for; robot.yaml chooses "
@@ -62,7 +62,7 @@ TEST_F(ArmFaults, Goals) {
             "problem.yaml:6: goal: a list of at least one goal is needed, not an empty "
             "one");
   EXPECT_EQ(goal("[ready, redy]"),
-            "problem.yaml:6: goal[1]: there is no state \"redy\"; did you mean \"ready\"? (known: "
+            "problem.yaml:6: goal[1]: there is no state \"redy\" (did you mean \"ready\"?) (known: "
             "ready)");
   EXPECT_EQ(goal("[{from: ready, within: {joints: 1}}]"),
             "problem.yaml:6: goal[0].within: several goals share one region; write goal: {any: "
@@ -87,7 +87,7 @@ TEST_F(ArmFaults, Bounds) {
 
 TEST_F(ArmFaults, AllowAndTube) {
   EXPECT_EQ(with("allow: [[base, psot]]\n"),
-            "problem.yaml:7: allow: there is no body \"psot\"; did you mean \"post\"? "
+            "problem.yaml:7: allow: there is no body \"psot\" (did you mean \"post\"?) "
             "(known: base, upper, lower, finger, thumb, post)");
   EXPECT_EQ(with("allow: [[base]]\n"),
             "problem.yaml:7: allow: two bodies are needed, such as [hand, table], not 1");
@@ -111,7 +111,7 @@ TEST_F(ArmFaults, AllowAndTube) {
 
 TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("joints: [pan, lfit, wrist, follow, pan]\n"),
-            "arm.yaml:3: joints: there is no joint \"lfit\"; did you mean \"lift\"? (known: pan, "
+            "arm.yaml:3: joints: there is no joint \"lfit\" (did you mean \"lift\"?) (known: pan, "
             "lift, slide)\n"
             "arm.yaml:3: joints: wrist is fixed\n"
             "arm.yaml:3: joints: follow follows slide (mimic)\n"
@@ -121,7 +121,7 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("group: arm\n"),
             "arm.yaml:3: group: a group needs an SRDF; add srdf: FILE, or use joints: [NAME, …]");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: amr\n"),
-            "arm.yaml:4: group: there is no group \"amr\" in the SRDF; did you mean \"arm\"? "
+            "arm.yaml:4: group: there is no group \"amr\" in the SRDF (did you mean \"arm\"?) "
             "(known: arm, nothing)");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: nothing\n"),
             "arm.yaml:4: group: the group \"nothing\" has no joint that moves by itself");
@@ -135,7 +135,7 @@ TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(
       robot("states: {home: {pna: 1}}\nallow: [[base, hand]]\nweights: {joints: {tilt: 1, "
             "pan: 0}}\n"),
-      "arm.yaml:3: states.home.pna: there is no joint \"pna\"; did you mean \"pan\"? (known: "
+      "arm.yaml:3: states.home.pna: there is no joint \"pna\" (did you mean \"pan\"?) (known: "
       "pan, lift, slide)\n"
       "arm.yaml:4: allow: there is no link \"hand\" (known: base, upper, lower, flange, finger, "
       "thumb)\n"
@@ -161,9 +161,9 @@ TEST_F(ArmFaults, SeveralRobots) {
             "problem.yaml:4: goal: a map of the robots is needed, {left: …}, not \"ready\"");
   EXPECT_EQ(
       complaintOf(two + "start: {left: ready, rihgt: ready}\ngoal: {left: ready, right: redy}\n"),
-      "problem.yaml:3: unknown key \"rihgt\" in start; did you mean \"right\"? (known: left, "
+      "problem.yaml:3: unknown key \"rihgt\" in start (did you mean \"right\"?) (known: left, "
       "right)\n"
-      "problem.yaml:4: goal.right: there is no state \"redy\"; did you mean \"ready\"? (known: "
+      "problem.yaml:4: goal.right: there is no state \"redy\" (did you mean \"ready\"?) (known: "
       "ready)");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobots: {left: {file: gone.yaml}, a/b: {base: "
                         "{at: [0, 0, 0]}}}\nbase: {at: [0, 0, 0]}\nrobot: arm.yaml\n"),

@@ -94,7 +94,7 @@ TEST_F(Limits, Json) {
   for (const std::string& open : {std::string("["), std::string("{\"a\": ")})
     EXPECT_EQ(complaint(write("a.json", repeated(open, 100'000))), "a.json" + deep);
   EXPECT_EQ(complaint(write("a.json", "[" + repeated("[],", 10'000'000) + "1]")),
-            "a.json: has more than 10000000 values; split the set");
+            "a.json: has more than 10000000 keys and values; split the set");
   EXPECT_EQ(complaint(write("a.json", repeated("[", 100) + std::string(1, '\0'))),
             "a.json:1: is not text: it has a byte 0; UTF-8 is needed");
 }

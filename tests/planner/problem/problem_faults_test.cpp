@@ -57,10 +57,10 @@ TEST_F(ProblemFaults, Syntax) {
 TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
   EXPECT_EQ(
       with("checkr: {edges: certified}\n"),
-      std::string("problem.yaml:8: unknown key \"checkr\"; did you mean \"checker\"?") + topKeys);
+      std::string("problem.yaml:8: unknown key \"checkr\" (did you mean \"checker\"?)") + topKeys);
   EXPECT_EQ(with("colour: red\n"), std::string("problem.yaml:8: unknown key \"colour\"") + topKeys);
   EXPECT_EQ(with("checker: {edges: discrete, rezolution: 0.1}\n"),
-            "problem.yaml:8: unknown key \"rezolution\" in checker; did you mean \"resolution\"? "
+            "problem.yaml:8: unknown key \"rezolution\" in checker (did you mean \"resolution\"?) "
             "(known: edges, resolution, tolerance, volume, fit, overlap)");
   EXPECT_EQ(with("seed: 1\nmargin: 0\nseed: 2\n"),
             "problem.yaml:10: duplicate key \"seed\", first on line 8");
@@ -76,8 +76,9 @@ TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
   EXPECT_EQ(
       complaintOf("format: corridor-problem-1\nrobto: robot.yaml\nworld: {a: {mehs: wedge.obj}}\n" +
                   poses),
-      std::string("problem.yaml:2: unknown key \"robto\"; did you mean \"robot\"?") + topKeys +
-          "\nproblem.yaml:3: unknown key \"mehs\" in world.a; did you mean \"mesh\"? (known: mesh, "
+      std::string("problem.yaml:2: unknown key \"robto\" (did you mean \"robot\"?)") + topKeys +
+          "\nproblem.yaml:3: unknown key \"mehs\" in world.a (did you mean \"mesh\"?) (known: "
+          "mesh, "
           "box, sphere, capsule, cylinder, convex, unit, up, solid, at, rpy_deg, rpy, quat_xyzw, "
           "shapes)");
 }
@@ -131,16 +132,16 @@ TEST_F(ProblemFaults, WrongTypes) {
             "\"certain\"");
   EXPECT_EQ(with("checker: {edges: advancment}\n"),
             "problem.yaml:8: checker.edges: one of certified, adaptive, advancement, discrete is "
-            "needed, not \"advancment\"; did you mean \"advancement\"?");
+            "needed, not \"advancment\" (did you mean \"advancement\"?)");
   EXPECT_EQ(with("checker: {fit: triangle}\n"),
             "problem.yaml:8: checker.fit: one of triangles, vertices, hull, plain is needed, not "
-            "\"triangle\"; did you mean \"triangles\"?");
+            "\"triangle\" (did you mean \"triangles\"?)");
   EXPECT_EQ(with("checker: {volume: spheres}\n"),
             "problem.yaml:8: checker.volume: one of obb, obb-binary, aabb, sphere, rss, kdop14, "
-            "kdop18, kdop26 is needed, not \"spheres\"; did you mean \"sphere\"?");
+            "kdop18, kdop26 is needed, not \"spheres\" (did you mean \"sphere\"?)");
   EXPECT_EQ(with("checker: {overlap: gkj}\n"),
             "problem.yaml:8: checker.overlap: one of sat, gjk, lp, edge-face, centers, rectangles, "
-            "intervals is needed, not \"gkj\"; did you mean \"gjk\"?");
+            "intervals is needed, not \"gkj\" (did you mean \"gjk\"?)");
   EXPECT_EQ(with("planner: {stop: never}\n"),
             "problem.yaml:8: planner.stop: one of first, time is needed, not \"never\"");
   EXPECT_EQ(complaintOf(head + "start: {at: [1, 2, 3, 4]}\ngoal: {at: [1, x, 3]}\n"),
@@ -321,7 +322,7 @@ TEST_F(ProblemFaults, Robots) {
             "piano.obj, unit: m}]");
   EXPECT_EQ(
       complaintOfRobot("format: corridor-robot-1\nrigid: SE4\nshapes: []\n"),
-      "robot.yaml:2: rigid: one of SE3, SE2 is needed, not \"SE4\"; did you mean \"SE3\"?\n"
+      "robot.yaml:2: rigid: one of SE3, SE2 is needed, not \"SE4\" (did you mean \"SE3\"?)\n"
       "robot.yaml:3: shapes: a list of at least one shape, such as [{mesh: FILE}], is needed, not "
       "an empty one");
   EXPECT_EQ(
@@ -345,10 +346,10 @@ TEST_F(ProblemFaults, AllOfAFileAndOfItsRobotAtOnce) {
                   "problem.yaml:6: goal.quat_xyzw: a quaternion of zeros is no rotation; "
                   "[0, 0, 0, 1] is the identity\n"
                   "problem.yaml:7: margin: must be 0 or more, not -1\n"
-                  "problem.yaml:8: unknown key \"simplfy\"; did you mean \"simplify\"?") +
+                  "problem.yaml:8: unknown key \"simplfy\" (did you mean \"simplify\"?)") +
           topKeys +
           "\nproblem.yaml:9: seed: a whole number from 0 to 2^64 - 1 is needed, not \"x\"\n"
-          "robot.yaml:3: unknown key \"unti\" in shapes[0]; did you mean \"unit\"? (known: "
+          "robot.yaml:3: unknown key \"unti\" in shapes[0] (did you mean \"unit\"?) (known: "
           "mesh, box, sphere, capsule, cylinder, convex, unit, up, solid, at, rpy_deg, rpy, "
           "quat_xyzw, name)\n"
           "robot.yaml:3: shapes[0].mesh: gone.stl: no such file");

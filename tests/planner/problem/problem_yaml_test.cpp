@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/problem/digest.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/placement.h"
 #include "planner/problem/sha256.h"
@@ -113,7 +114,8 @@ TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
   EXPECT_EQ(upperOf(p), Vec3(5, 5, 3));
   EXPECT_THAT(p.notes,
               ElementsAre("bounds: those of the world, start and goal, since none are given"));
-  EXPECT_EQ(readProblem(folder_).digest, p.digest) << "the folder stands for its problem.yaml";
+  EXPECT_EQ(digestOf(readProblem(folder_)), digestOf(p))
+      << "the folder stands for its problem.yaml";
 }
 
 TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
@@ -196,16 +198,15 @@ TEST_F(ProblemYaml, ReferencePointIsSubtracted) {
 TEST_F(ProblemYaml, DigestIsThatOfAllFilesInOrder) {
   const Problem p = read(head + poses);
   const auto hashOf = [&](const std::string& name) {
-    std::ifstream stream(folder_ / name, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    Sha256 hash;
-    hash.update(bytes);
-    const auto digest = hash.finish();
+    const auto digest = sha256(contents(folder_ / name));
     return std::string(digest.begin(), digest.end());
   };
   const std::string wedge = hashOf("wedge.obj");
-  EXPECT_EQ(p.digest, sha256Hex(hashOf("problem.yaml") + hashOf("robot.yaml") + wedge))
+  const std::string digest = digestOf(p);
+  EXPECT_EQ(digest, sha256Hex(hashOf("problem.yaml") + hashOf("robot.yaml") + wedge))
       << "a file that is named twice counts once";
+  write("wedge.obj", contents(folder_ / "wedge.obj") + "# more\n");
+  EXPECT_NE(digestOf(p), digest) << "it is that of the files as they are now";
 }
 
 TEST_F(ProblemYaml, FilesAreRelativeToTheFileThatNamesThem) {

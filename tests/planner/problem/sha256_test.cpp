@@ -20,18 +20,5 @@ TEST(Sha256, VectorsOfNist) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST(Sha256, PortionsDoNotMatter) {
-  std::string text;
-  for (int i = 0; i < 300; ++i) text += static_cast<char>(i);
-  for (std::size_t length = 0; length <= text.size(); ++length)
-    for (const std::size_t portion : {1, 7, 63, 64, 65}) {
-      Sha256 hash;
-      for (std::size_t at = 0; at < length; at += portion)
-        hash.update(std::string_view(text).substr(at, std::min(portion, length - at)));
-      ASSERT_EQ(toHex(hash.finish()), sha256Hex(std::string_view(text).substr(0, length)))
-          << length << " bytes by " << portion;
-    }
-}
-
 }  // namespace
 }  // namespace corridor::test

@@ -67,7 +67,7 @@ TEST_F(Shapes, Faults) {
             "problem.yaml:4: missing key \"length\" in world.rock.cylinder: metres along z");
   EXPECT_EQ(
       rock("{capsule: {radius: 1, lenght: 2}}"),
-      "problem.yaml:4: unknown key \"lenght\" in world.rock.capsule; did you mean \"length\"? "
+      "problem.yaml:4: unknown key \"lenght\" in world.rock.capsule (did you mean \"length\"?) "
       "(known: radius, length)");
   EXPECT_EQ(rock("{convex: []}"),
             "problem.yaml:4: world.rock.convex: a convex shape needs at least one point");

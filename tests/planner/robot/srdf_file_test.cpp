@@ -105,9 +105,9 @@ TEST_F(SrdfFile, WhatIsUnknown) {
       complaintOfSrdf(R"(<disable_collision link1="l1" link2="r1"/>
 <group name="a"><jont name="left1"/></group>
 <groups/>)"),
-      R"(r.srdf:2: robot "r": <disable_collision> is not known; did you mean <disable_collisions>?
-r.srdf:3: group "a": <jont> is not known; did you mean <joint>?
-r.srdf:4: robot "r": <groups> is not known; did you mean <group>?)");
+      R"(r.srdf:2: robot "r": <disable_collision> is not known (did you mean <disable_collisions>?)
+r.srdf:3: group "a": <jont> is not known (did you mean <joint>?)
+r.srdf:4: robot "r": <groups> is not known (did you mean <group>?))");
   EXPECT_EQ(complaintOfSrdf("<link_sphere_approximation link=\"l1\"/>\n<mask/>"), "no complaint");
   EXPECT_THAT(model_.notes,
               testing::Contains((folder_ / "r.srdf").string() +
@@ -142,10 +142,10 @@ TEST_F(SrdfFile, Faults) {
 <disable_collisions link1="l2"/>
 <passive_joint name="p"/>
 <group name="up"><chain base_link="tool" tip_link="trunk"/></group>)"),
-            R"(r.srdf:2: group "a": the robot has no joint "left3"; did you mean "left1"?
-r.srdf:2: group "a": the robot has no link "trnk"; did you mean "trunk"?
+            R"(r.srdf:2: group "a": the robot has no joint "left3" (did you mean "left1"?)
+r.srdf:2: group "a": the robot has no link "trnk" (did you mean "trunk"?)
 r.srdf:3: group "b": the robot has no link "nowhere"
-r.srdf:3: group "b": there is no group "aa" in this file; did you mean "a"?
+r.srdf:3: group "b": there is no group "aa" in this file (did you mean "a"?)
 r.srdf:4: group "c" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
 r.srdf:5: group "d" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
 r.srdf:6: <group> has no name
@@ -153,11 +153,11 @@ r.srdf:7: the groups e, f, e contain each other in a circle
 r.srdf:9: group "f" is already defined on line 8; names must be unique
 r.srdf:10: state "s": there is no group "g" in this file
 r.srdf:10: state "s": joint "left1": joint value: a number is needed, not "x"
-r.srdf:11: state "t": the robot has no joint "lft1"; did you mean "left1"?
+r.srdf:11: state "t": the robot has no joint "lft1" (did you mean "left1"?)
 r.srdf:11: state "t": <joint> has no value
 r.srdf:12: state "t": joint "base": joint value: 3 numbers are needed, not "1"
 r.srdf:12: state "t" is already defined on line 11; names must be unique in a group
-r.srdf:13: the robot has no link "l3"; did you mean "l1"?
+r.srdf:13: the robot has no link "l3" (did you mean "l1"?)
 r.srdf:14: <disable_collisions> has no link2
 r.srdf:15: the robot has no joint "p"
 r.srdf:16: group "up": the chain is upside down: its base_link "tool" hangs from its tip_link "trunk"; swap them)");

@@ -66,10 +66,10 @@ TEST_F(UrdfFaults, Names) {
 TEST_F(UrdfFaults, Trees) {
   EXPECT_EQ(complaintOfParts(link("base") + link("hand") + joint("j", "fixed", "bse", "hnd") +
                              joint("k", "fixed", "elsewhere", "hand")),
-            "r.urdf:4: joint \"j\": its parent \"bse\" is not a link of this file; did you mean "
-            "\"base\"?\n"
-            "r.urdf:4: joint \"j\": its child \"hnd\" is not a link of this file; did you mean "
-            "\"hand\"?\n"
+            "r.urdf:4: joint \"j\": its parent \"bse\" is not a link of this file (did you mean "
+            "\"base\"?)\n"
+            "r.urdf:4: joint \"j\": its child \"hnd\" is not a link of this file (did you mean "
+            "\"hand\"?)\n"
             "r.urdf:5: joint \"k\": its parent \"elsewhere\" is not a link of this file");
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + joint("j", "fixed", "a", "a")),
             "r.urdf:4: joint \"j\": its parent and its child are the same link \"a\"");
@@ -96,7 +96,7 @@ TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
   for (int i = 0; i < 101; ++i) parts += joint("j" + std::to_string(i), "fixed", "bse", "base");
   const std::string text = complaintOfParts(parts);
   const std::string line = "its parent \"bse\" is not a link of this file";
-  EXPECT_THAT(text, testing::HasSubstr("joint \"j99\": " + line + "; did you mean \"base\"?\n"));
+  EXPECT_THAT(text, testing::HasSubstr("joint \"j99\": " + line + " (did you mean \"base\"?)\n"));
   EXPECT_THAT(text, testing::EndsWith("joint \"j100\": " + line));
 }
 
@@ -116,7 +116,7 @@ TEST_F(UrdfFaults, LongCirclesAreToldByTheirFirst) {
 
 TEST_F(UrdfFaults, Joints) {
   EXPECT_EQ(complaintOfJoint("revolut", limit),
-            "r.urdf:4: joint \"j\": unknown type \"revolut\"; did you mean \"revolute\"?");
+            "r.urdf:4: joint \"j\": unknown type \"revolut\" (did you mean \"revolute\"?)");
   EXPECT_EQ(complaintOfJoint("ball", limit),
             "r.urdf:4: joint \"j\": unknown type \"ball\"; one of fixed, revolute, continuous, "
             "prismatic, planar, floating is needed");
@@ -180,8 +180,8 @@ TEST_F(UrdfFaults, Mimics) {
             "r.urdf:7: joint \"tilt\" mimics itself");
   EXPECT_EQ(complaint("revolute", "revolute", R"(joint="pam" multiplier="x")"),
             "r.urdf:7: joint \"tilt\": mimic multiplier: a number is needed, not \"x\"\n"
-            "r.urdf:7: joint \"tilt\" mimics \"pam\", which is not a joint of this file; did you "
-            "mean \"pan\"?");
+            "r.urdf:7: joint \"tilt\" mimics \"pam\", which is not a joint of this file (did you "
+            "mean \"pan\"?)");
   EXPECT_EQ(complaint("fixed", "revolute", R"(joint="pan")"),
             "r.urdf:7: joint \"tilt\" mimics \"pan\", which is fixed; a joint of one variable is "
             "needed");
@@ -228,7 +228,7 @@ TEST_F(UrdfFaults, Geometry) {
   EXPECT_EQ(complaintOfShape(""),
             of + "<geometry> is empty; <box>, <cylinder>, <sphere> or <mesh> is needed");
   EXPECT_EQ(complaintOfShape("<spher radius=\"1\"/>"),
-            of + "unknown geometry <spher>; did you mean <sphere>?");
+            of + "unknown geometry <spher> (did you mean <sphere>?)");
   EXPECT_EQ(complaintOfShape("<torus/>"),
             of + "unknown geometry <torus>; <box>, <cylinder>, <sphere> or <mesh> is needed");
   EXPECT_EQ(complaintOfShape("<capsule radius=\"1\" length=\"2\"/>"),
@@ -255,8 +255,8 @@ TEST_F(UrdfFaults, Geometry) {
 TEST_F(UrdfFaults, WhatWouldBeLost) {
   const std::string of = "r.urdf:2: link \"a\": ";
   EXPECT_EQ(complaintOfParts(link("a", "<colision/>") + "<lnk name=\"b\"/>"),
-            of + "<colision> is not known; did you mean <collision>?\n"
-                 "r.urdf:3: robot \"r\": <lnk> is not known; did you mean <link>?");
+            of + "<colision> is not known (did you mean <collision>?)\n"
+                 "r.urdf:3: robot \"r\": <lnk> is not known (did you mean <link>?)");
   EXPECT_EQ(
       complaintOfParts(link("a", "<group>" + collision("<box size=\"1 1 1\"/>") + "</group>")),
       of + "<group> is not known, and the <geometry> in it would be lost");
@@ -265,17 +265,17 @@ TEST_F(UrdfFaults, WhatWouldBeLost) {
             "lost");
   EXPECT_EQ(
       complaintOfCollision("<orgin xyz=\"1 0 0\"/><geometry><box size=\"1 1 1\"/></geometry>"),
-      of + "<orgin> is not known; did you mean <origin>?");
+      of + "<orgin> is not known (did you mean <origin>?)");
   EXPECT_EQ(complaintOfShape("<mesh filename=\"wedge.obj\" scael=\"2 2 2\"/>"),
-            of + "mesh: scael is not known; did you mean \"scale\"?");
+            of + "mesh: scael is not known (did you mean \"scale\"?)");
   EXPECT_EQ(complaintOfJoint("fixed", "<origin xyz=\"0 0 1\" ryp=\"0 0 1\"/>"),
-            "r.urdf:4: joint \"j\": origin: ryp is not known; did you mean \"rpy\"?");
+            "r.urdf:4: joint \"j\": origin: ryp is not known (did you mean \"rpy\"?)");
   EXPECT_EQ(complaintOfJoint("fixed", "<origin quat_xyzw=\"0 0 0 1\"/>"),
             "r.urdf:4: joint \"j\": origin quat_xyzw is not supported; use rpy");
   EXPECT_EQ(complaintOfJoint("continuous", "<axes xyz=\"0 0 1\"/>"),
-            "r.urdf:4: joint \"j\": <axes> is not known; did you mean <axis>?");
+            "r.urdf:4: joint \"j\": <axes> is not known (did you mean <axis>?)");
   EXPECT_EQ(complaintOfJoint("revolute", R"(<limit lowr="-1" upper="2" effort="0" velocity="0"/>)"),
-            "r.urdf:4: joint \"j\": limit: lowr is not known; did you mean \"lower\"?");
+            "r.urdf:4: joint \"j\": limit: lowr is not known (did you mean \"lower\"?)");
 }
 
 TEST_F(UrdfFaults, MeshFiles) {
@@ -296,7 +296,7 @@ TEST_F(UrdfFaults, MeshFiles) {
             of + "\"package://arm_description/none.stl\": none.stl: no such file");
   EXPECT_EQ(complaint("package://arm_descripton/a.stl"),
             of + "\"package://arm_descripton/a.stl\": arm_descripton/a.stl is not a file, and "
-                 "package \"arm_descripton\" has no folder; did you mean \"arm_description\"?");
+                 "package \"arm_descripton\" has no folder (did you mean \"arm_description\"?)");
   EXPECT_EQ(complaint("package://hand/a.stl"),
             of + "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
                  "folder; add robot.yaml: packages: {hand: FOLDER}");

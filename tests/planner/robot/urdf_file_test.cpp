@@ -189,8 +189,8 @@ TEST_F(UrdfFile, WhatIsUnknownAndHasNoGeometryIsIgnoredAndTold) {
   const std::string file = (folder_ / "r.urdf").string();
   EXPECT_THAT(model.notes,
               testing::UnorderedElementsAre(
-                  file + ":4: link \"a\": <vsual> is not known, and is ignored; did you mean "
-                         "<visual>?",
+                  file + ":4: link \"a\": <vsual> is not known, and is ignored (did you mean "
+                         "<visual>?)",
                   file + ":4: link \"a\": <collision_group> is not known, and is ignored",
                   file + ":5: robot \"r\": <lamp> is not known, and is ignored",
                   file + ":7: joint \"j\": <hardware> is not known, and is ignored",

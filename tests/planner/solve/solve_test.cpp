@@ -181,12 +181,12 @@ TEST(Solve, BadNamesListWhatThereIs) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.planner.name = "RRTConect";
   EXPECT_THAT(complaintOf(problem),
-              StartsWith("hall.yaml:8: unknown planner \"RRTConect\"; did you mean "
-                         "\"RRTConnect\"?; there are: RRTConnect, RRT, "));
+              StartsWith("hall.yaml:8: unknown planner \"RRTConect\" (did you mean "
+                         "\"RRTConnect\"?); there are: RRTConnect, RRT, "));
   problem = hallProblem(Rigid::SE3);
   problem.planner.params = {{"rnge", "1"}};
   EXPECT_EQ(complaintOf(problem),
-            "hall.yaml:7: RRTConnect has no parameter \"rnge\"; did you mean \"range\"?; it has: "
+            "hall.yaml:7: RRTConnect has no parameter \"rnge\" (did you mean \"range\"?); it has: "
             "intermediate_states, range");
   problem.planner.params = {{"range", "0.6abc"}};
   EXPECT_EQ(complaintOf(problem),
@@ -225,7 +225,7 @@ TEST(Solve, BadNamesListWhatThereIs) {
   problem = hallProblem(Rigid::SE3);
   problem.sampler = "gausian";
   EXPECT_EQ(complaintOf(problem),
-            "hall.yaml:11: unknown sampler \"gausian\"; did you mean \"gaussian\"?; there are: "
+            "hall.yaml:11: unknown sampler \"gausian\" (did you mean \"gaussian\"?); there are: "
             "uniform, gaussian, obstacle_based, bridge_test, max_clearance");
 }
 

@@ -40,7 +40,7 @@ TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
   solved("certified", {"sphere", "", ""}, "certified, sphere");
   solved("certified", {"kdop26", "", ""}, "certified, kdop26");
   solved("certified", {"obb-binary", "", ""}, "certified, obb-binary");
-  solved("certified", {"obb-binary", "hull", "gjk"}, "certified, obb-binary, gjk");
+  solved("certified", {"obb-binary", "hull", "gjk"}, "certified, obb-binary, hull, gjk");
   solved("adaptive", {"rss", "", ""}, "adaptive, rss");
   solved("discrete", {"aabb", "", ""}, "discrete, resolution 0.001, aabb");
 }

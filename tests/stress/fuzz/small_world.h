@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "collision/core/read_file.h"
 #include "tests/stress/fuzz/fuzz.h"
 
 namespace corridor::fuzz {
@@ -40,8 +41,7 @@ inline void writeSmallWorld(const Folder& folder) {
         folder.write(name, mesh);
         folder.write("problems/p/" + entry.path().filename().string(), mesh);
       } else if (ending == ".yaml" || ending == ".urdf" || ending == ".srdf") {
-        std::ifstream file(entry.path(), std::ios::binary);
-        folder.write(name, std::string(std::istreambuf_iterator<char>(file), {}));
+        folder.write(name, readFile(entry.path(), "an input"));
       }
     }
 }

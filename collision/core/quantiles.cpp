@@ -1,0 +1,34 @@
+#include "collision/core/quantiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace corridor {
+namespace {
+
+/// Puts the value of a rank, counted from 0 in ascending order, into its place, and the smaller
+/// ones before it.
+double atRank(std::vector<double>& values, std::size_t rank) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+double medianOf(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const std::size_t half = values.size() / 2;
+  const double upper = atRank(values, half);
+  return values.size() % 2 ? upper : 0.5 * (atRank(values, half - 1) + upper);
+}
+
+double quantileOf(std::vector<double> values, double p) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double rank = std::ceil(p * static_cast<double>(values.size()));
+  return atRank(values, static_cast<std::size_t>(std::max(rank, 1.0)) - 1);
+}
+
+}  // namespace corridor

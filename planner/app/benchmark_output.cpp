@@ -1,0 +1,125 @@
+#include "planner/app/benchmark_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/core/spelling.h"
+#include "planner/app/output.h"
+#include "planner/benchmark/rows.h"
+
+namespace corridor::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Bytes that are not UTF-8, such as those of names in files, become U+FFFD in the JSON.
+constexpr auto kReplace = ordered_json::error_handler_t::replace;
+
+ordered_json jsonOf(const Row& row) {
+  ordered_json j;
+  for (const auto& [name, value] : row)
+    std::visit(
+        [&j, &key = name](const auto& held) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+            j[key] = nullptr;
+          else
+            j[key] = held;
+        },
+        value);
+  return j;
+}
+
+/// "1:02:03", "4:05"
+std::string clockText(double seconds) {
+  const auto all = static_cast<std::uint64_t>(std::lround(std::min(seconds, 1e9)));
+  char text[32];
+  if (all >= 3600)
+    std::snprintf(text, sizeof text, "%d:%02d:%02d", static_cast<int>(all / 3600),
+                  static_cast<int>(all / 60 % 60), static_cast<int>(all % 60));
+  else
+    std::snprintf(text, sizeof text, "%d:%02d", static_cast<int>(all / 60),
+                  static_cast<int>(all % 60));
+  return text;
+}
+
+/// Returns a note if a competitor plans a problem with a margin, else "". Competitors test for
+/// contact only, so the verifier may refute their paths for the margin alone.
+std::string marginNote(const Campaign& campaign) {
+  const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
+                                  [](const Problem& p) { return p.margin > 0; });
+  for (const Variant& variant : campaign.variants)
+    if (margin && variant.peer)
+      return variant.peer->name +
+             " tests for contact without the margin, so its paths may be refuted for the margin "
+             "alone; least_distance_m in runs.csv shows which of them collide";
+  return "";
+}
+
+std::set<std::string> hostsOf(const std::vector<CampaignCell>& cells) {
+  std::set<std::string> hosts;
+  for (const CampaignCell& cell : cells)
+    for (const BenchmarkRun& run : cell.runs)
+      if (!run.ompl.host.empty()) hosts.insert(run.ompl.host);
+  return hosts;
+}
+
+/// Returns each commit once, in the order of the sessions.
+std::vector<std::string> commitsOf(const std::vector<CampaignSession>& sessions) {
+  std::vector<std::string> commits;
+  for (const CampaignSession& session : sessions)
+    if (std::find(commits.begin(), commits.end(), session.commit) == commits.end())
+      commits.push_back(session.commit);
+  return commits;
+}
+
+}  // namespace
+
+void showProgress(const Campaign& campaign, const CampaignProgress& p) {
+  constexpr std::uint64_t kWidth = 20;
+  const std::uint64_t full = p.done * kWidth / p.total;
+  std::string bar;
+  for (std::uint64_t i = 0; i < kWidth; ++i) bar += i < full ? "#" : "·";
+  const std::string left = p.secondsLeft < 0 ? "" : ", " + clockText(p.secondsLeft) + " left";
+  std::fprintf(stderr, "\r[%s] %s of %s%s: %s, %s, %s, seed %s\033[K", bar.c_str(),
+               grouped(p.done).c_str(), counted(p.total, "run").c_str(), left.c_str(),
+               campaign.problemNames[p.cell.problem].c_str(),
+               campaign.variants[p.cell.variant].name.c_str(), p.cell.planner.label.c_str(),
+               std::to_string(p.seed).c_str());
+}
+
+std::vector<std::string> notesOf(const Campaign& campaign, const std::vector<CampaignCell>& cells,
+                                 const std::vector<CampaignSession>& sessions) {
+  std::vector<std::string> notes;
+  if (const std::vector<std::string> builds = commitsOf(sessions); builds.size() > 1)
+    notes.push_back("the runs are from several builds, whose times may differ: commits " +
+                    joined(builds));
+  if (const std::string note = marginNote(campaign); !note.empty()) notes.push_back(note);
+  if (const std::set<std::string> hosts = hostsOf(cells); hosts.size() > 1)
+    notes.push_back("the runs are from several machines, whose times differ: " +
+                    joined(std::vector<std::string>(hosts.begin(), hosts.end())));
+  return notes;
+}
+
+std::string campaignJson(const Campaign& campaign, const CampaignResult& result) {
+  ordered_json j = {{"format", "corridor-benchmark-report-2"},
+                    {"campaign", campaign.name},
+                    {"seed", campaign.seed},
+                    {"runs", campaign.runs},
+                    {"interrupted", result.interrupted},
+                    {"notes", campaign.notes},
+                    {"results", ordered_json::array()}};
+  for (const CampaignCell& cell : result.cells) {
+    ordered_json of = jsonOf(summaryRow(campaign, cell));
+    of["rows"] = ordered_json::array();
+    for (const BenchmarkRun& run : cell.runs)
+      of["rows"].push_back(jsonOf(runRow(campaign, cell, run)));
+    j["results"].push_back(std::move(of));
+  }
+  return j.dump(2, ' ', false, kReplace);
+}
+
+}  // namespace corridor::app

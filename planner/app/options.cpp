@@ -1,0 +1,33 @@
+#include "planner/app/options.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace corridor::app {
+
+CLI::Validator isSeconds() {
+  return isWithin(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+                  "a number of seconds above 0");
+}
+
+CLI::Validator isSeed() {
+  return isWithin<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
+                                 "a whole number from 0 to 2^64 - 1");
+}
+
+void addJson(CLI::App& command, bool& json, const char* heading) {
+  command.add_flag("--json", json, "results as JSON")->group(heading);
+}
+
+void addQuiet(CLI::App& command, bool& quiet, const char* heading) {
+  command.add_flag("--quiet", quiet, "no results on stdout")->group(heading);
+}
+
+void addIgnoreDigest(CLI::App& command, bool& ignore) {
+  command.add_flag(
+      "--ignore-digest", ignore,
+      "verify the solution even if its digest differs, because the problem's files have "
+      "changed since it was made (without this the verdict is: other problem)");
+}
+
+}  // namespace corridor::app

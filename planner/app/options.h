@@ -1,0 +1,41 @@
+#pragma once
+
+#include <charconv>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "collision/core/spelling.h"
+
+/// Options, validators and texts that several commands share.
+namespace corridor::app {
+
+/// The last lines of every help text.
+inline constexpr const char* kExitStatus =
+    "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input, or a result "
+    "can't be written; 3 internal error; 128 + N stopped by signal N (130: Ctrl-C).";
+
+/// Accepts numbers from `low` to `high`; `needed` describes them in the error. (CLI11's own ranges
+/// accept NaN, and print 309 digits.)
+template <class Number>
+CLI::Validator isWithin(Number low, Number high, const std::string& needed) {
+  const auto complaint = [=](std::string& text) -> std::string {
+    Number value{};
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool isNumber = error == std::errc{} && stop == text.data() + text.size();
+    if (isNumber && low <= value && value <= high) return "";
+    return needed + " is needed, not " + quotedWord(text);
+  };
+  return {complaint, ""};
+}
+CLI::Validator isSeconds();  ///< a number above 0
+CLI::Validator isSeed();     ///< a whole number of 64 bits
+
+/// The heading in the help under which CLI11 lists options that have no other.
+inline constexpr const char* kOptions = "Options";
+
+void addJson(CLI::App& command, bool& json, const char* heading = kOptions);
+void addQuiet(CLI::App& command, bool& quiet, const char* heading = kOptions);
+void addIgnoreDigest(CLI::App& command, bool& ignore);
+
+}  // namespace corridor::app

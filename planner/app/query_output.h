@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/app/query_batch.h"
+
+/// What `corridor query` prints: CSV on stdout, and a summary on stderr. The CSV is printed in a
+/// single write: this is quick for millions of lines, and stdout and stderr don't mix.
+/// @throws InputError if it can't be printed.
+namespace corridor::app {
+
+void printCsv(const QueryKind& kind, const BatchResult& result);
+void printMotions(const BatchResult& result);
+
+/// Prints the summary: `words`, which describe the query and count its answers, then times, mean
+/// counts, and the trees' build times and sizes.
+void printSummary(const BatchResult& result, const std::vector<std::string>& words);
+
+}  // namespace corridor::app

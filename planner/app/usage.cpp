@@ -1,0 +1,66 @@
+#include "planner/app/usage.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "collision/core/spelling.h"
+
+namespace corridor::app {
+namespace {
+
+/// Returns which word or option a command does not take, with the nearest name, or "". (CLI11's own
+/// message lists the words in reverse, and suggests nothing.) Words before the command, or after a
+/// --, are among `program.remaining()`.
+std::string unknownWord(const CLI::App& program, const CLI::App& command) {
+  std::vector<std::string> words = command.remaining();
+  if (words.empty()) words = program.remaining();
+  if (words.empty()) return "";
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const std::string& word) { return word.starts_with('-'); });
+  if (option == words.end()) return "unexpected word " + quotedWord(words.back());
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : command.get_options())
+    for (const std::string& longName : known->get_lnames()) names.push_back("--" + longName);
+  return "unknown option " + quotedWord(name) + didYouMean(name, names);
+}
+
+/// Returns which option is given more often than the command takes it, or "".
+std::string repeatedOption(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_items_expected_max() == 1 && option->count() > 1)
+      return option->get_name() + " is given " + std::to_string(option->count()) +
+             " times; once is enough";
+  return "";
+}
+
+}  // namespace
+
+void refuseEmptyValues(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands({}))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_items_expected_max() > 0)
+        option->check(CLI::Validator(
+            [](std::string& text) { return text.empty() ? std::string("is empty") : ""; }, ""));
+}
+
+std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
+                       const std::string& firstWord) {
+  const auto given = program.get_subcommands();
+  if (!given.empty()) {
+    std::string fault;
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) fault = unknownWord(program, *given[0]);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) fault = repeatedOption(*given[0]);
+    if (fault.empty()) fault = error.what();
+    return fault + "; see corridor " + given[0]->get_name() + " --help";
+  }
+  if (firstWord.empty() || firstWord[0] == '-')
+    return error.what() + std::string("; see corridor --help");
+  std::vector<std::string> commands;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  return "unknown command " + quotedWord(firstWord) + didYouMean(firstWord, commands) +
+         "; there are: " + joined(commands);
+}
+
+}  // namespace corridor::app

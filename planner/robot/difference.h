@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "planner/robot/configuration_space.h"
+#include "planner/robot/turns.h"
+
+namespace corridor {
+
+/// Returns how far b is from a in one coordinate, ≥ 0 and without its weight: metres, or radians
+/// the shorter way round. For a rotation this is the quaternion angle, half of the rotation's.
+/// Defined here because planners spend much of their time in distances.
+/// @param a, b  all numbers of a configuration.
+inline double differenceOf(const Coordinate& c, const double* a, const double* b) {
+  if (c.kind == Coordinate::Kind::rotation)
+    return quaternionAngle(Eigen::Quaterniond(a + c.first), Eigen::Quaterniond(b + c.first));
+  const double from = a[c.first], to = b[c.first];
+  return std::abs(c.kind == Coordinate::Kind::circle ? circleTurn(from, to).angle : to - from);
+}
+inline double differenceOf(const Coordinate& c, const Configuration& a, const Configuration& b) {
+  return differenceOf(c, a.data(), b.data());
+}
+
+}  // namespace corridor

@@ -1,0 +1,130 @@
+// Tests of `corridor check` from outside: start and goals, and files of states.
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/planner/app/program_fixtures.h"
+
+namespace {
+
+using testing::HasSubstr;
+
+using CheckCommand = corridor::test::ArmTest;
+
+TEST_F(CheckCommand, CheckOfManyStates) {
+  write("states.txt",
+        "# shoulder elbow\n0, 0\n\n1.5708 0  # in the post\n2.9 -2\n0 2.5\n3.000001 0\n");
+  const Result checked = run("check arm.yaml --states states.txt");
+  EXPECT_EQ(checked.status, 1);
+  EXPECT_EQ(checked.out, "state,valid,pairs\n0,1,\n1,0,lower~post\n2,1,\n3,0,bounds:elbow\n4,1,\n");
+  EXPECT_EQ(
+      checked.err,
+      "corridor: warning: states.txt: in 1 state, values beyond a limit by no more than rounding "
+      "were set to the limit\n");
+  write("free.txt", "0 0\n0.1 0.1\n");
+  EXPECT_EQ(run("check arm.yaml --states free.txt").status, 0);
+  const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
+  EXPECT_EQ(json["format"], "corridor-check-report-2");
+  EXPECT_EQ(json["states"][1]["pairs"][0], "lower~post");
+  EXPECT_EQ(json["states"][1]["line"], 4);
+  EXPECT_EQ(json["states"][3]["out_of_bounds"][0], "elbow");
+}
+
+/// Angles of continuous joints are not wrapped, however large. A state is not valid if the angle is
+/// so large that its rounding exceeds the clearance.
+TEST_F(CheckCommand, CheckOfStatesTakesAnglesAsTheyAre) {
+  std::string urdf = read("arm.urdf");
+  const std::string revolute = "<joint name=\"shoulder\" type=\"revolute\">";
+  urdf.replace(urdf.find(revolute), revolute.size(),
+               "<joint name=\"shoulder\" type=\"continuous\">");
+  write("arm.urdf", urdf);
+  // The post's centre is at 90 degrees; 1e6 rad point to 166.8 degrees, 1e15 rad to 143.9.
+  write("states.txt", "1.5707963 0\n0.3 0\n1000000 0\n1000000.45 0\n-999998.7 0\n1e15 0\n1e22 0\n");
+  const auto json = nlohmann::json::parse(run("check arm.yaml --states states.txt --json").out);
+  const auto& states = json["states"];
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double angle[] = {1.5707963, 0.3, 1000000, 1000000.45, -999998.7, 1e15, 1e22};
+    // The arm, 2 m long, touches the sphere of radius 0.1 m at distance 1.5 m if it is within
+    // 0.12 rad of the direction to the sphere's centre.
+    const double off =
+        std::remainder(static_cast<double>(std::atan2(std::sin(angle[i]), std::cos(angle[i]))) -
+                           std::acos(-1.0) / 2,
+                       2 * std::acos(-1.0));
+    if (i < 5) {
+      EXPECT_EQ(states[i]["valid"], std::abs(off) > 0.2) << i;
+      EXPECT_FALSE(states[i].contains("too_large")) << i;
+    } else {
+      EXPECT_EQ(states[i]["valid"], false) << i;
+      EXPECT_EQ(states[i]["too_large"], "shoulder") << i;
+    }
+  }
+  EXPECT_THAT(run("check arm.yaml --states states.txt").out,
+              testing::HasSubstr(";too_large:shoulder\n"));
+}
+
+TEST_F(CheckCommand, CheckOfStatesFromAPipe) {
+  const std::string states = "printf '0 0\\n1.5708 0\\n' | ";
+  for (const char* input : {"-", "/dev/stdin", "/proc/self/fd/0"}) {
+    const Result checked = run(std::string("check arm.yaml --states ") + input, states);
+    EXPECT_EQ(checked.status, 1) << checked.err;
+    EXPECT_EQ(checked.out, "state,valid,pairs\n0,1,\n1,0,lower~post\n") << input;
+  }
+  const Result wrong = run("check arm.yaml --states -", "echo 0 x | ");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(wrong.err, "-:1: a number is needed, not \"x\"\n");
+  EXPECT_EQ(run("check arm.yaml --states - </dev/null").err,
+            "-: is empty; states, one a line is needed\n");
+}
+
+TEST_F(CheckCommand, CheckQuotesNamesWithCommas) {
+  write("commas.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld: {'post \"a\", b': {sphere: 0.1, at: "
+        "[0, 1.5, 0]}}\nstart: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
+  write("states.txt", "1.5708 0\n");
+  EXPECT_EQ(run("check commas.yaml --states states.txt").out,
+            "state,valid,pairs\n0,0,\"lower~post \"\"a\"\", b\"\n");
+}
+
+TEST_F(CheckCommand, CheckFaultsStatesByLine) {
+  write("states.txt", "0 0 0\n0 0\n0 x\n");
+  const Result checked = run("check arm.yaml --states states.txt");
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_EQ(checked.err,
+            "states.txt:1: a state has 2 numbers (shoulder elbow), not 3\n"
+            "states.txt:3: a number is needed, not \"x\"\n");
+  EXPECT_EQ(checked.out, "");
+}
+
+TEST_F(CheckCommand, CheckOfStartAndGoal) {
+  const Result sound = run("check arm.yaml");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  EXPECT_EQ(sound.out, "problem: arm.yaml\nstart: free\ngoal: free\n");
+  write("touch.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
+        "0]}\n"
+        "start: {shoulder: 1.57, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
+  const Result touch = run("check touch.yaml");
+  EXPECT_EQ(touch.status, 1);
+  EXPECT_THAT(touch.out, HasSubstr("start: start is in contact: \"lower\" and \"post\" touch; the "
+                                   "nearest free values found are at most 0."));
+  write("bad.yaml",
+        "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
+        "0]}\n"
+        "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n"
+        "planner: {name: RRT, params: {rnge: 1}}\nsampler: most_clearance\n");
+  const Result bad = run("check bad.yaml");
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT has no parameter \"rnge\""));
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: unknown sampler \"most_clearance\""));  // both faults
+}
+
+TEST_F(CheckCommand, BadInputIsOneLineAndExit2) {
+  expectFault("check arm.yaml --states .", ".: is a folder; a file is needed");
+  expectFault("check arm.yaml --states /dev/zero",
+              "/dev/zero: is a device; an ordinary file is needed");
+}
+
+}  // namespace

@@ -1,0 +1,168 @@
+// Tests of `corridor solve` from outside.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/planner/app/program_fixtures.h"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+using SolveCommand = corridor::test::CubeTest;
+using SolveArm = corridor::test::ArmTest;
+
+TEST_F(SolveCommand, SolveThenVerify) {
+  const Result solved = run("solve problem.yaml -o s.yaml --picture p.svg");
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("result: solved\n"));
+  EXPECT_THAT(solved.out, HasSubstr("certified: yes\n"));
+  EXPECT_THAT(solved.out, testing::ContainsRegex("path length: [0-9.]+ m, turning [0-9.]+ rad\n"));
+  EXPECT_EQ(solved.err, "");
+  EXPECT_THAT(read("p.svg"), StartsWith("<svg"));
+  EXPECT_LT(std::filesystem::file_size(folder_ / "p.svg"), 400'000u);
+  const Result verified = run("verify problem.yaml s.yaml");
+  EXPECT_EQ(verified.status, 0) << verified.err << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("verdict: proved\n"));
+  EXPECT_THAT(verified.out, HasSubstr("clearance: at least "));
+}
+
+TEST_F(SolveArm, SolveThenVerify) {
+  const Result solved = run("solve arm.yaml -o s.yaml --picture p.svg");
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("certified: yes\n"));
+  EXPECT_THAT(solved.out, testing::ContainsRegex("path length: [0-9.]+ rad\n"));
+  EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"shoulder\", \"elbow\"]\n"));
+  EXPECT_THAT(read("p.svg"), StartsWith("<svg"));
+  const Result verified = run("verify arm.yaml s.yaml");
+  EXPECT_EQ(verified.status, 0) << verified.err << verified.out;
+  write("s.yaml",
+        "format: corridor-solution-1\njoints: [shoulder, elbow]\npath: [[0, 0], [2.8, 0.5]]\n");
+  const Result refuted = run("verify arm.yaml s.yaml");
+  EXPECT_EQ(refuted.status, 1);
+  EXPECT_THAT(refuted.out, HasSubstr("\"lower\" and \"post\""));
+  EXPECT_THAT(refuted.out, HasSubstr("; at shoulder = "));
+}
+
+/// Joints may have any names: the joints' types decide whether a problem has a rigid body.
+TEST_F(SolveArm, AnArmOfJointsCalledXYAndYawIsNoRigidBody) {
+  std::string urdf = "<robot name=\"arm\">\n<link name=\"l0\"/>\n", parent = "l0";
+  for (const std::string name : {"x", "y", "yaw"}) {
+    urdf += "<link name=\"" + name +
+            "\"><collision><geometry><sphere radius=\"0.1\"/></geometry>"
+            "</collision></link>\n<joint name=\"" +
+            name + "\" type=\"revolute\"><parent link=\"" + parent + "\"/><child link=\"" + name +
+            "\"/><origin xyz=\"0.5 0 0\"/><axis xyz=\"0 0 1\"/>"
+            "<limit lower=\"-2\" upper=\"2\" effort=\"1\" velocity=\"1\"/></joint>\n";
+    parent = name;
+  }
+  write("arm.urdf", urdf + "</robot>\n");
+  write(
+      "arm.yaml",
+      "format: corridor-problem-1\nrobot: arm.urdf\nworld: {post: {sphere: 0.1, at: [0, 1.5, 0]}}\n"
+      "start: {x: 0, y: 0, yaw: 0}\ngoal: {x: 1, y: 0, yaw: 0}\n");
+  EXPECT_EQ(nlohmann::json::parse(run("inspect arm.yaml --json").out)["space"], "joints");
+  // Three joints 0.5 m apart, and a sphere of radius 0.1 m.
+  EXPECT_THAT(run("inspect arm.urdf").out,
+              HasSubstr("reach: at most 1.6 m from the origin of l0: link yaw\n"));
+  EXPECT_EQ(run("solve arm.yaml -o s.yaml").status, 0);
+  EXPECT_THAT(read("s.yaml"), HasSubstr("joints: [\"x\", \"y\", \"yaw\"]\n"));
+  EXPECT_EQ(run("verify arm.yaml s.yaml").status, 0);
+  write("s.yaml", "format: corridor-solution-1\nspace: SE2\npath: [[0, 0, 0], [1, 0, 0]]\n");
+  EXPECT_EQ(
+      run("verify arm.yaml s.yaml").err,
+      "s.yaml:2: space: the problem is in the joints [\"x\", \"y\", \"yaw\"], this solution in "
+      "SE2\n");
+  write("states.txt", "0 0\n");
+  EXPECT_EQ(run("check arm.yaml --states states.txt").err,
+            "states.txt:1: a state has 3 numbers (x y yaw), not 2\n");
+}
+
+TEST_F(SolveCommand, SameSeedSameFile) {
+  EXPECT_EQ(run("solve problem.yaml --seed 5 -o a.yaml").status, 0);
+  EXPECT_EQ(run("solve problem.yaml --seed 5 -o b.yaml").status, 0);
+  EXPECT_EQ(run("solve problem.yaml --seed 6 -o c.yaml").status, 0);
+  EXPECT_EQ(read("a.yaml"), read("b.yaml"));
+  EXPECT_NE(read("a.yaml"), read("c.yaml"));
+}
+
+TEST_F(SolveCommand, NothingFoundIsExit1AndWritesNothing) {
+  write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  const Result result = run("solve problem.yaml --time 0.3 -o s.yaml");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("why: "));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
+}
+
+TEST_F(SolveCommand, ManyProblemsExitWithTheWorst) {
+  EXPECT_EQ(run("solve problem.yaml problem.yaml --quiet").status, 0);
+  const Result result = run("solve problem.yaml none.yaml problem.yaml");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("none.yaml: "));
+  EXPECT_THAT(result.out, HasSubstr("result: solved"));
+  EXPECT_EQ(run("solve problem.yaml --quiet").out, "");
+}
+
+TEST_F(SolveCommand, InterruptedIsExit130) {
+  write("wall.obj", "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3\nf 1 3 4\n");
+  const Result result =
+      run("solve problem.yaml --time 60 -o s.yaml & pid=$!; sleep 0.5; kill -INT $pid; wait $pid; "
+          "exit $?;");
+  EXPECT_EQ(result.status, 130);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
+}
+
+/// A limit on files' sizes acts like a full disk; SIGXFSZ must not end the program.
+TEST_F(SolveCommand, AFileThatMayNotGrowIsToldAndNotLeftInHalf) {
+  const Result whole = run("solve problem.yaml --seed 1 --picture p.svg");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  ASSERT_GT(std::filesystem::file_size(folder_ / "p.svg"), 1024u);
+  std::filesystem::remove(folder_ / "p.svg");
+  const Result cut = run("solve problem.yaml --seed 1 --picture p.svg", "ulimit -f 2 && ");
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_EQ(cut.err,
+            "p.svg: can't be written: File too large; raise the limit on the size of files (ulimit "
+            "-f)\n");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().string().find("p.svg"), std::string::npos) << entry.path();
+}
+
+TEST_F(SolveCommand, BadInputIsOneLineAndExit2) {
+  expectFaultThatBegins("solve none.yaml", "none.yaml: ");
+  expectFaultThatBegins("solve problem.yaml --planner RRTx -o s.yaml",
+                        "--planner: unknown planner \"RRTx\"");
+  expectFaultThatBegins("solve problem.yaml --set rnge=1",
+                        "--set: RRTConnect has no parameter \"rnge\" (did you mean \"range\"?)");
+  expectFault("solve problem.yaml --set range", "--set: key=value is needed, not \"range\"");
+  expectFault("solve problem.yaml --set range=long",
+              "--set: RRTConnect's parameter range: \"long\" is not a number");
+  expectFaultThatBegins(
+      "solve problem.yaml --sampler max_clearence",
+      "--sampler: unknown sampler \"max_clearence\" (did you mean \"max_clearance\"?)");
+  expectFault("solve problem.yaml problem.yaml -o s.yaml",
+              "--output: names one file, but there are 2 problems");
+  expectFault("solve problem.yaml -o none/s.yaml", "--output: there is no folder none");
+  for (const char* file : {"problem.yaml", "./robot.yaml"})
+    for (const char* option : {"--output", "--picture"})
+      expectFault(std::string("solve problem.yaml ") + option + " " + file,
+                  std::string(option) + ": " + file +
+                      " belongs to the problem and would be overwritten; name another file");
+  expectFault("solve problem.yaml --picture .",
+              "--picture: . is a folder; a file's name is needed");
+  expectFault("solve problem.yaml --edges discrete --resolution 1",
+              "--resolution: checker.resolution: 1 is not in [1e-09, 1)");
+  write("fine.yaml", problem("-2, 0, 0", "checker: {edges: discrete, resolution: 1e-300}\n"));
+  expectFault("solve fine.yaml", "fine.yaml:8: checker.resolution: 1e-300 is not in [1e-09, 1)");
+  write("problem.yaml", problem("0.05, 0, 0"));
+  expectFaultThatBegins("solve problem.yaml -o s.yaml",
+                        "problem.yaml:5: start is in contact: \"cube\" (triangle ");
+  write("problem.yaml", problem("9, 0, 0"));
+  expectFaultThatBegins("solve problem.yaml -o s.yaml", "problem.yaml:5: start");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
+}
+
+}  // namespace

@@ -1,0 +1,32 @@
+// Tests of `corridor verify` from outside. Those of proofs that prove nothing are in
+// hollow_proof_test.cpp.
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/app/program_fixtures.h"
+
+namespace {
+
+using testing::HasSubstr;
+
+using VerifyCommand = corridor::test::CubeTest;
+
+TEST_F(VerifyCommand, VerifyRefutes) {
+  write("s.yaml",
+        "format: corridor-solution-1\nspace: SE3\npath:\n- [-2, 0, 0, 0, 0, 0, "
+        "1]\n- [2, 0, 0, 0, 0, 0, 1]\n");
+  const Result verified = run("verify problem.yaml s.yaml");
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_THAT(verified.out, HasSubstr("verdict: refuted\n"));
+  EXPECT_THAT(verified.out, HasSubstr("finding: refuted: edge 0 at t = "));
+  EXPECT_THAT(verified.out, HasSubstr("\"cube\" (triangle "));
+  EXPECT_EQ(verified.err, "");
+}
+
+TEST_F(VerifyCommand, BadInputIsOneLineAndExit2) {
+  expectFaultThatBegins("verify problem.yaml none.yaml", "none.yaml: ");
+}
+
+}  // namespace
