@@ -56,4 +56,20 @@ class ArmTest : public CubeTest {
   }
 };
 
+/// A cube that moves in a plane, and a short wall.
+class HallTest : public ProgramTest {
+ protected:
+  HallTest() {
+    write("robot.yaml",
+          "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
+    write("hall.yaml", hall(""));
+  }
+
+  static std::string hall(const std::string& more) {
+    return "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.1, 2, 1]}\n"
+           "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n" +
+           more;
+  }
+};
+
 }  // namespace corridor::test

@@ -1,5 +1,4 @@
-// Tests of `corridor verify` from outside. Those of proofs that prove nothing are in
-// hollow_proof_test.cpp.
+// Tests of `corridor verify` from outside. Solutions of other problems: other_problem_test.cpp.
 #include <string>
 
 #include <gmock/gmock.h>
