@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "collision/geometry/assimp_process.h"
 #include "collision/geometry/collada_asset.h"
 #include "collision/geometry/mesh_health.h"
@@ -16,11 +16,6 @@ namespace corridor {
 namespace {
 
 constexpr const char* kWhat = "a mesh file";
-
-std::string shortest(double value) {
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 std::string lowerExtension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();

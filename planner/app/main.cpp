@@ -17,6 +17,7 @@
 #include "planner/app/query_batch.h"
 #include "planner/app/standard_streams.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/yaml_reader.h"
 
 namespace {
 
@@ -52,6 +53,15 @@ CLI::Validator isSeconds() {
 CLI::Validator isSeed() {
   return from<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
                              "a whole number from 0 to 2^64 - 1");
+}
+
+/// The rule of `checker: {resolution: …}`, in the same words.
+CLI::Validator isResolution() {
+  return {[](std::string& text) {
+            double value = 0;
+            return corridor::parseNumber(text, corridor::Range::Resolution, value);
+          },
+          ""};
 }
 
 constexpr const char* kOptions = "Options";  // CLI11's group of options without another group
@@ -117,7 +127,7 @@ void addSolve(CLI::App& program, SolveArguments& a, int& status) {
       ->add_option("--resolution", a.resolution,
                    "with --edges discrete: OMPL's longest_valid_segment_fraction, from 1e-9 to "
                    "below 1")
-      ->check(from(1e-9, 1.0, "a number from 1e-9 to 1"))
+      ->check(isResolution())
       ->group(checking);
   const char* results = "Results";
   command->add_option("-o,--output", a.output, "write the solution to this file (YAML)")

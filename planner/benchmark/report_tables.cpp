@@ -214,7 +214,7 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
     table.row({"variant “" + escapedHtml(variant.name) + "”", escapedHtml(checkerText(variant))});
   for (std::size_t p = 0; p < campaign.problems.size(); ++p)
     table.row({"problem “" + escapedHtml(campaign.problemNames[p]) + "”",
-               "SHA-256 " + campaign.problems[p].digest});
+               "SHA-256 " + campaign.problems[p].source.digest});
   return table.html();
 }
 

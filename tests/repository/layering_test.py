@@ -11,8 +11,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = [
     "collision/core", "collision/predicates", "collision/geometry", "collision/convex", "collision/volumes",
     "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
-    "planner/robot", "planner/problem", "planner/checker", "planner/verify", "planner/solve", "planner/view",
-    "planner/benchmark", "planner/app",
+    "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/solve",
+    "planner/view", "planner/benchmark", "planner/app",
 ]
 
 # The verifier shares plain data with the checker, and no code: its includes are listed one by one.

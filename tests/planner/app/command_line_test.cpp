@@ -278,11 +278,11 @@ TEST_F(ArmCommandLine, CheckOfStartAndGoal) {
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
         "0]}\n"
         "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n"
-        "planner: {name: RRT, params: {rnge: 1}}\nsampler: most_clearance\n");
+        "planner: {name: RRT, params: {rnge: 1, goal_bias: 2}}\n");
   const Result bad = run("check bad.yaml");
   EXPECT_EQ(bad.status, 2);
   EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT has no parameter \"rnge\""));
-  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: unknown sampler \"most_clearance\""));  // both faults
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT's parameter goal_bias"));  // both faults
 }
 
 TEST_F(ArmCommandLine, InspectTellsPairsAndRobots) {
@@ -340,9 +340,10 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
         testing::Eq("--set: key=value is needed, not \"range\"\n"));
   fault("solve problem.yaml --set range=long",
         testing::Eq("--set: RRTConnect's parameter range: \"long\" is not a number\n"));
-  fault(
-      "solve problem.yaml --sampler max_clearence",
-      StartsWith("--sampler: unknown sampler \"max_clearence\"; did you mean \"max_clearance\"?"));
+  fault("solve problem.yaml --sampler max_clearence",
+        testing::Eq(
+            "--sampler: one of uniform, gaussian, obstacle_based, bridge_test, max_clearance is "
+            "needed, not \"max_clearence\"; did you mean \"max_clearance\"?\n"));
   fault("solve problem.yaml problem.yaml -o s.yaml",
         testing::Eq("--output: names one file, but there are 2 problems\n"));
   fault("solve problem.yaml -o none/s.yaml", testing::Eq("--output: there is no folder none\n"));
@@ -354,10 +355,10 @@ TEST_F(CommandLine, BadInputIsOneLineAndExit2) {
   fault("solve problem.yaml --picture .",
         testing::Eq("--picture: . is a folder; a file's name is needed\n"));
   fault("solve problem.yaml --edges discrete --resolution 1",
-        testing::Eq("--resolution: checker.resolution: 1 is not in [1e-09, 1)\n"));
+        StartsWith("--resolution: must be from 1e-9 to below 1, not 1\n"));
   write("fine.yaml", problem("-2, 0, 0", "checker: {edges: discrete, resolution: 1e-300}\n"));
   fault("solve fine.yaml",
-        testing::Eq("fine.yaml:8: checker.resolution: 1e-300 is not in [1e-09, 1)\n"));
+        testing::Eq("fine.yaml:8: checker.resolution: must be from 1e-9 to below 1, not 1e-300\n"));
   fault("verify problem.yaml none.yaml", StartsWith("none.yaml: "));
   write("package.urdf",
         "<robot name=\"r\">\n<link name=\"a\"><collision><geometry><mesh "

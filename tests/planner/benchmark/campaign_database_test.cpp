@@ -32,7 +32,7 @@ using testing::IsEmpty;
 Campaign hallCampaign(const std::vector<std::string>& variants) {
   Campaign campaign;
   campaign.problems = {test::hallProblem(test::Rigid::SE3)};
-  campaign.problems[0].bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  campaign.problems[0].model.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
   for (const std::string& variant : variants) campaign.variants.push_back(readVariant(variant));
   campaign.runs = 2;
   campaign.time = 2.0 * test::kSlowdown;
@@ -235,7 +235,7 @@ TEST_F(Database, WhatItRefuses) {
                 R"({"edges":"discrete","resolution":"0.2"} and is now )"
                 R"({"edges":"discrete","resolution":"0.3"};)"));
   other = campaign;
-  other.problems[0].digest = "another";
+  other.problems[0].source.digest = "another";
   EXPECT_THAT(complaint(Mode::resume, other),
               HasSubstr("was measured with other settings: problem was "));
   other = campaign;
