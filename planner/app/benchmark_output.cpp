@@ -50,7 +50,7 @@ std::string clockText(double seconds) {
 /// contact only, so the verifier may refute their paths for the margin alone.
 std::string marginNote(const Campaign& campaign) {
   const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
-                                  [](const Problem& p) { return p.margin > 0; });
+                                  [](const Problem& p) { return p.task.margin > 0; });
   for (const Variant& variant : campaign.variants)
     if (margin && variant.peer)
       return variant.peer->name +

@@ -69,9 +69,9 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
     else
       checked.outOfBounds.push_back(c.name);
   }
-  for (const FollowerOutside& follower : followersOutside(checker.problem(), q))
+  for (const FollowerOutside& follower : followersOutside(checker.model(), q))
     checked.outOfBounds.push_back(follower.name);
-  const std::vector<ProblemBody>& bodies = checker.problem().bodies;
+  const std::vector<ModelBody>& bodies = checker.model().bodies;
   for (const Checker::PairNotFree& pair : checker.pairsNotFree(q)) {
     checked.pairs.push_back(bodies[pair.a].name + "~" + bodies[pair.b].name);
     if (pair.tooLarge) checked.tooLarge = largestAngle(checker.space(), q);
@@ -81,7 +81,7 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
 }
 
 int checkStates(const Problem& problem, const CheckArguments& a) {
-  const std::vector<StateRow> rows = readStateRows(*a.states, problem.space);
+  const std::vector<StateRow> rows = readStateRows(*a.states, problem.model.space);
   const Checker checker(problem);
   bool all = true;
   std::size_t noted = 0;
@@ -116,9 +116,9 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
-                              {"numbers", problem.space.numberNames()},
+                              {"numbers", problem.model.space.numberNames()},
                               {"valid", all},
-                              {"notes", problem.notes},
+                              {"notes", problem.source.notes},
                               {"states", states}}
                      .dump(2)
               << '\n';
@@ -141,13 +141,13 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   const std::vector<Configuration> goals = goalsOf(problem);
   for (std::size_t i = 0; i < goals.size(); ++i)
     all &= tell(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
-  for (const std::string& note : problem.notes) out.line("note", note);
+  for (const std::string& note : problem.source.notes) out.line("note", note);
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},
                               {"valid", all},
                               {"ends", ends},
-                              {"notes", problem.notes}}
+                              {"notes", problem.source.notes}}
                      .dump(2)
               << '\n';
   return all ? kDone : kNo;

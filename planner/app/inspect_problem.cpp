@@ -26,16 +26,16 @@ class ProblemReport {
   int run() {
     json_ = {{"format", "corridor-inspect-problem-4"},
              {"file", a_.file},
-             {"name", problem_.name},
+             {"name", problem_.source.name},
              {"digest", digestOf(problem_)}};
     out_.line("problem", a_.file);
-    out_.line("name", problem_.name);
+    out_.line("name", problem_.source.name);
     tellSpace();
     tellNumbers();
     tellBodies();
     tellPairs();
-    json_["notes"] = problem_.notes;
-    for (const std::string& note : problem_.notes) out_.line("note", note);
+    json_["notes"] = problem_.source.notes;
+    for (const std::string& note : problem_.source.notes) out_.line("note", note);
     const bool free = tellEnds();
     tellTrees();
     tellCosts();
@@ -45,12 +45,12 @@ class ProblemReport {
 
  private:
   void tellSpace() {
-    const std::string rigid = rigidSpaceOf(problem_.space);
+    const std::string rigid = rigidSpaceOf(problem_.model.space);
     json_["space"] = rigid.empty() ? "joints" : rigid;
-    json_["numbers"] = problem_.space.numberNames();
+    json_["numbers"] = problem_.model.space.numberNames();
     json_["coordinates"] = ordered_json::array();
     if (!rigid.empty()) out_.line("space", rigid);
-    for (const Coordinate& c : problem_.space.coordinates()) {
+    for (const Coordinate& c : problem_.model.space.coordinates()) {
       ordered_json j = {{"name", c.name}, {"weight", c.weight}};
       std::string text = "\"" + c.name + "\": ";
       if (c.kind == Coordinate::Kind::line) {
@@ -71,16 +71,16 @@ class ProblemReport {
 
   void tellNumbers() {
     json_["tolerance_m"] = checker_.options().tolerance;
-    json_["margin_m"] = problem_.margin;
-    json_["tube"] = tubeJson(problem_.space, problem_.tube);
+    json_["margin_m"] = problem_.task.margin;
+    json_["tube"] = tubeJson(problem_.model.space, problem_.task.tube);
     out_.line("tolerance", rounded(checker_.options().tolerance) + " m");
-    out_.line("margin", rounded(problem_.margin) + " m");
-    out_.line("tube", tubeText(problem_.space, problem_.tube));
+    out_.line("margin", rounded(problem_.task.margin) + " m");
+    out_.line("tube", tubeText(problem_.model.space, problem_.task.tube));
   }
 
   void tellBodies() {
     json_["bodies"] = ordered_json::array();
-    for (const ProblemBody& body : problem_.bodies) {
+    for (const ModelBody& body : problem_.model.bodies) {
       ordered_json j = {
           {"name", body.name}, {"moves", body.frame != 0}, {"shapes", ordered_json::array()}};
       std::string text;
@@ -93,30 +93,26 @@ class ProblemReport {
     }
   }
 
-  std::string pairName(const ProblemPair& pair) const {
-    return problem_.bodies[pair.a].name + "~" + problem_.bodies[pair.b].name;
-  }
-
   void tellPairs() {
     std::map<std::string, std::size_t> skipped;
     std::size_t tested = 0, far = 0;
-    const std::vector<ReachBox> reach = reachOf(problem_);
+    const std::vector<ReachBox> reach = reachOf(problem_.model);
     json_["pair_list"] = ordered_json::array();
-    for (const ProblemPair& pair : problem_.pairs) {
-      const bool isFar = outOfReach(problem_, reach[pair.a], reach[pair.b]);
-      const bool isTested = pair.skipped.empty();
+    forEachPair(problem_.model, [&](std::size_t a, std::size_t b, std::string_view why) {
+      const std::string &nameA = problem_.model.bodies[a].name,
+                        &nameB = problem_.model.bodies[b].name;
+      const bool isFar = outOfReach(problem_.task, reach[a], reach[b]);
+      const bool isTested = why.empty();
       tested += isTested;
       far += isTested && isFar;
-      if (!isTested) ++skipped[pair.skipped];
-      json_["pair_list"].push_back({{"a", problem_.bodies[pair.a].name},
-                                    {"b", problem_.bodies[pair.b].name},
-                                    {"skipped", pair.skipped},
-                                    {"out_of_reach", isFar}});
+      if (!isTested) ++skipped[std::string(why)];
+      json_["pair_list"].push_back(
+          {{"a", nameA}, {"b", nameB}, {"skipped", why}, {"out_of_reach", isFar}});
       if (a_.pairs)
-        out_.line("pair", pairName(pair) + ": " +
-                              (isTested ? "tested" : "not tested: " + pair.skipped) +
+        out_.line("pair", nameA + "~" + nameB + ": " +
+                              (isTested ? "tested" : "not tested: " + std::string(why)) +
                               (isFar ? " (out of reach)" : ""));
-    }
+    });
     json_["pairs"] = {{"tested", tested}, {"out_of_reach", far}, {"skipped", skipped}};
     out_.line("pairs tested",
               grouped(tested) + (tested ? "" : ": NOTHING IS TESTED, every state is valid"),
@@ -163,7 +159,7 @@ class ProblemReport {
   void tellCosts() {
     constexpr std::size_t kEdges = 200, kShown = 5;
     constexpr double kSeconds = 2;  // keeps `inspect` quick
-    const EdgeCosts costs = sampleEdgeCosts(problem_, checker_, kEdges, kSeconds, problem_.seed);
+    const EdgeCosts costs = sampleEdgeCosts(checker_, kEdges, kSeconds, problem_.settings.seed);
     json_["random_edges"] = {{"edges", costs.edges},
                              {"free", costs.free},
                              {"free_us", 1e6 * costs.freeSeconds},
@@ -176,7 +172,8 @@ class ProblemReport {
     out_.line("random edges", text);
     for (std::size_t i = 0; i < costs.pairs.size(); ++i) {
       const EdgeCosts::OfPair& pair = costs.pairs[i];
-      const std::string &a = problem_.bodies[pair.a].name, &b = problem_.bodies[pair.b].name;
+      const std::string &a = problem_.model.bodies[pair.a].name,
+                        &b = problem_.model.bodies[pair.b].name;
       json_["random_edges"]["pairs"].push_back({{"a", a},
                                                 {"b", b},
                                                 {"share", pair.share},

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "planner/problem/yaml_reader.h"
+
 namespace corridor::app {
 
 CLI::Validator isSeconds() {
@@ -13,6 +15,14 @@ CLI::Validator isSeconds() {
 CLI::Validator isSeed() {
   return isWithin<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
                                  "a whole number from 0 to 2^64 - 1");
+}
+
+CLI::Validator isResolution() {
+  return {[](std::string& text) {
+            double value = 0;
+            return parseNumber(text, Range::Resolution, value);
+          },
+          ""};
 }
 
 void addJson(CLI::App& command, bool& json, const char* heading) {

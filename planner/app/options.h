@@ -30,6 +30,8 @@ CLI::Validator isWithin(Number low, Number high, const std::string& needed) {
 }
 CLI::Validator isSeconds();  ///< a number above 0
 CLI::Validator isSeed();     ///< a whole number of 64 bits
+/// The rule of `checker: {resolution: …}`, in the same words.
+CLI::Validator isResolution();
 
 /// The heading in the help under which CLI11 lists options that have no other.
 inline constexpr const char* kOptions = "Options";

@@ -46,14 +46,16 @@ using nlohmann::ordered_json;
 /// @returns the keys that were set, each with its option. @throws InputError
 std::map<std::string, std::string> applyArguments(const SolveArguments& a, Problem& problem) {
   std::map<std::string, std::string> set;
-  if (a.planner && *a.planner != problem.planner.name) {
-    problem.planner.name = *a.planner;
-    problem.planner.params.clear();  // they belong to the planner in the problem
+  if (a.planner && *a.planner != problem.settings.planner.name) {
+    problem.settings.planner.name = *a.planner;
+    problem.settings.planner.params.clear();  // they belong to the planner in the problem
     set["planner.name"] = "--planner";
   }
   if (a.sampler) {
-    problem.sampler = *a.sampler;
-    set["sampler"] = "--sampler";
+    const auto sampler = choiceNamed<StateSampler>(*a.sampler);
+    if (!sampler)
+      throw InputError(Fault{"--sampler", 0, notOneOf(*a.sampler, wordsFor<StateSampler>())});
+    problem.settings.sampler = *sampler;
   }
   for (const std::string& assignment : a.set) {
     const auto equals = assignment.find('=');
@@ -62,24 +64,24 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
     const std::string key = assignment.substr(0, equals);
     if (set.count("planner.params." + key))
       throw InputError(Fault{"--set", 0, quotedWord(key) + " is set twice"});
-    problem.planner.params[key] = assignment.substr(equals + 1);
+    problem.settings.planner.params[key] = assignment.substr(equals + 1);
     set["planner.params." + key] = "--set";
   }
-  if (a.time) problem.planner.time = *a.time;
-  if (a.stop) problem.planner.stopAtFirst = *a.stop == "first";
-  if (a.seed) problem.seed = *a.seed;
-  if (a.edges) problem.checker.edges = *a.edges;
-  if (const auto wrong = invalidNameIn(problem.checker))
+  if (a.time) problem.settings.planner.time = *a.time;
+  if (a.stop) problem.settings.planner.stopAtFirst = *a.stop == "first";
+  if (a.seed) problem.settings.seed = *a.seed;
+  if (a.edges) problem.settings.checker.edges = choiceNamed<EdgeCheck>(*a.edges).value();
+  if (const auto wrong = invalidNameIn(problem.settings.checker))
     throw InputError(
         Fault{"--edges", 0, "the problem's checker." + wrong->key + ": " + wrong->text});
   if (a.resolution) {
-    if (problem.checker.edges != "discrete")
-      throw InputError(Fault{"--resolution", 0,
-                             "needs --edges discrete, and edges are " + problem.checker.edges});
-    problem.checker.resolution = *a.resolution;
-    set["checker.resolution"] = "--resolution";
+    if (problem.settings.checker.edges != EdgeCheck::discrete)
+      throw InputError(
+          Fault{"--resolution", 0,
+                "needs --edges discrete, and edges are " + wordOf(problem.settings.checker.edges)});
+    problem.settings.checker.resolution = *a.resolution;
   }
-  if (a.noSimplify) problem.simplify = false;
+  if (a.noSimplify) problem.settings.simplify = false;
   return set;
 }
 
@@ -104,7 +106,7 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   out.line("problem", problem);
   out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);
   if (!solved) out.line("why", r.why);
-  for (const std::string& note : p.notes) out.line("note", note);
+  for (const std::string& note : p.source.notes) out.line("note", note);
   out.line("planner", r.planner);
   out.line("seed", std::to_string(r.seed));
   out.line("time", rounded(r.time) + " s, of which " + rounded(r.planningTime) +
@@ -115,7 +117,7 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   out.line("box tests N_v", grouped(r.counters.boxTests));
   out.line("triangle tests N_p", grouped(r.counters.triangleTests));
   if (!solved) return;
-  out.line("path length", lengthText(p.space, r.length.metres, r.length.radians));
+  out.line("path length", lengthText(p.model.space, r.length.metres, r.length.radians));
   out.line("path states", grouped(r.path.size()));
   out.line("certified", r.certified ? "yes" : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
@@ -140,8 +142,8 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
                     {"certified", r.certified},
                     {"tolerance_m", r.motion.tolerance},
                     {"margin_m", r.motion.margin},
-                    {"tube", tubeJson(p.space, p.tube)}};
-  if (!p.notes.empty()) j["notes"] = p.notes;
+                    {"tube", tubeJson(p.model.space, p.task.tube)}};
+  if (!p.source.notes.empty()) j["notes"] = p.source.notes;
   if (!r.warnings.empty()) {
     j["warnings"] = ordered_json::array();
     for (const Fault& fault : r.warnings) j["warnings"].push_back(fault.text);
@@ -168,16 +170,16 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   Problem problem = readProblemOf(file);
   // Before planning: later a file may be another than the one that was read.
   const std::string digest = a.output ? digestOf(problem) : "";
-  requireNotRead(a.output, "--output", problem.files, "the problem");
-  requireNotRead(a.picture, "--picture", problem.files, "the problem");
+  requireNotRead(a.output, "--output", problem.source.files, "the problem");
+  requireNotRead(a.picture, "--picture", problem.source.files, "the problem");
   SolveOptions options;
   options.setElsewhere = applyArguments(a, problem);
   options.interrupted = &interrupted;
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {
     options.progress = [&](const SolveProgress& p) {
-      std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.name.c_str(),
-                   problem.planner.name.c_str(), p.seconds, problem.planner.time,
+      std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.source.name.c_str(),
+                   problem.settings.planner.name.c_str(), p.seconds, problem.settings.planner.time,
                    counted(p.edges, "edge").c_str());
     };
   }
@@ -279,7 +281,7 @@ void addSolve(CLI::App& program, int& status) {
       ->add_option("--resolution", a.resolution,
                    "with --edges discrete: OMPL's longest_valid_segment_fraction, from 1e-9 to "
                    "below 1")
-      ->check(isWithin(1e-9, 1.0, "a number from 1e-9 to 1"))
+      ->check(isResolution())
       ->group(checking);
   const char* results = "Results";
   command->add_option("-o,--output", a.output, "write the solution to this file (YAML)")

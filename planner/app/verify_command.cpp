@@ -24,7 +24,7 @@ using nlohmann::ordered_json;
 /// Returns "shelf" (triangle 3), without the triangle if the body is made of convex parts.
 std::string sideText(const std::string& name, std::uint32_t triangle, const Problem& problem) {
   bool meshes = false;
-  for (const ProblemBody& body : problem.bodies)
+  for (const ModelBody& body : problem.model.bodies)
     if (body.name == name) meshes = !body.shapes.front().part;
   return "\"" + name + "\"" + (meshes ? " (triangle " + std::to_string(triangle) + ")" : "");
 }
@@ -38,7 +38,7 @@ std::string text(const PathFinding& f, const Problem& problem) {
     if (f.gap > 0) line += ", " + rounded(f.gap) + " m apart";
     line += ", near " + rounded(f.point);
   }
-  return line + "; at " + stateText(problem.space, f.configuration);
+  return line + "; at " + stateText(problem.model.space, f.configuration);
 }
 
 ordered_json jsonOf(const PathFinding& f) {
@@ -61,14 +61,14 @@ ordered_json jsonOf(const VerifyReport& r, const Problem& problem, const VerifyA
                     {"solution", a.solution},
                     {"verdict", verdictName(r)},
                     {"digest", nameOf(r.digest)},
-                    {"notes", problem.notes},
+                    {"notes", problem.source.notes},
                     {"edges", r.motion.edges},
                     {"edges_proved", r.motion.edgesProved},
                     {"proven_clearance_m", numberJson(r.motion.provenClearance)},
                     {"smallest_distance_met_m", numberJson(r.motion.smallestDistanceMet)},
                     {"margin_m", r.margin},
-                    {"tube", tubeJson(problem.space, r.tube)},
-                    {"numbers", problem.space.numberNames()},
+                    {"tube", tubeJson(problem.model.space, r.tube)},
+                    {"numbers", problem.model.space.numberNames()},
                     {"distance_queries", r.motion.distanceQueries},
                     {"violations", r.violations},
                     {"findings", ordered_json::array()}};
@@ -82,7 +82,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line("solution", a.solution);
   out.line("verdict", verdictName(r), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
   if (r.otherProblem) return;
-  for (const std::string& note : problem.notes) out.line("note", note);
+  for (const std::string& note : problem.source.notes) out.line("note", note);
   out.line("edges proved",
            std::to_string(r.motion.edgesProved) + " of " + std::to_string(r.motion.edges));
   if (r.motion.verdict == PathVerdict::proved)
@@ -91,7 +91,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
                               : "at least " + rounded(r.motion.provenClearance) + " m, at most " +
                                     rounded(r.motion.smallestDistanceMet) + " m");
   if (r.margin > 0) out.line("margin", rounded(r.margin) + " m");
-  out.line("tube", tubeText(problem.space, r.tube));
+  out.line("tube", tubeText(problem.model.space, r.tube));
   out.line("start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);
   for (const std::string& violation : r.violations) out.line("violation", violation);
@@ -101,7 +101,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 
 int verifyCommand(const VerifyArguments& a) {
   const Problem problem = readProblemOf(a.problem);
-  const Solution solution = readSolution(a.solution, problem.space);
+  const Solution solution = readSolution(a.solution, problem.model.space);
   const VerifyReport report = verifyAloud(problem, solution, a.problem, a.solution, a.ignoreDigest);
   if (!a.json) {
     print(report, problem, a);

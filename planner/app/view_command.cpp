@@ -32,7 +32,7 @@ struct ViewArguments {
 
 /// Returns "bookshelf_1.html", safe as a file's name: a problem's name may have any characters.
 std::string pageName(const Problem& problem) {
-  std::string name = problem.name;
+  std::string name = problem.source.name;
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.') c = '_';
   return (name.empty() || name[0] == '.' ? "view" + name : name) + ".html";
@@ -68,13 +68,13 @@ int viewCommand(const ViewArguments& a) {
     requireFolderFor(pageFile, "--output");
   }
   for (const auto& [file, option] : {std::pair(pageFile, "--output"), {a.image, "--image"}}) {
-    requireNotRead(file, option, problem.files, "the problem");
+    requireNotRead(file, option, problem.source.files, "the problem");
     if (a.solution) requireNotRead(file, option, {*a.solution}, "the solution");
   }
   std::optional<ViewedPath> path;
   if (a.solution) {
     path.emplace();
-    path->solution = readSolution(*a.solution, problem.space);
+    path->solution = readSolution(*a.solution, problem.model.space);
     path->report = verifyAloud(problem, path->solution, a.problem, *a.solution, a.ignoreDigest);
   }
   const std::string page = viewPage(problem, path);

@@ -94,7 +94,7 @@ class PlainSetup final : public og::SimpleSetup {
     getProblemDefinition() = solve.definition();
   }
   void print(std::ostream& out) const override {
-    out << "Problem " << problem_.file.string() << '\n'
+    out << "Problem " << problem_.source.file.string() << '\n'
         << "SHA-256 " << digest_ << '\n'
         << "Edges " << checker_ << '\n';
     si_->getStateSpace()->printSettings(out);
@@ -190,14 +190,14 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
   solve.clock().pause();
 
   BenchmarkRun run;
-  run.seed = planned.seed;
+  run.seed = planned.settings.seed;
   PlainSetup setup(solve, planned, digest);
   const auto planner = std::make_shared<WholeSolve>(solve, checking, run);
   setup.setPlanner(planner);
-  ompl::tools::Benchmark benchmark(setup, planned.name);
+  ompl::tools::Benchmark benchmark(setup, planned.source.name);
   benchmark.addPlanner(planner);
   ompl::tools::Benchmark::Request request;
-  request.maxTime = planned.planner.time;
+  request.maxTime = planned.settings.planner.time;
   request.maxMem = memory;
   request.runCount = 1;
   request.displayProgress = request.saveConsoleOutput = request.simplify = false;
@@ -233,7 +233,7 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
 RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
                        const std::optional<BenchmarkCompetitor>& peer,
                        const BenchmarkLimits& limits)
-    : seed_(planned.seed),
+    : seed_(planned.settings.seed),
       process_(
           [&](const auto& send) {
             Path path;
@@ -246,7 +246,7 @@ RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std
           },
           // OMPL stops a planner at limits.memory if the planner checks its termination condition;
           // the larger limit here holds for everything else.
-          {{2 * planned.planner.time + kPatience, limits.patience},
+          {{2 * planned.settings.planner.time + kPatience, limits.patience},
            static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)}) {}
 
 BenchmarkRun RunProcess::run() const {

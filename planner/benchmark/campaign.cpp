@@ -92,7 +92,7 @@ void identifyProblems(Campaign& campaign) {
   std::vector<std::string>& names = campaign.problemNames;
   names.clear();
   for (const Problem& problem : campaign.problems) {
-    const std::string plain = printable(problem.name);
+    const std::string plain = printable(problem.source.name);
     std::string name = plain;
     for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
       name = plain + "-" + std::to_string(i);
@@ -106,7 +106,7 @@ std::vector<CampaignCell> cellsOf(const Campaign& c) {
   std::vector<CampaignCell> cells;
   for (std::size_t p = 0; p < c.problems.size(); ++p) {
     std::vector<CampaignPlanner> planners = c.planners;
-    const std::string& own = c.problems[p].planner.name;
+    const std::string& own = c.problems[p].settings.planner.name;
     if (planners.empty()) planners = {{own, own, {}}};
     for (const CampaignPlanner& planner : planners)
       for (std::size_t v = 0; v < c.variants.size(); ++v) cells.push_back({p, v, planner, {}});
@@ -116,15 +116,15 @@ std::vector<CampaignCell> cellsOf(const Campaign& c) {
 
 Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed) {
   Problem problem = campaign.problems[cell.problem];
-  campaign.variants[cell.variant].apply(problem.checker);
+  campaign.variants[cell.variant].apply(problem.settings.checker);
   if (cell.planner.params)
-    problem.planner.params = *cell.planner.params;
-  else if (cell.planner.name != problem.planner.name)
-    problem.planner.params.clear();  // they belong to another planner
-  problem.planner.name = cell.planner.name;
-  problem.planner.time = campaign.time.value_or(problem.planner.time);
-  problem.simplify = campaign.simplify.value_or(problem.simplify);
-  problem.seed = seed;
+    problem.settings.planner.params = *cell.planner.params;
+  else if (cell.planner.name != problem.settings.planner.name)
+    problem.settings.planner.params.clear();  // they belong to another planner
+  problem.settings.planner.name = cell.planner.name;
+  problem.settings.planner.time = campaign.time.value_or(problem.settings.planner.time);
+  problem.settings.simplify = campaign.simplify.value_or(problem.settings.simplify);
+  problem.settings.seed = seed;
   return problem;
 }
 

@@ -297,7 +297,7 @@ class CampaignDatabase::Tables {
         "hostname, cpuinfo, date, seed, setup) VALUES (?, 0, ?, ?, ?, ?, ?, ?, datetime('now'), ?, "
         "?)",
         freeName(omplExperimentName(campaign_, cell)),
-        campaign_.time.value_or(problem.planner.time), campaign_.limits.memory,
+        campaign_.time.value_or(problem.settings.planner.time), campaign_.limits.memory,
         static_cast<std::int64_t>(campaign_.runs), "OMPL " + versionOfOmpl(), run.ompl.host,
         run.ompl.cpu, std::to_string(campaign_.seed), ofProblem + ofPlanner);
     for (const auto& [words, value] : omplParameters(campaign_, cell)) {
@@ -405,14 +405,11 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].peer)
     checker["peer"] = campaign.variants[cell.variant].peer->name;
-  return nlohmann::ordered_json{{"problem", campaign.digests[cell.problem]},
-                                {"checker", checker},
-                                {"planner", planned.planner.name},
-                                {"params", planned.planner.params},
-                                {"time", planned.planner.time},
-                                {"memory_mb", campaign.limits.memory},
-                                {"simplify", planned.simplify},
-                                {"verify", campaign.verify}}
+  return nlohmann::ordered_json{
+      {"problem", campaign.digests[cell.problem]}, {"checker", checker},
+      {"planner", planned.settings.planner.name},  {"params", planned.settings.planner.params},
+      {"time", planned.settings.planner.time},     {"memory_mb", campaign.limits.memory},
+      {"simplify", planned.settings.simplify},     {"verify", campaign.verify}}
       .dump();
 }
 

@@ -231,7 +231,7 @@ class CampaignReader {
       YamlSource source{path_.string(), faults, {}};
       const YamlMap map(one.map, path, &keys, source);
       Variant variant{entry.key + one.suffix, withoutPeer(one.map), {}};
-      Problem::CheckerSpec checker;
+      CheckerSettings checker;
       readCheckerKeys(map, checker);
       const auto peer = map.text("peer");
       const bool part = !peer || takesPart(*peer, variant, map, checker);
@@ -261,13 +261,13 @@ class CampaignReader {
   }
 
   bool takesPart(const std::string& name, Variant& variant, const YamlMap& map,
-                 const Problem::CheckerSpec& checker) {
+                 const CheckerSettings& checker) {
     if (std::find(peerNames().begin(), peerNames().end(), name) == peerNames().end()) {
       map.fault("peer", "unknown peer " + quotedWord(name) + didYouMean(name, peerNames()) +
                             "; there are: " + joined(peerNames()));
       return false;
     }
-    if (checker.edges != "discrete") {
+    if (checker.edges != EdgeCheck::discrete) {
       map.fault("peer", name + " tests states only; set edges: discrete");
       return false;
     }

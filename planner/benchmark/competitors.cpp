@@ -55,7 +55,7 @@ class CompetitorStates final : public ompl::base::StateValidityChecker {
     const Configuration q = configurationOf(*si_, state);
     if (!checker_.inBounds(q)) return false;
     const std::lock_guard lock(mutex_);  // for planners with several threads
-    return !scene_->touches(framePoses(checker_.problem().tree, q));
+    return !scene_->touches(framePoses(checker_.model().tree, q));
   }
 
  private:

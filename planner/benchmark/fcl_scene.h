@@ -68,7 +68,7 @@ inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
 class FclScene {
  public:
   explicit FclScene(const Checker& checker) : pairs_(checker.scene().pairs()) {
-    for (const ProblemBody& body : checker.problem().bodies)
+    for (const ModelBody& body : checker.model().bodies)
       for (const PlacedShape& shape : body.shapes) shapes_.push_back(fclShape(shape, body.frame));
   }
   /// @pre all bodies of the scene are meshes.

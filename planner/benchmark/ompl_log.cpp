@@ -98,11 +98,11 @@ std::string omplExperimentName(const Campaign& campaign, const CampaignCell& cel
 std::map<std::string, std::string> omplParameters(const Campaign& campaign,
                                                   const CampaignCell& cell) {
   const Variant& variant = campaign.variants[cell.variant];
-  Problem::CheckerSpec checker = campaign.problems[cell.problem].checker;
+  CheckerSettings checker = campaign.problems[cell.problem].settings.checker;
   variant.apply(checker);
   std::map<std::string, std::string> parameters;
-  parameters["edges TEXT"] = variant.peer ? variant.peer->name : checker.edges;
-  if (checker.edges == "discrete")
+  parameters["edges TEXT"] = variant.peer ? variant.peer->name : wordOf(checker.edges);
+  if (checker.edges == EdgeCheck::discrete)
     parameters["resolution REAL"] = shortest(checker.resolution);
   else if (checker.tolerance)
     parameters["tolerance REAL"] = shortest(*checker.tolerance);
@@ -132,7 +132,7 @@ std::string omplLog(const Campaign& campaign, const CampaignResult& result, std:
   Log log(none);
   Benchmark::CompleteExperiment& experiment = log.experiment();
   experiment.name = omplExperimentName(campaign, any);
-  experiment.maxTime = campaign.time.value_or(p.planner.time);
+  experiment.maxTime = campaign.time.value_or(p.settings.planner.time);
   experiment.maxMem = campaign.limits.memory;
   experiment.runCount = static_cast<unsigned>(campaign.runs);
   experiment.startTime = result.start;

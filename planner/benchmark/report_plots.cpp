@@ -80,7 +80,7 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
   // End the time axis at the time limit, or at the longest run if that took more, not at the next
   // decade.
   if (!times.empty()) {
-    const double limit = campaign.time.value_or(campaign.problems[problem].planner.time);
+    const double limit = campaign.time.value_or(campaign.problems[problem].settings.planner.time);
     const double most = std::max(limit, *std::max_element(times.begin(), times.end()));
     if (most > 2 * plot.rangeX->first) plot.rangeX->second = std::min(plot.rangeX->second, most);
   }

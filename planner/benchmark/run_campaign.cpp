@@ -12,14 +12,14 @@ using Clock = std::chrono::steady_clock;
 /// Milliseconds between the parent's tests of `interrupted`.
 constexpr int kLookMs = 200;
 
-struct Task {
+struct QueuedRun {
   std::size_t cell = 0;
   std::uint64_t seed = 0;
 };
 
 /// Returns the runs to make, in the order in which they begin.
-std::deque<Task> tasksOf(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  std::deque<Task> tasks;
+std::deque<QueuedRun> tasksOf(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  std::deque<QueuedRun> tasks;
   const std::size_t variants = campaign.variants.size();
   const auto has = [&](std::size_t cell, std::uint64_t seed) {
     return std::any_of(cells[cell].runs.begin(), cells[cell].runs.end(),
@@ -43,10 +43,10 @@ class Durations {
   }
   /// Returns the estimated seconds of the tasks, one after the other: each takes the mean of its
   /// cell, or of all runs if its cell has none. Negative: unknown.
-  double of(const std::deque<Task>& tasks) const {
+  double of(const std::deque<QueuedRun>& tasks) const {
     if (all_.runs == 0) return -1;
     double sum = 0;
-    for (const Task& task : tasks)
+    for (const QueuedRun& task : tasks)
       sum += cells_[task.cell].runs > 0 ? cells_[task.cell].mean() : all_.mean();
     return sum;
   }
@@ -62,7 +62,7 @@ class Durations {
 };
 
 struct Running {
-  Task task;
+  QueuedRun task;
   Clock::time_point since;
   RunProcess run;
 };
@@ -73,14 +73,14 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
                            std::vector<CampaignCell> cells) {
   CampaignResult result;
   result.start = std::chrono::system_clock::now();
-  std::deque<Task> tasks = tasksOf(campaign, cells);
+  std::deque<QueuedRun> tasks = tasksOf(campaign, cells);
   const std::uint64_t total = cells.size() * campaign.runs;
   std::uint64_t done = total - tasks.size();
   Durations durations(cells.size());
   std::list<Running> running;  // an exception kills these runs
 
   const auto begin = [&] {
-    const Task task = tasks.front();
+    const QueuedRun task = tasks.front();
     const CampaignCell& cell = cells[task.cell];
     if (options.progress) {
       const double left = durations.of(tasks);

@@ -12,16 +12,13 @@
 namespace corridor {
 namespace {
 
-/// The same limit as in `corridor solve --resolution`.
-constexpr double kFinestResolution = 1e-9;
-
 [[noreturn]] void refuse(const std::string& why) {
   throw InputError(Fault{"--variants", 0, why});
 }
 
 }  // namespace
 
-void Variant::apply(Problem::CheckerSpec& spec) const {
+void Variant::apply(CheckerSettings& spec) const {
   FaultList faults;
   YamlSource source{"variant " + name, faults, {}};
   readCheckerKeys(YamlMap(checker, "checker", &problemKeys().at("checker"), source), spec);
@@ -60,7 +57,7 @@ Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetit
   const std::string knob = text.substr(colon + 1);
   double value = 0;
   const bool number = parseNumber(knob, Range::Any, value).empty(), samples = edges == "discrete";
-  if (samples && !(number && value >= kFinestResolution && value < 1))
+  if (samples && !(number && isResolution(value)))
     refuse(quotedWord(text) + ": a resolution from " + shortest(kFinestResolution) +
            " to below 1 is needed, not " + quotedWord(knob));
   if (!samples && !(number && value > 0))

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/checker/checker.h"
+#include "planner/problem/problem.h"
 #include "planner/problem/yaml_value.h"
 
 namespace ompl::base {
@@ -50,7 +51,7 @@ struct Variant {
   /// Applies the variant to a problem's checker: keys that the variant doesn't set keep the
   /// problem's values.
   /// @throws InputError if the two don't go together (an overlap test of another volume).
-  void apply(Problem::CheckerSpec& checker) const;
+  void apply(CheckerSettings& checker) const;
 };
 
 /// Returns a map for `Variant::checker`. @pre the values are legal for these keys.
@@ -60,7 +61,7 @@ YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& key
 /// The knob of edges that are sampled is the resolution (OMPL's longest_valid_segment_fraction);
 /// that of all others is the tolerance in metres.
 /// @throws InputError: unknown name (lists the known ones), or a knob that is not a number or out
-/// of range (a resolution from 1e-9 to below 1, a tolerance above 0).
+/// of range (a resolution, see isResolution; a tolerance above 0).
 Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& peers = {});
 
 }  // namespace corridor

@@ -1,22 +1,24 @@
 #include "planner/checker/checker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <unordered_map>
 
 #include "planner/checker/default_tolerance.h"
+#include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
 
 namespace corridor {
 namespace {
 
 /// Returns the body of each shape of `makeScene`.
-std::vector<std::size_t> bodiesOfShapes(const Problem& problem) {
+std::vector<std::size_t> bodiesOfShapes(const Model& model) {
   std::vector<std::size_t> owner;
-  for (std::size_t b = 0; b < problem.bodies.size(); ++b)
-    owner.insert(owner.end(), problem.bodies[b].shapes.size(), b);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    owner.insert(owner.end(), model.bodies[b].shapes.size(), b);
   return owner;
 }
 
@@ -29,14 +31,33 @@ MotionResult refused() {
   return result;
 }
 
+/// @throws std::invalid_argument
+void requireValid(const CheckerOptions& options, const ConfigurationSpace& space) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("CheckerOptions: ") + what);
+  };
+  require(options.margin >= 0 && std::isfinite(options.margin), "margin must be 0 or more");
+  require(!options.tolerance || (*options.tolerance > 0 && std::isfinite(*options.tolerance)),
+          "tolerance must be above 0");
+  require(
+      options.tube.size() == 0 || (options.tube.size() == static_cast<Eigen::Index>(space.size()) &&
+                                   options.tube.allFinite() && options.tube.minCoeff() >= 0),
+      "tube must have a number of 0 or more for each number of a configuration");
+  const TreeKind trees = options.trees.trees;
+  require(options.method == EdgeMethod::directional ||
+              (trees != TreeKind::obbGjk && trees != TreeKind::obbLinearProgram &&
+               trees != TreeKind::obbEdgeFace),
+          "adaptive and advancement measure distances; they need the volume's first overlap test");
+}
+
 }  // namespace
 
-Scene makeScene(const Problem& problem) {
+Scene makeScene(const Model& model, ObbFit fit) {
   TreeParams params;
-  params.fit = treesNamed(problem.checker.trees()).fit;
+  params.fit = fit;
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
-  for (const ProblemBody& body : problem.bodies) {
+  for (const ModelBody& body : model.bodies) {
     firstShape.push_back(placed.size());
     for (const PlacedShape& shape : body.shapes)
       placed.push_back({shape.part ? Body(shape.name, *shape.part)
@@ -45,13 +66,18 @@ Scene makeScene(const Problem& problem) {
   }
   firstShape.push_back(placed.size());
   std::vector<Scene::Pair> pairs;
-  for (const ProblemPair& pair : problem.pairs) {
-    if (!pair.skipped.empty()) continue;
-    for (std::size_t a = firstShape[pair.a]; a < firstShape[pair.a + 1]; ++a)
-      for (std::size_t b = firstShape[pair.b]; b < firstShape[pair.b + 1]; ++b)
-        pairs.push_back({a, b});
-  }
+  forEachTestedPair(model, [&](std::size_t i, std::size_t j) {
+    for (std::size_t a = firstShape[i]; a < firstShape[i + 1]; ++a)
+      for (std::size_t b = firstShape[j]; b < firstShape[j + 1]; ++b) pairs.push_back({a, b});
+  });
   return Scene(std::move(placed), std::move(pairs));
+}
+
+CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings) {
+  if (const auto wrong = invalidNameIn(settings))
+    throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
+  return {task.margin, task.tube, settings.tolerance, methodOf(settings.edges),
+          treesNamed(settings.trees)};
 }
 
 /// The memory that one thread's queries write to.
@@ -67,9 +93,9 @@ class Checker::Pool {
     const std::lock_guard lock(mutex_);
     std::unique_ptr<Workspace>& workspace = workspaces_[std::this_thread::get_id()];
     if (!workspace) {
-      const Problem& problem = checker.problem_;
+      const Model& model = checker.model_;
       workspace.reset(new Workspace{
-          {}, EdgeMotion(problem.tree, problem.space, checker.scene_.framePairs(), problem.tube)});
+          {}, EdgeMotion(model.tree, model.space, checker.scene_.framePairs(), checker.tube_)});
     }
     return *workspace;
   }
@@ -86,20 +112,23 @@ class Checker::Pool {
   std::unordered_map<std::thread::id, std::unique_ptr<Workspace>> workspaces_;
 };
 
-Checker::Checker(const Problem& problem)
-    : problem_(problem),
-      scene_(makeScene(problem)),
-      bodyOf_(bodiesOfShapes(problem)),
-      method_(edgeMethodNamed(problem.checker.edges).value_or(EdgeMethod::directional)),
+Checker::Checker(const Model& model, const CheckerOptions& options)
+    : model_(model),
+      scene_(makeScene(model, options.trees.fit)),
+      bodyOf_(bodiesOfShapes(model)),
+      tube_(options.tube.size() == 0 ? tubeOf(model.space) : options.tube),
+      method_(options.method),
       pool_(std::make_unique<Pool>()) {
-  if (const auto wrong = invalidNameIn(problem.checker))
-    throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
+  requireValid(options, model.space);
   options_.tolerance =
-      problem.checker.tolerance.value_or(defaultTolerance(problem, scene_.defaultTolerance()));
+      options.tolerance.value_or(defaultTolerance(model, scene_.defaultTolerance()));
   options_.clearanceSlack = options_.tolerance;
-  options_.margin = problem.margin;
-  options_.trees = treesNamed(problem.checker.trees()).trees;
+  options_.margin = options.margin;
+  options_.trees = options.trees.trees;
 }
+
+Checker::Checker(const Problem& problem)
+    : Checker(problem.model, checkerOptions(problem.task, problem.settings.checker)) {}
 
 Checker::~Checker() = default;
 
@@ -139,12 +168,12 @@ MotionResult Checker::edge(const Configuration& from, const Configuration& to, b
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
   requireStandardFloatingPoint();
-  return scene_.interference(framePoses(problem_.tree, q), mine().context, options_.trees);
+  return scene_.interference(framePoses(model_.tree, q), mine().context, options_.trees);
 }
 
 double Checker::clearance(const Configuration& q) const {
   requireStandardFloatingPoint();
-  return scene_.clearance(framePoses(problem_.tree, q), mine().context, options_.trees) -
+  return scene_.clearance(framePoses(model_.tree, q), mine().context, options_.trees) -
          options_.margin;
 }
 

@@ -5,36 +5,58 @@
 #include <vector>
 
 #include "collision/world/scene.h"
-#include "planner/problem/problem.h"
+#include "planner/model/model.h"
+#include "planner/model/settings.h"
+#include "planner/model/task.h"
 
 namespace corridor {
 
-/// Returns the scene of a problem: one body per shape of all the problem's bodies, in the problem's
-/// order, and the pairs that the problem tests. Builds no tree.
-Scene makeScene(const Problem& problem);
+struct Problem;
 
-/// Checks states and edges of a problem. The OMPL classes in this folder forward to it.
+/// Returns the scene of a model: one body per shape of all the model's bodies, in the model's
+/// order, and the pairs that its filter does not exclude. Builds no tree.
+Scene makeScene(const Model& model, ObbFit fit = {});
+
+/// What a checker proves of states and edges, and how.
+struct CheckerOptions {
+  double margin = 0;  ///< metres that all tested pairs must keep apart; 0: touching is contact
+  /// The tube that the proofs cover, as `tubeOf` returns it; empty: rounding only.
+  Configuration tube = {};
+  std::optional<double> tolerance = {};  ///< metres; unset: default_tolerance.h
+  EdgeMethod method = EdgeMethod::directional;
+  TreeChoice trees = {};
+};
+
+/// Returns the options that a problem asks for. @throws std::invalid_argument if the words for its
+/// trees don't go together (`invalidNameIn`).
+CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings);
+
+/// Checks states and edges of a model. The OMPL classes in this folder forward to it.
 ///
 /// Thread safety: all functions may be called from several threads at once, except `counters`. Each
 /// thread has its own QueryContext and EdgeMotion.
 class Checker {
  public:
-  /// The problem must outlive the checker; its bodies are copied. All queries use the trees that
-  /// `checker: {volume: …}` names.
-  /// @throws std::invalid_argument if the words under `checker` don't go together
-  /// (`invalidNameIn`).
+  /// The model must outlive the checker; its bodies are copied.
+  /// @throws std::invalid_argument for a margin, tube or tolerance that is negative or not finite;
+  /// for a tube of another length than a configuration; for an overlap test that is not its
+  /// volume's first, together with a method that measures distances.
+  explicit Checker(const Model& model, const CheckerOptions& options = {});
+  /// The checker of a problem's model, with `checkerOptions`.
   explicit Checker(const Problem& problem);
   ~Checker();
 
-  const Problem& problem() const { return problem_; }
-  const ConfigurationSpace& space() const { return problem_.space; }
+  const Model& model() const { return model_; }
+  const ConfigurationSpace& space() const { return model_.space; }
   const Scene& scene() const { return scene_; }
-  /// The tolerance and margin of the problem. The clearance slack is the tolerance: `free` requires
+  /// The tube that the proofs cover.
+  const Configuration& tube() const { return tube_; }
+  /// The tolerance and margin. The clearance slack is the tolerance: `free` requires
   /// a clearance of margin plus tolerance. With less clearance the verdict may be `undecided`
   /// anyway. So no returned path depends on the last digits of a clearance. The work to prove a
   /// path again is at most proportional to its length divided by the tolerance.
   const MotionOptions& options() const { return options_; }
-  /// Returns the body of the problem that a shape of the scene belongs to.
+  /// Returns the body of the model that a shape of the scene belongs to.
   std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
 
   /// Tests the bounds, which are inclusive. A configuration that is not finite or has a zero
@@ -42,7 +64,7 @@ class Checker {
   bool inBounds(const Configuration& q) const;
   /// Proves a state free, as an edge of zero length. Doesn't test the bounds. @pre finite.
   MotionResult state(const Configuration& q) const;
-  /// Proves an edge free with the problem's method (for `discrete`, with the default method).
+  /// Proves an edge free by the method of the options.
   /// Doesn't test the bounds. @pre finite.
   MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Tests the rounded poses of the frames for contact, exactly. Margin, tolerance and tube are
@@ -55,7 +77,7 @@ class Checker {
   /// the result is 0 − margin, since no penetration depth is computed. Infinite if no pair is
   /// tested. @pre finite.
   double clearance(const Configuration& q) const;
-  /// Two bodies of the problem, by index, for which a state is not free.
+  /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
     std::size_t a = 0, b = 0;
     bool tooLarge = false;  ///< undecided, as the rounding of a large value hides the gap
@@ -66,7 +88,7 @@ class Checker {
   /// Returns whether q is in bounds and `state` is `free`.
   bool certifiedState(const Configuration& q) const;
   /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free
-  /// by the default method. The problem's method is ignored.
+  /// by the default method, whatever the method of the options.
   bool certifiedEdge(const Configuration& from, const Configuration& to) const;
 
   /// Returns the sum over all threads. Call it while no query runs.
@@ -79,9 +101,10 @@ class Checker {
   MotionResult edge(const Configuration& from, const Configuration& to, bool earliest,
                     EdgeMethod method) const;
 
-  const Problem& problem_;
+  const Model& model_;
   Scene scene_;
   std::vector<std::size_t> bodyOf_;
+  Configuration tube_;
   MotionOptions options_;
   EdgeMethod method_;
   std::unique_ptr<Pool> pool_;

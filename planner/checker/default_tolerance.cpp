@@ -47,12 +47,12 @@ struct Share {
   double length = 0, roundings = 0;
 };
 
-Share shareOf(const Problem& problem, const Frame& frame) {
+Share shareOf(const Model& model, const Frame& frame) {
   Share share{frame.fixed.p.stableNorm(), kSlide};
   const bool held = frame.variable == Frame::noVariable;
   const double value =
       std::abs(frame.offset) +
-      (held ? 0 : std::abs(frame.multiplier) * largestOf(problem.space, frame.variable));
+      (held ? 0 : std::abs(frame.multiplier) * largestOf(model.space, frame.variable));
   switch (frame.joint) {
     case Frame::Joint::none:
       break;
@@ -64,7 +64,7 @@ Share shareOf(const Problem& problem, const Frame& frame) {
       break;
     case Frame::Joint::translation:
       for (std::size_t k = 0; k < frame.count; ++k)
-        share.length += largestOf(problem.space, frame.variable + k);
+        share.length += largestOf(model.space, frame.variable + k);
       break;
     case Frame::Joint::rotation:
       share.roundings = kRotation;
@@ -84,7 +84,7 @@ double farthestVertex(const std::vector<Vec3>& vertices) {
   return farthest;
 }
 
-double farthestPoint(const ProblemBody& body) {
+double farthestPoint(const ModelBody& body) {
   double farthest = 0;
   for (const PlacedShape& shape : body.shapes) {
     const auto& vertices = shape.part ? shape.part->points : shape.mesh->mesh.vertices;
@@ -96,30 +96,29 @@ double farthestPoint(const ProblemBody& body) {
 
 }  // namespace
 
-double roundingTolerance(const Problem& problem) {
-  std::vector<Share> chains(problem.tree.frames.size());  // from the world to each frame
+double roundingTolerance(const Model& model) {
+  std::vector<Share> chains(model.tree.frames.size());  // from the world to each frame
   for (std::size_t f = 1; f < chains.size(); ++f) {
-    const Frame& frame = problem.tree.frames[f];
-    const Share share = shareOf(problem, frame), parent = chains[frame.parent];
+    const Frame& frame = model.tree.frames[f];
+    const Share share = shareOf(model, frame), parent = chains[frame.parent];
     chains[f] = {parent.length + share.length, parent.roundings + share.roundings};
   }
   double largest = 0;
-  for (const ProblemPair& pair : problem.pairs) {
-    if (!pair.skipped.empty()) continue;
+  forEachTestedPair(model, [&](std::size_t a, std::size_t b) {
     double size = 0, roundings = kLeaves;
-    for (const std::size_t b : {pair.a, pair.b}) {
-      const ProblemBody& body = problem.bodies[b];
+    for (const std::size_t i : {a, b}) {
+      const ModelBody& body = model.bodies[i];
       size += chains[body.frame].length + farthestPoint(body);
       roundings += 2 * chains[body.frame].roundings;
     }
     const double error = kUnit * size * roundings;
     if (std::isfinite(error)) largest = std::max(largest, error);
-  }
+  });
   return 4 * largest;
 }
 
-double defaultTolerance(const Problem& problem, double usual) {
-  return std::clamp(roundingTolerance(problem), usual, 1000 * usual);
+double defaultTolerance(const Model& model, double usual) {
+  return std::clamp(roundingTolerance(model), usual, 1000 * usual);
 }
 
 }  // namespace corridor

@@ -39,10 +39,11 @@ Configuration randomState(const ConfigurationSpace& space, std::mt19937_64& rand
 
 }  // namespace
 
-EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::size_t edges,
-                          double seconds, std::uint64_t seed) {
+EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seconds,
+                          std::uint64_t seed) {
   const Scene& scene = checker.scene();
-  EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+  const ConfigurationSpace& space = checker.space();
+  EdgeMotion motion(checker.model().tree, space, scene.framePairs(), checker.tube());
   QueryContext context;
   std::mt19937_64 random(seed);
   EdgeCosts costs;
@@ -56,9 +57,8 @@ EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::s
     return took.count() > share * seconds;
   };
   for (std::size_t i = 0; i < edges && (i == 0 || !past(0.25)); ++i) {
-    const Configuration from = randomState(problem.space, random);
-    ways.emplace_back(
-        from, problem.space.interpolate(from, randomState(problem.space, random), kShareOfTheWay));
+    const Configuration from = randomState(space, random);
+    ways.emplace_back(from, space.interpolate(from, randomState(space, random), kShareOfTheWay));
     // A query builds the trees that it needs first. That time must not count for an edge.
     motion.set(from, ways.back().second);
     scene.certify(motion, checker.options(), context);

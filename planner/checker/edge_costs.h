@@ -7,12 +7,12 @@
 
 namespace corridor {
 
-/// Which pairs of bodies take the time of a problem's edges, measured on a sample of edges.
+/// Which pairs of bodies take the time of a model's edges, measured on a sample of edges.
 struct EdgeCosts {
   std::size_t edges = 0, free = 0;  ///< numbers of tested edges, and of free ones among them
   double freeSeconds = 0, otherSeconds = 0;  ///< medians per edge; 0 if there is none
   struct OfPair {
-    std::size_t a = 0, b = 0;  ///< bodies of the problem
+    std::size_t a = 0, b = 0;  ///< bodies of the model
     double share = 0;          ///< share of the time of all pairs, each certified alone
     std::uint64_t boxTests = 0, triangleTests = 0;  ///< over all edges
   };
@@ -24,7 +24,7 @@ struct EdgeCosts {
 /// the machine and its load.
 /// @param edges the maximum number of edges to certify; at least one is certified.
 /// @param seconds after this time no further edge is begun.
-EdgeCosts sampleEdgeCosts(const Problem& problem, const Checker& checker, std::size_t edges,
-                          double seconds, std::uint64_t seed);
+EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seconds,
+                          std::uint64_t seed);
 
 }  // namespace corridor

@@ -16,16 +16,18 @@ bool inRegion(const Problem& problem, const Configuration& goal, const Configura
   // Normalising a quaternion is off by less than 4u a component. The angle of two such quaternions
   // is off by less than 32u, and computing it adds as much.
   const double same = 64 * kUnit;
-  const Problem::GoalRegion& region = *problem.goalRegion;
-  for (const CoordinateGroup& group : problem.space.groups()) {
+  const GoalRegion& region = *problem.task.goalRegion;
+  for (const CoordinateGroup& group : problem.model.space.groups()) {
     if (group.kind == CoordinateGroup::Kind::joints) {
       for (const std::size_t c : group.coordinates)
-        if (!(differenceOf(problem.space.coordinates()[c], goal, q) <=
+        if (!(differenceOf(problem.model.space.coordinates()[c], goal, q) <=
               std::max(region.joint * grow,
-                       problem.space.coordinates()[c].kind == Coordinate::Kind::circle ? same : 0)))
+                       problem.model.space.coordinates()[c].kind == Coordinate::Kind::circle ? same
+                                                                                             : 0)))
           return false;
-    } else if (!(positionDifference(problem.space, group, goal, q) <= region.position * grow) ||
-               !(rotationDifference(problem.space, group, goal, q) <=
+    } else if (!(positionDifference(problem.model.space, group, goal, q) <=
+                 region.position * grow) ||
+               !(rotationDifference(problem.model.space, group, goal, q) <=
                  std::max(region.angle * grow, same))) {
       return false;
     }
@@ -34,19 +36,20 @@ bool inRegion(const Problem& problem, const Configuration& goal, const Configura
 }
 
 double outside(const Problem& problem, const Configuration& goal, const Configuration& q) {
-  const std::vector<Coordinate>& coordinates = problem.space.coordinates();
-  const Problem::GoalRegion& region = *problem.goalRegion;
+  const std::vector<Coordinate>& coordinates = problem.model.space.coordinates();
+  const GoalRegion& region = *problem.task.goalRegion;
   double sum = 0;
-  for (const CoordinateGroup& group : problem.space.groups()) {
+  for (const CoordinateGroup& group : problem.model.space.groups()) {
     if (group.kind == CoordinateGroup::Kind::joints) {
       for (const std::size_t c : group.coordinates)
         sum += coordinates[c].weight *
                std::max(differenceOf(coordinates[c], goal, q) - region.joint, 0.0);
     } else {
-      sum += coordinates[group.coordinates.front()].weight *
-             std::max(positionDifference(problem.space, group, goal, q) - region.position, 0.0);
+      sum +=
+          coordinates[group.coordinates.front()].weight *
+          std::max(positionDifference(problem.model.space, group, goal, q) - region.position, 0.0);
       sum += coordinates[group.coordinates.back()].weight *
-             std::max(rotationDifference(problem.space, group, goal, q) - region.angle, 0.0);
+             std::max(rotationDifference(problem.model.space, group, goal, q) - region.angle, 0.0);
     }
   }
   return sum;
@@ -55,24 +58,24 @@ double outside(const Problem& problem, const Configuration& goal, const Configur
 }  // namespace
 
 Configuration startOf(const Problem& problem) {
-  Configuration q = problem.start;
-  problem.space.normalise(q);
+  Configuration q = problem.task.start;
+  problem.model.space.normalise(q);
   return q;
 }
 
 std::vector<Configuration> goalsOf(const Problem& problem) {
-  std::vector<Configuration> goals = problem.goals;
-  for (Configuration& goal : goals) problem.space.normalise(goal);
+  std::vector<Configuration> goals = problem.task.goals;
+  for (Configuration& goal : goals) problem.model.space.normalise(goal);
   return goals;
 }
 
 bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, const Configuration& q,
             double slack) {
   return std::any_of(goals.begin(), goals.end(), [&](const Configuration& goal) {
-    if (problem.goalRegion) return inRegion(problem, goal, q, 1 + slack);
-    if (problem.goalThreshold)
-      return problem.space.distance(goal, q) <= *problem.goalThreshold * (1 + slack);
-    return problem.space.equal(goal, q);
+    if (problem.task.goalRegion) return inRegion(problem, goal, q, 1 + slack);
+    if (problem.task.goalThreshold)
+      return problem.model.space.distance(goal, q) <= *problem.task.goalThreshold * (1 + slack);
+    return problem.model.space.equal(goal, q);
   });
 }
 

@@ -16,7 +16,8 @@ bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, con
             double slack = 0);
 
 /// Returns how far a configuration is outside of the nearest goal region: the sum over the groups
-/// of coordinates, in metres and radians, weighted as in distances. @pre problem.goalRegion.
+/// of coordinates, in metres and radians, weighted as in distances. @pre the task has a goal
+/// region.
 double outsideGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
                          const Configuration& q);
 

@@ -49,7 +49,7 @@ std::pair<double, double> rangeOf(const ConfigurationSpace& space, std::size_t n
   return {-infinity, infinity};
 }
 
-FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame& frame) {
+FrameReach childOf(const Model& model, const FrameReach& parent, const Frame& frame) {
   using Turned = FrameReach::Turned;
   FrameReach reach = parent;
   reach.origin = parent.origin + around(parent, {frame.fixed.p, frame.fixed.p});
@@ -69,7 +69,7 @@ FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame
     case Frame::Joint::prismatic: {
       double low = frame.offset, high = frame.offset;
       if (frame.variable != Frame::noVariable) {
-        const auto [lower, upper] = rangeOf(problem.space, frame.variable);
+        const auto [lower, upper] = rangeOf(model.space, frame.variable);
         low += std::min(frame.multiplier * lower, frame.multiplier * upper);
         high += std::max(frame.multiplier * lower, frame.multiplier * upper);
       }
@@ -81,7 +81,7 @@ FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame
       ReachBox box;
       for (std::size_t k = 0; k < frame.count; ++k) {
         const auto i = static_cast<Eigen::Index>(k);
-        std::tie(box.lower[i], box.upper[i]) = rangeOf(problem.space, frame.variable + k);
+        std::tie(box.lower[i], box.upper[i]) = rangeOf(model.space, frame.variable + k);
       }
       reach.origin = reach.origin + around(reach, box);
       break;
@@ -93,7 +93,7 @@ FrameReach childOf(const Problem& problem, const FrameReach& parent, const Frame
   return reach;
 }
 
-ReachBox boundsOf(const ProblemBody& body) {
+ReachBox boundsOf(const ModelBody& body) {
   ReachBox box{Vec3::Constant(std::numeric_limits<double>::infinity()),
                Vec3::Constant(-std::numeric_limits<double>::infinity())};
   for (const PlacedShape& shape : body.shapes) {
@@ -108,22 +108,21 @@ ReachBox boundsOf(const ProblemBody& body) {
 
 }  // namespace
 
-std::vector<ReachBox> reachOf(const Problem& problem) {
+std::vector<ReachBox> reachOf(const Model& model) {
   std::vector<FrameReach> frames(1);
-  for (std::size_t i = 1; i < problem.tree.frames.size(); ++i)
-    frames.push_back(
-        childOf(problem, frames[problem.tree.frames[i].parent], problem.tree.frames[i]));
+  for (std::size_t i = 1; i < model.tree.frames.size(); ++i)
+    frames.push_back(childOf(model, frames[model.tree.frames[i].parent], model.tree.frames[i]));
   std::vector<ReachBox> boxes;
-  for (const ProblemBody& body : problem.bodies)
+  for (const ModelBody& body : model.bodies)
     boxes.push_back(frames[body.frame].origin + around(frames[body.frame], boundsOf(body)));
   return boxes;
 }
 
-bool outOfReach(const Problem& problem, const ReachBox& a, const ReachBox& b) {
+bool outOfReach(const Task& task, const ReachBox& a, const ReachBox& b) {
   const Vec3 gap = (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(Vec3::Zero());
   const double size = (a.upper - a.lower).norm() + (b.upper - b.lower).norm();
   // A tube displaces a point by at most the sum of its lengths, plus its angles times the sizes.
-  const double pad = problem.margin + problem.tube.sum() * (1 + size) + 1e-9 * size;
+  const double pad = task.margin + task.tube.sum() * (1 + size) + 1e-9 * size;
   return gap.norm() > pad;
 }
 

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "planner/problem/problem.h"
+#include "planner/model/model.h"
+#include "planner/model/task.h"
 
 namespace corridor {
 
@@ -13,9 +14,9 @@ struct ReachBox {
 
 /// Returns for each body a box that it never leaves in any configuration within the bounds. Metres,
 /// in the world. The boxes are rough and not proved: for display only, never for verdicts.
-std::vector<ReachBox> reachOf(const Problem& problem);
+std::vector<ReachBox> reachOf(const Model& model);
 
 /// Returns whether two bodies in these boxes keep more than margin and tube from each other.
-bool outOfReach(const Problem& problem, const ReachBox& a, const ReachBox& b);
+bool outOfReach(const Task& task, const ReachBox& a, const ReachBox& b);
 
 }  // namespace corridor

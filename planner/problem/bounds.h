@@ -1,50 +1,18 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
+#include "planner/model/bounds.h"
 #include "planner/problem/problem.h"
 
-/// Bounds on the positions of rigid robots and of planar and floating joints. Each of these has a
-/// `CoordinateGroup`, of kind planar or floating.
 namespace corridor {
-
-/// Lower and upper corner of a box, metres. For planar motion z is not used.
-struct Corners {
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
-};
-
-/// Returns the bounding box of the obstacles, or nullopt if there are none.
-std::optional<Corners> boundsOfWorld(const Problem& problem);
-
-/// Returns the bounds of the group's position; NaN while they are not set.
-Corners boundsOf(const Problem& problem, const CoordinateGroup& group);
-void setBounds(Problem& problem, const CoordinateGroup& group, const Corners& corners);
 
 /// Enlarges the bounds of the group to contain start and goals. @returns whether that was needed.
 bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
-/// Returns what is wrong with the bounds (a lower one not below its upper one, an infinite range),
-/// or "".
-std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
-
 /// Returns why the group's position in `q` is illegal ("outside of the bounds: x = 9 is not in
 /// [0, 1]"), or "".
-std::string whyOutside(const Problem& problem, const CoordinateGroup& group,
+std::string whyOutside(const ConfigurationSpace& space, const CoordinateGroup& group,
                        const Configuration& q);
-
-/// A joint that mimics a continuous joint and has left its own limits.
-struct FollowerOutside {
-  std::string name;  ///< "s", "left/s"
-  double value = 0, lower = 0, upper = 0;
-};
-/// Returns the joints that mimic a continuous joint and are outside of their own limits in `q`.
-/// This happens only where an angle of `q` is beyond a full turn, since the reader narrows the
-/// range of a mimicked joint. Limits are widened by rounding, 2^-40 of value and offset.
-std::vector<FollowerOutside> followersOutside(const Problem& problem, const Configuration& q);
-
-/// Returns 2 for a planar group, 3 for a floating one.
-std::size_t dimensionsOf(const CoordinateGroup& group);
 
 }  // namespace corridor

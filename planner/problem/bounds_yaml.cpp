@@ -12,10 +12,10 @@
 namespace corridor {
 namespace {
 
-const CoordinateGroup& groupOf(const Problem& problem, const DegreeOfFreedom& freedom) {
+const CoordinateGroup& groupOf(const ConfigurationSpace& space, const DegreeOfFreedom& freedom) {
   std::size_t g = 0;
-  while (problem.space.groups()[g].coordinates.front() != freedom.coordinate) ++g;
-  return problem.space.groups()[g];
+  while (space.groups()[g].coordinates.front() != freedom.coordinate) ++g;
+  return space.groups()[g];
 }
 
 const char* form(std::size_t dimensions) {
@@ -44,7 +44,7 @@ void readCorners(const YamlValue& value, const std::string& path, const Coordina
   if (const std::string why = whyBadBounds(corners, count); !why.empty())
     map.fault("at", why);
   else
-    setBounds(problem, group, corners);
+    setBounds(problem.model.space, group, corners);
 }
 
 /// Narrows a single joint's limits to the [lower, upper] that is given for `key`.
@@ -54,7 +54,7 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees,
   if (!given) return;
   const double unit = degrees ? std::numbers::pi / 180 : 1;
   const double lower = (*given)[0] * unit, upper = (*given)[1] * unit;
-  Coordinate& c = problem.space.coordinates()[freedom.coordinate];
+  Coordinate& c = problem.model.space.coordinates()[freedom.coordinate];
   if (!(lower < upper) || !std::isfinite(upper - lower))
     return map.fault(key, "the lower bound first, then the upper one: " + shortest((*given)[0]) +
                               " is not below " + shortest((*given)[1]));
@@ -65,21 +65,23 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees,
     return;
   }
   const std::string path = map.pathOf(key);
-  const auto low = withinLimits(lower, c.lower, c.upper, path, problem.notes),
-             high = withinLimits(upper, c.lower, c.upper, path, problem.notes);
+  const auto low = withinLimits(lower, c.lower, c.upper, path, problem.source.notes),
+             high = withinLimits(upper, c.lower, c.upper, path, problem.source.notes);
   if (!low || !high) return map.fault(key, outsideLimits(low ? upper : lower, c.lower, c.upper));
   c.lower = *low;
   c.upper = *high;
 }
 
-void readOfJoints(const YamlValue& value, const std::string& path, const RobotSetup& setup,
-                  const RobotModel& model, Problem& problem, YamlSource& source) {
+void readOfJoints(const YamlValue& value, const std::string& path, const ModelRobot& robot,
+                  Problem& problem, YamlSource& source) {
+  const RobotModel& model = robot.model;
   const YamlMap map(value, path, nullptr, source);
   readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
-    for (const DegreeOfFreedom& freedom : setup.freedoms) {
+    for (const DegreeOfFreedom& freedom : robot.freedoms) {
       if (freedom.name != model.joints[j].name) continue;
       if (isWhole(freedom.type))
-        readCorners(entry.value, map.pathOf(entry.key), groupOf(problem, freedom), problem, source);
+        readCorners(entry.value, map.pathOf(entry.key), groupOf(problem.model.space, freedom),
+                    problem, source);
       else
         narrow(map, entry.key, degrees, freedom, problem);
       return;
@@ -89,18 +91,16 @@ void readOfJoints(const YamlValue& value, const std::string& path, const RobotSe
 }
 
 /// Adds a fault for each planar or floating joint without bounds: these joints have no limits.
-void requireBounds(const YamlMap& file, const std::vector<RobotSetup>& robots,
-                   const Problem& problem) {
-  for (std::size_t r = 0; r < robots.size(); ++r) {
-    if (problem.robots[r].model.mount != JointType::fixed) continue;
-    for (const DegreeOfFreedom& freedom : robots[r].freedoms) {
+void requireBounds(const YamlMap& file, const Model& model) {
+  for (const ModelRobot& robot : model.robots) {
+    if (robot.isRigid()) continue;
+    for (const DegreeOfFreedom& freedom : robot.freedoms) {
       if (!isWhole(freedom.type)) continue;
-      const CoordinateGroup& group = groupOf(problem, freedom);
-      if (!std::isnan(boundsOf(problem, group).lower.x())) continue;
+      const CoordinateGroup& group = groupOf(model.space, freedom);
+      if (!std::isnan(boundsOf(model.space, group).lower.x())) continue;
       const std::string own = freedom.name + ": {" + form(dimensionsOf(group)) + "}";
-      const std::string& robot = problem.robots[r].name;
       file.source().fault(0, "missing bounds of the joint " + group.name + ": bounds: {" +
-                                 (robot.empty() ? own : robot + ": {" + own + "}") +
+                                 (robot.name.empty() ? own : robot.name + ": {" + own + "}") +
                                  "} is needed, since it has no limits");
     }
   }
@@ -108,49 +108,52 @@ void requireBounds(const YamlMap& file, const std::vector<RobotSetup>& robots,
 
 }  // namespace
 
-void readBounds(const YamlMap& file, const std::vector<RobotSetup>& robots, Problem& problem) {
+void readBounds(const YamlMap& file, Problem& problem) {
   YamlSource& source = file.source();
   const std::size_t before = source.faults.size();
-  const auto ofRobot = [&](std::size_t r, const YamlValue& value, const std::string& path) {
-    if (problem.robots[r].model.mount == JointType::fixed)
-      readOfJoints(value, path, robots[r], problem.robots[r].model, problem, source);
+  const std::vector<ModelRobot>& robots = problem.model.robots;
+  const auto ofRobot = [&](const ModelRobot& robot, const YamlValue& value,
+                           const std::string& path) {
+    if (robot.isRigid())
+      readCorners(value, path, groupOf(problem.model.space, robot.freedoms.front()), problem,
+                  source);
     else
-      readCorners(value, path, groupOf(problem, robots[r].freedoms.front()), problem, source);
+      readOfJoints(value, path, robot, problem, source);
   };
   if (const YamlValue* value = file.find("bounds")) {
-    if (problem.robots.front().name.empty()) {
-      ofRobot(0, *value, "bounds");
+    if (robots.front().name.empty()) {
+      ofRobot(robots.front(), *value, "bounds");
     } else {
       MapKeys keys;
-      for (const ProblemRobot& robot : problem.robots) keys.legal.push_back(robot.name);
+      for (const ModelRobot& robot : robots) keys.legal.push_back(robot.name);
       const YamlMap map(*value, "bounds", &keys, source);
-      for (std::size_t r = 0; r < robots.size(); ++r)
-        if (const YamlValue* own = map.find(problem.robots[r].name))
-          ofRobot(r, *own, map.pathOf(problem.robots[r].name));
+      for (const ModelRobot& robot : robots)
+        if (const YamlValue* own = map.find(robot.name))
+          ofRobot(robot, *own, map.pathOf(robot.name));
     }
   }
-  if (source.faults.size() == before) requireBounds(file, robots, problem);
+  if (source.faults.size() == before) requireBounds(file, problem.model);
 }
 
 void setDefaultBounds(Problem& problem, YamlSource& source) {
-  const auto world = boundsOfWorld(problem);
-  for (const CoordinateGroup& group : problem.space.groups()) {
+  const auto world = boundsOfWorld(problem.model);
+  for (const CoordinateGroup& group : problem.model.space.groups()) {
     if (group.kind == CoordinateGroup::Kind::joints ||
-        !std::isnan(boundsOf(problem, group).lower.x()))
+        !std::isnan(boundsOf(problem.model.space, group).lower.x()))
       continue;
-    const bool alone = problem.robots.front().name.empty();
+    const bool alone = problem.model.robots.front().name.empty();
     const std::string needed = std::string("bounds: {") + (alone ? "" : group.name + ": {") +
                                form(dimensionsOf(group)) + (alone ? "}" : "}}") + " is needed";
     if (!world) {
       source.fault(0, "missing key \"bounds\": there is no world to take them from, so " + needed);
       continue;
     }
-    setBounds(problem, group, *world);
+    setBounds(problem.model.space, group, *world);
     enlargeBounds(problem, group);
-    const Corners corners = boundsOf(problem, group);
+    const Corners corners = boundsOf(problem.model.space, group);
     if (whyBadBounds(corners, dimensionsOf(group)).empty()) {
-      problem.notes.push_back("bounds" + (alone ? "" : " of " + group.name) +
-                              ": those of the world, start and goal, since none are given");
+      problem.source.notes.push_back("bounds" + (alone ? "" : " of " + group.name) +
+                                     ": those of the world, start and goal, since none are given");
       continue;
     }
     int flat = 0;

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <vector>
-
-#include "planner/problem/robot_file.h"
+#include "planner/problem/problem.h"
+#include "planner/problem/yaml_reader.h"
 
 namespace corridor {
 
-/// Reads `bounds` into an assembled problem. They bound the positions of rigid robots and of planar
-/// and floating joints, and narrow the limits of single joints. Planar and floating joints need
-/// them; rigid robots without bounds get theirs by `setDefaultBounds`. Faults go to the file's
-/// list.
-void readBounds(const YamlMap& file, const std::vector<RobotSetup>& robots, Problem& problem);
+/// Reads `bounds` into a problem that has its model. They bound the positions of rigid robots and
+/// of planar and floating joints, and narrow the limits of single joints. Planar and floating
+/// joints need them; rigid robots without bounds get theirs by `setDefaultBounds`. Faults go to the
+/// file's list.
+void readBounds(const YamlMap& file, Problem& problem);
 
 /// Gives rigid robots without bounds the bounding box of the world, enlarged to contain start and
 /// goals. Adds a fault if the problem has no obstacles, or if the box is flat. @pre the problem has

@@ -4,16 +4,18 @@
 
 namespace corridor {
 
-void readCheckerKeys(const YamlMap& map, Problem::CheckerSpec& checker) {
+void readCheckerKeys(const YamlMap& map, CheckerSettings& checker) {
   const auto& words = problemChoices();
-  checker.edges = map.choice("edges", words.at("checker.edges")).value_or(checker.edges);
-  checker.resolution = map.number("resolution", Range::Fraction).value_or(checker.resolution);
+  if (const auto edges = map.choice("edges", wordsFor<EdgeCheck>()))
+    checker.edges = *choiceNamed<EdgeCheck>(*edges);
+  checker.resolution = map.number("resolution", Range::Resolution).value_or(checker.resolution);
   if (const auto tolerance = map.number("tolerance", Range::Positive))
     checker.tolerance = tolerance;
   const std::size_t faults = map.source().faults.size();
-  checker.volume = map.choice("volume", words.at("checker.volume")).value_or(checker.volume);
-  checker.fit = map.choice("fit", words.at("checker.fit")).value_or(checker.fit);
-  checker.overlap = map.choice("overlap", words.at("checker.overlap")).value_or(checker.overlap);
+  TreeNames& trees = checker.trees;
+  trees.volume = map.choice("volume", words.at("checker.volume")).value_or(trees.volume);
+  trees.fit = map.choice("fit", words.at("checker.fit")).value_or(trees.fit);
+  trees.overlap = map.choice("overlap", words.at("checker.overlap")).value_or(trees.overlap);
   if (map.source().faults.size() > faults) return;
   if (const auto wrong = invalidNameIn(checker)) map.fault(wrong->key, wrong->text);
 }

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "planner/problem/problem.h"
+#include "planner/model/settings.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
 
 /// Sets the values that a `checker:` map has, and leaves the others as they are. Faults go to the
 /// map's source.
-void readCheckerKeys(const YamlMap& map, Problem::CheckerSpec& checker);
+void readCheckerKeys(const YamlMap& map, CheckerSettings& checker);
 
 }  // namespace corridor

@@ -7,7 +7,7 @@ namespace corridor {
 
 std::string digestOf(const Problem& problem) {
   std::string digests;
-  for (const std::filesystem::path& file : problem.files)
+  for (const std::filesystem::path& file : problem.source.files)
     for (const std::uint8_t byte : sha256(readFile(file, "an input")))
       digests += static_cast<char>(byte);
   return sha256Hex(digests);

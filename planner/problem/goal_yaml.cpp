@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "planner/problem/assembly.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/state_yaml.h"
 
@@ -17,16 +16,15 @@ const YamlValue* entryOf(const YamlValue& map, const char* key) {
 
 const std::set<std::string> kWithin{"within"};
 
-std::string example(const std::string& what, const std::vector<RobotSetup>& robots,
-                    const Problem& problem) {
-  const ProblemRobot& first = problem.robots.front();
+std::string example(const std::string& what, const Problem& problem) {
+  const ModelRobot& first = problem.model.robots.front();
   std::string state;
   if (first.model.mount == JointType::floating) {
     state = "{at: [0, 0, 1], rpy_deg: [0, 0, 90]}";
   } else if (first.model.mount == JointType::planar) {
     state = "{at: [0, 0], yaw_deg: 90}";
   } else {
-    const DegreeOfFreedom& freedom = robots.front().freedoms.front();
+    const DegreeOfFreedom& freedom = first.freedoms.front();
     state = first.model.states.empty()
                 ? "{" + freedom.name +
                       (freedom.type == JointType::planar     ? ": {at: [0, 0]}, …}"
@@ -42,7 +40,7 @@ std::string example(const std::string& what, const std::vector<RobotSetup>& robo
 
 void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
   const YamlMap map(value, "goal.within", &problemKeys().at("goal.within"), source);
-  const bool joints = hasJoints(problem), wholes = hasWholes(problem);
+  const bool joints = hasJoints(problem.model.space), wholes = hasWholes(problem.model.space);
   for (const char* key : {"at", "angle", "angle_deg"})
     if (!wholes && map.find(key))
       map.fault(key,
@@ -51,16 +49,17 @@ void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
   for (const char* key : {"joints", "joints_deg"})
     if (!joints && map.find(key))
       map.fault(key, "there are no revolute or prismatic joints here; use at and angle");
-  problem.goalRegion = Problem::GoalRegion{map.number("at", Range::NotNegative).value_or(0),
-                                           map.angle("angle", Range::NotNegative).value_or(0),
-                                           map.angle("joints", Range::NotNegative).value_or(0)};
+  problem.task.goalRegion = GoalRegion{map.number("at", Range::NotNegative).value_or(0),
+                                       map.angle("angle", Range::NotNegative).value_or(0),
+                                       map.angle("joints", Range::NotNegative).value_or(0)};
 }
 
 /// Returns whether the value is a list of goals. For a single rigid robot, a list with anything
 /// other than maps is a pose in the wrong form instead.
 bool isListOfGoals(const YamlValue& value, const Problem& problem) {
   if (value.kind != YamlValue::Kind::List) return false;
-  if (problem.robots.size() > 1 || problem.robots.front().model.mount == JointType::fixed)
+  if (problem.model.robots.size() > 1 ||
+      problem.model.robots.front().model.mount == JointType::fixed)
     return true;
   return !value.items.empty() &&
          std::all_of(value.items.begin(), value.items.end(),
@@ -85,7 +84,7 @@ void readGoalList(const YamlValue& list, const std::string& path, StateReader& r
           name + ".within: several goals share one region; write goal: {any: […], within: {…}}");
       continue;
     }
-    if (auto goal = reader.read(item, name)) problem.goals.push_back(std::move(*goal));
+    if (auto goal = reader.read(item, name)) problem.task.goals.push_back(std::move(*goal));
   }
 }
 
@@ -97,17 +96,17 @@ void readGoals(const YamlValue& value, StateReader& reader, Problem& problem, Ya
     const YamlMap map(value, "goal", &keys, source);
     return readGoalList(*any, "goal.any", reader, problem, source);
   }
-  if (auto goal = reader.read(value, "goal", kWithin)) problem.goals.push_back(std::move(*goal));
+  if (auto goal = reader.read(value, "goal", kWithin))
+    problem.task.goals.push_back(std::move(*goal));
 }
 
 }  // namespace
 
-void readStartAndGoals(const YamlMap& file, const std::vector<RobotSetup>& robots,
-                       Problem& problem) {
-  StateReader reader(robots, problem, file.source());
-  if (const YamlValue* start = file.require("start", example("start", robots, problem)))
-    if (auto q = reader.read(*start, "start")) problem.start = std::move(*q);
-  if (const YamlValue* goal = file.require("goal", example("goal", robots, problem)))
+void readStartAndGoals(const YamlMap& file, Problem& problem) {
+  StateReader reader(problem, file.source());
+  if (const YamlValue* start = file.require("start", example("start", problem)))
+    if (auto q = reader.read(*start, "start")) problem.task.start = std::move(*q);
+  if (const YamlValue* goal = file.require("goal", example("goal", problem)))
     readGoals(*goal, reader, problem, file.source());
 }
 

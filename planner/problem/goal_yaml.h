@@ -1,14 +1,12 @@
 #pragma once
 
-#include <vector>
-
-#include "planner/problem/robot_file.h"
+#include "planner/problem/problem.h"
+#include "planner/problem/yaml_reader.h"
 
 namespace corridor {
 
 /// Reads `start` and `goal` (one state or several, and `within`) into the problem. Faults go to the
 /// file's list. @pre the problem is assembled and has the bounds that its file gives.
-void readStartAndGoals(const YamlMap& file, const std::vector<RobotSetup>& robots,
-                       Problem& problem);
+void readStartAndGoals(const YamlMap& file, Problem& problem);
 
 }  // namespace corridor

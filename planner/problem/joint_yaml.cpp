@@ -6,16 +6,6 @@
 
 namespace corridor {
 
-std::optional<std::size_t> findJoint(const RobotModel& model, const std::string& name) {
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    if (model.joints[j].name == name) return j;
-  return std::nullopt;
-}
-
-bool isWhole(JointType type) {
-  return type == JointType::planar || type == JointType::floating;
-}
-
 std::string noSuchJoint(const std::string& name, const RobotModel& model) {
   std::vector<std::string> known;
   for (const JointModel& joint : model.joints)

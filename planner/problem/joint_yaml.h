@@ -7,15 +7,10 @@
 #include <string>
 
 #include "planner/problem/placement.h"
-#include "planner/robot/robot_model.h"
+#include "planner/robot/joint_types.h"
 
 /// Readers of maps of joint values, as in `start`, `goal`, `states`, `hold` and `bounds`.
 namespace corridor {
-
-std::optional<std::size_t> findJoint(const RobotModel& model, const std::string& name);
-
-/// Returns whether the joint is planar or floating: it then takes a pose, {at: …, yaw_deg: …}.
-bool isWhole(JointType type);
 
 /// Returns a message such as `there is no joint "pam" (did you mean "pan"?)`.
 std::string noSuchJoint(const std::string& name, const RobotModel& model);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "collision/hierarchy/tree_kinds.h"
-#include "collision/motion/edge_method.h"
+#include "planner/model/settings.h"
 
 namespace corridor {
 namespace {
@@ -99,7 +99,8 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
       {"world.*.unit", {"m", "cm", "mm", "in"}},
       {"world.*.up", {"x", "y", "z"}},
       {"planner.stop", {"first", "time"}},
-      {"checker.edges", edgeMethodNames() + Words{"discrete"}},
+      {"sampler", wordsFor<StateSampler>()},
+      {"checker.edges", wordsFor<EdgeCheck>()},
       {"checker.volume", volumeNames()},
       {"checker.fit", ofAnyVolume(&VolumeKind::fits)},
       {"checker.overlap", ofAnyVolume(&VolumeKind::overlaps)},

@@ -7,6 +7,7 @@
 
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "planner/model/planned_joints.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/shape_yaml.h"
@@ -35,21 +36,21 @@ class MbmReader {
   Problem read() {
     const Json set = parse();
     const Json& problem = choose(set);
-    problem_.file = file_.string() + "#" + index_;
-    problem_.name = file_.stem().string() + "#" + index_;
-    problem_.files = {file_};
+    problem_.source.file = file_.string() + "#" + index_;
+    problem_.source.name = file_.stem().string() + "#" + index_;
+    problem_.source.files = {file_};
     faults_.throwIfAny();
     readRobot(set);
     for (const Json& object : list(problem, "objects")) readObject(object);
     faults_.throwIfAny();
-    problem_.start = state(set, field(problem, "start"), "start");
+    problem_.model = builder_.buildUnbounded();
+    problem_.task.start = state(set, field(problem, "start"), "start");
     const Json& goals = list(problem, "goals");
     for (std::size_t i = 0; i < goals.size(); ++i)
-      problem_.goals.push_back(state(set, goals[i], "goals[" + std::to_string(i) + "]"));
+      problem_.task.goals.push_back(state(set, goals[i], "goals[" + std::to_string(i) + "]"));
     if (goals.empty()) fault("goals: at least one is needed");
     faults_.throwIfAny();
-    setPairs({}, problem_);
-    setTube({}, problem_);
+    finishProblem({}, {}, problem_);
     return std::move(problem_);
   }
 
@@ -175,44 +176,42 @@ class MbmReader {
         active.push_back(*j);
     }
     faults_.throwIfAny();
-    chooseJoints(setup, active);
-    robots_.push_back(std::move(setup));
-    assembleRobots(robots_, problem_);
+    chooseJoints(setup.robot, active);
+    addRobots({std::move(setup)}, builder_, problem_.source);
   }
 
   void readObject(const Json& object) {
     const std::string id = word(object, "id"), type = word(object, "type");
-    PlacedShape shape;
-    shape.name = id;
+    Primitive primitive;
     if (type == "box") {
       const auto size = numbers(field(object, "size"), 3, id + ".size");
-      shape.primitive = Box{{size[0], size[1], size[2]}};
+      primitive = Box{{size[0], size[1], size[2]}};
     } else if (type == "cylinder") {
-      shape.primitive = Cylinder{number(object, id, "radius"), number(object, id, "length")};
+      primitive = Cylinder{number(object, id, "radius"), number(object, id, "length")};
     } else if (type == "sphere") {
-      shape.primitive = Sphere{number(object, id, "radius")};
+      primitive = Sphere{number(object, id, "radius")};
     } else {
       return fault(id + ".type: one of box, cylinder, sphere is needed, not " + quotedWord(type));
     }
-    if (const auto why = checkPrimitive(*shape.primitive)) return fault(id + ": " + *why);
+    if (const auto why = checkPrimitive(primitive)) return fault(id + ": " + *why);
     const auto p = numbers(field(object, "position"), 3, id + ".position");
     const auto q = numbers(field(object, "orientation_xyzw"), 4, id + ".orientation_xyzw");
-    shape.at = {{p[0], p[1], p[2]}, Eigen::Quaterniond(q[3], q[0], q[1], q[2])};
-    const double norm = shape.at.q.coeffs().stableNorm();
+    const RigidPose at{{p[0], p[1], p[2]}, Eigen::Quaterniond(q[3], q[0], q[1], q[2])};
+    const double norm = at.q.coeffs().stableNorm();
     if (!(norm > 0)) return fault(id + ".orientation_xyzw: zeros are no rotation");
-    shape.part = placed(*shape.primitive, {shape.at.q.normalized().toRotationMatrix(), shape.at.p});
-    addObstacle(problem_, id, {std::move(shape)});
+    builder_.addObstacle(id, primitive, at);
   }
 
   Configuration state(const Json& set, const Json& values, const std::string& what) {
-    Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem_.space.size()));
-    const auto given = numbers(values, robots_.front().freedoms.size(), what);
+    Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem_.model.space.size()));
+    const auto given = numbers(values, problem_.model.robots.front().freedoms.size(), what);
     const Json& names = set["joint_names"];
     for (std::size_t i = 0; i < given.size(); ++i) {
-      const Coordinate& c = problem_.space.coordinates()[robots_.front().freedoms[i].coordinate];
+      const Coordinate& c =
+          problem_.model.space.coordinates()[problem_.model.robots.front().freedoms[i].coordinate];
       std::string why;
       const auto value = coordinateValue(c, given[i], what + "." + names[i].get<std::string>(),
-                                         problem_.notes, why);
+                                         problem_.source.notes, why);
       if (value)
         q[static_cast<Eigen::Index>(c.first)] = *value;
       else
@@ -224,7 +223,7 @@ class MbmReader {
   std::filesystem::path file_;
   std::string index_;
   FaultList faults_;
-  std::vector<RobotSetup> robots_;
+  ModelBuilder builder_;
   Problem problem_;
 };
 

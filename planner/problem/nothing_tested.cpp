@@ -1,12 +1,11 @@
 #include "planner/problem/nothing_tested.h"
 
-#include <algorithm>
-
 namespace corridor {
 
 bool nothingIsTested(const Problem& problem) {
-  return std::none_of(problem.pairs.begin(), problem.pairs.end(),
-                      [](const ProblemPair& pair) { return pair.skipped.empty(); });
+  bool nothing = true;
+  forEachTestedPair(problem.model, [&](std::size_t, std::size_t) { nothing = false; });
+  return nothing;
 }
 
 }  // namespace corridor

@@ -9,7 +9,7 @@ namespace corridor {
 /// success.
 bool nothingIsTested(const Problem& problem);
 
-/// The note on such a problem, the first of Problem::notes. Commands print it before any other
+/// The note on such a problem, the first of Source::notes. Commands print it before any other
 /// output.
 inline constexpr const char* kNothingTested =
     "no pair of bodies is tested, so nothing can collide and every state counts as free; corridor "

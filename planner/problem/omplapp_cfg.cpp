@@ -65,14 +65,14 @@ Eigen::Quaterniond axisAngle(const Vec3& axis, double angle) {
 }
 
 bool isPlanar(const Problem& problem) {
-  return problem.robots.front().model.mount == JointType::planar;
+  return problem.model.robots.front().model.mount == JointType::planar;
 }
 
 Configuration readPose(const IniFile& ini, const std::string& what, Problem& problem) {
   const auto number = [&](const std::string& key) {
     return ini.number("problem." + what + "." + key).value_or(0);
   };
-  problem.lines[what] = ini.find("problem." + what + ".x")->line;
+  problem.source.lines[what] = ini.find("problem." + what + ".x")->line;
   const double x = number("x"), y = number("y"), theta = number("theta");
   if (!isPlanar(problem)) {
     const double z = number("z");
@@ -81,13 +81,13 @@ Configuration readPose(const IniFile& ini, const std::string& what, Problem& pro
   }
   const double yaw = wrappedYaw(theta);
   if (yaw != theta)
-    problem.notes.push_back(what + ".theta: " + shortest(theta) + " is read as " + shortest(yaw) +
-                            ", the same angle up to full turns");
+    problem.source.notes.push_back(what + ".theta: " + shortest(theta) + " is read as " +
+                                   shortest(yaw) + ", the same angle up to full turns");
   return (Configuration(3) << x, y, yaw).finished();
 }
 
 void readVolume(const IniFile& ini, Problem& problem) {
-  const CoordinateGroup& group = problem.space.groups().front();
+  const CoordinateGroup& group = problem.model.space.groups().front();
   const std::string axes = isPlanar(problem) ? "xy" : "xyz";
   bool all = true, any = false;
   for (const std::string side : {"min", "max"})
@@ -97,11 +97,12 @@ void readVolume(const IniFile& ini, Problem& problem) {
       any |= given;
     }
   if (!all) {
-    problem.notes.push_back(std::string("bounds: those of the world") +
-                            (any ? ", since volume is incomplete" : ", since no volume is given"));
-    setBounds(problem, group, boundsOfWorld(problem).value());
+    problem.source.notes.push_back(
+        std::string("bounds: those of the world") +
+        (any ? ", since volume is incomplete" : ", since no volume is given"));
+    setBounds(problem.model.space, group, boundsOfWorld(problem.model).value());
   } else {
-    problem.lines["bounds"] = ini.find("problem.volume.min.x")->line;
+    problem.source.lines["bounds"] = ini.find("problem.volume.min.x")->line;
     Corners corners;
     for (std::size_t k = 0; k < axes.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -112,10 +113,10 @@ void readVolume(const IniFile& ini, Problem& problem) {
                   shortest(corners.lower[i]) + " is above volume.max." + axes[k] + ", " +
                       shortest(corners.upper[i]));
     }
-    setBounds(problem, group, corners);
+    setBounds(problem.model.space, group, corners);
   }
   if (enlargeBounds(problem, group))
-    problem.notes.push_back("bounds: enlarged to contain start and goal");
+    problem.source.notes.push_back("bounds: enlarged to contain start and goal");
 }
 
 struct CfgMesh {
@@ -132,13 +133,13 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
               "missing key \"" + key + "\": a mesh file in the folder of this file");
     return std::nullopt;
   }
-  problem.lines[key] = entry->line;
-  const std::filesystem::path path = problem.file.parent_path() / entry->value;
+  problem.source.lines[key] = entry->line;
+  const std::filesystem::path path = problem.source.file.parent_path() / entry->value;
   if (const std::string why = whyNoFile(path); !why.empty()) {
     ini.fault(*entry, path.string() + ": " + why);
     return std::nullopt;
   }
-  addFile(problem.files, path);
+  addFile(problem.source.files, path);
   try {
     CfgMesh mesh{readOmplAppMesh(path), {}};
     mesh.shape.name = path.stem().string();
@@ -175,15 +176,16 @@ RobotSetup robotOf(CfgMesh mesh, JointType type) {
 
 void readObjective(const IniFile& ini, Problem& problem) {
   if (const auto* entry = ini.find("problem.objective")) {
-    problem.lines["objective"] = entry->line;
-    const Keys known{"length", "max_min_clearance", "mechanical_work"};
+    problem.source.lines["objective"] = entry->line;
+    const Keys& known = wordsFor<Objective>();
     for (const std::string& name : known)
-      if (entry->value.starts_with(name)) problem.objective = name;
-    if (!problem.objective)
+      if (entry->value.starts_with(name)) problem.settings.objective = choiceNamed<Objective>(name);
+    if (!problem.settings.objective)
       ini.fault(*entry, "one of " + joined(known) + " is needed, not " + quotedWord(entry->value));
   }
-  problem.objectiveThreshold = ini.number("problem.objective.threshold").value_or(0);
-  problem.goalThreshold = ini.number("problem.threshold", Range::NotNegative).value_or(kThreshold);
+  problem.settings.objectiveThreshold = ini.number("problem.objective.threshold").value_or(0);
+  problem.task.goalThreshold =
+      ini.number("problem.threshold", Range::NotNegative).value_or(kThreshold);
 }
 
 void rejectDynamics(const IniFile& ini) {
@@ -228,26 +230,24 @@ void noteUnused(const IniFile& ini, Problem& problem) {
   for (const IniFile::Entry& entry : ini.entries())
     if (!used.contains(entry.key) && !entry.key.starts_with("planner."))
       unused.push_back(entry.key);
-  if (!unused.empty()) problem.notes.push_back("not used: " + joined(unused));
+  if (!unused.empty()) problem.source.notes.push_back("not used: " + joined(unused));
 }
 
 void readSettings(const IniFile& ini, Problem& problem) {
   if (const auto* entry = ini.find("problem.name"); entry && !entry->value.empty())
-    problem.name = entry->value;
-  if (const auto* entry = ini.find("problem.sampler")) {
-    problem.sampler = entry->value;
-    problem.lines["sampler"] = entry->line;
-  }
+    problem.source.name = entry->value;
+  if (const auto* entry = ini.find("problem.sampler")) readSampler(ini, *entry, problem);
   if (const auto* entry = ini.find("problem.longest_valid_segment_fraction"))
-    problem.lines["checker.resolution"] = entry->line;
-  problem.checker.resolution = ini.number("problem.longest_valid_segment_fraction", Range::Fraction)
-                                   .value_or(problem.checker.resolution);
+    problem.source.lines["checker.resolution"] = entry->line;
+  problem.settings.checker.resolution =
+      ini.number("problem.longest_valid_segment_fraction", Range::Resolution)
+          .value_or(problem.settings.checker.resolution);
   if (const auto* entry = ini.find("benchmark.time_limit"))
-    problem.lines["planner.time"] = entry->line;
-  problem.planner.time =
-      ini.number("benchmark.time_limit", Range::Positive).value_or(problem.planner.time);
+    problem.source.lines["planner.time"] = entry->line;
+  problem.settings.planner.time =
+      ini.number("benchmark.time_limit", Range::Positive).value_or(problem.settings.planner.time);
   if (const auto* entry = ini.find("benchmark.simplify"))
-    problem.simplify = entry->value != "0" && entry->value != "false";
+    problem.settings.simplify = entry->value != "0" && entry->value != "false";
 }
 
 }  // namespace
@@ -260,9 +260,9 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
   rejectDynamics(ini);
 
   Problem problem;
-  problem.file = file;
-  problem.files = {file};
-  problem.name = file.stem().string();
+  problem.source.file = file;
+  problem.source.files = {file};
+  problem.source.name = file.stem().string();
   const auto space = spaceOf(ini);
   readSettings(ini, problem);
   readObjective(ini, problem);
@@ -272,20 +272,22 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
   if (space) {
     // Poses are read even if a mesh has a fault, so that all faults are reported at once.
     std::vector<RobotSetup> robots{robotOf(robot ? std::move(*robot) : CfgMesh{}, *space)};
-    assembleRobots(robots, problem);
-    if (world) addObstacle(problem, world->shape.name, {std::move(world->shape)});
-    problem.start = readPose(ini, "start", problem);
-    problem.goals = {readPose(ini, "goal", problem)};
+    ModelBuilder builder;
+    addRobots(std::move(robots), builder, problem.source);
+    if (world) builder.addObstacle(world->shape.name, {std::move(world->shape)});
+    problem.model = builder.buildUnbounded();
+    problem.task.start = readPose(ini, "start", problem);
+    problem.task.goals = {readPose(ini, "goal", problem)};
     if (world) readVolume(ini, problem);
   }
   faults.throwIfAny();
-  const CoordinateGroup& group = problem.space.groups().front();
-  if (const std::string why = whyBadBounds(boundsOf(problem, group), dimensionsOf(group));
+  const CoordinateGroup& group = problem.model.space.groups().front();
+  if (const std::string why =
+          whyBadBounds(boundsOf(problem.model.space, group), dimensionsOf(group));
       !why.empty())
-    throw InputError(problem.faultAt("bounds", "volume: " + why));
+    throw InputError(problem.source.faultAt("bounds", "volume: " + why));
   noteUnused(ini, problem);
-  setPairs({}, problem);
-  setTube({}, problem);
+  finishProblem({}, {}, problem);
   return problem;
 }
 

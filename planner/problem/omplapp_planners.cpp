@@ -51,6 +51,15 @@ struct Instance {
 
 }  // namespace
 
+void readSampler(const IniFile& ini, const IniFile::Entry& entry, Problem& problem) {
+  const std::vector<std::string>& words = wordsFor<StateSampler>();
+  problem.source.lines["sampler"] = entry.line;
+  if (const auto sampler = choiceNamed<StateSampler>(entry.value))
+    problem.settings.sampler = *sampler;
+  else
+    ini.fault(entry, notOneOf(entry.value, words));
+}
+
 void readOmplAppPlanners(const IniFile& ini, Problem& problem) {
   std::vector<Instance> instances;
   std::vector<std::string> unknown;
@@ -79,29 +88,28 @@ void readOmplAppPlanners(const IniFile& ini, Problem& problem) {
     if (!param.empty() && param != "name") instance->params[param] = &entry;
   }
   if (!unknown.empty())
-    problem.notes.push_back("planners that OMPL does not have are skipped: " + joined(unknown));
+    problem.source.notes.push_back("planners that OMPL does not have are skipped: " +
+                                   joined(unknown));
   if (instances.size() > 1) {
     std::vector<std::string> names;
     for (const Instance& instance : instances) names.push_back(instance.name);
-    problem.notes.push_back("planner: " + problem.planner.name +
-                            ", since the file lists several (" + joined(names) + ")");
+    problem.source.notes.push_back("planner: " + problem.settings.planner.name +
+                                   ", since the file lists several (" + joined(names) + ")");
   }
   if (instances.size() != 1) return;
   const Instance& only = instances.front();
-  problem.planner.name = omplNames().at(only.name);
-  problem.lines["planner.name"] = only.line;
+  problem.settings.planner.name = omplNames().at(only.name);
+  problem.source.lines["planner.name"] = only.line;
   for (const auto& [key, entry] : only.params) {
-    problem.planner.params[key] = entry->value;
-    problem.lines["planner.params." + key] = entry->line;
+    problem.settings.planner.params[key] = entry->value;
+    problem.source.lines["planner.params." + key] = entry->line;
   }
-  if (const auto sampler = only.problem.find("sampler"); sampler != only.problem.end()) {
-    problem.sampler = sampler->second->value;
-    problem.lines["sampler"] = sampler->second->line;
-  }
+  if (const auto sampler = only.problem.find("sampler"); sampler != only.problem.end())
+    readSampler(ini, *sampler->second, problem);
   if (const auto fraction = only.problem.find("longest_valid_segment_fraction");
       fraction != only.problem.end())
-    problem.checker.resolution =
-        ini.number(fraction->second->key, Range::Fraction).value_or(problem.checker.resolution);
+    problem.settings.checker.resolution = ini.number(fraction->second->key, Range::Resolution)
+                                              .value_or(problem.settings.checker.resolution);
 }
 
 }  // namespace corridor

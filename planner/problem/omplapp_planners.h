@@ -10,4 +10,7 @@ namespace corridor {
 /// stays; notes list the planners if there are several, and those that OMPL does not have.
 void readOmplAppPlanners(const IniFile& ini, Problem& problem);
 
+/// Sets the problem's sampler to the one that an entry names. An unknown name is a fault.
+void readSampler(const IniFile& ini, const IniFile::Entry& entry, Problem& problem);
+
 }  // namespace corridor

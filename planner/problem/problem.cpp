@@ -25,22 +25,12 @@ Problem readProblem(const std::filesystem::path& path) {
   return readProblemYaml(file);
 }
 
-Fault Problem::faultAt(std::string_view key, std::string text) const {
+Fault Source::faultAt(std::string_view key, std::string text) const {
   for (std::string_view around = key;; around = around.substr(0, around.rfind('.'))) {
     const auto found = lines.find(std::string(around));
     if (found != lines.end()) return {file.string(), found->second, std::move(text)};
     if (around.find('.') == around.npos) return {file.string(), 0, std::move(text)};
   }
-}
-
-std::optional<InvalidName> invalidNameIn(const Problem::CheckerSpec& checker) {
-  if (auto wrong = invalidNameIn(checker.trees())) return wrong;
-  const bool measures = checker.edges == "adaptive" || checker.edges == "advancement";
-  const std::string first = withDefaults({checker.volume, "", ""}).overlap;
-  if (!measures || checker.overlap.empty() || checker.overlap == first) return std::nullopt;
-  return InvalidName{"overlap", quotedWord(checker.overlap) +
-                                    " is for edges certified and discrete; " + checker.edges +
-                                    " measures distances between volumes: leave overlap out"};
 }
 
 }  // namespace corridor

@@ -53,7 +53,7 @@ void readBase(const YamlMap& map, std::optional<RobotSetup>& robot) {
   const auto base =
       readPlacement(YamlMap(*value, map.pathOf("base"), keysOf("base"), map.source()));
   if (!robot || !base) return;
-  if (robot->isRigid())
+  if (robot->robot.isRigid())
     map.fault("base", "a rigid robot has no base: start and goal give its pose; leave base out");
   robot->robot.base = base->pose;
 }
@@ -94,7 +94,7 @@ std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::p
   return known ? std::move(robots) : std::vector<RobotSetup>{};
 }
 
-TubeSpec readTube(const YamlMap& file, const Problem& problem, bool known) {
+TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool known) {
   TubeSpec tube;
   const YamlValue* value = file.find("tube");
   if (!value) return tube;
@@ -104,29 +104,28 @@ TubeSpec readTube(const YamlMap& file, const Problem& problem, bool known) {
   tube.rotation = map.angle("rotation", Range::NotNegative);
   if (!known) return tube;
   for (const char* key : {"joints", "joints_deg"})
-    if (map.find(key) && !hasJoints(problem))
+    if (map.find(key) && !hasJoints(space))
       map.fault(key,
                 "there are no revolute or prismatic joints here; use position (m) and rotation or "
                 "rotation_deg");
   for (const char* key : {"position", "rotation", "rotation_deg"})
-    if (map.find(key) && !hasWholes(problem))
+    if (map.find(key) && !hasWholes(space))
       map.fault(key,
                 "there is no rigid body and no planar or floating joint here; use joints (rad, or "
                 "m for prismatic joints)");
   if (map.find("joints_deg"))
-    for (const CoordinateGroup& group : problem.space.groups())
+    for (const CoordinateGroup& group : space.groups())
       for (const std::size_t i : group.coordinates)
-        if (const Coordinate& c = problem.space.coordinates()[i];
+        if (const Coordinate& c = space.coordinates()[i];
             group.kind == CoordinateGroup::Kind::joints && !c.angular)
           map.fault("joints_deg", c.name + " is prismatic; use joints, in radians and metres");
   return tube;
 }
 
-void readPlanner(const YamlMap& file, Problem& problem) {
+void readPlanner(const YamlMap& file, PlannerSettings& planner) {
   const YamlValue* value = file.find("planner");
   if (!value) return;
   const YamlMap map(*value, "planner", keysOf("planner"), file.source());
-  Problem::PlannerSpec& planner = problem.planner;
   planner.name = map.text("name").value_or(planner.name);
   planner.time = map.number("time", Range::Positive).value_or(planner.time);
   if (const auto stop = map.choice("stop", wordsOf("planner.stop")))
@@ -149,34 +148,37 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   const YamlMap map(document, "", &problemKeys().at(""), source);
 
   Problem problem;
-  problem.file = file;
-  problem.name = nameOfFile(file, "problem");
-  problem.files = {file};
+  problem.source.file = file;
+  problem.source.name = nameOfFile(file, "problem");
+  problem.source.files = {file};
   std::vector<RobotSetup> robots = readRobots(map, file.parent_path());
   const bool known = !robots.empty();
   const bool worldNeeded =
-      !map.find("robots") && (!map.find("robot") || (known && robots.front().isRigid()));
-  if (known) assembleRobots(robots, problem);
-  readWorld(map, worldNeeded, problem);
+      !map.find("robots") && (!map.find("robot") || (known && robots.front().robot.isRigid()));
+  ModelBuilder builder;
+  addRobots(std::move(robots), builder, problem.source);
+  readWorld(map, worldNeeded, builder, problem.source);
+  problem.model = builder.buildUnbounded();
   AllowedBodies allowed;
-  if (known && faults.size() == 0) allowed = readAllow(map, problem);
-  problem.margin = map.number("margin", Range::NotNegative).value_or(problem.margin);
-  const TubeSpec tube = readTube(map, problem, known);
-  readPlanner(map, problem);
-  problem.sampler = map.text("sampler").value_or(problem.sampler);
-  problem.simplify = map.boolean("simplify").value_or(problem.simplify);
+  if (known && faults.size() == 0) allowed = readAllow(map, problem.model);
+  problem.task.margin = map.number("margin", Range::NotNegative).value_or(problem.task.margin);
+  const TubeSpec tube = readTube(map, problem.model.space, known);
+  readPlanner(map, problem.settings.planner);
+  if (const auto sampler = map.choice("sampler", wordsFor<StateSampler>()))
+    problem.settings.sampler = *choiceNamed<StateSampler>(*sampler);
+  problem.settings.simplify = map.boolean("simplify").value_or(problem.settings.simplify);
   if (const YamlValue* checker = map.find("checker"))
-    readCheckerKeys(YamlMap(*checker, "checker", keysOf("checker"), source), problem.checker);
-  problem.seed = map.wholeNumber("seed").value_or(problem.seed);
+    readCheckerKeys(YamlMap(*checker, "checker", keysOf("checker"), source),
+                    problem.settings.checker);
+  problem.settings.seed = map.wholeNumber("seed").value_or(problem.settings.seed);
   if (known) {  // the form of states and bounds depends on the robots
-    readBounds(map, robots, problem);
-    readStartAndGoals(map, robots, problem);
+    readBounds(map, problem);
+    readStartAndGoals(map, problem);
     if (faults.size() == 0) setDefaultBounds(problem, source);
   }
   faults.throwIfAny();
-  setPairs(allowed, problem);
-  setTube(tube, problem);
-  problem.lines = std::move(source.lines);
+  finishProblem(allowed, tube, problem);
+  problem.source.lines = std::move(source.lines);
   return problem;
 }
 

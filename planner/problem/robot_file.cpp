@@ -5,6 +5,7 @@
 
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
+#include "planner/model/model_builder.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
@@ -77,7 +78,8 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
   const bool sound = map.source().faults.size() == before && !shapes.empty();
   if (const YamlValue* weights = map.find("weights")) {
     const YamlMap inner(*weights, "weights", &robotKeys().at("weights"), map.source());
-    setup.rotationWeight = inner.number("rotation", Range::Positive).value_or(setup.rotationWeight);
+    setup.robot.rotationWeight =
+        inner.number("rotation", Range::Positive).value_or(setup.robot.rotationWeight);
     if (inner.find("joints")) inner.fault("joints", "this robot is rigid and has no joints");
   }
   if (!rigid) return std::nullopt;
@@ -89,20 +91,11 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
 
 }  // namespace
 
-RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes) {
-  RobotModel model;
-  model.name = name;
-  model.mount = type;
-  model.links.push_back({name, std::move(shapes)});
-  return model;
-}
-
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults) {
   RobotSetup setup;
   if (file.extension() == ".urdf") return readBareUrdf(file, faults);
 
   setup.files.push_back(file);
-  setup.robot.file = file;
   YamlValue document;
   try {
     document = parseYaml(file.string(), readTextFile(file, "a robot (format: corridor-robot-1)"));

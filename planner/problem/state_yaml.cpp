@@ -43,11 +43,11 @@ std::optional<double> coordinateValue(const Coordinate& coordinate, double value
 
 std::optional<Configuration> StateReader::read(const YamlValue& value, const std::string& path,
                                                const std::set<std::string>& others) {
-  Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem_.space.size()));
+  Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem_.model.space.size()));
   if (isAlone()) return readRobot(0, value, path, others, q) ? std::optional(q) : std::nullopt;
 
   std::vector<std::string> names;
-  for (const ProblemRobot& robot : problem_.robots) names.push_back(robot.name);
+  for (const ModelRobot& robot : robots()) names.push_back(robot.name);
   if (value.kind != YamlValue::Kind::Map) {
     source_.fault(value.line, path + ": a map of the robots is needed, {" + names.front() +
                                   ": …}, not " + described(value));
@@ -66,7 +66,7 @@ std::optional<Configuration> StateReader::read(const YamlValue& value, const std
 
 bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = problem_.robots[robot].model;
+  const RobotModel& model = robots()[robot].model;
   if (model.mount != JointType::fixed) return readRigid(robot, value, path, others, q);
   Given given;
   if (value.kind == YamlValue::Kind::Scalar)
@@ -90,17 +90,17 @@ bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std
 
 bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = problem_.robots[robot].model;
+  const RobotModel& model = robots()[robot].model;
   const bool spatial = model.mount == JointType::floating;
   PoseForm form{spatial,
-                (isAlone() ? "the robot" : problem_.robots[robot].name) +
+                (isAlone() ? "the robot" : robots()[robot].name) +
                     (spatial ? " moves in SE3 (rigid: SE3)" : " moves in SE2 (rigid: SE2)"),
                 &problemKeys().at(others.contains("within") ? "goal" : "start")};
-  const auto pose = readPose(value, path, form, source_, problem_.notes);
+  const auto pose = readPose(value, path, form, source_, problem_.source.notes);
   if (!pose) return false;
-  const DegreeOfFreedom& freedom = robots_[robot].freedoms.front();
+  const DegreeOfFreedom& freedom = robots()[robot].freedoms.front();
   const auto first =
-      static_cast<Eigen::Index>(problem_.space.coordinates()[freedom.coordinate].first);
+      static_cast<Eigen::Index>(problem_.model.space.coordinates()[freedom.coordinate].first);
   if (spatial)
     q.segment<7>(first) << pose->pose.p, pose->pose.q.coeffs();
   else
@@ -110,7 +110,7 @@ bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std
 
 bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line,
                             const std::string& path, Given& given) {
-  const RobotModel& model = problem_.robots[robot].model;
+  const RobotModel& model = robots()[robot].model;
   const auto state = model.states.find(name);
   if (state == model.states.end()) {
     std::vector<std::string> known;
@@ -123,18 +123,19 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
   for (const auto& [number, value] : state->second) {
     given.numbers[number] = {value, line, path + " (" + name + "): " + number};
     const auto j = findJoint(model, number);
-    const auto held = j ? robots_[robot].held.find(*j) : robots_[robot].held.end();
-    if (held != robots_[robot].held.end() && held->second != value)
-      problem_.notes.push_back(path + ": " + number + " is held at " + shortest(held->second) +
-                               ", not at the " + shortest(value) + " of state " + name);
+    const auto held = j ? robots()[robot].held.find(*j) : robots()[robot].held.end();
+    if (held != robots()[robot].held.end() && held->second != value)
+      problem_.source.notes.push_back(path + ": " + number + " is held at " +
+                                      shortest(held->second) + ", not at the " + shortest(value) +
+                                      " of state " + name);
   }
   return true;
 }
 
 bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given,
                              const std::set<std::string>& others) {
-  const RobotModel& model = problem_.robots[robot].model;
-  const RobotSetup& setup = robots_[robot];
+  const RobotModel& model = robots()[robot].model;
+  const ModelRobot& setup = robots()[robot];
   const std::size_t before = source_.faults.size();
   std::set<std::string> known = others;
   known.insert("from");
@@ -152,7 +153,7 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
           return map.fault(entry.key,
                            "is held, and not planned for; robot.yaml chooses the joints");
         if (isWhole(joint.type)) {
-          const auto pose = readJointPose(entry.value, path, joint, source_, problem_.notes);
+          const auto pose = readJointPose(entry.value, path, joint, source_, problem_.source.notes);
           if (!pose) return;
           for (const auto& [number, value] : numbersOf(joint, *pose))
             given.numbers[number] = {value, entry.line, path};
@@ -163,8 +164,9 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
         if (degrees) {
           if (joint.type == JointType::continuous && wrappedYawDegrees(*number) != *number) {
             const double wrapped = wrappedYawDegrees(*number);
-            problem_.notes.push_back(path + ": " + shortest(*number) + " is read as " +
-                                     shortest(wrapped) + ", the same angle up to full turns");
+            problem_.source.notes.push_back(path + ": " + shortest(*number) + " is read as " +
+                                            shortest(wrapped) +
+                                            ", the same angle up to full turns");
             number = wrapped;
           }
           *number *= std::numbers::pi / 180;
@@ -185,14 +187,15 @@ bool StateReader::apply(std::size_t robot, const Given& given, int line, const s
     missing.push_back(name);
     return nullptr;
   };
-  for (const DegreeOfFreedom& freedom : robots_[robot].freedoms) {
+  for (const DegreeOfFreedom& freedom : robots()[robot].freedoms) {
     if (!isWhole(freedom.type)) {
       if (const auto* number = find(freedom.name))
         sound &= setSingle(freedom, number->value, number->line, number->path, q);
       continue;
     }
     const bool planar = freedom.type == JointType::planar;
-    auto index = static_cast<Eigen::Index>(problem_.space.coordinates()[freedom.coordinate].first);
+    auto index =
+        static_cast<Eigen::Index>(problem_.model.space.coordinates()[freedom.coordinate].first);
     const std::size_t before = missing.size();
     int at = line;
     for (const char* part : planar ? std::vector{"/x", "/y", "/yaw"}
@@ -214,9 +217,9 @@ bool StateReader::apply(std::size_t robot, const Given& given, int line, const s
 
 bool StateReader::setSingle(const DegreeOfFreedom& freedom, double value, int line,
                             const std::string& path, Configuration& q) {
-  const Coordinate& coordinate = problem_.space.coordinates()[freedom.coordinate];
+  const Coordinate& coordinate = problem_.model.space.coordinates()[freedom.coordinate];
   std::string why;
-  const auto stored = coordinateValue(coordinate, value, path, problem_.notes, why);
+  const auto stored = coordinateValue(coordinate, value, path, problem_.source.notes, why);
   if (stored)
     q[static_cast<Eigen::Index>(coordinate.first)] = *stored;
   else
@@ -226,9 +229,9 @@ bool StateReader::setSingle(const DegreeOfFreedom& freedom, double value, int li
 
 bool StateReader::isInBounds(const DegreeOfFreedom& freedom, const Configuration& q, int line,
                              const std::string& path) const {
-  for (const CoordinateGroup& group : problem_.space.groups()) {
+  for (const CoordinateGroup& group : problem_.model.space.groups()) {
     if (group.coordinates.front() != freedom.coordinate) continue;
-    const std::string why = whyOutside(problem_, group, q);
+    const std::string why = whyOutside(problem_.model.space, group, q);
     if (why.empty()) continue;
     source_.fault(line, path + ": " + why);
     return false;

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/problem/robot_file.h"
+#include "planner/problem/problem.h"
+#include "planner/problem/yaml_reader.h"
 
 namespace corridor {
 
@@ -13,9 +14,8 @@ namespace corridor {
 class StateReader {
  public:
   /// All arguments must outlive the object.
-  /// @param problem assembled, with the bounds that its file gives.
-  StateReader(const std::vector<RobotSetup>& robots, Problem& problem, YamlSource& source)
-      : robots_(robots), problem_(problem), source_(source) {}
+  /// @param problem with its model, and the bounds that its file gives.
+  StateReader(Problem& problem, YamlSource& source) : problem_(problem), source_(source) {}
 
   /// Returns the configuration, or nullopt after adding a fault.
   /// @param path the value's place in the file, for messages: "start", "goal[1]".
@@ -24,10 +24,11 @@ class StateReader {
                                     const std::set<std::string>& others = {});
 
   /// Returns whether the problem has one robot by `robot: …`: its states are then not under a name.
-  bool isAlone() const { return robots_.size() == 1 && problem_.robots.front().name.empty(); }
+  bool isAlone() const { return robots().size() == 1 && robots().front().name.empty(); }
 
  private:
   struct Given;
+  const std::vector<ModelRobot>& robots() const { return problem_.model.robots; }
   bool readRobot(std::size_t robot, const YamlValue& value, const std::string& path,
                  const std::set<std::string>& others, Configuration& q);
   bool readRigid(std::size_t robot, const YamlValue& value, const std::string& path,
@@ -43,7 +44,6 @@ class StateReader {
   bool isInBounds(const DegreeOfFreedom& freedom, const Configuration& q, int line,
                   const std::string& path) const;
 
-  const std::vector<RobotSetup>& robots_;
   Problem& problem_;
   YamlSource& source_;
 };

@@ -7,6 +7,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/model/planned_joints.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
@@ -61,11 +62,6 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Pac
 }
 
 using Joints = std::vector<std::size_t>;
-
-/// Returns whether the joint has a value of its own, and its limits leave it more than one.
-bool canMove(const JointModel& joint) {
-  return movesItself(joint) && joint.lower != joint.upper;
-}
 
 Joints readGroup(const YamlMap& map, const RobotModel& model) {
   Joints active;
@@ -123,7 +119,7 @@ void readHold(const YamlMap& file, RobotSetup& setup) {
     if (isWhole(joint.type)) {
       if (const auto pose =
               readJointPose(entry.value, path, joint, file.source(), setup.robot.model.notes))
-        setup.heldPoses[j] = pose->pose;
+        setup.robot.heldPoses[j] = pose->pose;
       return;
     }
     const auto number = map.number(entry.key);
@@ -132,7 +128,7 @@ void readHold(const YamlMap& file, RobotSetup& setup) {
     const auto held =
         withinLimits(radians, joint.lower, joint.upper, path, setup.robot.model.notes);
     if (held)
-      setup.held[j] = *held;
+      setup.robot.held[j] = *held;
     else
       map.fault(entry.key, outsideLimits(radians, joint.lower, joint.upper));
   });
@@ -196,7 +192,8 @@ void readWeights(const YamlMap& file, RobotSetup& setup) {
   const YamlValue* value = file.find("weights");
   if (!value) return;
   const YamlMap weights(*value, "weights", &robotKeys().at("weights"), file.source());
-  setup.rotationWeight = weights.number("rotation", Range::Positive).value_or(setup.rotationWeight);
+  setup.robot.rotationWeight =
+      weights.number("rotation", Range::Positive).value_or(setup.robot.rotationWeight);
   const YamlValue* joints = weights.find("joints");
   if (!joints) return;
   const YamlMap map(*joints, "weights.joints", nullptr, file.source());
@@ -205,25 +202,11 @@ void readWeights(const YamlMap& file, RobotSetup& setup) {
     if (!findJoint(setup.robot.model, entry->key))
       map.fault(entry->key, noSuchJoint(entry->key, setup.robot.model));
     else if (weight)
-      setup.jointWeights[entry->key] = *weight;
+      setup.robot.jointWeights[entry->key] = *weight;
   }
 }
 
-/// Returns all joints that can move, except those with a value in `hold`.
-Joints allMoving(const RobotSetup& setup) {
-  Joints all;
-  for (std::size_t j = 0; j < setup.robot.model.joints.size(); ++j)
-    if (canMove(setup.robot.model.joints[j]) && !setup.held.contains(j) &&
-        !setup.heldPoses.contains(j))
-      all.push_back(j);
-  return all;
-}
-
 }  // namespace
-
-bool movesItself(const JointModel& joint) {
-  return joint.type != JointType::fixed && !joint.mimic;
-}
 
 std::optional<double> withinLimits(double value, double lower, double upper,
                                    const std::string& path, std::vector<std::string>& notes) {
@@ -232,27 +215,6 @@ std::optional<double> withinLimits(double value, double lower, double upper,
   const double limit = value < lower ? lower : upper;
   notes.push_back(path + ": " + shortest(value) + " is read as its limit, " + shortest(limit));
   return limit;
-}
-
-void chooseJoints(RobotSetup& setup, const std::vector<std::size_t>& active) {
-  setup.active = active;
-  RobotModel& model = setup.robot.model;
-  std::string held;
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    const JointModel& joint = model.joints[j];
-    if (!movesItself(joint) || setup.held.contains(j) || setup.heldPoses.contains(j) ||
-        std::find(active.begin(), active.end(), j) != active.end())
-      continue;
-    if (isWhole(joint.type)) {
-      setup.heldPoses[j] = {};
-      held += (held.empty() ? "" : ", ") + joint.name + " not moved";
-    } else {
-      const bool ends = joint.type != JointType::continuous;
-      setup.held[j] = ends ? std::clamp(0.0, joint.lower, joint.upper) : 0.0;
-      held += (held.empty() ? "" : ", ") + joint.name + " " + shortest(setup.held[j]);
-    }
-  }
-  if (!held.empty()) model.notes.push_back("joints that are not planned for are held: " + held);
 }
 
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
@@ -280,14 +242,14 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
     active = readGroup(map, setup.robot.model);
   else if (map.find("joints"))
     active = readJointList(map, setup.robot.model);
-  else if ((active = allMoving(setup)).empty())
+  else if ((active = allMoving(setup.robot)).empty())
     map.fault("urdf", "has no joint that moves by itself");
   for (const std::size_t j : active)
-    if (setup.held.contains(j) || setup.heldPoses.contains(j))
+    if (setup.robot.held.contains(j) || setup.robot.heldPoses.contains(j))
       map.fault("hold", setup.robot.model.joints[j].name +
                             " is planned for, and can't be held; remove it from hold");
   if (map.source().faults.size() != before) return std::nullopt;
-  chooseJoints(setup, active);
+  chooseJoints(setup.robot, active);
   return setup;
 }
 
@@ -296,12 +258,12 @@ std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultL
   auto model = readModel(file, {}, std::nullopt, faults, setup.files);
   if (!model) return std::nullopt;
   setup.robot.model = std::move(*model);
-  const Joints active = allMoving(setup);
+  const Joints active = allMoving(setup.robot);
   if (active.empty()) {
     faults.add(file.string(), 0, "has no joint that moves by itself");
     return std::nullopt;
   }
-  chooseJoints(setup, active);
+  chooseJoints(setup.robot, active);
   return setup;
 }
 

@@ -10,20 +10,13 @@ namespace corridor {
 
 /// Reads a robot with joints: the keys of its robot.yaml, and the URDF and SRDF that it names.
 /// Returns nullopt if one of them is faulted.
-/// @param setup with `robot.file` and `files` set.
+/// @param setup with `files` set.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
                                         const std::filesystem::path& folder, RobotSetup setup);
 
 /// Reads a URDF without a robot.yaml: all its moving joints are planned for. Returns nullopt if it
 /// is faulted.
 std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, FaultList& faults);
-
-/// Sets the joints that are planned for. Other joints without a value in `hold` are held at the
-/// value nearest to 0 within their limits, planar and floating ones at the identity, with a note.
-void chooseJoints(RobotSetup& setup, const std::vector<std::size_t>& active);
-
-/// Returns whether the joint has a value of its own: it is neither fixed nor a mimic.
-bool movesItself(const JointModel& joint);
 
 /// A value beyond a limit by at most this is taken for the limit, with a note; rad or m. Limits and
 /// values are often written with π rounded to four digits or more: 3.1416 is 7.4e-6 above π,

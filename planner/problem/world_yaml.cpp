@@ -10,36 +10,36 @@ namespace corridor {
 namespace {
 
 /// Reads an obstacle of several shapes: {shapes: […], at: …}.
-std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, Problem& problem) {
+std::vector<PlacedShape> readGroup(const YamlMap& map, ShapePlace place, Source& source) {
   for (const char* key :
        {"mesh", "box", "sphere", "capsule", "cylinder", "convex", "unit", "up", "solid"})
     if (map.find(key)) map.fault(key, "belongs to one shape; put it into the items of shapes");
   const auto outer = readPlacement(map);
   place.outer = outer.value_or(Placement{});
-  return readShapes(map, problemKeys().at("world.*.shapes[]"), place, problem.files);
+  return readShapes(map, problemKeys().at("world.*.shapes[]"), place, source.files);
 }
 
 using BodiesByName = std::unordered_map<std::string, std::vector<std::size_t>>;
 
-std::vector<std::size_t> bodiesCalled(const std::string& name, const Problem& problem,
+std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& model,
                                       const BodiesByName& bodies) {
   std::vector<std::size_t> found;
   if (const auto same = bodies.find(name); same != bodies.end()) found = same->second;
   // Links of a single robot have no prefix. The robot's name before a link's name is accepted, and
   // distinguishes the link from an obstacle of the same name.
-  const ProblemRobot& first = problem.robots.front();
+  const ModelRobot& first = model.robots.front();
   const std::string own = first.model.name + "/";
   if (!first.name.empty() || !name.starts_with(own)) return found;
   if (const auto link = bodies.find(name.substr(own.size())); link != bodies.end())
     for (const std::size_t i : link->second)
-      if (problem.bodies[i].robot) found.push_back(i);
+      if (model.bodies[i].robot) found.push_back(i);
   return found;
 }
 
 /// Returns whether this is the name of a link. A link that is no body has no shapes, so that a pair
 /// with it needs no permission; naming it is no mistake.
-bool isBareLink(const std::string& name, const Problem& problem) {
-  for (const ProblemRobot& robot : problem.robots)
+bool isBareLink(const std::string& name, const Model& model) {
+  for (const ModelRobot& robot : model.robots)
     for (const LinkModel& link : robot.model.links)
       if (name == (robot.name.empty() ? link.name : robot.name + "/" + link.name)) return true;
   return false;
@@ -47,7 +47,7 @@ bool isBareLink(const std::string& name, const Problem& problem) {
 
 }  // namespace
 
-void readWorld(const YamlMap& file, bool needed, Problem& problem) {
+void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& source) {
   const YamlValue* world =
       needed ? file.require("world",
                             "the obstacles, such as world: {table: {mesh: table.obj, unit: m}}")
@@ -59,17 +59,17 @@ void readWorld(const YamlMap& file, bool needed, Problem& problem) {
   for (const YamlValue::Entry* entry : obstacles.entries()) {
     const YamlMap map(entry->value, "world." + entry->key, &problemKeys().at("world.*"),
                       file.source());
-    const ShapePlace place{entry->key, problem.file.parent_path(), {}};
+    const ShapePlace place{entry->key, source.file.parent_path(), {}};
     std::vector<PlacedShape> shapes;
     if (map.find("shapes"))
-      shapes = readGroup(map, place, problem);
-    else if (auto shape = readShape(map, place, problem.files))
+      shapes = readGroup(map, place, source);
+    else if (auto shape = readShape(map, place, source.files))
       shapes.push_back(std::move(*shape));
-    addObstacle(problem, entry->key, std::move(shapes));
+    builder.addObstacle(entry->key, std::move(shapes));
   }
 }
 
-AllowedBodies readAllow(const YamlMap& file, const Problem& problem) {
+AllowedBodies readAllow(const YamlMap& file, const Model& model) {
   AllowedBodies allowed;
   const YamlValue* value = file.find("allow");
   if (!value) return allowed;
@@ -80,7 +80,7 @@ AllowedBodies readAllow(const YamlMap& file, const Problem& problem) {
   }
   std::vector<std::string> names;
   BodiesByName byName;
-  for (const ProblemBody& body : problem.bodies) {
+  for (const ModelBody& body : model.bodies) {
     byName[body.name].push_back(names.size());
     names.push_back(body.name);
   }
@@ -96,12 +96,12 @@ AllowedBodies readAllow(const YamlMap& file, const Problem& problem) {
     }
     std::vector<std::size_t> bodies;
     for (const std::string& name : *pair) {
-      const auto found = bodiesCalled(name, problem, byName);
+      const auto found = bodiesCalled(name, model, byName);
       if (found.size() == 1)
         bodies.push_back(found.front());
       else if (found.size() > 1)
         fault(quotedWord(name) + " names a link and an obstacle; rename the obstacle");
-      else if (!isBareLink(name, problem))
+      else if (!isBareLink(name, model))
         fault("there is no body " + quotedWord(name) + didYouMean(name, names) + knownWords(names));
     }
     if (bodies.size() == 2) allowed.push_back({bodies[0], bodies[1]});

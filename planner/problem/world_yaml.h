@@ -5,12 +5,12 @@
 
 namespace corridor {
 
-/// Reads `world` and adds its obstacles to the problem.
+/// Reads `world` and adds its obstacles to the model.
 /// @param needed whether a problem without obstacles is faulted.
-void readWorld(const YamlMap& file, bool needed, Problem& problem);
+void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& source);
 
 /// Reads `allow`, a list of pairs of bodies' names. A pair with a link that has no shapes is left
-/// out. @pre the problem has all its bodies.
-AllowedBodies readAllow(const YamlMap& file, const Problem& problem);
+/// out. @pre the model has all its bodies.
+AllowedBodies readAllow(const YamlMap& file, const Model& model);
 
 }  // namespace corridor

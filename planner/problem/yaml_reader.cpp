@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "collision/core/spelling.h"
+#include "planner/model/settings.h"
 
 namespace corridor {
 
@@ -41,8 +41,8 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
   if (range == Range::NotNegative && number < 0)
     return "must be 0 or more, not " + std::string(text);
   if (range == Range::Positive && !(number > 0)) return "must be above 0, not " + std::string(text);
-  if (range == Range::Fraction && !(number > 0 && number < 1))
-    return "must be between 0 and 1, not " + std::string(text);
+  if (range == Range::Resolution && !isResolution(number))
+    return "must be from 1e-9 to below 1, not " + std::string(text);
   value = number;
   return "";
 }
@@ -200,9 +200,9 @@ std::optional<std::string> YamlMap::choice(std::string_view key,
   if (value->kind == YamlValue::Kind::Scalar &&
       std::find(of.begin(), of.end(), value->text) != of.end())
     return value->text;
-  const std::string hint =
-      value->kind == YamlValue::Kind::Scalar ? didYouMean(value->text, of) : std::string();
-  fault(key, "one of " + joined(of) + " is needed, not " + described(*value) + hint);
+  fault(key, value->kind == YamlValue::Kind::Scalar
+                 ? notOneOf(value->text, of)
+                 : "one of " + joined(of) + " is needed, not " + described(*value));
   return std::nullopt;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "collision/core/fault_list.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/yaml_value.h"
 
 /// A strict reader of YAML files. It adds every fault to a list with its line, and reads on, so
@@ -41,7 +42,7 @@ struct YamlSource {
 };
 
 /// The numbers that are legal as the value of a key.
-enum class Range { Any, NotNegative, Positive, Fraction /**< above 0 and below 1 */ };
+enum class Range { Any, NotNegative, Positive, Resolution /**< see isResolution */ };
 
 /// The whole numbers that are legal as the value of a key, both ends included.
 struct WholeRange {

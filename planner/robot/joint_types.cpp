@@ -38,4 +38,18 @@ std::vector<std::string> jointTypeNames() {
   return names;
 }
 
+bool isWhole(JointType type) {
+  return type == JointType::planar || type == JointType::floating;
+}
+
+bool movesItself(const JointModel& joint) {
+  return joint.type != JointType::fixed && !joint.mimic;
+}
+
+std::optional<std::size_t> findJoint(const RobotModel& model, std::string_view name) {
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    if (model.joints[j].name == name) return j;
+  return std::nullopt;
+}
+
 }  // namespace corridor

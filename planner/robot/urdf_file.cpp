@@ -74,10 +74,10 @@ struct Range {
   std::string text() const { return "[" + shortest(lower) + ", " + shortest(upper) + "]"; }
 };
 
-class ModelBuilder {
+class UrdfBuilder {
  public:
-  ModelBuilder(const UrdfOutline& outline, const urdf::ModelInterface& urdf,
-               const MeshStore& meshes, XmlFile& file)
+  UrdfBuilder(const UrdfOutline& outline, const urdf::ModelInterface& urdf, const MeshStore& meshes,
+              XmlFile& file)
       : outline_(outline), urdf_(urdf), meshes_(meshes), file_(file) {}
 
   RobotModel build(const std::vector<std::size_t>& order) {
@@ -248,7 +248,7 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Pack
     std::vector<std::string> errors;
     if (xml.sound()) {
       if (const auto urdf = parseByUrdfdom(*root, errors))
-        model = ModelBuilder(outline, *urdf, meshes, xml).build(order);
+        model = UrdfBuilder(outline, *urdf, meshes, xml).build(order);
       else
         faultErrors(errors, outline, xml);
     }

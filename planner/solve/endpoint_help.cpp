@@ -39,7 +39,7 @@ std::string position(const Configuration& q, const CoordinateGroup& pose, int di
 /// and convex parts have no triangles.
 std::string described(const Checker& checker, std::size_t shape, std::uint32_t triangle) {
   const std::size_t owner = checker.bodyOf(shape);
-  const ProblemBody& body = checker.problem().bodies[owner];
+  const ModelBody& body = checker.model().bodies[owner];
   std::string details;
   if (body.shapes.size() > 1) {
     std::size_t first = shape;
@@ -63,8 +63,8 @@ std::string described(const Checker& checker, const Contact& pair) {
 /// over the joints between them of the joint's tube times its lever. The lever is 1 for a
 /// translation; for a rotation it reaches from the joint to the farthest point of the shape.
 double tubeOf(const Checker& checker, const Configuration& q, const Contact& pair) {
-  const std::vector<Frame>& frames = checker.problem().tree.frames;
-  const std::vector<Transform> poses = framePoses(checker.problem().tree, q);
+  const std::vector<Frame>& frames = checker.model().tree.frames;
+  const std::vector<Transform> poses = framePoses(checker.model().tree, q);
   const auto& placed = checker.scene().bodies();
   std::size_t at[2] = {placed[pair.bodyA].frame, placed[pair.bodyB].frame};
   double sum = 0;
@@ -75,7 +75,7 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
     const double lever = (poses[at[side]].t - poses[shape.frame].t).norm() + shape.body.radius();
     const double tube = frame.variable == Frame::noVariable
                             ? 0
-                            : checker.problem().tube[static_cast<Eigen::Index>(frame.variable)];
+                            : checker.tube()[static_cast<Eigen::Index>(frame.variable)];
     switch (frame.joint) {
       case Frame::Joint::none:
         break;

@@ -41,13 +41,13 @@ Vec3 inUnitBall(std::mt19937_64& random, std::size_t dimension) {
 
 Configuration randomNear(const Problem& problem, const Configuration& goal,
                          std::mt19937_64& random) {
-  const std::vector<Coordinate>& coordinates = problem.space.coordinates();
-  const Problem::GoalRegion& region = *problem.goalRegion;
+  const std::vector<Coordinate>& coordinates = problem.model.space.coordinates();
+  const GoalRegion& region = *problem.task.goalRegion;
   Configuration q = goal;
   const auto number = [&](std::size_t coordinate) -> double& {
     return q[static_cast<Eigen::Index>(coordinates[coordinate].first)];
   };
-  for (const CoordinateGroup& group : problem.space.groups()) {
+  for (const CoordinateGroup& group : problem.model.space.groups()) {
     if (group.kind == CoordinateGroup::Kind::joints) {
       for (const std::size_t c : group.coordinates)
         number(c) += region.joint * uniform(random, -1, 1);
@@ -66,7 +66,7 @@ Configuration randomNear(const Problem& problem, const Configuration& goal,
     Eigen::Map<Eigen::Quaterniond> turned(&number(group.coordinates.back()));
     if (axis.squaredNorm() > 0) turned = turned * Eigen::AngleAxisd(angle, axis.normalized());
   }
-  problem.space.normalise(q);
+  problem.model.space.normalise(q);
   return q;
 }
 
@@ -79,19 +79,20 @@ ProblemGoal::ProblemGoal(const ob::SpaceInformationPtr& si, const Problem& probl
       goals_(goalsOf(problem)),
       samples_(std::move(samples)) {
   // OMPL requires a distance below the threshold: with 0 no state would ever be in the goal.
-  setThreshold(std::max(problem.goalThreshold.value_or(0), std::numeric_limits<double>::epsilon()));
+  setThreshold(
+      std::max(problem.task.goalThreshold.value_or(0), std::numeric_limits<double>::epsilon()));
 }
 
 double ProblemGoal::distanceGoal(const ob::State* state) const {
   const Configuration q = configurationOf(*si_, state);
-  if (problem_.goalRegion) {
+  if (problem_.task.goalRegion) {
     if (inGoal(problem_, goals_, q, -kShrink)) return 0;
     // Twice the threshold keeps a state just outside of the region from being taken as inside.
     return std::max(outsideGoalRegion(problem_, goals_, q), 2 * threshold_);
   }
   double least = std::numeric_limits<double>::infinity();
   for (const Configuration& goal : goals_)
-    least = std::min(least, problem_.space.distance(q, goal));
+    least = std::min(least, problem_.model.space.distance(q, goal));
   return least;
 }
 
@@ -99,9 +100,8 @@ void ProblemGoal::sampleGoal(ob::State* state) const {
   si_->getStateSpace()->as<ProblemStateSpace>()->write(samples_[next_++ % samples_.size()], state);
 }
 
-std::vector<Configuration> sampleGoals(const Checker& checker, std::size_t count,
-                                       std::vector<std::string>& whyNot) {
-  const Problem& problem = checker.problem();
+std::vector<Configuration> sampleGoals(const Problem& problem, const Checker& checker,
+                                       std::size_t count, std::vector<std::string>& whyNot) {
   const std::vector<Configuration> goals = goalsOf(problem);
   std::vector<Configuration> found;
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -113,8 +113,8 @@ std::vector<Configuration> sampleGoals(const Checker& checker, std::size_t count
     else
       found.push_back(goals[i]);
   }
-  if (!problem.goalRegion) return found;
-  std::mt19937_64 random(problem.seed);
+  if (!problem.task.goalRegion) return found;
+  std::mt19937_64 random(problem.settings.seed);
   for (std::size_t tries = 0; tries < kTries * count && found.size() < count; ++tries) {
     Configuration q = randomNear(problem, goals[tries % goals.size()], random);
     if (inGoal(problem, goals, q, -kShrink) && checker.certifiedState(q))

@@ -7,6 +7,7 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 
 #include "planner/checker/checker.h"
+#include "planner/problem/problem.h"
 
 namespace corridor {
 
@@ -33,7 +34,7 @@ class ProblemGoal : public ompl::base::GoalSampleableRegion {
 /// states in it until there are `count` together. These depend on the problem's seed, and are drawn
 /// around each goal in turn. Empty if no valid state was found.
 /// @param whyNot gets a line for each goal that is not valid.
-std::vector<Configuration> sampleGoals(const Checker& checker, std::size_t count,
-                                       std::vector<std::string>& whyNot);
+std::vector<Configuration> sampleGoals(const Problem& problem, const Checker& checker,
+                                       std::size_t count, std::vector<std::string>& whyNot);
 
 }  // namespace corridor

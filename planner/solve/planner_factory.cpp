@@ -64,14 +64,20 @@ namespace og = ompl::geometric;
 
 namespace {
 
+/// Properties of a planner that most planners don't have.
+struct Traits {
+  bool optimises = false;
+  bool repeats = true;
+};
+
 struct Entry {
   PlannerInfo info;
   std::function<ob::PlannerPtr(const ob::SpaceInformationPtr&)> make;
 };
 
 template <class Planner>
-Entry entry(const char* name, const char* about, bool repeats = true) {
-  return {{name, about, repeats, std::string_view(about).starts_with("optimises")},
+Entry entry(const char* name, const char* about, Traits traits = {}) {
+  return {{name, about, traits.repeats, traits.optimises},
           [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr {
             return std::make_shared<Planner>(si);
           }};
@@ -100,28 +106,38 @@ const std::vector<Entry>& entries() {
       entry<og::LBKPIECE1>("LBKPIECE1", "BKPIECE1, edges checked when needed"),
       entry<og::STRIDE>("STRIDE", "one tree, density by a nearest-neighbour structure"),
       entry<og::PDST>("PDST", "subdivides the space of positions"),
-      entry<og::PRM>("PRM", "roadmap", false),
+      entry<og::PRM>("PRM", "roadmap", {.repeats = false}),
       entry<og::LazyPRM>("LazyPRM", "roadmap, edges checked when needed"),
-      entry<og::SPARS>("SPARS", "sparse roadmap", false),
-      entry<og::SPARStwo>("SPARStwo", "sparse roadmap", false),
-      entry<og::RRTstar>("RRTstar", "optimises: one tree, rewired"),
+      entry<og::SPARS>("SPARS", "sparse roadmap", {.repeats = false}),
+      entry<og::SPARStwo>("SPARStwo", "sparse roadmap", {.repeats = false}),
+      entry<og::RRTstar>("RRTstar", "optimises: one tree, rewired", {.optimises = true}),
       entry<og::InformedRRTstar>("InformedRRTstar",
-                                 "optimises: RRTstar within the ellipse that can help"),
-      entry<og::SORRTstar>("SORRTstar", "optimises: RRTstar with ordered samples"),
-      entry<og::RRTsharp>("RRTsharp", "optimises: RRTstar that replans"),
-      entry<og::RRTXstatic>("RRTXstatic", "optimises: RRTsharp with lazy replanning"),
-      entry<og::LBTRRT>("LBTRRT", "optimises to a factor, checks fewer edges", false),
-      entry<og::PRMstar>("PRMstar", "optimises: roadmap", false),
-      entry<og::LazyPRMstar>("LazyPRMstar", "optimises: roadmap, edges checked when needed"),
-      entry<og::FMT>("FMT", "optimises over a fixed number of samples"),
-      entry<og::BFMT>("BFMT", "optimises over a fixed number of samples, from both ends"),
-      entry<og::BITstar>("BITstar", "optimises: batches of samples, best edges first"),
-      entry<og::ABITstar>("ABITstar", "optimises: BITstar, quick at first"),
-      entry<og::AITstar>("AITstar", "optimises: BITstar with an adaptive estimate"),
-      entry<og::SST>("SST", "optimises: a sparse tree"),
-      entry<og::CForest>("CForest", "optimises: RRTstar in many threads", false),
+                                 "optimises: RRTstar within the ellipse that can help",
+                                 {.optimises = true}),
+      entry<og::SORRTstar>("SORRTstar", "optimises: RRTstar with ordered samples",
+                           {.optimises = true}),
+      entry<og::RRTsharp>("RRTsharp", "optimises: RRTstar that replans", {.optimises = true}),
+      entry<og::RRTXstatic>("RRTXstatic", "optimises: RRTsharp with lazy replanning",
+                            {.optimises = true}),
+      entry<og::LBTRRT>("LBTRRT", "optimises to a factor, checks fewer edges",
+                        {.optimises = true, .repeats = false}),
+      entry<og::PRMstar>("PRMstar", "optimises: roadmap", {.optimises = true, .repeats = false}),
+      entry<og::LazyPRMstar>("LazyPRMstar", "optimises: roadmap, edges checked when needed",
+                             {.optimises = true}),
+      entry<og::FMT>("FMT", "optimises over a fixed number of samples", {.optimises = true}),
+      entry<og::BFMT>("BFMT", "optimises over a fixed number of samples, from both ends",
+                      {.optimises = true}),
+      entry<og::BITstar>("BITstar", "optimises: batches of samples, best edges first",
+                         {.optimises = true}),
+      entry<og::ABITstar>("ABITstar", "optimises: BITstar, quick at first", {.optimises = true}),
+      entry<og::AITstar>("AITstar", "optimises: BITstar with an adaptive estimate",
+                         {.optimises = true}),
+      entry<og::SST>("SST", "optimises: a sparse tree", {.optimises = true}),
+      entry<og::CForest>("CForest", "optimises: RRTstar in many threads",
+                         {.optimises = true, .repeats = false}),
       entry<og::AnytimePathShortening>("AnytimePathShortening",
-                                       "optimises: planners in threads, paths joined", false),
+                                       "optimises: planners in threads, paths joined",
+                                       {.optimises = true, .repeats = false}),
   };
   return all;
 }
@@ -261,30 +277,24 @@ ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string&
   return planner;
 }
 
-void setValidStateSampler(ob::SpaceInformation& si, const std::string& name,
-                          const PlannerParameter& nameAt) {
+void setValidStateSampler(ob::SpaceInformation& si, StateSampler sampler) {
   const auto use = [&]<class Sampler>(std::type_identity<Sampler>) {
     si.setValidStateSamplerAllocator(
         [](const ob::SpaceInformation* space) -> ob::ValidStateSamplerPtr {
           return std::make_shared<Sampler>(space);
         });
   };
-  if (name == "uniform") {
-    use(std::type_identity<ob::UniformValidStateSampler>{});
-  } else if (name == "gaussian") {
-    use(std::type_identity<ob::GaussianValidStateSampler>{});
-  } else if (name == "obstacle_based") {
-    use(std::type_identity<ob::ObstacleBasedValidStateSampler>{});
-  } else if (name == "bridge_test") {
-    use(std::type_identity<ob::BridgeTestValidStateSampler>{});
-  } else if (name == "max_clearance") {
-    use(std::type_identity<ob::MaximizeClearanceValidStateSampler>{});
-  } else {
-    const std::vector<std::string> names = {"uniform", "gaussian", "obstacle_based", "bridge_test",
-                                            "max_clearance"};
-    throw InputError(Fault{nameAt.file, nameAt.line,
-                           "unknown sampler " + quotedWord(name) + didYouMean(name, names) +
-                               "; there are: " + joined(names)});
+  switch (sampler) {
+    case StateSampler::uniform:
+      return use(std::type_identity<ob::UniformValidStateSampler>{});
+    case StateSampler::gaussian:
+      return use(std::type_identity<ob::GaussianValidStateSampler>{});
+    case StateSampler::obstacleBased:
+      return use(std::type_identity<ob::ObstacleBasedValidStateSampler>{});
+    case StateSampler::bridgeTest:
+      return use(std::type_identity<ob::BridgeTestValidStateSampler>{});
+    case StateSampler::maxClearance:
+      return use(std::type_identity<ob::MaximizeClearanceValidStateSampler>{});
   }
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/model/settings.h"
+
 namespace ompl::base {
 class Planner;
 class SpaceInformation;
@@ -44,10 +46,7 @@ std::shared_ptr<ompl::base::Planner> makePlanner(
     const std::shared_ptr<ompl::base::SpaceInformation>& si, const std::string& name,
     const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt = {});
 
-/// Sets the valid-state sampler of `si`: "uniform", "gaussian", "obstacle_based", "bridge_test" or
-/// "max_clearance".
-/// @throws InputError for an unknown name.
-void setValidStateSampler(ompl::base::SpaceInformation& si, const std::string& name,
-                          const PlannerParameter& nameAt = {});
+/// Sets the sampler of valid states.
+void setValidStateSampler(ompl::base::SpaceInformation& si, StateSampler sampler);
 
 }  // namespace corridor

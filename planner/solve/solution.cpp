@@ -190,17 +190,17 @@ Solution readYaml(const std::filesystem::path& file, const ConfigurationSpace& s
 
 Solution makeSolution(const Problem& problem, const SolveReport& report, std::string digest) {
   Solution solution;
-  solution.problem = problem.file.string();
+  solution.problem = problem.source.file.string();
   solution.digest = std::move(digest);
-  solution.space = rigidSpaceOf(problem.space);
-  solution.numbers = problem.space.numberNames();
+  solution.space = rigidSpaceOf(problem.model.space);
+  solution.numbers = problem.model.space.numberNames();
   solution.planner = report.planner;
   solution.seed = report.seed;
   solution.certified = report.certified;
   solution.checker = report.checker;
   solution.tolerance = report.motion.tolerance;
   solution.margin = report.motion.margin;
-  solution.tube = problem.tube;
+  solution.tube = problem.task.tube;
   solution.path = report.path;
   return solution;
 }

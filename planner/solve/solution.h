@@ -22,7 +22,7 @@ struct Solution {
   bool certified = false;
   std::string checker;  ///< SolveReport::checker; "unknown" for a `.path` file
   double tolerance = 0, margin = 0;
-  Configuration tube;  ///< as Problem::tube
+  Configuration tube;  ///< as Task::tube
   Path path;
 };
 

@@ -37,10 +37,6 @@ constexpr std::size_t kGoalSamples = 32;
 /// The share of planner.time that simplifying gets after a planner that used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
-/// The finest resolution that is accepted. Finer ones have no use, and OMPL counts an edge's steps
-/// in 32 bits.
-constexpr double kFinestResolution = 1e-9;
-
 /// Minimises the length of a path in the space's distance. OMPL's own class throws for a space that
 /// its direct sampling of ellipses doesn't know. For such a space this class samples the whole
 /// space and rejects states that can't improve the path.
@@ -85,39 +81,40 @@ Solve::Solve(const Problem& problem, const SolveOptions& options)
     : problem_(problem),
       options_(options),
       checker_(problem),
-      space_(std::make_shared<ProblemStateSpace>(problem.space)),
+      space_(std::make_shared<ProblemStateSpace>(problem.model.space)),
       start_(startOf(problem)),
       goals_(goalsOf(problem)) {
   report_.motion = checker_.options();
-  report_.seed = problem.seed;
-  report_.planner = problem.planner.name;
-  report_.checker = problem.checker.edges +
-                    (discrete() ? ", resolution " + shortest(problem.checker.resolution) : "") +
-                    treesTold(problem.checker.trees());
+  report_.seed = problem.settings.seed;
+  report_.planner = problem.settings.planner.name;
+  report_.checker =
+      wordOf(problem.settings.checker.edges) +
+      (discrete() ? ", resolution " + shortest(problem.settings.checker.resolution) : "") +
+      treesTold(problem.settings.checker.trees);
 }
 
 PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key,
                                     const std::string& value) const {
   const auto elsewhere = options_.setElsewhere.find(place);
   if (elsewhere != options_.setElsewhere.end()) return {key, value, elsewhere->second, 0};
-  const Fault at = problem_.faultAt(place, "");
+  const Fault at = problem_.source.faultAt(place, "");
   return {key, value, at.file, at.line};
 }
 
 void Solve::checkEnds() {
   std::vector<Fault> faults;
   if (const auto why = whyNotFree("start", start_, checker_))
-    faults.push_back(problem_.faultAt("start", *why));
+    faults.push_back(problem_.source.faultAt("start", *why));
   std::vector<std::string> whyNot;
-  goalSamples_ = sampleGoals(checker_, kGoalSamples, whyNot);
+  goalSamples_ = sampleGoals(problem_, checker_, kGoalSamples, whyNot);
   for (const std::string& why : whyNot) {
     if (goalSamples_.empty())
-      faults.push_back(problem_.faultAt(
-          "goal", problem_.goalRegion
+      faults.push_back(problem_.source.faultAt(
+          "goal", problem_.task.goalRegion
                       ? "no free state was found in the goal region; at its middle: " + why
                       : why));
-    else if (!problem_.goalRegion)
-      report_.warnings.push_back(problem_.faultAt("goal", why));
+    else if (!problem_.task.goalRegion)
+      report_.warnings.push_back(problem_.source.faultAt("goal", why));
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
@@ -135,29 +132,19 @@ void Solve::setUpSpace() {
   if (options_.adaptChecking) options_.adaptChecking(si_, checker_);
 }
 
-void Solve::setResolution() {
-  const double r = problem_.checker.resolution;
-  if (!(r >= kFinestResolution && r < 1)) {
-    const PlannerParameter at = parameterAt("checker.resolution");
-    throw InputError(Fault{at.file, at.line,
-                           "checker.resolution: " + shortest(r) + " is not in [" +
-                               shortest(kFinestResolution) + ", 1)"});
-  }
-  space_->setLongestValidSegmentFraction(r);
-}
-
 void Solve::setUpPlanner() {
   std::vector<PlannerParameter> parameters;
-  for (const auto& [key, value] : problem_.planner.params)
+  for (const auto& [key, value] : problem_.settings.planner.params)
     parameters.push_back(parameterAt("planner.params." + key, key, value));
-  planner_ = makePlanner(si_, problem_.planner.name, parameters, parameterAt("planner.name"));
+  planner_ =
+      makePlanner(si_, problem_.settings.planner.name, parameters, parameterAt("planner.name"));
   const bool given = std::any_of(parameters.begin(), parameters.end(),
                                  [](const PlannerParameter& p) { return p.key == "range"; });
-  if (const auto range = rangeOfTurns(problem_.space);
+  if (const auto range = rangeOfTurns(problem_.model.space);
       range && !given && planner_->params().hasParam("range"))
     planner_->params().setParam("range", shortest(*range));
   for (const PlannerInfo& info : knownPlanners())
-    if (info.name == problem_.planner.name) {
+    if (info.name == problem_.settings.planner.name) {
       report_.repeats = info.repeats;
       optimises_ = info.optimises;
     }
@@ -165,12 +152,12 @@ void Solve::setUpPlanner() {
 
 void Solve::setUp() {
   ompl::msg::noOutputHandler();  // the report has everything that users need
-  ompl::RNG::setSeed(problem_.seed);
+  ompl::RNG::setSeed(problem_.settings.seed);
   setUpSpace();
   definition_ = std::make_shared<ob::ProblemDefinition>(si_);
   FaultList faults;
-  faults.collect([&] { setResolution(); });
-  faults.collect([&] { setValidStateSampler(*si_, problem_.sampler, parameterAt("sampler")); });
+  space_->setLongestValidSegmentFraction(problem_.settings.checker.resolution);
+  setValidStateSampler(*si_, problem_.settings.sampler);
   si_->setup();
   faults.collect([&] { setUpPlanner(); });
   faults.collect([&] { setUpObjective(); });
@@ -186,23 +173,23 @@ void Solve::setUpEnds() {
 }
 
 void Solve::setUpObjective() {
-  const std::string name = problem_.objective.value_or("");
+  const std::optional<Objective>& wanted = problem_.settings.objective;
   ob::OptimizationObjectivePtr objective;
-  if (name == "mechanical_work") {
+  if (wanted == Objective::mechanicalWork) {
     objective = std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
   } else if (keepsClear()) {
     objective = std::make_shared<ob::MaximizeMinClearanceObjective>(si_);
-  } else if (name == "length" || (planner_ && planner_->getSpecs().optimizingPaths)) {
+  } else if (wanted == Objective::length || (planner_ && planner_->getSpecs().optimizingPaths)) {
     objective = std::make_shared<PathLengthObjective>(si_);
   }
   if (!objective) return;
   // Without `planner.stop` a planner that optimises uses its time, as PRMstar does, and the others
   // stop at the first solution, as PRM does.
-  const bool first = problem_.planner.stopAtFirst.value_or(name.empty() && !optimises_);
+  const bool first = problem_.settings.planner.stopAtFirst.value_or(!wanted && !optimises_);
   // Every path has a clearance of at least 0, so a threshold of 0 would stop at the first one.
-  const double threshold = keepsClear() && !(problem_.objectiveThreshold > 0)
+  const double threshold = keepsClear() && !(problem_.settings.objectiveThreshold > 0)
                                ? std::numeric_limits<double>::infinity()
-                               : problem_.objectiveThreshold;
+                               : problem_.settings.objectiveThreshold;
   objective->setCostThreshold(first ? objective->infiniteCost() : ob::Cost(threshold));
   definition_->setOptimizationObjective(objective);
 }
@@ -220,21 +207,21 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
   std::string text;
   switch (static_cast<ob::PlannerStatus::StatusType>(status)) {
     case ob::PlannerStatus::INVALID_START:
-      return "no valid start for " + problem_.planner.name;
+      return "no valid start for " + problem_.settings.planner.name;
     case ob::PlannerStatus::INVALID_GOAL:
-      return "no valid goal for " + problem_.planner.name;
+      return "no valid goal for " + problem_.settings.planner.name;
     case ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE:
-      return problem_.planner.name + " can't use this kind of goal";
+      return problem_.settings.planner.name + " can't use this kind of goal";
     case ob::PlannerStatus::CRASH:
-      return problem_.planner.name + " crashed";
+      return problem_.settings.planner.name + " crashed";
     case ob::PlannerStatus::APPROXIMATE_SOLUTION:
       text = "the best path found ends " +
              shortest(std::round(definition_->getSolutionDifference() * 1e4) / 1e4) +
              " from the goal";
       break;
     default:
-      text = clock_.seconds() < problem_.planner.time
-                 ? problem_.planner.name + " ended before the time ran out"
+      text = clock_.seconds() < problem_.settings.planner.time
+                 ? problem_.settings.planner.name + " ended before the time ran out"
                  : "no path was found in the time";
   }
   if (counters.undecided > 0)
@@ -247,7 +234,7 @@ std::string Solve::whyNotFound(ob::PlannerStatus status) const {
 ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
   report_.setUpTime = clock_.seconds();
   const double processorBefore = clock_.processorSeconds();
-  const double until = problem_.planner.time;
+  const double until = problem_.settings.planner.time;
   const ob::PlannerTerminationCondition stop([this, until, &orElse] {
     tellProgress();
     return clock_.seconds() >= until || interrupted() || orElse.eval();
@@ -295,24 +282,25 @@ void Solve::finish() {
        definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())
     path.append(state);
   report_.rawStates = path.getStateCount();
-  report_.rawLength = lengthOf(problem_.space, readPath(path));
+  report_.rawLength = lengthOf(problem_.model.space, readPath(path));
   std::vector<Path> versions;
-  if (problem_.simplify && !keepsClear()) {  // shortcuts would reduce the clearance
+  if (problem_.settings.simplify && !keepsClear()) {  // shortcuts would reduce the clearance
     const double until =
-        std::max(problem_.planner.time, clock_.seconds() + kSimplifyShare * problem_.planner.time);
+        std::max(problem_.settings.planner.time,
+                 clock_.seconds() + kSimplifyShare * problem_.settings.planner.time);
     versions =
         simplifiedVersions(si_, path, [&] { return clock_.seconds() >= until || interrupted(); });
   } else {
     versions = {readPath(path)};
   }
   for (std::size_t i = versions.size(); i-- > 0 && report_.outcome != SolveOutcome::solved;) {
-    Path states = withShortTurns(problem_.space, versions[i]);
+    Path states = withShortTurns(problem_.model.space, versions[i]);
     if (!joinsStartAndGoal(states)) continue;
     if (!discrete() && !certified(states)) continue;
     report_.outcome = SolveOutcome::solved;
     report_.certified = !discrete();
     report_.version = static_cast<int>(i);
-    report_.length = lengthOf(problem_.space, states);
+    report_.length = lengthOf(problem_.model.space, states);
     report_.path = std::move(states);
   }
   if (report_.outcome != SolveOutcome::solved)

@@ -8,6 +8,7 @@
 
 #include "collision/core/counters.h"
 #include "collision/core/error.h"
+#include "planner/problem/problem.h"
 #include "planner/solve/finish_path.h"
 
 namespace corridor {

@@ -73,14 +73,13 @@ class Solve {
   const ompl::base::PlannerPtr& planner() const { return planner_; }
 
  private:
-  bool discrete() const { return problem_.checker.edges == "discrete"; }
-  bool keepsClear() const { return problem_.objective == "max_min_clearance"; }
+  bool discrete() const { return problem_.settings.checker.edges == EdgeCheck::discrete; }
+  bool keepsClear() const { return problem_.settings.objective == Objective::maxMinClearance; }
   PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
                                const std::string& value = "") const;
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
   void checkEnds();
   void setUpSpace();
-  void setResolution();
   void setUpPlanner();
   void setUpObjective();
   void tellProgress();

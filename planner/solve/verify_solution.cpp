@@ -5,7 +5,7 @@
 
 #include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
-#include "planner/problem/bounds.h"
+#include "planner/model/bounds.h"
 #include "planner/problem/digest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/verify/edge_curve.h"
@@ -103,25 +103,26 @@ bool isSame(const Away& away) {
 }
 
 bool isInGoal(const Problem& problem, const Away& away) {
-  if (problem.goalRegion) {
-    const Problem::GoalRegion& region = *problem.goalRegion;
+  if (problem.task.goalRegion) {
+    const GoalRegion& region = *problem.task.goalRegion;
     return away.position <= region.position * kRim &&
            away.angle <= std::max(region.angle * kRim, kSameAngle) &&
            away.joint <= region.joint * kRim &&
            away.jointAngle <= std::max(region.joint * kRim, kSameAngle);
   }
-  if (problem.goalThreshold && away.distance <= *problem.goalThreshold * kRim) return true;
+  if (problem.task.goalThreshold && away.distance <= *problem.task.goalThreshold * kRim)
+    return true;
   return isSame(away);
 }
 
 /// @returns whether the path's end is in the goal.
 bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
-  const Away start = awayFrom(problem.space, problem.start, path.front());
+  const Away start = awayFrom(problem.model.space, problem.task.start, path.front());
   if (!isSame(start)) violations.push_back("the first state is not the start: " + inFact(start));
   Away nearest;
   nearest.distance = HUGE_VALL;
-  for (const Configuration& goal : problem.goals) {
-    const Away away = awayFrom(problem.space, goal, path.back());
+  for (const Configuration& goal : problem.task.goals) {
+    const Away away = awayFrom(problem.model.space, goal, path.back());
     if (isInGoal(problem, away)) return true;
     if (away.distance < nearest.distance) nearest = away;
   }
@@ -136,12 +137,12 @@ void checkBounds(const Problem& problem, const Path& path, std::vector<std::stri
                            " = " + shortest(value) + " is not in [" + shortest(lower) + ", " +
                            shortest(upper) + "]");
     };
-    for (const Coordinate& c : problem.space.coordinates()) {
+    for (const Coordinate& c : problem.model.space.coordinates()) {
       if (c.kind != Coordinate::Kind::line) continue;
       const double value = path[i][static_cast<Eigen::Index>(c.first)];
       if (!(value >= c.lower && value <= c.upper)) outside(c.name, value, c.lower, c.upper);
     }
-    for (const FollowerOutside& f : followersOutside(problem, path[i]))
+    for (const FollowerOutside& f : followersOutside(problem.model, path[i]))
       outside(f.name, f.value, f.lower, f.upper);
   }
 }
@@ -157,16 +158,16 @@ double sizeOf(const VerifyBody& body) {
 }
 
 /// Returns a tenth of the checker's tolerance, so that the verifier decides paths that the checker
-/// certified. Unless the problem sets it, that is 1e-7 of the smallest body, or what rounding
-/// needs.
-double toleranceOf(const Problem& problem, const PathProblem& plain) {
-  if (problem.checker.tolerance) return 0.1 * *problem.checker.tolerance;
+/// certified. Unless it is set, that is 1e-7 of the smallest body, or what rounding needs.
+double toleranceOf(const Model& model, const PathProblem& plain,
+                   const std::optional<double>& checkers) {
+  if (checkers) return 0.1 * *checkers;
   double smallest = 1;
   for (const VerifyPair& pair : plain.pairs)
     for (const std::size_t body : {pair.a, pair.b})
       if (const double size = sizeOf(plain.bodies[body]); size > 0)
         smallest = std::min(smallest, size);
-  return 0.1 * defaultTolerance(problem, 1e-7 * smallest);
+  return 0.1 * defaultTolerance(model, 1e-7 * smallest);
 }
 
 DigestState digestState(const Problem& problem, const Solution& solution) {
@@ -176,14 +177,15 @@ DigestState digestState(const Problem& problem, const Solution& solution) {
 
 }  // namespace
 
-PathProblem plainProblem(const Problem& problem) {
+PathProblem plainProblem(const Model& model, const Task& task,
+                         const std::optional<double>& tolerance) {
   PathProblem plain;
-  plain.tree = &problem.tree;
-  plain.space = &problem.space;
-  plain.margin = problem.margin;
-  plain.tube = problem.tube;
+  plain.tree = &model.tree;
+  plain.space = &model.space;
+  plain.margin = task.margin;
+  plain.tube = task.tube;
   std::vector<std::vector<std::size_t>> parts;  // for each body, the indices of its shapes
-  for (const ProblemBody& body : problem.bodies) {
+  for (const ModelBody& body : model.bodies) {
     parts.emplace_back();
     for (const PlacedShape& shape : body.shapes) {
       parts.back().push_back(plain.bodies.size());
@@ -191,13 +193,16 @@ PathProblem plainProblem(const Problem& problem) {
                               shape.part ? &*shape.part : nullptr, shape.solid, body.frame});
     }
   }
-  for (const ProblemPair& pair : problem.pairs) {
-    if (!pair.skipped.empty()) continue;
-    for (const std::size_t a : parts[pair.a])
-      for (const std::size_t b : parts[pair.b]) plain.pairs.push_back({a, b});
-  }
-  plain.tolerance = toleranceOf(problem, plain);
+  forEachTestedPair(model, [&](std::size_t i, std::size_t j) {
+    for (const std::size_t a : parts[i])
+      for (const std::size_t b : parts[j]) plain.pairs.push_back({a, b});
+  });
+  plain.tolerance = toleranceOf(model, plain, tolerance);
   return plain;
+}
+
+PathProblem plainProblem(const Problem& problem) {
+  return plainProblem(problem.model, problem.task, problem.settings.checker.tolerance);
 }
 
 const char* nameOf(DigestState state) {
@@ -216,8 +221,8 @@ const char* verdictName(const VerifyReport& report) {
 
 VerifyReport verifySolution(const Problem& problem, const Solution& solution, OtherDigest other) {
   VerifyReport report;
-  report.margin = problem.margin;
-  report.tube = problem.tube;
+  report.margin = problem.task.margin;
+  report.tube = problem.task.tube;
   report.digest = digestState(problem, solution);
   report.otherProblem = report.digest == DigestState::differs && other == OtherDigest::refused;
   if (report.otherProblem) {

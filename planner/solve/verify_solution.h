@@ -34,14 +34,18 @@ struct VerifyReport {
   std::vector<std::string> violations;
   bool reachesGoal = true;  ///< the last state is in the goal
   double margin = 0;        ///< metres
-  Configuration tube;       ///< the tube of the proof, as Problem::tube
+  Configuration tube;       ///< the tube of the proof, as Task::tube
 };
 
 const char* nameOf(PathVerdict verdict);
 /// Returns "proved", "refuted", "undecided", or "other problem".
 const char* verdictName(const VerifyReport& report);
 
-/// Returns the plain data that planner/verify reads. The problem must outlive it.
+/// Returns the plain data that planner/verify reads: the model's bodies, and the pairs that its
+/// filter does not exclude. The model must outlive it. It uses the margin and tube of the task.
+/// @param tolerance the checker's, metres; unset: its default. The verifier's is a tenth of it.
+PathProblem plainProblem(const Model& model, const Task& task,
+                         const std::optional<double>& tolerance = {});
 PathProblem plainProblem(const Problem& problem);
 
 /// Verifies that the path begins at the start, ends in the goal and stays in the bounds, and by

@@ -58,8 +58,8 @@ struct PathProblem {
   std::vector<VerifyPair> pairs;
   double margin =
       0;  ///< metres; a clearance of at most this is a violation (0: touching is contact)
-  Configuration tube;                   ///< the proof holds for all curves in it (Problem::tube)
-  double tolerance = 0;                 ///< metres, > 0
+  Configuration tube;    ///< the proof holds for all curves in it (planner/model/task.h)
+  double tolerance = 0;  ///< metres, > 0
   std::uint64_t workLimit = 2'000'000;  ///< distance queries; after that edges are left undecided
 };
 

@@ -23,7 +23,7 @@ struct Bounds {
   Vec3 middle() const { return lower + (upper - lower) / 2; }
 };
 
-DisplayMesh displayMesh(const ProblemBody& body) {
+DisplayMesh displayMesh(const ModelBody& body) {
   std::vector<TriangleMesh> parts;
   std::vector<const TriangleMesh*> all;
   parts.reserve(body.shapes.size());
@@ -73,10 +73,10 @@ class MeshList {
 /// Testing the start pose is enough: such joints keep all axes vertical or horizontal.
 bool isPlanar(const Problem& problem) {
   constexpr double kUpright = 1e-9;  // for unit vectors: above rounding, far below what is seen
-  const std::vector<Transform> poses = framePoses(problem.tree, problem.start);
+  const std::vector<Transform> poses = framePoses(problem.model.tree, problem.task.start);
   bool moves = false;
-  for (std::size_t i = 1; i < problem.tree.frames.size(); ++i) {
-    const Frame& frame = problem.tree.frames[i];
+  for (std::size_t i = 1; i < problem.model.tree.frames.size(); ++i) {
+    const Frame& frame = problem.model.tree.frames[i];
     if (frame.joint == Frame::Joint::none || frame.variable == Frame::noVariable) continue;
     moves = true;
     const Mat3& m = poses[i].m;  // a joint's own motion does not change its axis
@@ -107,10 +107,10 @@ bool isPlanar(const Problem& problem) {
 DisplayScene displayScene(const Problem& problem) {
   DisplayScene scene;
   MeshList meshes;
-  const std::vector<Transform> poses = framePoses(problem.tree, problem.start);
+  const std::vector<Transform> poses = framePoses(problem.model.tree, problem.task.start);
   Bounds bounds;
-  std::vector<std::size_t> lastFrames(problem.robots.size(), 0);
-  for (const ProblemBody& body : problem.bodies) {
+  std::vector<std::size_t> lastFrames(problem.model.robots.size(), 0);
+  for (const ModelBody& body : problem.model.bodies) {
     DisplayMesh mesh = displayMesh(body);
     bounds.include(poses[body.frame] * mesh.origin);
     if (body.frame != 0) scene.frames.push_back(body.frame);

@@ -19,7 +19,7 @@ constexpr int kLook = 8;  // pieces into which an edge is cut to estimate its wa
 class Travel {
  public:
   explicit Travel(const Problem& problem) {
-    for (const ProblemBody& body : problem.bodies) {
+    for (const ModelBody& body : problem.model.bodies) {
       if (body.frame == 0) continue;
       Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
       for (const PlacedShape& shape : body.shapes) {
@@ -82,8 +82,9 @@ PathSamples samplePath(const Problem& problem, const Path& path,
                        const std::vector<PathFinding>& findings) {
   const Travel travel(problem);
   const auto poses = [&](std::size_t edge, double t) {
-    if (edge + 1 >= path.size()) return framePoses(problem.tree, path[edge]);
-    return framePoses(problem.tree, problem.space.interpolate(path[edge], path[edge + 1], t));
+    if (edge + 1 >= path.size()) return framePoses(problem.model.tree, path[edge]);
+    return framePoses(problem.model.tree,
+                      problem.model.space.interpolate(path[edge], path[edge + 1], t));
   };
   const std::size_t edges = path.size() - 1;
   std::vector<double> ways(edges), turns(edges);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "planner/problem/problem.h"
 #include "planner/solve/finish_path.h"
 #include "planner/verify/verify_path.h"
 

@@ -46,7 +46,7 @@ using Triangle3 = std::array<Vec3, 3>;
 
 /// Returns the distinct triangles of a body, in its frame's coordinates: many mesh files have both
 /// sides of every face.
-std::vector<Triangle3> distinctTriangles(const ProblemBody& body, double cell) {
+std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
   for (const PlacedShape& shape : body.shapes) {
@@ -78,7 +78,7 @@ struct Moving {
 Moving whatMoves(const Problem& problem, double size) {
   for (double cell = kCell * size;; cell *= 1.25) {
     Moving moving;
-    for (const ProblemBody& body : problem.bodies) {
+    for (const ModelBody& body : problem.model.bodies) {
       if (body.frame == 0) continue;
       const std::vector<Triangle3> triangles = distinctTriangles(body, cell);
       moving.triangles.insert(moving.triangles.end(), triangles.begin(), triangles.end());
@@ -90,7 +90,7 @@ Moving whatMoves(const Problem& problem, double size) {
 
 std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
                                 const Configuration& q) {
-  const std::vector<Transform> poses = framePoses(problem.tree, q);
+  const std::vector<Transform> poses = framePoses(problem.model.tree, q);
   std::vector<Triangle3> placed = moving.triangles;
   for (std::size_t i = 0; i < placed.size(); ++i)
     for (Vec3& p : placed[i]) p = poses[moving.frames[i]] * p;
@@ -100,17 +100,17 @@ std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
 /// Returns for each robot the last frame that has a body (a rigid body's own, an arm's hand), or 0
 /// if there is none.
 std::vector<std::size_t> lastFrames(const Problem& problem) {
-  std::vector<std::size_t> last(problem.robots.size(), 0);
-  for (const ProblemBody& body : problem.bodies)
+  std::vector<std::size_t> last(problem.model.robots.size(), 0);
+  for (const ModelBody& body : problem.model.bodies)
     if (body.robot) last[*body.robot] = std::max(last[*body.robot], body.frame);
   return last;
 }
 
 /// Returns the diagonal of the bounds of all bodies, for configuration q, metres.
 double sceneSize(const Problem& problem, const Configuration& q) {
-  const std::vector<Transform> poses = framePoses(problem.tree, q);
+  const std::vector<Transform> poses = framePoses(problem.model.tree, q);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const ProblemBody& body : problem.bodies)
+  for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes)
       for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
         const Vec3 x = poses[body.frame] * p;
@@ -235,8 +235,8 @@ Path poses(const Problem& problem, const Moving& moving, const Path& path, int c
     const double s = at.back() * k / count;
     const auto i = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), s) - at.begin());
     if (i == 0 || i >= path.size()) continue;
-    chosen.push_back(
-        problem.space.interpolate(path[i - 1], path[i], (s - at[i - 1]) / (at[i] - at[i - 1])));
+    chosen.push_back(problem.model.space.interpolate(path[i - 1], path[i],
+                                                     (s - at[i - 1]) / (at[i] - at[i - 1])));
   }
   chosen.push_back(path.back());
   return chosen;
@@ -260,7 +260,7 @@ std::string polyline(const Camera& camera, const Problem& problem, const Path& p
   constexpr int parts = 12;
   std::string points;
   const auto add = [&](const Configuration& q) {
-    const Vec3 p = camera.project(framePoses(problem.tree, q)[frame].t);
+    const Vec3 p = camera.project(framePoses(problem.model.tree, q)[frame].t);
     char text[48];
     std::snprintf(text, sizeof text, "%.1f,%.1f ", p.x(), p.y());
     points += text;
@@ -268,7 +268,7 @@ std::string polyline(const Camera& camera, const Problem& problem, const Path& p
   add(path.front());
   for (std::size_t i = 1; i < path.size(); ++i)
     for (int k = 1; k <= parts; ++k)
-      add(problem.space.interpolate(path[i - 1], path[i], double(k) / parts));
+      add(problem.model.space.interpolate(path[i - 1], path[i], double(k) / parts));
   return "<polyline points=\"" + points +
          "\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" opacity=\".7\"/>\n" +
          "<polyline points=\"" + points +
@@ -277,8 +277,8 @@ std::string polyline(const Camera& camera, const Problem& problem, const Path& p
 
 /// Returns whether the problem is a single planar body, which is drawn as seen from above.
 bool isPlan(const Problem& problem) {
-  return problem.space.groups().size() == 1 &&
-         problem.space.groups()[0].kind == CoordinateGroup::Kind::planar;
+  return problem.model.space.groups().size() == 1 &&
+         problem.model.space.groups()[0].kind == CoordinateGroup::Kind::planar;
 }
 
 }  // namespace
@@ -289,9 +289,9 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   Camera camera = plan ? Camera(-90 * degree, 90 * degree) : Camera(-60 * degree, 38 * degree);
   std::vector<Triangle3> world;
   std::vector<std::size_t> worldBodies;  // the body of each triangle
-  for (std::size_t b = 0; b < problem.bodies.size(); ++b)
-    if (problem.bodies[b].frame == 0) {
-      const std::vector<Triangle3> triangles = distinctTriangles(problem.bodies[b], 0);
+  for (std::size_t b = 0; b < problem.model.bodies.size(); ++b)
+    if (problem.model.bodies[b].frame == 0) {
+      const std::vector<Triangle3> triangles = distinctTriangles(problem.model.bodies[b], 0);
       world.insert(world.end(), triangles.begin(), triangles.end());
       worldBodies.insert(worldBodies.end(), triangles.size(), b);
     }

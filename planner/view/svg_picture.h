@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "planner/problem/problem.h"
 #include "planner/solve/finish_path.h"
 
 namespace corridor {

@@ -49,15 +49,15 @@ class PageData {
 
   ordered_json make() {
     json_ = {{"format", "corridor-view-1"},
-             {"name", problem_.name},
-             {"file", problem_.file.filename().string()},
+             {"name", problem_.source.name},
+             {"file", problem_.source.file.filename().string()},
              {"origin", jsonOf(scene_.origin)},
              {"planar", scene_.planar}};
     addScene();
     addEnds();
     addPairs();
     addTrees();
-    json_["notes"] = problem_.notes;
+    json_["notes"] = problem_.source.notes;
     if (path_) {
       addSolution();
       addPath();
@@ -70,7 +70,7 @@ class PageData {
  private:
   void addScene() {
     ordered_json& robots = json_["robots"] = ordered_json::array();
-    for (const ProblemRobot& robot : problem_.robots)
+    for (const ModelRobot& robot : problem_.model.robots)
       robots.push_back({{"name", robot.name}, {"model", robot.model.name}});
     ordered_json& meshes = json_["meshes"] = ordered_json::array();
     for (const DisplayMesh& mesh : scene_.meshes)
@@ -94,15 +94,15 @@ class PageData {
   }
 
   ordered_json poses(const Configuration& q) {
-    return jsonOf(buffers_.add(displayPoses(scene_, framePoses(problem_.tree, q))));
+    return jsonOf(buffers_.add(displayPoses(scene_, framePoses(problem_.model.tree, q))));
   }
 
   void addEnds() {
-    json_["start"] = poses(problem_.start);
+    json_["start"] = poses(problem_.task.start);
     ordered_json& goals = json_["goals"] = ordered_json::array();
-    for (const Configuration& goal : problem_.goals)
+    for (const Configuration& goal : problem_.task.goals)
       if (goals.size() < kMostGoals) goals.push_back(poses(goal));
-    json_["goal_count"] = problem_.goals.size();
+    json_["goal_count"] = problem_.task.goals.size();
   }
 
   /// Adds the number of tested pairs, the skipped pairs by reason, and the tested pairs that are
@@ -111,15 +111,15 @@ class PageData {
     std::size_t tested = 0;
     std::map<std::string, std::vector<std::uint32_t>> skipped;
     std::vector<std::uint32_t> far;
-    const std::vector<ReachBox> reach = reachOf(problem_);
-    for (const ProblemPair& pair : problem_.pairs) {
-      tested += pair.skipped.empty();
-      if (pair.skipped.empty() && !outOfReach(problem_, reach[pair.a], reach[pair.b])) continue;
-      std::vector<std::uint32_t>& list = pair.skipped.empty() ? far : skipped[pair.skipped];
-      list.push_back(static_cast<std::uint32_t>(pair.a));
-      list.push_back(static_cast<std::uint32_t>(pair.b));
-    }
-    const std::size_t bodies = problem_.bodies.size();
+    const std::vector<ReachBox> reach = reachOf(problem_.model);
+    forEachPair(problem_.model, [&](std::size_t a, std::size_t b, std::string_view why) {
+      tested += why.empty();
+      if (why.empty() && !outOfReach(problem_.task, reach[a], reach[b])) return;
+      std::vector<std::uint32_t>& list = why.empty() ? far : skipped[std::string(why)];
+      list.push_back(static_cast<std::uint32_t>(a));
+      list.push_back(static_cast<std::uint32_t>(b));
+    });
+    const std::size_t bodies = problem_.model.bodies.size();
     ordered_json& pairs = json_["pairs"] = {{"tested", tested}, {"skipped", ordered_json::array()}};
     for (const auto& [reason, list] : skipped)
       pairs["skipped"].push_back(
@@ -133,9 +133,9 @@ class PageData {
     std::vector<bool> done(scene_.meshes.size(), false);
     const std::size_t most =
         kMostBoxes / std::max<std::size_t>(1, checker_.scene().bodies().size());
-    for (std::size_t body = 0, shape = 0; body < problem_.bodies.size(); ++body) {
+    for (std::size_t body = 0, shape = 0; body < problem_.model.bodies.size(); ++body) {
       const std::size_t first = shape;
-      shape += problem_.bodies[body].shapes.size();
+      shape += problem_.model.bodies[body].shapes.size();
       const std::size_t mesh = scene_.bodies[body].mesh;
       if (done[mesh]) continue;
       done[mesh] = true;
@@ -156,9 +156,9 @@ class PageData {
   void addSolution() {
     const Solution& s = path_->solution;
     const VerifyReport& r = path_->report;
-    const PathLength length = lengthOf(problem_.space, s.path);
+    const PathLength length = lengthOf(problem_.model.space, s.path);
     bool lengths = false, angles = false;
-    for (const Coordinate& c : problem_.space.coordinates())
+    for (const Coordinate& c : problem_.model.space.coordinates())
       (c.kind == Coordinate::Kind::line && !c.angular ? lengths : angles) = true;
     ordered_json& solution = json_["solution"] = {
         {"planner", s.planner},
@@ -192,8 +192,8 @@ class PageData {
   }
 
   ordered_json bodyNamed(const std::string& name) const {
-    for (std::size_t i = 0; i < problem_.bodies.size(); ++i)
-      if (problem_.bodies[i].name == name) return i;
+    for (std::size_t i = 0; i < problem_.model.bodies.size(); ++i)
+      if (problem_.model.bodies[i].name == name) return i;
     return {};
   }
 
@@ -245,10 +245,11 @@ class PageData {
       for (const Vec3& p : {pair->p_WA, pair->p_WB})
         for (int k = 0; k < 3; ++k) points.push_back(static_cast<float>(p[k] - scene_.origin[k]));
     }
-    json_["distances"] = {{"sample", jsonOf(buffers_.add(sample))},
-                          {"metres", jsonOf(buffers_.add(metres))},
-                          {"bodies", jsonOf(buffers_.addIndices(bodies, problem_.bodies.size()))},
-                          {"points", jsonOf(buffers_.add(points))}};
+    json_["distances"] = {
+        {"sample", jsonOf(buffers_.add(sample))},
+        {"metres", jsonOf(buffers_.add(metres))},
+        {"bodies", jsonOf(buffers_.addIndices(bodies, problem_.model.bodies.size()))},
+        {"points", jsonOf(buffers_.add(points))}};
   }
 
   const Problem& problem_;
@@ -275,7 +276,7 @@ std::string viewPage(const Problem& problem, const std::optional<ViewedPath>& pa
   std::string scripts;
   for (const char* name : kScripts)
     scripts += "<script>\n" + std::string(pageFile(name)) + "</script>\n";
-  return filled(pageFile("view.html"), {{"title", escapedHtml(problem.name)},
+  return filled(pageFile("view.html"), {{"title", escapedHtml(problem.source.name)},
                                         {"style", std::string(pageFile("view.css"))},
                                         {"three", std::string(pageFile("three.min.js"))},
                                         {"orbit", std::string(pageFile("OrbitControls.js"))},

@@ -12,6 +12,7 @@
 
 #include "planner/benchmark/fcl_scene.h"
 #include "planner/checker/checker.h"
+#include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
 #include "planner/solve/verify_solution.h"
 #include "tests/benchmark/random_edges.h"
@@ -141,9 +142,9 @@ inline EdgeSet closedForms(int count, std::mt19937_64& random) {
 inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed) {
   const auto problem = std::make_shared<const Problem>(readProblem(file));
   const auto checker = std::make_shared<const Checker>(*problem);
-  const auto motion = std::make_shared<EdgeMotion>(problem->tree, problem->space,
-                                                   checker->scene().framePairs(), problem->tube);
-  EdgeSet set{problem->name, {}, {problem, checker, motion}, 0};
+  const auto motion = std::make_shared<EdgeMotion>(
+      problem->model.tree, problem->model.space, checker->scene().framePairs(), problem->task.tube);
+  EdgeSet set{problem->source.name, {}, {problem, checker, motion}, 0};
   const PathProblem plain = plainProblem(*problem);
   RandomEdges random(*problem, seed);
   int free = 0, touching = 0;
@@ -169,7 +170,7 @@ inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed
       return *motion;
     };
     made.poses = [problem, e](double t, std::vector<Transform>& X_WF) {
-      X_WF = framePoses(problem->tree, problem->space.interpolate(e.from, e.to, t));
+      X_WF = framePoses(problem->model.tree, problem->model.space.interpolate(e.from, e.to, t));
     };
 #ifdef CORRIDOR_WITH_FCL
     made.fcl = [checker] { return std::make_shared<FclScene>(*checker); };

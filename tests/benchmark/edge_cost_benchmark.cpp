@@ -26,6 +26,7 @@
 
 #include "planner/benchmark/fcl_scene.h"
 #include "planner/checker/checker.h"
+#include "planner/problem/problem.h"
 #include "tests/benchmark/random_edges.h"
 
 namespace corridor {
@@ -75,8 +76,9 @@ void run(const std::string& file, int count) {
                                }) /
                                n * 1e6;
       const Counters after = checker.counters();
-      std::cout << problem.name << ',' << length << ',' << (edges == &free ? "free" : "contact")
-                << ',' << edges->size() << ',' << undecided << ',' << certified << ','
+      std::cout << problem.source.name << ',' << length << ','
+                << (edges == &free ? "free" : "contact") << ',' << edges->size() << ',' << undecided
+                << ',' << certified << ','
                 << static_cast<double>(after.boxTests - before.boxTests) / 3 / n << ','
                 << static_cast<double>(after.triangleTests - before.triangleTests) / 3 / n << ','
                 << static_cast<double>(after.poses - before.poses) / 3 / n;
@@ -85,8 +87,8 @@ void run(const std::string& file, int count) {
           return seconds([&] {
                    for (const Edge& e : *edges)
                      for (int i = 0; i <= samples; ++i)
-                       if (touches(problem.space.interpolate(e.from, e.to,
-                                                             static_cast<double>(i) / samples))) {
+                       if (touches(problem.model.space.interpolate(
+                               e.from, e.to, static_cast<double>(i) / samples))) {
                          wrong += edges == &free;
                          break;
                        }
@@ -97,8 +99,9 @@ void run(const std::string& file, int count) {
           return checker.interference(q).has_value();
         });
 #ifdef CORRIDOR_WITH_FCL
-        const double fcl = discrete(
-            [&](const Configuration& q) { return fclScene.touches(framePoses(problem.tree, q)); });
+        const double fcl = discrete([&](const Configuration& q) {
+          return fclScene.touches(framePoses(problem.model.tree, q));
+        });
         std::cout << ',' << fcl << ',' << fcl / certified;
 #else
         std::cout << ",,";

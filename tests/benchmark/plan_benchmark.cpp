@@ -36,18 +36,18 @@ std::vector<BenchmarkCompetitor> peers() {
 /// Compares seed by seed, where both runs were solved.
 void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
   const auto specOf = [&](const CampaignCell& cell) {
-    Problem::CheckerSpec checker = campaign.problems[cell.problem].checker;
+    CheckerSettings checker = campaign.problems[cell.problem].settings.checker;
     campaign.variants[cell.variant].apply(checker);
     return checker;
   };
-  const auto is = [&](const CampaignCell& cell, const char* edges, bool replay) {
+  const auto is = [&](const CampaignCell& cell, EdgeCheck edges, bool replay) {
     const Variant& variant = campaign.variants[cell.variant];
     return specOf(cell).edges == edges &&
            (variant.peer && variant.peer->name == "replay") == replay;
   };
   for (const CampaignCell& real : result.cells)
     for (const CampaignCell& replay : result.cells) {
-      if (!is(real, "certified", false) || !is(replay, "certified", true) ||
+      if (!is(real, EdgeCheck::certified, false) || !is(replay, EdgeCheck::certified, true) ||
           real.problem != replay.problem || real.planner.label != replay.planner.label ||
           specOf(real).tolerance != specOf(replay).tolerance)
         continue;

@@ -18,8 +18,8 @@ class RandomEdges {
   RandomEdges(const Problem& problem, std::uint64_t seed) : problem_(problem), random_(seed) {}
 
   bool rigid() const {
-    return problem_.space.groups().size() == 1 &&
-           problem_.space.groups()[0].kind != CoordinateGroup::Kind::joints;
+    return problem_.model.space.groups().size() == 1 &&
+           problem_.model.space.groups()[0].kind != CoordinateGroup::Kind::joints;
   }
   /// Returns an edge from a random state. It may leave the bounds.
   /// @param length  for a rigid body, a share of the scene's size; else a norm of joint values.
@@ -28,7 +28,7 @@ class RandomEdges {
     e.to = e.from;
     double size = 0, squares = 0;
     Configuration step = Configuration::Zero(e.from.size());
-    for (const Coordinate& c : problem_.space.coordinates()) {
+    for (const Coordinate& c : problem_.model.space.coordinates()) {
       const auto i = static_cast<Eigen::Index>(c.first);
       if (c.kind == Coordinate::Kind::rotation) {
         Eigen::Map<Eigen::Quaterniond> q(e.to.data() + c.first);
@@ -52,8 +52,8 @@ class RandomEdges {
     return std::uniform_real_distribution(low, high)(random_);
   }
   Configuration uniform() {
-    Configuration q(static_cast<Eigen::Index>(problem_.space.size()));
-    for (const Coordinate& c : problem_.space.coordinates()) {
+    Configuration q(static_cast<Eigen::Index>(problem_.model.space.size()));
+    for (const Coordinate& c : problem_.model.space.coordinates()) {
       const auto i = static_cast<Eigen::Index>(c.first);
       if (c.kind == Coordinate::Kind::line)
         q[i] = real(c.lower, c.upper);

@@ -175,7 +175,7 @@ inline BenchmarkCompetitor transcriptPeer(Transcript& transcript) {
 /// @throws std::runtime_error for a planner that doesn't repeat, or if recording failed.
 inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& path) {
   for (const PlannerInfo& info : knownPlanners())
-    if (info.name == planned.planner.name && !info.repeats)
+    if (info.name == planned.settings.planner.name && !info.repeats)
       throw std::runtime_error("replay: " + info.name + " doesn't repeat");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
   if (!file) throw std::runtime_error("replay: a temporary file can't be created");
@@ -190,7 +190,7 @@ inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& pat
     transcript.write(file.get());
     send("done");
   };
-  const ChildEnd recorded = inChild(record, {{2 * planned.planner.time + 60}, 0});
+  const ChildEnd recorded = inChild(record, {{2 * planned.settings.planner.time + 60}, 0});
   if (!recorded.failure.empty()) throw std::runtime_error("recording: " + recorded.failure);
   Transcript transcript = Transcript::read(file.get());
   BenchmarkRun run = runUnderOmpl(planned, "", transcriptPeer(transcript), memory, path);

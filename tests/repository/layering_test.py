@@ -12,8 +12,8 @@ LAYERS = [
     "collision/core", "collision/predicates", "collision/geometry", "collision/convex", "collision/volumes",
     "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
     "collision/collision.h",  # for programs outside: our own files include what they use
-    "planner/robot", "planner/problem", "planner/checker", "planner/verify", "planner/solve", "planner/view",
-    "planner/benchmark", "planner/app",
+    "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/solve",
+    "planner/view", "planner/benchmark", "planner/app",
 ]
 
 # The verifier shares plain data with the checker, and no code: its includes are listed one by one.

@@ -46,7 +46,7 @@ std::vector<Edge> someEdges(const Problem& problem, std::size_t count) {
   const auto near = [&](const Configuration& q, double distance) {
     Configuration r = q;
     for (Eigen::Index i = 0; i < r.size(); ++i) r[i] += distance * normal(random);
-    problem.space.normalise(r);
+    problem.model.space.normalise(r);
     return r;
   };
   std::vector<Edge> edges;
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Problems, Threads, testing::Values("thin_plate", "two_a
 TEST_P(Threads, CheckerInOneOrder) {
   for (const char* const volume : {"obb", "kdop18"}) {
     Problem problem = ownProblem(GetParam());
-    problem.checker.volume = volume;
+    problem.settings.checker.trees.volume = volume;
     const std::vector<Edge> edges = someEdges(problem, 10);
     const Checker shared(problem);
     expectOneAnswer([&] {
@@ -121,11 +121,12 @@ TEST_P(Threads, SceneAndEdgeMotions) {
   const std::vector<Edge> edges = someEdges(problem, 16);
   MotionOptions options;
   options.tolerance = 1e-5;
-  const Scene scene = makeScene(problem);
+  const Scene scene = makeScene(problem.model);
   const Answers answers = expectOneAnswer([&] {
     Answers mine;
     QueryContext context;
-    EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+    EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(),
+                      problem.task.tube);
     for (const Edge& edge : edges) {
       motion.set(edge.from, edge.to);
       for (const EdgeMethod method :
@@ -143,10 +144,10 @@ TEST_P(Threads, SceneAndEdgeMotions) {
 TEST_P(Threads, Validators) {
   for (const char* const method : {"certified", "adaptive", "discrete"}) {
     Problem problem = ownProblem(GetParam());
-    problem.checker.edges = method;
+    problem.settings.checker.edges = choiceNamed<EdgeCheck>(method).value();
     const std::vector<Edge> edges = someEdges(problem, 16);
     const Checker checker(problem);
-    const auto space = std::make_shared<ProblemStateSpace>(problem.space);
+    const auto space = std::make_shared<ProblemStateSpace>(problem.model.space);
     const auto si = std::make_shared<ob::SpaceInformation>(space);
     std::shared_ptr<CountingMotionValidator> validator;
     if (std::string(method) == "discrete") {
@@ -212,7 +213,10 @@ TEST_P(Threads, ReadProblems) {
   inThreads([&](int k) {
     for (int i = 0; i < 3; ++i) {
       const Problem problem = ownProblem(GetParam());
-      seen[k] += digestOf(problem) + std::to_string(problem.pairs.size());
+      seen[k] += digestOf(problem);
+      forEachTestedPair(problem.model, [&](std::size_t a, std::size_t b) {
+        seen[k] += " " + std::to_string(a) + "~" + std::to_string(b);
+      });
     }
   });
   EXPECT_FALSE(seen[0].empty());

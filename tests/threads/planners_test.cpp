@@ -127,12 +127,12 @@ std::ostream& operator<<(std::ostream& out, const Case& one) {
 
 Problem problemOf(const Case& one) {
   Problem problem = ownProblem(one.problem);
-  problem.planner = {};
-  problem.planner.name = one.planner;
-  problem.planner.time = 1;
-  if (one.planner == "CForest") problem.planner.params["num_threads"] = "4";
+  problem.settings.planner = {};
+  problem.settings.planner.name = one.planner;
+  problem.settings.planner.time = 1;
+  if (one.planner == "CForest") problem.settings.planner.params["num_threads"] = "4";
   if (one.planner == "AnytimePathShortening") {
-    problem.planner.params["planners"] = "RRTConnect,RRTConnect,EST,RRTConnect";
+    problem.settings.planner.params["planners"] = "RRTConnect,RRTConnect,EST,RRTConnect";
   }
   return problem;
 }
@@ -183,10 +183,10 @@ TEST_P(PlannersWithThreads, VerdictsAreThoseOfOneThread) {
                             : run->motions->checkedMotions() > 20;
   };
   do {
-    problem.planner.time *= 2;
+    problem.settings.planner.time *= 2;
     run.emplace();
     run->solve(problem);
-  } while (!done() && problem.planner.time < 200);
+  } while (!done() && problem.settings.planner.time < 200);
   if (run->report.outcome == SolveOutcome::solved) {
     EXPECT_TRUE(run->report.certified);
     EXPECT_EQ(verifySolution(problem, makeSolution(problem, run->report)).verdict,
@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Planners, ProgressAndInterrupt) {
   for (const char* const planner : {"CForest", "AnytimePathShortening"}) {
     Problem problem = problemOf({planner, "two_arms"});
-    problem.planner.time = 300;
+    problem.settings.planner.time = 300;
     std::atomic<bool> interrupted = false, told = false;
     std::vector<SolveProgress> progress;  // without a lock: calls never overlap
     SolveOptions options;

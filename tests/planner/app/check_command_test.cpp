@@ -114,11 +114,11 @@ TEST_F(CheckCommand, CheckOfStartAndGoal) {
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "
         "0]}\n"
         "start: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n"
-        "planner: {name: RRT, params: {rnge: 1}}\nsampler: most_clearance\n");
+        "planner: {name: RRT, params: {rnge: 1, goal_bias: 2}}\n");
   const Result bad = run("check bad.yaml");
   EXPECT_EQ(bad.status, 2);
   EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT has no parameter \"rnge\""));
-  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:8: unknown sampler \"most_clearance\""));  // both faults
+  EXPECT_THAT(bad.err, HasSubstr("bad.yaml:7: RRT's parameter goal_bias"));  // both faults
 }
 
 TEST_F(CheckCommand, BadInputIsOneLineAndExit2) {

@@ -140,9 +140,9 @@ TEST_F(SolveCommand, BadInputIsOneLineAndExit2) {
   expectFault("solve problem.yaml --set range", "--set: key=value is needed, not \"range\"");
   expectFault("solve problem.yaml --set range=long",
               "--set: RRTConnect's parameter range: \"long\" is not a number");
-  expectFaultThatBegins(
-      "solve problem.yaml --sampler max_clearence",
-      "--sampler: unknown sampler \"max_clearence\" (did you mean \"max_clearance\"?)");
+  expectFault("solve problem.yaml --sampler max_clearence",
+              "--sampler: one of uniform, gaussian, obstacle_based, bridge_test, max_clearance is "
+              "needed, not \"max_clearence\" (did you mean \"max_clearance\"?)");
   expectFault("solve problem.yaml problem.yaml -o s.yaml",
               "--output: names one file, but there are 2 problems");
   expectFault("solve problem.yaml -o none/s.yaml", "--output: there is no folder none");
@@ -153,10 +153,11 @@ TEST_F(SolveCommand, BadInputIsOneLineAndExit2) {
                       " belongs to the problem and would be overwritten; name another file");
   expectFault("solve problem.yaml --picture .",
               "--picture: . is a folder; a file's name is needed");
-  expectFault("solve problem.yaml --edges discrete --resolution 1",
-              "--resolution: checker.resolution: 1 is not in [1e-09, 1)");
+  expectFaultThatBegins("solve problem.yaml --edges discrete --resolution 1",
+                        "--resolution: must be from 1e-9 to below 1, not 1");
   write("fine.yaml", problem("-2, 0, 0", "checker: {edges: discrete, resolution: 1e-300}\n"));
-  expectFault("solve fine.yaml", "fine.yaml:8: checker.resolution: 1e-300 is not in [1e-09, 1)");
+  expectFault("solve fine.yaml",
+              "fine.yaml:8: checker.resolution: must be from 1e-9 to below 1, not 1e-300");
   write("problem.yaml", problem("0.05, 0, 0"));
   expectFaultThatBegins("solve problem.yaml -o s.yaml",
                         "problem.yaml:5: start is in contact: \"cube\" (triangle ");

@@ -87,14 +87,14 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(c.planners[2].label, "PRM");
   EXPECT_THAT(variants(c), ElementsAre("certified", "sampled 0.1 hull", "sampled 0.1 vertices",
                                        "sampled 0.01 hull", "sampled 0.01 vertices"));
-  Problem::CheckerSpec checker;
+  CheckerSettings checker;
   c.variants[0].apply(checker);
   EXPECT_EQ(checker.tolerance, 1e-6);
   checker = {};
   c.variants[4].apply(checker);
-  EXPECT_EQ(checker.edges, "discrete");
+  EXPECT_EQ(checker.edges, EdgeCheck::discrete);
   EXPECT_EQ(checker.resolution, 0.01);
-  EXPECT_EQ(checker.fit, "vertices");
+  EXPECT_EQ(checker.trees.fit, "vertices");
   EXPECT_EQ(c.runs, 7u);
   EXPECT_EQ(c.seed, 3u);
   EXPECT_EQ(c.time, 2.5);
@@ -102,9 +102,9 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(c.simplify, false);
   EXPECT_FALSE(c.verify);
   const Problem planned = plannedProblem(c, cellsOf(c)[0], 9);
-  EXPECT_FALSE(planned.simplify);
-  EXPECT_EQ(planned.planner.time, 2.5);
-  EXPECT_EQ(planned.seed, 9u);
+  EXPECT_FALSE(planned.settings.simplify);
+  EXPECT_EQ(planned.settings.planner.time, 2.5);
+  EXPECT_EQ(planned.settings.seed, 9u);
 }
 
 /// A short file with many lists could ask for more variants than memory or time allow.

@@ -53,7 +53,7 @@ TEST(Replay, RefusesWhatDoesNotRepeat) {
 
 TEST(Replay, TellsAnotherQuestion) {
   const Problem problem = test::hallProblem(test::Rigid::SE3);
-  const auto space = std::make_shared<ProblemStateSpace>(problem.space);
+  const auto space = std::make_shared<ProblemStateSpace>(problem.model.space);
   const auto si = std::make_shared<ompl::base::SpaceInformation>(space);
   ompl::base::ScopedState<> a(space), b(space);
   Configuration q = startOf(problem);

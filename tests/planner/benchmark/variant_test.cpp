@@ -21,32 +21,32 @@ std::string complaintOf(const std::string& text,
   return "";
 }
 
-Problem::CheckerSpec specOf(const Variant& variant) {
-  Problem::CheckerSpec checker;
+CheckerSettings specOf(const Variant& variant) {
+  CheckerSettings checker;
   variant.apply(checker);
   return checker;
 }
 
 TEST(Variant, SetsTheKnobOfItsKind) {
-  Problem::CheckerSpec checker;
+  CheckerSettings checker;
   readVariant("discrete:0.005").apply(checker);
-  EXPECT_EQ(checker.edges, "discrete");
+  EXPECT_EQ(checker.edges, EdgeCheck::discrete);
   EXPECT_EQ(checker.resolution, 0.005);
   EXPECT_FALSE(checker.tolerance);
   checker = {};
   readVariant("certified:1e-6").apply(checker);
-  EXPECT_EQ(checker.edges, "certified");
-  EXPECT_EQ(checker.resolution, Problem::CheckerSpec{}.resolution);
+  EXPECT_EQ(checker.edges, EdgeCheck::certified);
+  EXPECT_EQ(checker.resolution, CheckerSettings{}.resolution);
   EXPECT_EQ(checker.tolerance, 1e-6);
 }
 
 TEST(Variant, WithoutAKnobTheProblemsOwnStays) {
-  Problem::CheckerSpec checker;
+  CheckerSettings checker;
   checker.resolution = 0.02;
   checker.tolerance = 1e-5;
   for (const char* name : {"certified", "discrete"}) {
     readVariant(name).apply(checker);
-    EXPECT_EQ(checker.edges, name);
+    EXPECT_EQ(wordOf(checker.edges), name);
     EXPECT_EQ(checker.resolution, 0.02);
     EXPECT_EQ(checker.tolerance, 1e-5);
   }
@@ -54,8 +54,8 @@ TEST(Variant, WithoutAKnobTheProblemsOwnStays) {
 
 TEST(Variant, EveryEdgesOfAProblemIsOne) {
   for (const std::string& edges : problemChoices().at("checker.edges")) {
-    EXPECT_EQ(specOf(readVariant(edges)).edges, edges);
-    const Problem::CheckerSpec checker = specOf(readVariant(edges + ":0.001"));
+    EXPECT_EQ(wordOf(specOf(readVariant(edges)).edges), edges);
+    const CheckerSettings checker = specOf(readVariant(edges + ":0.001"));
     EXPECT_EQ(edges == "discrete" ? checker.resolution : checker.tolerance.value_or(0), 0.001);
   }
 }
@@ -63,7 +63,7 @@ TEST(Variant, EveryEdgesOfAProblemIsOne) {
 TEST(Variant, APeerSamples) {
   const std::vector<BenchmarkCompetitor> peers{{"other", {}}};
   const Variant variant = readVariant("other:0.1", peers);
-  EXPECT_EQ(specOf(variant).edges, "discrete");
+  EXPECT_EQ(specOf(variant).edges, EdgeCheck::discrete);
   EXPECT_EQ(specOf(variant).resolution, 0.1);
   ASSERT_TRUE(variant.peer);
   EXPECT_EQ(variant.peer->name, "other");

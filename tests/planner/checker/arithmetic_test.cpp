@@ -51,8 +51,8 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
 TEST(CheckerArithmetic, MotionsMadeElsewhereAreRefused) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
-  const Scene scene = makeScene(problem);
-  EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+  const Scene scene = makeScene(problem.model);
+  EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(), problem.task.tube);
   const Configuration start = startOf(problem);
   for (const auto& setting : test::floatingPointSettings()) {
     {

@@ -7,6 +7,7 @@
 
 #include "collision/motion/check_certificate.h"
 #include "planner/checker/checker.h"
+#include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
 #include "tests/support/support.h"
 
@@ -39,18 +40,18 @@ TEST_P(Certificates, AreAccepted) {
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / GetParam());
   const Checker checker(problem);
   const Scene& scene = checker.scene();
-  EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+  EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(), problem.task.tube);
   QueryContext context;
   std::mt19937_64 random(test::testSeed(11));
   const int wanted = test::stressAsked() ? 1'000 : 60;
   int free = 0, accepted = 0;
   for (int n = 0; n < 100 * wanted && free < wanted; ++n) {
-    const Configuration from = randomState(problem.space, random);
+    const Configuration from = randomState(problem.model.space, random);
     if (!checker.certifiedState(from)) continue;
     // 1 to 20 % of the way to another state.
     const double share = std::pow(10.0, std::uniform_real_distribution(-2.0, -0.7)(random));
     const Configuration to =
-        problem.space.interpolate(from, randomState(problem.space, random), share);
+        problem.model.space.interpolate(from, randomState(problem.model.space, random), share);
     motion.set(from, to);
     MotionCertificate certificate;
     MotionOptions options = checker.options();

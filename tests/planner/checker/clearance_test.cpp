@@ -30,7 +30,7 @@ TEST(Clearance, OfABarBesideAWall) {
   for (const Rigid kind : {Rigid::SE2, Rigid::SE3}) {
     Problem problem = hallProblem(kind);
     for (const double margin : {0.0, 0.1}) {
-      problem.margin = margin;
+      problem.task.margin = margin;
       const auto at = [&](double x, double y, double yaw) {
         return clearanceOf(problem, poseOf(kind, x, y, yaw)) + margin;
       };
@@ -54,17 +54,17 @@ TEST(Clearance, OfAnArmOfPrimitivesIsThatOfItsClosestPair) {
 
 TEST(Clearance, InASolidIsContact) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.bodies[1].shapes = {test::meshShape("block", boxMesh({4, 4, 4}))};
+  problem.model.bodies[1].shapes = {test::meshShape("block", boxMesh({4, 4, 4}))};
   EXPECT_NEAR(clearanceOf(problem, poseOf(Rigid::SE3, 0.25, 0)), 1.25, 1e-14);
-  problem.bodies[1].shapes[0].solid = true;
+  problem.model.bodies[1].shapes[0].solid = true;
   EXPECT_EQ(clearanceOf(problem, poseOf(Rigid::SE3, 0.25, 0)), 0);
-  problem.margin = 0.5;
+  problem.task.margin = 0.5;
   EXPECT_EQ(clearanceOf(problem, poseOf(Rigid::SE3, 0.25, 0)), -0.5);
 }
 
 TEST(Clearance, WithoutTestedPairsThereIsNoEndOfIt) {
   Problem problem = hallProblem(Rigid::SE2);
-  problem.pairs[0].skipped = "allow";
+  problem.model.filter.skip(0, 1, "allow");
   EXPECT_EQ(clearanceOf(problem, poseOf(Rigid::SE2, 0, 0)), kInfinity);
 }
 
@@ -98,7 +98,7 @@ TEST(Clearance, IsInStepWithWhatIsValid) {
   std::uniform_real_distribution<double> u(-1, 1);
   for (const double margin : {0.0, 0.2}) {
     Problem problem = armProblem();
-    problem.margin = margin;
+    problem.task.margin = margin;
     const Checker checker(problem);
     int valid = 0, invalid = 0;
     for (int i = 0; i < 400; ++i) {

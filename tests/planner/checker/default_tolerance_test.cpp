@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/world/rigid_scene.h"
+#include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/support.h"
@@ -82,7 +83,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
       c.kind = kind;
       c.lower = -limit;
       c.upper = limit;
-      return problem.space.coordinates()[problem.space.add(c)].first;
+      return problem.model.space.coordinates()[problem.model.space.add(c)].first;
     };
     // Prismatic joints along x, y and z, then revolute ones about z far out, in alternating
     // directions.
@@ -93,7 +94,7 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
       frame.joint = Frame::Joint::prismatic;
       frame.axis = Vec3::Unit(k);
       frame.variable = variable(Coordinate::Kind::line, far + 1);
-      parent = problem.tree.add(frame);
+      parent = problem.model.tree.add(frame);
     }
     const int turns = 1 + n % 4;
     for (int k = 0; k < turns; ++k) {
@@ -102,36 +103,36 @@ TEST(DefaultTolerance, ChainsFarFromTheOrigin) {
       frame.fixed.p = Vec3(far / 3 * real(random), far / 3 * real(random), 0);
       frame.joint = Frame::Joint::revolute;
       frame.variable = variable(k % 2 ? Coordinate::Kind::circle : Coordinate::Kind::line, 3);
-      parent = problem.tree.add(frame);
+      parent = problem.model.tree.add(frame);
     }
-    const auto numbers = static_cast<Eigen::Index>(problem.space.size());
-    problem.tube = Configuration::Zero(numbers);
+    const auto numbers = static_cast<Eigen::Index>(problem.model.space.size());
+    problem.task.tube = Configuration::Zero(numbers);
     Configuration from(numbers), to(numbers);
     for (Eigen::Index i = 0; i < numbers; ++i) {
       from[i] = i < 3 ? onGrid(far * real(random)) : 3 * real(random);
       to[i] = from[i] + (i < 3 ? 0 : size / far * real(random));
     }
-    const std::vector<Transform> poses = framePoses(problem.tree, from);
+    const std::vector<Transform> poses = framePoses(problem.model.tree, from);
     const Vec3 tip = poses[parent].t;
     TriangleMesh floor = floorOf(100 * size);
     for (Vec3& p : floor.vertices) p = Vec3(p.x() + tip.x(), p.y() + tip.y(), from[2]);
     PlacedShape under, over;
     under.mesh.emplace().mesh = floor;
     over.mesh.emplace().mesh = topOf(size);
-    problem.bodies = {{"top", parent, 0, {over}}, {"floor", 0, {}, {under}}};
-    problem.pairs = {{0, 1, ""}};
+    problem.model.bodies = {{"top", parent, 0, {over}}, {"floor", 0, {}, {under}}};
 
     std::vector<Scene::Placed> placed;
     placed.push_back({Body("top", topOf(size)), parent});
     placed.push_back({Body("floor", floor), 0});
     const Scene scene(std::move(placed), {{0, 1}});
     MotionOptions options;
-    const double rounding = roundingTolerance(problem);
+    const double rounding = roundingTolerance(problem.model);
     options.tolerance = std::max(scene.defaultTolerance(), rounding);
     sharp += options.tolerance == rounding;
     ASSERT_LT(options.tolerance, 0.01 * size) << "of use";
     from[2] = to[2] = from[2] + options.tolerance * (2.05 + std::abs(real(random)));
-    EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+    EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(),
+                      problem.task.tube);
     motion.set(from, to);
     QueryContext context;
     const MotionResult result = scene.certify(motion, options, context);
@@ -157,22 +158,22 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
       frame.parent = parent;
       frame.fixed.p = at;
       frame.joint = Frame::Joint::revolute;
-      frame.variable = problem.space.coordinates()[problem.space.add(c)].first;
-      return problem.tree.add(frame);
+      frame.variable = problem.model.space.coordinates()[problem.model.space.add(c)].first;
+      return problem.model.tree.add(frame);
     };
     // All rotations are about z, so the heights of tip and floor are those of the file.
     const auto out = [&] { return Vec3(far * real(random), far * real(random), 0); };
     const std::size_t left = add(add(add(0, out()), out()), out());
     const std::size_t right = add(add(add(0, out()), out()), out());
-    const auto numbers = static_cast<Eigen::Index>(problem.space.size());
-    problem.tube = Configuration::Zero(numbers);
+    const auto numbers = static_cast<Eigen::Index>(problem.model.space.size());
+    problem.task.tube = Configuration::Zero(numbers);
     Configuration from(numbers), to(numbers);
     for (Eigen::Index i = 0; i < numbers; ++i) {
       from[i] = 2.5 * real(random);
       to[i] = from[i] + 0.1 * size / far * real(random);
     }
     // The floor is on the left branch, below the tip on the right one.
-    const std::vector<Transform> poses = framePoses(problem.tree, from);
+    const std::vector<Transform> poses = framePoses(problem.model.tree, from);
     const Vec3 tip = poses[left].m.transpose() * (poses[right].t - poses[left].t);
     TriangleMesh floor = floorOf(100 * size);
     for (Vec3& p : floor.vertices) p = Vec3(p.x() + tip.x(), p.y() + tip.y(), 0);
@@ -182,8 +183,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
       PlacedShape under, over;
       under.mesh.emplace().mesh = floor;
       over.mesh.emplace().mesh = top;
-      problem.bodies = {{"floor", left, 0, {under}}, {"top", right, 0, {over}}};
-      problem.pairs = {{0, 1, ""}};
+      problem.model.bodies = {{"floor", left, 0, {under}}, {"top", right, 0, {over}}};
       std::vector<Scene::Placed> placed;
       placed.push_back({Body("floor", floor), left});
       placed.push_back({Body("top", top), right});
@@ -191,10 +191,11 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
     };
     bodies(0);
     MotionOptions options;
-    options.tolerance = defaultTolerance(problem, 1e-7 * size);
+    options.tolerance = defaultTolerance(problem.model, 1e-7 * size);
     ASSERT_LT(options.tolerance, 0.01 * size) << "of use";
     const Scene scene(bodies(options.tolerance * (2.05 + std::abs(real(random)))), {{0, 1}});
-    EdgeMotion motion(problem.tree, problem.space, scene.framePairs(), problem.tube);
+    EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(),
+                      problem.task.tube);
     motion.set(from, to);
     QueryContext context;
     const MotionResult result = scene.certify(motion, options, context);
@@ -212,14 +213,13 @@ TEST(DefaultTolerance, IsNeverMoreThanAThousandTimesTheUsualOne) {
   c.upper = 1e16;
   Frame frame;
   frame.joint = Frame::Joint::revolute;
-  frame.variable = problem.space.coordinates()[problem.space.add(c)].first;
-  const std::size_t link = problem.tree.add(frame);
+  frame.variable = problem.model.space.coordinates()[problem.model.space.add(c)].first;
+  const std::size_t link = problem.model.tree.add(frame);
   PlacedShape ball;
   ball.part = ConvexPart{{Vec3(1, 0, 0)}, 0.1, false};
-  problem.bodies = {{"ball", link, 0, {ball}}, {"post", 0, {}, {ball}}};
-  problem.pairs = {{0, 1, ""}};
-  EXPECT_GT(roundingTolerance(problem), 1);
-  EXPECT_DOUBLE_EQ(defaultTolerance(problem, 1e-8), 1e-5);
+  problem.model.bodies = {{"ball", link, 0, {ball}}, {"post", 0, {}, {ball}}};
+  EXPECT_GT(roundingTolerance(problem.model), 1);
+  EXPECT_DOUBLE_EQ(defaultTolerance(problem.model, 1e-8), 1e-5);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 TEST(EdgeCosts, CountsAndSharesAddUp) {
   const Problem problem = test::hallProblem(test::Rigid::SE3);
   const Checker checker(problem);
-  const EdgeCosts costs = sampleEdgeCosts(problem, checker, 20, 1e9, 1);
+  const EdgeCosts costs = sampleEdgeCosts(checker, 20, 1e9, 1);
   EXPECT_EQ(costs.edges, 20u);
   EXPECT_LE(costs.free, costs.edges);
   EXPECT_EQ(costs.freeSeconds > 0, costs.free > 0);
@@ -25,7 +25,7 @@ TEST(EdgeCosts, CountsAndSharesAddUp) {
 TEST(EdgeCosts, OneEdgeAtLeastAndNoneMorePastTheTime) {
   const Problem problem = test::hallProblem(test::Rigid::SE3);
   const Checker checker(problem);
-  EXPECT_EQ(sampleEdgeCosts(problem, checker, 1'000'000, 0, 1).edges, 1u);
+  EXPECT_EQ(sampleEdgeCosts(checker, 1'000'000, 0, 1).edges, 1u);
 }
 
 }  // namespace

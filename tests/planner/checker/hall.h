@@ -9,6 +9,8 @@
 
 #include "planner/checker/checker.h"
 #include "planner/checker/problem_state_space.h"
+#include "planner/model/model_builder.h"
+#include "planner/problem/problem.h"
 
 namespace corridor::test {
 
@@ -24,23 +26,12 @@ inline TriangleMesh boxMesh(const Vec3& size, const Vec3& at = Vec3::Zero()) {
 }
 
 inline PlacedShape meshShape(const std::string& name, const TriangleMesh& mesh) {
-  PlacedShape shape;
-  shape.name = name;
-  shape.mesh.emplace();
-  shape.mesh->mesh = mesh;
-  return shape;
+  return shapeOf(name, mesh);
 }
 
 inline PlacedShape partShape(const std::string& name, const Primitive& primitive,
                              const Vec3& at = Vec3::Zero()) {
-  PlacedShape shape;
-  shape.name = name;
-  shape.primitive = primitive;
-  shape.at.p = at;
-  Transform X;
-  X.t = at;
-  shape.part = placed(primitive, X);
-  return shape;
+  return shapeOf(name, primitive, {at, Eigen::Quaterniond::Identity()});
 }
 
 /// 2^-40 of each range, the default tube for lines of one range and for angles.
@@ -58,28 +49,28 @@ enum class Rigid { SE2, SE3 };
 inline Problem rigidProblem(Rigid kind, double rotationWeight = 1) {
   using Kind = Coordinate::Kind;
   Problem problem;
-  problem.robots.resize(1);
+  problem.model.robots.resize(1);
   const bool spatial = kind == Rigid::SE3;
   CoordinateGroup group{
       spatial ? CoordinateGroup::Kind::floating : CoordinateGroup::Kind::planar, "bar", {}};
   for (const char* name : {"x", "y", "z"})
     if (spatial || *name != 'z')
-      group.coordinates.push_back(problem.space.add({Kind::line, name, 0, -5, 5, false, 1}));
+      group.coordinates.push_back(problem.model.space.add({Kind::line, name, 0, -5, 5, false, 1}));
   group.coordinates.push_back(
-      problem.space.add({spatial ? Kind::rotation : Kind::circle, spatial ? "rotation" : "yaw", 0,
-                         0, 0, true, rotationWeight}));
-  problem.space.addGroup(group);
+      problem.model.space.add({spatial ? Kind::rotation : Kind::circle,
+                               spatial ? "rotation" : "yaw", 0, 0, 0, true, rotationWeight}));
+  problem.model.space.addGroup(group);
   Frame shift, turn;
   shift.name = "bar's position";
   shift.joint = Frame::Joint::translation;
   shift.variable = 0;
   shift.count = spatial ? 3 : 2;
   turn.name = "bar";
-  turn.parent = problem.tree.add(shift);
+  turn.parent = problem.model.tree.add(shift);
   turn.joint = spatial ? Frame::Joint::rotation : Frame::Joint::revolute;
   turn.variable = shift.count;
-  problem.tree.add(turn);
-  problem.tube = roundingTube(problem.space);
+  problem.model.tree.add(turn);
+  problem.task.tube = roundingTube(problem.model.space);
   return problem;
 }
 
@@ -98,23 +89,23 @@ inline Configuration poseOf(Rigid kind, double x, double y, double yaw = 0) {
 inline Problem hallProblem(Rigid kind, const std::string& edges = "certified",
                            const std::string& volume = "obb") {
   Problem problem = rigidProblem(kind);
-  problem.checker.edges = edges;
-  problem.checker.volume = volume;
-  problem.file = "hall.yaml";
-  problem.name = "hall";
-  problem.bodies = {{"bar", 2, 0, {meshShape("bar", boxMesh({1, 0.2, 0.2}))}},
-                    {"wall", 0, {}, {meshShape("wall", boxMesh({0.001, 7, 10}, {0, -1.5, 0}))}}};
-  problem.pairs = {{0, 1, ""}};
-  problem.start = poseOf(kind, -3, -2);
-  problem.goals = {poseOf(kind, 3, -2, 3)};
-  problem.planner.time = 20;
-  problem.lines = {{"start", 4},
-                   {"goal", 5},
-                   {"planner", 7},
-                   {"planner.name", 8},
-                   {"planner.params.range", 9},
-                   {"sampler", 11},
-                   {"objective", 12}};
+  problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
+  problem.settings.checker.trees.volume = volume;
+  problem.source.file = "hall.yaml";
+  problem.source.name = "hall";
+  problem.model.bodies = {
+      {"bar", 2, 0, {meshShape("bar", boxMesh({1, 0.2, 0.2}))}},
+      {"wall", 0, {}, {meshShape("wall", boxMesh({0.001, 7, 10}, {0, -1.5, 0}))}}};
+  problem.task.start = poseOf(kind, -3, -2);
+  problem.task.goals = {poseOf(kind, 3, -2, 3)};
+  problem.settings.planner.time = 20;
+  problem.source.lines = {{"start", 4},
+                          {"goal", 5},
+                          {"planner", 7},
+                          {"planner.name", 8},
+                          {"planner.params.range", 9},
+                          {"sampler", 11},
+                          {"objective", 12}};
   return problem;
 }
 
@@ -125,7 +116,7 @@ struct Hall {
       : kind(rigid),
         problem(hallProblem(rigid, edges, volume)),
         checker(problem),
-        space(std::make_shared<ProblemStateSpace>(problem.space)),
+        space(std::make_shared<ProblemStateSpace>(problem.model.space)),
         si(std::make_shared<ompl::base::SpaceInformation>(space)) {}
 
   Configuration at(double x, double y, double yaw = 0) const { return poseOf(kind, x, y, yaw); }
@@ -148,45 +139,46 @@ struct Hall {
 inline Problem armProblem() {
   using Kind = Coordinate::Kind;
   Problem problem;
-  problem.file = "arm.yaml";
-  problem.name = "arm";
-  problem.robots.resize(1);
+  problem.source.file = "arm.yaml";
+  problem.source.name = "arm";
+  problem.model.robots.resize(1);
   CoordinateGroup group;
   std::size_t parent = 0;
   const char* names[] = {"shoulder", "elbow", "wrist"};
   for (std::size_t i = 0; i < 3; ++i) {
     // The shoulder is continuous.
-    group.coordinates.push_back(
-        problem.space.add({i == 0 ? Kind::circle : Kind::line, names[i], 0, -2.5, 2.5, true, 1}));
+    group.coordinates.push_back(problem.model.space.add(
+        {i == 0 ? Kind::circle : Kind::line, names[i], 0, -2.5, 2.5, true, 1}));
     Frame frame;
     frame.name = names[i];
     frame.parent = parent;
     if (i > 0) frame.fixed.p = {1, 0, 0};
     frame.joint = Frame::Joint::revolute;
     frame.variable = i;
-    parent = problem.tree.add(frame);
+    parent = problem.model.tree.add(frame);
   }
-  problem.space.addGroup(group);
+  problem.model.space.addGroup(group);
   const Capsule capsule{0.1, 0.8};
   PlacedShape upper = partShape("upper", capsule), lower = partShape("lower", capsule);
   for (PlacedShape* shape : {&upper, &lower})  // along x
     shape->part->points = {{0.1, 0, 0}, {0.9, 0, 0}};
-  problem.bodies = {{"upper", 1, 0, {upper}},
-                    {"lower", 2, 0, {lower}},
-                    {"hand",
-                     3,
-                     0,
-                     {meshShape("hand/1", boxMesh({0.5, 0.1, 0.1}, {0.3, 0, 0})),
-                      meshShape("hand/2", boxMesh({0.1, 0.4, 0.1}, {0.55, 0, 0}))}},
-                    {"post", 0, {}, {partShape("post", Cylinder{0.1, 2}, {1.2, 1.2, 0})}},
-                    {"slab", 0, {}, {meshShape("slab", boxMesh({0.05, 1, 1}, {-1.5, 0, 0}))}}};
-  problem.pairs = {{0, 1, "adjacent"}, {0, 2, ""}, {0, 3, ""}, {0, 4, ""}, {1, 2, "adjacent"},
-                   {1, 3, ""},         {1, 4, ""}, {2, 3, ""}, {2, 4, ""}};
-  problem.start = Configuration::Zero(3);
-  problem.goals = {Configuration(Vec3(2.0, -0.5, 0.3))};
-  problem.tube = roundingTube(problem.space);
-  problem.planner.time = 20;
-  problem.lines = {{"start", 4}, {"goal", 5}};
+  problem.model.bodies = {
+      {"upper", 1, 0, {upper}},
+      {"lower", 2, 0, {lower}},
+      {"hand",
+       3,
+       0,
+       {meshShape("hand/1", boxMesh({0.5, 0.1, 0.1}, {0.3, 0, 0})),
+        meshShape("hand/2", boxMesh({0.1, 0.4, 0.1}, {0.55, 0, 0}))}},
+      {"post", 0, {}, {partShape("post", Cylinder{0.1, 2}, {1.2, 1.2, 0})}},
+      {"slab", 0, {}, {meshShape("slab", boxMesh({0.05, 1, 1}, {-1.5, 0, 0}))}}};
+  problem.model.filter.skip(0, 1, "adjacent");
+  problem.model.filter.skip(1, 2, "adjacent");
+  problem.task.start = Configuration::Zero(3);
+  problem.task.goals = {Configuration(Vec3(2.0, -0.5, 0.3))};
+  problem.task.tube = roundingTube(problem.model.space);
+  problem.settings.planner.time = 20;
+  problem.source.lines = {{"start", 4}, {"goal", 5}};
   return problem;
 }
 

@@ -36,9 +36,9 @@ ConfigurationSpace cartWithArm() {
 }
 
 ConfigurationSpace spaceOf(int kind) {
-  return kind == 0   ? test::rigidProblem(Rigid::SE2, 0.7).space
-         : kind == 1 ? test::rigidProblem(Rigid::SE3, 0.7).space
-         : kind == 2 ? test::armProblem().space
+  return kind == 0   ? test::rigidProblem(Rigid::SE2, 0.7).model.space
+         : kind == 1 ? test::rigidProblem(Rigid::SE3, 0.7).model.space
+         : kind == 2 ? test::armProblem().model.space
                      : cartWithArm();
 }
 
@@ -122,7 +122,7 @@ TEST(StateSpace, TinyDifferencesAreDifferent) {
 /// With one seed a rigid body's samples, near and uniform, are those of OMPL's own space. So
 /// planning for it behaves as with SE3StateSpace.
 TEST(StateSpace, RigidBodiesAreSampledAsByOmpl) {
-  const ConfigurationSpace configurations = test::rigidProblem(Rigid::SE3, 0.7).space;
+  const ConfigurationSpace configurations = test::rigidProblem(Rigid::SE3, 0.7).model.space;
   const auto ours = std::make_shared<ProblemStateSpace>(configurations);
   const auto theirs = std::make_shared<ob::SE3StateSpace>();
   ob::RealVectorBounds bounds(3);

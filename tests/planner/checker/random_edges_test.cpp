@@ -18,8 +18,8 @@ constexpr int kSamples = 100;
 
 /// Any configuration within the bounds, or one near `q`.
 Configuration randomState(const Problem& problem, Random& random) {
-  Configuration q(static_cast<Eigen::Index>(problem.space.size()));
-  for (const Coordinate& c : problem.space.coordinates())
+  Configuration q(static_cast<Eigen::Index>(problem.model.space.size()));
+  for (const Coordinate& c : problem.model.space.coordinates())
     q[static_cast<Eigen::Index>(c.first)] =
         std::uniform_real_distribution<double>(c.lower, c.upper)(random);
   return q;
@@ -36,9 +36,8 @@ struct Tally {
   int edges = 0, free = 0, contact = 0, undecided = 0, self = 0, unproved = 0;
 };
 
-void checkEdge(const Checker& checker, const Configuration& from, const Configuration& to,
-               Tally& tally) {
-  const Problem& problem = checker.problem();
+void checkEdge(const Problem& problem, const Checker& checker, const Configuration& from,
+               const Configuration& to, Tally& tally) {
   const MotionResult result = checker.edge(from, to, false);
   ++tally.edges;
   if (result.verdict == MotionVerdict::free) {
@@ -51,11 +50,12 @@ void checkEdge(const Checker& checker, const Configuration& from, const Configur
         << report.findings[0].t << " from " << from.transpose() << " to " << to.transpose();
     tally.unproved += report.verdict == PathVerdict::undecided;
     for (int i = 0; i <= kSamples; ++i)
-      ASSERT_FALSE(checker.interference(problem.space.interpolate(from, to, double(i) / kSamples)));
+      ASSERT_FALSE(
+          checker.interference(problem.model.space.interpolate(from, to, double(i) / kSamples)));
   } else if (result.verdict == MotionVerdict::contact) {
     ++tally.contact;
     const auto moves = [&](std::size_t shape) {
-      return problem.bodies[checker.bodyOf(shape)].frame != 0;
+      return problem.model.bodies[checker.bodyOf(shape)].frame != 0;
     };
     tally.self += moves(result.pair->bodyA) && moves(result.pair->bodyB);
     Solution solution;
@@ -80,19 +80,19 @@ TEST_P(RandomEdges, FreeOnesAreProved) {
     const int index = std::uniform_int_distribution(1, 50)(random);
     const Problem problem = readProblem((*data / "mbm" / GetParam() / scene).string() + ".json#" +
                                         std::to_string(index));
-    SCOPED_TRACE(problem.name);
+    SCOPED_TRACE(problem.source.name);
     const Checker checker(problem);
     for (int left = perScene; left > 0;) {
       // Half of the edges start where the problem's own paths do, close to obstacles.
       Configuration from = randomState(problem, random);
-      if (left % 4 == 0) from = step(problem.start, 0.1, random);
-      if (left % 4 == 2) from = step(problem.goals[0], 0.1, random);
+      if (left % 4 == 0) from = step(problem.task.start, 0.1, random);
+      if (left % 4 == 2) from = step(problem.task.goals[0], 0.1, random);
       if (!checker.certifiedState(from)) continue;
       const Configuration to =
           step(from, std::uniform_real_distribution<double>(0.1, 2)(random), random);
       if (!checker.inBounds(to)) continue;
       --left;
-      checkEdge(checker, from, to, tally);
+      checkEdge(problem, checker, from, to, tally);
     }
   }
   std::cout << tally.edges << " edges: " << tally.free << " free, " << tally.unproved

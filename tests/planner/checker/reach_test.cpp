@@ -14,19 +14,19 @@ using test::Rigid;
 /// Tests all vertices of all bodies in many configurations, including the extremes.
 void expectInside(const Problem& problem) {
   ompl::RNG::setSeed(5);
-  const std::vector<ReachBox> boxes = reachOf(problem);
-  const auto space = std::make_shared<ProblemStateSpace>(problem.space);
+  const std::vector<ReachBox> boxes = reachOf(problem.model);
+  const auto space = std::make_shared<ProblemStateSpace>(problem.model.space);
   ompl::base::ScopedState<> state(space);
   for (int i = 0; i < 500; ++i) {
     state.random();
-    const std::vector<Transform> poses = framePoses(problem.tree, space->read(state.get()));
+    const std::vector<Transform> poses = framePoses(problem.model.tree, space->read(state.get()));
     for (std::size_t b = 0; b < boxes.size(); ++b)
-      for (const PlacedShape& shape : problem.bodies[b].shapes)
+      for (const PlacedShape& shape : problem.model.bodies[b].shapes)
         for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
-          const Vec3 x = poses[problem.bodies[b].frame] * p;
+          const Vec3 x = poses[problem.model.bodies[b].frame] * p;
           ASSERT_TRUE((x.array() >= boxes[b].lower.array() - 1e-9).all() &&
                       (x.array() <= boxes[b].upper.array() + 1e-9).all())
-              << problem.bodies[b].name << " at " << x.transpose();
+              << problem.model.bodies[b].name << " at " << x.transpose();
         }
   }
 }
@@ -39,22 +39,23 @@ TEST(Reach, BodiesStayInTheirBoxes) {
 
 TEST(Reach, APlanarBodyNeverLeavesItsHeight) {
   Problem problem = test::hallProblem(Rigid::SE2);
-  problem.bodies.push_back(
+  problem.model.bodies.push_back(
       {"lamp", 0, {}, {test::meshShape("lamp", test::boxMesh({1, 1, 1}, {0, 0, 2}))}});
-  const std::vector<ReachBox> boxes = reachOf(problem);
-  EXPECT_FALSE(outOfReach(problem, boxes[0], boxes[1]));
-  EXPECT_TRUE(outOfReach(problem, boxes[0], boxes[2]));
-  problem.margin = 1.5;
-  EXPECT_FALSE(outOfReach(problem, boxes[0], boxes[2]));
+  const std::vector<ReachBox> boxes = reachOf(problem.model);
+  EXPECT_FALSE(outOfReach(problem.task, boxes[0], boxes[1]));
+  EXPECT_TRUE(outOfReach(problem.task, boxes[0], boxes[2]));
+  problem.task.margin = 1.5;
+  EXPECT_FALSE(outOfReach(problem.task, boxes[0], boxes[2]));
 }
 
 TEST(Reach, AnArmReachesTheSumOfItsLinks) {
   Problem problem = test::armProblem();
-  problem.bodies.push_back({"far", 0, {}, {test::partShape("far", Sphere{0.1}, {6, 0, 0})}});
-  problem.bodies.push_back({"near", 0, {}, {test::partShape("near", Sphere{0.1}, {2.5, 0, 0})}});
-  const std::vector<ReachBox> boxes = reachOf(problem);
-  EXPECT_TRUE(outOfReach(problem, boxes[2], boxes[5]));
-  EXPECT_FALSE(outOfReach(problem, boxes[2], boxes[6]));
+  problem.model.bodies.push_back({"far", 0, {}, {test::partShape("far", Sphere{0.1}, {6, 0, 0})}});
+  problem.model.bodies.push_back(
+      {"near", 0, {}, {test::partShape("near", Sphere{0.1}, {2.5, 0, 0})}});
+  const std::vector<ReachBox> boxes = reachOf(problem.model);
+  EXPECT_TRUE(outOfReach(problem.task, boxes[2], boxes[5]));
+  EXPECT_FALSE(outOfReach(problem.task, boxes[2], boxes[6]));
 }
 
 }  // namespace

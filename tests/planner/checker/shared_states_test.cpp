@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/checker/checker.h"
-#include "planner/problem/assembly.h"
-#include "planner/problem/urdf_robot.h"
+#include "planner/model/model_builder.h"
+#include "planner/model/planned_joints.h"
+#include "planner/problem/problem.h"
+#include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_file.h"
 #include "tests/support/support.h"
 
@@ -26,8 +28,7 @@ std::string joined(std::string a, std::string b) {
 Names touching(const Checker& checker, const Configuration& q) {
   Names names;
   for (const Checker::PairNotFree& pair : checker.pairsNotFree(q))
-    names.insert(
-        joined(checker.problem().bodies[pair.a].name, checker.problem().bodies[pair.b].name));
+    names.insert(joined(checker.model().bodies[pair.a].name, checker.model().bodies[pair.b].name));
   return names;
 }
 
@@ -46,33 +47,34 @@ TEST(SharedStates, LinksThatTouchEachOther) {
     const std::string file = robot.at("urdf"), srdf = robot.value("srdf", std::string());
     SCOPED_TRACE(file);
     std::vector<Fault> faults;
-    RobotSetup setup;
+    std::vector<std::filesystem::path> files;
     auto model = readUrdf(robots / file, {{"example-robot-data", robots / "example-robot-data"}},
-                          faults, setup.files);
+                          faults, files);
     ASSERT_TRUE(model) << InputError(faults).what();
     // The reference skips only the SRDF's pairs, so adjacent links must be tested, too.
     model->allowed.clear();
     if (!srdf.empty()) readSrdf(robots / srdf, *model, faults);
     ASSERT_TRUE(faults.empty()) << InputError(faults).what();
-    setup.robot.model = *model;
+    ModelRobot arm;
+    arm.model = *model;
     std::vector<std::size_t> moving;
     for (std::size_t j = 0; j < model->joints.size(); ++j)
       if (movesItself(model->joints[j])) moving.push_back(j);
-    chooseJoints(setup, moving);
+    chooseJoints(arm, moving);
     Problem problem;
-    std::vector<RobotSetup> setups{setup};
-    assembleRobots(setups, problem);
-    setTube({}, problem);
+    problem.model = ModelBuilder().addRobot(arm).buildUnbounded();
+    problem.model.filter = PairFilter();
+    problem.task.tube = tubeOf(problem.model.space);
     Names disabled;
     for (const AllowedPair& pair : model->allowed) disabled.insert(joined(pair.a, pair.b));
-    for (std::size_t a = 0; a < problem.bodies.size(); ++a)
-      for (std::size_t b = a + 1; b < problem.bodies.size(); ++b)
-        if (!disabled.contains(joined(problem.bodies[a].name, problem.bodies[b].name)))
-          problem.pairs.push_back({a, b, ""});
+    for (std::size_t a = 0; a < problem.model.bodies.size(); ++a)
+      for (std::size_t b = a + 1; b < problem.model.bodies.size(); ++b)
+        if (disabled.contains(joined(problem.model.bodies[a].name, problem.model.bodies[b].name)))
+          problem.model.filter.skip(a, b, "SRDF");
     const Checker checker(problem);
     for (const auto& state : robot.at("states")) {
-      Configuration q(static_cast<Eigen::Index>(problem.space.size()));
-      for (const Coordinate& c : problem.space.coordinates())
+      Configuration q(static_cast<Eigen::Index>(problem.model.space.size()));
+      for (const Coordinate& c : problem.model.space.coordinates())
         q[static_cast<Eigen::Index>(c.first)] = state.at("q").at(c.name);
       Names expected;
       for (const auto& pair : state.at("self_contacts"))
@@ -101,7 +103,7 @@ TEST_P(SharedSets, LabelledStates) {
     const int index = query.at("index");
     const Problem problem = readProblem((*data / "mbm" / robot / (scene + ".json")).string() + "#" +
                                         std::to_string(index));
-    SCOPED_TRACE(problem.name);
+    SCOPED_TRACE(problem.source.name);
     const Checker checker(problem);
     for (const auto& state : query.at("states")) {
       if (!state.at("robust")) continue;
@@ -127,9 +129,9 @@ TEST_P(SharedSets, EveryStartAndGoalIsFree) {
     for (int index = 1; index <= 50; ++index) {
       const Problem problem = readProblem(entry.path().string() + "#" + std::to_string(index));
       const Checker checker(problem);
-      EXPECT_TRUE(checker.certifiedState(problem.start)) << problem.name << " start";
-      for (const Configuration& goal : problem.goals)
-        EXPECT_TRUE(checker.certifiedState(goal)) << problem.name << " goal";
+      EXPECT_TRUE(checker.certifiedState(problem.task.start)) << problem.source.name << " start";
+      for (const Configuration& goal : problem.task.goals)
+        EXPECT_TRUE(checker.certifiedState(goal)) << problem.source.name << " goal";
       ++problems;
     }
   EXPECT_EQ(problems, 350);

@@ -25,9 +25,9 @@ std::vector<TreeNames> everyVolume() {
 }
 
 Problem with(Problem problem, const TreeNames& words) {
-  problem.checker.volume = words.volume;
-  problem.checker.fit = words.fit;
-  problem.checker.overlap = words.overlap;
+  problem.settings.checker.trees.volume = words.volume;
+  problem.settings.checker.trees.fit = words.fit;
+  problem.settings.checker.trees.overlap = words.overlap;
   return problem;
 }
 
@@ -39,7 +39,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
   };
   const int count = (test::stressAsked() ? 2'000 : 150) / test::kSlowdown;
   for (const Problem& problem : {test::hallProblem(Rigid::SE3), test::armProblem()}) {
-    const bool rigid = problem.space.size() == 7;
+    const bool rigid = problem.model.space.size() == 7;
     const auto anywhere = [&] {
       if (rigid) return test::poseOf(Rigid::SE3, real(-1, 1), real(-3, 3), real(-3, 3));
       return Configuration(Vec3(real(-3, 3), real(-2.5, 2.5), real(-2.5, 2.5)));
@@ -52,7 +52,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
     std::vector<int> usual;
     std::map<std::uint64_t, int> tests;
     for (const TreeNames& words : everyVolume()) {
-      SCOPED_TRACE(problem.name + ", " + words.volume + ", " + words.overlap);
+      SCOPED_TRACE(problem.source.name + ", " + words.volume + ", " + words.overlap);
       const Problem asked = with(problem, words);
       const Checker checker(asked);
       std::vector<int> verdicts;
@@ -77,7 +77,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
 TEST(CheckerVolumes, WrongWordsThrow) {
   const auto message = [](const TreeNames& words, const std::string& edges) -> std::string {
     Problem problem = with(test::hallProblem(Rigid::SE2), words);
-    problem.checker.edges = edges;
+    problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
     try {
       const Checker checker(problem);
     } catch (const std::invalid_argument& error) {

@@ -63,11 +63,12 @@ class ArmTest : public ProblemTest {
   inline static const std::string armStates = "start: ready\ngoal: {pan: 1, lift: 0.3}\n";
 
   std::string skipped(const Problem& p, const std::string& a, const std::string& b) const {
-    for (const ProblemPair& pair : p.pairs)
-      if ((p.bodies[pair.a].name == a && p.bodies[pair.b].name == b) ||
-          (p.bodies[pair.a].name == b && p.bodies[pair.b].name == a))
-        return pair.skipped;
-    return "no such pair";
+    std::string why = "no such pair";
+    forEachPair(p.model, [&](std::size_t i, std::size_t j, std::string_view reason) {
+      const std::string &one = p.model.bodies[i].name, &other = p.model.bodies[j].name;
+      if ((one == a && other == b) || (one == b && other == a)) why = reason;
+    });
+    return why;
   }
 };
 

@@ -15,25 +15,25 @@ class ArmProblem : public ArmTest {};
 
 std::vector<std::string> namesOf(const Problem& p) {
   std::vector<std::string> names;
-  for (const Coordinate& c : p.space.coordinates()) names.push_back(c.name);
+  for (const Coordinate& c : p.model.space.coordinates()) names.push_back(c.name);
   return names;
 }
 
 TEST_F(ArmProblem, GroupStatesAndPairs) {
   const Problem p = read(armHead + armStates);
   EXPECT_THAT(namesOf(p), ElementsAre("pan", "lift"));
-  const auto& pan = p.space.coordinates()[0];
+  const auto& pan = p.model.space.coordinates()[0];
   EXPECT_EQ(pan.kind, Coordinate::Kind::circle);
-  const auto& lift = p.space.coordinates()[1];
+  const auto& lift = p.model.space.coordinates()[1];
   EXPECT_EQ(lift.kind, Coordinate::Kind::line);
   EXPECT_EQ(lift.lower, -3.14159);
   EXPECT_TRUE(lift.angular);
-  EXPECT_EQ(p.start, numbers({0, 0.5}));
-  EXPECT_THAT(p.goals, ElementsAre(numbers({1, 0.3})));
+  EXPECT_EQ(p.task.start, numbers({0, 0.5}));
+  EXPECT_THAT(p.task.goals, ElementsAre(numbers({1, 0.3})));
   std::vector<std::string> bodies;
-  for (const ProblemBody& body : p.bodies) bodies.push_back(body.name);
+  for (const ModelBody& body : p.model.bodies) bodies.push_back(body.name);
   EXPECT_THAT(bodies, ElementsAre("base", "upper", "lower", "finger", "thumb", "post"));
-  EXPECT_EQ(p.pairs.size(), 15u) << "each pair once";
+  EXPECT_EQ(pairCount(p.model), 15) << "each pair once";
   EXPECT_EQ(skipped(p, "base", "upper"), "adjacent");
   EXPECT_EQ(skipped(p, "base", "lower"), "SRDF: Never");
   EXPECT_EQ(skipped(p, "lower", "finger"), "adjacent") << "through a link without shapes";
@@ -41,9 +41,9 @@ TEST_F(ArmProblem, GroupStatesAndPairs) {
   EXPECT_EQ(skipped(p, "base", "post"), "never move against each other");
   EXPECT_EQ(skipped(p, "base", "finger"), "");
   EXPECT_EQ(skipped(p, "upper", "post"), "");
-  EXPECT_THAT(p.notes,
+  EXPECT_THAT(p.source.notes,
               Contains("not tested, since they never move against each other: base ~ post"));
-  EXPECT_THAT(p.notes, Contains("joints that are not planned for are held: slide 0.01"))
+  EXPECT_THAT(p.source.notes, Contains("joints that are not planned for are held: slide 0.01"))
       << "the value nearest to 0 within its limits";
 }
 
@@ -90,8 +90,8 @@ TEST_F(ArmProblem, OverAPlanarJointLinksAreNotAdjacent) {
 TEST_F(ArmProblem, FramesStandWhereTheJointsPutThem) {
   const Problem p = read(armHead + "base: {at: [1, 2, 3], rpy_deg: [0, 0, 90]}\nstart: ready\n" +
                          "goal: {pan: 1, lift: 0.3}\n");
-  const auto frames = framePoses(p.tree, numbers({0, 90 * degree}));
-  const auto& robot = p.robots.at(0);
+  const auto frames = framePoses(p.model.tree, numbers({0, 90 * degree}));
+  const auto& robot = p.model.robots.at(0);
   EXPECT_LT((frames[robot.linkFrames[0]].t - Vec3(1, 2, 3)).norm(), 1e-15);
   for (std::size_t l = 0; l < robot.model.links.size(); ++l) {
     const Vec3 at = frames[robot.linkFrames[l]].t;
@@ -114,12 +114,12 @@ TEST_F(ArmProblem, AllMovingJointsWithoutAGroup) {
                          "start: {pan_deg: 30, lift: 0, slide: 0.02}\ngoal: {pan: 0, "
                          "lift_deg: 90, slide: 0.05}\ntube: {joints: 0.001}\n");
   EXPECT_THAT(namesOf(p), ElementsAre("pan", "lift", "slide"));
-  EXPECT_EQ(p.start, numbers({30 * degree, 0, 0.02}));
-  EXPECT_EQ(p.goals.at(0), numbers({0, 90 * degree, 0.05}));
-  EXPECT_EQ(p.space.coordinates()[1].weight, 2);
-  EXPECT_EQ(p.space.coordinates()[0].weight, 1);
-  EXPECT_FALSE(p.space.coordinates()[2].angular);
-  EXPECT_EQ(p.tube, numbers({0.001, 0.001, 0.001}));
+  EXPECT_EQ(p.task.start, numbers({30 * degree, 0, 0.02}));
+  EXPECT_EQ(p.task.goals.at(0), numbers({0, 90 * degree, 0.05}));
+  EXPECT_EQ(p.model.space.coordinates()[1].weight, 2);
+  EXPECT_EQ(p.model.space.coordinates()[0].weight, 1);
+  EXPECT_FALSE(p.model.space.coordinates()[2].angular);
+  EXPECT_EQ(p.task.tube, numbers({0.001, 0.001, 0.001}));
   EXPECT_EQ(skipped(p, "finger", "thumb"), "") << "one follows the other the other way";
   EXPECT_EQ(skipped(p, "base", "lower"), "") << "no SRDF";
 }
@@ -130,10 +130,10 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
         "states: {home: {pan: 1, slide: 0.02, lift: 0}}\nallow: [[finger, thumb]]\n");
   const Problem p = read(armHead + "start: home\ngoal: {from: home, pan_deg: 10}\n");
   EXPECT_THAT(namesOf(p), ElementsAre("slide", "pan"));
-  EXPECT_EQ(p.start, numbers({0.02, 1}));
-  EXPECT_EQ(p.goals.at(0), numbers({0.02, 10 * degree}));
+  EXPECT_EQ(p.task.start, numbers({0.02, 1}));
+  EXPECT_EQ(p.task.goals.at(0), numbers({0.02, 10 * degree}));
   EXPECT_EQ(skipped(p, "finger", "thumb"), "robot.yaml: allow");
-  EXPECT_THAT(p.notes,
+  EXPECT_THAT(p.source.notes,
               Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
 }
 
@@ -141,25 +141,25 @@ TEST_F(ArmProblem, ABareUrdfWillDo) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
       "goal: {pan: 1, lift: 0, slide: 0.02}\n");
-  EXPECT_EQ(p.robots.at(0).model.name, "armbot");
-  EXPECT_EQ(p.bodies.size(), 5u) << "and no world";
+  EXPECT_EQ(p.model.robots.at(0).model.name, "armbot");
+  EXPECT_EQ(p.model.bodies.size(), 5u) << "and no world";
 }
 
 TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndTold) {
   const Problem p =
       read(armHead + "start: {pan: 0, lift: 3.1416}\ngoal: {pan: 4, lift: -3.14159}\n");
-  EXPECT_EQ(p.start, numbers({0, 3.14159}));
-  EXPECT_DOUBLE_EQ(p.goals.at(0)[0], 4 - 2 * std::numbers::pi);
-  EXPECT_EQ(p.goals.at(0)[1], -3.14159) << "limits are inclusive";
-  EXPECT_THAT(p.notes, Contains("start.lift: 3.1416 is read as its limit, 3.14159"));
+  EXPECT_EQ(p.task.start, numbers({0, 3.14159}));
+  EXPECT_DOUBLE_EQ(p.task.goals.at(0)[0], 4 - 2 * std::numbers::pi);
+  EXPECT_EQ(p.task.goals.at(0)[1], -3.14159) << "limits are inclusive";
+  EXPECT_THAT(p.source.notes, Contains("start.lift: 3.1416 is read as its limit, 3.14159"));
   EXPECT_THAT(
-      p.notes,
+      p.source.notes,
       Contains("goal.pan: 4 is read as -2.2831853071795867, the same angle up to full turns"));
   const Problem d =
       read(armHead + "start: {pan_deg: -180, lift: 0}\ngoal: {pan_deg: 270, lift: 0}\n");
-  EXPECT_EQ(d.start[0], std::numbers::pi);
-  EXPECT_EQ(d.goals.at(0)[0], -90 * degree);
-  EXPECT_THAT(d.notes,
+  EXPECT_EQ(d.task.start[0], std::numbers::pi);
+  EXPECT_EQ(d.task.goals.at(0)[0], -90 * degree);
+  EXPECT_THAT(d.source.notes,
               Contains("goal.pan_deg: 270 is read as -90, the same angle up to full turns"));
 }
 
@@ -167,25 +167,25 @@ TEST_F(ArmProblem, SeveralGoalsAndARegion) {
   Problem p = read(armHead +
                    "start: ready\ngoal: {any: [ready, {pan: 1, lift: 0}], within: {joints_deg: "
                    "2}}\n");
-  EXPECT_THAT(p.goals, ElementsAre(numbers({0, 0.5}), numbers({1, 0})));
-  ASSERT_TRUE(p.goalRegion);
-  EXPECT_DOUBLE_EQ(p.goalRegion->joint, 2 * degree);
+  EXPECT_THAT(p.task.goals, ElementsAre(numbers({0, 0.5}), numbers({1, 0})));
+  ASSERT_TRUE(p.task.goalRegion);
+  EXPECT_DOUBLE_EQ(p.task.goalRegion->joint, 2 * degree);
   p = read(armHead + "start: ready\ngoal: [ready, {pan: 1, lift: 0}]\n");
-  EXPECT_EQ(p.goals.size(), 2u);
-  EXPECT_FALSE(p.goalRegion);
+  EXPECT_EQ(p.task.goals.size(), 2u);
+  EXPECT_FALSE(p.task.goalRegion);
   p = read(armHead + "start: ready\ngoal: {from: ready, within: {joints: 0.1}}\n");
-  EXPECT_THAT(p.goals, ElementsAre(numbers({0, 0.5})));
-  EXPECT_EQ(p.goalRegion->joint, 0.1);
+  EXPECT_THAT(p.task.goals, ElementsAre(numbers({0, 0.5})));
+  EXPECT_EQ(p.task.goalRegion->joint, 0.1);
   p = read(head + "start: {at: [5, 0, 0]}\ngoal: [{at: [0, 5, 0]}, {at: [1, 5, 0]}]\n");
-  EXPECT_EQ(p.goals.size(), 2u) << "of a rigid robot, too";
+  EXPECT_EQ(p.task.goals.size(), 2u) << "of a rigid robot, too";
 }
 
 TEST_F(ArmProblem, BoundsNarrowLimits) {
   const Problem p = read(armHead + armStates + "bounds: {pan: [-1, 2], lift_deg: [-90, 90]}\n");
-  const auto& pan = p.space.coordinates()[0];
+  const auto& pan = p.model.space.coordinates()[0];
   EXPECT_EQ(pan.kind, Coordinate::Kind::line) << "with bounds, it doesn't go round";
   EXPECT_EQ(pan.upper, 2);
-  EXPECT_EQ(p.space.coordinates()[1].lower, -90 * degree);
+  EXPECT_EQ(p.model.space.coordinates()[1].lower, -90 * degree);
 }
 
 TEST_F(ArmProblem, AllowListsMayUseTheRobotsName) {
@@ -207,19 +207,20 @@ TEST_F(ArmProblem, TwoRobotsAndTheirPairs) {
       "0.2}}\nbounds: {left: {pan: [-1, 1]}}\nallow: [[left/upper, right/upper]]\n");
   EXPECT_THAT(namesOf(p), ElementsAre("left/pan", "left/lift", "right/pan", "right/lift", "block/x",
                                       "block/y", "block/z", "block/rotation"));
-  EXPECT_EQ(p.start, numbers({0, 0.5, 0, 1, 9, 0, 0, 0, 0, 0, 1}));
-  EXPECT_EQ(p.space.groups().size(), 2u) << "all joints, and the block";
+  EXPECT_EQ(p.task.start, numbers({0, 0.5, 0, 1, 9, 0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(p.model.space.groups().size(), 2u) << "all joints, and the block";
   EXPECT_EQ(skipped(p, "left/upper", "right/upper"), "allow");
   EXPECT_EQ(skipped(p, "left/upper", "right/lower"), "");
   EXPECT_EQ(skipped(p, "left/base", "right/base"), "never move against each other");
   EXPECT_EQ(skipped(p, "left/base", "left/lower"), "SRDF: Never");
   EXPECT_EQ(skipped(p, "right/upper", "block"), "");
-  EXPECT_EQ(p.goalRegion->position, 0.2);
-  const auto frames = framePoses(p.tree, p.start);
-  EXPECT_EQ(frames[p.robots[1].linkFrames[0]].t, Vec3(1, 0, 0));
-  EXPECT_EQ(frames[p.robots[2].linkFrames[0]].t, Vec3(9, 0, 0));
-  EXPECT_THAT(p.notes, Contains("bounds of block: those of the world, start and goal, since none "
-                                "are given"));
+  EXPECT_EQ(p.task.goalRegion->position, 0.2);
+  const auto frames = framePoses(p.model.tree, p.task.start);
+  EXPECT_EQ(frames[p.model.robots[1].linkFrames[0]].t, Vec3(1, 0, 0));
+  EXPECT_EQ(frames[p.model.robots[2].linkFrames[0]].t, Vec3(9, 0, 0));
+  EXPECT_THAT(p.source.notes,
+              Contains("bounds of block: those of the world, start and goal, since none "
+                       "are given"));
 }
 
 TEST_F(ArmProblem, PlanarAndFloatingJoints) {
@@ -241,12 +242,12 @@ TEST_F(ArmProblem, PlanarAndFloatingJoints) {
   EXPECT_THAT(namesOf(p), ElementsAre("drive/x", "drive/y", "drive/yaw", "line/x", "line/y",
                                       "line/z", "line/rotation"));
   EXPECT_EQ(skipped(p, "cart", "kite"), "") << "the kite goes anywhere, through the cart as well";
-  EXPECT_EQ(p.space.coordinates()[2].weight, 0.3);
-  EXPECT_EQ(p.space.coordinates()[6].weight, 0.6);
-  EXPECT_EQ(p.tube, numbers({0.01, 0.01, 0.02, 0.01, 0.01, 0.01, 0.02, 0, 0, 0}));
-  EXPECT_EQ(p.space.coordinates()[0].upper, 3);
-  const auto frames = framePoses(p.tree, p.start);
-  const auto& links = p.robots[0].linkFrames;
+  EXPECT_EQ(p.model.space.coordinates()[2].weight, 0.3);
+  EXPECT_EQ(p.model.space.coordinates()[6].weight, 0.6);
+  EXPECT_EQ(p.task.tube, numbers({0.01, 0.01, 0.02, 0.01, 0.01, 0.01, 0.02, 0, 0, 0}));
+  EXPECT_EQ(p.model.space.coordinates()[0].upper, 3);
+  const auto frames = framePoses(p.model.tree, p.task.start);
+  const auto& links = p.model.robots[0].linkFrames;
   EXPECT_LT((frames[links[1]].t - Vec3(1, 2, 1)).norm(), 1e-15);
   EXPECT_LT((frames[links[1]].m.col(0) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((frames[links[2]].t - Vec3(1, 2, 4)).norm(), 1e-15);
@@ -272,7 +273,7 @@ TEST_F(ArmProblem, APlanarJointMovesInThePlaneOfItsAxis) {
       "{at: "
       "[[-3, -3], [3, 3]]}}\nstart: {drift: {at: [1, 2], yaw_deg: 90}}\ngoal: {drift: {at: [0, "
       "0]}}\n");
-  const Transform X = framePoses(p.tree, p.start)[p.robots[0].linkFrames[1]];
+  const Transform X = framePoses(p.model.tree, p.task.start)[p.model.robots[0].linkFrames[1]];
   EXPECT_NEAR(X.t.y(), 0, 1e-15);
   EXPECT_NEAR(X.t.norm(), std::sqrt(5.0), 1e-15);
   EXPECT_LT((X.m * Vec3::UnitY() - Vec3::UnitY()).norm(), 1e-15);
@@ -283,15 +284,15 @@ TEST_F(ArmProblem, AProblemWithoutPairsSaysSo) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.yaml\nstart: ready\ngoal: ready\nallow: [[base, "
       "finger], [base, thumb], [upper, finger], [upper, thumb]]\n");
-  ASSERT_FALSE(p.notes.empty());
-  EXPECT_THAT(p.notes.front(),
+  ASSERT_FALSE(p.source.notes.empty());
+  EXPECT_THAT(p.source.notes.front(),
               testing::HasSubstr("no pair of bodies is tested, so nothing can collide"));
 }
 
 TEST_F(ArmProblem, FilesInTheOrderOfNaming) {
   const Problem p = read(armHead + armStates);
   std::vector<std::string> names;
-  for (const auto& file : p.files) names.push_back(file.filename().string());
+  for (const auto& file : p.source.files) names.push_back(file.filename().string());
   EXPECT_THAT(names, ElementsAre("problem.yaml", "arm.yaml", "arm.urdf", "arm.srdf"));
 }
 

@@ -26,17 +26,17 @@ class MbmJson : public ArmTest {
 
 TEST_F(MbmJson, ReadsTheProblemOfAnIndex) {
   const Problem p = readProblem(set(two).string() + "#2");
-  EXPECT_EQ(p.name, "box#2");
-  EXPECT_EQ(p.planner.name, "RRTConnect");
-  EXPECT_EQ(p.space.coordinates().at(0).name, "lift") << "in the order of joint_names";
-  EXPECT_DOUBLE_EQ(p.start[1], 4 - 2 * 3.14159265358979323846);
-  EXPECT_EQ(p.goals.at(0), numbers({3.14159, 0}));
-  ASSERT_EQ(p.bodies.size(), 8u);
-  EXPECT_EQ(p.bodies[5].name, "can");
-  EXPECT_TRUE(p.bodies[5].shapes[0].part->flatEnds);
-  EXPECT_EQ(p.bodies[6].name, "base");
+  EXPECT_EQ(p.source.name, "box#2");
+  EXPECT_EQ(p.settings.planner.name, "RRTConnect");
+  EXPECT_EQ(p.model.space.coordinates().at(0).name, "lift") << "in the order of joint_names";
+  EXPECT_DOUBLE_EQ(p.task.start[1], 4 - 2 * 3.14159265358979323846);
+  EXPECT_EQ(p.task.goals.at(0), numbers({3.14159, 0}));
+  ASSERT_EQ(p.model.bodies.size(), 8u);
+  EXPECT_EQ(p.model.bodies[5].name, "can");
+  EXPECT_TRUE(p.model.bodies[5].shapes[0].part->flatEnds);
+  EXPECT_EQ(p.model.bodies[6].name, "base");
   EXPECT_EQ(skipped(p, "upper", "can"), "");
-  EXPECT_EQ(p.files,
+  EXPECT_EQ(p.source.files,
             (std::vector{folder_ / "sets/box.json", folder_ / "arm.urdf", folder_ / "arm.srdf"}));
 }
 
@@ -81,8 +81,9 @@ TEST(MbmSets, AllAreRead) {
     for (const auto& entry : std::filesystem::directory_iterator(*data / "mbm" / robot))
       for (const char* index : {"#1", "#50"}) {
         const Problem p = readProblem(entry.path().string() + index);
-        EXPECT_EQ(p.start.size(), robot == std::string("panda") ? 7 : 6);
-        EXPECT_TRUE(p.space.inBounds(p.start) && p.space.inBounds(p.goals.at(0)));
+        EXPECT_EQ(p.task.start.size(), robot == std::string("panda") ? 7 : 6);
+        EXPECT_TRUE(p.model.space.inBounds(p.task.start) &&
+                    p.model.space.inBounds(p.task.goals.at(0)));
         ++read;
       }
   EXPECT_EQ(read, 28);

@@ -27,12 +27,12 @@ class OmplAppCfg : public ProblemTest {
 
 TEST_F(OmplAppCfg, PlanarProblem) {
   const Problem p = readProblem(cfg(meshes + planar));
-  EXPECT_EQ(p.name, "problem");
+  EXPECT_EQ(p.source.name, "problem");
   EXPECT_TRUE(isPlanar(p));
-  EXPECT_EQ(p.space.coordinates().at(2).weight, 0.5);
-  EXPECT_EQ(p.start.head(2), Eigen::Vector2d(5, 0));
-  EXPECT_DOUBLE_EQ(p.start[2], 7 - 2 * std::numbers::pi);
-  EXPECT_EQ(p.lines.at("start"), 4);
+  EXPECT_EQ(p.model.space.coordinates().at(2).weight, 0.5);
+  EXPECT_EQ(p.task.start.head(2), Eigen::Vector2d(5, 0));
+  EXPECT_DOUBLE_EQ(p.task.start[2], 7 - 2 * std::numbers::pi);
+  EXPECT_EQ(p.source.lines.at("start"), 4);
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0)) << "the world's box";
   EXPECT_EQ(upperOf(p), Vec3(5, 5, 0)) << "enlarged to hold start and goal";
   double lowest = 1;
@@ -49,24 +49,24 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
       "volume.min.x = -1\nvolume.min.y = -1\nvolume.min.z = -1\n"
       "volume.max.x = 4\nvolume.max.y = 9\nvolume.max.z = 9\n"
       "[benchmark]\ntime_limit = 3.5\nmem_limit = 100\n[planner]\naps=\nRRT=\nrrt.range=0.25"));
-  EXPECT_EQ(p.name, "Wedges");
+  EXPECT_EQ(p.source.name, "Wedges");
   EXPECT_FALSE(isPlanar(p));
-  EXPECT_EQ(p.space.coordinates().at(3).weight, 1);
-  EXPECT_DOUBLE_EQ(p.start[6], std::cos(3.5));
-  EXPECT_DOUBLE_EQ(p.start[5], std::sin(3.5)) << "the axis is normalised";
-  EXPECT_EQ(p.goals.at(0).tail(4), Eigen::Vector4d(0, 0, 0, 1)) << "a zero axis turns nothing";
-  EXPECT_EQ(p.goalThreshold, 0.1);
-  EXPECT_EQ(p.objective, "length");
-  EXPECT_EQ(p.objectiveThreshold, 3);
-  EXPECT_EQ(p.sampler, "gaussian");
-  EXPECT_EQ(p.checker.resolution, 0.02);
+  EXPECT_EQ(p.model.space.coordinates().at(3).weight, 1);
+  EXPECT_DOUBLE_EQ(p.task.start[6], std::cos(3.5));
+  EXPECT_DOUBLE_EQ(p.task.start[5], std::sin(3.5)) << "the axis is normalised";
+  EXPECT_EQ(p.task.goals.at(0).tail(4), Eigen::Vector4d(0, 0, 0, 1)) << "a zero axis turns nothing";
+  EXPECT_EQ(p.task.goalThreshold, 0.1);
+  EXPECT_EQ(p.settings.objective, Objective::length);
+  EXPECT_EQ(p.settings.objectiveThreshold, 3);
+  EXPECT_EQ(p.settings.sampler, StateSampler::gaussian);
+  EXPECT_EQ(p.settings.checker.resolution, 0.02);
   EXPECT_EQ(lowerOf(p), Vec3(-1, -1, -1));
   EXPECT_EQ(upperOf(p), Vec3(5, 9, 9));
-  EXPECT_EQ(p.planner.time, 3.5);
-  EXPECT_EQ(p.planner.name, "RRT");
-  EXPECT_EQ(p.planner.params, (std::map<std::string, std::string>{{"range", "0.25"}}));
-  EXPECT_EQ(p.lines.at("planner.params.range"), 37);
-  EXPECT_THAT(p.notes,
+  EXPECT_EQ(p.settings.planner.time, 3.5);
+  EXPECT_EQ(p.settings.planner.name, "RRT");
+  EXPECT_EQ(p.settings.planner.params, (std::map<std::string, std::string>{{"range", "0.25"}}));
+  EXPECT_EQ(p.source.lines.at("planner.params.range"), 37);
+  EXPECT_THAT(p.source.notes,
               testing::IsSupersetOf(
                   {testing::Eq("bounds: enlarged to contain start and goal"),
                    testing::Eq("not used: problem.projection.cellsize_factor, benchmark.mem_limit"),
@@ -76,16 +76,18 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
 TEST_F(OmplAppCfg, PlannersAreChosenOnlyWhereThereIsOne) {
   const Problem p =
       readProblem(cfg(meshes + planar + "[planner]\nprm=\nrrt=\nrrt=\nrrt.range=3\n"));
-  EXPECT_EQ(p.planner.name, "RRTConnect");
-  EXPECT_TRUE(p.planner.params.empty());
-  EXPECT_THAT(p.notes, testing::Contains(
-                           "planner: RRTConnect, since the file lists several (prm, rrt, rrt)"));
+  EXPECT_EQ(p.settings.planner.name, "RRTConnect");
+  EXPECT_TRUE(p.settings.planner.params.empty());
+  EXPECT_THAT(
+      p.source.notes,
+      testing::Contains("planner: RRTConnect, since the file lists several (prm, rrt, rrt)"));
 }
 
 TEST_F(OmplAppCfg, IncompleteVolumeIsIgnored) {
   const Problem p = readProblem(cfg(meshes + planar + "volume.min.x = -100\n"));
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
-  EXPECT_THAT(p.notes, testing::Contains("bounds: those of the world, since volume is incomplete"));
+  EXPECT_THAT(p.source.notes,
+              testing::Contains("bounds: those of the world, since volume is incomplete"));
 }
 
 TEST_F(OmplAppCfg, Faults) {
@@ -257,15 +259,15 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
     SCOPED_TRACE(r.file);
     const Problem p = readProblem(*folder / r.file);
     EXPECT_EQ(isPlanar(p), !r.spatial);
-    const TriangleMesh &robot = p.bodies.at(0).shapes.at(0).mesh->mesh,
-                       &world = p.bodies.at(1).shapes.at(0).mesh->mesh;
+    const TriangleMesh &robot = p.model.bodies.at(0).shapes.at(0).mesh->mesh,
+                       &world = p.model.bodies.at(1).shapes.at(0).mesh->mesh;
     EXPECT_EQ(robot.triangles.size(), r.robotTriangles);
     EXPECT_EQ(world.triangles.size(), r.worldTriangles);
     const auto [worldMin, worldMax] = boundsOf(world);
     expectNear(worldMin, r.worldMin, "world's lower corner");
     expectNear(worldMax, r.worldMax, "world's upper corner");
     // The centre is what recentring subtracted from the robot's coordinates in its file.
-    const OmplAppMesh file = readOmplAppMesh(p.bodies[0].shapes[0].file);
+    const OmplAppMesh file = readOmplAppMesh(p.model.bodies[0].shapes[0].file);
     EXPECT_EQ(file.importedVertices, r.importedVertices);
     const Vec3 centre = boundsOf(file.mesh).first - boundsOf(robot).first;
     for (int k = 0; k < 3; ++k)
@@ -274,28 +276,29 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
 
     const auto number = [&](const std::string& key) { return numberOf(*folder / r.file, key); };
     const bool spatial = r.spatial;
-    EXPECT_EQ(p.start.head(2), Eigen::Vector2d(number("start.x"), number("start.y")));
-    EXPECT_EQ(p.goals.at(0).head(2), Eigen::Vector2d(number("goal.x"), number("goal.y")));
+    EXPECT_EQ(p.task.start.head(2), Eigen::Vector2d(number("start.x"), number("start.y")));
+    EXPECT_EQ(p.task.goals.at(0).head(2), Eigen::Vector2d(number("goal.x"), number("goal.y")));
     if (spatial) {
-      EXPECT_EQ(p.start[2], number("start.z"));
-      EXPECT_EQ(p.goals[0][2], number("goal.z"));
+      EXPECT_EQ(p.task.start[2], number("start.z"));
+      EXPECT_EQ(p.task.goals[0][2], number("goal.z"));
       const Eigen::Quaterniond q(Eigen::AngleAxisd(
           number("goal.theta"),
           Vec3(number("goal.axis.x"), number("goal.axis.y"), number("goal.axis.z")).normalized()));
-      EXPECT_LT((p.goals[0].tail(4) - q.coeffs()).norm(), 1e-15);
+      EXPECT_LT((p.task.goals[0].tail(4) - q.coeffs()).norm(), 1e-15);
     } else {
-      EXPECT_EQ(p.goals[0][2], number("goal.theta"));
+      EXPECT_EQ(p.task.goals[0][2], number("goal.theta"));
     }
     EXPECT_EQ(lowerOf(p), Vec3(number("volume.min.x"), number("volume.min.y"),
                                spatial ? number("volume.min.z") : 0));
     EXPECT_EQ(upperOf(p), Vec3(number("volume.max.x"), number("volume.max.y"),
                                spatial ? number("volume.max.z") : 0));
-    EXPECT_EQ(p.planner.name, "RRTConnect");
-    EXPECT_EQ(p.goalThreshold, 1e-6);
+    EXPECT_EQ(p.settings.planner.name, "RRTConnect");
+    EXPECT_EQ(p.task.goalThreshold, 1e-6);
   }
-  EXPECT_EQ(readProblem(*folder / "3D/alpha-1.5.cfg").sampler, "obstacle_based");
-  EXPECT_EQ(readProblem(*folder / "3D/Home.cfg").objective, "length");
-  EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").planner.time, 300);
+  EXPECT_EQ(readProblem(*folder / "3D/alpha-1.5.cfg").settings.sampler,
+            StateSampler::obstacleBased);
+  EXPECT_EQ(readProblem(*folder / "3D/Home.cfg").settings.objective, Objective::length);
+  EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").settings.planner.time, 300);
 }
 
 /// Reads the poses of one of OMPL.app's sample solutions. Its checker found them free; with a wrong
@@ -318,11 +321,11 @@ std::vector<Transform> posesOf(const std::filesystem::path& file, bool spatial) 
 }
 
 Scene sceneOf(const Problem& problem, const Vec3& shift) {
-  TriangleMesh mesh = problem.bodies.at(0).shapes.at(0).mesh->mesh;
+  TriangleMesh mesh = problem.model.bodies.at(0).shapes.at(0).mesh->mesh;
   for (Vec3& vertex : mesh.vertices) vertex += shift;
   std::vector<Scene::Placed> bodies;
   bodies.push_back({Body("robot", std::move(mesh)), 1});
-  bodies.push_back({Body("world", problem.bodies.at(1).shapes.at(0).mesh->mesh), 0});
+  bodies.push_back({Body("world", problem.model.bodies.at(1).shapes.at(0).mesh->mesh), 0});
   return Scene(std::move(bodies), {{0, 1}});
 }
 
@@ -342,7 +345,7 @@ TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
     const Problem p = readProblem(*folder / (std::string(sample.name) + ".cfg"));
     const auto poses = posesOf(*folder / (std::string(sample.name) + ".path"), !isPlanar(p));
     EXPECT_EQ(poses.size(), sample.states);
-    const Vec3 centre = readOmplAppMesh(p.bodies[0].shapes[0].file).vertexAverage;
+    const Vec3 centre = readOmplAppMesh(p.model.bodies[0].shapes[0].file).vertexAverage;
     const Scene scene = sceneOf(p, Vec3::Zero()), wrong = sceneOf(p, centre);
     QueryContext context;
     int contacts = 0, wrongContacts = 0;

@@ -130,6 +130,9 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:8: checker.edges: one of certified, adaptive, advancement, discrete is "
             "needed, not "
             "\"certain\"");
+  EXPECT_EQ(with("sampler: gausian\n"),
+            "problem.yaml:8: sampler: one of uniform, gaussian, obstacle_based, bridge_test, "
+            "max_clearance is needed, not \"gausian\" (did you mean \"gaussian\"?)");
   EXPECT_EQ(with("checker: {edges: advancment}\n"),
             "problem.yaml:8: checker.edges: one of certified, adaptive, advancement, discrete is "
             "needed, not \"advancment\" (did you mean \"advancement\"?)");
@@ -188,7 +191,9 @@ TEST_F(ProblemFaults, Ranges) {
   EXPECT_EQ(with("checker: {tolerance: 0}\n"),
             "problem.yaml:8: checker.tolerance: must be above 0, not 0");
   EXPECT_EQ(with("checker: {resolution: 1}\n"),
-            "problem.yaml:8: checker.resolution: must be between 0 and 1, not 1");
+            "problem.yaml:8: checker.resolution: must be from 1e-9 to below 1, not 1");
+  EXPECT_EQ(with("checker: {resolution: 1e-10}\n"),
+            "problem.yaml:8: checker.resolution: must be from 1e-9 to below 1, not 1e-10");
   EXPECT_EQ(
       complaintOf(head + "start: {at: [5, .nan, 0]}\ngoal: {at: [0, 5, 0], within: {at: -1}}\n"),
       "problem.yaml:5: start.at: a finite number is needed, not \".nan\"\n"

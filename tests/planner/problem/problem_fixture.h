@@ -13,8 +13,8 @@
 
 namespace corridor::test {
 
-inline const ProblemBody& bodyOf(const Problem& problem, const std::string& name) {
-  for (const ProblemBody& body : problem.bodies)
+inline const ModelBody& bodyOf(const Problem& problem, const std::string& name) {
+  for (const ModelBody& body : problem.model.bodies)
     if (body.name == name) return body;
   throw std::runtime_error("no body " + name);
 }
@@ -25,13 +25,13 @@ inline const TriangleMesh& meshOf(const Problem& problem, const std::string& nam
 }
 /// Returns the lower corner of the bounds of a rigid robot's position.
 inline Vec3 lowerOf(const Problem& problem) {
-  return boundsOf(problem, problem.space.groups().front()).lower;
+  return boundsOf(problem.model.space, problem.model.space.groups().front()).lower;
 }
 inline Vec3 upperOf(const Problem& problem) {
-  return boundsOf(problem, problem.space.groups().front()).upper;
+  return boundsOf(problem.model.space, problem.model.space.groups().front()).upper;
 }
 inline bool isPlanar(const Problem& problem) {
-  return problem.robots.at(0).model.mount == JointType::planar;
+  return problem.model.robots.at(0).model.mount == JointType::planar;
 }
 inline Configuration numbers(std::initializer_list<double> list) {
   Configuration q(static_cast<Eigen::Index>(list.size()));

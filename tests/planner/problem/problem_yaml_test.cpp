@@ -45,74 +45,74 @@ seed: 18446744073709551615
 TEST_F(ProblemYaml, EveryKeyIsRead) {
   const Problem p = read(everything);
   EXPECT_FALSE(isPlanar(p));
-  ASSERT_EQ(p.robots.size(), 1u);
-  ASSERT_EQ(p.bodies.size(), 3u);
-  EXPECT_EQ(p.bodies[0].name, "wedge");
-  EXPECT_EQ(p.bodies[0].robot, 0u);
+  ASSERT_EQ(p.model.robots.size(), 1u);
+  ASSERT_EQ(p.model.bodies.size(), 3u);
+  EXPECT_EQ(p.model.bodies[0].name, "wedge");
+  EXPECT_EQ(p.model.bodies[0].robot, 0u);
   EXPECT_EQ(meshOf(p, "wedge").triangles.size(), 4u);
-  EXPECT_EQ(p.bodies[1].name, "rock");
-  EXPECT_FALSE(p.bodies[1].robot);
-  EXPECT_EQ(p.bodies[2].name, "stone");
-  EXPECT_EQ(p.start.head(3), Vec3(5, 0, 0));
+  EXPECT_EQ(p.model.bodies[1].name, "rock");
+  EXPECT_FALSE(p.model.bodies[1].robot);
+  EXPECT_EQ(p.model.bodies[2].name, "stone");
+  EXPECT_EQ(p.task.start.head(3), Vec3(5, 0, 0));
   const Eigen::Quaterniond q = Eigen::AngleAxisd(30 * degree, Vec3::UnitZ()) *
                                Eigen::AngleAxisd(20 * degree, Vec3::UnitY()) *
                                Eigen::AngleAxisd(10 * degree, Vec3::UnitX());
-  EXPECT_LT((p.start.tail(4) - q.coeffs()).norm(), 1e-15);
-  ASSERT_EQ(p.goals.size(), 1u);
-  EXPECT_EQ(p.goals[0], numbers({0, 5, 0, 0, 0.6, 0, 0.8}));
-  ASSERT_TRUE(p.goalRegion);
-  EXPECT_EQ(p.goalRegion->position, 0.05);
-  EXPECT_DOUBLE_EQ(p.goalRegion->angle, 5 * degree);
-  EXPECT_FALSE(p.goalThreshold);
+  EXPECT_LT((p.task.start.tail(4) - q.coeffs()).norm(), 1e-15);
+  ASSERT_EQ(p.task.goals.size(), 1u);
+  EXPECT_EQ(p.task.goals[0], numbers({0, 5, 0, 0, 0.6, 0, 0.8}));
+  ASSERT_TRUE(p.task.goalRegion);
+  EXPECT_EQ(p.task.goalRegion->position, 0.05);
+  EXPECT_DOUBLE_EQ(p.task.goalRegion->angle, 5 * degree);
+  EXPECT_FALSE(p.task.goalThreshold);
   EXPECT_EQ(lowerOf(p), Vec3(-9, -9, -9));
   EXPECT_EQ(upperOf(p), Vec3(9, 8, 7));
-  EXPECT_EQ(p.margin, 0.005);
-  ASSERT_EQ(p.pairs.size(), 2u);
-  EXPECT_EQ(p.pairs[0].skipped, "");
-  EXPECT_EQ(p.pairs[1].skipped, "allow");
-  EXPECT_EQ(p.tube.head(3), Vec3(0.001, 0.001, 0.001));
-  EXPECT_DOUBLE_EQ(p.tube[3], degree);
-  EXPECT_EQ(p.planner.name, "RRT");
-  EXPECT_EQ(p.planner.time, 2.5);
-  EXPECT_EQ(p.planner.stopAtFirst, false);
-  EXPECT_EQ(p.planner.params,
+  EXPECT_EQ(p.task.margin, 0.005);
+  EXPECT_EQ(pairCount(p.model), 2);
+  EXPECT_EQ(p.model.filter.whyNotTested(0, 1), "");
+  EXPECT_EQ(p.model.filter.whyNotTested(0, 2), "allow");
+  EXPECT_EQ(p.task.tube.head(3), Vec3(0.001, 0.001, 0.001));
+  EXPECT_DOUBLE_EQ(p.task.tube[3], degree);
+  EXPECT_EQ(p.settings.planner.name, "RRT");
+  EXPECT_EQ(p.settings.planner.time, 2.5);
+  EXPECT_EQ(p.settings.planner.stopAtFirst, false);
+  EXPECT_EQ(p.settings.planner.params,
             (std::map<std::string, std::string>{{"range", "0.6"}, {"goal_bias", "0.1"}}));
-  EXPECT_EQ(p.sampler, "gaussian");
-  EXPECT_FALSE(p.simplify);
-  EXPECT_EQ(p.checker.edges, "discrete");
-  EXPECT_EQ(p.checker.resolution, 0.02);
-  EXPECT_EQ(p.checker.tolerance, 1e-5);
-  EXPECT_EQ(p.checker.volume, "obb-binary");
-  EXPECT_EQ(p.checker.fit, "hull");
-  EXPECT_EQ(p.checker.overlap, "gjk");
-  EXPECT_EQ(p.seed, 18446744073709551615u);
+  EXPECT_EQ(p.settings.sampler, StateSampler::gaussian);
+  EXPECT_FALSE(p.settings.simplify);
+  EXPECT_EQ(p.settings.checker.edges, EdgeCheck::discrete);
+  EXPECT_EQ(p.settings.checker.resolution, 0.02);
+  EXPECT_EQ(p.settings.checker.tolerance, 1e-5);
+  EXPECT_EQ(p.settings.checker.trees.volume, "obb-binary");
+  EXPECT_EQ(p.settings.checker.trees.fit, "hull");
+  EXPECT_EQ(p.settings.checker.trees.overlap, "gjk");
+  EXPECT_EQ(p.settings.seed, 18446744073709551615u);
   for (const std::string& key : problemKeys().at("").legal)
     if (key != "robots" && key != "base") {
-      EXPECT_TRUE(p.lines.contains(key)) << key << " is missing in this test";
+      EXPECT_TRUE(p.source.lines.contains(key)) << key << " is missing in this test";
     }
 }
 
 TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
   const Problem p = read(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\n");
-  EXPECT_EQ(p.name, folder_.filename());
-  EXPECT_EQ(p.planner.name, "RRTConnect");
-  EXPECT_EQ(p.planner.time, 20);
-  EXPECT_FALSE(p.planner.stopAtFirst);
-  EXPECT_EQ(p.sampler, "uniform");
-  EXPECT_EQ(p.checker.edges, "certified");
-  EXPECT_EQ(p.checker.volume, "obb");
-  EXPECT_EQ(treesNamed(p.checker.trees()).trees, TreeKind::obb4);
-  EXPECT_EQ(p.margin, 0);
-  EXPECT_EQ(p.tube.head(3), Vec3::Constant(0x1p-40 * 5)) << "of the longest range";
-  EXPECT_EQ(p.tube[3], 0x1p-40 * 2 * std::numbers::pi);
-  EXPECT_TRUE(p.simplify);
-  EXPECT_EQ(p.seed, 1u);
+  EXPECT_EQ(p.source.name, folder_.filename());
+  EXPECT_EQ(p.settings.planner.name, "RRTConnect");
+  EXPECT_EQ(p.settings.planner.time, 20);
+  EXPECT_FALSE(p.settings.planner.stopAtFirst);
+  EXPECT_EQ(p.settings.sampler, StateSampler::uniform);
+  EXPECT_EQ(p.settings.checker.edges, EdgeCheck::certified);
+  EXPECT_EQ(p.settings.checker.trees.volume, "obb");
+  EXPECT_EQ(treesNamed(p.settings.checker.trees).trees, TreeKind::obb4);
+  EXPECT_EQ(p.task.margin, 0);
+  EXPECT_EQ(p.task.tube.head(3), Vec3::Constant(0x1p-40 * 5)) << "of the longest range";
+  EXPECT_EQ(p.task.tube[3], 0x1p-40 * 2 * std::numbers::pi);
+  EXPECT_TRUE(p.settings.simplify);
+  EXPECT_EQ(p.settings.seed, 1u);
   // The weight is per radian of the quaternion's angle, so 1 is half a metre per radian of
   // rotation.
-  EXPECT_EQ(p.space.coordinates().at(3).weight, 1);
+  EXPECT_EQ(p.model.space.coordinates().at(3).weight, 1);
   EXPECT_EQ(lowerOf(p), Vec3(0, 0, 0));
   EXPECT_EQ(upperOf(p), Vec3(5, 5, 3));
-  EXPECT_THAT(p.notes,
+  EXPECT_THAT(p.source.notes,
               ElementsAre("bounds: those of the world, start and goal, since none are given"));
   EXPECT_EQ(digestOf(readProblem(folder_)), digestOf(p))
       << "the folder stands for its problem.yaml";
@@ -120,13 +120,13 @@ TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
 
 TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
   const Problem p = read(everything);
-  EXPECT_EQ(p.lines.at("planner.name"), 12);
-  EXPECT_EQ(p.lines.at("planner.params.range"), 16);
-  EXPECT_EQ(p.lines.at("start"), 6);
-  EXPECT_EQ(p.lines.at("checker.edges"), 20);
+  EXPECT_EQ(p.source.lines.at("planner.name"), 12);
+  EXPECT_EQ(p.source.lines.at("planner.params.range"), 16);
+  EXPECT_EQ(p.source.lines.at("start"), 6);
+  EXPECT_EQ(p.source.lines.at("checker.edges"), 20);
   const std::string file = (folder_ / "problem.yaml").string();
-  EXPECT_EQ(p.faultAt("planner.params.rnage", "no").str(), file + ":15: no");
-  EXPECT_EQ(p.faultAt("elsewhere.key", "no").str(), file + ": no");
+  EXPECT_EQ(p.source.faultAt("planner.params.rnage", "no").str(), file + ":15: no");
+  EXPECT_EQ(p.source.faultAt("elsewhere.key", "no").str(), file + ": no");
 }
 
 TEST_F(ProblemYaml, MeshesArePlacedOnceInDouble) {
@@ -147,17 +147,17 @@ TEST_F(ProblemYaml, PlanarPosesAndWrappedYaws) {
   Problem p = read(planarHead + "start: {at: [5, 0], yaw_deg: 270}\ngoal: {at: [0, 5], yaw: -1}\n" +
                    bounds);
   EXPECT_TRUE(isPlanar(p));
-  EXPECT_EQ(p.bodies[0].name, "flat") << "an unnamed robot is called by its file";
-  EXPECT_EQ(p.start, numbers({5, 0, -90 * degree}));
-  EXPECT_EQ(p.goals[0], numbers({0, 5, -1}));
-  EXPECT_EQ(p.space.coordinates().at(2).weight, 0.5);
-  EXPECT_THAT(p.notes,
+  EXPECT_EQ(p.model.bodies[0].name, "flat") << "an unnamed robot is called by its file";
+  EXPECT_EQ(p.task.start, numbers({5, 0, -90 * degree}));
+  EXPECT_EQ(p.task.goals[0], numbers({0, 5, -1}));
+  EXPECT_EQ(p.model.space.coordinates().at(2).weight, 0.5);
+  EXPECT_THAT(p.source.notes,
               ElementsAre("start.yaw_deg: 270 is read as -90, the same angle up to full turns"));
   p = read(planarHead + "start: {at: [5, 0], yaw_deg: -180}\ngoal: {at: [0, 5], yaw: 10}\n" +
            bounds);
-  EXPECT_EQ(p.start[2], std::numbers::pi);
-  EXPECT_DOUBLE_EQ(p.goals[0][2], 10 - 4 * std::numbers::pi);
-  EXPECT_EQ(p.notes.size(), 2u);
+  EXPECT_EQ(p.task.start[2], std::numbers::pi);
+  EXPECT_DOUBLE_EQ(p.task.goals[0][2], 10 - 4 * std::numbers::pi);
+  EXPECT_EQ(p.source.notes.size(), 2u);
 }
 
 TEST_F(ProblemYaml, RobotOfSeveralShapesAboutItsCentroid) {
@@ -180,10 +180,10 @@ weights: {rotation: 3}
   const Vec3 centroid(2.25, 0.5, 0.75);
   EXPECT_EQ(meshOf(p, "twins", 0).vertices[3], Vec3(0, 0, 3) - centroid);
   EXPECT_EQ(meshOf(p, "twins", 2).vertices[0], Vec3(4, 0, 0) - centroid);
-  EXPECT_EQ(p.space.coordinates().at(3).weight, 6)
+  EXPECT_EQ(p.model.space.coordinates().at(3).weight, 6)
       << "3 metres per radian of rotation, twice the quaternion angle";
   EXPECT_THAT(
-      p.notes,
+      p.source.notes,
       ElementsAre("reference of twins: the centroid (2.25, 0.5, 0.75) of its distinct vertices"));
 }
 
@@ -219,8 +219,8 @@ TEST_F(ProblemYaml, FilesAreRelativeToTheFileThatNamesThem) {
         "rock.obj}}\n" +
             poses);
   const Problem p = readProblem(folder_ / "problems/p");
-  EXPECT_EQ(p.name, "p");
-  EXPECT_EQ(p.bodies[0].name, "w");
+  EXPECT_EQ(p.source.name, "p");
+  EXPECT_EQ(p.model.bodies[0].name, "w");
 }
 
 TEST(Placement, RotationsByDegreesAreExactWhereTheyCanBe) {

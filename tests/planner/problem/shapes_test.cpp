@@ -48,7 +48,7 @@ TEST_F(Shapes, PrimitivesOfWorldAndRobot) {
   EXPECT_EQ(shelf.at(0).at.p, Vec3(1, 1, 0)) << "the group's placement, then its own";
   EXPECT_EQ(shelf.at(1).name, "shelf/top");
   EXPECT_EQ(shelf.at(1).mesh->mesh.vertices.at(1), Vec3(1, 1, 0));
-  EXPECT_EQ(p.pairs.size(), 7u) << "a body is tested as one, whatever the number of its shapes";
+  EXPECT_EQ(pairCount(p.model), 7) << "a body is tested as one, whatever the number of its shapes";
   EXPECT_EQ(lowerOf(p), Vec3(-1.1, -1, -0.5)) << "the world's bounds, round shapes as they are";
   EXPECT_EQ(upperOf(p), Vec3(5, 5, 6)) << "flat ends of the can";
 }

@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "planner/problem/assembly.h"
-#include "planner/problem/urdf_robot.h"
+#include "planner/model/model_builder.h"
+#include "planner/model/planned_joints.h"
 #include "planner/robot/edge_motion.h"
+#include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_file.h"
 #include "tests/support/support.h"
 
@@ -34,31 +35,29 @@ TEST(SharedKinematics, EveryLinkIsWhereTheReferenceHasIt) {
     const std::string file = robot.at("urdf");
     SCOPED_TRACE(file);
     std::vector<Fault> faults;
-    RobotSetup setup;
-    const auto model =
-        readUrdf(robots / file, {{"example-robot-data", robots / "example-robot-data"}}, faults,
-                 setup.files);
+    std::vector<std::filesystem::path> files;
+    const auto model = readUrdf(
+        robots / file, {{"example-robot-data", robots / "example-robot-data"}}, faults, files);
     ASSERT_TRUE(model) << InputError(faults).what();
-    setup.robot.model = *model;
+    ModelRobot arm;
+    arm.model = *model;
     std::vector<std::size_t> moving;
     for (std::size_t j = 0; j < model->joints.size(); ++j)
       if (movesItself(model->joints[j])) moving.push_back(j);
-    chooseJoints(setup, moving);
-    Problem problem;
-    std::vector<RobotSetup> setups{setup};
-    assembleRobots(setups, problem);
-    const auto& frames = problem.robots.front().linkFrames;
+    chooseJoints(arm, moving);
+    const Model built = ModelBuilder().addRobot(arm).buildUnbounded();
+    const auto& frames = built.robots.front().linkFrames;
     const std::size_t root = frames[model->root];
     std::vector<Scene::FramePair> pairs;
     for (const std::size_t frame : frames) pairs.push_back({root, frame});
-    const auto size = static_cast<Eigen::Index>(problem.space.size());
-    EdgeMotion motion(problem.tree, problem.space, pairs, Configuration::Zero(size));
+    const auto size = static_cast<Eigen::Index>(built.space.size());
+    EdgeMotion motion(built.tree, built.space, pairs, Configuration::Zero(size));
     Configuration last = Configuration::Zero(size);
     for (const auto& state : robot.at("states")) {
       Configuration q(size);
-      for (const Coordinate& c : problem.space.coordinates())
+      for (const Coordinate& c : built.space.coordinates())
         q[static_cast<Eigen::Index>(c.first)] = state.at("q").at(c.name);
-      const std::vector<Transform> placed = framePoses(problem.tree, q);
+      const std::vector<Transform> placed = framePoses(built.tree, q);
       motion.set(last, q);
       last = q;
       for (std::size_t link = 0; link < frames.size(); ++link) {

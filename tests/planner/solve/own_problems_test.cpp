@@ -27,8 +27,8 @@ INSTANTIATE_TEST_SUITE_P(All, OwnProblems,
 
 TEST_P(OwnProblems, SolvedByItsDefaultsCertifiedAndVerified) {
   Problem problem = ownProblem(GetParam());
-  EXPECT_LE(problem.planner.time, 60);
-  problem.planner.time *= test::kSlowdown;
+  EXPECT_LE(problem.settings.planner.time, 60);
+  problem.settings.planner.time *= test::kSlowdown;
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_TRUE(report.certified);
@@ -47,25 +47,25 @@ TEST(OwnProblems, AllAreListedHere) {
 /// Without the pairs between the arms, some states must become free.
 TEST(TwoArms, AreTestedAgainstEachOther) {
   Problem problem = ownProblem("two_arms");
-  const auto between = [&](const ProblemPair& pair) {
-    const auto &a = problem.bodies[pair.a].robot, &b = problem.bodies[pair.b].robot;
+  const auto between = [&](std::size_t i, std::size_t j) {
+    const auto &a = problem.model.bodies[i].robot, &b = problem.model.bodies[j].robot;
     return a && b && *a != *b;
   };
   Problem apart = problem;
   std::size_t tested = 0;
-  for (ProblemPair& pair : apart.pairs)
-    if (between(pair) && pair.skipped.empty()) {
-      ++tested;
-      pair.skipped = "left out by this test";
-    }
+  forEachTestedPair(problem.model, [&](std::size_t a, std::size_t b) {
+    if (!between(a, b)) return;
+    ++tested;
+    apart.model.filter.skip(a, b, "left out by this test");
+  });
   EXPECT_GT(tested, 0u);
   // Many states are free except for contacts with the other arm.
   const Checker together(problem), alone(apart);
   std::mt19937_64 random(1);
   int differ = 0;
   for (int i = 0; i < 300; ++i) {
-    Configuration q(static_cast<Eigen::Index>(problem.space.size()));
-    for (const Coordinate& c : problem.space.coordinates())
+    Configuration q(static_cast<Eigen::Index>(problem.model.space.size()));
+    for (const Coordinate& c : problem.model.space.coordinates())
       q[static_cast<Eigen::Index>(c.first)] =
           std::uniform_real_distribution(std::max(c.lower, -1.5), std::min(c.upper, 1.5))(random);
     const bool free = alone.certifiedState(q), freeTogether = together.certifiedState(q);
@@ -80,7 +80,7 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
 TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   Problem problem = ownProblem("thin_plate");
   const auto verdict = [&](std::uint64_t seed) {
-    problem.seed = seed;
+    problem.settings.seed = seed;
     const SolveReport report = solveProblem(problem);
     EXPECT_EQ(report.outcome, SolveOutcome::solved) << "seed " << seed << ": " << report.why;
     return report.path.empty() ? PathVerdict::undecided
@@ -88,7 +88,7 @@ TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   };
   for (std::uint64_t seed = 1; seed <= 100 / test::kSlowdown; ++seed)
     ASSERT_EQ(verdict(seed), PathVerdict::proved) << "certified, seed " << seed;
-  problem.checker.edges = "discrete";
+  problem.settings.checker.edges = EdgeCheck::discrete;
   int refuted = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) refuted += verdict(seed) == PathVerdict::refuted;
   EXPECT_GT(refuted, 5) << "paths of the discrete checker that collide, of 10";

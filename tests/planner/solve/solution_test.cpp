@@ -29,7 +29,7 @@ class SolutionFile : public testing::Test {
   }
   std::string complaint(const std::string& name, const std::string& text,
                         Rigid kind = Rigid::SE3) const {
-    return complaint(name, text, test::rigidProblem(kind).space);
+    return complaint(name, text, test::rigidProblem(kind).model.space);
   }
   std::string complaint(const std::string& name, const std::string& text,
                         const ConfigurationSpace& space) const {
@@ -73,8 +73,8 @@ class SolutionFile : public testing::Test {
 
 TEST_F(SolutionFile, RoundTripIsBitForBit) {
   for (const ConfigurationSpace& space :
-       {test::rigidProblem(Rigid::SE2).space, test::rigidProblem(Rigid::SE3).space,
-        test::armProblem().space}) {
+       {test::rigidProblem(Rigid::SE2).model.space, test::rigidProblem(Rigid::SE3).model.space,
+        test::armProblem().model.space}) {
     const Solution wrote = example(space);
     writeSolution(wrote, folder_ / "s.yaml");
     const Solution read = readSolution(folder_ / "s.yaml", space);
@@ -95,16 +95,16 @@ TEST_F(SolutionFile, RoundTripIsBitForBit) {
 }
 
 TEST_F(SolutionFile, WhatMovesAsAWholeHasASpace) {
-  EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE2).space), "SE2");
-  EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE3).space), "SE3");
-  EXPECT_EQ(rigidSpaceOf(test::armProblem().space), "");
+  EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE2).model.space), "SE2");
+  EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE3).model.space), "SE3");
+  EXPECT_EQ(rigidSpaceOf(test::armProblem().model.space), "");
 }
 
 TEST_F(SolutionFile, NothingIsLeftWhereItCantBeWritten) {
-  EXPECT_THROW(
-      writeSolution(example(test::rigidProblem(Rigid::SE3).space), folder_ / "nowhere" / "s.yaml"),
-      InputError);
-  writeSolution(example(test::rigidProblem(Rigid::SE3).space), folder_ / "s.yaml");
+  EXPECT_THROW(writeSolution(example(test::rigidProblem(Rigid::SE3).model.space),
+                             folder_ / "nowhere" / "s.yaml"),
+               InputError);
+  writeSolution(example(test::rigidProblem(Rigid::SE3).model.space), folder_ / "s.yaml");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 
@@ -132,7 +132,7 @@ TEST_F(SolutionFile, StrictReading) {
 }
 
 TEST_F(SolutionFile, JointsAreNamed) {
-  const ConfigurationSpace space = test::armProblem().space;
+  const ConfigurationSpace space = test::armProblem().model.space;
   const std::string head = "format: corridor-solution-1\njoints: [shoulder, elbow, wrist]\n";
   EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 1, 2]\n", space), "");
   EXPECT_EQ(complaint("s.yaml", head + "path:\n  - [0, 1]\n", space),
@@ -152,7 +152,7 @@ TEST_F(SolutionFile, JointsAreNamed) {
 }
 
 TEST_F(SolutionFile, StateRowsTakeCommasAndComments) {
-  const ConfigurationSpace space = test::armProblem().space;
+  const ConfigurationSpace space = test::armProblem().model.space;
   const auto rows =
       readStateRows(write("s.txt", "# shoulder elbow wrist\n1, 2,3\n\n-1 0 .5 # low\n"), space);
   ASSERT_EQ(rows.size(), 2u);
@@ -164,8 +164,8 @@ TEST_F(SolutionFile, StateRowsTakeCommasAndComments) {
 }
 
 TEST_F(SolutionFile, OmplAppPaths) {
-  const Solution solution =
-      readSolution(write("a.path", "1 2 0.5 \n\n3 4 -0.25"), test::rigidProblem(Rigid::SE2).space);
+  const Solution solution = readSolution(write("a.path", "1 2 0.5 \n\n3 4 -0.25"),
+                                         test::rigidProblem(Rigid::SE2).model.space);
   ASSERT_EQ(solution.path.size(), 2u);
   EXPECT_EQ(solution.path[1], Vec3(3, 4, -0.25));
   EXPECT_TRUE(solution.digest.empty());

@@ -54,7 +54,7 @@ TEST_P(Spaces, SolvedCertifiedAndVerified) {
   EXPECT_GT(report.counters.boxTests, 0u);
   EXPECT_GE(report.length.metres, 2 * std::hypot(3, 4));
   for (std::size_t i = 1; i < report.path.size(); ++i)
-    EXPECT_LE(problem.space.largestTurn(report.path[i - 1], report.path[i]), 1.5708);
+    EXPECT_LE(problem.model.space.largestTurn(report.path[i - 1], report.path[i]), 1.5708);
   const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
   EXPECT_EQ(verified.verdict, PathVerdict::proved);
   EXPECT_GT(verified.motion.provenClearance, 0);
@@ -71,16 +71,16 @@ TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {
   const auto first = bits();
   ASSERT_FALSE(first.empty());
   EXPECT_EQ(first, bits());
-  problem.seed = 2;
+  problem.settings.seed = 2;
   EXPECT_NE(first, bits());
 }
 
 TEST_P(Spaces, GoalRegion) {
   Problem problem = hallProblem(GetParam());
-  problem.goalRegion = Problem::GoalRegion{0.3, 0.2, 0};
+  problem.task.goalRegion = GoalRegion{0.3, 0.2, 0};
   for (const char* planner : {"RRT", "RRTConnect", "InformedRRTstar"}) {
-    problem.planner.name = planner;
-    problem.planner.stopAtFirst = true;
+    problem.settings.planner.name = planner;
+    problem.settings.planner.stopAtFirst = true;
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << planner << report.why;
     EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved)
@@ -90,11 +90,11 @@ TEST_P(Spaces, GoalRegion) {
 
 TEST_P(Spaces, AThresholdOfZeroCanBeReached) {
   Problem problem = hallProblem(GetParam());
-  problem.goalThreshold = 0;
-  problem.planner.name = "RRT";  // ends by the goal's own test
+  problem.task.goalThreshold = 0;
+  problem.settings.planner.name = "RRT";  // ends by the goal's own test
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
-  EXPECT_EQ(report.path.back().head(2), problem.goals[0].head(2));
+  EXPECT_EQ(report.path.back().head(2), problem.task.goals[0].head(2));
 }
 
 TEST_P(Spaces, MutatedPathsAreRefuted) {
@@ -125,9 +125,9 @@ TEST_P(Spaces, MutatedPathsAreRefuted) {
 
 TEST_P(Spaces, DiscreteStepsThroughTheWallAndVerifyRefutesIt) {
   Problem problem = hallProblem(GetParam());
-  problem.checker.edges = "discrete";
-  problem.checker.resolution = 0.2;
-  problem.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
+  problem.settings.checker.edges = EdgeCheck::discrete;
+  problem.settings.checker.resolution = 0.2;
+  problem.model.bodies[0].shapes[0].mesh->mesh = test::boxMesh({0.1, 0.1, 0.1});
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved);
   EXPECT_FALSE(report.certified);
@@ -151,7 +151,7 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
 /// other planners leak none, and stay under the sanitizer.
 SolveReport solveWithOmplsLeaks(const Problem& problem) {
 #ifdef __SANITIZE_ADDRESS__
-  const std::string& name = problem.planner.name;
+  const std::string& name = problem.settings.planner.name;
   if (name == "LazyPRM" || name == "LazyPRMstar" || name == "SORRTstar" || name == "SST") {
     const __lsan::ScopedDisabler unwatched;
     return solveProblem(problem);
@@ -165,9 +165,9 @@ SolveReport solveWithOmplsLeaks(const Problem& problem) {
 TEST(Solve, EveryPlannerSolves) {
   for (const PlannerInfo& info : knownPlanners()) {
     Problem problem = hallProblem(Rigid::SE2);
-    problem.planner.name = info.name;
-    problem.planner.time = 2 * test::kSlowdown;
-    problem.planner.stopAtFirst = true;
+    problem.settings.planner.name = info.name;
+    problem.settings.planner.time = 2 * test::kSlowdown;
+    problem.settings.planner.stopAtFirst = true;
     const SolveReport report = solveWithOmplsLeaks(problem);
     if (report.outcome != SolveOutcome::solved && (info.name == "FMT" || info.name == "SST"))
       continue;
@@ -179,22 +179,22 @@ TEST(Solve, EveryPlannerSolves) {
 
 TEST(Solve, BadNamesListWhatThereIs) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.planner.name = "RRTConect";
+  problem.settings.planner.name = "RRTConect";
   EXPECT_THAT(complaintOf(problem),
               StartsWith("hall.yaml:8: unknown planner \"RRTConect\" (did you mean "
                          "\"RRTConnect\"?); there are: RRTConnect, RRT, "));
   problem = hallProblem(Rigid::SE3);
-  problem.planner.params = {{"rnge", "1"}};
+  problem.settings.planner.params = {{"rnge", "1"}};
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:7: RRTConnect has no parameter \"rnge\" (did you mean \"range\"?); it has: "
             "intermediate_states, range");
-  problem.planner.params = {{"range", "0.6abc"}};
+  problem.settings.planner.params = {{"range", "0.6abc"}};
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:9: RRTConnect's parameter range: \"0.6abc\" is not a number");
-  problem.planner.params = {{"range", "-1"}};
+  problem.settings.planner.params = {{"range", "-1"}};
   EXPECT_EQ(complaintOf(problem), "hall.yaml:9: RRTConnect's parameter range: \"-1\" is below 0");
-  problem.planner.name = "RRT";
-  problem.planner.params = {{"goal_bias", "7"}};
+  problem.settings.planner.name = "RRT";
+  problem.settings.planner.params = {{"goal_bias", "7"}};
   EXPECT_THAT(complaintOf(problem), HasSubstr("RRT's parameter goal_bias: \"7\" is above 1"));
   // Without Corridor's own test OMPL accepts each of these values and then ends the program, or
   // throws.
@@ -207,13 +207,13 @@ TEST(Solve, BadNamesListWhatThereIs) {
       {"AITstar", "samples_per_batch", "0", "not a whole number of at least 1"},
       {"AnytimePathShortening", "num_planners", "0", "not a whole number of at least 1"}};
   for (const auto& [planner, parameter, value, why] : refused) {
-    problem.planner.name = planner;
-    problem.planner.params = {{parameter, value}};
+    problem.settings.planner.name = planner;
+    problem.settings.planner.params = {{parameter, value}};
     EXPECT_THAT(complaintOf(problem), HasSubstr(std::string(planner) + "'s parameter " + parameter +
                                                 ": \"" + value + "\" is " + why));
   }
-  problem.planner.name = "RRTConnect";
-  problem.planner.params = {{"intermediate_states", "maybe"}};
+  problem.settings.planner.name = "RRTConnect";
+  problem.settings.planner.params = {{"intermediate_states", "maybe"}};
   EXPECT_EQ(complaintOf(problem),
             "hall.yaml:7: RRTConnect's parameter intermediate_states: \"maybe\" is neither true "
             "nor false");
@@ -222,17 +222,12 @@ TEST(Solve, BadNamesListWhatThereIs) {
   EXPECT_EQ(
       complaintOf(problem, options),
       "--set: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");
-  problem = hallProblem(Rigid::SE3);
-  problem.sampler = "gausian";
-  EXPECT_EQ(complaintOf(problem),
-            "hall.yaml:11: unknown sampler \"gausian\" (did you mean \"gaussian\"?); there are: "
-            "uniform, gaussian, obstacle_based, bridge_test, max_clearance");
 }
 
 TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
   Problem problem = hallProblem(GetParam());
   for (const char* edges : {"adaptive", "advancement"}) {
-    problem.checker.edges = edges;
+    problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << edges << ": " << report.why;
     EXPECT_TRUE(report.certified);
@@ -246,8 +241,8 @@ TEST_P(Spaces, EveryMethodThatProvesGivesACertifiedPath) {
 /// large clearance must not.
 TEST(Solve, MaximisesTheLeastClearance) {
   Problem problem = hallProblem(Rigid::SE2);
-  problem.planner.name = "RRTstar";
-  problem.planner.time = 3 * test::kSlowdown;
+  problem.settings.planner.name = "RRTstar";
+  problem.settings.planner.time = 3 * test::kSlowdown;
   const auto leastClearance = [&] {
     const SolveReport report = solveProblem(problem);
     EXPECT_EQ(report.outcome, SolveOutcome::solved) << report.why;
@@ -256,14 +251,14 @@ TEST(Solve, MaximisesTheLeastClearance) {
     double least = HUGE_VAL;
     for (std::size_t i = 1; i < report.path.size(); ++i)
       for (int k = 0; k <= 100; ++k)
-        least = std::min(least, checker.clearance(problem.space.interpolate(
+        least = std::min(least, checker.clearance(problem.model.space.interpolate(
                                     report.path[i - 1], report.path[i], k / 100.0)));
     return least;
   };
   const double ofShortest = leastClearance();
-  problem.objective = "max_min_clearance";
-  problem.objectiveThreshold = 0.5;  // m; the planner stops at this clearance
-  problem.planner.time = 300 * test::kSlowdown;
+  problem.settings.objective = Objective::maxMinClearance;
+  problem.settings.objectiveThreshold = 0.5;  // m; the planner stops at this clearance
+  problem.settings.planner.time = 300 * test::kSlowdown;
   const double ofClearest = leastClearance();
   std::cout << "least clearance " << ofShortest << " m of the shortest, " << ofClearest
             << " m of the clearest path\n";
@@ -274,23 +269,22 @@ TEST(Solve, MaximisesTheLeastClearance) {
 
 TEST(Solve, SamplersSolve) {
   Problem problem = hallProblem(Rigid::SE2);
-  problem.planner.name = "PRM";
-  for (const char* sampler :
-       {"uniform", "gaussian", "obstacle_based", "bridge_test", "max_clearance"}) {
-    problem.sampler = sampler;
+  problem.settings.planner.name = "PRM";
+  for (const std::string& sampler : wordsFor<StateSampler>()) {
+    problem.settings.sampler = choiceNamed<StateSampler>(sampler).value();
     EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << sampler;
   }
 }
 
 TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.start.head(3) = Vec3(-0.4, -2, 0);
+  problem.task.start.head(3) = Vec3(-0.4, -2, 0);
   const std::string complaint = complaintOf(problem);
   EXPECT_THAT(complaint, StartsWith("hall.yaml:4: start is in contact: \"bar\" (triangle "));
   EXPECT_THAT(complaint, HasSubstr(" and \"wall\" (triangle "));
   // The bar's tip is 0.1005 m past the wall's near face.
   EXPECT_THAT(complaint, HasSubstr(" touch; the nearest free position found is 0.1"));
-  problem.goals[0].head(3) = Vec3(0.3, -2, 0);
+  problem.task.goals[0].head(3) = Vec3(0.3, -2, 0);
   EXPECT_THAT(complaintOf(problem),
               HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
 }
@@ -299,7 +293,7 @@ TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
 TEST(Solve, AdviceForAStartInContactHolds) {
   for (const double x : {-0.4, -0.1, 0.05, 0.3, 0.5}) {
     Problem problem = hallProblem(Rigid::SE3);
-    problem.start.head(3) = Vec3(x, -2, 0.01);
+    problem.task.start.head(3) = Vec3(x, -2, 0.01);
     const std::string complaint = complaintOf(problem);
     const auto at = complaint.find("away: at: [");
     ASSERT_NE(at, complaint.npos) << complaint;
@@ -308,7 +302,7 @@ TEST(Solve, AdviceForAStartInContactHolds) {
                           &told[2]),
               3)
         << complaint;
-    problem.start.head(3) = told;
+    problem.task.start.head(3) = told;
     EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << complaint;
   }
 }
@@ -317,22 +311,21 @@ TEST(Solve, AdviceForAStartInContactHolds) {
 TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
   Problem problem = hallProblem(Rigid::SE2);
   const double y = -2.000004321, gap = 1e-6;
-  problem.bodies.push_back(
+  problem.model.bodies.push_back(
       {"plates",
        0,
        {},
        {test::meshShape("below", test::boxMesh({10, 1, 1}, {0, y - 0.6 - gap, 0})),
         test::meshShape("above", test::boxMesh({10, 1, 1}, {0, y + 0.6 + gap, 0}))}});
-  problem.pairs.push_back({0, 2, ""});
-  problem.start.head(2) << -0.4, y;
+  problem.task.start.head(2) << -0.4, y;
   const std::string complaint = complaintOf(problem);
   const auto at = complaint.find("away: at: [");
   ASSERT_NE(at, complaint.npos) << complaint;
-  ASSERT_EQ(std::sscanf(complaint.c_str() + at, "away: at: [%lf, %lf]", &problem.start[0],
-                        &problem.start[1]),
+  ASSERT_EQ(std::sscanf(complaint.c_str() + at, "away: at: [%lf, %lf]", &problem.task.start[0],
+                        &problem.task.start[1]),
             2)
       << complaint;
-  EXPECT_TRUE(Checker(problem).certifiedState(problem.start)) << complaint;
+  EXPECT_TRUE(Checker(problem).certifiedState(problem.task.start)) << complaint;
 }
 
 /// The validator here accepts every edge that is longer than the planner's, so that simplified
@@ -354,7 +347,7 @@ TEST(Solve, TheLastVersionThatHoldsIsReturned) {
     ompl::base::MotionValidatorPtr inner_;
   };
   Problem problem = hallProblem(Rigid::SE2);
-  problem.planner.params = {{"range", "1"}};
+  problem.settings.planner.params = {{"range", "1"}};
   SolveOptions options;
   std::size_t believed = 0;
   options.adaptChecking = [&](const ompl::base::SpaceInformationPtr& si, const Checker&) {
@@ -372,41 +365,41 @@ TEST(Solve, TheLastVersionThatHoldsIsReturned) {
 
 TEST(Solve, MarginAndTube) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.start.head(3) = Vec3(-0.6, -2, 0);  // the bar is 0.0995 m from the wall
-  problem.margin = 0.2;
+  problem.task.start.head(3) = Vec3(-0.6, -2, 0);  // the bar is 0.0995 m from the wall
+  problem.task.margin = 0.2;
   EXPECT_THAT(complaintOf(problem),
               HasSubstr("are closer than the margin of 0.2 m; the nearest free position"));
-  problem.margin = 0;
-  problem.start.head(3) = Vec3(-0.5005 - 0.01, -2, 0);
-  problem.tube.head(3).setConstant(0.02);
+  problem.task.margin = 0;
+  problem.task.start.head(3) = Vec3(-0.5005 - 0.01, -2, 0);
+  problem.task.tube.head(3).setConstant(0.02);
   EXPECT_THAT(complaintOf(problem),
               HasSubstr(" m, and the tube needs 0.03464 m; move it away, or set a smaller tube"));
 }
 
 TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.start.head(3) = Vec3(-6, 0, 0);
+  problem.task.start.head(3) = Vec3(-6, 0, 0);
   EXPECT_EQ(complaintOf(problem), "hall.yaml:4: start: [-6, 0, 0] is outside of the bounds");
   problem = hallProblem(Rigid::SE3);
-  problem.goals[0].head(3) = Vec3(0, -2, 0);
-  problem.goalRegion = Problem::GoalRegion{0.01, 0.01, 0};
+  problem.task.goals[0].head(3) = Vec3(0, -2, 0);
+  problem.task.goalRegion = GoalRegion{0.01, 0.01, 0};
   EXPECT_THAT(complaintOf(problem), StartsWith("hall.yaml:5: no free state was found in the goal "
                                                "region; at its middle: goal is in contact"));
 }
 
 Problem armAt(double shoulder, double elbow, double wrist) {
   Problem problem = armProblem();
-  problem.start = Vec3(shoulder, elbow, wrist);
+  problem.task.start = Vec3(shoulder, elbow, wrist);
   return problem;
 }
 
 TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
   Problem problem = armProblem();
-  problem.planner.stopAtFirst = true;
-  problem.planner.time = 10;
+  problem.settings.planner.stopAtFirst = true;
+  problem.settings.planner.time = 10;
   for (const char* planner :
        {"RRTConnect", "RRT", "KPIECE1", "SBL", "PRM", "RRTstar", "InformedRRTstar", "BITstar"}) {
-    problem.planner.name = planner;
+    problem.settings.planner.name = planner;
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << planner << ": " << report.why;
     EXPECT_TRUE(report.certified);
@@ -419,41 +412,42 @@ TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
 
 TEST(Arm, TreesGrowByAShareOfATurnUnlessToldOtherwise) {
   Problem problem = armProblem();
-  problem.simplify = false;
-  problem.planner.stopAtFirst = true;
+  problem.settings.simplify = false;
+  problem.settings.planner.stopAtFirst = true;
   const auto path = [&](const char* range) {
-    problem.planner.params.clear();
-    if (range) problem.planner.params = {{"range", range}};
+    problem.settings.planner.params.clear();
+    if (range) problem.settings.planner.params = {{"range", range}};
     return solveProblem(problem).path;
   };
   const Path own = path(nullptr);
   ASSERT_FALSE(own.empty());
   for (std::size_t i = 0; i + 1 < own.size(); ++i)
-    EXPECT_LE(problem.space.distance(own[i], own[i + 1]), 0.7 * (1 + 1e-12));
+    EXPECT_LE(problem.model.space.distance(own[i], own[i + 1]), 0.7 * (1 + 1e-12));
   EXPECT_EQ(own, path("0.7"));
   EXPECT_NE(own, path("0"));
 }
 
 TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreTold) {
   Problem problem = armProblem();
-  problem.goals = {Vec3(std::numbers::pi / 4, 0, 0), Vec3(2, -0.5, 0.3), Vec3(-2, 0, 0)};
+  problem.task.goals = {Vec3(std::numbers::pi / 4, 0, 0), Vec3(2, -0.5, 0.3), Vec3(-2, 0, 0)};
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_THAT(report.warnings[0].str(),
               StartsWith("arm.yaml:5: goal 1 of 3 is in contact: \"lower\" and \"post\" touch; the "
                          "nearest free values found are at most "));
-  EXPECT_TRUE(report.path.back() == problem.goals[1] || report.path.back() == problem.goals[2]);
+  EXPECT_TRUE(report.path.back() == problem.task.goals[1] ||
+              report.path.back() == problem.task.goals[2]);
   EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
-  problem.goals.resize(1);
+  problem.task.goals.resize(1);
   EXPECT_THAT(complaintOf(problem), StartsWith("arm.yaml:5: goal is in contact: "));
 }
 
 TEST(Arm, GoalRegionOfJoints) {
   Problem problem = armProblem();
-  problem.goalRegion = Problem::GoalRegion{0, 0, 0.1};
-  problem.goals = {Vec3(std::numbers::pi, 1.6, 0.3)};  // the region crosses the shoulder's ±π
-  problem.planner.name = "RRT";
+  problem.task.goalRegion = GoalRegion{0, 0, 0.1};
+  problem.task.goals = {Vec3(std::numbers::pi, 1.6, 0.3)};  // the region crosses the shoulder's ±π
+  problem.settings.planner.name = "RRT";
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
@@ -467,10 +461,11 @@ TEST(Arm, StartInSelfContactNamesTheLinks) {
 
 TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});  // a wall without gap
+  problem.model.bodies[1].shapes[0].mesh->mesh =
+      test::boxMesh({0.001, 20, 20});  // a wall without gap
   for (const char* planner : {"RRTConnect", "RRT", "PRM", "RRTstar", "KPIECE1"}) {
-    problem.planner.name = planner;
-    problem.planner.time = 0.5;
+    problem.settings.planner.name = planner;
+    problem.settings.planner.time = 0.5;
     const SolveReport report = solveProblem(problem);
     EXPECT_THAT(report.outcome, testing::AnyOf(SolveOutcome::notFound, SolveOutcome::approximate))
         << planner;
@@ -482,7 +477,7 @@ TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
 
 TEST(Solve, StopsWhenInterrupted) {
   Problem problem = hallProblem(Rigid::SE3);
-  problem.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});
+  problem.model.bodies[1].shapes[0].mesh->mesh = test::boxMesh({0.001, 20, 20});
   std::atomic<bool> interrupted = false;
   SolveOptions options;
   options.interrupted = &interrupted;

@@ -19,11 +19,11 @@ TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
   const SolveReport usual = solveProblem(problem);
   const auto solved = [&](const std::string& edges, const TreeNames& words,
                           const std::string& told) {
-    problem.checker.edges = edges;
-    problem.checker.resolution = 0.001;
-    problem.checker.volume = words.volume;
-    problem.checker.fit = words.fit;
-    problem.checker.overlap = words.overlap;
+    problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
+    problem.settings.checker.resolution = 0.001;
+    problem.settings.checker.trees.volume = words.volume;
+    problem.settings.checker.trees.fit = words.fit;
+    problem.settings.checker.trees.overlap = words.overlap;
     const SolveReport report = solveProblem(problem);
     ASSERT_EQ(report.outcome, SolveOutcome::solved) << told << ": " << report.why;
     EXPECT_EQ(report.checker, told);

@@ -9,7 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = folder.write("problem.cfg", fuzz::textOf(data, ready ? size : 0));
   fuzz::readsOrRefuses([&] {
     const Problem problem = readProblem(file);
-    if (!problem.space.isFinite(problem.start) || !problem.space.inBounds(problem.start))
+    if (!problem.model.space.isFinite(problem.task.start) ||
+        !problem.model.space.inBounds(problem.task.start))
       fuzz::fail("the start is out of bounds");
   });
   return 0;

@@ -1,6 +1,7 @@
 // Fuzz target: problem files (corridor-problem-1), beside small robots and meshes. The checker must
 // accept every problem that the reader accepts.
 #include "planner/checker/checker.h"
+#include "planner/problem/problem.h"
 #include "tests/stress/fuzz/small_world.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -11,9 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::readsOrRefuses([&] {
     const Problem problem = readProblem(file);
     const Checker checker(problem);
-    if (!checker.inBounds(problem.start)) fuzz::fail("the start is out of bounds");
-    checker.interference(problem.start);
-    for (const Configuration& goal : problem.goals) checker.state(goal);
+    if (!checker.inBounds(problem.task.start)) fuzz::fail("the start is out of bounds");
+    checker.interference(problem.task.start);
+    for (const Configuration& goal : problem.task.goals) checker.state(goal);
   });
   return 0;
 }

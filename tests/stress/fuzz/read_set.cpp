@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const char* index : {"#1", "#2", ""})
     fuzz::readsOrRefuses([&] {
       const Problem problem = readProblem(file.string() + index);
-      if (!problem.space.isFinite(problem.start) || !problem.space.inBounds(problem.start))
+      if (!problem.model.space.isFinite(problem.task.start) ||
+          !problem.model.space.inBounds(problem.task.start))
         fuzz::fail("the start is out of bounds");
     });
   return 0;

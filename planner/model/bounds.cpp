@@ -1,0 +1,102 @@
+#include "planner/model/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/core/spelling.h"
+
+namespace corridor {
+namespace {
+
+void include(const ConvexPart& part, Corners& box) {
+  // The points are swept by a sphere, or for a cylinder by a disc at a right angle to its axis.
+  Vec3 reach = Vec3::Constant(part.radius);
+  if (part.flatEnds) {
+    const Vec3 along = (part.points.back() - part.points.front()).stableNormalized();
+    for (int k = 0; k < 3; ++k)
+      reach[k] = part.radius * std::sqrt(std::max(0.0, 1 - along[k] * along[k]));
+  }
+  for (const Vec3& point : part.points) {
+    box.lower = box.lower.cwiseMin(point - reach);
+    box.upper = box.upper.cwiseMax(point + reach);
+  }
+}
+
+void include(const TriangleMesh& mesh, Corners& box) {
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t i : triangle) {
+      box.lower = box.lower.cwiseMin(mesh.vertices[i]);
+      box.upper = box.upper.cwiseMax(mesh.vertices[i]);
+    }
+}
+
+}  // namespace
+
+std::size_t dimensionsOf(const CoordinateGroup& group) {
+  return group.kind == CoordinateGroup::Kind::planar ? 2 : 3;
+}
+
+Corners boundsOf(const ConfigurationSpace& space, const CoordinateGroup& group) {
+  Corners corners;
+  for (std::size_t k = 0; k < dimensionsOf(group); ++k) {
+    const Coordinate& c = space.coordinates()[group.coordinates[k]];
+    corners.lower[static_cast<Eigen::Index>(k)] = c.lower;
+    corners.upper[static_cast<Eigen::Index>(k)] = c.upper;
+  }
+  return corners;
+}
+
+void setBounds(ConfigurationSpace& space, const CoordinateGroup& group, const Corners& corners) {
+  for (std::size_t k = 0; k < dimensionsOf(group); ++k) {
+    Coordinate& c = space.coordinates()[group.coordinates[k]];
+    c.lower = corners.lower[static_cast<Eigen::Index>(k)];
+    c.upper = corners.upper[static_cast<Eigen::Index>(k)];
+  }
+}
+
+std::string whyBadBounds(const Corners& corners, std::size_t dimensions) {
+  for (std::size_t i = 0; i < dimensions; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double lower = corners.lower[k], upper = corners.upper[k];
+    if (lower < upper && std::isfinite(upper - lower)) continue;
+    return std::string("lower corner first, then the upper one: in ") + "xyz"[i] + ", " +
+           shortest(lower) + " is not below " + shortest(upper);
+  }
+  return "";
+}
+
+std::optional<Corners> boundsOfWorld(const Model& model) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Corners box{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
+  for (const ModelBody& body : model.bodies) {
+    if (body.robot) continue;
+    for (const PlacedShape& shape : body.shapes) {
+      if (shape.part) include(*shape.part, box);
+      if (shape.mesh) include(shape.mesh->mesh, box);
+    }
+  }
+  return box.lower.x() <= box.upper.x() ? std::optional(box) : std::nullopt;
+}
+
+std::vector<FollowerOutside> followersOutside(const Model& model, const Configuration& q) {
+  std::vector<FollowerOutside> outside;
+  for (const ModelRobot& robot : model.robots) {
+    const std::string prefix = robot.name.empty() ? "" : robot.name + "/";
+    for (const JointModel& joint : robot.model.joints) {
+      if (!joint.mimic || !(std::isfinite(joint.lower) || std::isfinite(joint.upper))) continue;
+      const std::string leader = prefix + robot.model.joints[joint.mimic->joint].name;
+      for (const Coordinate& c : model.space.coordinates()) {
+        if (c.kind != Coordinate::Kind::circle || c.name != leader) continue;
+        const double value =
+            joint.mimic->multiplier * q[static_cast<Eigen::Index>(c.first)] + joint.mimic->offset;
+        const double slack = 0x1p-40 * (std::abs(value) + std::abs(joint.mimic->offset));
+        if (!(value >= joint.lower - slack && value <= joint.upper + slack))
+          outside.push_back({prefix + joint.name, value, joint.lower, joint.upper});
+      }
+    }
+  }
+  return outside;
+}
+
+}  // namespace corridor

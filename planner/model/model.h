@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "planner/robot/kinematic_tree.h"
+#include "planner/robot/robot_model.h"
+
+namespace corridor {
+
+/// A joint that is planned for, or the pose of a rigid robot.
+struct DegreeOfFreedom {
+  std::string name;  ///< name of the joint; "" for a rigid robot
+  JointType type = JointType::revolute;
+  std::size_t coordinate = 0;  ///< index of its (first) coordinate in Model::space
+};
+
+/// A robot of a model: its description, how it is planned for, and its place in the model.
+struct ModelRobot {
+  /// "left" for the robot `left` of several. Empty for a single robot: names of its links, joints
+  /// and coordinates then have no prefix.
+  std::string name;
+  RobotModel model;
+  RigidPose base;  ///< X_WB
+
+  std::vector<std::size_t> active;             ///< joints that are planned for, in order
+  std::map<std::size_t, double> held;          ///< values of the other single joints, rad or m
+  std::map<std::size_t, RigidPose> heldPoses;  ///< poses of the other planar and floating joints
+  std::map<std::string, double> jointWeights;  ///< joints that are not listed have weight 1
+  double rotationWeight = 0.5;  ///< metres per radian of rotation; OMPL's default for SE2 and SE3
+
+  // Set by ModelBuilder:
+  std::vector<std::size_t> linkFrames;    ///< for each link of `model`, its frame in Model::tree
+  std::vector<DegreeOfFreedom> freedoms;  ///< in the order of `active`
+
+  bool isRigid() const { return model.mount != JointType::fixed; }
+};
+
+/// A link or an obstacle: all shapes that are tested under one name.
+struct ModelBody {
+  std::string name;       ///< "hand", "left/hand", "table"; for a rigid robot, the robot's name
+  std::size_t frame = 0;  ///< in Model::tree; 0 (the world) for an obstacle
+  std::optional<std::size_t> robot;  ///< index in Model::robots; empty for an obstacle
+  std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`
+};
+
+/// Decides which pairs of bodies are tested. Without rules, every pair is.
+class PairFilter {
+ public:
+  /// Excludes a pair of bodies from all tests. A pair's last reason counts.
+  /// @param reason not empty: "adjacent", "SRDF: Never", "allow", …
+  void skip(std::size_t a, std::size_t b, std::string reason);
+  /// Excludes pairs of bodies that never move against each other.
+  /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
+  /// mover stand still relative to each other.
+  void setMovers(std::vector<std::size_t> movers) { movers_ = std::move(movers); }
+
+  /// Returns "" if the pair is tested, or else the reason why not. Takes logarithmic time in the
+  /// number of excluded pairs.
+  std::string_view whyNotTested(std::size_t a, std::size_t b) const;
+
+ private:
+  std::map<std::pair<std::size_t, std::size_t>, std::string> reasons_;
+  std::vector<std::size_t> movers_;
+};
+
+/// The reason of PairFilter for bodies with the same mover.
+inline constexpr std::string_view kNeverMove = "never move against each other";
+
+/// Everything that moves, and what it may hit. Plain data, which a `ModelBuilder` makes. Lengths
+/// are in metres, angles in radians.
+struct Model {
+  std::vector<ModelRobot> robots;
+  KinematicTree tree;
+  /// The planned coordinates, by the names that `start` and `goal` of a problem file use.
+  ConfigurationSpace space;
+  std::vector<ModelBody> bodies;  ///< the robots' links that have shapes, then the obstacles
+  PairFilter filter;              ///< of the pairs of `bodies`
+};
+
+/// Calls visit(a, b, why) for every pair of two bodies, a < b, of which at least one belongs to a
+/// robot, in ascending order. `why` is empty if the pair is tested, or else the reason why not.
+template <class Visit>
+void forEachPair(const Model& model, Visit visit) {
+  const std::vector<ModelBody>& bodies = model.bodies;
+  std::vector<std::size_t> ofRobots;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].robot) ofRobots.push_back(i);
+  std::size_t later = 0;  // the first of `ofRobots` that comes after a
+  for (std::size_t a = 0; a < bodies.size(); ++a) {
+    while (later < ofRobots.size() && ofRobots[later] <= a) ++later;
+    if (bodies[a].robot)
+      for (std::size_t b = a + 1; b < bodies.size(); ++b)
+        visit(a, b, model.filter.whyNotTested(a, b));
+    else
+      for (std::size_t i = later; i < ofRobots.size(); ++i)
+        visit(a, ofRobots[i], model.filter.whyNotTested(a, ofRobots[i]));
+  }
+}
+
+/// Calls visit(a, b) for every pair of two bodies that is tested, in the order of `forEachPair`.
+template <class Visit>
+void forEachTestedPair(const Model& model, Visit visit) {
+  forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
+    if (why.empty()) visit(a, b);
+  });
+}
+
+/// Returns the number of pairs that `forEachPair` visits, in constant memory and linear time.
+double pairCount(const Model& model);
+
+/// Returns for each frame the nearest one that a variable moves, among the frame itself and those
+/// above it, or else the world. Two frames move against each other if theirs differ.
+std::vector<std::size_t> moversOf(const KinematicTree& tree);
+
+/// Returns whether the model has a planar or floating joint, or a rigid robot.
+bool hasWholes(const ConfigurationSpace& space);
+/// Returns whether the model has a single joint (revolute, continuous or prismatic).
+bool hasJoints(const ConfigurationSpace& space);
+
+}  // namespace corridor

@@ -1,0 +1,237 @@
+#include "planner/model/model_builder.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+
+#include "collision/core/spelling.h"
+#include "planner/model/planned_joints.h"
+#include "planner/model/robot_assembly.h"
+#include "planner/robot/joint_types.h"
+
+namespace corridor {
+namespace {
+
+constexpr const char* kPlace = "ModelBuilder";
+
+/// Excludes the pairs of a robot's links that are not tested: pairs that SRDF and robot.yaml allow,
+/// and adjacent links. Links are adjacent if one is above the other in the tree and no link between
+/// them has shapes. At most one joint between them is not fixed, and it is neither planar nor
+/// floating: over two joints, or one of these, links can meet anywhere.
+void skipLinks(Model& model, std::size_t robot) {
+  const RobotModel& description = model.robots[robot].model;
+  // A body of the robot is the only one on its link's frame.
+  std::map<std::size_t, std::size_t> bodyOnFrame;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (model.bodies[b].robot == robot) bodyOnFrame[model.bodies[b].frame] = b;
+  const auto bodyOf = [&](std::size_t link) -> std::optional<std::size_t> {
+    const auto found = bodyOnFrame.find(model.robots[robot].linkFrames[link]);
+    return found == bodyOnFrame.end() ? std::nullopt : std::optional(found->second);
+  };
+  const auto skip = [&](std::optional<std::size_t> a, std::optional<std::size_t> b,
+                        const std::string& reason) {  // a pair's first reason counts
+    if (a && b && model.filter.whyNotTested(*a, *b).empty()) model.filter.skip(*a, *b, reason);
+  };
+  std::map<std::string, std::size_t> linkNamed;
+  for (std::size_t link = 0; link < description.links.size(); ++link)
+    linkNamed[description.links[link].name] = link;
+  for (const AllowedPair& pair : description.allowed) {
+    const auto a = linkNamed.find(pair.a), b = linkNamed.find(pair.b);
+    if (a != linkNamed.end() && b != linkNamed.end())
+      skip(bodyOf(a->second), bodyOf(b->second), pair.reason);
+  }
+  std::vector<const JointModel*> above(description.links.size(), nullptr);
+  for (const JointModel& joint : description.joints) above[joint.child] = &joint;
+  for (std::size_t link = 0; link < description.links.size(); ++link) {
+    int moving = 0;
+    for (const JointModel* joint = above[link]; joint; joint = above[joint->parent]) {
+      if (joint->type != JointType::fixed) moving += isWhole(joint->type) ? 2 : 1;
+      if (moving > 1) break;
+      const auto other = bodyOf(joint->parent);
+      if (!other) continue;
+      skip(bodyOf(link), other, "adjacent");
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void ModelBuilder::fault(std::string text) {
+  faults_.push_back({kPlace, 0, std::move(text)});
+}
+
+ModelBuilder& ModelBuilder::addRobot(ModelRobot robot) {
+  for (const ModelRobot& other : model_.robots)
+    if (other.name == robot.name)
+      fault("two robots have the name " + quotedWord(robot.name) + "; each needs its own");
+  if (!model_.bodies.empty() && !model_.bodies.back().robot)
+    fault("robots must be added before obstacles");
+  const auto single = assembleRobot(std::move(robot), model_);
+  joints_.coordinates.insert(joints_.coordinates.end(), single.begin(), single.end());
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
+                                     const UrdfOptions& options) {
+  const std::size_t before = faults_.size();
+  std::vector<std::filesystem::path> files;
+  auto model = readUrdf(urdf, options.packages, faults_, files);
+  if (model && !options.srdf.empty()) readSrdf(options.srdf, *model, faults_);
+  if (!model || faults_.size() > before) return *this;
+  ModelRobot robot;
+  robot.name = options.name;
+  robot.model = std::move(*model);
+  robot.base = options.base;
+  std::vector<std::size_t> active;
+  for (const std::string& name : options.joints) {
+    const auto j = findJoint(robot.model, name);
+    if (j && canMove(robot.model.joints[*j]) &&
+        std::find(active.begin(), active.end(), *j) == active.end())
+      active.push_back(*j);
+    else
+      fault(quotedWord(name) + " is no joint of " + urdf.string() +
+            " that moves by itself, or it is named twice");
+  }
+  if (options.joints.empty() && (active = allMoving(robot)).empty())
+    faults_.push_back({urdf.string(), 0, "has no joint that moves by itself"});
+  if (faults_.size() > before) return *this;
+  chooseJoints(robot, active);
+  return addRobot(std::move(robot));
+}
+
+ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type,
+                                         std::vector<PlacedShape> shapes, const Corners& bounds) {
+  ModelRobot robot;
+  robot.name = name;
+  robot.model = rigidModel(name, type, std::move(shapes));
+  return addRobot(std::move(robot)).bound(name, bounds);
+}
+
+ModelBuilder& ModelBuilder::addObstacle(std::string name, std::vector<PlacedShape> shapes) {
+  if (!shapes.empty())
+    model_.bodies.push_back({std::move(name), 0, std::nullopt, std::move(shapes)});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::addObstacle(const std::string& name, const Primitive& primitive,
+                                        const RigidPose& at) {
+  if (const auto why = checkPrimitive(primitive)) {
+    fault(name + ": " + *why);
+    return *this;
+  }
+  return addObstacle(name, {shapeOf(name, primitive, at)});
+}
+
+ModelBuilder& ModelBuilder::bound(std::string joint, const Corners& bounds) {
+  bounds_.push_back({std::move(joint), bounds});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::allow(std::string a, std::string b) {
+  allowed_.push_back({std::move(a), std::move(b)});
+  return *this;
+}
+
+void ModelBuilder::applyBounds() {
+  const auto& groups = model_.space.groups();
+  for (const Bound& bound : bounds_) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const CoordinateGroup& g) {
+      return g.kind != CoordinateGroup::Kind::joints && g.name == bound.joint;
+    });
+    if (group == groups.end())
+      fault("bounds of " + quotedWord(bound.joint) +
+            ": there is no planar or floating joint, and "
+            "no rigid body, of that name");
+    else if (const std::string why = whyBadBounds(bound.corners, dimensionsOf(*group));
+             !why.empty())
+      fault("bounds of " + quotedWord(bound.joint) + ": " + why);
+    else
+      setBounds(model_.space, *group, bound.corners);
+  }
+  for (const CoordinateGroup& group : groups) {
+    const bool given = std::any_of(bounds_.begin(), bounds_.end(),
+                                   [&](const Bound& bound) { return bound.joint == group.name; });
+    if (group.kind != CoordinateGroup::Kind::joints && !given)
+      fault(quotedWord(group.name) + " needs bounds, since it has no limits");
+  }
+}
+
+std::vector<std::array<std::size_t, 2>> ModelBuilder::allowedBodies() {
+  std::vector<std::array<std::size_t, 2>> allowed;
+  std::vector<std::string> names;
+  for (const ModelBody& body : model_.bodies) names.push_back(body.name);
+  for (const auto& pair : allowed_) {
+    std::vector<std::size_t> bodies;
+    for (const std::string& name : pair) {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end())
+        fault("allow: there is no body " + quotedWord(name) + didYouMean(name, names) +
+              knownWords(names));
+      else if (std::find(found + 1, names.end(), name) != names.end())
+        fault("allow: two bodies have the name " + quotedWord(name));
+      else
+        bodies.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    if (bodies.size() == 2) allowed.push_back({bodies[0], bodies[1]});
+  }
+  return allowed;
+}
+
+Model ModelBuilder::buildUnbounded() {
+  if (!faults_.empty()) throw InputError(std::move(faults_));
+  if (!joints_.coordinates.empty()) model_.space.addGroup(std::move(joints_));
+  for (std::size_t r = 0; r < model_.robots.size(); ++r) skipLinks(model_, r);
+  const std::vector<std::size_t> mover = moversOf(model_.tree);
+  std::vector<std::size_t> movers;
+  for (const ModelBody& body : model_.bodies) movers.push_back(mover[body.frame]);
+  model_.filter.setMovers(std::move(movers));
+  Model model = std::move(model_);
+  *this = ModelBuilder();
+  return model;
+}
+
+Model ModelBuilder::build() {
+  applyBounds();
+  const auto allowed = allowedBodies();
+  if (faults_.empty()) requireFewPairs(model_, kPlace);
+  Model model = buildUnbounded();
+  for (const auto& [a, b] : allowed) model.filter.skip(a, b, "allow");
+  return model;
+}
+
+RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes) {
+  RobotModel model;
+  model.name = name;
+  model.mount = type;
+  model.links.push_back({name, std::move(shapes)});
+  return model;
+}
+
+PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPose& at) {
+  PlacedShape shape;
+  shape.name = std::move(name);
+  shape.primitive = primitive;
+  shape.at = at;
+  shape.part = placed(primitive, {at.q.normalized().toRotationMatrix(), at.p});
+  return shape;
+}
+
+PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid) {
+  PlacedShape shape;
+  shape.name = std::move(name);
+  shape.mesh.emplace().mesh = std::move(mesh);
+  shape.solid = solid;
+  return shape;
+}
+
+void requireFewPairs(const Model& model, const std::string& place) {
+  constexpr double most = 1e7;  // a scene takes some 500 MB for them
+  if (const double pairs = pairCount(model); pairs > most)
+    throw InputError(Fault{place, 0,
+                           "has " + std::to_string(static_cast<std::uint64_t>(pairs)) +
+                               " pairs of bodies, at most 10000000 are handled; join shapes that "
+                               "do not move against each other into one body"});
+}
+
+}  // namespace corridor

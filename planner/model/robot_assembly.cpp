@@ -1,0 +1,216 @@
+#include "planner/model/robot_assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "planner/robot/joint_types.h"
+
+namespace corridor {
+namespace {
+
+using Kind = Coordinate::Kind;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double pi = std::numbers::pi;
+
+RigidPose operator*(const RigidPose& a, const RigidPose& b) {
+  return {a.p + a.q.normalized() * b.p, a.q * b.q};
+}
+
+/// Returns the smallest rotation that takes z to `axis`. A planar joint translates in x and y of
+/// the rotated frame.
+Eigen::Quaterniond fromZ(const Vec3& axis) {
+  const Vec3 n = axis.stableNormalized();
+  if (n.x() == 0 && n.y() == 0)
+    return n.z() > 0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(0, 1, 0, 0);
+  return Eigen::Quaterniond(1 + n.z(), -n.y(), n.x(), 0).normalized();
+}
+
+class RobotAssembly {
+ public:
+  RobotAssembly(ModelRobot& robot, Model& model)
+      : robot_(robot),
+        description_(robot.model),
+        alone_(robot.name.empty()),
+        prefix_(alone_ ? "" : robot.name + "/"),
+        model_(model) {}
+
+  void run() {
+    if (robot_.isRigid()) addWhole("", description_.mount);
+    for (const std::size_t j : robot_.active) addJoint(j);
+    robot_.linkFrames.assign(description_.links.size(), 0);
+    addRoot();
+    for (std::size_t j = 0; j < description_.joints.size(); ++j) addFrames(j);
+    addBodies();
+  }
+
+  std::vector<std::size_t> jointCoordinates;
+
+ private:
+  double weightOf(const std::string& joint) const {
+    const auto found = robot_.jointWeights.find(joint);
+    return found == robot_.jointWeights.end() ? 1 : found->second;
+  }
+
+  /// Adds the coordinates of a planar or floating joint, or of a rigid robot (`joint` is empty).
+  void addWhole(const std::string& joint, JointType type) {
+    const std::string in = prefix_ + (joint.empty() ? "" : joint + "/");
+    const bool planar = type == JointType::planar;
+    const double weight = weightOf(joint);
+    CoordinateGroup group;
+    group.kind = planar ? CoordinateGroup::Kind::planar : CoordinateGroup::Kind::floating;
+    group.name = joint.empty() ? (alone_ ? description_.name : robot_.name) : prefix_ + joint;
+    for (const char* axis : planar ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
+      group.coordinates.push_back(
+          model_.space.add({Kind::line, in + axis, 0, unknown, unknown, false, weight}));
+    // The space measures a rotation by its quaternion's angle, half the rotation angle: hence 2 ×.
+    group.coordinates.push_back(model_.space.add(
+        planar ? Coordinate{Kind::circle, in + "yaw", 0, -pi, pi, true, robot_.rotationWeight}
+               : Coordinate{Kind::rotation, in + "rotation", 0, 0, 0, true,
+                            2 * robot_.rotationWeight}));
+    robot_.freedoms.push_back({joint, type, group.coordinates.front()});
+    model_.space.addGroup(std::move(group));
+  }
+
+  void addJoint(std::size_t j) {
+    const JointModel& joint = description_.joints[j];
+    if (isWhole(joint.type)) return addWhole(joint.name, joint.type);
+    Coordinate coordinate{
+        Kind::line,          prefix_ + joint.name, 0,
+        joint.lower,         joint.upper,          joint.type != JointType::prismatic,
+        weightOf(joint.name)};
+    if (joint.type == JointType::continuous) {
+      coordinate.kind = Kind::circle;
+      coordinate.lower = -pi;
+      coordinate.upper = pi;
+    }
+    robot_.freedoms.push_back({joint.name, joint.type, model_.space.add(coordinate)});
+    jointCoordinates.push_back(robot_.freedoms.back().coordinate);
+  }
+
+  const DegreeOfFreedom* freedomOf(const std::string& joint) const {
+    const auto found =
+        std::find_if(robot_.freedoms.begin(), robot_.freedoms.end(),
+                     [&](const DegreeOfFreedom& freedom) { return freedom.name == joint; });
+    return found == robot_.freedoms.end() ? nullptr : &*found;
+  }
+  std::size_t variableOf(std::size_t coordinate) const {
+    return model_.space.coordinates()[coordinate].first;
+  }
+
+  std::size_t addFrame(const std::string& name, std::size_t parent, const RigidPose& fixed,
+                       Frame::Joint joint = Frame::Joint::none) {
+    Frame frame;
+    frame.name = name;
+    frame.parent = parent;
+    frame.fixed = fixed;
+    frame.joint = joint;
+    return model_.tree.add(std::move(frame));
+  }
+
+  /// Adds the frames of a planar or floating joint: a translation, then a rotation.
+  /// @returns the frame of the link that the joint moves.
+  std::size_t addWholeFrames(const std::string& name, const DegreeOfFreedom& freedom,
+                             std::size_t parent, const RigidPose& X_PJ, const Vec3& axis) {
+    const bool planar = freedom.type == JointType::planar;
+    const Eigen::Quaterniond plane = planar ? fromZ(axis) : Eigen::Quaterniond::Identity();
+    const std::size_t first = variableOf(freedom.coordinate);
+    const std::size_t shift =
+        addFrame(prefix_ + (freedom.name.empty() ? "position" : freedom.name), parent,
+                 X_PJ * RigidPose{Vec3::Zero(), plane}, Frame::Joint::translation);
+    model_.tree.frames[shift].variable = first;
+    model_.tree.frames[shift].count = planar ? 2 : 3;
+    const std::size_t turn = addFrame(name, shift, {Vec3::Zero(), plane.conjugate()},
+                                      planar ? Frame::Joint::revolute : Frame::Joint::rotation);
+    model_.tree.frames[turn].variable = first + (planar ? 2 : 3);
+    model_.tree.frames[turn].axis = axis;
+    return turn;
+  }
+
+  /// Returns the pose of the child link in the parent link of a planar or floating joint that is
+  /// held at `pose`.
+  static RigidPose heldAt(const JointModel& joint, const RigidPose& pose) {
+    if (joint.type == JointType::floating) return joint.X_PJ * pose;
+    const Eigen::Quaterniond plane = fromZ(joint.axis);
+    return joint.X_PJ * RigidPose{Vec3::Zero(), plane} * pose *
+           RigidPose{Vec3::Zero(), plane.conjugate()};
+  }
+
+  void addRoot() {
+    const std::string name = prefix_ + description_.links[description_.root].name;
+    robot_.linkFrames[description_.root] =
+        robot_.isRigid() ? addWholeFrames(alone_ ? description_.name : robot_.name,
+                                          robot_.freedoms.front(), 0, robot_.base, Vec3::UnitZ())
+                         : addFrame(name, 0, robot_.base);
+  }
+
+  void addFrames(std::size_t j) {
+    const JointModel& joint = description_.joints[j];
+    const std::string name = prefix_ + description_.links[joint.child].name;
+    const std::size_t parent = robot_.linkFrames[joint.parent];
+    std::size_t& child = robot_.linkFrames[joint.child];
+    if (joint.type == JointType::fixed) {
+      child = addFrame(name, parent, joint.X_PJ);
+    } else if (isWhole(joint.type)) {
+      const DegreeOfFreedom* freedom = freedomOf(joint.name);
+      child = freedom ? addWholeFrames(name, *freedom, parent, joint.X_PJ, joint.axis)
+                      : addFrame(name, parent, heldAt(joint, robot_.heldPoses.at(j)));
+    } else {
+      child = addFrame(
+          name, parent, joint.X_PJ,
+          joint.type == JointType::prismatic ? Frame::Joint::prismatic : Frame::Joint::revolute);
+      drive(model_.tree.frames[child], j);
+    }
+  }
+
+  void drive(Frame& frame, std::size_t j) {
+    const JointModel& joint = description_.joints[j];
+    frame.axis = joint.axis;
+    const std::size_t source = joint.mimic ? joint.mimic->joint : j;
+    const double multiplier = joint.mimic ? joint.mimic->multiplier : 1;
+    frame.offset = joint.mimic ? joint.mimic->offset : 0;
+    const DegreeOfFreedom* freedom = freedomOf(description_.joints[source].name);
+    if (freedom && multiplier != 0) {
+      frame.variable = variableOf(freedom->coordinate);
+      frame.multiplier = multiplier;
+    } else if (!freedom) {
+      const double held = robot_.held.at(source);
+      frame.offset = joint.mimic ? multiplier * held + frame.offset : held;
+    }
+  }
+
+  void addBodies() {
+    for (std::size_t l = 0; l < description_.links.size(); ++l) {
+      LinkModel& link = description_.links[l];
+      if (link.shapes.empty()) continue;
+      ModelBody body;
+      body.name = robot_.isRigid() && !alone_ ? robot_.name : prefix_ + link.name;
+      body.frame = robot_.linkFrames[l];
+      body.robot = model_.robots.size();
+      body.shapes = std::move(link.shapes);
+      link.shapes.clear();
+      for (PlacedShape& shape : body.shapes)
+        if (shape.name.starts_with(link.name))
+          shape.name = body.name + shape.name.substr(link.name.size());
+      model_.bodies.push_back(std::move(body));
+    }
+  }
+
+  ModelRobot& robot_;
+  RobotModel& description_;
+  const bool alone_;
+  const std::string prefix_;
+  Model& model_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> assembleRobot(ModelRobot robot, Model& model) {
+  RobotAssembly assembly(robot, model);
+  assembly.run();
+  model.robots.push_back(std::move(robot));
+  return assembly.jointCoordinates;
+}
+
+}  // namespace corridor

@@ -1,0 +1,45 @@
+#include "planner/model/settings.h"
+
+#include "collision/core/spelling.h"
+
+namespace corridor {
+
+template <>
+const std::vector<std::string>& wordsFor<EdgeCheck>() {
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> all = edgeMethodNames();
+    all.push_back("discrete");
+    return all;
+  }();
+  return words;
+}
+
+template <>
+const std::vector<std::string>& wordsFor<StateSampler>() {
+  static const std::vector<std::string> words{"uniform", "gaussian", "obstacle_based",
+                                              "bridge_test", "max_clearance"};
+  return words;
+}
+
+template <>
+const std::vector<std::string>& wordsFor<Objective>() {
+  static const std::vector<std::string> words{"length", "max_min_clearance", "mechanical_work"};
+  return words;
+}
+
+EdgeMethod methodOf(EdgeCheck check) {
+  return edgeMethodNamed(wordOf(check)).value_or(EdgeMethod::directional);
+}
+
+std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
+  if (auto wrong = invalidNameIn(checker.trees)) return wrong;
+  const bool measures = methodOf(checker.edges) != EdgeMethod::directional;
+  const std::string first = withDefaults({checker.trees.volume, "", ""}).overlap;
+  const std::string& overlap = checker.trees.overlap;
+  if (!measures || overlap.empty() || overlap == first) return std::nullopt;
+  return InvalidName{"overlap", quotedWord(overlap) + " is for edges certified and discrete; " +
+                                    wordOf(checker.edges) +
+                                    " measures distances between volumes: leave overlap out"};
+}
+
+}  // namespace corridor

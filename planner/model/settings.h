@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "collision/hierarchy/tree_kinds.h"
+#include "collision/motion/edge_method.h"
+
+namespace corridor {
+
+/// How edges are checked: by a method that proves them, or by samples, as a baseline.
+enum class EdgeCheck { certified, adaptive, advancement, discrete };
+/// OMPL's samplers of valid states.
+enum class StateSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
+/// What planners optimise.
+enum class Objective { length, maxMinClearance, mechanicalWork };
+
+/// Returns the words that users write for the values of a choice, in the order of the enumeration.
+/// Choice: EdgeCheck, StateSampler or Objective.
+template <class Choice>
+const std::vector<std::string>& wordsFor();
+template <>
+const std::vector<std::string>& wordsFor<EdgeCheck>();
+template <>
+const std::vector<std::string>& wordsFor<StateSampler>();
+template <>
+const std::vector<std::string>& wordsFor<Objective>();
+
+/// Returns the word of a value.
+template <class Choice>
+const std::string& wordOf(Choice choice) {
+  return wordsFor<Choice>()[static_cast<std::size_t>(choice)];
+}
+
+/// Returns the value that a word stands for, or nullopt for an unknown word.
+template <class Choice>
+std::optional<Choice> choiceNamed(std::string_view word) {
+  const std::vector<std::string>& words = wordsFor<Choice>();
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (words[i] == word) return static_cast<Choice>(i);
+  return std::nullopt;
+}
+
+/// Returns the method that proves edges; for `discrete`, the default method.
+EdgeMethod methodOf(EdgeCheck check);
+
+/// The finest resolution of sampled edges. Finer ones have no use, and OMPL counts an edge's steps
+/// in 32 bits.
+inline constexpr double kFinestResolution = 1e-9;
+/// Returns whether a value is legal as OMPL's longest_valid_segment_fraction: from
+/// `kFinestResolution` to below 1.
+inline bool isResolution(double value) {
+  return kFinestResolution <= value && value < 1;
+}
+
+struct PlannerSettings {
+  std::string name = "RRTConnect";  ///< OMPL's
+  double time = 20;                 ///< seconds
+  /// Whether to stop at the first solution. Unset: planners that optimise use all the time, and the
+  /// others stop.
+  std::optional<bool> stopAtFirst;
+  std::map<std::string, std::string> params;  ///< by OMPL's own names
+};
+
+struct CheckerSettings {
+  EdgeCheck edges = EdgeCheck::certified;
+  double resolution = 0.01;         ///< for discrete; see isResolution
+  std::optional<double> tolerance;  ///< metres; unset: see checker/default_tolerance.h
+  /// The trees that queries walk, by the words that users write.
+  TreeNames trees = {"obb", "", ""};
+};
+
+/// How a path is searched. Every value is legal: readers check ranges and words.
+struct Settings {
+  PlannerSettings planner;
+  StateSampler sampler = StateSampler::uniform;
+  std::optional<Objective> objective;  ///< `.cfg` only
+  double objectiveThreshold = 0;
+  bool simplify = true;
+  CheckerSettings checker;
+  std::uint64_t seed = 1;
+};
+
+/// Returns the first word of `trees` that is unknown or does not belong to the volume, or nullopt.
+/// The methods `adaptive` and `advancement` measure distances, so for them an overlap test other
+/// than the volume's first is wrong, too.
+std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker);
+
+}  // namespace corridor

@@ -1,0 +1,30 @@
+#include "planner/model/task.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace corridor {
+
+Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked) {
+  using Kind = Coordinate::Kind;
+  constexpr double rounding = 0x1p-40;
+  Configuration tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
+  for (const CoordinateGroup& group : space.groups()) {
+    double longest = 0;
+    for (const std::size_t i : group.coordinates) {
+      const Coordinate& c = space.coordinates()[i];
+      if (c.kind == Kind::line) longest = std::max(longest, c.upper - c.lower);
+    }
+    const bool whole = group.kind != CoordinateGroup::Kind::joints;
+    for (const std::size_t i : group.coordinates) {
+      const Coordinate& c = space.coordinates()[i];
+      const bool line = c.kind == Kind::line;
+      const double range = !line ? 2 * std::numbers::pi : whole ? longest : c.upper - c.lower;
+      const auto& wanted = !whole ? asked.joints : line ? asked.position : asked.rotation;
+      tube[static_cast<Eigen::Index>(c.first)] = std::max(wanted.value_or(0), rounding * range);
+    }
+  }
+  return tube;
+}
+
+}  // namespace corridor
