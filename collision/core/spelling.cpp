@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
 namespace corridor {
 
@@ -73,11 +72,6 @@ std::string joined(const std::vector<std::string>& words) {
 std::string notOneOf(std::string_view word, const std::vector<std::string>& words) {
   return "one of " + joined(words) + " is needed, not " + quotedWord(word) +
          didYouMean(word, words);
-}
-
-std::string shortest(double value) {
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
 std::string quotedWord(std::string_view word) {

@@ -35,9 +35,6 @@ std::string joined(const std::vector<std::string>& words);
 /// Returns `one of a, b is needed, not "c"`, and the word that may be meant.
 std::string notOneOf(std::string_view word, const std::vector<std::string>& words);
 
-/// Returns the shortest decimal digits that read back as this double, for messages and notes.
-std::string shortest(double value);
-
 /// Returns the word for a message: in double quotes, at most 60 bytes, control characters as '?'.
 std::string quotedWord(std::string_view word);
 

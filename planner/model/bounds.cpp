@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 
 namespace corridor {

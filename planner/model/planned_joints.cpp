@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
 

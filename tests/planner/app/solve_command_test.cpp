@@ -154,7 +154,7 @@ TEST_F(SolveCommand, BadInputIsOneLineAndExit2) {
   expectFault("solve problem.yaml --picture .",
               "--picture: . is a folder; a file's name is needed");
   expectFaultThatBegins("solve problem.yaml --edges discrete --resolution 1",
-                        "--resolution: must be from 1e-9 to below 1, not 1");
+                        "--resolution: must be from 1e-9 to below 1, not 1; ");
   write("fine.yaml", problem("-2, 0, 0", "checker: {edges: discrete, resolution: 1e-300}\n"));
   expectFault("solve fine.yaml",
               "fine.yaml:8: checker.resolution: must be from 1e-9 to below 1, not 1e-300");

@@ -9,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ompl/config.h>
-#include <ompl/util/RandomNumbers.h>
 
 #include "collision/core/error.h"
 #include "planner/benchmark/ompl_log.h"
@@ -149,12 +148,16 @@ TEST(Campaign, TheSameSeedsGiveTheSameRows) {
 }
 
 TEST(Campaign, ACrashCostsItsRunOnly) {
-  BenchmarkCompetitor peer{"shaky", [](const auto& si, const Checker& checker) {
-                             const auto seed = ompl::RNG::getSeed();
-                             if (seed == 2) std::raise(SIGKILL);
-                             if (seed == 3) throw std::bad_alloc();
-                             return std::make_shared<ExactStateValidityChecker>(si, checker);
-                           }};
+  const BenchmarkCompetitor exact{"exact", [](const auto& si, const Checker& checker) {
+                                    return std::make_shared<ExactStateValidityChecker>(si, checker);
+                                  }};
+  BenchmarkCompetitor peer = exact;
+  peer.name = "shaky";
+  peer.run = [&](const Problem& planned, double memory, Path& path) {
+    if (planned.settings.seed == 2) std::raise(SIGKILL);
+    if (planned.settings.seed == 3) throw std::bad_alloc();
+    return runUnderOmpl(planned, "", exact, memory, path);
+  };
   Campaign campaign = campaignOf({"shaky:0.02", "discrete:0.02"}, 4, {peer});
   campaign.time = 20.0 * test::kSlowdown;
   const CampaignResult result = runCampaign(campaign);
