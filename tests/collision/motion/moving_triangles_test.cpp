@@ -17,8 +17,7 @@ namespace {
 using test::ChainMotion;
 
 MovingTrianglesAnswer decide(const Triangle& a, const Triangle& b, ChainMotion& motion) {
-  Counters counters;
-  return decideMovingTriangles(a, b, motion.relativeMotion(0, 0.5, 0.5), 0, counters);
+  return decideMovingTriangles(a, b, motion.relativeMotion(0, 0.5, 0.5), 0);
 }
 
 /// A slide that a joint turns: to first order b's top corner moves along x, parallel to a. By the

@@ -21,12 +21,13 @@ TEST(SurfaceDistance, WhatIsProvedIsNotAboveTheTrueDistance) {
       Transform X_WB = test::anyPose(random, 1);
       X_WB.t[0] += 4;
       QueryContext exact;
-      const double truth = surfaceDistance(a, {}, b, X_WB, {}, exact, trees).distance;
+      const double truth = surfaceDistance(Posed(a), Posed(b, X_WB), {}, exact, trees).distance;
       for (const DistanceOptions& options :
            {DistanceOptions{}, {0.2, 0}, {1, 0}, {0, 0.5}, {0.3, 0.3}}) {
         QueryContext context;
-        const Distance told = surfaceDistance(a, {}, b, X_WB, options, context, trees);
-        const double proved = provedDistance(a, {}, b, X_WB, told, options, context, trees);
+        const Distance told = surfaceDistance(Posed(a), Posed(b, X_WB), options, context, trees);
+        const double proved =
+            provedDistance(Posed(a), Posed(b, X_WB), told, options, context, trees);
         ASSERT_LE(proved, truth * (1 + 1e-12)) << n;
         loose += told.distance > 1.02 * truth;
         if (truth > 1 && options.relative == 0 && options.absolute == 0) {
