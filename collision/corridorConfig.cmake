@@ -1,7 +1,27 @@
-# For find_package(corridor): the target corridor::collision, and the libraries that it links.
+# For find_package(corridor): the target corridor::collision, and the libraries that it links. With COMPONENTS planner also
+# corridor::planner.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
 find_dependency(HWY)
 find_dependency(Qhull)
 find_dependency(Threads)
 include("${CMAKE_CURRENT_LIST_DIR}/corridorTargets.cmake")
+
+foreach(component ${corridor_FIND_COMPONENTS})
+  if(component STREQUAL "planner" AND EXISTS "${CMAKE_CURRENT_LIST_DIR}/corridorPlannerTargets.cmake")
+    find_dependency(yaml-cpp)
+    include("${CMAKE_CURRENT_LIST_DIR}/find_ompl.cmake")
+    if(TARGET corridor::ompl)
+      include("${CMAKE_CURRENT_LIST_DIR}/corridorPlannerTargets.cmake")
+      set(corridor_planner_FOUND TRUE)
+    else()
+      set(corridor_NOT_FOUND_MESSAGE "${CORRIDOR_NO_OMPL}")
+    endif()
+  endif()
+  if(NOT component STREQUAL "collision" AND NOT corridor_${component}_FOUND AND corridor_FIND_REQUIRED_${component})
+    set(corridor_FOUND FALSE)
+    if(NOT corridor_NOT_FOUND_MESSAGE)
+      set(corridor_NOT_FOUND_MESSAGE "this installation has no component ${component}")
+    endif()
+  endif()
+endforeach()

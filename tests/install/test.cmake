@@ -1,5 +1,6 @@
 # Tests `cmake --install` and find_package(corridor). Installs into a prefix with a space in its name. Configures, builds
-# and runs the project beside this file. Compares that project's files with the guide, which shows them.
+# and runs the project beside this file, which uses collision/ alone, and the one in ompl_program/, which uses the planner.
+# Compares the projects' files with the guides, which show them. Runs the installed program.
 # cmake -D BUILD=… -D WORK=… -D CONFIG=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -P test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(prefix "${WORK}/a prefix")
@@ -29,7 +30,8 @@ foreach(header ${headers})
     if(include MATCHES "\"(.*)\"" AND NOT EXISTS "${prefix}/include/corridor/${CMAKE_MATCH_1}")
       message(FATAL_ERROR "${header} includes ${CMAKE_MATCH_1}, which is not installed")
     endif()
-    if(include MATCHES "<(boost|assimp|hwy|libqhull)")
+    if(include MATCHES "<(boost|assimp|hwy|libqhull|yaml-cpp|nlohmann|CLI|tinyxml2|urdf|console_bridge)"
+       OR (include MATCHES "<ompl" AND NOT header MATCHES "/planner/(checker|solve)/"))
       message(FATAL_ERROR "${header}: ${include}: users of the library need not have it")
     endif()
   endforeach()
@@ -85,6 +87,22 @@ file(WRITE "${WORK}/cube.dae" "<?xml version=\"1.0\"?>
 <scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>
 ")
 
+# An OMPL program with Corridor's checkers, and the same robot in the installed program.
+set(source "${CMAKE_CURRENT_LIST_DIR}/../..")
+run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}/ompl_program" -B "${WORK}/ompl" -G "${GENERATOR}"
+    "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+    "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(${CMAKE_COMMAND} --build "${WORK}/ompl" --config "${CONFIG}")
+run("${WORK}/ompl/plan" "${source}/robots/arm6/arm6.urdf")
+if(NOT out MATCHES "(^|\n)certified\n$")
+  message(FATAL_ERROR "the OMPL program says:\n${out}${err}")
+endif()
+execute_process(COMMAND "${WORK}/ompl/plan" none.urdf RESULT_VARIABLE status ERROR_VARIABLE err)
+if(NOT status EQUAL 2 OR NOT err MATCHES "none.urdf")
+  message(FATAL_ERROR "the OMPL program without a URDF: ${status}\n${err}")
+endif()
+run("${prefix}/bin/corridor" inspect "${WORK}/cube.dae")
+
 run("${build}/two_meshes" "${WORK}/cube.obj" "${WORK}/cube.dae")
 set(number " *[-0-9.e]+")  # Eigen aligns numbers with blanks
 if(NOT out MATCHES "^triangles [0-9]+ and [0-9]+ touch
@@ -107,12 +125,16 @@ if(NOT status EQUAL 2 OR NOT err MATCHES "ended without an answer \\(exit status
   message(FATAL_ERROR "the installed helper is not the one that runs: ${status}\n${out}${err}")
 endif()
 
-# The guide must show exactly these files.
-file(READ "${CMAKE_CURRENT_LIST_DIR}/../../collision/README.md" guide)
-foreach(file main.cpp CMakeLists.txt)
-  file(READ "${CMAKE_CURRENT_LIST_DIR}/${file}" text)
-  string(FIND "${guide}" "\n${text}```\n" at)
-  if(at EQUAL -1)
-    message(FATAL_ERROR "collision/README.md does not show tests/install/${file} as it is")
-  endif()
-endforeach()
+# The guides must show exactly these files.
+function(expect_shown guide folder)
+  file(READ "${source}/${guide}" text)
+  foreach(file main.cpp CMakeLists.txt)
+    file(READ "${CMAKE_CURRENT_LIST_DIR}/${folder}${file}" shown)
+    string(FIND "${text}" "\n${shown}```\n" at)
+    if(at EQUAL -1)
+      message(FATAL_ERROR "${guide} does not show tests/install/${folder}${file} as it is")
+    endif()
+  endforeach()
+endfunction()
+expect_shown(collision/README.md "")
+expect_shown(planner/README.md ompl_program/)

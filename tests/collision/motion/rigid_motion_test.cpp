@@ -120,6 +120,7 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
   for (int n = 0; n < 20'000; ++n) {
     const double range = n % 2 ? 3 : 300;
     Vec3 a = cases.vector(range), b = cases.vector(range);
+    if (n % 4 == 0) b[2] = a[2];  // only the rounding of a fixed rotation is left
     const RelativeMotion w = RigidEdge(RigidMotion::planar(a, b, {})).relativeMotion(0, 0.375, 0);
     const long double twoPi = 2 * std::numbers::pi_v<long double>;
     const long double turn =
@@ -128,6 +129,30 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
     const long double off =
         std::hypot(std::cos(yaw) - w.X_AB.m(0, 0), std::sin(yaw) - w.X_AB.m(1, 0));
     ASSERT_LE(off, w.reachError) << n;
+  }
+}
+
+/// Every curve in the tube is within the errors of the nominal one. Some curve comes near to them.
+TEST(RigidMotion, TubesAreWithinTheStatedError) {
+  Cases cases(test::testSeed(5));
+  for (const bool planar : {false, true}) {
+    double fullest = 0;  // the largest deviation, as a share of its bound
+    for (int n = 0; n < 2'000; ++n) {
+      const Tube tube{n % 3 ? 0.01 : 0, n % 3 != 1 ? 0.02 : 0};
+      auto [a, b] = cases.edge();
+      const Vec3 flatA = cases.vector(2), flatB = cases.vector(2);
+      const RigidMotion motion =
+          planar ? RigidMotion::planar(flatA, flatB, tube) : RigidMotion::spatial(a, b, tube);
+      const RelativeMotion w = RigidEdge(motion).relativeMotion(0, cases.real(0, 1), 0);
+      const Vec3 y = cases.vector(3);  // the lever of a point
+      Vec3 shift(1, n % 2 ? 1 : -1, planar ? 0 : 1);
+      const Vec3 axis = planar ? Vec3::UnitZ() : Vec3(y.cross(shift).normalized());
+      const Vec3 moved = Eigen::AngleAxisd(tube.rotation, axis) * y + tube.position * shift;
+      const double bound = w.fixedError + w.reachError * y.norm();
+      ASSERT_LE((moved - y).norm(), bound) << n << (planar ? ", planar" : "");
+      fullest = std::max(fullest, (moved - y).norm() / bound);
+    }
+    EXPECT_GT(fullest, 0.99) << (planar ? "planar" : "spatial");
   }
 }
 

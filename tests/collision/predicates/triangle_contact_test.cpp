@@ -73,6 +73,14 @@ TEST_P(Random, AgreesWithRationals) {
     } else if (kind == "maps nearly rigid") {
       X_WA = {rotation() * (1 + 1e-9 * real()), {real(), real(), real()}};
       X_WB = {Mat3(rotation() + 1e-9 * Mat3::Random()), {real(), real(), real()}};
+    } else if (kind == "grazing, mapped far out") {
+      // b's lowest corner is above or below a's face by less than mapped corners round.
+      X_WA = {rotation(), Vec3(real(), real(), real()) * 1e6};
+      X_WB = {rotation(), X_WA.t};
+      const Vec3 normal = (a[1] - a[0]).cross(a[2] - a[0]).normalized();
+      const Vec3 tip = (a[0] + a[1] + a[2]) / 3 + 1e-10 * real() * normal;
+      const Vec3 from[3] = {tip, tip + normal + 0.5 * b[1], tip + normal + 0.5 * b[2]};
+      for (int i = 0; i < 3; ++i) b[i] = X_WB.m.transpose() * (X_WA.m * from[i]);
     } else if (kind == "flat and far") {
       for (Triangle* t : {&a, &b})
         for (Vec3& v : *t) v = Vec3(1e6 + integer(3), 1e-9 * integer(2), 1e6 + integer(3));
@@ -96,8 +104,8 @@ TEST_P(Random, AgreesWithRationals) {
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, Random,
                          testing::Values("grid", "common corner, moved together",
-                                         "maps nearly rigid", "flat and far", "exponents apart",
-                                         "denormal"),
+                                         "maps nearly rigid", "grazing, mapped far out",
+                                         "flat and far", "exponents apart", "denormal"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::erase_if(name, [](char c) {

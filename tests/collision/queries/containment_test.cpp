@@ -1,5 +1,8 @@
 #include "collision/queries/containment.h"
 
+#include <algorithm>
+#include <array>
+#include <map>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -109,6 +112,79 @@ TEST(Containment, PrimitivesInSolidMeshes) {
   const ObbTree big(ConvexPart{{Vec3(0, 0, 0)}, 5, false});
   EXPECT_TRUE(interference(Posed(big), Posed(solid.tree), context));
   EXPECT_TRUE(interference(Posed(solid.tree), Posed(big), context));
+}
+
+/// Returns the surface of a comb: plates of thickness 1 along `axis`, 1 apart, that a spine holds
+/// together. It is the boundary of unit cells, so that it has a vertex at every corner of a cell.
+TriangleMesh comb(int axis, int plates, int width) {
+  const int length = 2 * plates - 1;
+  const auto filled = [&](const Eigen::Vector3i& cell) {
+    const int x = cell[axis], y = cell[(axis + 1) % 3], z = cell[(axis + 2) % 3];
+    const bool within = x >= 0 && x < length && y >= 0 && y < width && z >= 0 && z < width;
+    return within && (x % 2 == 0 || y == 0);
+  };
+  TriangleMesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> vertices;
+  const auto vertex = [&](const Eigen::Vector3i& p) {
+    const auto [found, added] =
+        vertices.try_emplace({p[0], p[1], p[2]}, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (added) mesh.vertices.push_back(p.cast<double>());
+    return found->second;
+  };
+  const int most = std::max(length, width);
+  for (int i = 0; i < most * most * most; ++i) {
+    const Eigen::Vector3i cell(i % most, i / most % most, i / most / most);
+    if (!filled(cell)) continue;
+    for (int k = 0; k < 6; ++k) {
+      const Eigen::Vector3i x = Eigen::Vector3i::Unit(k / 2),
+                            y = Eigen::Vector3i::Unit((k / 2 + 1) % 3),
+                            z = Eigen::Vector3i::Unit((k / 2 + 2) % 3);
+      if (filled(k % 2 ? Eigen::Vector3i(cell + x) : Eigen::Vector3i(cell - x))) continue;
+      const Eigen::Vector3i low = k % 2 ? Eigen::Vector3i(cell + x) : cell;
+      const std::uint32_t p = vertex(low), q = vertex(low + y), r = vertex(low + z),
+                          s = vertex(low + y + z);
+      mesh.triangles.push_back(k % 2 ? std::array{p, q, s} : std::array{p, s, q});
+      mesh.triangles.push_back(k % 2 ? std::array{p, s, r} : std::array{p, r, s});
+    }
+  }
+  return mesh;
+}
+
+/// A ray from a plate crosses other plates: the number of crossings is odd, but not 1.
+TEST(Containment, RaysLeaveAndEnterAgain) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Solid solid(comb(axis, 4, 5));
+    ASSERT_EQ(solid.components.components.size(), 1U);
+    ASSERT_TRUE(solid.components.components[0].watertight);
+    for (int i = 0; i < 9 * 7 * 7; ++i) {
+      const int x = i % 9 - 1, y = i / 9 % 7 - 1, z = i / 63 - 1;
+      Vec3 p;
+      p[axis] = x + 0.4, p[(axis + 1) % 3] = y + 0.7, p[(axis + 2) % 3] = z + 0.3;
+      const bool inside =
+          x >= 0 && x < 7 && y >= 0 && y < 5 && z >= 0 && z < 5 && (x % 2 == 0 || y == 0);
+      EXPECT_EQ(holds(solid, p), inside) << axis << ": " << p.transpose();
+    }
+  }
+}
+
+/// At coordinates of 2^51 doubles are half integers. So the ends of rays are, too, and many rays
+/// meet an edge or a vertex of the mesh, or lie in the plane of a triangle.
+TEST(Containment, RaysThroughEdgesAndVertices) {
+  for (int axis = 0; axis < 3; ++axis) {
+    TriangleMesh mesh = comb(axis, 2, 4);
+    const Vec3 far = Vec3::Constant(0x1p51);
+    for (Vec3& v : mesh.vertices) v += far;
+    const Solid solid(mesh);
+    ASSERT_TRUE(solid.components.components[0].watertight);
+    for (int i = 0; i < 5 * 6 * 6; ++i) {
+      const int x = i % 5 - 1, y = i / 5 % 6 - 1, z = i / 30 - 1;
+      Vec3 p;
+      p[axis] = x + 0.5, p[(axis + 1) % 3] = y + 0.5, p[(axis + 2) % 3] = z + 0.5;
+      const bool inside =
+          x >= 0 && x < 3 && y >= 0 && y < 4 && z >= 0 && z < 4 && (x % 2 == 0 || y == 0);
+      EXPECT_EQ(holds(solid, far + p), inside) << axis << ": " << p.transpose();
+    }
+  }
 }
 
 /// Points below the apex of a fan of thousands of needles, where the first ray may meet edges.

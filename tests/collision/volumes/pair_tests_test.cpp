@@ -136,6 +136,28 @@ TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
   }
 }
 
+/// A shear keeps the lengths of all three axes; only the angles between them show it. b is a needle
+/// that the shear tilts. Its end touches a, although its box has no width along the normal of the
+/// face that the shear tilts, too.
+TYPED_TEST(PairTests, ShearsAreNoRotations) {
+  std::mt19937_64 random(test::testSeed(45));
+  for (int n = 0; n < 2'000; ++n) {
+    const double shear = std::pow(10.0, std::uniform_real_distribution(-10.0, -3.6)(random));
+    Mat3 S = Mat3::Identity();
+    S.col(1) = Vec3(shear, std::sqrt(1 - shear * shear), 0);
+    const Mat3 inB = test::anyPose(random, 1).m, inA = test::anyPose(random, 1).m;
+    const Transform X_AB{inA * S * inB.transpose(), test::anyPose(random, 1).t};
+    const Vec3 end = inB.col(1), met = X_AB * end;
+    const std::vector<Triangle> contentA = {{met, met, met}}, contentB = {{Vec3(-end), end, end}};
+    const Triangle tip = {end, end, end};
+    const double distance = roundedUp(test::referenceDistance(met, tip, X_AB));
+    const Fitted<TypeParam> a(contentA), b(contentB);
+    const PairTest<TypeParam> test(a.bounds, b.bounds, X_AB, 0);
+    ASSERT_LE(test.distanceBound(a.volume, b.volume), distance) << n << ", shear " << shear;
+    ASSERT_FALSE(test.separated(a.volume, b.volume, distance)) << n << ", shear " << shear;
+  }
+}
+
 /// Volumes that are far apart are separated, and the bound is about their distance.
 TYPED_TEST(PairTests, TellClearDistances) {
   std::mt19937_64 random(test::testSeed(42));

@@ -46,6 +46,18 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
   }
 }
 
+/// Maps that stretch: the body reaches farther than its bounding sphere, by less than a thousandth.
+TEST(SceneLimits, StretchingMapsAreNotSkipped) {
+  QueryContext context;
+  for (const double stretch : {1 + 0x1p-12, 1 + 0x1p-20, 1 + 0x1p-30}) {
+    // The body's tip is stretched to x = `stretch`, where it touches the plate.
+    const RigidScene s = scene({Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 0)},
+                               {Vec3(stretch, 1, 0), Vec3(stretch, -1, 1), Vec3(stretch, -1, -1)});
+    EXPECT_FALSE(s.interference({}, context)) << stretch;
+    EXPECT_TRUE(s.interference({stretch * Mat3::Identity(), Vec3::Zero()}, context)) << stretch;
+  }
+}
+
 /// A map that shrinks: lengths in a frame differ from those in the world. The second pair is the
 /// closer one, by less than the effect of the map.
 TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {

@@ -76,6 +76,71 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
   EXPECT_GT(worst, 1e-2) << "a bound that no case comes near is not measured by this test";
 }
 
+/// A long chain: a hundred slides, each turned by the same angle about z, so that the rounding of
+/// their rotations adds up. Then comes a joint, and a hand far out.
+struct LongChain {
+  KinematicTree tree;
+  ConfigurationSpace space;
+  Scene::FramePair pair[1] = {{0, 0}};
+  Configuration from, to;
+
+  LongChain(RandomTrees& random, double turn, Frame::Joint last, double reach) {
+    const std::size_t slides = 100;
+    from = to = Configuration::Zero(static_cast<Eigen::Index>(slides + 1));
+    for (std::size_t k = 0; k <= slides; ++k) {
+      Coordinate c;
+      c.name = std::to_string(k);
+      space.add(c);
+      Frame frame;
+      frame.parent = tree.frames.size() - 1;
+      frame.fixed.p = random.vector(0.01);
+      frame.fixed.q = Eigen::AngleAxisd(turn, Vec3::UnitZ());
+      frame.joint = k < slides ? Frame::Joint::prismatic : last;
+      frame.axis = k < slides ? random.direction() : Vec3::UnitX();
+      frame.variable = k;
+      tree.add(frame);
+      const auto i = static_cast<Eigen::Index>(k);
+      from[i] = random.real(-0.01, 0.01), to[i] = random.real(-0.01, 0.01);
+    }
+    Frame hand;
+    hand.parent = tree.frames.size() - 1;
+    hand.fixed.p = reach * random.direction();
+    pair[0].b = tree.add(hand);
+  }
+};
+
+/// In a long chain the errors of the rotations reach along all that follows, and are those of the
+/// axes of its joints, too.
+TEST(EdgeMotion, LongChainsAreWithinTheirStatedError) {
+  RandomTrees random(test::testSeed(5));
+  double worst = 0, worstTwist = 0;
+  for (int n = 0; n < 300; ++n) {
+    const bool turns = n % 2;
+    LongChain chain(random, random.real(-3, 3),
+                    turns ? Frame::Joint::revolute : Frame::Joint::prismatic, turns ? 0.01 : 1e3);
+    if (turns) chain.from.tail<1>()[0] = -1000, chain.to.tail<1>()[0] = 1000;
+    EdgeMotion motion(chain.tree, chain.space, chain.pair, Configuration::Zero(101));
+    motion.set(chain.from, chain.to);
+    const ReferenceKinematics reference(chain.tree, chain.space, chain.from, chain.to);
+    const MovingPose real = reference.relative(0, chain.pair[0].b, 0.5L);
+    for (const double h : {0.0, 0.5}) {
+      const RelativeMotion w = motion.relativeMotion(0, 0.5, h);
+      const Vec3 p = random.vector(turns ? 1e3 : 0);
+      const double bound =
+          w.fixedError + w.reachError * (w.X_AB.m * p).norm() + 10 * noise(real, p.norm());
+      const auto off = static_cast<double>((test::exactly(w.X_AB, p) - real.at(p)).norm());
+      ASSERT_LE(off, bound) << n;
+      const test::Vec3L step = w.linear.cast<Real>() +
+                               w.angular.cast<Real>().cross(w.X_AB.m.cast<Real>() * p.cast<Real>());
+      const auto offTwist = static_cast<double>((step - h * real.velocity(p)).norm());
+      // The last joint turns by 1,000 rad in half of the interval: so the noise is larger, too.
+      ASSERT_LE(offTwist, bound + 1000 * noise(real, p.norm())) << n << ", h = " << h;
+      worst = std::max(worst, off / bound), worstTwist = std::max(worstTwist, offTwist / bound);
+    }
+  }
+  std::cout << "error as a share of its bound: " << worst << "; twist: " << worstTwist << '\n';
+}
+
 TEST(EdgeMotion, FarFromTheOriginNothingIsLostBetweenLinks) {
   KinematicTree tree;
   ConfigurationSpace space;
@@ -209,6 +274,27 @@ TEST(EdgeMotion, CirclesTakeTheShorterWay) {
   EXPECT_NEAR(yaw(circle.motion(7, 1)->relativeMotion(0, 1, 0)), 1, 1e-14);
   EXPECT_NEAR(yaw(line.motion(3, -3)->relativeMotion(0, 0.5, 0)), 0, 1e-15);
   EXPECT_NEAR(line.motion(3, -3)->relativeMotion(0, 0.5, 0.5).angle, 3, 1e-13);
+}
+
+/// The amount of a screw is rounded up: it is never below the joint's real motion, whatever the
+/// angles of a circle.
+TEST(EdgeMotion, AmountsAreNeverBelowTheRealMotion) {
+  RandomTrees random(test::testSeed(6));
+  const OneTurn circle(Coordinate::Kind::circle);
+  for (int n = 0; n < 20'000; ++n) {
+    const double size = std::pow(10.0, n % 7), near = std::pow(10.0, -(n % 5));
+    const double from = random.real(-size, size),
+                 to = from + near * random.real() + 2 * pi * std::trunc(random.real(-10, 10));
+    const Real way = std::remainder(static_cast<Real>(to) - static_cast<Real>(from),
+                                    2 * std::numbers::pi_v<Real>);
+    const auto motion = circle.motion(from, to);
+    const RelativeMotion w = motion->relativeMotion(0, 0.5, 0.5);
+    if (motion->ambiguous()) continue;
+    ASSERT_EQ(w.screws.size(), from == to ? 0U : 1U);
+    if (from == to) continue;
+    // The reference is off by 2^-62 per turn, and there are at most 11.
+    ASSERT_GE(w.screws[0].amount, 0.5L * std::abs(way) - 0x1p-58L) << from << " to " << to;
+  }
 }
 
 TEST(EdgeMotion, HalfTurnsAreAmbiguous) {

@@ -139,6 +139,23 @@ TEST(LargeValues, TheWayRoundACircleIsExact) {
   }
 }
 
+/// The error that CircleTurn states holds for angles of every size, small ones included.
+TEST(LargeValues, TheErrorOfAWayIsAsStated) {
+  std::mt19937_64 random(test::testSeed(6));
+  double worst = 0;  // error as a share of its bound
+  for (int n = 0; n < 20'000; ++n) {
+    const double size = std::pow(10.0, n % 6 - 2);
+    std::uniform_real_distribution<double> angle(-size, size);
+    const double from = angle(random), to = angle(random);
+    const CircleTurn turn = circleTurn(from, to);
+    if (turn.ambiguous()) continue;
+    const Many off = abs(Many(turn.angle) - trueWay(from, to));
+    ASSERT_LE(off, Many(turn.error)) << from << " to " << to;
+    worst = std::max(worst, static_cast<double>(off) / turn.error);
+  }
+  EXPECT_GT(worst, 0.1) << "a bound that no case comes near is not measured by this test";
+}
+
 /// A post in the middle of the true way is met; one at a half turn from there is not.
 TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
   std::mt19937_64 random(test::testSeed(4));

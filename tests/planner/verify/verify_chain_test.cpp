@@ -80,6 +80,43 @@ TEST(VerifyChain, StretchedArmPastAPoint) {
   }
 }
 
+// A pair may name the moving body first. Then, and also if both bodies move on branches of their
+// own, the motion of the first one counts.
+TEST(VerifyChain, EitherBodyOfAPairMayMove) {
+  const ConvexPart post{{Vec3(0.7 * std::cos(0.4), 0.7 * std::sin(0.4), 0)}, 0.01, false};
+  for (const bool movingFirst : {true, false}) {
+    Chain chain(1, post);
+    chain.problem.pairs = {movingFirst ? VerifyPair{1, 0} : VerifyPair{0, 1}};
+    EXPECT_EQ(verifyPath(chain.problem, {joints({0}), joints({2})}).verdict, PathVerdict::refuted);
+    EXPECT_EQ(verifyPath(chain.problem, {joints({0.6}), joints({2})}).verdict, PathVerdict::proved);
+    // Two rods: the pivots are 1 m apart, and one rod rests.
+    Chain branches(2, post);
+    branches.tree.frames[2].parent = 0;
+    branches.problem.pairs = {movingFirst ? VerifyPair{1, 2} : VerifyPair{2, 1}};
+    const double up = kPi / 2;
+    EXPECT_EQ(verifyPath(branches.problem, {joints({up, 2.5}), joints({-up, 2.5})}).verdict,
+              PathVerdict::refuted);
+    EXPECT_EQ(verifyPath(branches.problem, {joints({up, 1.5}), joints({-up, 1.5})}).verdict,
+              PathVerdict::proved);
+  }
+}
+
+// A thin disc turns about one of its diameters, and its rim meets a ball. All of its core is at the
+// axis; only its radius reaches the ball.
+TEST(VerifyChain, TheRimOfADiscMoves) {
+  const ConvexPart disc{{Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0)}, 1, true};
+  for (const double angle : {0.2, 0.5, 1.1}) {
+    const Vec3 rim(-std::sin(angle), std::cos(angle), 0);
+    for (const double from : {0.9, 1.1}) {
+      Chain chain(1, {{from * rim}, 0.02, false});
+      chain.rods[0] = disc;
+      const PathReport report = verifyPath(chain.problem, {joints({0}), joints({1.3})});
+      EXPECT_EQ(report.verdict, from < 1 ? PathVerdict::refuted : PathVerdict::proved) << angle;
+      EXPECT_LE(report.provenClearance, 0.08 * (1 + 1e-9));
+    }
+  }
+}
+
 // A folding chain meets itself: the third rod rotates onto the first, which moves, too.
 TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
   Chain chain(3, {{Vec3(50, 0, 0)}, 0.1, false});

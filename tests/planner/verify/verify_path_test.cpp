@@ -204,6 +204,25 @@ TEST(VerifyPath, AnUndecidedPairHidesNoContact) {
   }
 }
 
+// At the start rotations within the tube may carry the blade to the post, so that pair is undecided
+// before anything else is tested. Later the blade goes through a box, which refutes the edge.
+TEST(VerifyPath, APairThatIsUndecidedAtTheStartHidesNoContact) {
+  const TriangleMesh post = oneTriangle({0.9, 0.002, 0}, {0.9, 0.002, 1}, {0.9, 0.002, -1}),
+                     plate = boxMesh({0.43, -0.62, -1}, {0.53, -0.52, 1});
+  const Poses path = {poseOf({0, 0, 0}, 0), poseOf({0, 0, 0}, -2.8)};
+  World world(oneTriangle({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}), post);
+  world.problem.tube.rotation = 0.003;
+  EXPECT_EQ(world.verify(path).verdict, PathVerdict::undecided);
+  for (const bool postFirst : {true, false}) {
+    world.problem.fixed = {{"post", &post}, {"plate", &plate}};
+    if (!postFirst) std::swap(world.problem.fixed[0], world.problem.fixed[1]);
+    const PathReport report = world.verify(path);
+    EXPECT_EQ(report.verdict, PathVerdict::refuted) << postFirst;
+    ASSERT_EQ(report.findings.size(), 1U);
+    EXPECT_EQ(report.findings[0].a, "plate");
+  }
+}
+
 TEST(VerifyPath, RodThroughASlot) {
   // A rod slides through a square hole of edge 0.2 in a plate, with 1 % play: first parallel to the
   // axis of the hole, then slightly tilted.

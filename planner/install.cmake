@@ -1,0 +1,23 @@
+# `cmake --install` installs the program, and the libraries of planner/ for find_package(corridor COMPONENTS planner):
+# target corridor::planner, and corridor::verify, which it contains.
+foreach(name verify model planner)
+  set_target_properties(corridor_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(corridor_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/corridor>)
+endforeach()
+install(TARGETS corridor_verify corridor_model corridor_planner EXPORT corridor_planner
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT corridor_planner NAMESPACE corridor:: FILE corridorPlannerTargets.cmake DESTINATION ${package_dir})
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/find_ompl.cmake DESTINATION ${package_dir})
+
+# The program finds corridor_assimp (collision/geometry/assimp_process.h) by its run path.
+set_target_properties(corridor PROPERTIES INSTALL_RPATH
+  "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/corridor")
+install(TARGETS corridor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# Not installed: headers that need libraries which users of corridor::planner need not have.
+foreach(folder robot model problem checker solve verify)
+  install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/${folder}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corridor/planner
+          FILES_MATCHING PATTERN "*.h" PATTERN "urdfdom.h" EXCLUDE PATTERN "xml_file.h" EXCLUDE
+          PATTERN "urdf_outline.h" EXCLUDE)
+endforeach()
