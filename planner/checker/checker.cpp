@@ -41,7 +41,7 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
           "tolerance must be above 0");
   require(
       options.tube.size() == 0 || (options.tube.size() == static_cast<Eigen::Index>(space.size()) &&
-                                   options.tube.allFinite() && options.tube.minCoeff() >= 0),
+                                   (options.tube.array() >= 0).all()),
       "tube must have a number of 0 or more for each number of a configuration");
   const TreeKind trees = options.trees.trees;
   require(options.method == EdgeMethod::directional ||

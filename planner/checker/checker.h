@@ -38,9 +38,9 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 class Checker {
  public:
   /// The model must outlive the checker; its bodies are copied.
-  /// @throws std::invalid_argument for a margin, tube or tolerance that is negative or not finite;
-  /// for a tube of another length than a configuration; for an overlap test that is not its
-  /// volume's first, together with a method that measures distances.
+  /// @throws std::invalid_argument for a margin or tolerance that is negative or not finite; for a
+  /// tube of another length than a configuration, or with a number that is not 0 or more; for an
+  /// overlap test that is not its volume's first, together with a method that measures distances.
   explicit Checker(const Model& model, const CheckerOptions& options = {});
   /// The checker of a problem's model, with `checkerOptions`.
   explicit Checker(const Problem& problem);
