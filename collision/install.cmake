@@ -14,10 +14,35 @@ target_link_options(corridor_collision INTERFACE
 install(TARGETS corridor_collision EXPORT corridor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS corridor_assimp RUNTIME DESTINATION ${helper_dir})
 install(EXPORT corridor NAMESPACE corridor:: FILE corridorTargets.cmake DESTINATION ${package_dir})
-# Not installed: code that is compiled once per SIMD target (-inl.h), and rationals and wide integers (exact_*.h), which
-# would make users need Boost.
-install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corridor/collision
-        FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "exact_*.h" EXCLUDE)
+
+# corridor_install_headers(HEADER…) installs headers, and all headers of this project that they include. What is not
+# reachable is implementation, and not installed.
+function(corridor_install_headers)
+  set(open ${ARGN})
+  set(installed)
+  while(open)
+    list(POP_FRONT open header)
+    if(header IN_LIST installed OR NOT EXISTS ${PROJECT_SOURCE_DIR}/${header})
+      continue()
+    endif()
+    list(APPEND installed ${header})
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corridor/${folder})
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${header} lines REGEX "^#include \"")
+    foreach(line ${lines})
+      string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" included "${line}")
+      list(APPEND open ${included})
+    endforeach()
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+  endwhile()
+endfunction()
+corridor_install_headers(collision/collision.h
+  collision/convex/convex_contact.h collision/convex/convex_distance.h
+  collision/core/parallel.h collision/core/simd_target.h
+  collision/geometry/mesh_components.h collision/geometry/mesh_health.h
+  collision/hierarchy/octree.h
+  collision/motion/check_certificate.h collision/motion/edge_method.h
+  collision/queries/self_intersections.h)
 
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/corridorConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/corridorConfig.cmake ${PROJECT_BINARY_DIR}/corridorConfigVersion.cmake

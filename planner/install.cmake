@@ -15,9 +15,8 @@ set_target_properties(corridor PROPERTIES INSTALL_RPATH
 install(TARGETS corridor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 # Not installed: headers that need libraries which users of corridor::planner need not have.
-foreach(folder robot model problem checker solve verify)
-  install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/${folder}
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corridor/planner
-          FILES_MATCHING PATTERN "*.h" PATTERN "urdfdom.h" EXCLUDE PATTERN "xml_file.h" EXCLUDE
-          PATTERN "urdf_outline.h" EXCLUDE)
-endforeach()
+file(GLOB planner_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+     ${CMAKE_CURRENT_LIST_DIR}/robot/*.h ${CMAKE_CURRENT_LIST_DIR}/model/*.h ${CMAKE_CURRENT_LIST_DIR}/problem/*.h
+     ${CMAKE_CURRENT_LIST_DIR}/checker/*.h ${CMAKE_CURRENT_LIST_DIR}/solve/*.h ${CMAKE_CURRENT_LIST_DIR}/verify/verify_path.h)
+list(FILTER planner_headers EXCLUDE REGEX "/(urdfdom|xml_file|urdf_outline)\\.h$")
+corridor_install_headers(${planner_headers})
