@@ -177,7 +177,7 @@ TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
   }
 }
 
-TEST_P(EdgeMethods, MarginTubeReserveAndWorkLimit) {
+TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   // The clearance is 0.1. The other methods get a shorter way, since they take small steps when the
