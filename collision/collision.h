@@ -16,12 +16,13 @@
 ///   Capsule, Cylinder, Convex.
 /// * `Body`: a named mesh (its surface, or with `solid` also what it encloses) or convex part. Its
 ///   trees are built when a query first needs them. @throws std::invalid_argument for a mesh
-///   without triangles, with an index out of range or a coordinate that is not finite.
+///   without triangles, with an index out of range or a coordinate that is not finite, for a solid
+///   that is not watertight, and for a convex part that is none.
 /// * `Posed`: a body or tree, and where it is: `Posed(cup, X_WCup)`; `Posed(table)` is at the
 ///   origin.
 /// * `QueryContext`: counters and scratch memory. Each thread needs its own.
-/// * `LastPair`: where the last query of two bodies found its answer. Pass it again, and a query
-///   after a small step costs a tenth or less.
+/// * `LastPair`: the pair of triangles that decided the last query of two bodies. Pass it to the
+///   next query: after a small step this saves a tenth to two thirds of the time.
 ///
 /// # Six questions about two bodies
 ///
@@ -33,10 +34,13 @@
 ///     QueryContext context;
 ///     const Posed a(cup, X_WCup), b(table);
 ///
+/// Queries of bodies throw std::invalid_argument for maps that are not finite. `a` and `b` refer to
+/// the bodies: do not name a `Posed` of a temporary.
+///
 /// 1. Do they touch? Exact: the verdict is that of real arithmetic on the stored numbers, and
-///    touching is contact. For a convex part, contact may be reported for gaps below 2^-44 of the
-///    largest coordinate. The cheapest question: a few microseconds for most pairs of meshes, and a
-///    hundred where two surfaces of 20,000 triangles run side by side.
+///    touching is contact. With a convex part, a gap below 2^-44 of the largest coordinate may be
+///    reported as contact. The cheapest question: a few microseconds for most pairs of meshes, and
+///    a hundred where two surfaces of 20,000 triangles run side by side.
 ///
 ///        if (const auto hit = interference(a, b, context)) …        // hit->a, hit->b: triangles
 ///
@@ -45,9 +49,10 @@
 ///
 ///        for (const TriangleContact& c : contacts(a, b, context)) …  // c.a, c.b, c.p_W, c.q_W
 ///
-/// 3. How far apart are they, and where are they closest? 0 if and only if they touch; otherwise
-///    the error is at most 1e-12 of the distance + 4·2^-53 of the coordinates, plus the error that
-///    the options allow. Costs 10 to 70 times as much as the first question.
+/// 3. How far apart are they, and where are they closest? The distance is 0 if and only if they
+///    touch. Otherwise the error is at most 1e-12 of the distance + 4·2^-53·S + what the options
+///    allow. S is the largest Σ|m||v| + |t| of the corners. Costs 10 to 70 times as much as the
+///    first question.
 ///
 ///        const Distance d = distance(a, b, {}, context);             // d.distance, d.p_WA, d.p_WB
 ///
@@ -56,15 +61,17 @@
 ///
 ///        if (closerThan(a, b, 0.05, context)) …
 ///
-/// 5. Is one inside the other? Only of solid bodies; the questions above include the answer. Exact,
-///    for bodies whose surfaces do not touch.
+/// 5. Is one inside the other, which is a solid mesh? Questions 1, 3, 4 and 6 include this one. The
+///    surfaces must not touch. "No" is a proof; "yes" is exact except for points that no ray can
+///    decide, which count as inside.
 ///
 ///        if (insideEachOther(a, b, context)) …
 ///
 /// 6. Do they touch along a motion, and when first? `free` is never wrong: it is proved for every t
-///    in [0, 1], rounding included. `contact` has an exact contact at `contactTime`. `undecided` is
-///    possible where the clearance is below twice the tolerance (PROMISES.md, promise 2). Costs 10
-///    to 20 times as much as the first question.
+///    in [0, 1], rounding included. `contact`: at the rounded pose at `contactTime` the bodies
+///    touch, or are within the margin. `undecided`: neither is proved, and `reason` says why;
+///    mostly a clearance below twice the tolerance (PROMISES.md, promise 2). Costs 10 to 20 times
+///    as much as the first question.
 ///
 ///        std::vector<Body> moving, fixed;        // bodies are moved into the scene
 ///        moving.emplace_back("piano", piano);
@@ -84,12 +91,16 @@
 /// # Trees
 ///
 /// Programs that need no `Body` build trees themselves: `Obb4Tree` (fast), or `VolumeTree<Volume>`
-/// of any bounding volume (for comparison). The questions 1 to 4 have the same names for trees.
+/// of any bounding volume (for comparison). The questions 1 to 4 have the same names for trees. For
+/// 4-wide trees of convex parts only question 1 is defined. Queries of trees do not test whether
+/// maps are finite.
 ///
 /// # What every query assumes
 ///
-/// The processor rounds to nearest, and the program is compiled without -ffast-math
-/// (core/floating_point.h). Threads may share bodies, trees and scenes.
+/// The processor rounds to nearest, and long double keeps 64 bits. The program is compiled with
+/// -ffp-contract=off, which the CMake target adds, and without -ffast-math or any part of it
+/// (core/floating_point.h). Bodies and trees throw std::runtime_error otherwise. Threads may share
+/// bodies, trees and scenes.
 
 #include "collision/core/error.h"
 #include "collision/geometry/convex_part.h"

@@ -14,10 +14,11 @@ struct Counters {
   /// The part of `triangleTests` that double could not decide: repeated in exact arithmetic, or in
   /// double-double for convex parts.
   std::uint64_t exactTests = 0;
-  std::uint64_t poses = 0;      ///< poses computed along motions
-  std::uint64_t splits = 0;     ///< time intervals halved
-  std::uint64_t edges = 0;      ///< motion queries
-  std::uint64_t states = 0;     ///< static queries
+  std::uint64_t poses = 0;   ///< poses computed along motions
+  std::uint64_t splits = 0;  ///< time intervals halved
+  // Counted by scenes and by `certifyMotionBy`. Queries of two shapes count tests only.
+  std::uint64_t edges = 0;      ///< motion queries of something that moves
+  std::uint64_t states = 0;     ///< static queries, and motion queries of what stands still
   std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`
 
   /// Counts a tested pair of triangles or convex parts.

@@ -9,12 +9,13 @@ namespace corridor {
 /// closest. If bodies move in small steps, the same pair often decides the next query.
 ///
 /// The pair is a guess: queries test it as any other pair, and no result relies on it. Distance
-/// queries always start from it. Interference queries test it first only while it is `trusted`: two
-/// searches in a row have found it, and it has not failed `kTrust` times in a row since. Thus
-/// unrelated queries waste no test on it. A new object knows no pair.
+/// queries on 4-wide trees always start from it; those on binary trees ignore it, as do all queries
+/// with a convex part. Other queries test it first only while it is `trusted`: two searches in a
+/// row have found it, and it has not failed `kTrust` times in a row since. Thus unrelated queries
+/// waste no test on it. A new object knows no pair.
 class LastPair {
  public:
-  std::uint32_t a = 0xffffffff, b = 0xffffffff;  ///< numbers of triangles in the two trees
+  std::uint32_t a = 0xffffffff, b = 0xffffffff;  ///< numbers in the two trees, in leaf order
 
   /// Returns whether both numbers are in range. They need not be: the last query may have been of
   /// other trees.

@@ -5,7 +5,8 @@
 namespace corridor {
 
 /// A tree or body, and the map from its frame to the world (or to the frame in which a query
-/// works). It refers to the shape, which must outlive it, and holds a copy of the map.
+/// works). It refers to the shape, which must outlive it (do not name a
+/// `Posed` of a temporary), and holds a copy of the map.
 ///
 ///     distance(Posed(cup, X_WCup), Posed(table), {}, context)
 template <class Shape>

@@ -7,7 +7,7 @@ struct PredicateResult {
   bool holds = false;
   bool exact = false;  ///< double could not decide it: decided with more digits
 
-  // Not explicit: a predicate is used as a condition.
+  // Not explicit: functions return it as a bool.
   operator bool() const { return holds; }
 };
 

@@ -12,13 +12,14 @@ namespace corridor {
 /// change a verdict, nor a distance beyond its error bound.
 struct QueryContext {
   Counters counters;  ///< the work of all queries since it was last cleared
-  /// The pairs of triangles from which queries of scenes and motions start, by the number of the
-  /// pair of bodies in the query. Empty means that nothing is known: queries then enlarge it. It
-  /// may change which of several closest or touching triangles is reported, and the counts.
+  /// The pairs of triangles from which queries of scenes and motions start. Entry k belongs to pair
+  /// k of the query's bodies. Queries enlarge the list. It may change the counts, and which of
+  /// several closest or touching triangles is reported.
   std::vector<LastPair> lastPairs;
   Scratch scratch;
 
-  /// Returns the last pair of a pair of bodies, by its number.
+  /// Returns the last pair of a pair of bodies, by its number. Valid until a call with a larger
+  /// number.
   LastPair& lastPair(std::size_t pair) {
     if (lastPairs.size() <= pair) lastPairs.resize(pair + 1);
     return lastPairs[pair];

@@ -6,9 +6,9 @@
 
 namespace corridor {
 
-/// Memory that queries keep for the next query, so that they need not allocate it again: one object
-/// of each type that is requested. Each family of queries defines a type of its own, and no other
-/// family knows it. What an object holds when a query begins has no meaning.
+/// Memory that queries keep for later queries, so that they need not allocate it again: one object
+/// of each requested type. A query must not rely on what the object holds when it begins. While a
+/// function uses an object, it calls nothing that uses the same type.
 class Scratch {
  public:
   Scratch() = default;
@@ -30,7 +30,7 @@ class Scratch {
 
  private:
   template <class T>
-  static constexpr char kType = 0;  // its address identifies T
+  static inline char kType = 0;  // its address identifies T; writable, so that no linker folds two
   struct Slot {
     const char* type;
     std::unique_ptr<void, void (*)(void*)> memory;

@@ -58,7 +58,7 @@ struct Lanes {
 /// branch would often be mispredicted. Once the stack is large enough, no walk allocates memory.
 ///
 /// @param start  the items to start from, the last one first. The query may change them while the
-/// walk runs.
+/// walk runs. @pre They are not part of `memory`.
 /// @return the items that were not visited, if `leaves` ended the walk. The current item is the
 /// last of them; some of its pairs may have been handled. Valid until the stack is used again.
 template <class Query>

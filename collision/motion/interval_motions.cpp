@@ -52,7 +52,8 @@ IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, 
                                  : sweptSphere(*pair.b, relative(pair.motion));
   const bool far = sphere.isotropic > kFar * pair.b->sphereRadius() &&
                    sphere.angular.squaredNorm() > kTurns * kTurns;
-  return {clearanceBound(*pair.a, sphere, enough), far};
+  const double clearance = clearanceBound(*pair.a, sphere, enough);
+  return {clearance, far && !(clearance > asked)};
 }
 
 }  // namespace corridor

@@ -28,7 +28,7 @@ class IntervalMotions {
   };
   /// Bounds the distance of two bodies in the interval by their bounding spheres and boxes. No tree
   /// is built.
-  /// @param asked metres: a larger clearance need not be the best bound, unless `best`.
+  /// @param asked  metres. A clearance above it need not be the best bound, unless `best` is true.
   Separation separation(const MotionPair& pair, double asked, bool best);
 
   /// Half of an interval's angle, radians, above which b counts as rotating.

@@ -30,8 +30,8 @@ struct Interval {
 /// before all of its pairs are tested.
 struct SplitThresholds {
   unsigned pairsOfNodes;  ///< the walk of a pair of bodies stops once it has left this many
-  /// The remaining bodies are left once this many pairs of bodies have left something, and these
-  /// are more than three quarters of the pairs tested.
+  /// The test of an interval leaves the remaining bodies untested once this many pairs of bodies
+  /// have left something, and these are more than three quarters of the pairs tested.
   std::size_t pairsOfBodies;
 };
 
@@ -41,10 +41,10 @@ struct SplitRules {
   /// The whole motion is mostly too wide, so its thresholds are the lowest, but only if b rotates:
   /// a translation is described exactly to first order in any interval.
   static constexpr SplitThresholds kFirst = {1, 1}, kLater = {8, 4};
-  /// A body is left to the interval's halves if it moves far (`IntervalMotions::Separation`) and
-  /// its swept sphere is not separated. Below this half width the rule ends. Pairs that are left
-  /// untested count no work, and a joint may make any number of turns, so the query might otherwise
-  /// never reach its work limit.
+  /// The least half width at which a body that moves far (`IntervalMotions::Separation`) is left to
+  /// the interval's halves untested. Below it every body is tested: pairs that are left untested
+  /// count no work, and a joint may make any number of turns, so the query might otherwise never
+  /// reach its work limit.
   static constexpr double kShortestFar = 0x1p-8;
   /// The number of levels of halving that are walked level by level if only the verdict is
   /// requested, so that a contact anywhere is found early.

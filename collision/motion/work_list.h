@@ -11,7 +11,8 @@
 namespace corridor {
 
 /// The node pairs that time intervals leave to their halves, grouped by pair of bodies. A stack:
-/// each interval appends what it leaves, and `cut` discards it once its halves are done.
+/// each interval appends what it leaves. Before the next interval is tested, `cut` discards what is
+/// no longer needed.
 struct WorkList {
   /// The node pairs of one pair of bodies: a range of `nodePairs`.
   struct Group {

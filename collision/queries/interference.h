@@ -33,8 +33,8 @@ std::optional<TrianglePair> interference(const Posed<VolumeTree<Volume>>& a,
                                          const Posed<VolumeTree<Volume>>& b, QueryContext& context,
                                          LastPair* last = nullptr);
 
-/// The same test, only below the node pairs `start`. Gives up and returns nullopt soon after the
-/// counted box and triangle tests reach `workEnd`.
+/// The same test, only below the node pairs `start`, and on the pair `last`. Gives up and returns
+/// nullopt soon after the counted box and triangle tests reach `workEnd`.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>
 std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
                                               const Posed<VolumeTree<Volume>>& a,

@@ -32,7 +32,8 @@ struct ItemSet {
 
 /// The query for touching pairs. Node pairs and pairs of triangles are filtered in float; the exact
 /// predicate decides the triangles that remain, `convexSetsTouch` decides convex parts. Calls
-/// `Found(s, t)`, numbered in leaf order, for each touching pair until it returns true.
+/// `Found(s, t)`, numbered in leaf order, for each touching pair until it returns true. All
+/// arguments must outlive it.
 template <class Found>
 class Touching {
  public:

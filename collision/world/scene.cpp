@@ -264,13 +264,13 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   require(options);
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
-  MotionResult worst;
+  MotionResult undecidedOne;  // counts as one query, undecided if any pair is
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     MotionResult& result = results[order_[i]];
     result = certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::directional);
-    if (result.verdict == MotionVerdict::undecided) worst = result;
+    if (result.verdict == MotionVerdict::undecided) undecidedOne = result;
   }
-  count(motion, worst, context.counters);
+  count(motion, undecidedOne, context.counters);
   return results;
 }
 

@@ -82,6 +82,7 @@ class Scene {
   /// numbers its pairs in this order. Valid as long as the scene exists and is not moved.
   std::span<const MotionPair> motionPairs() const { return motionPairs_; }
   /// Returns the answer of `certify` for each pair of bodies on its own, in the order of `pairs()`.
+  /// Counts one query.
   std::vector<MotionResult> certifyEachPair(MotionSource& motion, const MotionOptions& options,
                                             QueryContext& context) const;
 
