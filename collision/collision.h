@@ -10,19 +10,20 @@
 ///
 /// * `Transform`: an affine map x ↦ m·x + t. It is used exactly as it is stored: a map that scales,
 ///   shears or mirrors is legal.
-/// * `TriangleMesh`: vertices and triangles, as a point set. `readMeshFile` reads OBJ, STL, PLY,
+/// * `TriangleMesh`: its triangles, with their interiors, as a point set. `readMeshFile` reads OBJ,
+/// STL, PLY,
 ///   OFF, Collada, glTF and more. @throws InputError, which names the file and the line.
 /// * `ConvexPart`: a convex solid that is never tessellated: `placed(Box{size}, X)`, and Sphere,
 ///   Capsule, Cylinder, Convex.
 /// * `Body`: a named mesh (its surface, or with `solid` also what it encloses) or convex part. Its
 ///   trees are built when a query first needs them. @throws std::invalid_argument for a mesh
 ///   without triangles, with an index out of range or a coordinate that is not finite, for a solid
-///   that is not watertight, and for a convex part that is none.
+///   that is not watertight, and for a convex part that is not valid.
 /// * `Posed`: a body or tree, and where it is: `Posed(cup, X_WCup)`; `Posed(table)` is at the
 ///   origin.
 /// * `QueryContext`: counters and scratch memory. Each thread needs its own.
 /// * `LastPair`: the pair of triangles that decided the last query of two bodies. Pass it to the
-///   next query: after a small step this saves a tenth to two thirds of the time.
+///   next query: after a small step between meshes this saves a tenth to two thirds of the time.
 ///
 /// # Six questions about two bodies
 ///
@@ -35,7 +36,7 @@
 ///     const Posed a(cup, X_WCup), b(table);
 ///
 /// Queries of bodies throw std::invalid_argument for maps that are not finite. `a` and `b` refer to
-/// the bodies: do not name a `Posed` of a temporary.
+/// the bodies: never keep a `Posed` of a temporary body.
 ///
 /// 1. Do they touch? Exact: the verdict is that of real arithmetic on the stored numbers, and
 ///    touching is contact. With a convex part, a gap below 2^-44 of the largest coordinate may be

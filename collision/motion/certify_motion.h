@@ -53,9 +53,12 @@ struct MotionResult {
 
 /// The parameters of a motion query.
 struct MotionOptions {
-  double tolerance = 0;  ///< metres, > 0; below this clearance the answer may be `undecided`
-  double margin = 0;     ///< metres kept from every obstacle; 0: touching is contact
-  /// Clearance slack, metres: `free` leaves this much beyond margin and tube. Less is `undecided`.
+  /// Metres, above 0, must be set. A motion with less than twice this clearance, beyond margin and
+  /// tube, may be `undecided`.
+  double tolerance = 0;
+  double margin = 0;  ///< metres that the bodies of every pair must keep apart; 0: only contact
+  /// Clearance slack, metres: `free` leaves this much beyond margin and tube. With less, the
+  /// answer is never `free`.
   double clearanceSlack = 0;
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
   /// The width of the bracket [certifiedUntil, contactTime] that `earliest` requests, as a share of

@@ -14,8 +14,8 @@
 
 namespace corridor {
 
-/// A time interval, and the range of `WorkList::groups` that is its work: what no longer interval
-/// has separated.
+/// A time interval, and the range of `WorkList::groups` that is its work: what the interval that it
+/// is a half of could not separate.
 struct Interval {
   double t0, t1;
   std::size_t begin, end;

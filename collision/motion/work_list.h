@@ -18,8 +18,8 @@ struct WorkList {
   struct Group {
     std::uint32_t bodies;  ///< the number of the pair of bodies in the query
     std::size_t begin, end;
-    /// Lower bound of the clearance of the node pairs that longer time intervals have separated
-    /// already, metres; only if the query needs it.
+    /// Lower bound of the clearance, metres, of the node pairs that have been separated already, in
+    /// intervals that contain this one; only if the query needs it.
     double clearance = HUGE_VAL;
   };
   /// The lengths of both lists.

@@ -38,9 +38,10 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 class Checker {
  public:
   /// The model must outlive the checker; its bodies are copied.
-  /// @throws std::invalid_argument for a margin or tolerance that is negative or not finite; for a
-  /// tube of another length than a configuration, or with a number that is not 0 or more; for an
-  /// overlap test that is not its volume's first, together with a method that measures distances.
+  /// @throws std::invalid_argument for a margin that is negative or a tolerance that is not above
+  /// 0, or not finite; for a tube of another length than a configuration, or with a number that is
+  /// not 0 or more; for an overlap test that is not its volume's first, together with a method that
+  /// measures distances.
   explicit Checker(const Model& model, const CheckerOptions& options = {});
   /// The checker of a problem's model, with `checkerOptions`.
   explicit Checker(const Problem& problem);
@@ -62,10 +63,11 @@ class Checker {
   /// Tests the bounds, which are inclusive. A configuration that is not finite or has a zero
   /// quaternion is out of bounds.
   bool inBounds(const Configuration& q) const;
-  /// Proves a state free, as an edge of zero length. Doesn't test the bounds. @pre finite.
+  /// Decides whether a state is free, as an edge of zero length by the default method. Doesn't test
+  /// the bounds. @pre finite.
   MotionResult state(const Configuration& q) const;
-  /// Proves an edge free by the method of the options.
-  /// Doesn't test the bounds. @pre finite.
+  /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
+  /// finite.
   MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Tests the rounded poses of the frames for contact, exactly. Margin, tolerance and tube are
   /// ignored. @pre finite.
