@@ -34,12 +34,14 @@ for target in "$@"; do
   corpus=$build/corpus/$target log=$build/findings/$target.log
   mkdir -p "$corpus"
   "$here/seeds.sh" "$target" "$build/seeds/$target"
+  dictionary=()  # libFuzzer refuses an empty one
   words "$target" >"$build/seeds/$target.dict"
+  [[ ! -s $build/seeds/$target.dict ]] || dictionary=(-dict="$build/seeds/$target.dict")
   longest=10
   [[ $target == read_assimp ]] && longest=200  # assimp may take 60 s for a file, and each is read three times
   found=none
   if ! "$build/tests/stress/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=$longest -rss_limit_mb=2048 \
-    -malloc_limit_mb=1024 -print_final_stats=1 -dict="$build/seeds/$target.dict" \
+    -malloc_limit_mb=1024 -print_final_stats=1 "${dictionary[@]}" \
     -artifact_prefix="$build/findings/$target-" "$corpus" "$build/seeds/$target" >"$log" 2>&1; then
     status=1
     found=$(sed -n 's/.*Test unit written to //p' "$log" | tail -1)
