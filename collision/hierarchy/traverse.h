@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include "collision/hierarchy/node_pair4.h"
 
 namespace corridor {
 
@@ -11,6 +14,12 @@ struct NodePair {
 };
 /// The stack of traversals that need no more than the nodes' numbers.
 using NodePairs = std::vector<NodePair>;
+
+/// Replaces the stack's contents by the node pairs `start`, the last one on top.
+inline void startFrom(std::span<const NodePair4> start, NodePairs& stack) {
+  stack.clear();
+  for (const NodePair4& pair : start) stack.push_back({pair.a, pair.b});
+}
 
 /// Traverses two trees from the node pairs on `stack`. Every query on binary trees uses it.
 /// Query::Item has the nodes' numbers as `a` and `b`. Uses no call stack, and allocates nothing

@@ -60,6 +60,12 @@ const std::vector<VolumeKind>& volumeKinds() {
   return kinds;
 }
 
+bool hasFirstOverlap(TreeKind trees) {
+  const auto& kinds = volumeKinds();
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](const VolumeKind& kind) { return kind.trees == trees; });
+}
+
 std::optional<InvalidName> invalidNameIn(const TreeNames& words) {
   const VolumeKind* volume = kindNamed(words.volume);
   if (!volume) {

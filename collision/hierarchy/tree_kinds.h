@@ -33,6 +33,9 @@ struct VolumeKind {
 /// Returns all kinds of volume, the default first.
 const std::vector<VolumeKind>& volumeKinds();
 
+/// Returns whether a kind has its volume's first overlap test. Distance queries use no other.
+bool hasFirstOverlap(TreeKind trees);
+
 /// The words with which users choose trees. An empty word stands for the default.
 struct TreeNames {
   std::string volume, fit, overlap;

@@ -10,6 +10,7 @@
 #include "collision/convex/convex_distance.h"
 #include "collision/motion/interval_test.h"
 #include "collision/motion/motion_answer.h"
+#include "collision/motion/split_rules.h"
 
 namespace corridor {
 namespace {

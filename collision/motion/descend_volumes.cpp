@@ -152,8 +152,7 @@ Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,
                 QueryContext& context) {
   MovingVolumes<Volume, Overlap> query(a, b, relative, options, later, context.counters);
   auto& stack = context.scratch.of<NodePairs>();
-  stack.clear();
-  for (const NodePair4& pair : start) stack.push_back({pair.a, pair.b});
+  startFrom(start, stack);
   traverseFrom(a, b, stack, query);
   if (query.result().kind == Descent::Kind::contact) {
     query.leave();

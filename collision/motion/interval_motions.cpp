@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision/motion/may_meet.h"
+#include "collision/motion/split_rules.h"
 
 namespace corridor {
 
@@ -50,8 +51,8 @@ IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, 
   const SweptSphere sphere = pair.worldB == pair.motion
                                  ? worldSphere(pair.motion, *pair.b, pair.bodyB)
                                  : sweptSphere(*pair.b, relative(pair.motion));
-  const bool far = sphere.isotropic > kFar * pair.b->sphereRadius() &&
-                   sphere.angular.squaredNorm() > kTurns * kTurns;
+  const bool far = sphere.isotropic > SplitRules::kFar * pair.b->sphereRadius() &&
+                   sphere.angular.squaredNorm() > SplitRules::kTurns * SplitRules::kTurns;
   const double clearance = clearanceBound(*pair.a, sphere, enough);
   return {clearance, far && !(clearance > asked)};
 }

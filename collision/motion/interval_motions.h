@@ -22,7 +22,7 @@ class IntervalMotions {
 
   struct Separation {
     double clearance = 0;  ///< proved lower bound of the bodies' distance in the interval, metres
-    /// b rotates and moves far for its size (`kFar`, `kTurns`). False where `clearance` is above
+    /// b rotates and moves far for its size (`SplitRules`). False where `clearance` is above
     /// the value that was requested.
     bool far = false;
   };
@@ -30,11 +30,6 @@ class IntervalMotions {
   /// is built.
   /// @param asked  metres. A clearance above it need not be the best bound, unless `best` is true.
   Separation separation(const MotionPair& pair, double asked, bool best);
-
-  /// Half of an interval's angle, radians, above which b counts as rotating.
-  static constexpr double kTurns = 0.02;
-  /// A motion is far if it is longer than this multiple of the radius of b's bounding sphere.
-  static constexpr double kFar = 2;
 
  private:
   const SweptSphere& worldSphere(std::size_t motion, const Body& body, std::size_t index);

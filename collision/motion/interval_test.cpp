@@ -6,6 +6,7 @@
 #include "collision/core/rounding.h"
 #include "collision/hierarchy/with_trees.h"
 #include "collision/motion/descend_volumes.h"
+#include "collision/motion/split_rules.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
 
@@ -71,7 +72,7 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
       tooFar = bodies.far && h >= Rules::kShortestFar;
     }
     const std::size_t motion = query.pairs[group.bodies].motion;
-    const bool first = h == 0.5 && motions.relative(motion).angle > IntervalMotions::kTurns;
+    const bool first = h == 0.5 && motions.relative(motion).angle > Rules::kTurns;
     const SplitThresholds thresholds = first ? Rules::kFirst : Rules::kLater;
     const bool tooMuch = left >= thresholds.pairsOfBodies && 4 * left > 3 * tested;
     ++tested;

@@ -27,8 +27,7 @@ std::optional<TrianglePair> firstContact(std::span<const NodePair4> start, const
   }
   if (!found) {
     auto& stack = context.scratch.of<NodePairs>();
-    stack.clear();
-    for (const NodePair4& pair : start) stack.push_back({pair.a, pair.b});
+    startFrom(start, stack);
     traverseFrom(a.shape, b.shape, stack, query);
     if (found && last) last->found(found->a, found->b);
   }

@@ -139,9 +139,9 @@ HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorner
     const V gap =
         hn::Sub(min3(dot(n, t[0]), dot(n, t[1]), dot(n, t[2])), max3(zero, dot(n, s1), dot(n, s2)));
     const V low = hn::Sub(hn::Mul(hn::Div(gap, length), hn::Set(d, 1 - 0x1p-20F)), off);
-    const auto told =
+    const auto certain =
         hn::And(known, hn::And(hn::Gt(low, zero), hn::Gt(length, hn::Set(d, 0x1p-50F))));
-    hn::Store(hn::IfThenElse(told, low, zero), d, lower + at);
+    hn::Store(hn::IfThenElse(certain, low, zero), d, lower + at);
     hn::Store(hn::IfThenElse(hn::And(known, hn::Lt(up, infinite)), up, infinite), d, upper + at);
   }
 }

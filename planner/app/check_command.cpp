@@ -130,17 +130,17 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   const Checker checker(problem);
   const Lines out(a.json);
   ordered_json ends;
-  const auto tell = [&](const std::string& name, const Configuration& q) {
+  const auto checkEnd = [&](const std::string& name, const Configuration& q) {
     const auto why = whyNotFree(name, q, checker);
     ends[name] = why.value_or("free");
     out.line(name, why.value_or("free"), why ? Tone::bad : Tone::good);
     return !why;
   };
   out.line("problem", a.problem);
-  bool all = tell("start", startOf(problem));
+  bool all = checkEnd("start", startOf(problem));
   const std::vector<Configuration> goals = goalsOf(problem);
   for (std::size_t i = 0; i < goals.size(); ++i)
-    all &= tell(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
+    all &= checkEnd(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
   for (const std::string& note : problem.source.notes) out.line("note", note);
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},

@@ -30,21 +30,21 @@ class ProblemReport {
              {"digest", digestOf(problem_)}};
     out_.line("problem", a_.file);
     out_.line("name", problem_.source.name);
-    tellSpace();
-    tellNumbers();
-    tellBodies();
-    tellPairs();
+    reportSpace();
+    reportNumbers();
+    reportBodies();
+    reportPairs();
     json_["notes"] = problem_.source.notes;
     for (const std::string& note : problem_.source.notes) out_.line("note", note);
-    const bool free = tellEnds();
-    tellTrees();
-    tellCosts();
+    const bool free = reportEnds();
+    reportTrees();
+    reportCosts();
     if (a_.json) std::cout << json_.dump(2) << '\n';
     return free ? kDone : kNo;
   }
 
  private:
-  void tellSpace() {
+  void reportSpace() {
     const std::string rigid = rigidSpaceOf(problem_.model.space);
     json_["space"] = rigid.empty() ? "joints" : rigid;
     json_["numbers"] = problem_.model.space.numberNames();
@@ -69,7 +69,7 @@ class ProblemReport {
     }
   }
 
-  void tellNumbers() {
+  void reportNumbers() {
     json_["tolerance_m"] = checker_.options().tolerance;
     json_["margin_m"] = problem_.task.margin;
     json_["tube"] = tubeJson(problem_.model.space, problem_.task.tube);
@@ -78,7 +78,7 @@ class ProblemReport {
     out_.line("tube", tubeText(problem_.model.space, problem_.task.tube));
   }
 
-  void tellBodies() {
+  void reportBodies() {
     json_["bodies"] = ordered_json::array();
     for (const ModelBody& body : problem_.model.bodies) {
       ordered_json j = {
@@ -93,7 +93,7 @@ class ProblemReport {
     }
   }
 
-  void tellPairs() {
+  void reportPairs() {
     std::map<std::string, std::size_t> skipped;
     std::size_t tested = 0, far = 0;
     const std::vector<ReachBox> reach = reachOf(problem_.model);
@@ -126,25 +126,25 @@ class ProblemReport {
     out_.line("never a pair", "world with itself (it stands still), a body with itself");
   }
 
-  bool tellEnds() {
-    bool free = tellEnd("start", startOf(problem_), json_["start"]);
+  bool reportEnds() {
+    bool free = reportEnd("start", startOf(problem_), json_["start"]);
     const std::vector<Configuration> goals = goalsOf(problem_);
-    if (goals.size() == 1) return tellEnd("goal", goals[0], json_["goal"]) && free;
+    if (goals.size() == 1) return reportEnd("goal", goals[0], json_["goal"]) && free;
     bool any = false;
     json_["goal"] = ordered_json::array();
     for (std::size_t i = 0; i < goals.size(); ++i)
-      any |= tellEnd("goal " + std::to_string(i + 1), goals[i], json_["goal"].emplace_back());
+      any |= reportEnd("goal " + std::to_string(i + 1), goals[i], json_["goal"].emplace_back());
     return any && free;
   }
 
-  bool tellEnd(const std::string& name, const Configuration& q, ordered_json& json) {
+  bool reportEnd(const std::string& name, const Configuration& q, ordered_json& json) {
     const auto why = whyNotFree(name, q, checker_);
     json = why.value_or("free");
     out_.line(name, why.value_or("free"), why ? Tone::bad : Tone::plain);
     return !why;
   }
 
-  void tellTrees() {
+  void reportTrees() {
     std::size_t built = 0, meshes = 0;
     for (const Scene::Placed& placed : checker_.scene().bodies()) {
       built += !placed.body.part() && placed.body.treeBuilt();
@@ -156,7 +156,7 @@ class ProblemReport {
   }
 
   /// Reports which pairs of bodies take the time of random edges.
-  void tellCosts() {
+  void reportCosts() {
     constexpr std::size_t kEdges = 200, kShown = 5;
     constexpr double kSeconds = 2;  // keeps `inspect` quick
     const EdgeCosts costs = sampleEdgeCosts(checker_, kEdges, kSeconds, problem_.settings.seed);

@@ -110,12 +110,12 @@ struct BuiltTree {
 };
 BuiltTree builtTree(const Body& body, TreeKind trees) {
   const auto start = std::chrono::steady_clock::now();
-  const auto told = [&](const auto& tree) {
+  const auto built = [&](const auto& tree) {
     return BuiltTree{tree.bytes(), millisecondsSince(start)};
   };
-  if (trees == TreeKind::obb4) return told(body.tree());
-  return withVolume(trees,
-                    [&]<class Volume, class Overlap>() { return told(body.volumeTree<Volume>()); });
+  if (trees == TreeKind::obb4) return built(body.tree());
+  return withVolume(
+      trees, [&]<class Volume, class Overlap>() { return built(body.volumeTree<Volume>()); });
 }
 
 }  // namespace

@@ -53,20 +53,20 @@ void printSummary(const BatchResult& result, const std::vector<std::string>& wor
   const auto count = static_cast<double>(ns.size());
   for (const std::string& word : words) std::cerr << word << '\n';
   std::cerr << "simd=" << simdTarget() << '\n';
-  const auto tell = [](const char* key, const char* format, double value) {
+  const auto printLine = [](const char* key, const char* format, double value) {
     char text[64];
     std::snprintf(text, sizeof text, format, value);
     std::cerr << key << '=' << text << '\n';
   };
-  tell("median_ns", "%.1f", medianOf(ns));
-  tell("mean_ns", "%.1f", sum / count);
-  tell("p95_ns", "%.1f", quantileOf(ns, 0.95));
-  tell("bv_tests", "%.6g", boxTests / count);
-  tell("triangle_tests", "%.6g", triangleTests / count);
-  tell("build_ms_a", "%.4f", result.buildMsA);
-  tell("build_ms_b", "%.4f", result.buildMsB);
-  tell("bytes_a", "%.0f", static_cast<double>(result.bytesA));
-  tell("bytes_b", "%.0f", static_cast<double>(result.bytesB));
+  printLine("median_ns", "%.1f", medianOf(ns));
+  printLine("mean_ns", "%.1f", sum / count);
+  printLine("p95_ns", "%.1f", quantileOf(ns, 0.95));
+  printLine("bv_tests", "%.6g", boxTests / count);
+  printLine("triangle_tests", "%.6g", triangleTests / count);
+  printLine("build_ms_a", "%.4f", result.buildMsA);
+  printLine("build_ms_b", "%.4f", result.buildMsB);
+  printLine("bytes_a", "%.0f", static_cast<double>(result.bytesA));
+  printLine("bytes_b", "%.0f", static_cast<double>(result.bytesB));
   if (!std::cerr) throw InputError(Fault{"standard error", 0, "can't be written"});
 }
 

@@ -27,7 +27,7 @@ namespace {
 
 /// The maximum number of faulty lines that are reported, besides the last one: a file in another
 /// format has a fault in every line.
-constexpr int kFaultsTold = 10;
+constexpr int kFaultsListed = 10;
 
 /// Returns why R is not a rotation, or "" if it is.
 std::string whyNoRotation(const Mat3& R) {
@@ -135,10 +135,10 @@ std::vector<Made> readLines(const std::filesystem::path& file, const std::string
       all.push_back(made);
       continue;
     }
-    if (++faulty <= kFaultsTold) faults.add(name, number, complaint);
+    if (++faulty <= kFaultsListed) faults.add(name, number, complaint);
     lastFaulty = number;
   }
-  if (faulty > kFaultsTold)
+  if (faulty > kFaultsListed)
     faults.add(name, lastFaulty,
                "and so on: " + counted(static_cast<std::uint64_t>(faulty), "line") +
                    " are faulty, this is the last");

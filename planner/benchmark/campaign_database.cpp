@@ -66,7 +66,7 @@ class CampaignDatabase::Tables {
   Tables(const std::filesystem::path& file, Mode mode, const Campaign& campaign,
          std::vector<CampaignCell>& cells, std::size_t jobs)
       : file_(file), campaign_(campaign), cells_(cellsOf(campaign)) {
-    told([&] {
+    withFileInErrors([&] {
       std::error_code ignored;
       const bool there = std::filesystem::exists(file, ignored);
       base_ = std::make_unique<SQLite::Database>(file.string(),
@@ -87,7 +87,7 @@ class CampaignDatabase::Tables {
 
   std::vector<CampaignSession> sessions() {
     std::vector<CampaignSession> all;
-    told([&] {
+    withFileInErrors([&] {
       SQLite::Statement of(*base_,
                            "SELECT started, \"commit\", jobs, count(*) FROM corridor_sessions s "
                            "JOIN corridor_runs ON sessionid = s.id GROUP BY s.id ORDER BY s.id");
@@ -100,7 +100,7 @@ class CampaignDatabase::Tables {
   }
 
   void add(std::size_t cell, const BenchmarkRun& run) {
-    told([&] {
+    withFileInErrors([&] {
       columns_.clear();  // a failed transaction may have removed columns again
       SQLite::Transaction transaction(*base_);
       const CampaignCell& of = cells_[cell];
@@ -132,7 +132,7 @@ class CampaignDatabase::Tables {
   /// Turns SQLite's exceptions into InputError: a full disk or a foreign file is the user's to
   /// mend.
   template <class Step>
-  void told(const Step& step) const {
+  void withFileInErrors(const Step& step) const {
     try {
       step();
     } catch (const nlohmann::json::exception& error) {  // the stored JSON is damaged

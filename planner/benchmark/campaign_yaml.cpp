@@ -224,7 +224,7 @@ class CampaignReader {
                                     std::to_string(kMostVariants) + " variants");
       return;
     }
-    std::set<std::string> told;  // faults that were already added for another of its variants
+    std::set<std::string> seenFaults;  // faults that were already added for another of its variants
     std::map<std::string, std::string> same;  // keys that have an effect → the variant's suffix
     for (const Expanded& one : expanded(entry.value)) {
       FaultList faults;
@@ -249,7 +249,8 @@ class CampaignReader {
         faults.throwIfAny();
       } catch (const InputError& error) {
         for (const Fault& fault : error.faults())
-          if (told.insert(fault.str()).second) faults_.add(fault.file, fault.line, fault.text);
+          if (seenFaults.insert(fault.str()).second)
+            faults_.add(fault.file, fault.line, fault.text);
       }
     }
   }

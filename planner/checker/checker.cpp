@@ -43,10 +43,7 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
       options.tube.size() == 0 || (options.tube.size() == static_cast<Eigen::Index>(space.size()) &&
                                    (options.tube.array() >= 0).all()),
       "tube must have a number of 0 or more for each number of a configuration");
-  const TreeKind trees = options.trees.trees;
-  require(options.method == EdgeMethod::directional ||
-              (trees != TreeKind::obbGjk && trees != TreeKind::obbLinearProgram &&
-               trees != TreeKind::obbEdgeFace),
+  require(options.method == EdgeMethod::directional || hasFirstOverlap(options.trees.trees),
           "adaptive and advancement measure distances; they need the volume's first overlap test");
 }
 

@@ -72,7 +72,7 @@ class PairFilter {
 /// The reason of PairFilter for bodies with the same mover.
 inline constexpr std::string_view kNeverMove = "never move against each other";
 
-/// Everything that moves, and what it may hit. Plain data, which a `ModelBuilder` makes. Lengths
+/// Everything that moves, and what it could hit. Plain data, which a `ModelBuilder` makes. Lengths
 /// are in metres, angles in radians.
 struct Model {
   std::vector<ModelRobot> robots;

@@ -13,6 +13,7 @@
 namespace corridor {
 
 /// How edges are checked: by a method that proves them, or by samples, as a baseline.
+/// The values before `discrete` are those of `EdgeMethod`, in the same order.
 enum class EdgeCheck { certified, adaptive, advancement, discrete };
 /// OMPL's samplers of valid states.
 enum class StateSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };

@@ -146,13 +146,13 @@ struct NearestFree {
 NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
                           const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
-  const auto told = [&](Eigen::Index i) {
+  const auto isPrinted = [&](Eigen::Index i) {
     return pose ? i + 1 < static_cast<Eigen::Index>(pose->coordinates.size()) : exact[i] != from[i];
   };
   for (const int digits : {4, 6, 9, 12}) {
     Configuration q = exact;
     for (Eigen::Index i = 0; i < q.size(); ++i)
-      if (told(i)) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
+      if (isPrinted(i)) q[i] = std::strtod(number(q[i], digits).c_str(), nullptr);
     if (checker.certifiedState(q)) return {q, digits, away};
   }
   return {exact, 17, away};
@@ -184,8 +184,8 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
   return std::nullopt;
 }
 
-std::string told(const std::optional<NearestFree>& free, const Configuration& q,
-                 const ConfigurationSpace& space) {
+std::string describedFree(const std::optional<NearestFree>& free, const Configuration& q,
+                          const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space)) {
     if (!free) return "no free position was found nearby with this orientation";
     return "the nearest free position found is " + number(free->away) +
@@ -260,7 +260,7 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
          (checker.interference(q)
               ? " touch"
               : " are closer than the margin of " + number(options.margin) + " m") +
-         "; " + told(nearestFree(q, checker), q, checker.space());
+         "; " + describedFree(nearestFree(q, checker), q, checker.space());
 }
 
 }  // namespace corridor

@@ -68,7 +68,7 @@ std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
 
 /// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk".
 /// Leaves out what is the default; "" for the default trees.
-std::string treesTold(const TreeNames& words) {
+std::string treesText(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
          (trees.fit == usual.fit ? "" : ", " + trees.fit) +
@@ -90,7 +90,7 @@ Solve::Solve(const Problem& problem, const SolveOptions& options)
   report_.checker =
       wordOf(problem.settings.checker.edges) +
       (discrete() ? ", resolution " + shortest(problem.settings.checker.resolution) : "") +
-      treesTold(problem.settings.checker.trees);
+      treesText(problem.settings.checker.trees);
 }
 
 PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key,
@@ -194,12 +194,12 @@ void Solve::setUpObjective() {
   definition_->setOptimizationObjective(objective);
 }
 
-void Solve::tellProgress() {
+void Solve::reportProgress() {
   if (!options_.progress) return;
   const std::unique_lock lock(progressMutex_, std::try_to_lock);
-  if (!lock || clock_.seconds() < progressTold_ + kProgressPeriod) return;
-  progressTold_ = clock_.seconds();
-  options_.progress({progressTold_, validator_->checkedMotions()});
+  if (!lock || clock_.seconds() < lastProgress_ + kProgressPeriod) return;
+  lastProgress_ = clock_.seconds();
+  options_.progress({lastProgress_, validator_->checkedMotions()});
 }
 
 std::string Solve::whyNotFound(ob::PlannerStatus status) const {
@@ -236,7 +236,7 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
   const double processorBefore = clock_.processorSeconds();
   const double until = problem_.settings.planner.time;
   const ob::PlannerTerminationCondition stop([this, until, &orElse] {
-    tellProgress();
+    reportProgress();
     return clock_.seconds() >= until || interrupted() || orElse.eval();
   });
   planner_->setProblemDefinition(definition_);

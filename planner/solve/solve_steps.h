@@ -82,7 +82,7 @@ class Solve {
   void setUpSpace();
   void setUpPlanner();
   void setUpObjective();
-  void tellProgress();
+  void reportProgress();
   void finish();
   bool certified(const Path& path);
   bool joinsStartAndGoal(const Path& path) const;
@@ -101,7 +101,7 @@ class Solve {
   ompl::base::PlannerPtr planner_;
   bool optimises_ = false;
   std::mutex progressMutex_;
-  double progressTold_ = 0;
+  double lastProgress_ = 0;
   SolveReport report_;
 };
 

@@ -14,9 +14,9 @@ struct ClosestPair {
   Vec3 p_WA = Vec3::Zero(), p_WB = Vec3::Zero();
 };
 
-/// Returns the closest tested pair for the poses of all frames. Of pairs equally close any may be
-/// returned. Nothing if no pair is tested. Cost: pairs are queried in the order of the distances of
-/// their bounding spheres, until no other pair can be closer.
+/// Returns the closest tested pair for the poses of all frames, or nothing if no pair is tested. If
+/// several pairs are equally close, any of them may be returned. Cost: pairs are queried in the
+/// order of the distances of their bounding spheres, until no other pair can be closer.
 std::optional<ClosestPair> closestPair(const Checker& checker, const std::vector<Transform>& X_WF,
                                        QueryContext& context);
 

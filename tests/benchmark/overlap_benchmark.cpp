@@ -82,10 +82,10 @@ struct Recorder {
   std::size_t pose;
   Sample &apart, &meet;
   bool separated(const Obb& a, const Obb& b, double pad) const {
-    const bool told = test.separated(a, b, pad);
-    Sample& sample = told ? apart : meet;
+    const bool isApart = test.separated(a, b, pad);
+    Sample& sample = isApart ? apart : meet;
     sample.show({a, b, pose, apart.seen + meet.seen});
-    return told;
+    return isApart;
   }
 };
 

@@ -186,9 +186,9 @@ void report(const std::string& name, const std::vector<Judged>& pairs) {
   for (std::size_t m = 0; m < times.size(); ++m) {
     int missed = 0, wrong = 0;
     for (const Judged& judged : pairs) {
-      const bool told = kMethods[m].method(judged.pair);
-      missed += judged.touch && !told;
-      wrong += told && !judged.touch;
+      const bool answer = kMethods[m].method(judged.pair);
+      missed += judged.touch && !answer;
+      wrong += answer && !judged.touch;
     }
     std::sort(times[m].begin(), times[m].end());
     std::printf(" %d, %d, %.0f |", missed, wrong, times[m][4]);

@@ -240,11 +240,11 @@ def picture_tells_the_verdict(browser, path):
             "through.yaml": "format: corridor-solution-1\nspace: SE2\npath: [[-3, 0, 0], [3, 0, 0]]\n"}.items():
         with open(os.path.join(path, file), "w", encoding="utf-8") as out:
             out.write(text)
-    for solution, told in ("short", "refuted: the last state is not in the goal"), ("through", "from_here_to_th…_back_again_wall touch"):
+    for solution, ending in ("short", "refuted: the last state is not in the goal"), ("through", "from_here_to_th…_back_again_wall touch"):
         corridor("view", os.path.join(path, "problem.yaml"), os.path.join(path, f"{solution}.yaml"), "-o", page)
         for size in sizes:
             text = pictured(browser, page, size)
-            assert text.endswith(told) and len(text) < 100, text
+            assert text.endswith(ending) and len(text) < 100, text
             assert ("end of the path, not in the goal" in browser.find("#legend").text) == (solution == "short")
             assert browser.js(ring) == (solution == "through")
 

@@ -146,15 +146,15 @@ class SoupQueries : public testing::Test {
   /// same.
   template <class Tree>
   void expectSameDistance(const Soups& s, const Soups& turned, const Soups& scaled, double unit) {
-    const auto told = [](const Soups& t) {
+    const auto answerOf = [](const Soups& t) {
       const Tree a(t.a), b(t.b);
       QueryContext hit, far;  // new ones: a used context may change the last digits
       return std::pair(interference(Posed(a, t.X_WA), Posed(b, t.X_WB), hit).has_value(),
                        distance(Posed(a, t.X_WA), Posed(b, t.X_WB), {}, far).distance);
     };
-    const auto [hit, d] = told(s);
-    const auto [hitTurned, dTurned] = told(turned);
-    const auto [hitScaled, dScaled] = told(scaled);
+    const auto [hit, d] = answerOf(s);
+    const auto [hitTurned, dTurned] = answerOf(turned);
+    const auto [hitScaled, dScaled] = answerOf(scaled);
     ASSERT_EQ(hitTurned, hit);
     ASSERT_EQ(hitScaled, hit);
     ASSERT_EQ(dScaled, unit * dTurned);
@@ -216,14 +216,14 @@ TEST_F(SoupQueries, AgainstBruteForce) {
 
 /// Tests by rationals some of the reported contacts, and some unreported pairs whose bounds
 /// overlap. Adds up both numbers.
-void expectRationals(Random& random, const Soups& s, const TrianglePairs& told, int& touching,
+void expectRationals(Random& random, const Soups& s, const TrianglePairs& found, int& touching,
                      int& apart) {
   const auto contact = [&](std::uint32_t i, std::uint32_t k) {
     return test::rationalContact(test::corners(s.a, i), s.X_WA, test::corners(s.b, k), s.X_WB);
   };
-  const std::size_t asked = test::stressAsked() ? 300 : 50, step = told.size() / asked + 1;
+  const std::size_t asked = test::stressAsked() ? 300 : 50, step = found.size() / asked + 1;
   std::size_t n = random() % step;
-  for (const auto& [i, k] : told)
+  for (const auto& [i, k] : found)
     if (n++ % step == 0) {
       ASSERT_TRUE(contact(i, k)) << i << ", " << k;
       ++touching;
@@ -240,7 +240,7 @@ void expectRationals(Random& random, const Soups& s, const TrianglePairs& told, 
     const Eigen::AlignedBox3d box = bounds(s.a, i, s.X_WA);
     std::vector<std::uint32_t> near;
     for (std::uint32_t k = 0; k < ofB.size(); ++k)
-      if (box.intersects(ofB[k]) && !told.contains({i, k})) near.push_back(k);
+      if (box.intersects(ofB[k]) && !found.contains({i, k})) near.push_back(k);
     if (near.empty()) continue;
     const std::uint32_t k = near[random() % near.size()];
     ASSERT_FALSE(contact(i, k)) << i << ", " << k;

@@ -216,21 +216,21 @@ TEST(Planners, ProgressAndInterrupt) {
   for (const char* const planner : {"CForest", "AnytimePathShortening"}) {
     Problem problem = problemOf({planner, "two_arms"});
     problem.settings.planner.time = 300;
-    std::atomic<bool> interrupted = false, told = false;
+    std::atomic<bool> interrupted = false, progressed = false;
     std::vector<SolveProgress> progress;  // without a lock: calls never overlap
     SolveOptions options;
     options.interrupted = &interrupted;
     options.progress = [&](const SolveProgress& now) {
       progress.push_back(now);
-      told = progress.size() > 3;
+      progressed = progress.size() > 3;
     };
     std::jthread interrupts([&] {
-      while (!told) std::this_thread::yield();
+      while (!progressed) std::this_thread::yield();
       interrupted = true;
     });
     Recording run;
     run.solve(problem, options);
-    told = true;
+    progressed = true;
     EXPECT_EQ(run.report.outcome, SolveOutcome::interrupted) << planner;
     EXPECT_GT(progress.size(), 3u);
     for (std::size_t i = 1; i < progress.size(); ++i)

@@ -366,7 +366,7 @@ TEST(ConvexDistance, APointOfBothWhereTheyBarelyOverlap) {
   EXPECT_GT(touching, 3'000 / test::kSlowdown);
 }
 
-TEST(ConvexDistance, AsCloseAsAskedFor) {
+TEST(ConvexDistance, AsCloseAsRequested) {
   Touching make(test::testSeed(34));
   for (int n = 0; n < 2'000 / test::kSlowdown; ++n) {
     const Feature fa = make.feature(Shape::cylinder), fb = make.feature(test::kShapes[n % 6]);

@@ -35,8 +35,8 @@ class ReadFile : public testing::Test {
   }
 
   /// Expects that all three ways of reading refuse the file with the same message.
-  void expectRefused(const std::filesystem::path& file, const std::string& told) const {
-    const std::string line = file.string() + ": " + told;
+  void expectRefused(const std::filesystem::path& file, const std::string& expectedLine) const {
+    const std::string line = file.string() + ": " + expectedLine;
     EXPECT_EQ(complaintOf([&] { readFile(file, "a thing"); }), line);
     EXPECT_EQ(complaintOf([&] { readTextFile(file, "a thing"); }), line);
     EXPECT_EQ(complaintOf([&] { requireFile(file, "a thing"); }), line);
@@ -75,16 +75,16 @@ TEST_F(ReadFile, WhatIsNoOrdinaryFile) {
   ::close(socket);
 }
 
-TEST_F(ReadFile, TheSizeIsLookedAtFirst) {
+TEST_F(ReadFile, TheSizeIsTestedFirst) {
   expectRefused(write("empty", ""), "is empty; a thing is needed");
   const auto huge = sparse("huge", kMostFileBytes + 1);
-  const std::string told = huge.string() + ": has 4294967297 bytes, more than ";
+  const std::string expectedLine = huge.string() + ": has 4294967297 bytes, more than ";
   EXPECT_EQ(complaintOf([&] { readFile(huge, "a thing"); }),
-            told + "4294967296, the limit for a thing");
+            expectedLine + "4294967296, the limit for a thing");
   EXPECT_EQ(complaintOf([&] { requireFile(huge, "a thing"); }),
-            told + "4294967296, the limit for a thing");
+            expectedLine + "4294967296, the limit for a thing");
   EXPECT_EQ(complaintOf([&] { readTextFile(huge, "a thing"); }),
-            told + "268435456, the limit for a thing");
+            expectedLine + "268435456, the limit for a thing");
   EXPECT_EQ(complaintOf([&] { requireFile(sparse("most", kMostFileBytes), "a thing"); }),
             "no complaint");
   const auto large = sparse("large", kMostDocumentBytes + 1);

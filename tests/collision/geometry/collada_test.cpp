@@ -98,13 +98,13 @@ TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
     EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
   EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
   // Units that the check of the text misses show in the imported mesh.
-  const std::string told = ": its <unit> is not above 0, or too small";
+  const std::string message = ": its <unit> is not above 0, or too small";
   for (const char* const hidden : {"<unit name=\"a>b\" meter=\"0\"/>", "<unit meter=\"1e-60\"/>"}) {
-    EXPECT_THAT(complaint("a.dae", collada(hidden)), testing::EndsWith(told)) << hidden;
+    EXPECT_THAT(complaint("a.dae", collada(hidden)), testing::EndsWith(message)) << hidden;
     EXPECT_THROW(readOmplAppMesh(write("z.dae", collada(hidden))), InputError) << hidden;
   }
   EXPECT_THAT(complaint("a.dae", collada("<unit name=\"a>b\" meter=\"-1\"/>")),
-              testing::EndsWith(told));
+              testing::EndsWith(message));
 }
 
 TEST_F(Collada, OmplAppTurnsToYUp) {

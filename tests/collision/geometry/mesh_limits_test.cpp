@@ -23,8 +23,9 @@ class MeshLimits : public MeshFileTest {
                 {{600}, memory});
     return end.messages.empty() ? end.failure : end.messages.front();
   }
-  void expect(const std::string& name, const std::string& bytes, const std::string& told) const {
-    EXPECT_EQ(complaintInLittleMemory(name, bytes), name + told);
+  void expect(const std::string& name, const std::string& bytes,
+              const std::string& complaintText) const {
+    EXPECT_EQ(complaintInLittleMemory(name, bytes), name + complaintText);
   }
 };
 
@@ -41,8 +42,8 @@ const std::string corners = "property list uchar uchar vertex_indices\n";
 TEST_F(MeshLimits, PlyCounts) {
   for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     SCOPED_TRACE(format);
-    const auto fault = [&](const std::string& elements, const std::string& told) {
-      expect("a.ply", ply(format, elements) + std::string(100, '1'), told);
+    const auto fault = [&](const std::string& elements, const std::string& complaintText) {
+      expect("a.ply", ply(format, elements) + std::string(100, '1'), complaintText);
     };
     fault("element vertex 4000000000\n" + xyz + "element face 1\n" + corners,
           std::string(": has 4000000000 vertices") + coarser);

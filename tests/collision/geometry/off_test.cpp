@@ -33,8 +33,8 @@ TEST_F(Off, KindsWithMoreNumbersAVertex) {
 }
 
 TEST_F(Off, Faults) {
-  const auto fault = [&](const std::string& text, const std::string& told) {
-    EXPECT_EQ(complaint("a.off", text), "a.off:" + told);
+  const auto fault = [&](const std::string& text, const std::string& message) {
+    EXPECT_EQ(complaint("a.off", text), "a.off:" + message);
   };
   const std::string points = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   fault("solid\n", "1: begins with \"solid\"; \"OFF\", \"COFF\", \"NOFF\" or \"STOFF\" is needed");

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, Obb4TreePoses, testing::ValuesIn(test::simdTar
 /// a margin that is too small or too large shows. Maps that are no rotations, and meshes far from
 /// their frames' origins, are included.
 TEST_P(Obb4TreePoses, CornersAtFaces) {
-  int told = 0;
+  int apartPairs = 0;
   for (int n = 0; n < 3000; ++n) {
     const double unit = std::ldexp(1.0, n % 5 == 0 ? 200 : n % 5 == 1 ? -200 : 0);
     const double noise = n % 3 ? 0 : std::pow(10.0, real(-13, -3));
@@ -91,10 +91,10 @@ TEST_P(Obb4TreePoses, CornersAtFaces) {
     if (noise == 0 && d > 8 * 180 * 0x1p-24 * size) {
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], d / 2)) << n << ": " << d;
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], 0)) << n << ": " << d;
-      ++told;
+      ++apartPairs;
     }
   }
-  EXPECT_GT(told, 600);
+  EXPECT_GT(apartPairs, 600);
 }
 
 /// Soups whose distances are about as large as their sizes. Some pairs are separated by their
@@ -116,7 +116,7 @@ TEST_P(Obb4TreePoses, Soups) {
 }
 
 /// Maps that are far from rigid, or not finite, prove nothing.
-TEST_P(Obb4TreePoses, NothingIsToldOfOtherMaps) {
+TEST_P(Obb4TreePoses, NothingIsDecidedForOtherMaps) {
   const TriangleMesh cube = test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   const Transform far{Mat3::Identity(), Vec3(10, 0, 0)};
   ASSERT_TRUE(apart(cube, {}, cube, far, 0));

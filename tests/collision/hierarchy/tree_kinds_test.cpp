@@ -52,6 +52,15 @@ TEST(TreeKinds, EveryNameHasAKindOfItsOwn) {
   EXPECT_EQ(treesNamed({"aabb", "plain", ""}).fit, ObbFit::triangles);
 }
 
+TEST(TreeKinds, HasFirstOverlap) {
+  for (const VolumeKind& volume : volumeKinds())
+    for (const std::string& overlap : volume.overlaps)
+      EXPECT_EQ(hasFirstOverlap(treesNamed({volume.name, "", overlap}).trees),
+                overlap == volume.overlaps.front())
+          << volume.name << " " << overlap;
+  EXPECT_FALSE(hasFirstOverlap(TreeKind::obbGjk));
+}
+
 TEST(TreeKinds, WithDefaults) {
   const TreeNames usual = withDefaults({}), ball = withDefaults({"sphere", "", ""}),
                   said = withDefaults({"obb-binary", "hull", "lp"});
@@ -60,7 +69,7 @@ TEST(TreeKinds, WithDefaults) {
   EXPECT_EQ(said.volume + " " + said.fit + " " + said.overlap, "obb-binary hull lp");
 }
 
-TEST(TreeKinds, WrongWordsAreToldWithWhatThereIs) {
+TEST(TreeKinds, WrongNamesAreReportedWithTheValidOnes) {
   EXPECT_EQ(complaint({"spheres", "", ""}),
             "volume: unknown volume \"spheres\" (did you mean \"sphere\"?); there are: obb, "
             "obb-binary, aabb, sphere, rss, kdop14, kdop18, kdop26");
@@ -81,7 +90,7 @@ TEST(TreeKinds, WrongWordsAreToldWithWhatThereIs) {
 }
 
 /// A body's trees are built at first need, each exactly once, whichever thread comes first.
-TEST(TreeKinds, BodiesBuildTheTreesThatAreAskedFor) {
+TEST(TreeKinds, BodiesBuildTheTreesThatAreChosen) {
   std::mt19937_64 random(test::testSeed(51));
   const Body mesh("mesh", test::soup(random, 500, 0.2)), part("part", placed(Sphere{1}, {}));
   EXPECT_FALSE(mesh.treeBuilt() || part.treeBuilt());

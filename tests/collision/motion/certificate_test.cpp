@@ -75,7 +75,7 @@ TEST_P(Certificate, ASlideHasTheClearanceOfItsGap) {
   }
 }
 
-TEST_P(Certificate, KeepsWhatWasAskedFor) {
+TEST_P(Certificate, KeepsTheInputs) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   Case slide(wall, cube,

@@ -46,14 +46,6 @@ class EdgeMethods : public testing::TestWithParam<Proof> {
 
 INSTANTIATE_TEST_SUITE_P(All, EdgeMethods, test::everyProof(), test::proofName);
 
-TEST(EdgeMethodNames, AreThoseOfTheEnumeration) {
-  EXPECT_EQ(edgeMethodNames().size(), 3u);
-  EXPECT_EQ(edgeMethodNamed("certified"), EdgeMethod::directional);
-  EXPECT_EQ(edgeMethodNamed("adaptive"), EdgeMethod::adaptive);
-  EXPECT_EQ(edgeMethodNamed("advancement"), EdgeMethod::advancement);
-  EXPECT_FALSE(edgeMethodNamed("discrete"));
-}
-
 TEST_P(EdgeMethods, SlideBesideAWall) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));

@@ -138,9 +138,9 @@ TEST(MayMeet, RandomMotionsOfBoth) {
     if (!(bound > 0)) continue;
     ++proved;
     for (const double enough : {0.0, 0.3 * bound, 2 * bound}) {
-      const double told = clearanceBound(ballA, ballB, enough);
-      EXPECT_LE(told, bound);
-      EXPECT_EQ(told > enough, bound > enough);
+      const double early = clearanceBound(ballA, ballB, enough);
+      EXPECT_LE(early, bound);
+      EXPECT_EQ(early > enough, bound > enough);
     }
     for (int k = -8; k <= 8; ++k) {
       const double t = 0.5 + h * k / 8;

@@ -104,23 +104,23 @@ TEST_P(Obb4MotionBounds, AreThoseOfTheSpheres) {
         for (int k = 0; k < 3; ++k) center[k] = node.vectors[k][Obb4::kCenter][lane];
         const Vec3 y = w.X_AB.m * (tree.origin() + tree.length() * center);
         const MotionBound is = motionBound(w, y + w.X_AB.t, three(node.half).norm());
-        const Obb4MotionBound& told = bounds[i];
+        const Obb4MotionBound& computed = bounds[i];
         // Required: at least 2^-16 above the value in exact arithmetic, and at most 2^-14 above it,
         // plus what the kernel adds for the rounding of the lever, which enters once per joint.
         const auto covers = [&](float bound, double x) {
           return bound >= unitA * x * (1 + 0x1p-16) &&
                  bound <= unitA * (x * (1 + 0x1p-14) + rounding);
         };
-        ASSERT_TRUE(covers(told.isotropic[lane], is.isotropic)) << n;
-        ASSERT_TRUE(covers(told.secondOrderAcross[lane], is.secondOrderAcross)) << n;
-        ASSERT_TRUE(covers(told.secondOrder[lane], is.secondOrder)) << n;
-        ASSERT_TRUE(covers(told.pad[lane], is.pad + margin)) << n;
-        bending += told.secondOrderAcross[lane] > 0;
+        ASSERT_TRUE(covers(computed.isotropic[lane], is.isotropic)) << n;
+        ASSERT_TRUE(covers(computed.secondOrderAcross[lane], is.secondOrderAcross)) << n;
+        ASSERT_TRUE(covers(computed.secondOrder[lane], is.secondOrder)) << n;
+        ASSERT_TRUE(covers(computed.pad[lane], is.pad + margin)) << n;
+        bending += computed.secondOrderAcross[lane] > 0;
         const Vec3 first = unitA * (w.linear + w.angular.cross(y));
         for (int k = 0; k < 3; ++k) {
-          ASSERT_NEAR(told.linear[k][lane], first[k],
+          ASSERT_NEAR(computed.linear[k][lane], first[k],
                       0x1p-23 * std::abs(first[k]) + rounding * unitA);
-          ASSERT_NEAR(told.angular[k], w.angular[k], 0x1p-23 * std::abs(w.angular[k]));
+          ASSERT_NEAR(computed.angular[k], w.angular[k], 0x1p-23 * std::abs(w.angular[k]));
         }
         if (is.isotropic > tolerance) {
           ASSERT_TRUE(far[i] >> lane & 1) << n;

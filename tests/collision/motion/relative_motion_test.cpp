@@ -94,10 +94,11 @@ Ratios ratios(const Trial& trial) {
   };
   // The chain in long double differs by this much from the doubles of the relative motion; `pad`
   // covers it.
-  const double told = w.fixedError + w.reachError * (x - trial.origin).norm();
+  const double statedError = w.fixedError + w.reachError * (x - trial.origin).norm();
   Ratios r;
-  r.isotropic = ratio((nominal - start).norm() - told, bound.isotropic);
-  r.beyond = ratio(std::abs(n.dot(nominal - start - trial.s * first)) - told, secondOrderAcross);
+  r.isotropic = ratio((nominal - start).norm() - statedError, bound.isotropic);
+  r.beyond =
+      ratio(std::abs(n.dot(nominal - start - trial.s * first)) - statedError, secondOrderAcross);
   r.pad = ratio((place(0, 1) - start).norm(), bound.pad);
   r.all = std::max(ratio((real - start).norm(), bound.isotropic + bound.pad),
                    ratio(std::abs(n.dot(real - start)),

@@ -153,7 +153,7 @@ TEST(SturmContact, Samples) {
 
 /// The reversed motion touches, too. As seen from the other triangle, the motion touches at the
 /// very same time.
-TEST(SturmContact, ToldInOtherWays) {
+TEST(SturmContact, InvariantUnderOtherDescriptions) {
   std::mt19937_64 random(testSeed(45));
   const int count = (stressAsked() ? 10'000 : 500) / kSlowdown;
   int swapped = 0;

@@ -114,14 +114,18 @@ TEST(Containment, PrimitivesInSolidMeshes) {
   EXPECT_TRUE(interference(Posed(solid.tree), Posed(big), context));
 }
 
+/// Returns whether a comb (see `comb`) fills the unit cell at x along its axis, y and z across it.
+bool inComb(int plates, int width, int x, int y, int z) {
+  const bool within = x >= 0 && x < 2 * plates - 1 && y >= 0 && y < width && z >= 0 && z < width;
+  return within && (x % 2 == 0 || y == 0);
+}
+
 /// Returns the surface of a comb: plates of thickness 1 along `axis`, 1 apart, that a spine holds
 /// together. It is the boundary of unit cells, so that it has a vertex at every corner of a cell.
 TriangleMesh comb(int axis, int plates, int width) {
   const int length = 2 * plates - 1;
   const auto filled = [&](const Eigen::Vector3i& cell) {
-    const int x = cell[axis], y = cell[(axis + 1) % 3], z = cell[(axis + 2) % 3];
-    const bool within = x >= 0 && x < length && y >= 0 && y < width && z >= 0 && z < width;
-    return within && (x % 2 == 0 || y == 0);
+    return inComb(plates, width, cell[axis], cell[(axis + 1) % 3], cell[(axis + 2) % 3]);
   };
   TriangleMesh mesh;
   std::map<std::array<int, 3>, std::uint32_t> vertices;
@@ -160,9 +164,7 @@ TEST(Containment, RaysLeaveAndEnterAgain) {
       const int x = i % 9 - 1, y = i / 9 % 7 - 1, z = i / 63 - 1;
       Vec3 p;
       p[axis] = x + 0.4, p[(axis + 1) % 3] = y + 0.7, p[(axis + 2) % 3] = z + 0.3;
-      const bool inside =
-          x >= 0 && x < 7 && y >= 0 && y < 5 && z >= 0 && z < 5 && (x % 2 == 0 || y == 0);
-      EXPECT_EQ(holds(solid, p), inside) << axis << ": " << p.transpose();
+      EXPECT_EQ(holds(solid, p), inComb(4, 5, x, y, z)) << axis << ": " << p.transpose();
     }
   }
 }
@@ -180,9 +182,7 @@ TEST(Containment, RaysThroughEdgesAndVertices) {
       const int x = i % 5 - 1, y = i / 5 % 6 - 1, z = i / 30 - 1;
       Vec3 p;
       p[axis] = x + 0.5, p[(axis + 1) % 3] = y + 0.5, p[(axis + 2) % 3] = z + 0.5;
-      const bool inside =
-          x >= 0 && x < 3 && y >= 0 && y < 4 && z >= 0 && z < 4 && (x % 2 == 0 || y == 0);
-      EXPECT_EQ(holds(solid, far + p), inside) << axis << ": " << p.transpose();
+      EXPECT_EQ(holds(solid, far + p), inComb(2, 4, x, y, z)) << axis << ": " << p.transpose();
     }
   }
 }

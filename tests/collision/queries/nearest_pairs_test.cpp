@@ -24,7 +24,7 @@ class MadeUp : public NearestPairs {
  public:
   using NearestPairs::NearestPairs;
   void look(std::uint32_t i, double lower, double upper) { keep(i, i, lower, upper); }
-  Distance told(const std::vector<double>& measures) {
+  Distance nearestOf(const std::vector<double>& measures) {
     return closest(Numbers(), Numbers(),
                    [&](std::uint32_t i, std::uint32_t) { return Measured{measures[i]}; });
   }
@@ -59,7 +59,7 @@ TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
       pairs.look(i, d * (1 - loose), d);
       if (++first == 2) pairs.look(0, least, least);
     }
-    const double excess = (pairs.told(measures).distance - allowed);
+    const double excess = (pairs.nearestOf(measures).distance - allowed);
     worst = std::max(worst, excess / (allowed + std::max(excess, 0.0)));
     above += excess > 0.3e-12 * allowed;
     ASSERT_LE(excess, 1e-12 * (allowed + excess)) << n;
@@ -76,7 +76,7 @@ TEST(NearestPairs, WhatMayTouchIsMeasured) {
   MadeUp pairs(options, context);
   pairs.look(0, 0.5, 0.5);
   pairs.look(1, 0, 0.4);
-  EXPECT_EQ(pairs.told({0.5, 0.25}).distance, 0.25);
+  EXPECT_EQ(pairs.nearestOf({0.5, 0.25}).distance, 0.25);
   EXPECT_TRUE(pairs.canImprove(std::nan("")));
 }
 

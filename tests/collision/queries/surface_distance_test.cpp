@@ -25,11 +25,12 @@ TEST(SurfaceDistance, WhatIsProvedIsNotAboveTheTrueDistance) {
       for (const DistanceOptions& options :
            {DistanceOptions{}, {0.2, 0}, {1, 0}, {0, 0.5}, {0.3, 0.3}}) {
         QueryContext context;
-        const Distance told = surfaceDistance(Posed(a), Posed(b, X_WB), options, context, trees);
+        const Distance measured =
+            surfaceDistance(Posed(a), Posed(b, X_WB), options, context, trees);
         const double proved =
-            provedDistance(Posed(a), Posed(b, X_WB), told, options, context, trees);
+            provedDistance(Posed(a), Posed(b, X_WB), measured, options, context, trees);
         ASSERT_LE(proved, truth * (1 + 1e-12)) << n;
-        loose += told.distance > 1.02 * truth;
+        loose += measured.distance > 1.02 * truth;
         if (truth > 1 && options.relative == 0 && options.absolute == 0) {
           ASSERT_GE(proved, truth * (1 - 1e-11)) << n;
         }

@@ -177,7 +177,7 @@ TYPED_TEST(ObbOverlaps, TellWhatIsClearlyApart) {
 
 TYPED_TEST(ObbOverlaps, APadIsADistance) {
   std::mt19937_64 random(test::testSeed(62));
-  int told = 0;
+  int separatedPairs = 0;
   for (int n = 1; n < 10'000; n += 2) {
     const Boxes x = nearTouching(random, n);
     const auto test = TestFixture::of(x);
@@ -186,11 +186,11 @@ TYPED_TEST(ObbOverlaps, APadIsADistance) {
     ASSERT_FALSE(test.separated(x.a, x.b, distance)) << n;
     ASSERT_FALSE(TestFixture::of(x, distance).separated(x.a, x.b, 0)) << n;
     if (x.step > 1e-9 * x.scale) {
-      ++told;
+      ++separatedPairs;
       ASSERT_TRUE(test.separated(x.a, x.b, x.step / 8)) << n;
     }
   }
-  EXPECT_GT(told, 1000);
+  EXPECT_GT(separatedPairs, 1000);
 }
 
 /// Faces, edges and corners that meet exactly, in numbers without rounding.
@@ -215,7 +215,7 @@ TYPED_TEST(ObbOverlaps, ExactlyTouching) {
   EXPECT_FALSE(TestFixture::of(x).separated(x.a, x.b, 0)) << "one point";
 }
 
-TYPED_TEST(ObbOverlaps, NothingIsToldOfWhatIsNotFinite) {
+TYPED_TEST(ObbOverlaps, NothingIsDecidedForWhatIsNotFinite) {
   std::mt19937_64 random(test::testSeed(63));
   const double nan = std::nan("");
   for (int n = 1; n < 200; ++n) {
@@ -253,7 +253,7 @@ TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlappin
   std::mt19937_64 random(test::testSeed(61));
   const int rounds = (test::stressAsked() ? 100'000 : 2'000) / test::kSlowdown;
   const char* const names[] = {"separating axes", "GJK", "linear program", "edges and faces"};
-  int touching = 0, apart = 0, clear[4] = {}, told[4] = {};
+  int touching = 0, apart = 0, clear[4] = {}, separatedPairs[4] = {};
   for (int n = 0; n < rounds; ++n) {
     const Boxes x = nearTouching(random, n);
     const Truth truth(x.a, x.b, x.X_AB);
@@ -262,7 +262,7 @@ TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlappin
     const double margin = clearGap(x);
     const auto look = [&](int which, const auto& test, double gap) {
       const bool separated = test.separated(x.a, x.b, 0);
-      told[which] += separated;
+      separatedPairs[which] += separated;
       if (truth.touch) {
         EXPECT_FALSE(separated) << names[which] << ", case " << n << ", " << x.step / x.scale;
       } else if (gap > margin) {
@@ -278,7 +278,7 @@ TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlappin
   std::cout << touching << " touch, " << apart
             << " are apart; reported as separated, clearly apart:";
   for (int i = 0; i < 4; ++i) {
-    std::cout << " " << names[i] << " " << told[i] << ", " << clear[i] << ";";
+    std::cout << " " << names[i] << " " << separatedPairs[i] << ", " << clear[i] << ";";
     EXPECT_GT(clear[i], rounds / 4);
   }
   std::cout << "\n";

@@ -94,7 +94,7 @@ TYPED_TEST_SUITE(PairTests, test::Volumes, test::VolumeNames);
 /// No bound may exceed the distance of two points of the contents, not even by the last bit.
 TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
   std::mt19937_64 random(test::testSeed(41));
-  int told = 0;
+  int positiveBounds = 0;
   for (int n = 0; n < 20'000; ++n) {
     const double gap = n % 3 ? std::pow(10.0, -(n % 16)) : 0, offset = n % 5 == 0 ? 1e6 : 1;
     const Meeting m = meeting(random, n, gap, offset);
@@ -103,9 +103,9 @@ TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
     const double bound = test.distanceBound(a.volume, b.volume);
     ASSERT_LE(bound, m.distance) << n;
     ASSERT_FALSE(test.separated(a.volume, b.volume, m.distance)) << n;
-    told += bound > 0;
+    positiveBounds += bound > 0;
   }
-  EXPECT_GT(told, 100) << "no bound was positive: the test tested nothing";
+  EXPECT_GT(positiveBounds, 100) << "no bound was positive: the test tested nothing";
 }
 
 /// Maps that are far from rigid: scaled, sheared, mirrored, nearly flat. Still no bound may exceed
@@ -176,7 +176,7 @@ TYPED_TEST(PairTests, TellClearDistances) {
   }
 }
 
-TYPED_TEST(PairTests, NothingIsToldOfWhatIsNotFinite) {
+TYPED_TEST(PairTests, NothingIsDecidedForWhatIsNotFinite) {
   std::mt19937_64 random(test::testSeed(43));
   const Meeting m = meeting(random, 1, 10, 1);
   const Fitted<TypeParam> a(m.a), b(m.b);

@@ -112,11 +112,11 @@ TEST_F(BenchmarkCommand, JsonAgreesWithItself) {
 }
 
 TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
-  const auto refuse = [&](const std::string& arguments, const std::string& told) {
+  const auto refuse = [&](const std::string& arguments, const std::string& message) {
     const Result result = run("benchmark " + arguments + " -o results");
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_EQ(result.out, "") << arguments;
-    EXPECT_THAT(result.err, StartsWith(told)) << arguments;
+    EXPECT_THAT(result.err, StartsWith(message)) << arguments;
     EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "results")) << arguments;
   };
@@ -156,8 +156,8 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
 }
 
 TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
-  const auto refuse = [&](const std::string& folder, const std::string& told) {
-    expectFault("benchmark hall.yaml --runs 1 -o " + folder, told);
+  const auto refuse = [&](const std::string& folder, const std::string& message) {
+    expectFault("benchmark hall.yaml --runs 1 -o " + folder, message);
   };
   refuse("robot.yaml", "robot.yaml: is a file; a folder is needed");
   refuse("robot.yaml/results", "robot.yaml/results: can't be created: Not a directory");
@@ -167,7 +167,7 @@ TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
 }
 
 /// Obstacles to the output files are reported before the first run, and stay as they are.
-TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsToldAtOnce) {
+TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsReportedAtOnce) {
   const auto inTheWay = [&](const char* name) {
     return "results/" + std::string(name) + ": is a folder; a file is to be written here\n";
   };

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using CommandLine = corridor::test::CubeTest;
 
 /// `check` and `solve` must report it, too, if an angle was wrapped: not only `inspect`.
-TEST_F(CommandLine, WhatWasReadDifferentlyIsTold) {
+TEST_F(CommandLine, WhatWasReadDifferentlyIsReported) {
   write("arm.urdf",
         "<robot name='arm'><link name='a'/><link name='b'><collision><geometry><box size='1 1 1'/>"
         "</geometry></collision></link><joint name='pan' type='continuous'><parent link='a'/>"
@@ -25,9 +25,10 @@ TEST_F(CommandLine, WhatWasReadDifferentlyIsTold) {
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {box: [1, 1, 1], at: [5, 0, "
         "0]}\nstart: {pan: -60}\ngoal: {pan: 0}\n");
   for (const char* command : {"check", "solve", "inspect"}) {
-    const Result told = run(command + std::string(" arm.yaml"));
-    EXPECT_EQ(told.status, 0) << told.err;
-    EXPECT_THAT(told.out, HasSubstr("note: start.pan: -60 is read as 2.83185307179586")) << command;
+    const Result result = run(command + std::string(" arm.yaml"));
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("note: start.pan: -60 is read as 2.83185307179586"))
+        << command;
     if (command == std::string("inspect")) continue;
     const Result json = run(command + std::string(" arm.yaml --json"));
     EXPECT_THAT(json.out, HasSubstr("start.pan: -60 is read as 2.83185307179586")) << command;
@@ -78,10 +79,10 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
 }
 
 /// CLI11's own messages name the option last, or not at all.
-TEST_F(CommandLine, WordsThatNoCommandTakesAreTold) {
-  const auto fault = [&](const std::string& arguments, const std::string& told) {
+TEST_F(CommandLine, WordsThatNoCommandTakesAreReported) {
+  const auto fault = [&](const std::string& arguments, const std::string& message) {
     expectFault(arguments,
-                told + "; see corridor " + arguments.substr(0, arguments.find(' ')) + " --help");
+                message + "; see corridor " + arguments.substr(0, arguments.find(' ')) + " --help");
   };
   fault("solve problem.yaml --stopp first",
         "unknown option \"--stopp\" (did you mean \"--stop\"?)");
@@ -103,15 +104,15 @@ TEST_F(CommandLine, WordsThatNoCommandTakesAreTold) {
 }
 
 /// Results lost on a full disk must not end with exit status 0.
-TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsTold) {
+TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsReported) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   write("poses.txt", "1 0 0 0 1 0 0 0 1 0 0 0\n");
   for (const char* command : {"solve problem.yaml", "check problem.yaml --json", "inspect cube.obj",
                               "query cube.obj wall.obj --poses poses.txt",
                               "benchmark problem.yaml --variants certified --runs 1"}) {
-    const Result result = run(command + std::string(" >/dev/full 2>told.txt; exit $?;"));
+    const Result result = run(command + std::string(" >/dev/full 2>stderr.txt; exit $?;"));
     EXPECT_EQ(result.status, 2) << command;
-    EXPECT_THAT(read("told.txt"),
+    EXPECT_THAT(read("stderr.txt"),
                 testing::EndsWith("standard output: can't be written, or not all of it\n"))
         << command;
   }

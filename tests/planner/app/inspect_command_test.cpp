@@ -37,9 +37,9 @@ TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
             joint("stiller", "still", free + "<mimic joint='wheel' multiplier='0' offset='2'/>") +
             "<link name='wheel'/><joint name='wheel' type='continuous'><parent link='stiller'/>"
             "<child link='wheel'/></joint></robot>");
-  const Result told = run("inspect slides.urdf --json");
-  ASSERT_EQ(told.status, 0) << told.err;
-  const auto links = nlohmann::json::parse(told.out)["links"];
+  const Result result = run("inspect slides.urdf --json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto links = nlohmann::json::parse(result.out)["links"];
   ASSERT_EQ(links.size(), 6u);
   EXPECT_EQ(links[1]["reach_m"], 1 + 1.5);
   EXPECT_EQ(links[2]["reach_m"], 1 + 1.5 + 1 + 0.5);

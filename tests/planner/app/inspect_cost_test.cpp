@@ -124,8 +124,8 @@ TEST_F(InspectCost, BadInputIsOneLineAndExit2) {
   write("bad.txt", "1 0 0 0 1 0 0 0 1 0 0\n");
   write("arm.urdf", "<robot name=\"arm\"/>");
   write("problem.yaml", "format: corridor-problem-1\n");
-  const auto fault = [&](const std::string& arguments, const std::string& told) {
-    expectFault("inspect " + arguments, told);
+  const auto fault = [&](const std::string& arguments, const std::string& message) {
+    expectFault("inspect " + arguments, message);
   };
   fault("a.obj --against", "--against: 1 required TEXT missing; see corridor inspect --help");
   fault("a.obj --against none.obj", "none.obj: no such file");

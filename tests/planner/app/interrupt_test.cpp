@@ -12,7 +12,7 @@
 namespace corridor::app {
 namespace {
 
-constexpr int kWentOn = 7, kNotTold = 8;
+constexpr int kWentOn = 7, kNotReported = 8;
 
 /// Returns how a process ends that gets a signal, and the same signal again some milliseconds
 /// later.
@@ -22,7 +22,7 @@ int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT
     ::signal(SIGHUP, SIG_DFL);  // also where this test runs under nohup
     const std::atomic<bool>& interrupted = listenForInterrupts(second);
     std::raise(signal);
-    if (!interrupted || interruptedStatus() != 128 + signal) ::_exit(kNotTold);
+    if (!interrupted || interruptedStatus() != 128 + signal) ::_exit(kNotReported);
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     std::raise(signal);
     ::_exit(kWentOn);
@@ -50,7 +50,7 @@ TEST(Interrupt, UnderNohupHangingUpIsNothing) {
     ::signal(SIGHUP, SIG_IGN);
     const std::atomic<bool>& interrupted = listenForInterrupts();
     std::raise(SIGHUP);
-    ::_exit(interrupted ? kNotTold : kWentOn);
+    ::_exit(interrupted ? kNotReported : kWentOn);
   }
   int status = 0;
   ::waitpid(id, &status, 0);
@@ -79,7 +79,7 @@ TEST(Interrupt, ReadsGoOn) {
       [[maybe_unused]] const auto written = ::write(pipe[1], "x", 1);
     }).detach();
     char c = 0;
-    ::_exit(::read(pipe[0], &c, 1) == 1 && c == 'x' ? kWentOn : kNotTold);
+    ::_exit(::read(pipe[0], &c, 1) == 1 && c == 'x' ? kWentOn : kNotReported);
   }
   int status = 0;
   ::waitpid(id, &status, 0);

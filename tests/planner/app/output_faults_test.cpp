@@ -184,11 +184,11 @@ TEST_F(Uses, HaveEveryCommandAndOutput) {
 }
 
 /// --help and --version print results, so losing them must give exit status 2.
-TEST_F(Uses, HelpThatCannotBeWrittenIsToldOf) {
+TEST_F(Uses, HelpThatCannotBeWrittenIsReported) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   for (const char* words : {"--help", "solve --help", "--version"})
-    EXPECT_EQ(run(words + std::string(" >/dev/full 2>told.txt; exit $?;")).status, 2) << words;
-  EXPECT_EQ(read("told.txt"), kStdoutFault);
+    EXPECT_EQ(run(words + std::string(" >/dev/full 2>stderr.txt; exit $?;")).status, 2) << words;
+  EXPECT_EQ(read("stderr.txt"), kStdoutFault);
 }
 
 }  // namespace

@@ -43,18 +43,18 @@ class ProgramTest : public testing::Test {
   }
 
   /// Expects that bad input gives one line on stderr, nothing on stdout, and exit status 2.
-  void expectFault(const std::string& arguments, const std::string& told) const {
+  void expectFault(const std::string& arguments, const std::string& message) const {
     const Result result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;
-    EXPECT_EQ(result.err, told + "\n") << arguments;
+    EXPECT_EQ(result.err, message + "\n") << arguments;
     EXPECT_EQ(result.out, "") << arguments;
   }
 
   /// Expects the same, where only the line's first words are known.
-  void expectFaultThatBegins(const std::string& arguments, const std::string& told) const {
+  void expectFaultThatBegins(const std::string& arguments, const std::string& message) const {
     const Result result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;
-    EXPECT_TRUE(result.err.starts_with(told)) << arguments << ": " << result.err;
+    EXPECT_TRUE(result.err.starts_with(message)) << arguments << ": " << result.err;
     EXPECT_EQ(result.out, "") << arguments;
     EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
   }

@@ -46,19 +46,19 @@ TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
   const Result result = query("--poses poses.txt");
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, "pose,hit,bv_tests,triangle_tests\n0,1,1,1\n1,1,1,1\n2,0,1,1\n3,1,1,1\n");
-  const auto told = summary(result);
+  const auto figures = summary(result);
   for (const char* key : {"hits", "median_ns", "mean_ns", "p95_ns", "bv_tests", "triangle_tests",
                           "build_ms_a", "build_ms_b", "bytes_a", "bytes_b", "poses"})
-    EXPECT_TRUE(told.contains(key) && std::stod(told.at(key)) > 0) << key;
-  EXPECT_EQ(told.at("hits"), "3");
-  EXPECT_EQ(told.at("poses"), "4");
-  EXPECT_EQ(told.at("bv_tests"), "1");
-  EXPECT_EQ(told.at("triangle_tests"), "1");
-  EXPECT_EQ(told.at("query"), "interference");
-  EXPECT_EQ(told.at("volume"), "obb");
-  EXPECT_EQ(told.at("fit"), "triangles");
-  EXPECT_EQ(told.at("overlap"), "sat");
-  EXPECT_FALSE(told.at("simd").empty());
+    EXPECT_TRUE(figures.contains(key) && std::stod(figures.at(key)) > 0) << key;
+  EXPECT_EQ(figures.at("hits"), "3");
+  EXPECT_EQ(figures.at("poses"), "4");
+  EXPECT_EQ(figures.at("bv_tests"), "1");
+  EXPECT_EQ(figures.at("triangle_tests"), "1");
+  EXPECT_EQ(figures.at("query"), "interference");
+  EXPECT_EQ(figures.at("volume"), "obb");
+  EXPECT_EQ(figures.at("fit"), "triangles");
+  EXPECT_EQ(figures.at("overlap"), "sat");
+  EXPECT_FALSE(figures.at("simd").empty());
 }
 
 TEST_F(QueryCommand, VariantsAndRepeatsAnswerAlike) {
@@ -158,11 +158,11 @@ TEST_F(QueryCommand, SharedWorkload) {
 }
 
 TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
-  const auto fault = [&](const std::string& pose, const std::string& told) {
+  const auto fault = [&](const std::string& pose, const std::string& message) {
     write("bad.txt", kStill + "0 0 0\n" + pose + "\n");
     const Result result = query("--poses bad.txt");
     EXPECT_EQ(result.status, 2) << pose;
-    EXPECT_EQ(result.err, "bad.txt:2: " + told + "\n");
+    EXPECT_EQ(result.err, "bad.txt:2: " + message + "\n");
     EXPECT_EQ(result.out, "");
   };
   fault(kStill + "0 0 nan", "a finite number is needed, not \"nan\"");
@@ -195,7 +195,7 @@ TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
   EXPECT_EQ(query("--poses fine.txt").status, 0);
 }
 
-TEST_F(QueryCommand, AllFaultsOfAFileAreToldButNotThousands) {
+TEST_F(QueryCommand, AllFaultsOfAFileAreReportedButNotThousands) {
   write("bad.txt", "1\n" + kStill + "0 0 0\n1 x\n");
   EXPECT_EQ(query("--poses bad.txt").err,
             "bad.txt:1: a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not "
@@ -203,17 +203,17 @@ TEST_F(QueryCommand, AllFaultsOfAFileAreToldButNotThousands) {
   std::string many;
   for (int i = 0; i < 50; ++i) many += "1 2 3\n";
   write("bad.txt", many);
-  const auto told = lines(query("--poses bad.txt").err);
-  ASSERT_EQ(told.size(), 11u);
-  EXPECT_EQ(told[10], "bad.txt:50: and so on: 50 lines are faulty, this is the last");
+  const auto faults = lines(query("--poses bad.txt").err);
+  ASSERT_EQ(faults.size(), 11u);
+  EXPECT_EQ(faults[10], "bad.txt:50: and so on: 50 lines are faulty, this is the last");
 }
 
 TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   write("empty.txt", "");
   write("comments.txt", "# nothing\n\n");
   write("empty.obj", "v 0 0 0\nv 1 0 0\n");
-  const auto fault = [&](const std::string& arguments, const std::string& told) {
-    expectFault("query " + arguments, told);
+  const auto fault = [&](const std::string& arguments, const std::string& message) {
+    expectFault("query " + arguments, message);
   };
   const std::string more = "; see corridor query --help";
   fault("a.obj b.obj", "--poses: a file of poses is needed, or --grid, or --motions");
@@ -272,10 +272,10 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
         "--upper: three numbers of metres are needed, as in -1,-1,0.5, not \"-9,nan,1\"");
   fault("a.obj b.obj --grid 2x2x2 --lower 1,1,1 --upper 0,2,2",
         "--lower: [1, 1, 1] is not below --upper, [0, 2, 2]");
-  const auto boundsFault = [&](const std::string& arguments, const std::string& told) {
+  const auto boundsFault = [&](const std::string& arguments, const std::string& message) {
     const Result result = run("query a.obj b.obj --grid 2x2x2 " + arguments);
     EXPECT_EQ(result.status, 2) << arguments;
-    EXPECT_EQ(result.err.substr(0, told.size()), told) << arguments;
+    EXPECT_EQ(result.err.substr(0, message.size()), message) << arguments;
   };
   boundsFault("--lower 99,0,0", "--lower: [99, 0, 0] is not below --upper, by default [");
   boundsFault("--upper -99,0,0", "--upper: [-99, 0, 0] is not above --lower, by default [");

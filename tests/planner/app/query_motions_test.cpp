@@ -227,10 +227,10 @@ TEST_F(QueryMotions, BelowTheToleranceItIsUndecided) {
 }
 
 TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
-  const auto fault = [&](const std::string& motion, const std::string& told) {
+  const auto fault = [&](const std::string& motion, const std::string& message) {
     const Result result = query(motion + "\n");
     EXPECT_EQ(result.status, 2) << motion;
-    EXPECT_EQ(result.err, "motions.txt:1: " + told + "\n");
+    EXPECT_EQ(result.err, "motions.txt:1: " + message + "\n");
     EXPECT_EQ(result.out, "");
   };
   fault(
@@ -241,8 +241,8 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   fault(kStill + "0 0 0 1 0 0 0 1 0 0 0 -1 0 0 0",
         "last pose: the matrix mirrors (determinant -1); a rotation is needed");
   write("motions.txt", kStill + "0 0 1 " + kStill + "0 0 2\n");
-  const auto option = [&](const std::string& more, const std::string& told) {
-    expectFault("query a.obj b.obj --motions motions.txt " + more, told);
+  const auto option = [&](const std::string& more, const std::string& message) {
+    expectFault("query a.obj b.obj --motions motions.txt " + more, message);
   };
   option("--grid 2x2x2", "--grid: applies to poses, not to --motions; leave it out");
   option("--query distance", "--query: applies to poses, not to --motions; leave it out");

@@ -117,7 +117,7 @@ TEST_F(SolveCommand, InterruptedIsExit130) {
 }
 
 /// A limit on files' sizes acts like a full disk; SIGXFSZ must not end the program.
-TEST_F(SolveCommand, AFileThatMayNotGrowIsToldAndNotLeftInHalf) {
+TEST_F(SolveCommand, AFileThatMayNotGrowIsReportedAndNotLeftInHalf) {
   const Result whole = run("solve problem.yaml --seed 1 --picture p.svg");
   ASSERT_EQ(whole.status, 0) << whole.err;
   ASSERT_GT(std::filesystem::file_size(folder_ / "p.svg"), 1024u);

@@ -53,7 +53,7 @@ TEST_F(ViewCommand, NamesThePageByTheProblem) {
   EXPECT_EQ(read("quiet.html"), read("thin_plate.html"));
 }
 
-TEST_F(ViewCommand, APathOfOtherFilesIsToldOnThePage) {
+TEST_F(ViewCommand, APathOfOtherFilesIsReportedOnThePage) {
   write("path.yaml", "format: corridor-solution-1\nspace: SE3\ndigest: " + std::string(64, 'a') +
                          "\npath:\n  - [-3, -2, 0, 0, 0, 0, 1]\n  - [3, -2, 0, 0, 0, 0, 1]\n");
   const Result result = run("view " + plate + " path.yaml -o page.html");
@@ -122,7 +122,7 @@ TEST_F(ViewCommand, WithoutChromiumThereIsNoPicture) {
 }
 
 /// A browser that draws nothing must leave the file that was there before.
-TEST_F(ViewCommand, ABrowserThatFailsIsTold) {
+TEST_F(ViewCommand, ABrowserThatFailsIsReported) {
   write("chromium", "#!/bin/sh\nexit 1\n");
   std::filesystem::permissions(folder_ / "chromium", std::filesystem::perms::owner_all);
   write("a.png", "before");

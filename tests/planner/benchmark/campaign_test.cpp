@@ -185,7 +185,7 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
 }
 
 /// OMPL's Benchmark would continue after an exception in a planner, as if the run had ended well.
-TEST(Campaign, AThrowWithinAPlannerIsTold) {
+TEST(Campaign, AThrowWithinAPlannerIsReported) {
   class Thrower : public ExactStateValidityChecker {
    public:
     using ExactStateValidityChecker::ExactStateValidityChecker;
@@ -276,7 +276,7 @@ TEST(Campaign, InterruptedItKeepsWhatIsDone) {
   EXPECT_EQ(OmplLogReader::read(omplLog(campaign, result, 0, 1)).planners.at(0).runs.size(), 1u);
 }
 
-TEST(Campaign, AllThatIsWrongIsToldBeforeAnythingRuns) {
+TEST(Campaign, AllThatIsWrongIsReportedBeforeAnythingRuns) {
   EXPECT_EQ(complaintOf(campaignOf({"certified", "discrete:0.1"}, 1)), "");
   EXPECT_EQ(complaintOf(campaignOf({"certified", "certified"}, 0)),
             "--variants: \"certified\" is named twice\n--runs: 1 or more are needed, not 0");

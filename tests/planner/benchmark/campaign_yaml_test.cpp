@@ -283,7 +283,7 @@ TEST_F(CampaignYaml, FaultsOfPlannersHaveTheirLines) {
   EXPECT_EQ(checked("  - RRT\n  - {name: RRT, label: a, params: {range: 1}}\n"), "");
 }
 
-TEST_F(CampaignYaml, FaultsOfProblemsAreTold) {
+TEST_F(CampaignYaml, FaultsOfProblemsAreReported) {
   write("hall.yaml", "format: corridor-problem-1\nrobbot: robot.yaml\n");
   EXPECT_THAT(faults(std::string(kStart) + "checkers: {a: {}}\n"),
               testing::Contains(HasSubstr("hall.yaml:2: unknown key \"robbot\"")));

@@ -38,7 +38,7 @@ TEST(CostModel, CostsAreNeverNegative) {
 }
 
 /// Proportional counts determine only one cost; box tests get all of it.
-TEST(CostModel, WhatIsNotToldApartIsOneCost) {
+TEST(CostModel, CostsThatCannotBeDistinguishedAreOne) {
   const CostModel model = fittedCosts({{10, 5, 100}, {20, 10, 200}, {40, 20, 400}});
   EXPECT_NEAR(model.box, 10, 1e-9);
   EXPECT_EQ(model.triangle, 0);

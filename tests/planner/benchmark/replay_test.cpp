@@ -75,7 +75,7 @@ TEST(Replay, TellsAnotherQuestion) {
     EXPECT_TRUE(replay.done());
     replay.question(kind, *si, state.get());  // one question more than recorded
   };
-  const auto toldOf = [&](Transcript::Ask kind, const ompl::base::ScopedState<>& state) {
+  const auto summaryOf = [&](Transcript::Ask kind, const ompl::base::ScopedState<>& state) {
     try {
       ask(kind, state);
     } catch (const std::runtime_error& error) {
@@ -83,11 +83,11 @@ TEST(Replay, TellsAnotherQuestion) {
     }
     return std::string("nothing");
   };
-  EXPECT_EQ(toldOf(Transcript::Ask::state, a),
+  EXPECT_EQ(summaryOf(Transcript::Ask::state, a),
             "replay: question 2 is not the one that was recorded");
-  EXPECT_EQ(toldOf(Transcript::Ask::clearance, a),
+  EXPECT_EQ(summaryOf(Transcript::Ask::clearance, a),
             "replay: question 1 is not the one that was recorded");
-  EXPECT_EQ(toldOf(Transcript::Ask::state, b),  // q differs in one bit
+  EXPECT_EQ(summaryOf(Transcript::Ask::state, b),  // q differs in one bit
             "replay: question 1 is not the one that was recorded");
 }
 

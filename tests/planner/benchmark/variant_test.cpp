@@ -70,7 +70,7 @@ TEST(Variant, APeerSamples) {
   EXPECT_FALSE(readVariant("discrete:0.1", peers).peer);
 }
 
-TEST(Variant, BadOnesAreToldInOneLine) {
+TEST(Variant, BadOnesAreReportedInOneLine) {
   const std::string names = joined(problemChoices().at("checker.edges"));
   EXPECT_EQ(complaintOf("certifed"),
             "--variants: unknown variant \"certifed\" (did you mean "

@@ -120,7 +120,7 @@ TEST(ModelBuilder, RigidBodiesInMemory) {
   EXPECT_FALSE(checker.certifiedState(at(2.5))) << "out of bounds";
 }
 
-TEST(ModelBuilder, TellsAllFaultsAtOnce) {
+TEST(ModelBuilder, ReportsAllFaultsAtOnce) {
   ModelBuilder builder;
   builder.addRobot("none.urdf")
       .addRigidBody("a", JointType::planar, {}, {Vec3(1, 0, 0), Vec3(0, 1, 0)})

@@ -145,7 +145,7 @@ TEST_F(ArmProblem, ABareUrdfWillDo) {
   EXPECT_EQ(p.model.bodies.size(), 5u) << "and no world";
 }
 
-TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndTold) {
+TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndReported) {
   const Problem p =
       read(armHead + "start: {pan: 0, lift: 3.1416}\ngoal: {pan: 4, lift: -3.14159}\n");
   EXPECT_EQ(p.task.start, numbers({0, 3.14159}));

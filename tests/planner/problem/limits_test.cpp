@@ -28,13 +28,13 @@ class Limits : public ProblemTest {
 };
 
 TEST_F(Limits, YamlDepth) {
-  const std::string told =
+  const std::string message =
       ":1: has lists and maps nested more than 64 deep; no valid file needs more";
   EXPECT_EQ(complaintOfYaml(repeated("[", 64) + repeated("]", 64)), "no complaint");
   for (const std::size_t depth : {std::size_t{65}, std::size_t{100'000}}) {
-    EXPECT_EQ(complaintOfYaml(repeated("[", depth) + repeated("]", depth)), "a.yaml" + told);
-    EXPECT_EQ(complaintOfYaml(repeated("{a: ", depth) + repeated("}", depth)), "a.yaml" + told);
-    EXPECT_EQ(complaintOfYaml(repeated("- ", depth) + "1\n"), "a.yaml" + told);
+    EXPECT_EQ(complaintOfYaml(repeated("[", depth) + repeated("]", depth)), "a.yaml" + message);
+    EXPECT_EQ(complaintOfYaml(repeated("{a: ", depth) + repeated("}", depth)), "a.yaml" + message);
+    EXPECT_EQ(complaintOfYaml(repeated("- ", depth) + "1\n"), "a.yaml" + message);
   }
   std::string blocks;
   for (std::size_t i = 0; i < 1000; ++i) blocks += std::string(i, ' ') + "a:\n";
@@ -49,9 +49,10 @@ TEST_F(Limits, YamlNodes) {
   const YamlLimits limits{1000, 64};
   EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 999), limits),
             "no complaint");  // the list counts, too
-  const std::string told = ": has more than 1000 keys and values; split the file";
-  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 1000), limits), "a.yaml:1000" + told);
-  EXPECT_EQ(complaintOfYaml(repeated("- a: {b: \n    []}\n", 1000), limits), "a.yaml:400" + told);
+  const std::string message = ": has more than 1000 keys and values; split the file";
+  EXPECT_EQ(complaintOfYaml(repeated("- 1\n", 1000), limits), "a.yaml:1000" + message);
+  EXPECT_EQ(complaintOfYaml(repeated("- a: {b: \n    []}\n", 1000), limits),
+            "a.yaml:400" + message);
 }
 
 /// Nine lists, each of ten aliases of the list before: expanded, they would have 10^9 values.
@@ -83,9 +84,10 @@ TEST_F(Limits, YamlKeys) {
 TEST_F(Limits, FaultsAreListedUpToAThousand) {
   std::string text = head + poses;
   for (int i = 0; i < 100'000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";
-  const std::string told = complaintOf(text);
-  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1000);
-  EXPECT_THAT(told, HasSubstr("problem.yaml: reading stopped at 1000 faults; there may be more"));
+  const std::string message = complaintOf(text);
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1000);
+  EXPECT_THAT(message,
+              HasSubstr("problem.yaml: reading stopped at 1000 faults; there may be more"));
 }
 
 TEST_F(Limits, Json) {
@@ -104,8 +106,8 @@ TEST_F(Limits, CfgLines) {
               HasSubstr("a.cfg:1: [section] or key = value is needed, not \"xxx"));
   EXPECT_THAT(complaint(write("a.cfg", "[problem]\nrobot = " + std::string(5'000'000, '[') + "\n")),
               HasSubstr("a.cfg:2: robot: "));
-  const std::string told = complaint(write("a.cfg", repeated("x\n", 1'000'000)));
-  EXPECT_THAT(told, HasSubstr("a.cfg: reading stopped at 1000 faults; there may be more"));
+  const std::string message = complaint(write("a.cfg", repeated("x\n", 1'000'000)));
+  EXPECT_THAT(message, HasSubstr("a.cfg: reading stopped at 1000 faults; there may be more"));
 }
 
 TEST_F(Limits, PairsOfBodies) {

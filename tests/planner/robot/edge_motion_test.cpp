@@ -183,8 +183,8 @@ TEST(EdgeMotion, ScrewsAreTheMotion) {
     const auto [t, h] = interval(random);
     const RelativeMotion w = motion.relativeMotion(0, t, h);
     const ReferenceKinematics reference(random.tree, random.space, random.from, random.to);
-    // Screws have no sign. Of the 2^k combinations of signs, the one whose twist is the interval's
-    // must lead to the end.
+    // Screws have no sign. One of the 2^k combinations of signs has the interval's twist. It must
+    // lead to the end.
     const std::size_t k = w.screws.size();
     bool found = false;
     for (std::size_t signs = 0; signs < (std::size_t{1} << k) && !found; ++signs) {

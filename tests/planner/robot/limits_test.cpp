@@ -59,9 +59,9 @@ TEST_F(RobotLimits, Triangles) {
 TEST_F(RobotLimits, Faults) {
   std::string joints;
   for (int i = 0; i < 5'000; ++i) joints += "<joint/>\n";
-  const std::string told = complaintOfParts(link("a") + joints);
-  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1000);
-  EXPECT_THAT(told, testing::EndsWith("more faults"));
+  const std::string message = complaintOfParts(link("a") + joints);
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1000);
+  EXPECT_THAT(message, testing::EndsWith("more faults"));
 }
 
 TEST_F(RobotLimits, Xml) {

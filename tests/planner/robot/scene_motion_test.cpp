@@ -89,22 +89,22 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
       random.makeEdge(std::pow(10.0, random.real(-2, 0.7)));
       motion.set(random.from, random.to);
       const std::uint64_t before = context.counters.poses, beforeAlone = other.counters.poses;
-      const MotionResult told = scene.certify(motion, options, context);
+      const MotionResult answer = scene.certify(motion, options, context);
       const MotionResult byPairs = certifyMotion(motion, alone, options, other);
       poses += context.counters.poses - before;
       posesAlone += other.counters.poses - beforeAlone;
-      undecided += told.verdict == MotionVerdict::undecided;
-      if (told.verdict == MotionVerdict::undecided || byPairs.verdict == MotionVerdict::undecided)
+      undecided += answer.verdict == MotionVerdict::undecided;
+      if (answer.verdict == MotionVerdict::undecided || byPairs.verdict == MotionVerdict::undecided)
         continue;
-      ASSERT_EQ(told.verdict, byPairs.verdict) << n << ", edge " << k;
-      free += told.verdict == MotionVerdict::free;
-      contact += told.verdict == MotionVerdict::contact;
-      if (told.verdict == MotionVerdict::contact && options.earliest) {
+      ASSERT_EQ(answer.verdict, byPairs.verdict) << n << ", edge " << k;
+      free += answer.verdict == MotionVerdict::free;
+      contact += answer.verdict == MotionVerdict::contact;
+      if (answer.verdict == MotionVerdict::contact && options.earliest) {
         // Both brackets contain the first contact.
-        EXPECT_LE(told.certifiedUntil, byPairs.contactTime) << n;
-        EXPECT_LE(byPairs.certifiedUntil, told.contactTime) << n;
+        EXPECT_LE(answer.certifiedUntil, byPairs.contactTime) << n;
+        EXPECT_LE(byPairs.certifiedUntil, answer.contactTime) << n;
       }
-      if (told.verdict != MotionVerdict::free || motion.ambiguous()) continue;
+      if (answer.verdict != MotionVerdict::free || motion.ambiguous()) continue;
       for (const double t : {0.0, 0.17, 0.5, 0.83, 1.0}) {
         for (const MotionPair& pair : alone)
           ASSERT_FALSE(interference(
@@ -142,13 +142,13 @@ TEST(SceneMotion, CertificateHolds) {
     random.makeEdge(std::pow(10.0, random.real(-2, 0.3)));
     motion.set(random.from, random.to);
     MotionCertificate certificate;
-    const MotionResult told = scene.certify(motion, options, context, certificate);
-    ASSERT_EQ(told.verdict, scene.certify(motion, options, context).verdict);
-    if (told.verdict == MotionVerdict::undecided) continue;
-    const double until = told.verdict == MotionVerdict::free ? 1 : told.certifiedUntil;
-    free += told.verdict == MotionVerdict::free;
-    contact += told.verdict == MotionVerdict::contact;
-    EXPECT_EQ(certificate.point_A.has_value(), told.verdict == MotionVerdict::contact);
+    const MotionResult answer = scene.certify(motion, options, context, certificate);
+    ASSERT_EQ(answer.verdict, scene.certify(motion, options, context).verdict);
+    if (answer.verdict == MotionVerdict::undecided) continue;
+    const double until = answer.verdict == MotionVerdict::free ? 1 : answer.certifiedUntil;
+    free += answer.verdict == MotionVerdict::free;
+    contact += answer.verdict == MotionVerdict::contact;
+    EXPECT_EQ(certificate.point_A.has_value(), answer.verdict == MotionVerdict::contact);
     intervals += certificate.free.size();
     const auto fault =
         checkCertificate(motion, scene.motionPairs(), options, until, certificate, context);

@@ -94,7 +94,7 @@ TEST_F(SrdfFile, Pairs) {
                                           "tool~r2 SRDF: disable_default_collisions"));
 }
 
-TEST_F(SrdfFile, OfAnotherRobotIsTold) {
+TEST_F(SrdfFile, OfAnotherRobotIsReported) {
   EXPECT_EQ(complaintOfSrdf("", "q"), "no complaint");
   EXPECT_THAT(model_.notes, testing::ElementsAre((folder_ / "r.srdf").string() +
                                                  ":1: is for robot \"q\", and is used for \"r\""));

@@ -100,7 +100,7 @@ TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
   EXPECT_THAT(text, testing::EndsWith("joint \"j100\": " + line));
 }
 
-TEST_F(UrdfFaults, LongCirclesAreToldByTheirFirst) {
+TEST_F(UrdfFaults, LongCirclesAreReportedByTheirFirst) {
   std::string parts = link("l0");
   for (int i = 0; i < 40; ++i) {
     parts += link("l" + std::to_string(i + 1));

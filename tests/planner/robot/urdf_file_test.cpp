@@ -86,15 +86,15 @@ TEST_F(UrdfFile, AMimicsLimitsNarrowTheRangeOfTheJointThatItFollows) {
       text += "; " + note.substr(folder_.string().size() + 1);
     return text;
   };
-  const std::string told = "; r.urdf:7: joint \"pan\": its range is reduced from ";
+  const std::string message = "; r.urdf:7: joint \"pan\": its range is reduced from ";
   const std::string why = ", because \"tilt\" mimics it and has the range ";
   EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", ""), "-1.000000 to 2.000000");
   EXPECT_EQ(range("revolute", R"(lower="0" upper="3")", R"(multiplier="2" offset="1")"),
-            "-0.500000 to 1.000000" + told + "[-1, 2] to [-0.5, 1]" + why + "[0, 3]");
+            "-0.500000 to 1.000000" + message + "[-1, 2] to [-0.5, 1]" + why + "[0, 3]");
   EXPECT_EQ(range("revolute", R"(lower="0" upper="0.5")", R"(multiplier="-1")"),
-            "-0.500000 to 0.000000" + told + "[-1, 2] to [-0.5, 0]" + why + "[0, 0.5]");
+            "-0.500000 to 0.000000" + message + "[-1, 2] to [-0.5, 0]" + why + "[0, 0.5]");
   EXPECT_EQ(range("continuous", R"(lower="-2" upper="8")", R"(multiplier="2")"),
-            "-1.000000 to 3.141593" + told +
+            "-1.000000 to 3.141593" + message +
                 "[-3.141592653589793, 3.141592653589793] to [-1, 3.141592653589793]" + why +
                 "[-2, 8]");
   EXPECT_EQ(range("continuous", R"(lower="-4" upper="4")", ""), "-inf to inf");
@@ -176,7 +176,7 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
-TEST_F(UrdfFile, WhatIsUnknownAndHasNoGeometryIsIgnoredAndTold) {
+TEST_F(UrdfFile, WhatIsUnknownAndHasNoGeometryIsIgnoredAndReported) {
   const RobotModel model = modelOf(
       "<gazebo reference=\"a\"><x/></gazebo>\n<transmission name=\"t\"/>\n" +
       link("a",

@@ -297,12 +297,12 @@ TEST(Solve, AdviceForAStartInContactHolds) {
     const std::string complaint = complaintOf(problem);
     const auto at = complaint.find("away: at: [");
     ASSERT_NE(at, complaint.npos) << complaint;
-    Vec3 told;
-    ASSERT_EQ(std::sscanf(complaint.c_str() + at, "away: at: [%lf, %lf, %lf]", &told[0], &told[1],
-                          &told[2]),
+    Vec3 suggested;
+    ASSERT_EQ(std::sscanf(complaint.c_str() + at, "away: at: [%lf, %lf, %lf]", &suggested[0],
+                          &suggested[1], &suggested[2]),
               3)
         << complaint;
-    problem.task.start.head(3) = told;
+    problem.task.start.head(3) = suggested;
     EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved) << complaint;
   }
 }
@@ -410,7 +410,7 @@ TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
   }
 }
 
-TEST(Arm, TreesGrowByAShareOfATurnUnlessToldOtherwise) {
+TEST(Arm, TreesGrowByAShareOfATurnUnlessTheProblemSaysOtherwise) {
   Problem problem = armProblem();
   problem.settings.simplify = false;
   problem.settings.planner.stopAtFirst = true;
@@ -427,7 +427,7 @@ TEST(Arm, TreesGrowByAShareOfATurnUnlessToldOtherwise) {
   EXPECT_NE(own, path("0"));
 }
 
-TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreTold) {
+TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreReported) {
   Problem problem = armProblem();
   problem.task.goals = {Vec3(std::numbers::pi / 4, 0, 0), Vec3(2, -0.5, 0.3), Vec3(-2, 0, 0)};
   const SolveReport report = solveProblem(problem);

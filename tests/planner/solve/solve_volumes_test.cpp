@@ -18,24 +18,24 @@ TEST_P(SolveOnVolumes, PathsAreFoundAndProved) {
   Problem problem = hallProblem(GetParam());
   const SolveReport usual = solveProblem(problem);
   const auto solved = [&](const std::string& edges, const TreeNames& words,
-                          const std::string& told) {
+                          const std::string& checkerText) {
     problem.settings.checker.edges = choiceNamed<EdgeCheck>(edges).value();
     problem.settings.checker.resolution = 0.001;
     problem.settings.checker.trees.volume = words.volume;
     problem.settings.checker.trees.fit = words.fit;
     problem.settings.checker.trees.overlap = words.overlap;
     const SolveReport report = solveProblem(problem);
-    ASSERT_EQ(report.outcome, SolveOutcome::solved) << told << ": " << report.why;
-    EXPECT_EQ(report.checker, told);
-    EXPECT_NE(report.counters.boxTests, usual.counters.boxTests) << told;
+    ASSERT_EQ(report.outcome, SolveOutcome::solved) << checkerText << ": " << report.why;
+    EXPECT_EQ(report.checker, checkerText);
+    EXPECT_NE(report.counters.boxTests, usual.counters.boxTests) << checkerText;
     const Solution solution = makeSolution(problem, report);
-    EXPECT_EQ(solution.checker, told);
+    EXPECT_EQ(solution.checker, checkerText);
     if (edges == "discrete") return;  // such a path may step over the wall
-    EXPECT_TRUE(report.certified) << told;
-    EXPECT_EQ(verifySolution(problem, solution).verdict, PathVerdict::proved) << told;
+    EXPECT_TRUE(report.certified) << checkerText;
+    EXPECT_EQ(verifySolution(problem, solution).verdict, PathVerdict::proved) << checkerText;
     if (edges != "certified") return;
     EXPECT_EQ(report.path, usual.path)
-        << told << ": the path differs, though verdicts must not depend on the trees";
+        << checkerText << ": the path differs, though verdicts must not depend on the trees";
   };
   solved("certified", {"sphere", "", ""}, "certified, sphere");
   solved("certified", {"kdop26", "", ""}, "certified, kdop26");

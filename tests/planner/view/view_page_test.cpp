@@ -274,7 +274,7 @@ TEST(ViewPage, BoxesHoldTheirMeshOnEveryLevel) {
   EXPECT_GE(levels, 4U);
 }
 
-TEST(ViewPage, WhatIsSkippedIsTold) {
+TEST(ViewPage, WhatIsSkippedIsReported) {
   const Problem problem = ownProblem("arm_at_shelf");
   const PageReader page(viewPage(problem, std::nullopt));
   std::size_t skipped = 0, tested = 0;

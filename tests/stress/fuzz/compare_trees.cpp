@@ -90,11 +90,11 @@ void compare(const Case& c, double asked) {
   const double band = meshes ? 0 : 0x1p-42 * S;
   const auto error = [&](double d) { return 1e-12 * d + 4 * 0x1p-53 * S + band + 0x1p-998; };
 
-  struct Told {
+  struct TouchAndDistance {
     bool touch;
     double distance;
   };
-  std::vector<Told> told;
+  std::vector<TouchAndDistance> byKind;
   QueryContext context;  // one for all queries: what it remembers must not change an answer
   for (const Kind& kind : everyKind()) {
     const bool touch =
@@ -114,8 +114,8 @@ void compare(const Case& c, double asked) {
     if (back != touch && d.distance > band)
       fail(kind.name + ": contact is " + std::to_string(touch) + ", the other way round " +
            std::to_string(back));
-    told.push_back({touch, d.distance});
-    const Told& first = told.front();
+    byKind.push_back({touch, d.distance});
+    const TouchAndDistance& first = byKind.front();
     const std::string both = everyKind().front().name + " and " + kind.name;
     if (touch != first.touch && std::max(first.distance, d.distance) > band)
       fail(both + ": contact is " + std::to_string(first.touch) + " and " + std::to_string(touch) +
@@ -129,7 +129,7 @@ void compare(const Case& c, double asked) {
       fail(kind.name + ": distance " + number(d.distance) + ", with a quarter allowed " +
            number(rough));
   }
-  const double d = told.front().distance;
+  const double d = byKind.front().distance;
   for (const double x : {asked, d, d * (1 + 1e-9), d * (1 - 1e-9), 0.5 * d}) {
     if (!std::isfinite(x)) continue;
     for (const Kind& kind : everyKind()) {
