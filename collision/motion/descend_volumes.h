@@ -9,8 +9,8 @@ namespace corridor {
 /// form is in descend.cpp. The steps for a node pair in a time interval:
 ///
 /// 1. At the interval's middle the two volumes are tested with a pad: the margin, plus the motion
-/// bound of b's volume *in any direction*, with tube and rounding. If they are separated,
-/// everything below them is separated in all of the interval.
+///    bound of b's volume *in any direction*, with tube and rounding. If they are separated,
+///    everything below them is separated in all of the interval.
 /// 2. Otherwise time is split if b's volume moves far, compared to the size of the larger volume.
 ///    The node pair is then left to the interval's halves.
 /// 3. Otherwise space is split: the larger volume is opened (`traverse`).

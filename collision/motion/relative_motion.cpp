@@ -48,7 +48,7 @@
 ///   Therefore ½ r (δ² − |angular|²) ≤ r·amount·e, which is the term added.
 ///
 /// Tube.
-///  x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1),
+///   x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1),
 /// where the joints after j are nominal. A bracket is at most |ε_j| times the distance of z_(j+1)
 /// from axis j, which is again at most r̄_j (1 for translations). At the middle D = 0, so the tube
 /// adds r_j τ_j there, where τ_j is the joint's `tube`. This term goes to `pad`. The rest, D_(j+1)

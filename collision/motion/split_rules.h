@@ -36,7 +36,7 @@ struct SplitRules {
   /// If only the verdict is requested, this many levels of halving are walked level by level. A
   /// contact anywhere is then found early.
   static constexpr int kFirstLevels = 4;
-  /// At this many levels below the whole motion, the remaining pairs are tested for contact at the
+  /// On this many levels below the whole motion, the remaining pairs are tested for contact at the
   /// middles of the intervals. Measured on the edges that plans test: one more level costs more
   /// time than it saves.
   static constexpr int kSampledLevels = 2;
