@@ -40,8 +40,8 @@ struct Body::Impl {
   mutable MeshComponents components;
 };
 
-/// Extends the bounds to spheres of radius `grow` about the points that `each` visits. Their
-/// axis-aligned boxes extend `reach` beyond the points.
+/// Extends the bounds so that they contain spheres of radius `grow` about the points that `each`
+/// visits. The axis-aligned bounds extend `reach` beyond the points instead.
 template <class Each>
 void Body::Bounds::around(const Each& each, double grow, const Vec3& reach) {
   each([&](const Vec3& p) {
@@ -94,8 +94,8 @@ Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) 
   const ConvexPart& p = *impl_->part;
   Vec3 reach = Vec3::Constant(p.radius);
   const Vec3 a = p.flatEnds ? (p.points[1] - p.points[0]).stableNormalized() : Vec3(Vec3::Zero());
-  // A disc of normal a reaches √(1 − a_i²) of its radius along coordinate axis i. If rounding has
-  // left no axis, all of the radius counts (as in `ConvexSet`).
+  // Along coordinate axis i, a disc of normal a reaches √(1 − a_i²) times its radius. If rounding
+  // leaves no usable normal, the whole radius is taken (as in `ConvexSet`).
   if (std::abs(a.norm() - 1) < 0x1p-20) {
     for (int i = 0; i < 3; ++i)
       reach[i] *= std::min(1.0, std::hypot(a[(i + 1) % 3], a[(i + 2) % 3]) + 16 * kUnit);

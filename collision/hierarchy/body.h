@@ -12,33 +12,33 @@
 
 namespace corridor {
 
-/// A named shape, a mesh or a convex primitive, in the coordinates of the frame that it is fixed
-/// to. Its trees are built when a query first needs them; this is thread-safe. Immutable otherwise.
+/// A named mesh or convex part, in the coordinates of the frame that it is fixed to. Each tree is
+/// built when a query first needs it; this is thread-safe. Otherwise a body is immutable.
 class Body {
  public:
-  /// A mesh: its surface, or with `solid` also all that it encloses.
+  /// A mesh: its surface, or with `solid` also everything that it encloses.
   /// @throws std::invalid_argument if the mesh has no triangle, if `checkMesh` finds a fault, or if
-  /// it shall be solid and has a component that isn't watertight.
+  /// `solid` is set and a component isn't watertight.
   Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
-  /// A solid primitive (`checkPrimitive` finds faults of one).
-  /// @throws std::invalid_argument if it has no point, or one that is not finite; if its radius is
-  /// negative or not finite; or if it has flat ends and not two points.
+  /// A convex part, which is solid. (`checkPrimitive` checks a primitive before it is made a part.)
+  /// @throws std::invalid_argument if the part has no point, or a point that is not finite; if its
+  /// radius is negative or not finite; or if it has flat ends and not exactly two points.
   Body(std::string name, ConvexPart part);
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
 
   const std::string& name() const;
-  const TriangleMesh& mesh() const;  ///< empty for a primitive
+  const TriangleMesh& mesh() const;  ///< empty for a convex part
   const ConvexPart* part() const;    ///< null for a mesh
-  bool solid() const;                ///< true for primitives
-  const Obb4Tree& tree() const;      ///< builds it if necessary
-  /// Returns the binary tree of one kind of volume; builds it if necessary.
+  bool solid() const;                ///< true for convex parts
+  const Obb4Tree& tree() const;      ///< builds the tree if necessary
+  /// Returns the binary tree of one kind of volume. Builds it if necessary.
   template <BoundingVolume Volume>
   const VolumeTree<Volume>& volumeTree() const;
   /// The binary OBB tree, for queries that have no 4-wide variant.
   const ObbTree& binaryTree() const { return volumeTree<Obb>(); }
-  const MeshComponents& components() const;  ///< mesh only; finds them at the first call
+  const MeshComponents& components() const;  ///< only for a mesh; found at the first call
   bool treeBuilt() const;                    ///< true if any tree has been built
   /// Largest distance of a point from the frame's origin, metres, rounded up.
   double radius() const { return bounds_.radius; }
@@ -47,7 +47,8 @@ class Body {
   double sphereRadius() const { return bounds_.sphereRadius; }
   const Vec3& lower() const { return bounds_.lower; }  ///< axis-aligned bounds
   const Vec3& upper() const { return bounds_.upper; }
-  /// The sum of the bounds' magnitudes, metres: differences with the bounds round relative to it.
+  /// The sum of the magnitudes of all bounds, metres. The rounding of differences with the bounds
+  /// is proportional to it.
   double boundTerms() const { return bounds_.terms; }
 
  private:

@@ -26,7 +26,7 @@ double halfSurface(const Extent& e) {
   return s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
 }
 
-std::uint64_t spread(std::uint64_t x) {  // spreads 21 bits: two zeros between any two of them
+std::uint64_t spread(std::uint64_t x) {  // inserts two zeros between adjacent bits, for 21 bits
   x = (x | x << 32) & 0x1f00000000ffff;
   x = (x | x << 16) & 0x1f0000ff0000ff;
   x = (x | x << 8) & 0x100f00f00f00f00f;
@@ -59,7 +59,8 @@ std::vector<Cluster> clustered(std::span<const Obb> boxes) {
     low = low.cwiseMin(box.center - box.half);
     high = high.cwiseMax(box.center + box.half);
   }
-  // Coordinates are in units of the whole size, so that surfaces neither overflow nor underflow.
+  // Coordinates are in units of the size of all boxes together, so that surfaces neither overflow
+  // nor underflow.
   const double size = (high - low).maxCoeff();
   const double unit = size > 0 && size < HUGE_VAL ? size : 1;
 
@@ -79,8 +80,8 @@ std::vector<Cluster> clustered(std::span<const Obb> boxes) {
     chosen.assign(n, 0);
     std::size_t merges = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      // Ties go to the least i xor k. Both clusters of a pair then choose alike, and in a chain of
-      // equal ones none has to wait for another.
+      // Ties go to the least i xor k. The two clusters of a pair then choose each other, and no
+      // cluster in a chain of equal clusters has to wait for another.
       auto best = std::tuple(std::numeric_limits<double>::infinity(), n * 2, i);
       for (std::size_t k = i > kSearch ? i - kSearch : 0; k < std::min(n, i + kSearch + 1); ++k)
         if (k != i)

@@ -11,7 +11,7 @@
 #include "collision/volumes/obb.h"
 #include "collision/volumes/rss.h"
 
-/// Volumes as rational sets, with which `VolumeTree::check` proves containment.
+/// Volumes as rational sets. With them `check()` of the trees proves containment.
 namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -30,8 +30,8 @@ inline Row minus(const Row& a, const Row& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// Each specialisation has `contains(p, r)`, true if the solid sphere of radius r about p is
-/// inside.
+/// Each specialisation has `contains(p, r)`. It returns true if the solid sphere of radius r about
+/// p is proved to be inside the volume.
 template <class Volume>
 class ExactVolume;
 
@@ -46,9 +46,10 @@ class ExactVolume<Obb> {
     volume_ = abs(dot(u_[0], crosses_[0]));
   }
   bool contains(const Row& p, const Rational& radius) const { return contains(p, radius, {}); }
-  /// The same for a disc orthogonal to `axis` instead of the sphere, if `axis` is not zero. Along
-  /// coordinate i a sphere reaches r|g_i| and a disc r|g_i × d|/|d| farther, where d is the axis
-  /// and g_i = crosses_i/volume is row i of U⁻¹. Squared, these conditions are rational.
+  /// The same for a disc orthogonal to `axis` instead of the sphere, if `axis` is not zero. Let d
+  /// be the axis, and g_i = crosses_i/volume, which is row i of U⁻¹. Along coordinate i of the box
+  /// a sphere extends r|g_i| from its centre, and a disc r|g_i × d|/|d|. The squares of these
+  /// conditions are rational.
   bool contains(const Row& p, const Rational& radius, const Row& axis) const {
     const Row d = minus(p, center_);
     for (int k = 0; k < 3; ++k) {
@@ -63,7 +64,7 @@ class ExactVolume<Obb> {
     }
     return volume_ > 0;
   }
-  /// The eight corners: a convex set that contains them contains the box.
+  /// Returns the eight corners. A convex set that contains them contains the box.
   std::array<Row, 8> corners() const {
     std::array<Row, 8> all;
     for (int i = 0; i < 8; ++i) {
@@ -110,7 +111,8 @@ class ExactVolume<BoundingSphere> {
   Rational radius_;
 };
 
-/// Tests slab by slab. A sphere reaches r|n| along n; the test is squared, so that it is rational.
+/// Tests each slab. A sphere extends r|n| from its centre along n. The test compares squares, which
+/// are rational.
 template <int K>
 class ExactVolume<Kdop<K>> {
  public:
@@ -135,8 +137,9 @@ class ExactVolume<Kdop<K>> {
   std::array<Rational, K / 2> low_, high_;
 };
 
-/// Proves containment by a witness: a point of the rectangle that is near enough to p. Only one is
-/// tried, the closest point as computed in double.
+/// Proves containment by a witness: a point of the rectangle that is near enough to p. The only
+/// candidate is the closest point as computed in double, so the proof may fail for a sphere that is
+/// inside.
 template <>
 class ExactVolume<Rss> {
  public:

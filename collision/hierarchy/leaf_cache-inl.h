@@ -21,9 +21,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// A cache of the corners of a tree's leaves under x ↦ matrix·(p − origin) + offset, for the nodes
-/// that were requested most recently. All leaves of a node are kept as floats relative to a corner
-/// of one of them. So they are off by 2^-24 of the node's size, not of the mesh's.
+/// A cache of the corners of a tree's leaves, mapped by x ↦ matrix·(x − origin) + offset, for the
+/// nodes that were requested most recently. The corners of a node's leaves are floats relative to
+/// one of these corners. Their rounding is therefore 2^-24 of the node's size, not of the mesh's
+/// size.
 class LeafCache {
  public:
   LeafCache(const Obb4Tree& tree, const Mat3& matrix, const Vec3& offset) : tree_(tree) {
@@ -32,7 +33,7 @@ class LeafCache {
     std::fill_n(held_, kSize, Obb4Tree::kNone);
   }
 
-  /// Returns the corners of the leaves in these lanes of a node (one bit each): the i-th triangle
+  /// Returns the corners of the leaves in these lanes of a node (one bit each). The i-th triangle
   /// of a lane is at index 4·lane + i. All other entries are unspecified.
   const TriangleCorners& get(const Obb4Tree::Node& node, unsigned lanes) {
     const auto number = static_cast<std::uint32_t>(&node - tree_.nodes().data());
@@ -51,7 +52,8 @@ class LeafCache {
     TriangleCorners& corners = corners_[slot];
     const std::uint32_t first = Obb4Tree::leafFirst(node.child[lane]),
                         count = Obb4Tree::leafCount(node.child[lane]);
-    // One point at a time, its coordinates side by side: most leaves have one or two triangles.
+    // Maps one point at a time: its coordinates are the lanes of one vector. (Several points at a
+    // time would leave most lanes empty, since most leaves have one or two triangles.)
     const hn::CappedTag<double, 4> d;
     const hn::Rebind<float, decltype(d)> f;
     const Vec3& o = tree_.origin();

@@ -7,9 +7,9 @@
 
 namespace corridor {
 
-/// A pair of nodes of 4-wide trees. `pairs` selects the pairs of their boxes to test: bit 4·i + j
-/// for the i-th box of a and the j-th of b. `key` is the least key of these pairs, by which a
-/// traversal orders them. For binary trees only `a` and `b` have a meaning.
+/// A pair of nodes of two 4-wide trees. `pairs` selects the pairs of their boxes to test: bit 4·i +
+/// j stands for box i of a and box j of b. `key` is the least key of these pairs of boxes; a
+/// traversal sorts node pairs by it. For binary trees only `a` and `b` are used.
 struct NodePair4 {
   std::uint32_t a, b;
   float key;
@@ -19,7 +19,7 @@ struct NodePair4 {
 /// The start of a traversal of two whole trees: the pair of both roots.
 inline constexpr std::array<NodePair4, 1> kWholeTrees = {{{0, 0, -HUGE_VALF, 0xffff}}};
 
-/// The stack of `walkObb4`. It only grows, so that a traversal need not clear it.
+/// The stack of `walkObb4`. It is never shrunk or cleared, so that traversals reuse its memory.
 struct Obb4Stack {
   std::vector<NodePair4> items;
 };

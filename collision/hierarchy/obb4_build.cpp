@@ -22,12 +22,12 @@ HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
 constexpr std::uint32_t kWidth = Obb4Tree::kWidth;
-/// A leaf of several triangles has a flat box: its thinnest side is below this share of the middle
-/// one. The value is measured.
+/// If a leaf has several triangles, its box must be flat: its thinnest side is below this share of
+/// the middle side. The value is measured.
 constexpr float kFlat = 0.6F;
-/// The number of triangles up to which one thread builds all of a piece, level by level. Large
-/// enough that axes are found for eight clusters at a time; small enough that all of it stays in a
-/// core's caches.
+/// A cluster of at most this many triangles is one piece: one thread builds all nodes below it,
+/// level by level. The number is large enough to find axes for eight clusters at a time, and small
+/// enough for a core's caches.
 constexpr std::uint32_t kPiece = 1024;
 
 /// Triangles [first, first + count) with their mean and axes.
@@ -35,24 +35,24 @@ struct Cluster {
   std::uint32_t first = 0, count = 0;
   float mean[3] = {};
   float axes[3][3] = {};  // [j][k]: component k of axis j, largest variance first
-  float size = 0;         // trace of the summed second moments: what a split would gain
+  float size = 0;         // trace of the summed second moments; the largest cluster is split first
 };
 using Parts = std::array<Cluster, kWidth>;
 
 /// A piece of the tree: either one node with the pieces below it, or all nodes below a cluster.
-/// Nodes are depth first; children are numbered within the piece.
+/// Nodes are depth first. Children are numbered within the piece.
 struct Piece {
   std::vector<Obb4Tree::Node> nodes;
   std::array<std::unique_ptr<Piece>, kWidth> below;
   std::uint32_t at = 0;  // number of its first node in the tree
 };
 
-/// Returns true for an inner node: not for a leaf, nor for an empty lane.
+/// Reports whether a child is an inner node, and not a leaf or an empty lane.
 bool isNode(std::uint32_t child) {
   return !Obb4Tree::isLeaf(child);
 }
 
-/// The data that all threads read, and the columns, of which each thread reorders its own range.
+/// Data that all threads read, and the records, of which each thread reorders its own range.
 struct Shared {
   const TriangleMesh& mesh;
   ObbFit fit;
@@ -61,8 +61,8 @@ struct Shared {
   PrimitiveReferences records;
 };
 
-/// Sets origin and unit: the middle of the bounds, and the power of two that brings all points into
-/// [−1, 1].
+/// Sets the tree's origin and unit. The origin is the middle of the bounds. The unit is the power
+/// of two that brings all points into [−1, 1].
 void place(const TriangleMesh& mesh, unsigned threads, Obb4Layout& tree) {
   Vec3 lower = mesh.corner(0, 0), upper = lower;
   std::mutex mutex;
@@ -81,8 +81,8 @@ void place(const TriangleMesh& mesh, unsigned threads, Obb4Layout& tree) {
   });
   tree.origin = 0.5 * lower + 0.5 * upper;
   const double size = std::max((upper - tree.origin).maxCoeff(), (tree.origin - lower).maxCoeff());
-  // Above 2^1000 m not all points are in [−1, 1], and boxes may be too small. No query uses such
-  // boxes (Obb4TreePose).
+  // Above 2^1000 m some points are outside [−1, 1], and boxes may be too small. No query uses such
+  // boxes (`Obb4TreePose`).
   const bool usable = size > 0 && std::isfinite(size);
   tree.length = usable ? std::ldexp(1.0, std::clamp(std::ilogb(size) + 1, -1000, 1000)) : 1;
 }
@@ -126,7 +126,8 @@ double record(Shared& shared, std::size_t begin, std::size_t end) {
                              hn::Sqrt(add3(hn::Mul(nx, nx), hn::Mul(ny, ny), hn::Mul(nz, nz))));
       const V weight = byVertices ? hn::Set(d, 1.0) : area;
       hn::StoreU(hn::DemoteTo(f, weight), f, columns[PrimitiveReferences::kWeight] + at);
-      // Second moments of a triangle's area take the factor 1/12, those of its corners alone 1/3.
+      // The second moments of a triangle's area have the factor 1/12, those of its corners alone
+      // 1/3.
       const V share = hn::Mul(weight, hn::Set(d, byVertices ? 1.0 / 3 : 1.0 / 12));
       int column = PrimitiveReferences::kXX;
       for (int k = 0; k < 3; ++k)
@@ -155,8 +156,8 @@ class Worker {
 
   explicit Worker(Shared& shared) : shared_(shared), spare_(0) {}
 
-  /// Builds a piece. If the cluster is large, builds only one node, and appends the tasks below it
-  /// to `more`.
+  /// Builds a piece. If the cluster is too large for one piece, builds only its first node, and
+  /// appends the tasks below that node to `more`.
   void operator()(const Task& task, std::vector<Task>& more) {
     wholes_ = {task.cluster};
     nodes_.clear();
@@ -192,8 +193,8 @@ class Worker {
     fitAll();
   }
 
-  /// Sets the smallest box with the cluster's axes, rounded outward: it contains the triangles in
-  /// real arithmetic.
+  /// Sets a lane of the node to the smallest box with the cluster's axes, rounded outward. The box
+  /// contains the triangles in real arithmetic.
   void setBox(Obb4Tree::Node& node, std::uint32_t lane, const Cluster& cluster) const {
     const auto& u = cluster.axes;
     alignas(32) double low[4], high[4];
@@ -207,39 +208,42 @@ class Worker {
       const double c = u[j][0] * center[0] + u[j][1] * center[1] + u[j][2] * center[2];
       reach[j] = std::max(high[j] - c, c - low[j]);
     }
-    // The box needs U⁻¹d with d = x − center. Known is y = Uᵀd up to rounding. As in
-    // `enclosingObb`, |U⁻¹d − Uᵀd| ≤ η·Σ|y|/(1 − 3η) per component, η ≤ 2.1·2^-24 (obb4.h).
-    // Rounding: y and c are sums of three products of numbers ≤ 1 and ≤ √3, and x itself has two
-    // roundings. Together that is under 16u of double. A power of two's scaling that underflows
-    // loses less than 2^-1000.
+    // The half extents must bound U⁻¹d with d = x − center. The code computes y = Uᵀd, which
+    // differs from it in two ways:
+    // * As in `enclosingObb`, |U⁻¹d − Uᵀd| ≤ η·Σ|y|/(1 − 3η) per component, η ≤ 2.1·2^-24 (obb4.h).
+    // * y and c are rounded sums of three products of numbers ≤ 1 and ≤ √3, and x itself has two
+    //   roundings. Together this is below 16u of double.
+    // The last term of the pad covers flush-to-zero: a difference from the origin that is flushed
+    // loses less than 2^-1022 m.
     const double pad = 2 * 2.1 * 0x1p-24 * (reach[0] + reach[1] + reach[2]) + 32 * kUnit +
                        0x1p-1020 * shared_.scale;
-    // The longest side comes first, so that one number gives the size of a box.
+    // The longest side comes first, so that this side alone gives the size of a box.
     int order[3] = {0, 1, 2};
     if (reach[order[0]] < reach[order[1]]) std::swap(order[0], order[1]);
     if (reach[order[1]] < reach[order[2]]) std::swap(order[1], order[2]);
     if (reach[order[0]] < reach[order[1]]) std::swap(order[0], order[1]);
     for (int j = 0; j < 3; ++j) {
       node.vectors[j][Obb4::kCenter][lane] = static_cast<float>(center[j]);
-      // Rounded up to a float: half an ulp is at most 2^-24 of the value, which is no denormal.
+      // The factor rounds up to a float: half an ulp is at most 2^-24 of the value, which is not
+      // subnormal.
       node.half[j][lane] = static_cast<float>((reach[order[j]] + pad) * (1 + 0x1p-23));
       for (int k = 0; k < 3; ++k) node.vectors[k][j][lane] = u[order[j]][k];
     }
   }
 
  private:
-  /// Divides each of `wholes_` into at most four clusters and finds their axes. Each step splits
-  /// the largest cluster that is too large for a leaf.
+  /// Divides each cluster of `wholes_` into at most four clusters and finds their axes. Each step
+  /// splits the largest of them that is too large for a leaf.
   void divide() {
     parts_.assign(wholes_.size(), {});
     for (std::size_t i = 0; i < wholes_.size(); ++i) parts_[i][0] = wholes_[i];
     for (std::uint32_t count = 1; count < kWidth; ++count) {
       fits_.clear();
       for (Parts& parts : parts_) {
-        // The last split found nothing to divide, so this one would not either.
+        // The last step found nothing to split, so this step would find nothing either.
         if (parts[count - 1].count == 0) continue;
-        // A lane that would stay empty costs nothing: then clusters small enough for leaves are
-        // split, too.
+        // If all clusters are small enough for leaves, they are split further. The lanes would
+        // otherwise stay empty, so this costs nothing.
         const bool leavesOnly =
             std::all_of(parts.begin(), parts.begin() + count,
                         [](const Cluster& c) { return c.count <= Obb4Tree::kLeafSize; });
@@ -262,8 +266,9 @@ class Worker {
   }
 
   /// Reorders a cluster so that the triangles below a plane through the mean come first. Returns
-  /// how many. The plane is orthogonal to the longest axis, or to another one if that separates
-  /// nothing. If no axis does, the cluster is cut into halves.
+  /// the number of these triangles. The plane is orthogonal to the axis of largest variance. If
+  /// this plane separates nothing, the other axes are tried. If no axis separates anything, the
+  /// cluster is cut into halves.
   std::uint32_t split(const Cluster& cluster) {
     for (const auto& n : cluster.axes) {
       const float offset = n[0] * cluster.mean[0] + n[1] * cluster.mean[1] + n[2] * cluster.mean[2];
@@ -274,7 +279,7 @@ class Worker {
     return cluster.count / 2;
   }
 
-  /// Computes mean, axes and size of the clusters `fits_`.
+  /// Computes mean, axes and size of all clusters in `fits_`.
   void fitAll() {
     covariances_.resize((fits_.size() + 7) / 8);
     for (std::size_t i = 0; i < fits_.size(); ++i) {
@@ -309,14 +314,14 @@ class Worker {
     }
   }
 
-  /// Returns true for few triangles in a flat box. Triangles around a corner are separated better
-  /// by boxes of their own.
+  /// Reports whether a cluster becomes a leaf: one triangle, or a few in a flat box. Triangles
+  /// around a corner are separated better by boxes of their own.
   static bool isLeaf(const Cluster& cluster, const Obb4Tree::Node& node, std::uint32_t lane) {
     if (cluster.count > Obb4Tree::kLeafSize) return false;
     return cluster.count == 1 || node.half[2][lane] < kFlat * node.half[1][lane];
   }
 
-  /// Computes the least and the largest u_j·x of a cluster's corners.
+  /// Computes the least and the largest u_j·x over the corners of a cluster, for each axis u_j.
   void extents(const Cluster& cluster, double (&low)[4], double (&high)[4]) const {
     const hn::CappedTag<double, 4> d;
     alignas(32) double axes[3][4] = {};
@@ -342,7 +347,7 @@ class Worker {
     }
   }
 
-  /// Copies `nodes_` to `nodes`, depth first.
+  /// Copies `nodes_` to `nodes`, in depth-first order.
   void layDown(std::vector<Obb4Tree::Node>& nodes) const {
     struct Item {
       std::uint32_t node, parent, lane;
@@ -363,7 +368,7 @@ class Worker {
 
   Shared& shared_;
   PrimitiveReferences spare_;
-  std::vector<Obb4Tree::Node> nodes_;  // nodes of a piece, level by level
+  std::vector<Obb4Tree::Node> nodes_;  // the nodes of the current piece, level by level
   std::vector<Cluster> wholes_;
   std::vector<Parts> parts_;
   std::vector<Cluster*> fits_;
@@ -371,7 +376,7 @@ class Worker {
   std::vector<Triangle> triangles_;  // triangles of one cluster
 };
 
-/// Joins a piece and all pieces below into one list, depth first.
+/// Joins a piece and all pieces below it into one list, in depth-first order.
 std::vector<Obb4Tree::Node> join(Piece& root) {
   if (std::none_of(root.below.begin(), root.below.end(), [](const auto& p) { return bool(p); }))
     return std::move(root.nodes);

@@ -4,7 +4,7 @@
 
 namespace corridor {
 
-/// The result of building: everything in an `Obb4Tree` except the mesh itself.
+/// The result of building: all data of an `Obb4Tree` except the mesh.
 struct Obb4Layout {
   Obb1 root;
   std::vector<Obb4Tree::Node> nodes;
@@ -14,8 +14,8 @@ struct Obb4Layout {
   double radius = 0;
 };
 
-/// Returns the layout of the tree over `mesh`. It is the same for any number of threads and any
-/// instruction set.
+/// Returns the layout of the tree over `mesh`. The layout is the same for any number of threads and
+/// any instruction set.
 Obb4Layout layOutObb4(const TriangleMesh& mesh, ObbFit fit, unsigned threads);
 
 }  // namespace corridor

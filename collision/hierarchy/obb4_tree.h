@@ -14,51 +14,54 @@
 
 namespace corridor {
 
-/// The 4-wide OBB tree: the OBBTree of Gottschalk, Lin, Manocha 1996, laid out for SIMD. Nodes have
-/// four oriented boxes in float, tested sixteen pairs at a time. Leaves have at most four
-/// triangles, which are tested in double.
+/// The 4-wide OBB tree: the OBBTree of Gottschalk, Lin, Manocha 1996, laid out for SIMD. A node has
+/// four oriented boxes in float, and sixteen pairs of boxes are tested at a time. A leaf has at
+/// most four triangles. Most pairs of triangles are decided in float, the others in double or
+/// exactly.
 ///
-/// It is a binary top-down tree of which about every second level is kept. Splits are by planes
-/// through the area-weighted mean, orthogonal to the direction of the largest area-weighted
-/// variance. All boxes are in the tree's own frame and unit, x = (p − origin)·2^-unit. So |x_i| ≤ 1
-/// wherever the mesh is, and float's error is 2^-24 of the mesh. For meshes above 2^960 m queries
-/// test all triangles.
+/// The tree is a binary top-down tree of which about every second level is kept. With the default
+/// fit, clusters are split by planes through the area-weighted mean, orthogonal to the direction of
+/// the largest area-weighted variance. All boxes are in the tree's own frame and unit, x = (p −
+/// origin)·2^-unit. Everywhere on the mesh |x_i| ≤ 1, so float's error is 2^-24 of the mesh. For
+/// meshes above 2^960 m no box is used: queries test all triangles.
 ///
-/// Immutable. Keeps a copy of the mesh's vertices, so the mesh need not outlive it.
+/// Immutable. The tree keeps a copy of the mesh's vertices, so the mesh need not outlive it.
 class Obb4Tree {
  public:
   static constexpr int kWidth = 4;                    ///< boxes per node
   static constexpr int kLeafSize = 4;                 ///< largest number of triangles per leaf
   static constexpr std::uint32_t kNone = 0xffffffff;  ///< child of a lane that holds no box
 
-  /// Four boxes in the tree's frame, half_0 the largest, and the child of each.
+  /// Four boxes in the tree's frame, and the child of each. half[0] is a box's largest half extent.
   struct alignas(64) Node : Obb4 {
     std::uint32_t child[kWidth];
   };
   /// The box around the whole tree: queries test it first.
   const Obb1& root() const { return root_; }
-  /// The child of a box is an inner node, or a leaf's range of triangles.
+  /// The child of a box is the number of an inner node, or a leaf: a range of triangles. `isLeaf`
+  /// is also true for `kNone`.
   static bool isLeaf(std::uint32_t child) { return child >> 31 != 0; }
   static std::uint32_t leafFirst(std::uint32_t child) { return (child & 0x7fffffff) >> 2; }
   static std::uint32_t leafCount(std::uint32_t child) { return (child & 3) + 1; }
 
   /// Builds the tree over the triangles of `mesh`. The tree is bit for bit the same for any number
-  /// of threads and on any instruction set. More threads pay from some ten thousand triangles on.
-  /// All have ended when this returns.
+  /// of threads and on any instruction set. More threads save time from some ten thousand triangles
+  /// on. All threads have ended when the constructor returns.
   /// @throws std::invalid_argument if the mesh has no triangle or `checkMesh` finds a fault,
   /// std::length_error for 2^29 − 1 triangles or more.
   explicit Obb4Tree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles, unsigned threads = 1);
-  /// A tree of one box, which holds a convex part: its only leaf primitive, number 0. @pre a sound
-  /// part (`checkPrimitive`).
+  /// A tree of one box, which holds a convex part. The part is its only leaf primitive, number 0.
+  /// @pre The part is valid: it was made of a primitive in which `checkPrimitive` finds no fault.
   explicit Obb4Tree(const ConvexPart& part);
 
   /// Returns the convex part, or null if the leaves hold triangles.
   const ConvexPart* part() const { return part_ ? &*part_ : nullptr; }
 
-  /// Nodes, depth first. Node 0 is the root.
+  /// The nodes, in depth-first order. Node 0 is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
   std::size_t triangleCount() const { return triangles_.size(); }
-  /// The k-th corner of the i-th triangle in leaf order. `meshTriangle` is its number in the mesh.
+  /// Return corner k of the i-th triangle in leaf order, the whole triangle, and its number in the
+  /// mesh.
   const Vec3& corner(std::uint32_t i, int k) const { return vertices_[triangles_[i][k]]; }
   Triangle triangle(std::uint32_t i) const { return {corner(i, 0), corner(i, 1), corner(i, 2)}; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return meshTriangle_[i]; }
@@ -73,9 +76,10 @@ class Obb4Tree {
 
   std::size_t bytes() const;
 
-  /// Proves three invariants in rational arithmetic. Every box contains every triangle below it (or
-  /// the convex part). Each triangle is in exactly one leaf. Every node is the child of one box.
-  /// Returns the first violation.
+  /// Proves these invariants in rational arithmetic. Every box contains every triangle below it (or
+  /// the convex part). Each triangle is in exactly one leaf. Every node except the root is the
+  /// child of exactly one box. Also checks that boxes are as obb4.h assumes. Returns the first
+  /// violation, or nothing.
   std::optional<std::string> check() const;
 
  private:

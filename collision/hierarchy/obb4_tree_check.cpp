@@ -16,7 +16,7 @@ Obb inDouble(const Obb1& floats) {
   return box;
 }
 
-/// Returns the first violation of what obb4.h assumes of a box.
+/// Returns the first violation of the assumptions of obb4.h about a box, or nothing.
 std::optional<std::string> complaintOf(const Obb& box) {
   if (box.half[0] < box.half[1] || box.half[0] < box.half[2])
     return "the first side is not the longest";
@@ -35,7 +35,8 @@ std::optional<std::string> Obb4Tree::check() const {
   using exact::Rational;
   using exact::Row;
   if (part_) {
-    // Proves the part to be inside its enclosing box, and that box inside the node's.
+    // Proves that the part is inside its enclosing box, and that this box is inside the boxes in
+    // float.
     if (auto complaint = VolumeTree<Obb>(*part_).check()) return complaint;
     const exact::ExactVolume<Obb> around(inDouble(boxOf(nodes_[0], 0))), root(inDouble(root_));
     for (Row corner : exact::ExactVolume<Obb>(enclosingObb(*part_)).corners()) {
@@ -53,7 +54,7 @@ std::optional<std::string> Obb4Tree::check() const {
     for (Rational& x : p) x /= unit;
     return p;
   };
-  // Each item is a node with all the boxes above it.
+  // Each item is a node, with all boxes above it.
   std::vector<int> visited(nodes_.size(), 0), seen(triangles_.size(), 0);
   struct Item {
     std::uint32_t node;

@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Three doubles and a zero: in one vector, or in two where vectors are shorter.
+/// Three doubles and a zero, in one vector of four lanes, or in two vectors of two lanes.
 struct Triple {
   using D = hn::CappedTag<double, 4>;
   using V = hn::Vec<D>;
@@ -30,8 +30,8 @@ struct Triple {
     for (std::size_t i = 0; i < kParts; ++i) made.part[i] = each(i);
     return made;
   }
-  /// Loads three doubles from memory. A column that is copied first would be waited for in the
-  /// cache.
+  /// Loads three doubles directly from the matrix. If a column were copied first, the load would
+  /// have to wait for the stores of the copy.
   static HWY_INLINE Triple load(const double* x) {
     if constexpr (kParts == 1) return {hn::MaskedLoad(hn::FirstN(D(), 3), D(), x)};
     return of([&](std::size_t i) {
@@ -39,7 +39,7 @@ struct Triple {
                     : hn::IfThenElseZero(hn::FirstN(D(), 1), hn::Set(D(), x[2]));
     });
   }
-  /// Stores whole vectors: a masked store would be waited for when it is loaded.
+  /// Stores whole vectors. After a masked store, the next load would have to wait for it.
   HWY_INLINE void store(double* four) const {
     for (std::size_t i = 0; i < kParts; ++i) hn::Store(part[i], D(), four + i * kLanes);
   }
@@ -57,7 +57,7 @@ struct Triple {
   friend HWY_INLINE Triple operator*(const Triple& x, double s) {
     return of([&](std::size_t i) { return hn::Mul(x.part[i], hn::Set(D(), s)); });
   }
-  /// Returns x·s + this, rounded once where the target can.
+  /// Returns x·s + this, rounded once if the target has fused multiply-add.
   HWY_INLINE Triple plus(const Triple& x, double s) const {
     return of([&](std::size_t i) { return hn::MulAdd(x.part[i], hn::Set(D(), s), part[i]); });
   }
@@ -109,16 +109,16 @@ struct Columns {
   }
 };
 
-/// Returns a bound of ‖MMᵀ − I‖₂ = ‖MᵀM − I‖₂: the sum of all entries' magnitudes. NaN if an entry
-/// of M is NaN or infinite.
+/// Returns an upper bound of ‖MMᵀ − I‖₂ = ‖MᵀM − I‖₂: the sum of the magnitudes of all entries.
+/// Returns NaN if an entry of M is NaN or infinite.
 HWY_INLINE double defectOf(const Mat3& m, const Columns& columns) {
   static constexpr double kIdentity[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto off = [&](int j) {
     return (columns.times(m(j, 0), m(j, 1), m(j, 2)) - Triple::load(kIdentity[j])).abs();
   };
-  // An entry takes three products, two sums and a difference: 4u·(Σ|m_ik||m_jk| + 1). Σ_ij of the
-  // first is Σ_k(Σ_i|m_ik|)² ≤ 3·Σ|m_ik|² ≤ 9(1 + ν), and of the second 9: below 80u where
-  // ν < 1/10.
+  // An entry takes three products, two sums and a difference, so it is off by 4u·(Σ|m_ik||m_jk| +
+  // 1). Over all entries, the first term adds up to Σ_k(Σ_i|m_ik|)² ≤ 3·Σ|m_ik|² ≤ 9(1 + ν), and
+  // the second to 9. Together: below 80u if ν < 1/10.
   return roundedUp((off(0) + off(1) + off(2)).sum() + 80 * kUnit);
 }
 
@@ -127,25 +127,27 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
   const Columns A(X_WA.m), B(X_WB.m);
   const Vec3 &oA = a.origin(), &oB = b.origin();
   const Triple tA = Triple::load(X_WA.t.data()), tB = Triple::load(X_WB.t.data());
-  // With the trees' origins o: y = M_A⁻¹(M_B x + D), D = M_B o_B + t_B − M_A o_A − t_A. M_Aᵀ
-  // replaces M_A⁻¹: their difference M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹ has a
-  // norm ≤ ν_A/√(1 − ν_A).
+  // With the trees' origins o_A and o_B, y = M_A⁻¹(M_B x + D) and D = M_B o_B + t_B − M_A o_A −
+  // t_A. The code uses M_Aᵀ instead of M_A⁻¹. The difference M_A⁻¹ − M_Aᵀ = (I − M_AᵀM_A) M_A⁻¹ has
+  // a norm ≤ ν_A/√(1 − ν_A).
   const Triple D = tB.plus(B.col[0], oB[0]).plus(B.col[1], oB[1]).plus(B.col[2], oB[2]) -
                    tA.plus(A.col[0], oA[0]).plus(A.col[1], oA[1]).plus(A.col[2], oA[2]);
   const double defectA = defectOf(X_WA.m, A), defectB = defectOf(X_WB.m, B);
   constexpr double kUsable = 0x1p-6;
-  // Maps of larger defect (or NaN) prune nothing. Neither do boxes of meshes above 2^960 m. From
-  // 2^1000 m on, the tree's unit doesn't bring these into [−1, 1]. An entry of m·unitA that is
-  // flushed would move b by 2^-1022·unitA⁻¹ of itself, more than the margins have left.
+  // Nothing is pruned in two cases:
+  // * The defect of a map is larger, or NaN.
+  // * A mesh is above 2^960 m. From 2^1000 m on, the tree's unit doesn't bring the mesh into [−1,
+  //   1]. And if an entry of m·unitA were flushed to zero, a point of b would move by up to
+  //   2^-1022·unitA⁻¹ of its coordinates. The margins don't cover this.
   const bool usable =
       defectA < kUsable && defectB < kUsable && a.length() <= 0x1p960 && b.length() <= 0x1p960;
-  // D has at most five roundings of terms that sum up to `terms` over its coordinates;
-  // |M_ij| ≤ 1.1.
+  // D has at most five roundings per coordinate. `terms` bounds the sum of all terms of its
+  // coordinates, with |M_ij| ≤ 1.1.
   const double terms = ((Triple::load(oA.data()).abs() + Triple::load(oB.data()).abs()) * 3.4 +
                         (tA.abs() + tB.abs()))
                            .sum();
-  // |M x| ≤ √(1 + ν)|x|. The code takes the largest usable ν, so that this test needn't wait for
-  // the defects.
+  // |M x| ≤ √(1 + ν)|x|. The code takes the largest usable ν. This test then need not wait for the
+  // computation of the defects.
   const double spheres =
       roundedUp((a.radius() + b.radius()) * (1 + kUsable) + 6 * kUnit * terms + pad);
   pose.apart =
@@ -159,20 +161,21 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
                   At.times(X_WB.m(0, 1), X_WB.m(1, 1), X_WB.m(2, 1)),
                   At.times(X_WB.m(0, 2), X_WB.m(1, 2), X_WB.m(2, 2)));
   // For M = M_AᵀM_B, ‖MᵀM − I‖ ≤ ‖M_BᵀM_B − I‖ + ‖M_B‖²‖M_A M_Aᵀ − I‖. The rounding of m, 3.1u·√3
-  // per entry, adds twice √3 times as much.
+  // per entry, adds at most 2·√3 times this amount.
   const double defect = defectB + 1.1 * defectA + 24 * kUnit;
-  // Entries of m and of the offset take three products and two sums each: 3.1u·3 as a norm.
+  // Entries of m and of the offset take three products and two sums each. As a norm their error is
+  // 3.1u·3.
   const double reach = 1.1 * b.radius() + D.abs().sum();
-  // Differences and products that underflow and are flushed to zero lose less than 2^-1018.
+  // Differences and products that underflow, and are flushed to zero, lose less than 2^-1018.
   const double metres =
       1.2 * ((1.1 * defectA + 32 * kUnit) * reach + 6 * kUnit * terms) + 0x1p-1015;
   pose.unitA = 1 / a.length();
-  pose.scale = b.length() * pose.unitA;  // powers of two; 0 or infinite if out of range
+  pose.scale = b.length() * pose.unitA;  // a power of two; 0 or infinite if out of range
   const Triple t = At.times(d[0], d[1], d[2]) * pose.unitA;
   const double error = usable ? metres * pose.unitA : HUGE_VAL;
   constexpr double u = 0x1p-24;
   pose.floats.relative = static_cast<float>(180 * u + 10 * defect);
-  // Rounded up, for the conversion to float and for the length of cross axes.
+  // The factor rounds up. It covers the conversion to float and the length of cross axes.
   pose.floats.ball = static_cast<float>(
       (error + u * (33 * pose.scale + 3.1 * t.abs().sum() + 6) + 0x1p-118) * (1 + 0x1p-16));
   // |M_A x| ≥ √(1 − ν)·|x|.

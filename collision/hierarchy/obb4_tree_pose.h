@@ -7,28 +7,29 @@ namespace corridor {
 
 class Obb4Tree;
 
-/// The pose of one 4-wide OBB tree relative to another, with its margins: x_a = s·M·x_b + t between
-/// the trees' own coordinates x = (p − origin)·2^-unit.
+/// The pose of a 4-wide OBB tree b relative to another tree a, with its margins: x_a = s·M·x_b + t,
+/// where x = (p − origin)·2^-unit are the coordinates of each tree.
 struct Obb4TreePose {
   /// True if the trees are proved to be more than `pad` apart, by the spheres about their origins
-  /// or by their root boxes. The members below are then unspecified.
+  /// or by their root boxes. The other members are then unspecified.
   bool apart = false;
   alignas(32) double columns[4][4];  ///< the columns of M, and t; the last entry of each is unused
   double scale = 1;
   double unitA = 1;   ///< 2^-unit of a
-  double shrink = 0;  ///< a distance in a's frame times this is at most that in the world
-  /// Error of the pose in a's unit, rounded up: the two points of a contact may be this far apart.
+  double shrink = 0;  ///< a distance in a's frame, times `shrink`, is at most that in the world
+  /// Error of the pose in a's unit, rounded up. Under the rounded pose, two triangles that touch
+  /// may be this far apart.
   float leafError = 0;
   Obb4Pose floats;
 
   Mat3 m() const { return Eigen::Map<const Eigen::Matrix<double, 4, 3>>(columns[0]).topRows<3>(); }
   Vec3 t() const { return Eigen::Map<const Vec3>(columns[3]); }
 
-  /// Returns `metres` of the world as a float in a's unit, rounded up: a distance in a's frame is
-  /// larger only if that in the world exceeds `metres`.
+  /// Returns `metres` in the world as a float in a's unit, rounded up. If a distance in a's frame
+  /// exceeds the result, the distance in the world exceeds `metres`.
   float limitOf(double metres) const;
 
-  /// @param pad  metres, for `apart`. If it is infinite, `apart` is false.
+  /// @param pad metres, for `apart`. If `pad` is infinite, `apart` is false.
   Obb4TreePose(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,
                double pad);
 };

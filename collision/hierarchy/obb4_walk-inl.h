@@ -26,7 +26,7 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The lanes of a node that hold a box, and those that hold a leaf.
+/// The lanes of a node that hold a box, and the lanes that hold a leaf; one bit each.
 struct Lanes {
   unsigned held, leaves;
   explicit Lanes(const Obb4Tree::Node& node) {
@@ -41,36 +41,37 @@ struct Lanes {
   }
 };
 
-/// Traverses node pairs of two trees. An item is a node of a, a node of b, and those of the sixteen
-/// pairs of their boxes that are requested (bit 4·i + j). These are tested at once. Then the walk
-/// descends both nodes, or only the one with clearly larger boxes, or only the one that is no leaf.
+/// Traverses node pairs of two trees. An item is a node of a, a node of b, and some of the sixteen
+/// pairs of their boxes (bit 4·i + j). These pairs are tested at once. Below each pair that is not
+/// separated, the walk descends both nodes, or only the one with clearly larger boxes, or only the
+/// one that is no leaf.
 ///
 /// A Query has
 ///   bool skip(const Item&): returns true to drop an item. The item's `key` is already set.
-///   unsigned boxes(const Item&, const Node& a, const Node& b, float* keys): returns which of the
-///     item's pairs to continue with, and sets a key for each. Other pairs may get any answer.
+///   unsigned boxes(const Item&, const Node& a, const Node& b, float* keys): returns the item's
+///     pairs to continue with, and sets a key for each. The bits of other pairs are ignored.
 ///   kSorted: if true, items that were pushed together are visited in the order of their keys. If
-///     false, only the one of the least key comes first.
+///     false, the item with the least key comes first, and the others in any order.
 ///   bool leaves(const Item&, const Node& a, const Node& b, unsigned pairs, const float* keys):
 ///     handles pairs of leaves. Returns true to end the walk.
 ///
-/// Every new item is written to the stack, and kept only if it has a pair. This needs no branch; a
-/// branch would often be mispredicted. Once the stack is large enough, no walk allocates memory.
+/// Every new item is written to the stack, but kept only if it has a pair. This avoids a branch,
+/// which would often be mispredicted. Once the stack is large enough, no walk allocates memory.
 ///
-/// @param start  the items to start from, the last one first. The query may change them while the
-/// walk runs. @pre They are not part of `memory`.
-/// @return the items that were not visited, if `leaves` ended the walk. The current item is the
-/// last of them; some of its pairs may have been handled. Valid until the stack is used again.
+/// @param start the items to start from, the last one first. They are copied, so the query may
+/// change them while the walk runs. @pre They are not part of `memory`.
+/// @return the items that were not visited, if `leaves` ended the walk. The last of them is the
+/// current item; some of its pairs may have been handled. Valid until the stack is used again.
 template <class Query>
 std::span<const NodePair4> walkObb4(const Obb4Tree& a, const Obb4Tree& b, float scaleB,
                                     std::span<const NodePair4> start, Obb4Stack& memory,
                                     Counters& counters, Query& query) {
   using Item = NodePair4;
   constexpr unsigned kAll = 15, kAllPairs = 0xffff;
-  constexpr std::size_t kMostPushed = 16 + 1;  // the last one is written and not kept
-  // Two nodes whose sizes differ by less than this factor are descended together. Measured: 1.3 to
-  // 2.5 cost the same near contact. The smaller, the better for a small body far inside a large
-  // one.
+  constexpr std::size_t kMostPushed = 16 + 1;  // the last one is written but not kept
+  // Two nodes whose sizes differ by less than this factor are descended together. Measured: near
+  // contact, 1.3 to 2.5 cost the same. For a small body far inside a large one, a smaller factor is
+  // better.
   constexpr float kLarger = 1.3F;
   const auto size = [](const Obb4Tree::Node& node) {
     return std::max(std::max(node.half[0][0], node.half[0][1]),
@@ -103,8 +104,8 @@ std::span<const NodePair4> walkObb4(const Obb4Tree& a, const Obb4Tree& b, float 
     const float sizeA = size(na), sizeB = size(nb) * scaleB;
     const unsigned splitA = sizeB > kLarger * sizeA ? 0 : ~0U,
                    splitB = sizeA > kLarger * sizeB ? 0 : ~0U;
-    // Pairs of boxes where the walk descends both boxes, only a's, or only b's. The pairs of one
-    // row (only a's) or of one column (only b's) continue as one item.
+    // The pairs of boxes below which the walk descends both nodes, only a's, or only b's. Pairs of
+    // one row (only a's) or one column (only b's) become one item.
     const unsigned inner = open & ~leafRows & ~leafColumns;
     const unsigned both = inner & splitA & splitB;
     const unsigned onlyA = (open & ~leafRows & leafColumns) | (inner & ~splitB);

@@ -32,9 +32,9 @@ struct Cell {
   }
 };
 
-/// A cell is not divided if its children would list a triangle more often than this on average. A
-/// surface of small triangles crosses four of eight children; large triangles would be listed in
-/// all.
+/// A cell is not divided if its children would list each triangle more often than this on average.
+/// A surface of small triangles crosses about four of the eight children. Large triangles would be
+/// listed in up to eight.
 constexpr std::size_t kSpread = 3;
 
 Cell boundsOf(const Triangle& t) {

@@ -12,23 +12,25 @@
 namespace corridor {
 
 struct OctreeParams {
-  std::uint32_t leafTriangles = 8;  ///< cells with more are divided, …
-  std::uint32_t depth = 10;  ///< … down to this level, unless the children list far more in all
+  /// A cell with more triangles is divided, unless its children would list far more in all.
+  std::uint32_t leafTriangles = 8;
+  std::uint32_t depth = 10;  ///< cells at this level are not divided
 };
 
-/// A tree over space, for comparison with trees over objects: a cube around the mesh, divided into
-/// eight where it holds many triangles. A leaf lists all triangles whose box meets its closed cell.
-/// So large triangles are listed often, and cells don't follow the surface of the body.
+/// A tree over space, for comparison with trees over objects. The root is a cube around the mesh. A
+/// cell with many triangles is divided into eight. A leaf lists all triangles whose box meets its
+/// closed cell. Large triangles are therefore listed often, and the cells don't follow the surface
+/// of the body.
 ///
-/// Each point of a triangle is in a cell that lists the triangle. So two bodies touch only in cells
-/// that are not separated. Immutable.
+/// Each point of a triangle is in a cell that lists the triangle. Two bodies therefore touch only
+/// in cells that are not separated. Immutable.
 class Octree {
  public:
   struct Node {
     Aabb box;  ///< contains the cell
     double radius = 0;
-    std::uint32_t first = 0, count = 0;          ///< leaf only: its range of `triangles()`
-    std::uint32_t firstChild = 0, children = 0;  ///< cells without triangles are left out
+    std::uint32_t first = 0, count = 0;          ///< for a leaf: its range of `triangles()`
+    std::uint32_t firstChild = 0, children = 0;  ///< inner node; without empty cells
     bool isLeaf() const { return children == 0; }
   };
 
@@ -42,7 +44,8 @@ class Octree {
     const Node& node = nodes_[i];
     for (std::uint32_t c = node.children; c-- > 0;) f(node.firstChild + c);
   }
-  /// Triangles by leaf, each as often as it is listed; and the number of each in the mesh.
+  /// The triangles of all leaves, leaf by leaf. A triangle occurs once for each leaf that lists it.
+  /// `meshTriangle` is its number in the mesh.
   const std::vector<Triangle>& triangles() const { return triangles_; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return numbers_[i]; }
   const ConvexPart* part(std::uint32_t = 0) const { return nullptr; }

@@ -1,4 +1,4 @@
-// Data of triangles for building a 4-wide OBB tree. Included once per SIMD target by
+// Primitive references for building a 4-wide OBB tree. Included once per SIMD target by
 // foreach_target.h.
 
 // clang-format off
@@ -22,19 +22,20 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One record per triangle, in the tree's frame and unit, as columns of floats; splitting reorders
-/// them. Second moments are about the triangle's own centroid, so that sums over few and small
-/// triangles far from the origin don't cancel (NUMERICS.md, "Moments").
+/// One record per triangle, in the tree's frame and unit. The records are stored as columns of
+/// floats, and splitting a cluster reorders them. Second moments are about the triangle's own
+/// centroid, so that sums over few and small triangles far from the origin don't cancel
+/// (NUMERICS.md, "Moments").
 ///
-/// Sums are over eight lanes in one fixed order, so that every instruction set and number of
-/// threads builds the same tree. They only choose the tree's shape: no proof depends on them.
+/// Sums are over eight lanes in one fixed order. Every instruction set and number of threads
+/// therefore builds the same tree. The sums only choose the tree's shape; no proof depends on them.
 class PrimitiveReferences {
  public:
   enum Column { kX, kY, kZ, kWeight, kXX, kXY, kXZ, kYY, kYZ, kZZ, kTriangle, kColumns };
 
   explicit PrimitiveReferences(std::size_t count)
-      // The stride is not a multiple of a page, or the columns would compete for the same cache
-      // sets.
+      // If the count is a multiple of 1024 (a page of floats), the additional 48 keep the stride
+      // from being one. Columns at such a stride would compete for the same cache sets.
       : stride_((count + 15) / 16 * 16 + 48),
         data_(std::make_unique_for_overwrite<float[]>(kColumns * stride_)) {}
 
@@ -43,8 +44,9 @@ class PrimitiveReferences {
     return std::bit_cast<std::uint32_t>(data_[kTriangle * stride_ + i]);
   }
 
-  /// Computes the mean of records [first, first + count) by weight, or unweighted if they have no
-  /// weight, and the sum of their second moments about it: xx, xy, xz, yy, yz, zz.
+  /// Computes the mean of the records [first, first + count), weighted, or unweighted if their
+  /// weights are 0 or tiny. Also computes the sum of their second moments about the mean: xx, xy,
+  /// xz, yy, yz, zz.
   void moments(std::size_t first, std::size_t count, float (&mean)[3], double (&second)[6]) const {
     double s[4];
     const auto none = hn::Set(d_, 1.0F);
@@ -72,9 +74,9 @@ class PrimitiveReferences {
     });
   }
 
-  /// Reorders records [first, first + count) so that those below the plane come first; otherwise
-  /// they keep their order. Returns how many are below. `spare` is memory for the others, which
-  /// grows as needed.
+  /// Reorders the records [first, first + count) so that those below the plane come first. Both
+  /// groups keep their order. Returns the number of records below. `spare` is temporary memory for
+  /// the records above the plane, and grows as needed.
   std::size_t partition(std::size_t first, std::size_t count, const float (&normal)[3],
                         float offset, PrimitiveReferences& spare) {
     if (spare.stride_ < count + kLanes) spare = PrimitiveReferences(count + kLanes);
@@ -91,7 +93,7 @@ class PrimitiveReferences {
       const std::size_t lows = hn::CountTrue(d_, low), highs = hn::CountTrue(d_, high);
       alignas(64) std::int32_t lanes[2 * kLanes];
       const auto toLow = compressed(low, lanes);
-      if (count <= kLanes) {  // most clusters are small: one step suffices
+      if (count <= kLanes) {  // one step suffices, as for most clusters
         compressed(high, lanes + lows);
         const auto both = hn::SetTableIndices(d_, lanes);
         for (int k = 0; k < kColumns; ++k)
@@ -100,8 +102,8 @@ class PrimitiveReferences {
       }
       const auto toHigh = compressed(high, lanes);
       for (int k = 0; k < kColumns; ++k) {
-        // Lanes beyond `lows` overwrite only records that have been read. A partial last step does
-        // not store them.
+        // Lanes beyond `lows` overwrite only records that have been read. If the last step is
+        // partial, these lanes are not stored.
         store(hn::TableLookupLanes(v[k], toLow), column(k) + first + below,
               count - i >= kLanes ? kLanes : lows);
         hn::StoreU(hn::TableLookupLanes(v[k], toHigh), d_, spare.column(k) + above);
@@ -121,11 +123,11 @@ class PrimitiveReferences {
   using Indices = decltype(hn::SetTableIndices(D(), static_cast<const std::int32_t*>(nullptr)));
   static constexpr D d_{};
   static constexpr std::size_t kLanes = hn::MaxLanes(D());
-  static constexpr std::size_t kBlock = 4096;  // records summed in float before doubles take over
+  static constexpr std::size_t kBlock = 4096;  // records per sum in float; sums add up in double
   static constexpr bool kMasked = HWY_TARGET <= HWY_AVX2;  // the target has masked loads and stores
 
-  /// Loads lanes of records from `at` on. Lanes beyond the `rest` records that are left become 0:
-  /// that memory may be another thread's.
+  /// Loads lanes of records from `at` on. `rest` is the number of records that are left. Lanes
+  /// beyond them become 0 and are not read, because that memory may belong to another thread.
   struct Loader {
     HWY_INLINE Loader(const PrimitiveReferences& records, std::size_t at, std::size_t rest)
         : from(records.data_.get() + at), stride(records.stride_), left(rest) {}
@@ -165,7 +167,7 @@ class PrimitiveReferences {
     return hn::IndicesFromVec(d_, indices);
   }
 
-  /// Computes the sums of the K terms that `terms` makes of each record.
+  /// Computes the sums of K terms over all records. `terms` computes the terms of each record.
   template <int K, class Terms>
   HWY_INLINE void sum(std::size_t first, std::size_t count, double (&total)[K],
                       const Terms& terms) const {

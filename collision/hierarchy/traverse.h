@@ -12,7 +12,7 @@ namespace corridor {
 struct NodePair {
   std::uint32_t a, b;
 };
-/// The stack of traversals that need no more than the nodes' numbers.
+/// The stack of a traversal whose items are only pairs of nodes.
 using NodePairs = std::vector<NodePair>;
 
 /// Replaces the stack's contents by the node pairs `start`, the last one on top.
@@ -21,20 +21,21 @@ inline void startFrom(std::span<const NodePair4> start, NodePairs& stack) {
   for (const NodePair4& pair : start) stack.push_back({pair.a, pair.b});
 }
 
-/// Traverses two trees from the node pairs on `stack`. Every query on binary trees uses it.
-/// Query::Item has the nodes' numbers as `a` and `b`. Uses no call stack, and allocates nothing
-/// once `stack` has grown. For two inner nodes, the one of larger radius is descended. Pairs that
-/// are left on the stack in the end were not visited.
+/// Traverses two trees from the node pairs on `stack`. All queries that walk two binary trees use
+/// it. An Item has the nodes' numbers as `a` and `b`. If both nodes are inner nodes, the one of
+/// larger radius is descended. The traversal is not recursive, and allocates nothing once `stack`
+/// has grown. Pairs that are left on the stack at the end were not visited.
 ///
-/// A query decides which pairs are visited and in which order:
+/// A query decides which pairs are visited, and in which order:
 /// * `bool enter(const Item&, const NodeA&, const NodeB&)` returns true to continue with this pair.
-///   It is the overlap test, or a test against what has been found since the pair was pushed.
+///   It makes the overlap test, or compares the pair with results found since it was pushed.
 /// * `bool leaves(const NodeA&, const NodeB&)` handles two leaves, and returns true to end the
 ///   traversal.
 /// * `void push(std::vector<Item>&, std::uint32_t a, std::uint32_t b)` pushes a pair to continue
 ///   with.
 /// * `void opened(std::vector<Item>&, std::size_t first)` is called after all children of one node
-///   were pushed, the last one first. It may reorder the items from `first` on; the top is visited
+///   were pushed, the last child first. It may reorder the items from `first` on. The item on top
+///   is visited first.
 ///   first.
 template <class TreeA, class TreeB, class Item, class Query>
 void traverseFrom(const TreeA& a, const TreeB& b, std::vector<Item>& stack, Query& query) {
@@ -59,7 +60,7 @@ void traverseFrom(const TreeA& a, const TreeB& b, std::vector<Item>& stack, Quer
   }
 }
 
-/// The same, starting from one pair.
+/// The same, starting from the pair `root`.
 template <class TreeA, class TreeB, class Item, class Query>
 void traverse(const TreeA& a, const TreeB& b, const Item& root, std::vector<Item>& stack,
               Query& query) {

@@ -8,7 +8,7 @@
 
 namespace corridor {
 
-/// A node before it has a volume: which leaf primitives it holds, and the box that frames them.
+/// A node before its volume is fitted: its leaf primitives, and the box that frames them.
 struct SkeletonNode {
   Obb box;
   std::uint32_t first = 0;  ///< its leaf primitives: [first, first + count)
@@ -17,9 +17,9 @@ struct SkeletonNode {
 };
 using Skeleton = std::vector<SkeletonNode>;  ///< depth first; the root is node 0
 
-/// Builds a skeleton and puts the leaf primitives into leaf order. With `oriented`, the boxes have
-/// the axes of their content's moments, else those of the mesh. Works for trees of any depth: no
-/// call stack is used.
+/// Builds a skeleton and puts the leaf primitives into leaf order. If `oriented` is true, each box
+/// has the axes that `params.fit` gives for its content, otherwise the coordinate axes. The depth
+/// of the tree is not limited, because the builder is not recursive.
 Skeleton buildSkeleton(TreePrimitives& items, bool oriented, const TreeParams& params);
 
 /// Returns the box with the given axes around the leaf primitives [first, first + count).

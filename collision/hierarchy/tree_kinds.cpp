@@ -22,8 +22,8 @@ const VolumeKind* kindNamed(const std::string& name) {
   return nullptr;
 }
 
-/// Returns the complaint about `word`, or nothing. If other volumes have the word, the complaint
-/// names them.
+/// Returns the complaint about `word`, or nothing. If other volumes have this word, the complaint
+/// names these volumes.
 std::optional<InvalidName> wrongOf(const VolumeKind& volume, const std::string& key,
                                    const std::string& word, Words VolumeKind::*variants) {
   const Words& own = volume.*variants;
@@ -92,7 +92,8 @@ TreeChoice treesNamed(const TreeNames& words) {
   const VolumeKind& volume = *kindNamed(all.volume);
   const auto overlap = std::find(volume.overlaps.begin(), volume.overlaps.end(), all.overlap);
   const auto after = static_cast<int>(overlap - volume.overlaps.begin());
-  // A volume without axes of its own has one fit, "plain", which is no `ObbFit`: any value will do.
+  // A volume without axes of its own has one fit, "plain". This is no `ObbFit`, so any value is
+  // right.
   return {static_cast<TreeKind>(static_cast<int>(volume.trees) + after),
           obbFitNamed(all.fit).value_or(ObbFit::triangles)};
 }

@@ -4,20 +4,19 @@
 
 namespace corridor {
 
-/// How a node's leaf primitives are split in two: by the side of a plane on which their centroids
-/// are. The plane is orthogonal to the longest axis of the node's box for which both sides get
-/// some.
+/// How a node's leaf primitives are split in two: by a plane that separates their centroids. The
+/// plane is orthogonal to the longest axis of the node's box for which neither side is empty.
 enum class SplitRule {
-  mean,    ///< the plane through the mean of the content (as the fit weighs it)
+  mean,    ///< the plane through the mean of the content, weighted as by the fit
   median,  ///< the plane through the median centroid: balanced trees
 };
 
 enum class TreeBuilding {
   topDown,   ///< by splitting
-  bottomUp,  ///< by clustering (hierarchy/cluster.h); one leaf primitive per leaf
+  bottomUp,  ///< by clustering (cluster.h); each leaf has one leaf primitive
 };
 
-/// How a `VolumeTree` is built. No choice changes an answer.
+/// How a `VolumeTree` is built. No choice changes a verdict.
 struct TreeParams {
   ObbFit fit = ObbFit::triangles;  ///< the fit that gives the axes of oriented volumes
   SplitRule split = SplitRule::mean;

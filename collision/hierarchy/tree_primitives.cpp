@@ -42,8 +42,8 @@ void TreePrimitives::reorder(std::span<const std::uint32_t> order) {
 }
 
 double TreePrimitives::side(std::uint32_t i, const Vec3& mean, const Vec3& normal) const {
-  // Subtract the mean before summing: far from the origin a sum of three corners would lose the
-  // digits that decide.
+  // The mean is subtracted before the corners are summed. Far from the origin, the sum of three
+  // corners would lose the digits that decide.
   if (parts.empty()) {
     const Triangle& t = triangles[i];
     return normal.dot((t[0] - mean) + (t[1] - mean) + (t[2] - mean));

@@ -25,8 +25,8 @@ struct TreePrimitives {
   /// Moves leaf primitive order[i] to place i.
   void reorder(std::span<const std::uint32_t> order);
 
-  /// Returns three times the signed distance of the leaf primitive's centroid (for a part: of its
-  /// points) from the plane through `mean`.
+  /// Returns three times the signed distance of the leaf primitive's centroid from the plane
+  /// through `mean`. For a convex part, the centroid is that of its points.
   double side(std::uint32_t i, const Vec3& mean, const Vec3& normal) const;
   /// Calls f with the `Content` of the leaf primitives [first, first + count).
   template <class F>

@@ -16,13 +16,13 @@
 namespace corridor {
 
 /// A binary tree of bounding volumes over the triangles of a mesh, or over convex parts. Top-down
-/// building splits a node's leaf primitives (`SplitRule`) across the longest axis of its box. If
-/// that separates none, it tries the second and the third axis. If none of them does, the node is
-/// an indivisible leaf. All other leaves hold one leaf primitive.
+/// building splits a node's leaf primitives (`SplitRule`) across the longest axis of the node's
+/// box. If this separates none, it tries the second and then the third axis. If no axis separates
+/// any, the node is a leaf. All other leaves hold one leaf primitive.
 ///
-/// Immutable except for `refit`. Keeps a copy of the corners, in leaf order, so the mesh need not
-/// outlive it. The depth is not bounded: triangles of size 2^-i around a point give a depth of
-/// thousands. So a traversal needs a stack of its own instead of the call stack.
+/// Immutable except for `refit`. The tree keeps a copy of the corners, in leaf order, so the mesh
+/// need not outlive it. The depth is not bounded: triangles of the sizes 2^-i around a point give a
+/// very deep tree. A traversal therefore needs a stack of its own, and must not be recursive.
 ///
 /// Instantiated for Obb, Aabb, BoundingSphere, Rss, Kdop<14>, Kdop<18>, Kdop<26>.
 template <BoundingVolume Volume>
@@ -30,7 +30,7 @@ class VolumeTree {
  public:
   struct Node {
     Volume box;         ///< the bounding volume, of any kind
-    double radius = 0;  ///< the volume lies in a sphere of this radius about its centre; rounded up
+    double radius = 0;  ///< of a sphere about the volume's centre that contains it; rounded up
     std::uint32_t first = 0;  ///< its leaf primitives: a range of `triangles()` or `parts()`
     std::uint32_t count = 0;
     std::uint32_t right = 0;  ///< the right child; the left one follows the node. 0: a leaf
@@ -39,10 +39,11 @@ class VolumeTree {
 
   /// @throws std::invalid_argument if the mesh has no triangle or `checkMesh` finds a fault.
   explicit VolumeTree(const TriangleMesh& mesh, const TreeParams& params = {});
-  /// A tree of one leaf, which holds a convex part. @pre a sound part (`checkPrimitive`).
+  /// A tree of one leaf, which holds a convex part. @pre The part is valid: it was made of a
+  /// primitive in which `checkPrimitive` finds no fault.
   explicit VolumeTree(const ConvexPart& part);
-  /// A tree over many parts, which may overlap. @pre all are sound. @throws std::invalid_argument
-  /// if there is none.
+  /// A tree over many parts, which may overlap. @pre All parts are valid, as above. @throws
+  /// std::invalid_argument if the list is empty.
   explicit VolumeTree(std::vector<ConvexPart> parts, const TreeParams& params = {});
 
   /// Returns the i-th part, or null if the leaves hold triangles.
@@ -50,35 +51,35 @@ class VolumeTree {
     return items_.parts.empty() ? nullptr : &items_.parts[i];
   }
 
-  /// Nodes, depth first; the root is node 0.
+  /// The nodes, in depth-first order. Node 0 is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
-  /// Calls f with the numbers of an inner node's children, the last one first: the order in which
-  /// they are pushed on a stack.
+  /// Calls f with the numbers of an inner node's children, the last child first. This is the order
+  /// in which children are pushed on a stack.
   template <class F>
   void forEachChildBackwards(std::uint32_t i, F&& f) const {
     f(nodes_[i].right);
     f(i + 1);
   }
-  /// Triangles in leaf order. `meshTriangle` is the number of each in the mesh (for parts: in the
-  /// list).
+  /// The triangles in leaf order. `meshTriangle` is the number of each in the mesh, or the number
+  /// of a part in the list of parts.
   const std::vector<Triangle>& triangles() const { return items_.triangles; }
   const Triangle& triangle(std::uint32_t i) const { return items_.triangles[i]; }
   const std::vector<ConvexPart>& parts() const { return items_.parts; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return items_.numbers[i]; }
 
-  /// Bounds for the margins of overlap tests: the largest orthonormality defect of the axes, and
-  /// the largest |center|₂; rounded up.
+  /// Bounds for the margins of overlap tests, rounded up: the largest orthonormality defect of the
+  /// axes, and the largest |center|₂.
   double axisDefect() const { return bounds_.axisDefect; }
   double centerReach() const { return bounds_.centerReach; }
   /// Largest |x|₂ of all points, rounded up.
   double reach() const { return bounds_.reach; }
   const VolumeBounds& bounds() const { return bounds_; }
 
-  /// Fits the volumes again to the same triangles with other corners; each keeps its axes. This is
-  /// cheap, and looser the more the mesh deforms. No query may run meanwhile. @pre leaves hold
-  /// triangles; `moved` is sound and has as many triangles as the mesh from which the tree was
-  /// built.
+  /// Fits the volumes again after the triangles have moved. Each volume keeps its axes. This is
+  /// cheaper than building, but the tree gets looser the more the mesh deforms. No query may run at
+  /// the same time. @pre The leaves hold triangles. `moved` has no fault (`checkMesh`) and as many
+  /// triangles as the mesh of which the tree was built.
   void refit(const TriangleMesh& moved);
 
   std::size_t depth() const;
@@ -86,8 +87,8 @@ class VolumeTree {
 
   /// Proves three invariants in rational arithmetic. Every node's volume, as the set that its
   /// doubles define, contains every triangle of the node, or its parts with their spheres or discs.
-  /// Each leaf primitive is in exactly one leaf. Children partition their parents. Returns the
-  /// first violation.
+  /// Each leaf primitive is in exactly one leaf. The children of a node partition its leaf
+  /// primitives. Returns the first violation, or nothing.
   std::optional<std::string> check() const;
 
  private:

@@ -22,8 +22,8 @@ bool containsPart(const ExactVolume<Volume>& volume, const ConvexPart& part) {
       if (!volume.contains(row(p), part.radius)) return false;
     return true;
   }
-  // Discs are proved to be inside the part's own box, and that box inside the volume. An Obb may
-  // also contain them directly.
+  // A part with discs is inside if its own box contains the discs, and the volume contains that
+  // box. For an Obb, the discs may also be inside directly.
   const auto holdsDiscs = [&](const ExactVolume<Obb>& box) {
     const exact::Row axis = exact::minus(row(part.points[1]), row(part.points[0]));
     return box.contains(row(part.points[0]), part.radius, axis) &&

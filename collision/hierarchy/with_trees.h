@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// Calls `f.operator()<Volume, Overlap>()` for a kind of binary trees. This turns the kind into a
-/// type, once per query. @pre not `TreeKind::obb4`.
+/// Calls `f.operator()<Volume, Overlap>()` for a kind of binary trees. The call turns the kind into
+/// types, once per query. @pre not `TreeKind::obb4`.
 template <class F>
 decltype(auto) withVolume(TreeKind trees, const F& f) {
   switch (trees) {
@@ -22,8 +22,8 @@ decltype(auto) withVolume(TreeKind trees, const F& f) {
   return f.template operator()<Obb, StandardOverlap>();
 }
 
-/// Calls `query(Overlap{}, tree of a, tree of b)` with the two bodies' trees of a kind, which are
-/// built if necessary.
+/// Calls `query(Overlap{}, tree of a, tree of b)` with the trees of two bodies, of the given kind.
+/// Trees are built if necessary.
 template <class Query>
 decltype(auto) withTrees(TreeKind trees, const Body& a, const Body& b, const Query& query) {
   if (trees == TreeKind::obb4) return query(StandardOverlap{}, a.tree(), b.tree());

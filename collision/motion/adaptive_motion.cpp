@@ -11,18 +11,18 @@
 namespace corridor {
 namespace {
 
-/// Intervals with a half width of 2^-48 of the motion are not halved: much below, their middles
-/// would no longer be exact.
+/// Intervals with this half width are not halved. The middles of much shorter intervals would not
+/// be exact.
 constexpr double kShortest = 0x1p-48;
 
 /// A time interval of a pair that is not proved yet.
 struct Interval {
   double t0, t1;
-  double need;  ///< metres by which the parent's distance fell short
+  double need;  ///< metres that the parent's distance lacked; infinite for the whole motion
   std::uint32_t pair;
 };
 
-/// A time at which nothing can ever be proved: a contact, or a clearance that is too small.
+/// A time about which no interval can be proved: there is a contact, or too little clearance.
 struct Block {
   double time;
   std::uint32_t pair;
@@ -49,10 +49,10 @@ class Bisection {
   }
 
  private:
-  /// The order of the intervals. If the first contact is requested, the earliest comes first:
-  /// everything before it is then proved. If only the verdict is requested, the interval whose
-  /// parent fell short by the most comes first: a contact, if there is one, is likeliest there, and
-  /// one suffices. A free motion needs the same intervals in any order.
+  /// The order of the intervals. With `earliest` the earliest interval comes first: everything
+  /// before it is then proved. Otherwise the interval whose parent lacked the most distance comes
+  /// first: there a contact, if there is one, is most likely. One contact suffices, and a free
+  /// motion needs the same intervals in any order.
   struct Later {
     bool earliest;
     bool operator()(const Interval& a, const Interval& b) const {
@@ -64,14 +64,14 @@ class Bisection {
     std::push_heap(queue_.begin(), queue_.end(), Later{earliest_});
   }
 
-  /// Tests an interval. Returns nothing if the interval is proved or halved, else the answer of the
-  /// query.
+  /// Tests an interval. Returns nothing if the interval is proved or halved, otherwise the answer
+  /// of the query.
   std::optional<MotionResult> decide(const Interval& w) {
     const double h = (w.t1 - w.t0) / 2, t = w.t0 + h;  // dyadic: exact
     const DistanceSteps::Measurement measured = steps_.measureAt(w.pair, t, h, false);
     if (measured.apart()) return std::nullopt;
-    // Half of the tolerance: a clearance of two tolerances then suffices even if the clearance
-    // slack takes one of them.
+    // With half of the tolerance, a clearance of two tolerances suffices even if the clearance
+    // slack takes one tolerance.
     const bool narrow = measured.bound.bound <= steps_.options().tolerance / 2,
                last = h <= kShortest;
     if (measured.contact && (!earliest_ || last)) return steps_.contact(w.pair, w.t0, t, measured);
@@ -83,10 +83,11 @@ class Bisection {
       return result;
     }
     ++steps_.counters().splits;
-    // `needed` includes the margin, which is the same for all pairs.
+    // `need` exceeds the missing distance by the margin. The margin is the same for all pairs, so
+    // the order is not affected.
     const double need = measured.bound.needed - measured.gap;
     push({w.t0, t, need, w.pair});
-    // Everything after a block is irrelevant.
+    // Intervals after a block are not needed.
     const bool before = !block_ || t < block_->time;
     if (before && (measured.contact || measured.hopeless))
       block_ = Block{t, w.pair, measured};
@@ -95,8 +96,8 @@ class Bisection {
     return std::nullopt;
   }
 
-  /// Returns the answer when everything up to t0 is proved, and the block is as close to t0 as
-  /// requested.
+  /// Returns the answer for the block. @pre Everything up to t0 is proved, and t0 is as close to
+  /// the block as requested.
   MotionResult blocked(double t0) {
     const auto& [time, pair, measured] = *block_;
     return measured.contact ? steps_.contact(pair, t0, time, measured)

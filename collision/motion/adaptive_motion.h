@@ -6,12 +6,13 @@ namespace corridor {
 
 /// Answers the query of `certifyMotion`, with the same promises, by adaptive bisection (Schwarzer,
 /// Saha, Latombe 2005). A time interval of one pair of bodies is proved if the distance at its
-/// middle exceeds the motion bound of b from there, in any direction. Otherwise it is halved. Pairs
-/// are bisected independently.
+/// middle exceeds the motion bound of b about the middle, in any direction. Otherwise it is halved.
+/// Pairs are bisected independently of each other.
 ///
 /// Cost: a body that slides along a wall at a distance d needs about length/d intervals. The
-/// default method, which has directional motion bounds, needs a few. A motion that passes an
-/// obstacle closely for a long way may therefore end as `undecided` at the work limit.
+/// default method has directional motion bounds and needs only a few. Therefore a motion that
+/// passes an obstacle closely for a long way may be `undecided` here, because it reaches the work
+/// limit.
 MotionResult certifyByBisection(MotionSource& motion, std::span<const MotionPair> pairs,
                                 const MotionOptions& options, QueryContext& context);
 

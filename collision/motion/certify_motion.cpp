@@ -15,7 +15,7 @@
 namespace corridor {
 namespace {
 
-/// The memory of motion queries.
+/// Scratch memory of motion queries.
 struct MotionScratch {
   WorkList list;
   std::vector<Interval> open;  ///< a stack of intervals, the earliest on top
@@ -49,8 +49,8 @@ class Certifier {
     Contact pair;
   };
 
-  /// Tests the first levels of halving, all intervals of a level before the next one. Fills the
-  /// stack with the intervals that are left, unless it finds the answer.
+  /// Tests the first levels of halving, all intervals of a level before the next level. If this
+  /// does not give the answer, fills the stack with the intervals that are left.
   std::optional<MotionResult> walkByLevels() {
     const auto touchesInMiddle = [&](const Interval& w) {
       return !source_.still() && touchesAt(w.middle(), w);
@@ -89,9 +89,9 @@ class Certifier {
     return std::nullopt;
   }
 
-  /// Walks the open intervals depth first, the earlier half first. So a place that cannot be
-  /// decided is found before everything else is refined, and everything before the interval on top
-  /// is proved.
+  /// Walks the open intervals depth first, the earlier half first. Everything before the interval
+  /// on top of the stack is therefore proved. And if some time cannot be decided, it is found
+  /// before all other intervals are refined.
   MotionResult walkInOrder() {
     while (!open_.empty()) {
       const Interval w = open_.back();
@@ -106,7 +106,7 @@ class Certifier {
         know(answer, t);
         if (!query_.options.earliest || t - w.t0 <= query_.options.timeTolerance)
           return contact(w.t0, false);
-        open_.clear();  // from now on only what comes before the contact matters
+        open_.clear();  // only the time before the contact matters now
       } else if (list_.groups.size() == later) {
         continue;
       }
@@ -117,13 +117,14 @@ class Certifier {
     return known_ ? contact(known_->time, false) : MotionResult{};
   }
 
-  /// Reports whether a group of the interval's range is in contact at the rounded pose at t.
+  /// Reports whether a pair of bodies in this range of groups touches at the rounded pose at t.
   bool touchesAt(double t, const Interval& range) {
     motions_.select(t, 0);
     for (std::size_t g = range.begin; g < range.end && !outOfWork(); ++g) {
       const WorkList::Group group = list_.groups[g];
       const MotionPair& pair = query_.pairs[group.bodies];
-      // A pair that the interval did not reach may be far apart, and then needs no tree.
+      // If no tree of the pair has been walked yet, the bounds may be separated at t. Then no tree
+      // is needed.
       const bool best = query_.certificate != nullptr;
       if (list_.isWhole(group) && motions_.separation(pair, 0, best).clearance > 0) continue;
       if (touches(group.bodies, motions_.relative(pair.motion).X_AB, t, list_.nodePairsOf(group)))
@@ -141,9 +142,9 @@ class Certifier {
     return true;
   }
 
-  /// Reports whether the pair that was not separated touches at the interval's end, or after it
-  /// within the time tolerance of the interval's beginning. An interval that ends where a contact
-  /// begins can never be proved.
+  /// Reports whether the pair that was not separated touches at the interval's end, or later, but
+  /// within the time tolerance of the interval's beginning. (An interval at whose end a contact
+  /// begins can never be proved.)
   bool touchesAfter(const Interval& w, std::uint32_t bodies) {
     for (double after = 0; !source_.still(); after = std::max(2 * after, 0x1p-40)) {
       const double t = std::min(w.t1 + after, 1.0);
@@ -209,10 +210,11 @@ class Certifier {
   IntervalMotions motions_;
   WorkList& list_;
   std::vector<Interval>& open_;
-  std::optional<KnownContact> known_;  // the earliest
+  std::optional<KnownContact> known_;  // the earliest contact found so far
 };
 
-/// Returns a point where the two leaf primitives of the contact touch, in a's frame.
+/// Returns a point of a, in a's frame, where the two leaf primitives of the contact touch or are
+/// closest.
 Vec3 contactPoint(MotionSource& motion, std::span<const MotionPair> pairs,
                   const MotionResult& result, Counters& counters) {
   const Contact& contact = *result.pair;

@@ -12,8 +12,8 @@
 
 namespace corridor {
 
-/// Two bodies that touch, by their indices in the scene, and the triangles that touch, by their
-/// numbers in the meshes. The number is 0 for a body that is a convex part.
+/// Two bodies that touch, by their indices in the scene, and the two triangles that touch, by their
+/// numbers in the meshes. For a body that is a convex part, the number of the triangle is 0.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
   std::uint32_t triangleA = 0, triangleB = 0;
@@ -32,62 +32,65 @@ enum class UndecidedReason {
 };
 
 /// The answer of a motion query (collision/PROMISES.md, promise 2). `free` is never wrong.
-/// `contact` has an exact contact at the rounded pose at `contactTime`. `undecided` has a reason.
+/// `contact` is decided at the rounded pose at `contactTime`, for meshes exactly. `undecided` has a
+/// reason.
 struct MotionResult {
   MotionVerdict verdict = MotionVerdict::free;
   UndecidedReason reason = UndecidedReason::none;
   /// The motion is proved free on [0, certifiedUntil]. 1 if the verdict is `free`; 0 if nothing was
   /// proved, or if the query did not request it (`MotionOptions::earliest`).
   double certifiedUntil = 1;
-  /// For `contact` the time of the contact. For `undecided` a time in the interval that could not
-  /// be decided (by the default method its middle). −1 if there is none.
+  /// `contact`: the time of the contact. `undecided`: a time in the interval that could not be
+  /// decided (its middle, if the method is the default). −1 if there is none.
   double contactTime = -1;
-  /// For `contact`: on all of [certifiedUntil, contactTime] the clearance stays below twice the
-  /// tolerance, rounding and tube. False without `earliest`.
+  /// `contact`: on all of [certifiedUntil, contactTime] the clearance is below the sum of twice the
+  /// tolerance, the rounding and the tube. Always false without `earliest`.
   bool grazing = false;
-  /// The pair in contact. For `undecided` the pair that could not be decided, if one is known.
+  /// The pair in contact; `undecided`: the pair that could not be decided, if it is known.
   std::optional<Contact> pair;
-  /// For `undecided` with a `pair`: its distance beyond the margin at `contactTime`, metres.
+  /// `undecided` with a `pair`: the distance of this pair at `contactTime`, beyond the margin,
+  /// metres.
   double gap = 0;
 };
 
 /// The parameters of a motion query.
 struct MotionOptions {
-  /// Metres, above 0, must be set. A motion with less than twice this clearance, beyond margin and
-  /// tube, may be `undecided`.
+  /// Metres, above 0. The caller must set it. A motion whose clearance beyond margin and tube is
+  /// below twice the tolerance may be `undecided`.
   double tolerance = 0;
-  double margin = 0;  ///< metres that the bodies of every pair must keep apart; 0: only contact
-  /// Clearance slack, metres: `free` leaves this much beyond margin and tube. With less, the
-  /// answer is never `free`.
+  double margin = 0;  ///< metres that all pairs must keep apart; 0: touching is contact
+  /// Clearance slack, metres: the clearance beyond margin and tube that `free` requires. A motion
+  /// with less is never `free`.
   double clearanceSlack = 0;
   bool earliest = false;  ///< find `certifiedUntil` too, not just the verdict
-  /// The width of the bracket [certifiedUntil, contactTime] that `earliest` requests, as a share of
-  /// the motion. In that time the bodies should approach each other by more than a few tolerances.
-  /// Otherwise the beginning of the bracket is too close to be proved free, and a plain contact is
-  /// reported as `grazing` or as `undecided`.
+  /// With `earliest`: the largest width of the bracket [certifiedUntil, contactTime], as a share of
+  /// the motion. During this share of the motion, the bodies should approach each other by more
+  /// than a few tolerances. Otherwise the beginning of the bracket is too close to the contact to
+  /// be proved free, and a plain contact is reported as `grazing` or as `undecided`.
   double timeTolerance = 1.0 / 1024;
-  /// Number of box and triangle tests after which the answer is `undecided`. The query ends at most
-  /// one node pair later: 16 box tests and 256 triangle tests.
+  /// Number of box and triangle tests after which the answer is `undecided`. The default method
+  /// stops at most one node pair later: 16 box tests and 256 triangle tests.
   std::uint64_t workLimit = 20'000'000;
   /// The kind of trees to walk. The bounds of whole bodies, which are tested before any tree, are
   /// the same for all kinds.
   TreeKind trees = TreeKind::obb4;
 };
 
-/// The relative motions along an edge. The owner numbers them: one for each pair of frames that
-/// moves differently. An object may hold scratch memory, so only one thread may use it at a time.
+/// The relative motions along an edge. Each distinct relative motion of two frames has a number,
+/// which the implementation defines. An object may hold scratch memory, so only one thread may use
+/// it at a time.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
-  /// Returns motion `i` in [t − h, t + h]; outside [0, 1] the motion is continued. The span in the
-  /// result stays valid until the next call for the same i. @pre 0 ≤ t ≤ 1, h ≤ 1/2, t − h and t +
-  /// h exact.
+  /// Returns motion `i` in [t − h, t + h]. Outside [0, 1] the motion is continued. The span in the
+  /// result stays valid until the next call for the same `i`. @pre 0 ≤ t ≤ 1, h ≤ 1/2; t − h and t
+  /// + h are exact.
   virtual RelativeMotion relativeMotion(std::size_t i, double t, double h) = 0;
-  /// Reports whether no edge is defined: somewhere the shorter way is not unique within 1e-9 rad
-  /// (half turns), or a displacement overflows.
+  /// Reports whether the edge defines no curve, or no bound holds. Reasons are a shorter way that
+  /// is not unique within 1e-9 rad (half turns), a displacement that overflows, and unsuitable
+  /// processor settings.
   virtual bool ambiguous() const = 0;
-  /// Reports whether nothing moves, so that one pose stands for the whole edge (apart from the
-  /// tube).
+  /// Reports whether nothing moves. One pose then stands for the whole edge (apart from the tube).
   virtual bool still() const = 0;
 
  protected:
@@ -96,7 +99,8 @@ class MotionSource {
   MotionSource& operator=(const MotionSource&) = default;
 };
 
-/// A pair of bodies and their indices in the scene. Seen from a, b moves by motion number `motion`.
+/// A pair of bodies, with their indices in the scene. Seen from a, b moves by motion number
+/// `motion`.
 struct MotionPair {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
@@ -104,51 +108,53 @@ struct MotionPair {
   const Body* b;
   std::size_t motion = 0;
   std::size_t bodyA = 0, bodyB = 0;
-  /// The motions of a and of b as seen from the world, if they have numbers. With them, pairs that
-  /// are far apart are separated by one swept sphere per body instead of one per pair. If a is at
-  /// rest in the world, `worldA` is `kNone` and `worldB` equals `motion`. If nothing is known, both
-  /// are `kNone`. If they are given, a body has the same index and the same motion in all pairs of
-  /// a query.
+  /// The numbers of the motions of a and of b as seen from the world, or `kNone`. With these
+  /// numbers, bodies that are far apart are separated by one swept sphere per body instead of one
+  /// per pair.
+  /// * If a is at rest in the world, `worldA` is `kNone` and `worldB` equals `motion`.
+  /// * If the motions are not known, both are `kNone`.
+  /// * If they are known, a body has the same index and the same motion in all pairs of a query.
   std::size_t worldA = kNone, worldB = kNone;
 };
 
 /// A proved statement: on all of [t0, t1], and for the whole tube around the motion, pair number
 /// `pair` of a query stays at least `clearance` metres apart. The clearance includes the margin and
-/// the clearance slack that the query requested, so it is at least their sum, rounded
-/// down.
+/// the clearance slack of the query, so it is at least their sum, rounded down.
 struct FreeInterval {
   std::size_t pair = 0;
   double t0 = 0, t1 = 0;
   double clearance = 0;
 };
 
-/// The certificate of an answer. For a query without `earliest` whose answer is not `free`, it
-/// contains what was proved before the query stopped.
+/// The proof of an answer. If the query had no `earliest` and its answer is not `free`, the
+/// certificate contains what was proved before the query stopped.
 struct MotionCertificate {
-  /// For each pair the intervals cover [0, certifiedUntil] without a gap, in any order. There may
-  /// be more.
+  /// For each pair, these intervals cover [0, certifiedUntil] without a gap. They are in any order.
+  /// Further intervals may be among them.
   std::vector<FreeInterval> free;
-  /// For `contact`: a point of body a where the two touch (with a margin: where they are closest),
-  /// in a's frame at `contactTime`, metres. It is off by the rounding of its coordinates.
+  /// `contact`: a point of body a where the two bodies touch (with a margin: where they are
+  /// closest), in a's frame at `contactTime`, metres. The point is off by the rounding of its
+  /// coordinates.
   std::optional<Vec3> point_A;
 };
 
-/// Decides whether a motion is free of contact: every pair, for all t in [0, 1], with the margin
-/// kept, and for every curve in the tube. Meshes are surfaces here: a body inside a mesh touches
-/// nothing (`Scene` tests solid meshes). Convex parts are solid. The query is fastest if pairs of
-/// one motion are adjacent, and among these the pairs of one b.
+/// Decides whether a motion is free of contact: every pair keeps the margin for all t in [0, 1] and
+/// for every curve in the tube. Meshes are surfaces here: a body inside a mesh touches nothing
+/// (`Scene` tests solid meshes). Convex parts are solid. The query is fastest if pairs with the
+/// same motion are adjacent, and among these the pairs with the same b.
 ///
-/// Method. A time interval is halved if the boxes, or the triangles and convex parts, of a pair of
-/// bodies cannot be separated in it (`descend`: descend.h; for trees of any volume,
-/// descend_volumes.h). Each interval passes only its unseparated node pairs on to its halves. If
-/// the bounds of two bodies are separated, their trees are neither built nor walked. If only the
-/// verdict is requested, the other pairs are first tested for contact at the end of the motion,
-/// before any interval is walked. Node pairs that the first intervals cannot separate are tested
-/// for contact at the middles of these intervals. Most motions with a contact are decided by these
-/// two tests.
+/// Method. A time interval is halved if some boxes, triangles or convex parts of a pair of bodies
+/// cannot be separated in it (`descend`: descend.h; for trees of any volume, descend_volumes.h).
+/// Each interval passes only its unseparated node pairs on to its halves. If the bounds of two
+/// bodies are separated, their trees are neither built nor walked.
+///
+/// If only the verdict is requested, the pairs whose bounds are not separated are first tested for
+/// contact at the end of the motion, before any interval is walked. Node pairs that cannot be
+/// separated in the first intervals are tested for contact at the middles of these first intervals.
+/// These two tests decide most motions that have a contact.
 /// @param certificate if not null, receives the certificate, which `checkCertificate`
-/// (check_certificate.h) can prove again. Recording it never changes the verdict, and makes the
-/// query take half as long again.
+/// (check_certificate.h) can prove again. Recording it never changes the verdict; the query then
+/// takes about 1.5 times as long.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,
                            MotionCertificate* certificate = nullptr);

@@ -33,7 +33,8 @@ class CertificateCheck {
     workEnd_ = done + std::min(options.workLimit, std::numeric_limits<std::uint64_t>::max() - done);
   }
 
-  /// Proves, for all of [t0, t1], the margin plus half of what the interval claims beyond it.
+  /// Proves that b keeps the margin plus half of the claim beyond it on all of [t0, t1]. Returns a
+  /// fault if this fails.
   std::optional<CertificateFault> faultIn(const FreeInterval& i) {
     const MotionPair& pair = pairs_[i.pair];
     const double h = (i.t1 - i.t0) / 2, middle = i.t0 + h;
@@ -49,14 +50,13 @@ class CertificateCheck {
     const double needed =
         roundedUp(options_.margin + roundedUp(beyond / 2) + bound.isotropic + bound.pad);
     if (needed < HUGE_VAL && !closer(needed)) {
-      // No body passes through a surface between t = 0 and here, so one that is outside at t = 0
-      // stays so.
+      // No surfaces touch in this interval, so b cannot enter or leave a. For an interval from t =
+      // 0, the middle therefore decides containment at t = 0. Later intervals need no such test.
       if (i.t0 > 0 || !insideEachOther(Posed(*pair.a), Posed(*pair.b, relative.X_AB), context_))
         return std::nullopt;
       return CertificateFault{Kind::refuted, i.pair, 0};
     }
-    // Shorter intervals would not help: the missing clearance is lost to `pad`, or the claim is
-    // false.
+    // Shorter intervals would not help: `pad` takes the missing clearance, or the claim is false.
     if (!(bound.isotropic >= std::max(beyond, options_.tolerance) / 4) ||
         !(i.t0 < middle && middle < i.t1))
       return CertificateFault{
@@ -73,7 +73,7 @@ class CertificateCheck {
   std::uint64_t workEnd_ = 0;
 };
 
-/// Reports whether the interval is on the grid of time intervals, so that all their middles are
+/// Reports whether the ends of the interval are on the grid of times, so that all middles are
 /// exact.
 bool isOnGrid(const FreeInterval& i) {
   const auto onGrid = [](double t) {

@@ -9,18 +9,19 @@ namespace corridor {
 /// A fault in the certificate of a motion query.
 struct CertificateFault {
   enum class Kind {
-    /// The input is not valid. An interval is not part of [0, 1] on the grid of 2^-48, names no
-    /// pair, or claims less than the query requested. Or `until` is not in [0, 1], or no query
-    /// accepts the options.
+    /// The input is not valid, for one of these reasons: an interval is not part of [0, 1] on the
+    /// grid of 2^-48, names no pair, or claims less than the query requested; `until` is not in [0,
+    /// 1]; or the options are out of range.
     malformed,
     gap,  ///< the intervals of the pair do not cover `t`
-    /// At `t` the pair is closer than an interval there claims, or one body is inside the other,
+    /// At `t` the pair is closer than an interval claims there. Or one body is inside the other,
     /// which is a solid mesh.
     refuted,
-    /// At `t` the claim holds for the edge itself, but this method cannot prove it with tube and
-    /// rounding included: it bounds their effect on all of b, not only on the region close to a.
+    /// At `t` the edge itself keeps the margin and more than three quarters of the claim beyond it.
+    /// But this method cannot prove the interval with tube and rounding included. It bounds their
+    /// effect on all of b, not only on the region close to a.
     unproved,
-    workLimit,      ///< `MotionOptions::workLimit` was reached at `t`: not proved
+    workLimit,      ///< `MotionOptions::workLimit` was reached at `t`, so nothing is proved there
     ambiguous,      ///< the motion defines no curve: a half turn, or a displacement that overflows
     floatingPoint,  ///< no bound holds with these processor settings (core/floating_point.h)
   };
@@ -33,17 +34,18 @@ struct CertificateFault {
 ///
 /// The check proves again that the intervals of every pair cover [0, until]. It also proves the
 /// clearances: throughout each interval, for the whole tube, the bodies stay farther apart than the
-/// margin plus half of what the interval claims beyond it. Containment in solid meshes is tested
-/// once per pair, where the first part of an interval from t = 0 is proved.
+/// margin plus half of the claim beyond the margin. Containment in solid meshes is tested once per
+/// pair, at the beginning of the motion.
 ///
 /// Guarantee: if no fault is found and until > 0, no pair comes as close as the margin on
 /// [0, until]. Nor is any body inside a solid mesh there (collision/PROMISES.md, promise 4).
 ///
-/// The method and the trees differ from those of the proof: tolerance queries on the binary trees
-/// at the middles of ever shorter time intervals, against an isotropic motion bound. The check
-/// shares with `certifyMotion` only the motion itself and the isotropic bound of `motionBound`. Its
-/// work is proportional to the length of the motion divided by its clearance.
-/// @param options those of the query; `workLimit` limits the box and triangle tests of the check.
+/// The method and the trees differ from those of the proof. The check makes tolerance queries on
+/// the binary trees, at the middles of ever shorter time intervals, with an isotropic motion bound.
+/// It shares with `certifyMotion` only the motion itself and the isotropic bound of `motionBound`.
+/// Its work is proportional to the length of the motion divided by its clearance.
+/// @param options the options of the query. `workLimit` limits the box and triangle tests of the
+/// check.
 /// @param until `certifiedUntil` of the answer.
 std::optional<CertificateFault> checkCertificate(MotionSource& motion,
                                                  std::span<const MotionPair> pairs,

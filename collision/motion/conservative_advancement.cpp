@@ -14,11 +14,11 @@ namespace {
 constexpr double kGrid = 0x1p-48;
 /// The largest half width of an interval that `MotionSource::relativeMotion` accepts.
 constexpr double kLongest = 0.5;
-/// A step that is too long is shortened in proportion to what the clearance allows, times this
-/// share. The motion bound of a short step is nearly proportional to time.
+/// A step that is too long is shortened in proportion to the clearance, and multiplied by this
+/// factor. (The motion bound of a short step is nearly proportional to time.)
 constexpr double kShare = 1 - 0x1p-7;
 
-/// A pair that is proved on all of [0, t].
+/// A pair of bodies that is proved free on all of [0, t].
 struct Front {
   double t;
   std::uint32_t pair;
@@ -44,8 +44,8 @@ class Advancement {
       if (measured.contact) return steps_.contact(pair, t, t, measured);
       const double step = longestStep(front, measured);
       const bool done = t + step == 1;
-      // With a clearance of twice the tolerance there is more room than this, even if the clearance
-      // slack takes one tolerance.
+      // If the clearance is twice the tolerance, the room exceeds half of the tolerance, even if
+      // the clearance slack takes one tolerance.
       const double room = measured.lower - measured.bound.needed;
       if (!done && (step == 0 || room <= steps_.options().tolerance / 2))
         return steps_.close(pair, t, t, measured.gap);
@@ -59,7 +59,8 @@ class Advancement {
   }
 
  private:
-  /// Returns nearly the longest time for which the distance at t suffices, or 0.
+  /// Returns the longest step, or nearly the longest, for which the measured distance suffices.
+  /// Returns 0 if there is none.
   double longestStep(const Front& front, const DistanceSteps::Measurement& measured) {
     if (!measured.apart()) return 0;
     double h = std::min(kLongest, 1 - front.t);

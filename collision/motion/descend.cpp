@@ -118,11 +118,11 @@ class Moving {
     for (unsigned rest = leaves; rest; rest &= rest - 1)
       pairs.add(static_cast<unsigned>(std::countr_zero(rest)));
     LeafMotionBound goes = bound_.ofLeaves(nb, pairs.lanesB());
-    // If shorter intervals would not help, or are not allowed, double precision decides all that is
-    // left.
+    // If no box of b moves farther than the tolerance, or if shorter intervals are not allowed,
+    // double precision decides all pairs that are left.
     const bool last = options_.shortest || !bound_.of(nb).far;
-    // With clearances requested the filter must not drop any pair, since it computes no distances:
-    // an infinite pad keeps all of them.
+    // If clearances are requested, the filter must not drop any pair, because it computes no
+    // distances. An infinite pad keeps all pairs.
     const float far = options_.clearance ? HUGE_VALF : goes.isotropic + goes.pad;
     return leaves_.forEachNearSixteen(
         pairs, [&] { return far; },
@@ -141,14 +141,14 @@ class Moving {
             const auto [s, t] = pairs.triangles(first + bit);
             const MovingTrianglesAnswer answer =
                 decideMovingTriangles(a_.triangle(s), b_.triangle(t), relative_, options_.margin);
-            counters_.exactTests += answer.exact;  // the filter has counted the pair
+            counters_.exactTests += answer.exact;  // the filter has already counted this test
             if (take(answer, s, t, pair, open)) return true;
           }
           return false;
         });
   }
 
-  /// Returns true if the walk has to end.
+  /// Adds the result for two leaf primitives. Returns true if the walk has to end.
   bool take(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t, unsigned leaves,
             unsigned& open) {
     const LeafOutcome pair =
@@ -165,7 +165,7 @@ class Moving {
   Counters& counters_;
   MotionBound4 bound_;
   Obb4Leaves leaves_;
-  unsigned left_ = 0;  // node pairs of this interval in `later_`
+  unsigned left_ = 0;  // number of pairs of boxes left by tests, for `mostLeft`
   alignas(64) float clearances_[16];
   Descent result_;
 };
@@ -173,8 +173,8 @@ class Moving {
 Descent descendObb4(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
                     const RelativeMotion& relative, const DescentOptions& options,
                     std::vector<NodePair4>& later, QueryContext& context) {
-  // The infinite pad keeps `Obb4TreePose` from separating the root bounds: it does not know the
-  // motion.
+  // `Obb4TreePose` does not know the motion, so it must not separate the root boxes. The infinite
+  // pad prevents this.
   const Obb4TreePose pose(a, {}, b, relative.X_AB, HUGE_VAL);
   Moving query(a, b, relative, pose, options, later, context.counters);
   const std::span<const NodePair4> left = walkObb4(

@@ -19,36 +19,36 @@ namespace corridor {
 /// The result of one time interval for node pairs of two trees.
 struct Descent {
   enum class Kind {
-    done,     ///< everything that was not left to shorter intervals is separated throughout
+    done,     ///< all that is not left to shorter intervals is separated throughout the interval
     contact,  ///< `s` and `t` touch at the rounded pose at the interval's middle
-    /// `s` and `t` are neither separated nor proved to touch, and shorter intervals would not help
-    /// or are not allowed.
+    /// `s` and `t` are neither separated nor proved to touch, and shorter intervals would not help,
+    /// are not needed, or are not allowed.
     undecided,
     workLimit,  ///< the work limit was reached
   };
   Kind kind = Kind::done;
   std::uint32_t s = 0, t = 0;  ///< numbers of the leaf primitives in their meshes
-  double gap = 0;              ///< `undecided`: distance beyond the margin at the middle, metres
-  bool wide = false;           ///< `undecided`, and the motion bound exceeds the tolerance
-  /// If requested: what was separated is proved to stay at least this much farther apart than
-  /// margin and pads, metres. Infinite if nothing was separated.
+  double gap = 0;              ///< `undecided`: distance at the middle beyond the margin, metres
+  bool wide = false;           ///< `undecided`: the motion bound exceeds the tolerance
+  /// If requested: a proved lower bound of the distance of all that was separated, beyond margin
+  /// and pads, throughout the interval, metres. Infinite if nothing was separated.
   double clearance = HUGE_VAL;
 };
 
 struct DescentOptions {
   double margin = 0, tolerance = 0;  ///< metres
   bool shortest = false;             ///< the interval must not be halved
-  std::uint64_t workEnd = 0;  ///< stop when the counters have this many box and triangle tests
-  unsigned mostLeft = 0;      ///< once this many node pairs are left to the halves, all others are
-  bool clearance = false;     ///< whether `Descent::clearance` is requested: costs time
+  std::uint64_t workEnd = 0;         ///< `Counters::work` at which the walk stops
+  unsigned mostLeft = 0;   ///< once this many pairs of boxes are left to the halves, all others are
+  bool clearance = false;  ///< whether `Descent::clearance` is requested, which costs time
 };
 
 /// The result for a pair of leaf primitives. `apart`: separated throughout the interval. `left`:
 /// left to shorter intervals. `last`: ends the walk, for the reason in `Descent::kind`.
 enum class LeafOutcome { apart, left, last };
 
-/// Enters the result for the leaf primitives `s` and `t`, by their numbers in their meshes, into
-/// the result of the interval.
+/// Adds the result for two leaf primitives to the result of the interval. `s` and `t` are their
+/// numbers in their meshes.
 inline LeafOutcome outcomeOf(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t,
                              const DescentOptions& options, Descent& descent) {
   if (answer.separated) {
@@ -61,7 +61,7 @@ inline LeafOutcome outcomeOf(const MovingTrianglesAnswer& answer, std::uint32_t 
     descent.kind = Descent::Kind::contact;
     return LeafOutcome::last;
   }
-  // Shorter intervals would not help, or are not needed or not allowed.
+  // Shorter intervals would not help, are not needed (for this tolerance), or are not allowed.
   if (answer.stuck || !(answer.bound > options.tolerance) || options.shortest) {
     descent.kind = Descent::Kind::undecided;
     descent.gap = answer.gap;
@@ -71,23 +71,23 @@ inline LeafOutcome outcomeOf(const MovingTrianglesAnswer& answer, std::uint32_t 
   return LeafOutcome::left;
 }
 
-/// Walks the trees below the node pairs `start`, b moving by the relative motion `relative`.
-/// Appends the node pairs that it cannot separate in this interval to `later`. `start` may be a
-/// part of `later`.
+/// Walks the trees below the node pairs `start` in a time interval. b moves by the relative motion
+/// `relative`. Appends the node pairs that cannot be separated in this interval to `later`. `start`
+/// may be a part of `later`.
 ///
 /// Boxes are separated by the 15 axes, each with the motion bound along it for the whole interval
 /// (overlap_obb4_moving-inl.h). Pairs of leaf primitives are separated along the direction of their
-/// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: a
-/// pair of boxes that move farther than they are large is left to shorter intervals.
+/// closest points (`decideMovingTriangles`, `decideMovingParts`). Time is split before space: if
+/// the boxes of a pair move farther than they are large, the pair is left to shorter intervals.
 ///
-/// @return If the kind is `contact`, `later` also receives everything that was not tested and the
-/// pair that touches. If it is `undecided` or `workLimit`, the contents appended to `later` have no
-/// meaning.
+/// @return If the kind is `contact`, `later` also receives the pair that touches and everything
+/// that was not tested. If the kind is `undecided` or `workLimit`, the node pairs appended to
+/// `later` have no meaning.
 Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
                 const RelativeMotion& relative, const DescentOptions& options,
                 std::vector<NodePair4>& later, QueryContext& context);
-/// The same for code that works on any kind of trees (`withTrees`): 4-wide trees have only one
-/// overlap test.
+/// The same for code that is generic over the kinds of trees (`withTrees`). 4-wide trees have only
+/// one overlap test.
 template <std::same_as<StandardOverlap> Overlap>
 Descent descend(std::span<const NodePair4> start, const Obb4Tree& a, const Obb4Tree& b,
                 const RelativeMotion& relative, const DescentOptions& options,

@@ -8,22 +8,22 @@
 #include "collision/motion/moving_parts.h"
 #include "collision/volumes/pair_tests.h"
 
-/// The pad. Let X̂ be the rounded map at the interval's middle, taken as exact, under which volumes
-/// are tested (`PairTest`, with no other error). Anywhere in the interval and in the tube, a point
-/// p of b is within isotropic + pad of X̂p, by the `MotionBound` of a sphere that contains p.
-/// Volumes that are farther apart than margin + isotropic + pad under X̂ therefore contain nothing
-/// that comes nearer than the margin.
+/// Derivation of the pad. Let X̂ be the rounded map at the interval's middle, taken as exact, under
+/// which volumes are tested (`PairTest`, with no other error). Anywhere in the interval and in the
+/// tube, a point p of b is within isotropic + pad of X̂p, by the `MotionBound` of a sphere that
+/// contains p. Suppose that two volumes are farther apart than margin + isotropic + pad under X̂.
+/// Then their contents never come nearer than the margin.
 ///
-/// The sphere is the volume's own, mapped. Its centre c is off by 2u of |c| and the radius. It is
-/// mapped to M c + t with an error of less than 8u of its terms per coordinate. 16u of all the
-/// terms, as a length, covers both.
+/// The sphere is the mapped bounding sphere of the volume. Its centre c is off by 2u of |c| and of
+/// the radius. The mapped centre M c + t is off by less than 8u of its terms per coordinate. 16u of
+/// all the terms, as a length, covers both errors.
 namespace corridor {
 namespace {
 
 /// Time is split before space if b's volume moves farther than this share of the larger volume's
-/// radius. Soundness does not depend on the value. Measured on plans with boxes and k-DOPs: with 1,
-/// arms need three times as many tests and rigid bodies a tenth to a third more; with 1/64, rigid
-/// bodies need twice as many.
+/// radius. Soundness does not depend on the value. Measured on plans, with boxes and k-DOPs: with
+/// 1, arms need three times as many tests, and rigid bodies 1.1 to 1.3 times as many. With 1/64,
+/// rigid bodies need twice as many.
 constexpr double kTravelOfSize = 0.125;
 
 template <class Volume, class Overlap>
@@ -43,7 +43,7 @@ class MovingVolumes {
         later_(later),
         counters_(counters) {}
 
-  // The interface of a Query that `traverse` calls.
+  // The members that `traverse` calls.
 
   bool enter(const Item& item, const Node& na, const Node& nb) {
     item_ = item;
@@ -74,8 +74,8 @@ class MovingVolumes {
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) { stack.push_back({i, k}); }
   void opened(std::vector<Item>&, std::size_t) {}
 
-  /// Leaves the node pair tested last to shorter intervals. Returns false: its nodes are not
-  /// opened.
+  /// Leaves the current node pair to shorter intervals. Returns false: `traverse` then neither
+  /// opens the pair nor ends.
   bool leave() {
     leave(item_);
     ++left_;
@@ -88,13 +88,14 @@ class MovingVolumes {
  private:
   /// The motion bound of b's volume in the interval, metres.
   struct Travel {
-    double isotropic = 0;  ///< isotropic motion bound: halves with the interval
+    double isotropic = 0;  ///< isotropic motion bound: smaller in shorter intervals
     double fixed = 0;      ///< tube, rounding and clearance slack: the same in every interval
     double pad = 0;        ///< the margin, `isotropic` and `fixed` together, rounded up
-    bool far = false;      ///< more than the tolerance: shorter intervals may help
+    bool far = false;      ///< `isotropic` exceeds the tolerance: shorter intervals may help
   };
 
-  /// Several nodes of a are tested against one node of b in succession, so the last result is kept.
+  /// Keeps the last result, because several nodes of a are tested against one node of b in
+  /// succession.
   const Travel& motionBoundOfVolume(std::uint32_t number, const Node& nb) {
     if (number == travelNode_) return bound_;
     travelNode_ = number;
@@ -136,9 +137,9 @@ class MovingVolumes {
   const DescentOptions& options_;
   std::vector<NodePair4>& later_;
   Counters& counters_;
-  Item item_{};  // tested last
+  Item item_{};  // the current node pair
   std::uint32_t travelNode_ = ~std::uint32_t{0};
-  Travel bound_;       // of that node of b
+  Travel bound_;       // bound of node `travelNode_` of b
   unsigned left_ = 0;  // node pairs of this interval in `later_`
   Descent result_;
 };

@@ -5,22 +5,22 @@
 
 namespace corridor {
 
-/// `descend` (descend.h) for binary trees of any volume: the certified edge in its plainest form,
-/// beside the fast one. For a node pair in a time interval:
+/// `descend` (descend.h) for binary trees of any volume: the simplest form of the method. The fast
+/// form is in descend.cpp. The steps for a node pair in a time interval:
 ///
 /// 1. At the interval's middle the two volumes are tested with a pad: the margin, plus the motion
-///    bound of b's volume *in any direction*, tube and rounding included. If they are separated,
-///    everything below them is, in all of the interval.
-/// 2. Otherwise the coarser of time and space is split. Time, if b's volume moves far for the size
-///    of the larger volume: the node pair is left to the interval's halves.
-/// 3. Else space: the larger volume is opened (`traverse`).
-/// 4. For two leaves, their triangles or convex parts decide, along the direction of their closest
-///    points, as in every other method (`decideMovingTriangles`, `decideMovingParts`).
+///    bound of b's volume *in any direction*, with tube and rounding. If they are separated,
+///    everything below them is separated in all of the interval.
+/// 2. Otherwise time is split if b's volume moves far, compared to the size of the larger volume.
+///    The node pair is then left to the interval's halves.
+/// 3. Otherwise space is split: the larger volume is opened (`traverse`).
+/// 4. Two leaves are decided by their triangles or convex parts, along the direction of the closest
+///    points (`decideMovingTriangles`, `decideMovingParts`).
 ///
-/// `descend` on 4-wide OBB trees has motion bounds for boxes along the very axis tested, and
-/// therefore opens fewer nodes. The answers are the same.
+/// `descend` on 4-wide OBB trees has a motion bound along each tested axis, and therefore opens
+/// fewer nodes. The verdicts are the same.
 ///
-/// Only the nodes of the items of `start` and `later` have a meaning.
+/// Items of `start` and `later` use only the members `a` and `b`.
 /// @tparam Overlap  how two volumes are tested (overlap_obb_obb_variants.h).
 template <class Overlap, BoundingVolume Volume>
 Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,

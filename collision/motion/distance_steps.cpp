@@ -9,19 +9,20 @@
 #include "collision/motion/motion_answer.h"
 #include "collision/queries/surface_distance.h"
 
-/// The bound. Let X̂ be the rounded map at t, and D the distance under it in real arithmetic.
-/// Anywhere in [t − h, t + h] and in the tube, every point of the real b is within isotropic + pad
-/// of the place that X̂ gives it (`MotionBound` of a sphere that contains b). Then b stays at least
-/// D − isotropic − pad away from a. The clearance slack is in `pad`, as an error of the motion.
+/// Derivation of the bound. Let X̂ be the rounded map at t, and D the distance under it in real
+/// arithmetic. Anywhere in [t − h, t + h] and in the tube, every point of the real b is within
+/// isotropic + pad of its place under X̂ (`MotionBound` of a sphere that contains b). Then b stays
+/// at least D − isotropic − pad away from a. `pad` includes the clearance slack, as an error of the
+/// motion.
 ///
 /// Let T = margin + pad + isotropic. A measurement with the relative error ρ = isotropic/4T proves
 /// more than T if the distance exceeds T(1 + ρ) = T + isotropic/4. An interval is therefore proved
-/// whenever the clearance beyond margin and `pad` is above 5/4 of the bound.
+/// whenever the clearance beyond margin and `pad` exceeds 5/4 of the motion bound.
 namespace corridor {
 namespace {
 
-/// The first step, as a share of the motion, after which a contact is searched for where the
-/// clearance has vanished. Each further step doubles.
+/// A contact is searched for after the time at which the clearance has vanished. This is the first
+/// step of the search, as a share of the motion. Each further step is twice as long.
 constexpr double kFirstProbe = 0x1p-40;
 
 }  // namespace
@@ -43,7 +44,7 @@ bool DistanceSteps::outOfWork() const {
 
 RelativeMotion DistanceSteps::relativeMotion(std::uint32_t pair, double t, double h) {
   RelativeMotion w = motion_.relativeMotion(pairs_[pair].motion, t, h);
-  w.fixedError += options_.clearanceSlack;  // a proof needs it, a contact does not
+  w.fixedError += options_.clearanceSlack;  // required for a proof, not for a contact
   ++context_.counters.poses;
   return w;
 }
@@ -82,7 +83,7 @@ DistanceSteps::Measurement DistanceSteps::measureAt(std::uint32_t pair, double t
   measured.s = found.a;
   measured.t = found.b;
   measured.gap = std::max(0.0, found.distance - options_.margin);
-  // If the pose overflows, "contact" only means that nothing is known.
+  // If the pose overflows, a distance of 0 only means that nothing is known.
   measured.contact =
       w.X_AB.isFinite() &&
       (found.distance == 0 || distanceFromAbove(posedA, posedB, found) <= options_.margin);

@@ -7,23 +7,23 @@
 
 namespace corridor {
 
-/// What the methods that prove motions by distances (adaptive_motion.h, conservative_advancement.h)
-/// have in common: they measure the distance of a pair of bodies at one time, and bound the motion
-/// of b from there in any direction.
+/// The common steps of the methods that prove motions by distances (adaptive_motion.h,
+/// conservative_advancement.h). They measure the distance of a pair of bodies at one time, and
+/// bound the motion of b about that time in any direction.
 class DistanceSteps {
  public:
   /// @pre all arguments outlive the object.
   DistanceSteps(MotionSource& motion, std::span<const MotionPair> pairs,
                 const MotionOptions& options, QueryContext& context);
 
-  /// The distance that a time interval [t − h, t + h] needs at t. Metres, rounded up.
+  /// The distance that is needed at t to prove a time interval [t − h, t + h]. Metres, rounded up.
   struct Bound {
-    double bound = 0;   ///< no point of b moves farther from its place at t
-    double needed = 0;  ///< margin, `bound`, rounding, tube and clearance slack
+    double bound = 0;   ///< motion bound: no point of b moves farther from its place at t
+    double needed = 0;  ///< sum of margin, `bound`, rounding, tube and clearance slack
   };
   Bound bound(std::uint32_t pair, double t, double h);
 
-  /// A pair as measured at t, for a time interval about t. Metres.
+  /// The measurement of a pair at t, for a time interval about t. Metres.
   struct Measurement {
     Bound bound;
     bool contact = false;  ///< contact at the rounded pose at t: exact, or proved within the margin
@@ -36,27 +36,28 @@ class DistanceSteps {
     bool apart() const { return lower > bound.needed; }
   };
   /// Measures a pair at t.
-  /// @param exact measure to the last digits; otherwise to a quarter of the bound, which avoids
-  /// testing pairs that are only a little farther apart than the closest.
+  /// @param exact true: measure to the last digits. False: allow an error of a quarter of the
+  /// motion bound, which avoids tests of leaf primitives that are nearly as close as the closest
+  /// ones.
   Measurement measureAt(std::uint32_t pair, double t, double h, bool exact);
 
-  /// Reports whether the swept sphere of b stays apart from a's bounds in [t − h, t + h]. `true` is
-  /// a proof. Measures nothing and builds no tree.
+  /// Reports whether the swept sphere of b stays farther than the margin from a's bounds in [t − h,
+  /// t + h]. `true` is a proof. Measures no distance and builds no tree.
   bool staysAway(std::uint32_t pair, double t, double h);
 
-  /// Reports whether `MotionOptions::workLimit` is reached. A measurement counts as `kLookWork`
-  /// tests, in addition to those that it makes.
+  /// Reports whether `MotionOptions::workLimit` is reached. Each measurement counts as `kLookWork`
+  /// tests, in addition to the tests that it makes.
   bool outOfWork() const;
 
   const MotionOptions& options() const { return options_; }
   Counters& counters() { return context_.counters; }
 
-  // Answers. [0, t0] is proved free if `earliest` is requested.
+  // The answers of a query. With `earliest`, [0, t0] must be proved free.
 
   MotionResult contact(std::uint32_t pair, double t0, double t1, const Measurement& seen) const;
   MotionResult workLimit(double t0) const;
-  /// Returns the answer if what begins at t0 cannot be proved: contact, if one is found soon after
-  /// t0, else undecided.
+  /// Returns the answer if no interval from t0 on can be proved: `contact` if a contact is found
+  /// soon after t0, otherwise `undecided`.
   /// @param time the time to report with `undecided`; the gap is measured there.
   /// @param clearance an upper bound of the clearance beyond the margin at t0, metres.
   MotionResult close(std::uint32_t pair, double t0, double time, double clearance);

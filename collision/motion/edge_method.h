@@ -9,8 +9,8 @@
 
 namespace corridor {
 
-/// The methods that prove a motion. All decide the same query with the same promises
-/// (`certifyMotion`). They differ in cost, and therefore in what they leave undecided at the work
+/// The methods that prove a motion. All answer the same query with the same promises
+/// (`certifyMotion`). They differ in cost, and therefore in what is left undecided at the work
 /// limit.
 enum class EdgeMethod {
   /// Trees over space and time, with directional motion bounds: certify_motion.h. The default.
@@ -24,12 +24,12 @@ const std::vector<std::string>& edgeMethodNames();
 /// Returns the method with this name, or nothing if there is none.
 std::optional<EdgeMethod> edgeMethodNamed(std::string_view name);
 
-/// Decides whether a motion is free, by a method (`certifyMotion`). Counts an edge, or a state if
-/// nothing moves.
+/// Answers the query of `certifyMotion` by the given method. Counts an edge, or a state if nothing
+/// moves.
 MotionResult certifyMotionBy(EdgeMethod method, MotionSource& motion,
                              std::span<const MotionPair> pairs, const MotionOptions& options,
                              QueryContext& context);
-/// The same for a caller that counts edges itself.
+/// The same without counting, for callers that count edges themselves.
 MotionResult runEdgeMethod(EdgeMethod method, MotionSource& motion,
                            std::span<const MotionPair> pairs, const MotionOptions& options,
                            QueryContext& context);

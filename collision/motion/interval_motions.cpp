@@ -13,7 +13,7 @@ IntervalMotions::IntervalMotions(MotionSource& source, std::span<const MotionPai
     : source_(source), spheres_(context.scratch.of<SweptSpheres>()), counters_(context.counters) {
   std::size_t bodies = 0;
   for (const MotionPair& pair : pairs)
-    if (pair.worldB != MotionPair::kNone)  // others have no sphere in the world
+    if (pair.worldB != MotionPair::kNone)  // other pairs use no sphere in the world
       bodies = std::max({bodies, pair.bodyA + 1, pair.bodyB + 1});
   spheres_.makeRoom(bodies);
 }
@@ -47,7 +47,7 @@ IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, 
                                             worldSphere(pair.worldB, *pair.b, pair.bodyB), enough);
     if (clearance > asked) return {clearance};
   }
-  // Only a motion as seen from the world has a sphere that other pairs can use.
+  // A sphere can be shared by several pairs only if its motion is seen from the world.
   const SweptSphere sphere = pair.worldB == pair.motion
                                  ? worldSphere(pair.motion, *pair.b, pair.bodyB)
                                  : sweptSphere(*pair.b, relative(pair.motion));

@@ -8,27 +8,28 @@
 
 namespace corridor {
 
-/// The relative motions of a query's bodies in one time interval, each computed when it is first
-/// needed, and what bounding spheres prove about whole bodies in it.
+/// The relative motions of a query's bodies in one time interval, and proved lower bounds of the
+/// distances of whole bodies. Each motion is computed when it is first needed.
 class IntervalMotions {
  public:
   IntervalMotions(MotionSource& source, std::span<const MotionPair> pairs, QueryContext& context);
 
   /// Selects the interval [t − h, t + h].
   void select(double t, double h);
-  /// Returns motion number `motion` in the selected interval. Valid until the next call of any
-  /// member.
+  /// Returns motion number `motion` in the selected interval. The reference is valid until the next
+  /// call of any member.
   const RelativeMotion& relative(std::size_t motion);
 
   struct Separation {
     double clearance = 0;  ///< proved lower bound of the bodies' distance in the interval, metres
-    /// b rotates and moves far for its size (`SplitRules`). False where `clearance` is above
-    /// the value that was requested.
+    /// True if b rotates and moves far for its size (`SplitRules`). Always false if `clearance` is
+    /// above the requested value.
     bool far = false;
   };
-  /// Bounds the distance of two bodies in the interval by their bounding spheres and boxes. No tree
-  /// is built.
-  /// @param asked  metres. A clearance above it need not be the best bound, unless `best` is true.
+  /// Returns a lower bound of the distance of two bodies in the interval, from their bounding
+  /// spheres and boxes. No tree is built.
+  /// @param asked metres. If the clearance is above this value, the result need not be the best
+  /// bound, unless `best` is true.
   Separation separation(const MotionPair& pair, double asked, bool best);
 
  private:
@@ -38,8 +39,8 @@ class IntervalMotions {
   SweptSpheres& spheres_;
   Counters& counters_;
   double t_ = -1, h_ = 0;                  // the selected interval
-  RelativeMotion relative_;                // in it,
-  std::size_t posed_ = MotionPair::kNone;  // of this motion
+  RelativeMotion relative_;                // motion number `posed_` in the selected interval
+  std::size_t posed_ = MotionPair::kNone;  // `kNone`: no motion is computed yet
 };
 
 }  // namespace corridor

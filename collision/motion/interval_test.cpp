@@ -13,13 +13,14 @@
 namespace corridor {
 namespace {
 
-/// Returns the distance, metres, beyond which a pair of bodies is proved free.
+/// Returns the distance, metres, that two bodies must exceed to be proved free.
 double askedOf(const MotionQuery& query) {
   return roundedUp(query.options.margin + query.options.clearanceSlack);
 }
 
-/// Records that all of the group is separated in the interval. The node pairs that were separated
-/// last have this clearance, beyond margin and pads.
+/// Records in the certificate that all of the group is separated in [t0, t1].
+/// @param clearance of the node pairs that were separated last, beyond margin, clearance slack and
+/// motion, metres. `group` has the clearance of the others.
 void record(const MotionQuery& query, double t0, double t1, const WorkList::Group& group,
             double clearance) {
   if (!query.certificate) return;
@@ -29,7 +30,7 @@ void record(const MotionQuery& query, double t0, double t1, const WorkList::Grou
        roundedDown(query.options.margin + query.options.clearanceSlack + beyond)});
 }
 
-/// The outcome of testing the bounds of a whole pair of bodies.
+/// The result of testing the bounds of a whole pair of bodies.
 struct BodiesAnswer {
   bool separated = false, far = false;
 };
@@ -82,7 +83,7 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
       continue;
     }
     RelativeMotion relative = motions.relative(motion);
-    relative.fixedError += query.options.clearanceSlack;  // a proof needs it, a contact does not
+    relative.fixedError += query.options.clearanceSlack;  // required for a proof, not for a contact
     const std::size_t later = list.nodePairs.size();
     const DescentOptions asked = {query.options.margin,    query.options.tolerance,
                                   h <= Rules::kShortest,   query.workEnd,
@@ -118,7 +119,7 @@ Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList
 
 std::optional<TrianglePair> touchBelow(const MotionQuery& query, std::uint32_t bodies,
                                        const Transform& X_AB, std::span<const NodePair4> start) {
-  if (!X_AB.isFinite()) return std::nullopt;  // overflow counts as overlap, but is no contact
+  if (!X_AB.isFinite()) return std::nullopt;  // boxes would overlap, but no contact is proved
   const MotionPair& pair = query.pairs[bodies];
   return withTrees(
       query.options.trees, *pair.a, *pair.b, [&](auto overlap, const auto& a, const auto& b) {

@@ -14,13 +14,13 @@
 
 namespace corridor {
 
-/// A time interval, and the range of `WorkList::groups` that is its work: what the interval that it
-/// is a half of could not separate.
+/// A time interval with its work: a range of `WorkList::groups`, which its parent interval could
+/// not separate.
 struct Interval {
   double t0, t1;
   std::size_t begin, end;
-  WorkList::Mark mark = {};      ///< where the work list is cut before the interval is tested
-  bool bodiesAreTested = false;  ///< the bounds of all bodies were tested in it
+  WorkList::Mark mark = {};      ///< the work list is cut here before the interval is tested
+  bool bodiesAreTested = false;  ///< the bounds of whole bodies have been tested in this interval
 
   double half() const { return (t1 - t0) / 2; }
   double middle() const { return t0 + half(); }  // dyadic: exact
@@ -32,28 +32,30 @@ struct MotionQuery {
   const MotionOptions& options;
   QueryContext& context;
   MotionCertificate* certificate;  ///< null if none is requested
-  std::uint64_t workEnd;           ///< of `Counters::work`
+  std::uint64_t workEnd;           ///< `Counters::work` at which the query stops
 };
 
 /// The result of testing one interval.
 struct IntervalAnswer {
-  Descent found;             ///< the kind is `done` if nothing stopped the test
-  std::uint32_t bodies = 0;  ///< otherwise the number of the pair of bodies that it is about
+  Descent found;  ///< the kind is `done` if nothing stopped the test
+  /// If the kind is not `done`: the number of the pair of bodies at which the test stopped.
+  std::uint32_t bodies = 0;
 };
 
-/// Tests the interval's work. Appends to the list what it cannot separate, and what it did not
-/// test. Records in the certificate what it proves.
+/// Tests the interval's work. Appends the groups that cannot be separated, and those that were not
+/// tested, to the list. Records what is proved in the certificate.
 IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
                             IntervalMotions& motions, WorkList& list);
 
-/// Tests only the bounds of all bodies in the whole motion. Appends the groups that they do not
-/// separate, and returns them as an interval.
-/// @param far  set if any of these bodies moves far in it
+/// Tests only the bounds of whole bodies, for the whole motion. Appends the groups that the bounds
+/// do not separate to the list. Returns the whole motion as an interval with these groups as its
+/// work.
+/// @param far set to true if one of these bodies moves far (`IntervalMotions::Separation`).
 Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList& list, bool& far);
 
-/// Returns the triangles that touch at the pose X_AB below the node pairs `start` of pair number
-/// `bodies`, by their numbers in the meshes, or nothing. Gives up at the work limit. A pose that
-/// overflows touches nothing.
+/// Returns two triangles that touch at the pose X_AB, by their numbers in the meshes, or nothing.
+/// Tests the node pairs `start` of pair number `bodies`, and its last pair (`LastPair`). Gives up
+/// at the work limit. For a pose that overflows, returns nothing.
 std::optional<TrianglePair> touchBelow(const MotionQuery& query, std::uint32_t bodies,
                                        const Transform& X_AB, std::span<const NodePair4> start);
 

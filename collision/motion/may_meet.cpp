@@ -21,9 +21,10 @@ SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative) {
   sphere.center = c;
   sphere.radius = roundedUp(radius + bound.pad + 16 * kUnit * terms);
   sphere.isotropic = bound.isotropic;
-  // y is off by 16u of its terms, as c is. The product and sum here add 16u, and so do those in
-  // `bent` and `clearanceBound`; the direction itself adds 8u. Lengths below 2^-511 vanish when
-  // squared.
+  // Rounding of the first-order term. y is off by 16u of its terms, like c. The products and sums
+  // here, in `bent` and in `clearanceBound` together add less than 16u. The length of the direction
+  // n adds 8u. Together 40u; 48u leaves room for the difference of two such terms. Lengths below
+  // 2^-511 underflow when squared.
   sphere.first = relative.linear + relative.angular.cross(y);
   sphere.angular = relative.angular;
   sphere.secondOrderAcross = bound.secondOrderAcross;
@@ -35,13 +36,13 @@ SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative) {
 
 namespace {
 
-/// Returns the share of `gap` metres, computed along (c_b − c_a)/gap, that remains after `radius`,
-/// rounding and the motion. The motion is bounded by `isotropic`; if that does not suffice, by
-/// `along(n)`.
+/// Returns a lower bound of what remains of a gap of `gap` metres along n = apart/gap, after
+/// radius, rounding and motion are subtracted; at least 0. The motion is bounded by `isotropic`, or
+/// if that bound does not suffice, by `along(n)`.
 template <class Along>
 double remaining(const Vec3& apart, double gap, double radius, double isotropic, double rounding,
                  double enough, const Along& along) {
-  if (!(gap < HUGE_VAL)) return 0;  // squares that overflow prove nothing
+  if (!(gap < HUGE_VAL)) return 0;  // squares overflowed: nothing is proved
   const auto beyond = [&](double bound) {
     const double needed = roundedUp(radius + bound + rounding);
     return gap > needed ? std::max(0.0, roundedDown(roundedDown(gap) - needed)) : 0;
@@ -63,18 +64,18 @@ double clearanceBound(const Body& a, const SweptSphere& sphere, double enough) {
   const Vec3& c = sphere.center;
   const Vec3 zero = Vec3::Zero();
   const Vec3 outside = (c - a.upper()).cwiseMax(zero) - (a.lower() - c).cwiseMax(zero);
-  // A square that underflows (to a subnormal, which may be rounded up) proves nothing. The
-  // differences are off by u of both terms, √3 of that as a length. Along n the centre is `gap`
-  // beyond the farthest point of the box.
+  // `rootFromBelow` returns 0 if squares underflow; such a gap proves nothing. The differences are
+  // off by u of both terms, as a length √3 times that. Along n the centre is `gap` beyond the
+  // farthest point of the box.
   return remaining(outside, rootFromBelow(outside.squaredNorm()), sphere.radius, sphere.isotropic,
                    4 * kUnit * (c.cwiseAbs().sum() + a.boundTerms()), enough,
                    [&](const Vec3& n) { return std::abs(n.dot(sphere.first)) + bent(sphere, n); });
 }
 
-/// The direction is that of the line between the two centres at the middle. Along it the spheres
-/// approach each other by the difference of their first-order displacements, and by the remainder
-/// of each. The difference rounds by u of both: of the 48u of the speeds in each sphere's
-/// secondOrder, `sweptSphere` uses 40u.
+/// The direction n is that of the line between the two centres at the middle. Along n the spheres
+/// approach each other by at most the difference of their first-order displacements and the
+/// remainder of each. The difference rounds by u of both. The 48u of the speeds in each sphere's
+/// `secondOrder` cover this: `sweptSphere` needs only 40u.
 double clearanceBound(const SweptSphere& a, const SweptSphere& b, double enough) {
   const Vec3 apart = b.center - a.center;
   return remaining(

@@ -8,16 +8,16 @@
 
 namespace corridor {
 
-/// Returns the swept sphere of b in the interval: its bounding sphere and the motion of the
-/// sphere's centre, as seen from a.
+/// Returns the swept sphere of b in the interval, as seen from a: its bounding sphere, and the
+/// motion bound of the sphere's centre.
 SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative);
 
 /// Returns a lower bound of the distance of the swept sphere from body a's axis-aligned box, in
-/// metres; 0 if nothing is known. If the bound exceeds `enough`, the result may be any bound above
-/// `enough`.
+/// metres. Returns 0 if no distance is proved. If the bound exceeds `enough`, the result may be any
+/// proved bound above `enough`.
 double clearanceBound(const Body& a, const SweptSphere& sphere, double enough = HUGE_VAL);
-/// Returns a lower bound of the distance of two swept spheres that are seen from the same frame in
-/// the same interval.
+/// Returns a lower bound of the distance of two swept spheres, in the same way. Both must be seen
+/// from the same frame in the same interval.
 double clearanceBound(const SweptSphere& a, const SweptSphere& b, double enough = HUGE_VAL);
 /// Reports whether the swept sphere may come nearer to body a than `margin`. `false` is a proof.
 inline bool mayMeet(const Body& a, const SweptSphere& sphere, double margin) {

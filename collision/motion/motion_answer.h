@@ -4,12 +4,14 @@
 
 namespace corridor {
 
-/// Returns why a pair of bodies stays undecided in every time interval about the middle of
-/// `relative`. The reason is `clearance` if the rounding of the pose is at most half of the
-/// tolerance. It is `clearance` as well if the gap is at most the tolerance and the rounding at
-/// most a thousandth of the body's radius. Otherwise the gap says little, and the reason is
-/// `rounding`.
-/// @param relative without the clearance slack. @param gap measured at the middle, metres.
+/// Returns the reason why a pair of bodies stays undecided in every time interval about the middle
+/// of `relative`. The reason is `clearance` in two cases:
+/// * The rounding of the pose is at most half of the tolerance.
+/// * The gap is at most the tolerance, and the rounding is at most a thousandth of the body's
+///   radius.
+/// Otherwise rounding may have caused the small gap, and the reason is `rounding`.
+/// @param relative without the clearance slack.
+/// @param gap measured at the middle, metres.
 inline UndecidedReason reasonOf(const RelativeMotion& relative, const Body& b, double gap,
                                 double tolerance) {
   const double lever = (relative.X_AB.m * b.sphereCenter()).norm() + b.sphereRadius();
@@ -20,8 +22,8 @@ inline UndecidedReason reasonOf(const RelativeMotion& relative, const Body& b, d
   return sharp ? UndecidedReason::clearance : UndecidedReason::rounding;
 }
 
-/// Returns the answer of `run`. The query is refused, as `undecided`, if the edge is ambiguous or
-/// no bound holds under the processor's floating-point settings.
+/// Returns the answer of `run`. If the edge is ambiguous, or if no bound holds under the
+/// processor's floating-point settings, returns `undecided` without calling `run`.
 template <class Run>
 MotionResult answered(const MotionSource& motion, bool earliest, const Run& run) {
   const auto refused = [](UndecidedReason reason) {
@@ -34,16 +36,16 @@ MotionResult answered(const MotionSource& motion, bool earliest, const Run& run)
   MotionResult result = !standardFloatingPoint() ? refused(UndecidedReason::floatingPoint)
                         : motion.ambiguous()     ? refused(UndecidedReason::ambiguous)
                                                  : run();
-  // Without `earliest`, the intervals that a method proved may have gaps, which it left for later:
-  // nothing can be claimed about them.
+  // Without `earliest`, a method may leave some intervals for later. The proved intervals then have
+  // gaps, so no `certifiedUntil` above 0 is proved.
   if (!earliest && result.verdict != MotionVerdict::free) {
     result.certifiedUntil = 0;
-    result.grazing = false;  // speaks of the whole way from `certifiedUntil` on
+    result.grazing = false;  // a statement about the time from `certifiedUntil` on
   }
   return result;
 }
 
-/// Counts a motion query: an edge, or a state if nothing moves.
+/// Counts a motion query: as an edge, or as a state if nothing moves.
 inline void count(const MotionSource& motion, const MotionResult& result, Counters& counters) {
   ++(motion.still() ? counters.states : counters.edges);
   counters.undecided += result.verdict == MotionVerdict::undecided;

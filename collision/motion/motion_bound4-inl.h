@@ -26,12 +26,12 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The motion bound of the triangles of several leaves in a time interval, in a's unit, rounded up;
-/// the terms are those of `Obb4MotionBound`. `linear` is the first-order displacement of the point
-/// that the corners are relative to (`TriangleCorners::center`), rounded.
+/// The motion bound of the triangles of several leaves in a time interval, in a's unit, rounded up.
+/// The terms are those of `Obb4MotionBound`. The corners are relative to a point
+/// (`TriangleCorners::center`). `linear` is the first-order displacement of this point, rounded.
 struct LeafMotionBound {
   float linear[3], angular[3];
-  float remainder = 0;  ///< beyond first order, along any unit vector
+  float remainder = 0;  ///< displacement beyond first order, along any unit vector
   float isotropic = 0, pad = 0;
 };
 
@@ -40,14 +40,15 @@ struct NodeMotionBound : Obb4MotionBound {
   unsigned far;  ///< one bit per box: its `isotropic` exceeds the tolerance
 };
 
-/// Computes `motionBound` (relative_motion.h, with its derivation) for the bounding spheres of a
-/// node's four boxes at once, and caches the nodes requested last. All lengths are in the unit of
-/// tree a.
+/// Computes `motionBound` (derivation: relative_motion.cpp) for the bounding spheres of a node's
+/// four boxes at once. Caches the bounds of the nodes requested last. All lengths are in the unit
+/// of tree a.
 ///
-/// Rounding beyond that of `motionBound`: the lever of a centre, M(o + 2^unit·c), has terms
-/// up to |o| + |c|, where |c| ≤ 3·2^unit ≤ 6 radii of the tree. In |.|₁ they are below 11 reaches
-/// of the tree. A box reaches |half|₂(1 + 2^-20) from its centre, which covers the defect of its
-/// axes.
+/// Rounding in addition to that of `motionBound`:
+/// * The lever of a centre, M(o + 2^unit·c), has terms up to |o| + |c|, where |c| ≤ 3·2^unit ≤ 6
+///   radii of the tree. In |.|₁ these terms are below 11 times the tree's `reach()`.
+/// * A box extends at most |half|₂(1 + 2^-20) from its centre. The factor covers the defect of its
+///   axes.
 class MotionBound4 {
  public:
   MotionBound4(const Obb4Tree& b, const RelativeMotion& relative, double unitA, double margin,
@@ -75,8 +76,8 @@ class MotionBound4 {
     return bounds_[slot];
   }
 
-  /// Returns the bound for the leaves in these lanes of a node (one bit each), except `linear`,
-  /// which `setLinear` sets.
+  /// Returns the bound for the leaves in these lanes of a node (one bit each). `linear` is not set;
+  /// `setLinear` sets it.
   LeafMotionBound ofLeaves(const Obb4Tree::Node& node, unsigned lanes) {
     const NodeMotionBound& boxes = of(node);
     LeafMotionBound leaves;
@@ -95,7 +96,8 @@ class MotionBound4 {
     return leaves;
   }
 
-  /// Sets `linear` for corners that are relative to `center` (in a's unit, from a's origin).
+  /// Sets `linear` for corners that are relative to `center`, a point in a's unit, relative to a's
+  /// origin.
   void setLinear(LeafMotionBound& leaves, const double* center, const Vec3& originA) const {
     const Vec3 y = Vec3(center[0], center[1], center[2]) / unitA_ + originA - relative_.X_AB.t;
     const Vec3 linear = (relative_.linear + relative_.angular.cross(y)) * unitA_;
@@ -184,7 +186,7 @@ class MotionBound4 {
                       hn::NegMulAdd(set(w.angular[1]), y[0], hn::Mul(set(w.angular[0]), y[1]))};
       V v[3];
       for (int k = 0; k < 3; ++k) v[k] = hn::Add(l[k], set(w.linear[k]));
-      // Bound of the error of v: the rounding of its products and of the lever.
+      // A bound of the error of v, which comes from its products and from the lever.
       const V blur = hn::MulAdd(set(16 * kUnit), hn::MulAdd(set(w.angle), lever, set(w.speed)),
                                 set(w.angle * loose_));
       const V first = hn::Add(hn::MulAdd(set(w.angle), grown, norm(v[0], v[1], v[2])),

@@ -10,34 +10,38 @@
 #include "collision/convex/gjk.h"
 #include "collision/core/rounding.h"
 
-/// Derivation. Along a unit vector n, the gap at the place s of the interval is
+/// Derivation. Along a unit vector n, the gap at the time s of the interval, |s| ≤ 1, is
 ///   g(s) = min over b of n·x(s) − max over a of n·x.
-/// b is a core swept by a sphere. The real motion is rigid, so the sphere takes its radius from the
-/// gap at every s, and only the points of the core move. (The disc of a cylinder does rotate with
-/// it: its points are core points.) With x = t + y and y = M p, by `RelativeMotion` and
+/// b is a core swept by a sphere. The real motion is rigid, so the sphere reduces the gap by its
+/// radius at every s, and only the motion of the core matters. (The disc of a cylinder rotates with
+/// the body; its points are points of the core.) Let x = t + y and y = M p. By `RelativeMotion` and
 /// `MotionBound`,
 ///   n·x(s) ≥ n·x + s n·(linear + angular × y) − secondOrderAcross |n × angular| − secondOrder −
 ///   pad.
-/// Since n·(angular × y) = (n × angular)·y, all points of the core *together* give
+/// Since n·(angular × y) = (n × angular)·y, the minimum of the first-order terms over *all* points
+/// of the core is
 ///   min over p of n·t + s n·linear + (n + s n × angular)·M p.
-/// This is again a projection of the core, along another vector. As the minimum of functions linear
-/// in s it is concave, so its least value on |s| ≤ 1 is at s = ±1. The isotropic bound, the
-/// projection along n less `isotropic` and `pad`, holds as well.
+/// This is again a projection of the core, along another vector. It is a minimum of functions that
+/// are linear in s, hence concave in s. Its least value on |s| ≤ 1 is therefore at s = 1 or s = −1.
+/// The isotropic bound holds, too: the projection along n, less `isotropic` and `pad`.
 ///
 /// Rounding. The bound of `PosedSet` is linear in the length of the vector, which is at most 1 + α
-/// with α = `angle`. To it come 8u for the cross product and the sum (off by 4u(1 + α) of the
-/// reach), 4u of `speed` for n·linear, and 3u of all terms for the sums. n × angular in the
-/// remainder is off by 4uα. 32u covers each of these.
+/// with α = `angle`. Other errors are added:
+/// * The cross product and the sum are off by 4u(1 + α), which adds 8u of the reach.
+/// * n·linear adds 4u of `speed`.
+/// * The sums add 3u of all terms.
+/// * n × angular in the remainder is off by 4uα.
+/// 32u covers each of these.
 namespace corridor {
 namespace {
 
-/// The gap of two sets along a direction: its least value in the interval, its value at the middle
-/// at the rounded pose, and its value at the middle less rounding and tube.
+/// The gap of two sets along a direction. `moving` is its least value in the interval. `middle` is
+/// its value at the rounded pose at the middle. `still` is `middle` less rounding and tube.
 struct Gaps {
   double moving, middle, still;
 };
 
-/// A pair of convex sets in a time interval, with everything that does not depend on the direction.
+/// A pair of convex sets in a time interval: everything that does not depend on the direction.
 class MovingPair {
  public:
   MovingPair(const ConvexSet& a, const ConvexSet& b, const RelativeMotion& relative)
@@ -80,7 +84,8 @@ class MovingPair {
   const MotionBound& bound() const { return bound_; }
   double radii() const { return a_.set().ball + b_.set().ball; }
   double size() const { return size_; }
-  /// The error of `middle` and `still`, and of `moving` in addition to its own.
+  /// The error of `Gaps` by projections. The rounding of the motion is already subtracted in
+  /// `Gaps::moving`.
   double slack() const { return slack_; }
 
  private:
@@ -99,10 +104,9 @@ class MovingPair {
 MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const RelativeMotion& relative,
                              double margin) {
   const MovingPair pair(a, b, relative);
-  // |n| ≤ 1 + 4u, so margin and pad, which are lengths along a unit vector, may be too short by
-  // that factor.
+  // Since |n| ≤ 1 + 4u, gaps along n may be too large by this factor. The last term covers this.
   const double needed = margin + pair.slack() + 8 * kUnit * (margin + pair.radii());
-  const double near = pair.radii() + 0x1p-49 * pair.size();  // inside the band of `convexSetsTouch`
+  const double near = pair.radii() + 0x1p-49 * pair.size();  // within the band of `convexSetsTouch`
 
   MovingTrianglesAnswer answer;
   const double none = -std::numeric_limits<double>::infinity();
@@ -121,7 +125,7 @@ MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const Relat
   gjk::Answer found = gjk::search<double>(pair.a(), pair.b(), pair.size(), near, attempt);
   if (found.accepted) return apart();
   const bool met = found.overlap || found.upper <= near;
-  // The tilt of n loses the whole gap although the sets do not meet, or more than a quarter of it:
+  // The sets do not meet, but the tilt of n reduces the gap to nothing, or by more than a quarter:
   // search again with more digits.
   if (!met && !(best.middle > pair.slack() &&
                 best.middle - margin > 0.75 * (found.upper - pair.radii() - margin))) {

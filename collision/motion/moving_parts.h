@@ -7,13 +7,14 @@
 
 namespace corridor {
 
-/// Decides a pair of convex parts in a time interval, as `decideMovingTriangles` does a pair of
-/// triangles. a is at rest; b moves by the relative motion `relative`. `contact` means that at the
-/// rounded pose at the middle the parts are closer than 2^-44 of the largest coordinate, or proved
-/// to be within the margin.
+/// Decides a pair of convex parts in a time interval, with the method of `decideMovingTriangles`. a
+/// is at rest; b moves by the relative motion `relative`. `contact` means that, at the rounded pose
+/// at the middle, the parts are closer than 2^-44 of the largest coordinate, or are proved to be
+/// within the margin.
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
                                         const RelativeMotion& relative, double margin);
-/// The same with a triangle on one side (a closed patch of surface, not a solid).
+/// The same for a triangle and a convex part. The triangle is a closed patch of surface, not a
+/// solid.
 MovingTrianglesAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
                                         const RelativeMotion& relative, double margin);
 MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,

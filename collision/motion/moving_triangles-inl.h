@@ -24,24 +24,24 @@ namespace corridor::HWY_NAMESPACE {
 /// The result for sixteen pairs, one bit each.
 struct MovingPairs {
   unsigned apart = 0;  ///< proved farther apart than `pad` throughout the interval
-  /// Farther apart than `pad` at the middle, but clearly not throughout: more digits would not
-  /// help.
+  /// Farther apart than `pad` at the middle, but the motion clearly exceeds the gap. Double
+  /// precision would not help; shorter intervals may.
   unsigned later = 0;
 };
 
 /// Decides sixteen pairs of triangles in a time interval, in float. Let n be the direction of the
-/// closest points at the middle (any direction is valid). Along n, b's corner k is at n·t_k. It
-/// moves by s·h_k and a remainder, where h_k = n·linear + (n × angular)·p_k and p_k is the corner
-/// relative to the point whose velocity is `linear`. Corner k moves by at most `isotropic` in any
-/// case.
+/// closest points at the middle (any direction is valid). Along n, corner k of b is at n·t_k at the
+/// middle. It moves by s·h_k and a remainder, where h_k = n·linear + (n × angular)·p_k. Here p_k is
+/// the corner relative to the point whose velocity is `linear`. In any case, corner k moves by at
+/// most `isotropic`.
 ///
-/// Rounding, u = 2^-24. `triangleDistances` has the error of n·t_k, in `off`. p_k = t_k − away is
-/// off by 4u·D per coordinate and below 2D. n × angular is off by 2u|n||ω|. Therefore h_k is off by
-/// less than u|n|(6|linear|₁ + 32|ω|₁D), including the rounding of `linear` and `angular`
-/// themselves (u of each).
+/// Rounding, u = 2^-24. The error of n·t_k is `off`, as in `triangleDistances`. p_k = t_k − away is
+/// off by 4u·D per coordinate, and is below 2D. n × angular is off by 2u|n||ω|. Therefore h_k is
+/// off by less than u|n|(6|linear|₁ + 32|ω|₁D). This includes the rounding of `linear` and
+/// `angular` themselves (u of each).
 ///
-/// @param clearances if not null, receives for each separated pair how much farther apart than
-/// `pad` it is proved to be throughout the interval, in a's unit.
+/// @param clearances if not null, receives a proved clearance for each separated pair: its distance
+/// beyond `pad` throughout the interval, in a's unit.
 HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleCorners& b,
                                        const TriangleNumbers& numbers, float error,
                                        const LeafMotionBound& bound,
@@ -53,7 +53,7 @@ HWY_INLINE MovingPairs movingTriangles(const TriangleCorners& a, const TriangleC
   const LaneVec linear{set(bound.linear[0]), set(bound.linear[1]), set(bound.linear[2])},
       angular{set(bound.angular[0]), set(bound.angular[1]), set(bound.angular[2])};
   const V pad = set(bound.pad);
-  // The error of corners at the middle, and the error of the motion that follows from it.
+  // The error of the corners at the middle, and the resulting error of their motion.
   const V reach = hn::Mul(hn::Add(set(1 + 0x1p-20F), sum(angular)), set(error));
   MovingPairs found;
   for (std::size_t at = 0; at < 16; at += kTriangleLanes) {

@@ -17,12 +17,12 @@ namespace {
 struct MovingCorners {
   Triangle posed, first;  ///< corners in a's frame; their first-order displacements
   MotionBound bound[3];
-  /// True if a single rotation causes the whole remainder (`secondOrderAcross`). Then its second
-  /// and third order are available in full: displacements of at most (½)ω × (ω × d) and α²/6 ω × d,
-  /// with d the lever from the axis.
+  /// True if a single rotation causes the whole remainder (`secondOrderAcross`). Then the remainder
+  /// is known in full. Along n it is at most |n·second| + |n·third|, with second = ½ ω × (ω × d)
+  /// and third = (α²/6) ω × d. Here ω is `angular`, α its length, and d the lever from the axis.
   bool turns = false;
   Triangle second, third;
-  Vec3 loose;  ///< rounding of the terms above
+  Vec3 loose;  ///< for each corner, the rounding of the terms above
 
   MovingCorners(const Triangle& b, const RelativeMotion& relative) {
     for (int i = 0; i < 3; ++i) {
@@ -30,7 +30,7 @@ struct MovingCorners {
       posed[i] = lever + relative.X_AB.t;
       first[i] = relative.linear + relative.angular.cross(lever);
       bound[i] = motionBound(relative, posed[i], 0);
-      // The rounding of the products, relative to their terms.
+      // The rounding of the products is proportional to their terms.
       loose[i] = 32 * kUnit * (relative.speed + relative.angle * lever.norm());
     }
     turns = bound[0].secondOrderAcross > 0 || bound[1].secondOrderAcross > 0 ||
@@ -50,13 +50,14 @@ struct MovingCorners {
   }
 };
 
-/// The gap of the triangles along a direction: its least value in the interval, its value at the
-/// middle at the rounded pose, and its value at the middle less rounding and tube.
+/// The gap of the triangles along a direction. `moving` is its least value in the interval.
+/// `middle` is its value at the rounded pose at the middle. `still` is `middle` less rounding and
+/// tube.
 struct Gaps {
   double moving = std::numeric_limits<double>::infinity(), middle = moving, still = moving;
 };
 
-/// Replaces `least` by a smaller x or by NaN, which std::min may drop.
+/// Replaces `least` by x if x is smaller or NaN. (std::min may drop a NaN.)
 void lower(double& least, double x) {
   if (!(x >= least) && !std::isnan(least)) least = x;
 }
@@ -66,8 +67,8 @@ Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
   const double highest = std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
   for (int i = 0; i < 3; ++i) {
     const MotionBound& bound = b.bound[i];
-    // A single rotation: (1 − cos)|n·(k × (k × d))| + (α − sin)|n·(k × d)|. This is sharper than
-    // the bound by `secondOrderAcross`.
+    // A single rotation has at most the remainder (1 − cos α)|n·(k × (k × d))| + (α − sin α)|n·(k ×
+    // d)| along n. This is sharper than the bound by `secondOrderAcross`.
     const double beyond = b.turns ? std::abs(n.dot(b.second[i])) + std::abs(n.dot(b.third[i])) : 0;
     const double directional =
         std::abs(n.dot(b.first[i])) + beyond + bound.secondOrder + b.loose[i];
@@ -80,8 +81,8 @@ Gaps gapsAlong(const Vec3& n, const Triangle& a, const MovingCorners& b) {
   return gaps;
 }
 
-/// Returns v at unit length, |n| ≤ 1 + 4u. Returns NaN, which separates nothing, if squares leave
-/// the range in which that holds (flush-to-zero on or off).
+/// Returns v at unit length, where rounding may give a length up to 1 + 4u. If squares leave the
+/// range in which this holds (with or without flush-to-zero), returns NaN, which separates nothing.
 Vec3 unit(const Vec3& v) {
   const double square = v.squaredNorm();
   if (!(square > 0x1p-900 && square < 0x1p900))
@@ -89,11 +90,13 @@ Vec3 unit(const Vec3& v) {
   return v / std::sqrt(square);
 }
 
-/// Offers directions that are right to a few ulp, whatever the sizes of the triangles, on the side
-/// of `n`. The closest points are rounded to u times a triangle's size L. Their difference is
-/// therefore tilted by uL/d, which across L takes uL²/d off a gap of d. The normals of faces, the
-/// common normals of edges, and n made orthogonal to an edge again are orthogonal to the features
-/// that they separate.
+/// Calls `attempt` with directions that are right to a few ulp, whatever the sizes of the
+/// triangles. Each is on the side of `n`.
+///
+/// The direction of the closest points is less accurate. These points are rounded to u times a
+/// triangle's size L. Their difference is therefore tilted by uL/d. Across L the tilt reduces a gap
+/// of d by uL²/d. The directions here are the normals of faces, the common normals of edges, and n
+/// made orthogonal to each edge once more. They are orthogonal to the features that they separate.
 template <class Try>
 void offerFeatureDirections(const Triangle& a, const Triangle& b, const Vec3& n, Try attempt) {
   const auto offer = [&](const Vec3& v) {
@@ -128,17 +131,17 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
     largest = std::max(
         {largest, (posed[i] - relative.X_AB.t).cwiseAbs().maxCoeff(), a[i].cwiseAbs().maxCoeff()});
   const double size = 2 * relative.X_AB.t.cwiseAbs().maxCoeff() + largest;
-  // With |n|₁ ≤ √3(1 + 4u) and S = `size` above every coordinate: n·p has three products, 3·√3·uS <
-  // 5.2uS on either side. A posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS, along n √3 of
-  // that: 21.3uS. The difference rounds by 4uS. Together: < 36uS.
+  // Let |n|₁ ≤ √3(1 + 4u), and S = `size`, which exceeds every coordinate. n·p has three products:
+  // 3·√3·uS < 5.2uS for each triangle. A posed coordinate is off by 4.1u(3|y| + |t|) < 12.3uS;
+  // along n this is √3 times as much, 21.3uS. The difference rounds by 4uS. Together: < 36uS.
   const double slack = 64 * kUnit * size + kTiny;
-  // |n| ≤ 1 + 4u: margin and errors are lengths along a unit vector. They shrink by less than the
-  // part of their size that `slack` covers.
+  // Since |n| ≤ 1 + 4u, gaps along n may be too large by the factor 1 + 4u. `slack` has room for
+  // this in the errors; the last term covers the margin.
   const double needed = margin + slack + 4 * kUnit * margin;
 
   const ClosestPoints closest = closestFeaturePoints(a, posed);
   const double distance = std::sqrt(closest.squaredDistance);
-  const Vec3 n = unit(closest.b - closest.a);  // NaN if they meet: separates nothing
+  const Vec3 n = unit(closest.b - closest.a);  // NaN if the triangles meet; it separates nothing
 
   MovingTrianglesAnswer answer;
   Gaps gaps = gapsAlong(n, a, corners);
@@ -148,14 +151,14 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
   answer.gap = std::max(0.0, distance - margin);
   if (margin > 0 && distance + slack <= margin) {
     answer.contact = true;
-  } else if (!(gaps.middle > slack)) {  // otherwise n proves it for the rounded pose
+  } else if (!(gaps.middle > slack)) {  // otherwise n separates the rounded pose
     const PredicateResult touch = trianglesTouch(a, {}, b, relative.X_AB);
     answer.contact = touch;
     answer.exact = touch.exact;
   }
   if (answer.contact) return answer;
 
-  // The tilt of n loses a quarter of the gap or more: try better directions before giving up.
+  // The tilt of n reduces the gap by a quarter or more: try better directions before giving up.
   if (gaps.middle - margin < 0.75 * (distance - margin)) {
     offerFeatureDirections(a, posed, n, [&](const Vec3& m) {
       const Gaps other = gapsAlong(m, a, corners);

@@ -9,22 +9,24 @@ namespace corridor {
 struct MovingTrianglesAnswer {
   bool separated = false;  ///< proved farther apart than the margin, throughout
   double clearance = 0;    ///< `separated`: proved distance beyond the margin, metres
-  /// At the rounded pose at the middle: touching, exactly, or proved to be within the margin.
+  /// At the rounded pose at the middle the triangles touch (decided exactly), or are proved to be
+  /// within the margin.
   bool contact = false;
-  /// Neither, and rounding and the tube alone prevent a proof at the middle: shorter intervals
-  /// would not help.
+  /// Neither separated nor in contact, and rounding and tube alone prevent a proof at the middle.
+  /// Shorter intervals would not help.
   bool stuck = false;
   double bound = 0;  ///< bound of the motion of b's corners from the middle, metres
-  /// If neither separated nor in contact: distance at the middle beyond the margin, metres.
-  /// Rounded, for reports only.
+  /// If neither separated nor in contact: distance at the middle beyond the margin, metres. It is
+  /// rounded, and only used for reports.
   double gap = 0;
-  bool exact = false;  ///< double could not decide the pair
+  bool exact = false;  ///< double could not decide the pair, so slower arithmetic was used
 };
 
-/// Decides a pair of triangles in a time interval, b moving by the relative motion `relative`. It
-/// tries to separate them along the direction of their closest points at the middle; each corner of
-/// b has its own directional motion bound. Any direction is valid: its rounding may cost a proof,
-/// but never makes one wrong. If they are not separated, contact at the middle is decided exactly.
+/// Decides a pair of triangles in a time interval. b moves by the relative motion `relative`. The
+/// test tries to separate the triangles along the direction of their closest points at the middle.
+/// Each corner of b has its own directional motion bound. Any direction is valid: its rounding may
+/// prevent a proof, but never makes one wrong. If the triangles are not separated, contact at the
+/// middle is decided exactly.
 MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
                                             const RelativeMotion& relative, double margin);
 

@@ -7,18 +7,20 @@
 
 #include "collision/core/rounding.h"
 
-/// Derivation. Let T_j(φ) be the rotation by φ about the j-th axis, or the translation along it,
-/// where that axis is at the interval's middle. A point of b that is at x at the middle follows
+/// Derivation. Let T_j(φ) be the rotation by φ about the j-th axis, or the translation by φ along
+/// it. The axis is taken at its place at the interval's middle. A point of b that is at x at the
+/// middle follows
 ///   x(s, ε) = T_1(sδ_1 + ε_1) … T_k(sδ_k + ε_k) x        (product of exponentials),
 /// with δ_j ≥ 0 (after flipping axes) and |s| ≤ 1. Let r_j be the distance of x from axis j (for a
-/// pivot rotation: from its point). Let z_j = T_j(sδ_j) … T_k(sδ_k) x be the point as moved by the
-/// joints from j on only.
+/// pivot rotation: from its point). Let z_j = T_j(sδ_j) … T_k(sδ_k) x: the point after the motion
+/// of joints j to k only.
 ///
 /// Isotropic bound, `isotropic` (no enlargement).
-///   x(s) − x = Σ_j T_1(sδ_1) … T_(j−1)(sδ_(j−1)) [T_j(sδ_j) x − x]:
-/// the factors before the bracket are an isometry, and x in the bracket is at the middle. The
-/// bracket of a rotation is a chord, 2 r_j sin(min(|sδ_j|, π)/2); that of a translation is |sδ_j|.
-/// Let D_j be the sum of these over all i ≥ j, at s = 1. Then |z_j − x| ≤ D_j and |x(s) − x| ≤ D_1.
+///   x(s) − x = Σ_j T_1(sδ_1) … T_(j−1)(sδ_(j−1)) [T_j(sδ_j) x − x].
+/// The factors before the bracket are an isometry, and x in the bracket is at the middle. The
+/// length of the bracket is a chord, 2 r_j sin(min(|sδ_j|, π)/2), for a rotation, and |sδ_j| for a
+/// translation. Let D_j be the sum of these lengths over all i ≥ j, at s = 1. Then |z_j − x| ≤ D_j
+/// and |x(s) − x| ≤ D_1.
 /// The variable `displaced` is D_(j+1) before joint j is added to it.
 ///
 /// Remainder. ∂x/∂φ_j is a_j × (z_(j+1) − p_j), rotated by the joints before j. Its length is the
@@ -31,29 +33,32 @@
 /// The variable `rate` is the inner sum.
 ///
 /// A single rotation by δ about k, with no translation after it. (Translations before it only add
-/// terms linear in s.) Let y be the lever from the axis, |y − (k·y)k| = r_j, and φ = sδ. Rodrigues'
-/// formula leaves the remainder
+/// terms that are linear in s.) Let y be the lever from the axis, |y − (k·y)k| = r_j, and φ = sδ.
+/// By Rodrigues' formula the remainder is
 ///   (1 − cos φ) k × (k × y) + (sin φ − φ) k × y.
-/// It is orthogonal to k and has the length r|e^(iφ) − 1 − iφ| ≤ r φ²/2. Along n it is at most
-///   ½ r δ²|n × k| = ½ r δ |n × angular|:
-/// this is `secondOrderAcross`. Two errors of the stored `angular` are added to `secondOrder`:
-/// * Its direction is off by rounding, which contributes `tilt`·r δ².
-/// * Its length is off from δ by the interval's reachError e (the rounding of the rate). This
-///   contributes ½ r δ e here, and r δ e where the second order is computed in full
-///   (moving_triangles.cpp). `amount` is no less than the real δ and at most e above |angular|, so
-///   that ½ r (δ² − |angular|²) ≤ r·amount·e, which is the term added.
+/// The remainder is orthogonal to k, and its length is r|e^(iφ) − 1 − iφ| ≤ r φ²/2. Along n it is
+/// at most
+///   ½ r δ²|n × k| = ½ r δ |n × angular|.
+/// The factor ½ r δ is `secondOrderAcross`. Two errors of the stored `angular` are added to
+/// `secondOrder`:
+/// * Rounding tilts its direction. This adds `tilt`·r δ².
+/// * Its length differs from δ by at most the interval's reachError e (the rounding of the rate).
+///   This adds ½ r δ e here, and r δ e where the second order is computed in full
+///   (moving_triangles.cpp). `amount` is at least the real δ, and at most e above |angular|.
+///   Therefore ½ r (δ² − |angular|²) ≤ r·amount·e, which is the term added.
 ///
-/// Tube. x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1), where the
-/// joints after j are nominal. A bracket is at most |ε_j| times the distance of z_(j+1) from axis
-/// j, which is again at most r̄_j (1 for translations). At the middle D = 0, so r_j τ_j, with τ_j
-/// the joint's `tube`, goes to `pad`. The rest, D_(j+1) τ_j, goes to `isotropic` and `secondOrder`:
-/// it is smaller in a shorter interval.
+/// Tube.
+///   x(s, ε) − x(s, 0) = Σ_j T_1(sδ_1 + ε_1) … [T_j(sδ_j + ε_j) − T_j(sδ_j)] z_(j+1),
+/// where the joints after j are nominal. A bracket is at most |ε_j| times the distance of z_(j+1)
+/// from axis j, which is again at most r̄_j (1 for translations). At the middle D = 0, so the tube
+/// adds r_j τ_j there, where τ_j is the joint's `tube`. This term goes to `pad`. The rest, D_(j+1)
+/// τ_j, decreases with the length of the interval. It goes to `isotropic` and `secondOrder`.
 ///
-/// Rounding. The relative motion states the error of its own numbers (`fixedError`, `reachError`):
-/// for a point at x it is at most E = fixedError + reachError·|y|, y its lever. The distances from
-/// the axes are off by at most E as well, so every r_j grows by E. In this function y, x − p_j and
-/// the products are off by a few u of their terms: `loose`. Each sum of positive terms is off by a
-/// few u, which the factor `scale` covers at the end.
+/// Rounding. The relative motion states the error of its own numbers (`fixedError`, `reachError`).
+/// For a point with lever y this error is at most E = fixedError + reachError·|y|. The distances
+/// from the axes are also off by at most E, so every r_j grows by E. In this function, y, x − p_j
+/// and the products are off by a few u of their terms, which `loose` covers. Each sum of positive
+/// terms is off by a few u, which the factor `scale` covers at the end.
 namespace corridor {
 namespace {
 
@@ -70,7 +75,7 @@ double lengthOfCross(const Vec3& a, const Vec3& b) {
   return length(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
 
-/// Metres: squares below 2^-1022 underflow, and with them lengths below 2^-511.
+/// A term of the rounding bound, metres. It covers lengths below 2^-511, whose squares underflow.
 constexpr double kLeastLength = 0x1p-500;
 
 }  // namespace
@@ -84,7 +89,8 @@ MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double 
 
   const double scale = 1 + kUnit * static_cast<double>(64 + 8 * relative.screws.size());
   double displaced = 0, rate = 0, second = 0, pad = error, stray = 0;
-  double sole = 0;  // r δ of a rotation that is the only joint so far
+  // r δ of the only rotation so far, if no translation comes after it in the chain; otherwise 0.
+  double sole = 0;
   int turns = 0;
   for (std::size_t j = relative.screws.size(); j-- > 0;) {
     const ScrewMotion& screw = relative.screws[j];

@@ -16,34 +16,35 @@ struct Tube {
   double rotation = 0;
 };
 
-/// The share of one joint in a relative motion during a time interval, at the interval's middle,
-/// expressed in frame A of body a.
+/// The motion of one joint of a kinematic chain in a time interval. Axis and point are those at the
+/// interval's middle, in frame A of body a.
 struct ScrewMotion {
   enum class Kind {
     revolute,   ///< rotation about `axis` through `point`
     prismatic,  ///< translation along `axis`; `point` has no meaning
-    /// A pivot rotation: about any axis through `point`. Only for the tube of an unconstrained
-    /// rotation; `amount` is 0.
+    /// A pivot rotation: a rotation about any axis through `point`. Used only for the tube of an
+    /// unconstrained rotation; `amount` is 0.
     spherical,
   };
   Kind kind = Kind::revolute;
   Vec3 axis = Vec3::Zero();   ///< of unit length up to rounding
   Vec3 point = Vec3::Zero();  ///< metres
   double amount = 0;  ///< half of the joint's motion in the interval, ≥ 0, rounded up; rad or m
-  double tube = 0;    ///< largest perturbation beyond that, ≥ 0; rad or m
+  double tube = 0;    ///< largest perturbation in addition to `amount`, ≥ 0; rad or m
 };
 
-/// The relative motion of a body b, as seen from a body a, in a time interval [t − h, t + h],
-/// described from its middle t.
+/// The motion of a body b relative to a body a in a time interval [t − h, t + h], described from
+/// the interval's middle t.
 ///
 /// Both bodies may move; frame A of a is at rest here. The motion is that of the kinematic chain
 /// from a to b. At time t + s·h, |s| ≤ 1, its exact map is
-///   X_AB(s) = T_1(s·δ_1 + ε_1) … T_k(s·δ_k + ε_k),   |δ_j| = screws[j].amount, |ε_j| ≤ tube,
-/// where each T_j is a rotation about, or a translation along, an axis that the joints before it
-/// carry along.
+///   X_AB(s) = T_1(s·δ_1 + ε_1) … T_k(s·δ_k + ε_k),
+///   |δ_j| = screws[j].amount, |ε_j| ≤ screws[j].tube.
+/// Each T_j is a rotation about an axis, or a translation along an axis. The joints before joint j
+/// move this axis.
 ///
-/// To first order a point x of b moves by s·(linear + angular × y), where y = x − X_AB.t is its
-/// lever from b's origin. `motionBound` bounds the remainder.
+/// To first order a point x of b moves by s·(linear + angular × y). Its lever y = x − X_AB.t is the
+/// vector from b's origin to x. `motionBound` bounds the remainder.
 struct RelativeMotion {
   Transform X_AB;               ///< the map at the middle, rounded
   Vec3 linear = Vec3::Zero();   ///< half of the displacement of b's origin in the interval, metres
@@ -51,47 +52,51 @@ struct RelativeMotion {
   double speed = 0;             ///< |linear|, rounded up
   double angle = 0;             ///< |angular|, rounded up
   std::span<const ScrewMotion> screws;  ///< the joints in order from a to b
-  /// Errors of all the numbers above. At every s, each point of the real b is within fixedError +
-  /// reachError·|y| metres of the place that these numbers, taken as exact, give it. The same bound
-  /// holds for the error of its distances from the axes. The errors may include perturbations
-  /// besides rounding: a tube, or the clearance slack of a query.
+  /// Bounds of the errors of all numbers above. At every s, each point of the real b is within
+  /// fixedError + reachError·|y| metres of the place that these numbers, taken as exact, give it.
+  /// The same bound holds for the error of the point's distances from the axes. The errors may also
+  /// include perturbations: a tube, or the clearance slack of a query.
   double fixedError = 0;
   double reachError = 0;
   /// The shares of a tube, as opposed to rounding, in `fixedError` and `reachError`.
   double fixedTube = 0, reachTube = 0;
 };
 
-/// A motion bound for all points of b within a radius of a given point. For every vector n
+/// A motion bound for all points x of b within a radius of a given point. For every vector n and
+/// every s
 ///   |n·(x(s) − x(0) − s·(linear + angular × y))| ≤ secondOrderAcross·|n × angular| +
 ///   secondOrder·|n|
-/// and |x(s) − x(0)| ≤ isotropic. Tube and rounding add `pad` to both. What the tube adds at the
-/// middle is in `pad`; its growth along the interval is in `isotropic` and `secondOrder`. All four
-/// are in metres, except `secondOrderAcross` (metres per radian of `angular`), and are rounded up.
+/// and |x(s) − x(0)| ≤ isotropic. Tube and rounding add `pad` to both bounds. `pad` includes the
+/// displacement that the tube causes at the middle. The growth of this displacement along the
+/// interval is in `isotropic` and `secondOrder`. All four numbers are rounded up. They are in
+/// metres, except `secondOrderAcross` (metres per radian of `angular`).
 struct MotionBound {
   double isotropic = 0, secondOrderAcross = 0, secondOrder = 0, pad = 0;
 };
 
-/// Returns |v|, rounded up. Below 2^-480 (metres or radians) squares underflow and the result may
-/// be less than |v|; the least errors of the relative motions cover that. The result for a zero
-/// vector is exactly 0: the constant that `roundedUp` adds would be lost in every sum, and would
-/// make products subnormal, which is slow. NaN stays NaN.
+/// Returns |v|, rounded up.
+/// * Below 2^-480 (metres or radians) squares underflow, and the result may be less than |v|. Every
+///   relative motion includes an error that covers this (`kLeastError` in rigid_motion.cpp).
+/// * The result for a zero vector is exactly 0. The constant that `roundedUp` adds would be lost in
+///   every sum, and would make products subnormal, which is slow.
+/// * NaN stays NaN.
 inline double lengthFromAbove(const Vec3& v) {
   const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   return square == 0 && v.isZero(0) ? 0 : roundedUp(std::sqrt(square));
 }
 
-/// Returns an upper bound of 2 sin(min(δ, π)/2), the chord of a rotation by δ ≥ 0 at radius 1. It
-/// is at most 0.5 % above it: Taylor's polynomial of degree 5 is above the sine, and increases up
-/// to δ = 3, where it is 2.002.
+/// Returns an upper bound of 2 sin(min(δ, π)/2), the chord of a rotation by δ ≥ 0 at radius 1. The
+/// bound exceeds the chord by at most 0.5 %. It is Taylor's polynomial of degree 5, which is above
+/// the sine and increases up to δ = 3, where its value is 2.002. From there on the bound is 2.
 inline double chord(double amount) {
   if (!(amount < 3)) return 2;
   const double square = amount * amount;
   return amount * (1 - square * (1.0 / 24 - square / 1920));
 }
 
-/// Returns the motion bound of all points of b within `radius` of a point. The derivation is in
-/// relative_motion.cpp (see also collision/NUMERICS.md, "Chain bound, no enlargement" and
-/// "Directional bounds").
+/// Returns the motion bound of all points of b within `radius` metres of the point `x_A`. The
+/// derivation is in relative_motion.cpp (see also collision/NUMERICS.md, "Chain bound, no
+/// enlargement" and "Directional bounds").
 /// @param x_A the point at the interval's middle, in A, metres.
 MotionBound motionBound(const RelativeMotion& relative, const Vec3& x_A, double radius);
 

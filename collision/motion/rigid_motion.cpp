@@ -11,25 +11,26 @@ namespace corridor {
 namespace {
 
 /// Bound of the error of the computed rotation, and of half of the interval's rotation vector, as
-/// an operator norm: metres of displacement per metre of lever. Its terms, with u the unit
+/// an operator norm: metres of displacement per metre of lever. The terms, with u the unit
 /// roundoff:
 /// * normalising a quaternion: the norm (sum of squares, root) and the quotient are off by less
 ///   than 5u, relatively, so |q̂ − q| < 6u;
 /// * the relative quaternion: 2·6u from its factors, 2·4u from four products per component: < 20u;
 /// * the angle θ = 2·atan2(s, w): twice that, and a rounding of at most 4u: < 48u;
-/// * the axis: 20u/s + 3u. Its effect on a rotation by φ ≤ θ is at most φ times that, and θ/s ≤ π
-///   since s = sin(θ/2) ≥ θ/π: < 63u + 10u;
+/// * the axis: 20u/s + 3u. A rotation by φ ≤ θ is off by at most φ times that, and θ/s ≤ π since
+///   s = sin(θ/2) ≥ θ/π: < 63u + 10u;
 /// * R0 from q̂0: 12u + 10u;
 /// * K R0 and K² R0, norms of entrywise errors (3 and 6 roundings, factor 3): 12u + 20u;
 /// * φ = tθ, and sine and cosine (libm: 1 ulp): 4u + 2·2u;
 /// * the sum of three matrices: 12u.
 ///
-/// Together they are below 200u < 2^-45. The rotation vector adds h·(48u + 73u) ≤ 61u < 2^-47. Both
-/// are below 2^-44; this is doubled to leave room for libm.
+/// Together these terms are below 200u < 2^-45. The rotation vector adds h·(48u + 73u) ≤ 61u <
+/// 2^-47. The sum of both is below 2^-44. The constant is twice that, to leave room for errors of
+/// libm.
 constexpr double kRotationError = 0x1p-43;
 
-/// A term of every error, in metres. Squares below 2^-1022 underflow, and with them lengths below
-/// 2^-511. This term exceeds what that takes off any bound, for levers below 2^100 m.
+/// A term of every error, in metres. Squares below 2^-1022 underflow, and so lengths below 2^-511
+/// are lost. This term exceeds the effect on any bound, for levers below 2^100 m.
 constexpr double kLeastError = 0x1p-400;
 
 }  // namespace
@@ -53,7 +54,7 @@ void RigidMotion::setRotation(const Mat3& R0, const Vec3& axis, double angle, do
 }
 
 RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, const Tube& tube) {
-  // Dividing by the largest coefficient first keeps the norms of extreme quaternions finite. It
+  // Dividing by the largest coefficient first keeps the norms of extreme quaternions finite. This
   // costs one more rounding.
   const auto normalised = [](const Eigen::Quaterniond& q) {
     const double largest = q.coeffs().cwiseAbs().maxCoeff();
@@ -70,9 +71,9 @@ RigidMotion RigidMotion::spatial(const RigidPose& from, const RigidPose& to, con
   const bool turns = !equal && s > 0;
   m.setRotation(q0.toRotationMatrix(), turns ? Vec3(turn.vec() / s) : Vec3::Zero(),
                 turns ? 2 * std::atan2(s, turn.w()) : 0, 0);
-  // p = p0 + t·δ: the values δ, t·δ and the sum are at most 2P, 2P and P, and each rounds once:
-  // below 7uP per coordinate. Half of the interval's displacement, h·δ, adds less than 2uP. As a
-  // length this is 9√3·uP < 16uP. The tube moves each coordinate by `position`.
+  // p = p0 + t·δ. The values δ, t·δ and the sum are at most 2P, 2P and P, and each is rounded once.
+  // The error is below 7uP per coordinate. Half of the interval's displacement, h·δ, adds less than
+  // 2uP. As a length this is 9√3·uP < 16uP. The tube moves each coordinate by `position`.
   const double P = std::max(from.p.cwiseAbs().maxCoeff(), to.p.cwiseAbs().maxCoeff());
   m.fixedTube_ = std::sqrt(3.0) * tube.position;
   m.reachTube_ = tube.rotation;

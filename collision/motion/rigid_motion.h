@@ -21,7 +21,7 @@ class RigidMotion {
   /// Returns the motion in the plane z = 0, of (x, y, yaw) in metres and radians. @pre finite.
   static RigidMotion planar(const Vec3& from, const Vec3& to, const Tube& tube);
 
-  /// Reports whether no edge is defined, for one of these reasons:
+  /// Reports whether the edge defines no curve, or no bound holds. The reason is one of these:
   /// * The shorter way is not unique within 1e-9 rad, or within the rounding of large yaws (half
   ///   turns).
   /// * The displacement overflows.
@@ -36,17 +36,18 @@ class RigidMotion {
   /// tube. The result refers to `screws`, which must outlive it. @pre 0 ≤ t ≤ 1, h ≤ 1/2, t − h and
   /// t + h exact.
   RelativeMotion relativeMotion(double t, double h, std::span<ScrewMotion, 2> screws) const;
-  /// Returns the smallest tolerance, in metres, at which rounding leaves no edge undecided whose
-  /// clearance is above twice the tolerance. No point of either body, no position and no coordinate
-  /// of a body may be farther than `size` metres from the origin.
+  /// Returns a tolerance in metres that is large enough for rounding: no edge whose clearance
+  /// exceeds twice this tolerance is undecided because of rounding. No point of either body, no
+  /// position and no coordinate of a body may be farther than `size` metres from the origin.
   ///
-  /// Derivation, with u = 2^-53. Rounding takes 64u·3·size from a clearance in the comparison of
-  /// triangles (moving_triangles.cpp), 16u·size in the position and 1024u·size in the rotation
-  /// (rigid_motion.cpp): together less than L = 1300u·size. The search for a direction may lose L
-  /// again, and keeps 0.75 of the gap. A tolerance T suffices if 0.75·2T ≥ T + 2L, so T = 4L.
+  /// Derivation, with u = 2^-53. Rounding reduces a clearance by 64u·3·size in the comparison of
+  /// triangles (moving_triangles.cpp), by 16u·size in the position, and by 1024u·size in the
+  /// rotation (rigid_motion.cpp). Together this is less than L = 1300u·size. The search for a
+  /// direction may lose L once more, and finds at least 0.75 of the gap. A tolerance T suffices if
+  /// 0.75·2T ≥ T + 2L, so T = 4L.
   static double roundingTolerance(double size) { return 0x1p-53 * 5200 * size; }
 
-  /// Returns the rounded pose at t. Every time interval about t has this pose at its middle.
+  /// Returns the rounded pose at t. It is the pose at the middle of every time interval about t.
   Transform at(double t) const;
 
  private:
@@ -61,7 +62,7 @@ class RigidMotion {
   Vec3 direction_ = Vec3::Zero();  // direction of delta_, unit length
   double angle_ = 0;
   double fixedError_ = 0, reachError_ = 0;
-  double fixedTube_ = 0, reachTube_ = 0;  // their share in these errors
+  double fixedTube_ = 0, reachTube_ = 0;  // the tube's share in these errors
   bool ambiguous_ = false, unsound_ = false;
 };
 

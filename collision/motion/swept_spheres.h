@@ -15,9 +15,9 @@ class SweptSpheres {
   void makeRoom(std::size_t bodies) {
     if (spheres_.size() < bodies) spheres_.resize(bodies);
   }
-  /// Discards all, for another time interval.
+  /// Discards all spheres, before another time interval.
   void forget() { ++stamp_; }
-  /// Returns the body's swept sphere, computed by `make` if there is none yet.
+  /// Returns the body's swept sphere. Calls `make` to compute it if there is none yet.
   /// @pre `makeRoom` included the body, and `make` calls no member of this class.
   template <class Make>
   const SweptSphere& of(std::size_t body, const Make& make) {

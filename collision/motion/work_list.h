@@ -10,19 +10,20 @@
 
 namespace corridor {
 
-/// The node pairs that time intervals leave to their halves, grouped by pair of bodies. A stack:
-/// each interval appends what it leaves. Before the next interval is tested, `cut` discards what is
-/// no longer needed.
+/// The node pairs that time intervals leave to their halves, grouped by pair of bodies. The list is
+/// a stack: each interval appends the node pairs that it leaves. Before the next interval is
+/// tested, `cut` discards those that are no longer needed.
 struct WorkList {
   /// The node pairs of one pair of bodies: a range of `nodePairs`.
   struct Group {
     std::uint32_t bodies;  ///< the number of the pair of bodies in the query
     std::size_t begin, end;
-    /// Lower bound of the clearance, metres, of the node pairs that have been separated already, in
-    /// intervals that contain this one; only if the query needs it.
+    /// Lower bound of the clearance, metres, of the node pairs of these bodies that are already
+    /// separated, in intervals that contain this one. Has a meaning only if the query records a
+    /// certificate.
     double clearance = HUGE_VAL;
   };
-  /// The lengths of both lists.
+  /// The lengths of both lists at some time.
   struct Mark {
     std::size_t nodePairs = 0, groups = 0;
   };
@@ -30,7 +31,8 @@ struct WorkList {
   std::vector<NodePair4> nodePairs;
   std::vector<Group> groups;
 
-  /// Begins with whole trees for each of `count` pairs of bodies: group k is pair k.
+  /// Fills the list with the roots of both trees, for each of `count` pairs of bodies. Group k is
+  /// pair k.
   void begin(std::size_t count) {
     nodePairs.assign(count, kWholeTrees[0]);
     groups.clear();
@@ -41,11 +43,12 @@ struct WorkList {
     nodePairs.resize(mark.nodePairs);
     groups.resize(mark.groups);
   }
-  /// Valid until `nodePairs` grows.
+  /// Returns the node pairs of a group. Valid until `nodePairs` grows.
   std::span<const NodePair4> nodePairsOf(const Group& group) const {
     return std::span(nodePairs).subspan(group.begin, group.end - group.begin);
   }
-  /// Returns whether the group is a pair of bodies of which nothing is separated yet.
+  /// Reports whether the group is the pair of both roots: the trees of these bodies are not walked
+  /// yet.
   bool isWhole(const Group& group) const {
     const NodePair4& pair = nodePairs[group.begin];
     return group.end - group.begin == 1 && pair.a == 0 && pair.b == 0 &&
