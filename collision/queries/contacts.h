@@ -24,8 +24,8 @@ struct TriangleContact {
 /// traversal finds them.
 ///
 /// The set of pairs is exact, as for `interference`. Each coordinate of a segment's ends is off by
-/// at most 2^-50·S, where S is the largest Σ|m||v| + |t| of the mapped corners, however flat the
-/// angle (`triangle_intersection.h`).
+/// at most 2^-50·S, where S is the largest Σ|m||v| + |t| of the mapped corners. This holds for any
+/// angle between the triangles (`triangle_intersection.h`).
 /// @pre Both are trees of triangles, not of convex parts; the maps are finite.
 /// @tparam Overlap  as in `interference`.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>
