@@ -16,9 +16,9 @@
 ///   that gap.
 ///
 /// Under rotations both bounds agree when the search ends. Under a map of defect η they differ by
-/// up to some 3η·r, because the closest points of ellipsoids are not on the line through those of
-/// the cores. If that exceeds the requested error, the search is repeated with the spheres as parts
-/// of the cores.
+/// up to some 3η·r, because the closest points of the ellipsoids are not on the line through the
+/// closest points of the cores. If that exceeds the requested error, the search is repeated with
+/// the spheres as parts of the cores.
 ///
 /// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` has its own
 /// bound of projections. A corner of a simplex is a mapped point with its disc, and its error is
@@ -120,7 +120,7 @@ class Pair {
   /// Returns the core distance up to which the sets touch, if the maps take spheres to spheres
   /// (`convexSetsTouch`).
   double near() const { return radii_ + 0x1p-49 * size_; }
-  /// Returns a distance beyond which `convexSetsTouch` is false, too.
+  /// Returns the band: if the sets are farther apart than this, `convexSetsTouch` returns false.
   double band() const { return 0x1p-44 * size_; }
 
   /// Returns the gap along n, proved, with all rounding covered; metres.

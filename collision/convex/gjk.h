@@ -165,8 +165,8 @@ class Search {
     simplex = known_;
   }
 
-  /// Returns the known corners computed again for direction n. Corners of the same two points
-  /// become one.
+  /// Returns the known corners computed again for direction n. Corners that belong to the same two
+  /// points become one corner.
   Simplex<Real> sampled(const Vector<Real>& n) const {
     Simplex<Real> samples;
     for (int i = 0; i < known_.count; ++i) {

@@ -9,11 +9,11 @@ namespace corridor {
 /// closest. If bodies move in small steps, the same pair often decides the next query.
 ///
 /// The pair is only a guess: queries test it like any other pair, so no result relies on it.
-/// Distance queries on 4-wide trees always start from it; those on binary trees ignore it, as do
-/// all queries with a convex part. Other queries test it first only while it is `trusted`. Trust
-/// begins when two searches in a row find the same pair. It ends when the test of the guess fails
-/// `kTrust` times in a row. Therefore unrelated queries waste at most a few tests. A new object has
-/// no pair.
+/// Distance queries on 4-wide trees always start from it. Distance queries on binary trees, and all
+/// queries with a convex part, ignore it. Other queries test it first only while it is `trusted`.
+/// Trust begins when two searches in a row find the same pair. It ends when the test of the guess
+/// fails `kTrust` times in a row. Therefore unrelated queries waste at most a few tests. A new
+/// object has no pair.
 class LastPair {
  public:
   std::uint32_t a = 0xffffffff, b = 0xffffffff;  ///< numbers in the two trees, in leaf order

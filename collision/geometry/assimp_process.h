@@ -18,7 +18,7 @@ struct AssimpLimits {
   /// this order:
   /// * the folder of the running program;
   /// * the run path of the program or shared library that contains this code (an installed library
-  /// adds its folder for those that link it);
+  ///   adds its folder for programs that link it);
   /// * the folder where the helper was built.
   static std::filesystem::path assimpProgram();
 };

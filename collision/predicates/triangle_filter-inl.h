@@ -87,8 +87,9 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
     if (padded) margin = hn::Add(margin, padding(nb));
     open = hn::AndNot(hn::Gt(gap, margin), open);
     if (!hn::AllFalse(d, open)) {
-      // Axis from edge i of a and edge j of b: both ends of an edge project alike, so one end and
-      // the opposite corner give the whole projection.
+      // The axis is orthogonal to edge i of a and to edge j of b. Both ends of such an edge have
+      // the same projection, so one end and the opposite corner give the projection of the
+      // triangle.
       for (int i = 0; i < 3; ++i) {
         const V reach = hn::Mul(per, le[i]);
         for (int j = 0; j < 3; ++j) {

@@ -43,8 +43,8 @@ alignas(16) inline constexpr PairPatterns kFirst = pairPatterns(false), kSecond 
 
 /// Calls `found(leaf_pair, s, t)` for each pair of leaf primitives in the leaf pairs `leaves` of
 /// two nodes, until `found` returns true. Returns whether `found` returned true. Leaf pairs are
-/// bits (4·i + j for lanes i and j); s and t are numbered in leaf order. For trees of which at
-/// least one holds a convex part.
+/// bits (4·i + j for lanes i and j); s and t are numbered in leaf order. Used if at least one of
+/// the two trees has a convex part.
 template <class Found>
 bool forEachItem(const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned leaves,
                  Found&& found) {
