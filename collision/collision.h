@@ -11,19 +11,19 @@
 /// * `Transform`: an affine map x ↦ m·x + t. It is used exactly as it is stored: a map that scales,
 ///   shears or mirrors is legal.
 /// * `TriangleMesh`: its triangles, with their interiors, as a point set. `readMeshFile` reads OBJ,
-/// STL, PLY,
-///   OFF, Collada, glTF and more. @throws InputError, which names the file and the line.
+///   STL, PLY, OFF, Collada, glTF and more. It throws InputError, which names the file and the
+///   line.
 /// * `ConvexPart`: a convex solid that is never tessellated: `placed(Box{size}, X)`, and Sphere,
 ///   Capsule, Cylinder, Convex.
 /// * `Body`: a named mesh (its surface, or with `solid` also what it encloses) or convex part. Its
-///   trees are built when a query first needs them. @throws std::invalid_argument for a mesh
-///   without triangles, with an index out of range or a coordinate that is not finite, for a solid
-///   that is not watertight, and for a convex part that is not valid.
-/// * `Posed`: a body or tree, and where it is: `Posed(cup, X_WCup)`; `Posed(table)` is at the
-///   origin.
+///   trees are built when a query first needs them. The constructor throws std::invalid_argument
+///   for a mesh without triangles, for an index out of range, for a coordinate that is not finite,
+///   for a solid mesh that is not watertight, and for a convex part that is not valid.
+/// * `Posed`: a body or tree with its pose: `Posed(cup, X_WCup)`. `Posed(table)` is at the origin.
 /// * `QueryContext`: counters and scratch memory. Each thread needs its own.
-/// * `LastPair`: the pair of triangles that decided the last query of two bodies. Pass it to the
-///   next query: after a small step between meshes this saves a tenth to two thirds of the time.
+/// * `LastPair`: the pair of triangles that decided the last query of two bodies. If the bodies are
+///   meshes and move in small steps, passing it to the next query saves a tenth to two thirds of
+///   the time.
 ///
 /// # Six questions about two bodies
 ///
@@ -38,41 +38,43 @@
 /// Queries of bodies throw std::invalid_argument for maps that are not finite. `a` and `b` refer to
 /// the bodies: never keep a `Posed` of a temporary body.
 ///
-/// 1. Do they touch? Exact: the verdict is that of real arithmetic on the stored numbers, and
-///    touching is contact. With a convex part, a gap below 2^-44 of the largest coordinate may be
-///    reported as contact. The cheapest question: a few microseconds for most pairs of meshes, and
-///    a hundred where two surfaces of 20,000 triangles run side by side.
+/// 1. Do they touch? The answer is exact: the verdict is that of real arithmetic on the stored
+///    numbers, and touching is contact. With a convex part, a gap below 2^-44 of the largest
+///    coordinate may be reported as contact. This is the cheapest question. It takes a few
+///    microseconds for most pairs of meshes, and a hundred if two surfaces of 20,000 triangles run
+///    side by side.
 ///
 ///        if (const auto hit = interference(a, b, context)) …        // hit->a, hit->b: triangles
 ///
-/// 2. Which triangles touch, and where? Meshes only. The set of pairs is exact. The cost grows with
-///    the number of pairs.
+/// 2. Which triangles touch, and where? This question is for meshes only. The set of pairs is
+///    exact. The cost grows with the number of pairs.
 ///
 ///        for (const TriangleContact& c : contacts(a, b, context)) …  // c.a, c.b, c.p_W, c.q_W
 ///
 /// 3. How far apart are they, and where are they closest? The distance is 0 if and only if they
-///    touch. Otherwise the error is at most 1e-12 of the distance + 4·2^-53·S + what the options
-///    allow. S is the largest Σ|m||v| + |t| of the corners. Costs 10 to 70 times as much as the
-///    first question.
+///    touch. Otherwise the error is at most 1e-12 of the distance + 4·2^-53·S + the error that the
+///    options allow. S is the largest Σ|m||v| + |t| of the corners. This question costs 10 to 70
+///    times as much as the first one.
 ///
 ///        const Distance d = distance(a, b, {}, context);             // d.distance, d.p_WA, d.p_WB
 ///
-/// 4. Are they at most d apart? `false` is a proof. Costs about as much as the first question, and
-///    as much as a distance where d is close to it.
+/// 4. Are they at most d apart? `false` is a proof that they are farther apart. This question costs
+///    about as much as the first one. If d is close to the distance, it costs as much as the third
+///    one.
 ///
 ///        if (closerThan(a, b, 0.05, context)) …
 ///
-/// 5. Is one inside the other, which is a solid mesh? Questions 1, 3, 4 and 6 include this one. The
-///    surfaces must not touch. "No" is a proof; "yes" is exact except for points that no ray can
-///    decide, which count as inside.
+/// 5. Is one body inside the other, which is a solid mesh? Questions 1, 3, 4 and 6 include this
+///    question. It requires that the surfaces do not touch. "No" is a proof. "Yes" is exact, except
+///    that a point counts as inside if none of 64 rays can decide.
 ///
 ///        if (insideEachOther(a, b, context)) …
 ///
 /// 6. Do they touch along a motion, and when first? `free` is never wrong: it is proved for every t
 ///    in [0, 1], rounding included. `contact`: at the rounded pose at `contactTime` the bodies
-///    touch, or are within the margin. `undecided`: neither is proved, and `reason` says why;
-///    mostly a clearance below twice the tolerance (PROMISES.md, promise 2). Costs 10 to 20 times
-///    as much as the first question.
+///    touch, or are within the margin. `undecided`: neither is proved, and `reason` says why. The
+///    usual reason is a clearance below twice the tolerance (PROMISES.md, promise 2). This question
+///    costs 10 to 20 times as much as the first one.
 ///
 ///        std::vector<Body> moving, fixed;        // bodies are moved into the scene
 ///        moving.emplace_back("piano", piano);
@@ -92,16 +94,16 @@
 /// # Trees
 ///
 /// Programs that need no `Body` build trees themselves: `Obb4Tree` (fast), or `VolumeTree<Volume>`
-/// of any bounding volume (for comparison). The questions 1 to 4 have the same names for trees. For
-/// 4-wide trees of convex parts only question 1 is defined. Queries of trees do not test whether
-/// maps are finite.
+/// of any bounding volume (for comparison). The functions for questions 1 to 4 have the same names
+/// for trees. For 4-wide trees of convex parts only question 1 is defined. Queries of trees do not
+/// test whether maps are finite.
 ///
 /// # What every query assumes
 ///
-/// The processor rounds to nearest, and long double keeps 64 bits. The program is compiled with
-/// -ffp-contract=off, which the CMake target adds, and without -ffast-math or any part of it
-/// (core/floating_point.h). Bodies and trees throw std::runtime_error otherwise. Threads may share
-/// bodies, trees and scenes.
+/// The processor rounds to nearest, and long double keeps 64 bits. If not, the constructors of
+/// bodies and trees throw std::runtime_error. The program is compiled with -ffp-contract=off, which
+/// the CMake target adds, and without -ffast-math or any part of it (core/floating_point.h).
+/// Threads may share bodies, trees and scenes.
 
 #include "collision/core/error.h"
 #include "collision/geometry/convex_part.h"

@@ -18,9 +18,9 @@ PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b) {
   gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
   if (quick.accepted) return {false, false};
   const bool whole = !(a.keepsBall() && b.keepsBall());
-  // The search above measures the distance of the cores, and takes the swept spheres' radii as they
-  // are. Where a map makes an ellipsoid of a sphere, this search may report a contact where there
-  // is none. So the search is repeated with the ellipsoids as parts of the cores.
+  // The search above measures the distance of the cores, and assumes that the maps keep the radii
+  // of the swept spheres. If a map makes an ellipsoid of a sphere, this search may report a contact
+  // that does not exist. So the search is repeated with the ellipsoids as parts of the cores.
   if (whole) {
     radii = 0;
     near = 0x1p-49 * size;

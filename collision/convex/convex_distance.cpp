@@ -12,18 +12,19 @@
 /// the radii of the swept spheres.
 /// * Upper bound: g_A + r_A·M_A m_A/|m_A| and g_B − r_B·M_B m_B/|m_B|, with m = Mᵀn, are points of
 /// the sets for any n and M.
-/// * Lower bound: the widest gap that GJK has found, less r_A|m_A| + r_B|m_B| in its direction.
+/// * Lower bound: the widest gap that GJK has found, minus r_A|m_A| + r_B|m_B| for the direction of
+///   that gap.
 ///
-/// Under rotations both bounds agree where the search ends. Under a map of defect η they differ by
-/// up to some 3η·r, because the closest points of ellipsoids are not on the line through those of
-/// the cores. If that exceeds the requested error, the search is repeated with the spheres in the
-/// cores.
+/// Under rotations both bounds agree when the search ends. Under a map of defect η they differ by
+/// up to some 3η·r, because the closest points of the ellipsoids are not on the line through the
+/// closest points of the cores. If that exceeds the requested error, the search is repeated with
+/// the spheres as parts of the cores.
 ///
 /// Rounding, in units of 2^-53 (double) or 2^-98 (double-double) of `size`: `PosedSet` has its own
 /// bound of projections. A corner of a simplex is a mapped point with its disc, and its error is
 /// within the same derivation (three products and sums per coordinate, 6u for the disc). A convex
-/// combination of three corners has 8 roundings. Both witness points together: below twice the
-/// errors of the sets.
+/// combination of three corners has 8 roundings. The errors of both witness points together are
+/// below twice the errors of the sets.
 namespace corridor {
 namespace {
 
@@ -109,9 +110,9 @@ class Pair {
         b_(b),
         size_(a.reach() + a.pose().t.norm() + b.reach() + b.pose().t.norm()),
         radii_(a.set().ball + b.set().ball),
-        // In addition to the errors of the projections: those of their sum and of subtracting this
-        // bound, and a factor 1 + 5u, because a gap below `size` may be along a direction of that
-        // length.
+        // The first two terms are the errors of the projections. The third covers the rounding of
+        // their sum and of subtracting this bound. It also covers a gap below `size` along a
+        // direction whose length is up to 1 + 5u.
         error_(roundedUp(a.error() + b.error() + 7 * kUnit * size_)) {}
 
   double size() const { return size_; }
@@ -119,7 +120,7 @@ class Pair {
   /// Returns the core distance up to which the sets touch, if the maps take spheres to spheres
   /// (`convexSetsTouch`).
   double near() const { return radii_ + 0x1p-49 * size_; }
-  /// Returns a distance beyond which `convexSetsTouch` is false, too.
+  /// Returns the band: if the sets are farther apart than this, `convexSetsTouch` returns false.
   double band() const { return 0x1p-44 * size_; }
 
   /// Returns the gap along n, proved, with all rounding covered; metres.
@@ -127,16 +128,16 @@ class Pair {
   /// Returns the error bound of a distance computed in double.
   double error() const { return 2 * error_; }
 
-  /// Returns whether the closest points of the search's simplex confirm the contact that it found.
-  /// They do not if the cores overlap so little that the four corners are nearly in one plane: the
-  /// weights then are noise.
+  /// Returns whether the closest points of the search's simplex confirm the contact that the search
+  /// found. They do not confirm it if the cores overlap so little that the four corners are nearly
+  /// in one plane: then the weights of the corners are noise.
   template <class Real>
   bool met(const gjk::Search<Real>& search) const {
     return search.unit * static_cast<double>(gjk::length(closest(search.simplex).w)) <= near();
   }
 
-  /// Returns the result of sets that touch: a common point, up to rounding.
-  /// @param whole  the search had the spheres in the cores.
+  /// Returns the result for sets that touch: a common point, up to rounding.
+  /// @param whole true if the spheres were parts of the cores in the search.
   template <class Real>
   ConvexDistance contact(const gjk::Search<Real>& search, bool whole) const {
     ConvexDistance result;
@@ -151,7 +152,7 @@ class Pair {
     return result;
   }
 
-  /// Returns the result of sets that are apart. @param whole  as above.
+  /// Returns the result for sets that are apart. @param whole as for `contact`.
   template <class Real>
   ConvexDistance apart(const gjk::Search<Real>& search, bool whole) const {
     Points<Real> p = closest(search.simplex);
@@ -173,7 +174,7 @@ class Pair {
     ConvexDistance result;
     result.distance = std::max(search.unit * static_cast<double>(gjk::length(p.w)),
                                std::numeric_limits<double>::min());
-    // 2^-89 covers some dozen roundings of 2^-98 of the size each. `roundedDown` covers the
+    // 2^-89 covers some dozen roundings, each of 2^-98 of the size. `roundedDown` covers the
     // rounding to double.
     result.lower = roundedDown(search.unit * static_cast<double>(lower - Real(0x1p-89)));
     result.normal_W = rounded(search.normal, 1);
@@ -192,9 +193,9 @@ class Pair {
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative,
                               double absolute) {
   const Pair pair(a, b);
-  // Searches end at half of the allowed error; rounding may take the rest. 1e-12 > 2^-40, so the
-  // relative half is 2^-41. Half of 2^-51·S is above 2^-55·`size`: ‖M‖|p| + |t| is below 3 S, and
-  // `size`, the sum over both sets, below 6 S.
+  // Searches end when half of the allowed error is reached; rounding may take the other half. 1e-12
+  // > 2^-40, so the relative half is 2^-41. Half of 2^-51·S is above 2^-55·`size`: ‖M‖|p| + |t| is
+  // below 3 S, and `size`, the sum over both sets, below 6 S.
   const double share = relative / 2 + 0x1p-41, least = absolute / 2 + 0x1p-55 * pair.size();
   const auto never = [](const Vec3&, double) { return false; };
   const auto agreed = [&](double radii, double near, double finest) {
@@ -209,7 +210,7 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   };
 
   gjk::Search<double> quick(a, b, pair.size());
-  // 2^-50·size: in double the bounds come no closer.
+  // 2^-50·size: in double the two bounds cannot come closer to each other.
   const gjk::Answer found = quick.run(
       gjk::Simplex<double>(), agreed(pair.radii(), pair.near(), 0x1p-50 * pair.size()), never);
   const bool met = found.overlap || found.upper <= pair.near();
@@ -271,7 +272,7 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
       });
   if (found.overlap) return {0, 0};
   if (!found.accepted) lower = pair.gap(found.direction);
-  // Points of the cores are points of the sets: their distance is an upper bound.
+  // Points of the cores are points of the sets, so their distance is an upper bound.
   ConvexRange range{0, found.upper + pair.error()};
   if (lower > pair.band()) range.lower = lower;
   if (search.simplex.count > 0 && found.upper > pair.near())

@@ -17,24 +17,24 @@ struct ConvexDistance {
 ///
 /// Let S be the largest Σ|m||p| + |t| over the mapped points p of both sets, radii included. (For
 /// maps that are not rigid: the largest ‖M‖|p| + |t|, with ‖M‖ at least 1.) Guaranteed:
-/// * `distance` is 0 if and only if `convexSetsTouch`. Then both witness points are the same common
-/// point of both sets, up to the band of that predicate, or up to 2^-30·S if the sets overlap by
-/// less than that.
+/// * `distance` is 0 if and only if `convexSetsTouch` returns true. Then both witness points are
+///   the same point, which lies in both sets up to the band of that predicate, or up to 2^-30·S if
+///   the sets overlap by less than 2^-30·S.
 /// * Otherwise `distance` exceeds the true distance by at most relative·true + absolute +
 /// 1e-12·true + 4·2^-53·S.
-/// * `lower` ≤ the true distance is proved in real arithmetic, and shows how accurate the result
-/// is.
+/// * `lower` is at most the true distance, proved in real arithmetic. The difference of `distance`
+///   and `lower` shows how accurate the result is.
 /// * The witness points are on the surfaces of the sets, up to 2^-50·S.
 ///
 /// Any finite map is allowed. Under a map that is not rigid a sphere is an ellipsoid, which costs
 /// more time.
 ///
-/// Method: GJK in double. If its bounds, with all rounding covered, do not agree to the requested
-/// error, the search continues in double-double, from the simplex found. By default this happens
-/// for nearly all sets closer than a hundredth of their size. On curved surfaces every other
-/// direction is a Newton step. Cost: a mean of 2 to 5 rounds in double (2 to 20 with a cylinder),
-/// and less than 2 in double-double. At most 100 in tests with gaps down to 10^-13, which
-/// `tests/collision/convex/gjk_test.cpp` prints.
+/// Method: GJK in double. If its bounds, with all rounding covered, differ by more than the
+/// requested error, the search continues in double-double, from the simplex found. With the default
+/// options this happens for nearly all sets closer than a hundredth of their size. On curved
+/// surfaces every other direction is a Newton step. Cost: a mean of 2 to 5 rounds in double (2 to
+/// 20 with a cylinder), and less than 2 in double-double. No test needed more than 100 rounds, at
+/// gaps down to 10^-13; `tests/collision/convex/gjk_test.cpp` prints the numbers.
 /// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. 0, 0: full accuracy.
 ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relative = 0,
                               double absolute = 0);
@@ -45,9 +45,10 @@ struct ConvexRange {
 };
 /// Computes a proved range of the distance of two convex sets, in double only.
 ///
-/// The search stops as soon as lower exceeds `beyond` or upper is at most `near`. Otherwise both
-/// ends are within some 2^-45·S of the distance, or 2^-20 of it; the range may be wider where caps
-/// of cylinders face each other, or where the map of a sphere is not rigid.
+/// The search stops as soon as the lower end exceeds `beyond`, or the upper end is at most `near`.
+/// If neither happens, both ends differ from the distance by at most some 2^-45·S, or 2^-20 of the
+/// distance. The range may be wider if caps of cylinders face each other, or if the map of a sphere
+/// is not rigid.
 /// @param beyond, near  metres.
 ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near);
 

@@ -14,7 +14,7 @@ ConvexSet::ConvexSet(const ConvexPart& part) : points(part.points), ball(part.ra
   if (!part.flatEnds) return;
   const Vec3 d = part.points[1] - part.points[0];
   const double square = d.squaredNorm();
-  // Rounding has left no axis: take the capsule, which contains every cylinder that it may be.
+  // If the axis is lost by rounding, the set becomes the capsule, which contains the cylinder.
   if (!(square > 0x1p-900 && square < 0x1p900)) return;
   axis = d / std::sqrt(square);
   std::swap(ball, disc);
@@ -25,7 +25,7 @@ ConvexSet::ConvexSet(const Triangle& triangle) : points(triangle) {}
 PosedSet::PosedSet(const ConvexSet& set, const Transform& X) : set_(set), X_(X) {
   double farthest = 0;
   for (const Vec3& p : set_.points) farthest = std::max(farthest, p.squaredNorm());
-  // Squares below 2^-1022 vanish, and with them lengths below 2^-511: 2^-500 covers these.
+  // Squares below 2^-1022 vanish, and so do lengths below 2^-511: 2^-500 covers these.
   reach_ =
       roundedUp(std::max(1.0, X.m.norm()) * (std::sqrt(farthest) + set.ball + set.disc + 0x1p-500));
   error_ = roundedUp(kUnit * (20 * reach_ + 6 * X.t.norm()));

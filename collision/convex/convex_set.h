@@ -12,8 +12,8 @@ namespace corridor {
 /// is the hull of `points`, or a cylinder: the segment between two points swept by a disc. The
 /// viewed object must outlive the view. Lengths in metres.
 struct ConvexSet {
-  ConvexSet(const ConvexPart& part);    // NOLINT: a part is one
-  ConvexSet(const Triangle& triangle);  // NOLINT: a triangle is one
+  ConvexSet(const ConvexPart& part);    // NOLINT: a part is a convex set
+  ConvexSet(const Triangle& triangle);  // NOLINT: a triangle is a convex set
 
   std::span<const Vec3> points;
   double ball = 0;           ///< radius of the sphere; 0: none
@@ -36,9 +36,9 @@ struct ConvexSet {
 ///
 /// Points and discs share ρ: the total is below u(20Fρ + 6|t|).
 ///
-/// Sizes and coordinates should be 0 or within 2^±440 m. Beyond, squares overflow or vanish.
-/// Contact queries may then report a contact that is none, and distances may be too small; neither
-/// errs the other way.
+/// Sizes and coordinates should be 0 or within 2^±440 m. Beyond, squares overflow or vanish. Then
+/// contact queries may report a contact that does not exist, and distances may be too small. A
+/// contact is never missed, and a distance is never too large.
 class PosedSet {
  public:
   PosedSet(const ConvexSet& set, const Transform& X);

@@ -5,8 +5,9 @@
 namespace corridor {
 
 /// A number of some 104 bits: an unevaluated sum hi + lo of two doubles, |lo| ≤ u·|hi|. Used where
-/// plain doubles are too coarse: to find candidates for separating axes, and for the lower bounds
-/// of distances (convex_distance.cpp covers its rounding).
+/// plain doubles are too coarse: to measure distances of triangles, to find candidates for
+/// separating axes, and for the lower bounds of distances (convex_distance.cpp covers its
+/// rounding).
 ///
 /// Sources: Dekker 1971; Knuth, TAOCP 2, 4.2.2; accurate addition as in Joldes, Muller, Popescu
 /// 2017, algorithm 6.
@@ -14,7 +15,7 @@ struct DoubleDouble {
   double hi = 0, lo = 0;
 
   DoubleDouble() = default;
-  DoubleDouble(double x) : hi(x) {}  // NOLINT: a double is one
+  DoubleDouble(double x) : hi(x) {}  // NOLINT: every double is a DoubleDouble
   explicit operator double() const { return hi; }
 
   static DoubleDouble quickSum(double a, double b) {  // |a| ≥ |b|

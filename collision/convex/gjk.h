@@ -21,25 +21,25 @@ namespace corridor::gjk {
 struct Answer {
   bool overlap = false;           ///< the cores overlap by more than rounding can cause
   bool accepted = false;          ///< `accept` returned true and ended the search
-  double upper = 0;               ///< upper bound: the distance of two points of the cores
+  double upper = 0;               ///< upper bound: the distance of two points, one of each core
   double lower = -HUGE_VAL;       ///< lower bound: the widest gap found along any direction
   Vec3 direction = Vec3::Zero();  ///< the direction of that gap, from a to b: unit, rounded
   int rounds = 0;
 };
 
-/// A corner of the GJK simplex: a point of core a and one of core b. It also holds all that is
-/// needed to compute both again with more digits.
+/// A corner of the GJK simplex: a point of core a and a point of core b. It also holds the data
+/// from which both can be computed again with more digits.
 template <class Real>
 struct Corner {
-  Vector<Real> a, w;                     ///< the point of core a; the vector from it to that of b
+  Vector<Real> a, w;  ///< the point of core a; the vector from it to the point of core b
   std::uint32_t pointA = 0, pointB = 0;  ///< their numbers in the `points` of the sets
   Vec3 n = Vec3::Zero();  ///< direction from a to b along which the two points are the extreme ones
 };
 
-/// The simplex whose closest points give `Answer::upper`: up to three corners, four if the cores
-/// overlap, none if the search found contact before its first corner.
+/// The simplex whose closest points give `Answer::upper`. It has up to three corners, four corners
+/// if the cores overlap, and none if the search found contact before its first corner.
 template <class Real>
-struct Simplex {  // NOLINT(bugprone-reserved-identifier): the compiler's own, of copying the array
+struct Simplex {  // NOLINT(bugprone-reserved-identifier): a name that the compiler makes
   Corner<Real> corner[4];
   int count = 0;
 };
@@ -50,7 +50,7 @@ template <class Real>
 class Search {
  public:
   /// @param size  metres: larger than every coordinate involved.
-  /// @param whole  the swept spheres, mapped, belong to the cores.
+  /// @param whole true: the mapped swept spheres are parts of the cores.
   Search(const PosedSet& a, const PosedSet& b, double size, bool whole = false)
       : unit(powerOfTwo(size)),
         a_(a, 1 / unit, whole),
@@ -62,8 +62,8 @@ class Search {
   /// @param from  the simplex that another search ended with, to start from; may be empty.
   /// @param enough  called in every round as enough(upper, lower), in `Real` and metres; true ends
   /// the search.
-  /// @param accept  called as accept(direction, gap) whenever the gap, in metres, is wider than all
-  /// before; true ends the search.
+  /// @param accept called as accept(direction, gap) whenever the gap, in metres, is wider than all
+  /// earlier ones; true ends the search.
   template <class Other, class Enough, class Accept>
   Answer run(const Simplex<Other>& from, Enough enough, Accept accept) {
     Answer answer;
@@ -98,7 +98,7 @@ class Search {
         if ((answer.accepted = accept(answer.direction, lower))) return answer;
       }
       if (enough(upper_, gap)) return answer;
-      bool known = answer.rounds > 0 && corner.w == last;  // the last round found it, too
+      bool known = answer.rounds > 0 && corner.w == last;  // the last round found the same corner
       for (int i = 0; i < face.count; ++i) known = known || corner.w == face.corner[i];
       last = corner.w;
       if (known && stepped) continue;
@@ -125,7 +125,8 @@ class Search {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
   }
 
-  /// Returns the corner of two given points, extreme in direction n.
+  /// Returns the corner that consists of the two points with these numbers. A point on a disc or
+  /// sphere is the extreme one in direction n.
   Corner<Real> asked(std::uint32_t pointA, std::uint32_t pointB, const Vector<Real>& n) const {
     const Vector<Real> a = a_.at(pointA, n);
     return {a, b_.at(pointB, -n) - a, pointA, pointB, rough(n)};
@@ -145,8 +146,8 @@ class Search {
     }
   }
 
-  /// Continues with the face found: drops the known corners that it does not have, and updates the
-  /// upper bound.
+  /// Continues with the face found: drops the known corners that do not belong to the face, and
+  /// updates the upper bound.
   void take(const Nearest<Real>& found, Nearest<Real>& face, Answer& answer) {
     using std::sqrt;
     face = found;
@@ -164,8 +165,8 @@ class Search {
     simplex = known_;
   }
 
-  /// Returns the known corners computed again for direction n. Corners of the same two points
-  /// become one.
+  /// Returns the known corners computed again for direction n. Corners that belong to the same two
+  /// points become one corner.
   Simplex<Real> sampled(const Vector<Real>& n) const {
     Simplex<Real> samples;
     for (int i = 0; i < known_.count; ++i) {
@@ -178,14 +179,16 @@ class Search {
     return samples;
   }
 
-  /// Takes a Newton step from n towards the direction of the widest gap, for curved surfaces. Moves
-  /// the face along if that makes it closer. Returns false if there is no step. The step is only a
-  /// proposal: the gap and the corner of any direction are valid.
+  /// Takes a Newton step from n towards the direction of the widest gap, for curved surfaces. The
+  /// face is computed again for the new direction, and replaced if the new face is closer. Returns
+  /// false if no step is defined. The step is only a proposal: the gap and the corner of any
+  /// direction are valid.
   ///
-  /// The corner of the same two points moves with n as w_i(n). Then f_i = n·w_i has the gradient
-  /// w_i and the Hessian −H, where H is that of both sets. To second order in a tangent δ, f_i at
-  /// the normalised n + δ is f_i + w_i·δ − δᵀ(H + f I)δ/2. At the widest gap all f_i are equal,
-  /// which leaves δ two, one or no degrees of freedom. In these, (H + f I)δ = w.
+  /// A corner, as a function of n for the same two points of the sets, is w_i(n). Then f_i = n·w_i
+  /// has the gradient w_i and the Hessian −H, where H is the sum of the Hessians of both sets
+  /// (`addCurvature`). To second order in a tangent δ, f_i at the normalised n + δ is f_i + w_i·δ −
+  /// δᵀ(H + f I)δ/2. At the widest gap all f_i are equal, which leaves δ two, one or no degrees of
+  /// freedom. In the remaining degrees of freedom, (H + f I)δ = w.
   bool newton(Vector<Real>& n, Nearest<Real>& face, Answer& answer) {
     const Simplex<Real> samples = sampled(n);
     if (samples.count == 0) return false;
@@ -239,8 +242,9 @@ class Search {
   Real upper_{HUGE_VAL};
 };
 
-/// Runs a search for a verdict. It also ends when upper and lower bound agree, to 2^-50·size or to
-/// the share `Effort::agreed` of the distance, and when upper is at most `near`.
+/// Runs a search for a verdict. The search ends when `accept` returns true, when the upper bound is
+/// at most `near`, or when upper and lower bound differ by at most 2^-50·size or by the share
+/// `Effort::agreed` of the distance.
 /// @param size, near  metres.
 template <class Real, class Accept>
 Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept,

@@ -4,9 +4,10 @@
 
 #include "collision/core/transform.h"
 
-/// The distance sub-algorithm of GJK: the point of a simplex closest to the origin. Its direction
-/// is accurate even for a tiny distance. It is the normal of the face that the point lies in, or
-/// the origin's offset made orthogonal to the edge, never only the difference of two close points.
+/// The distance sub-algorithm of GJK: the point of a simplex closest to the origin. The direction
+/// of that point is accurate even for a tiny distance: it is the normal of the face that contains
+/// the point, or the vector from the origin made orthogonal to the edge. It is never only the
+/// difference of two close points.
 namespace corridor::gjk {
 
 /// A vector of three numbers of a scalar type that Eigen does not support.
@@ -70,13 +71,14 @@ template <class Real>
 Nearest<Real> nearest(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
   const Vector<Real> ab = b - a, bc = c - b, ca = a - c, n = cross(ab, bc);
   const Real square = dot(n, n), zero(0);
-  // The edges that the foot of the origin is outside of; all edges if the triangle is degenerate.
+  // Tests for each edge whether the foot of the origin is outside of it; true for all edges if the
+  // triangle is degenerate.
   const Real areaC = dot(n, cross(a, ab)), areaA = dot(n, cross(b, bc)),
              areaB = dot(n, cross(c, ca));
   const bool outAB = !(areaC > zero), outBC = !(areaA > zero), outCA = !(areaB > zero);
   if (square > zero && !outAB && !outBC && !outCA) {
-    // The distance is that of a convex combination, which is a point of the triangle however its
-    // weights round. The direction is the normal.
+    // The distance is that of a convex combination of the corners: it is a point of the triangle,
+    // whatever the rounding of the weights. The direction is the normal.
     const Vector<Real> foot =
         (a * areaA + b * areaB + c * areaC) * (Real(1) / (areaA + areaB + areaC));
     return {n * (dot(n, a) / square), dot(foot, foot), 3, {a, b, c}};

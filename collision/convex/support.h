@@ -16,10 +16,10 @@ namespace corridor::gjk {
 /// Precision and limits of a search in one scalar type.
 ///
 /// `unit` is the relative error assumed per operation (for DoubleDouble more than its format's).
-/// The search ends when upper and lower bound differ by less than `agreed` times the distance. For
-/// closer bounds than those of the search in double, the search in double-double follows. `rounds`
-/// is the maximum number of rounds. Polytopes need about as many rounds as the number of their
-/// faces that face the other polytope. Rims of discs needed at most a hundred in tests.
+/// The search ends when upper and lower bound differ by less than `agreed` times the distance. If
+/// closer bounds than those of double are needed, a search in double-double follows. `rounds` is
+/// the maximum number of rounds. Polytopes need about as many rounds as the number of their faces
+/// that face the other polytope. Rims of discs needed at most a hundred in tests.
 template <class Real>
 struct Effort;
 template <>
@@ -47,7 +47,8 @@ class Support {
   };
 
   /// @param scale  a power of two that all returned points are multiplied by.
-  /// @param whole  the sphere belongs to the core: for maps that make it an ellipsoid.
+  /// @param whole true: the sphere is a part of the core. Needed for maps that make it an
+  /// ellipsoid.
   Support(const PosedSet& set, double scale, bool whole = false)
       : set_(set),
         scale_(scale),
@@ -76,7 +77,7 @@ class Support {
   /// True if the core has a curved surface, on which the point farthest along n moves with n.
   bool curved() const { return disc_ > 0 || ball_ > 0; }
   /// Adds TᵀHT to `sum`, with T the tangents at n and H the Hessian of max n·x over the core.
-  /// Returns false where the farthest point jumps.
+  /// Returns false if the farthest point jumps at n.
   bool addCurvature(const Vec3& n, const Tangents& tangents, Eigen::Matrix2d& sum) const {
     const Mat3& map = set_.pose().m;
     const Vec3 m = map.transpose() * n;
@@ -106,7 +107,7 @@ class Support {
 
  private:
   /// Returns the number of the set's point farthest along m. Points that doubles cannot distinguish
-  /// from the farthest are compared in `Real`: in double three products and two sums are off by
+  /// from the farthest are compared in `Real`: in double, three products and two sums are off by
   /// less than 4u·|m|₁·max|p|.
   std::uint32_t farthest(const Vector<Real>& m) const {
     const auto points = set_.set().points;

@@ -7,8 +7,8 @@
 
 namespace corridor {
 
-/// Two angles this close to half a turn apart have no defined shorter way round (PROMISES.md, "What
-/// an edge is"); radians.
+/// If two angles differ by half a turn, up to this value, the shorter way between them is not
+/// defined (PROMISES.md, "What an edge is"); radians.
 inline constexpr double kHalfTurnBand = 1e-9;
 
 /// The shorter rotation from one angle to another, and a bound on its rounding error; radians.
@@ -16,17 +16,20 @@ struct CircleTurn {
   double angle = 0;  ///< in [−π, π]
   double error = 0;
 
-  /// True if the rotation is half a turn, up to the band or the rounding error.
+  /// True if the rotation is half a turn, up to the sum of the band and the rounding error.
   bool ambiguous() const { return !(std::abs(angle) + error <= std::numbers::pi - kHalfTurnBand); }
 };
 
 /// Returns the shorter rotation from one angle to another, of any size; radians.
 ///
-/// Error, with S = |from| + |to|: the difference rounds once, by at most 2^-53·S. Then at most S/2π
-/// + 1/2 ≤ S/π whole turns are subtracted, each 2.5e-16 off 2π because 2π is a double. The sum is
-/// below 2^-52·S, which is doubled. Large angles are compared by their sines and cosines in long
-/// double, for which the C library reduces the angles with as many digits of π as they need. That
-/// error is 2^-58, and the result rounds by 2^-52.
+/// Error, with S = |from| + |to|:
+/// * S < 64, or a difference of at most π: the difference rounds once, by at most 2^-53·S. If it
+///   exceeds π, then at most S/2π + 1/2 ≤ S/π whole turns are subtracted. Each of them is off by
+///   2.5e-16, because 2π is rounded to a double. The sum of these errors is below 2^-52·S; the
+///   bound stored is twice that.
+/// * All others: the rotation is computed from sines and cosines in long double. The C library
+///   reduces their arguments with as many digits of π as necessary. That error is 2^-58, and the
+///   result rounds by 2^-52.
 inline CircleTurn circleTurn(double from, double to) {
   if (from == to) return {};
   const double turn = to - from, size = std::abs(from) + std::abs(to);
@@ -38,8 +41,9 @@ inline CircleTurn circleTurn(double from, double to) {
   return {static_cast<double>(std::atan2(s1 * c0 - c1 * s0, c1 * c0 + s1 * s0)), 0x1p-51};
 }
 
-/// Returns the angle minus whole turns, in [−π, π]; radians. Before the last rounding to double it
-/// is within 2^-53 of the real value: 1,000 rad are 160 turns, each 2^-62 off 2π in long double.
+/// Returns the angle minus whole turns, in [−π, π]; radians. Before its last rounding to double,
+/// the result is within 2^-53 of the real value: 1,000 rad are 160 turns, each of which is off by
+/// 2^-62 because 2π is rounded to long double.
 inline double intoCircle(double angle) {
   if (std::abs(angle) <= std::numbers::pi) return angle;
   using Real = long double;

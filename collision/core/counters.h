@@ -6,19 +6,19 @@ namespace corridor {
 
 constexpr std::uint64_t kNoWorkLimit = ~std::uint64_t{0};
 
-/// Counts of the work of queries, in the terms of T = N_v·C_v + N_p·C_p (Gottschalk, Lin, Manocha
-/// 1996, eq. 1). Each thread has its own set.
+/// Counts of the work of queries. N_v and N_p are those of the cost model T = N_v·C_v + N_p·C_p
+/// (Gottschalk, Lin, Manocha 1996, eq. 1). Each thread has its own counters.
 struct Counters {
   std::uint64_t boxTests = 0;       ///< N_v: pairs of bounding volumes tested
   std::uint64_t triangleTests = 0;  ///< N_p: tested pairs of triangles or convex parts
-  /// The part of `triangleTests` that double could not decide: repeated in exact arithmetic, or in
-  /// double-double for convex parts.
+  /// The number of `triangleTests` that double could not decide. They are repeated in exact
+  /// arithmetic, or in double-double for convex parts.
   std::uint64_t exactTests = 0;
   std::uint64_t poses = 0;   ///< poses computed along motions
   std::uint64_t splits = 0;  ///< time intervals halved
   // Counted by scenes and by `certifyMotionBy`. Queries of two shapes count tests only.
-  std::uint64_t edges = 0;      ///< motion queries of something that moves
-  std::uint64_t states = 0;     ///< static queries, and motion queries of what stands still
+  std::uint64_t edges = 0;      ///< motion queries in which something moves
+  std::uint64_t states = 0;     ///< static queries, and motion queries in which nothing moves
   std::uint64_t undecided = 0;  ///< motion queries that ended `undecided`
 
   /// Counts a tested pair of triangles or convex parts.

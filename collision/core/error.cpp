@@ -5,8 +5,8 @@
 namespace corridor {
 namespace {
 
-/// Replaces control characters, which may come from a damaged file, by '?'. Each fault then is one
-/// line, and none can send commands to the terminal.
+/// Replaces control characters, which may come from a damaged file, by '?'. Then each fault is one
+/// line, and no text of a file can send commands to the terminal.
 std::vector<Fault> printable(std::vector<Fault> faults) {
   for (Fault& fault : faults)
     for (char& c : fault.text)

@@ -6,9 +6,9 @@
 
 namespace corridor {
 
-/// One fault in a user's input: where it is, what is wrong, and what is right instead.
+/// One fault in a user's input: its place, what is wrong, and what would be right.
 struct Fault {
-  std::string file;  ///< as the user named it; empty: not in a file (a command-line option, say)
+  std::string file;  ///< as the user named it; empty: not in a file, for example in an option
   int line = 0;      ///< counted from 1; 0: the file as a whole
   std::string text;
 

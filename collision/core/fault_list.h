@@ -9,19 +9,19 @@
 namespace corridor {
 
 /// Collects the faults of an input and of the files that it names, so that the user sees all of
-/// them at once. At the last fault that it may hold, `add` throws all of them.
+/// them at once. When the list is full, `add` throws all faults.
 class FaultList {
  public:
   static constexpr std::size_t kMost = 1000;
 
-  /// @param mainFile  its faults are listed first; empty: no file is preferred.
+  /// @param mainFile the file whose faults are listed first; empty: no file is preferred.
   /// @param most  the number of faults at which `add` throws.
   explicit FaultList(std::string mainFile = {}, std::size_t most = kMost)
       : mainFile_(std::move(mainFile)), most_(most) {}
   void add(std::string file, int line, std::string text);
   void add(const std::vector<Fault>& faults);
   void add(const InputError& error) { add(error.faults()); }
-  /// Calls `step`; if it throws an InputError, keeps the faults instead.
+  /// Calls `step`. If `step` throws an InputError, adds its faults to the list.
   template <class Step>
   void collect(const Step& step) {
     try {

@@ -2,18 +2,19 @@
 
 /// The floating-point arithmetic that every proof assumes, and tests of it.
 ///
-/// Assumption: double and long double round to nearest, and long double keeps all of its 64 bits (a
-/// program can set the x87 unit to 53). Every bound counts roundings under this assumption; in
-/// another mode a proof may be wrong.
-/// * Motion queries, the check of certificates, the planner's checker and the verifier test it once
-/// per call (`standardFloatingPoint`). Where it does not hold they answer `undecided`.
-/// * Trees and bodies refuse to be built where it does not hold.
-/// * Queries of trees have it as a precondition, which debug builds assert.
+/// Assumption: double and long double round to nearest, and long double keeps all of its 64 bits.
+/// (A program can set the x87 unit to 53 bits.) Every error bound relies on this assumption;
+/// without it, a proof may be wrong.
+/// * Motion queries, the check of certificates, the planner's checker and the verifier test the
+///   assumption once per call (`standardFloatingPoint`). If it does not hold, they answer
+///   `undecided`.
+/// * Constructors of trees and bodies throw if it does not hold.
+/// * Queries of trees have the assumption as a precondition, which debug builds assert.
 ///
 /// Flush-to-zero and denormals-are-zero are allowed: every bound includes the errors that they
 /// cause. A program linked with -ffast-math has both set from its start.
 ///
-/// The header refuses every option of g++ under which the bounds do not hold. clang defines no
+/// This header refuses every option of g++ under which the bounds do not hold. clang defines no
 /// macro for -fassociative-math or -freciprocal-math alone; its users must not set them.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
@@ -30,13 +31,13 @@ enum class FloatingPoint {
   precision  ///< long double does not keep all of its digits
 };
 
-/// Returns how the processor computes in this thread. Costs a dozen additions, which raise the flag
-/// "inexact".
+/// Tests whether the processor computes in this thread as assumed; returns the kind of difference
+/// if it does not. Costs a dozen additions, which raise the flag "inexact".
 inline FloatingPoint floatingPoint() {
 #ifdef CORRIDOR_UNDER_VALGRIND  // CMakeLists.txt: for counting instructions; no proof holds
   return FloatingPoint::standard;
 #endif
-  // `volatile`: otherwise the compiler computes the sums itself, always rounding to nearest.
+  // `volatile`: otherwise the compiler would compute the sums at compile time, rounding to nearest.
   volatile double one = 1, little = 0x1p-60;
   if (one + little != 1 || -one - little != -1 || one - little != 1 || little - one != -1)
     return FloatingPoint::rounding;
@@ -53,7 +54,7 @@ inline bool standardFloatingPoint() {
   return floatingPoint() == FloatingPoint::standard;
 }
 
-/// Returns a phrase for messages: what is wrong.
+/// Returns a phrase for messages that says what is wrong.
 inline const char* described(FloatingPoint state) {
   switch (state) {
     case FloatingPoint::standard:
@@ -66,7 +67,7 @@ inline const char* described(FloatingPoint state) {
   return "floating-point arithmetic is standard";
 }
 
-/// Requires the arithmetic that proofs assume; called by constructors of trees and bodies.
+/// Requires the arithmetic that proofs assume. Constructors of trees and bodies call it.
 /// @throws std::runtime_error
 void requireStandardFloatingPoint();
 

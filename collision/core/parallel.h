@@ -12,9 +12,9 @@
 
 namespace corridor {
 
-/// Runs `work()` on `threads` threads and returns when all have returned. The calling thread is one
-/// of them; for 0 or 1 it is the only one. If the system cannot start as many, fewer run. Rethrows
-/// the first exception.
+/// Runs `work()` on `threads` threads and returns when all calls have returned. The calling thread
+/// is one of these threads, and the only one if `threads` is 0 or 1. If the system cannot start
+/// that many threads, fewer run. Rethrows the first exception.
 template <class Work>
 void onThreads(unsigned threads, const Work& work) {
   std::exception_ptr error;

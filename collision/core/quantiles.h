@@ -5,7 +5,7 @@
 /// Medians and quantiles of measurements, in linear time.
 namespace corridor {
 
-/// Returns the middle value, or the mean of the two in the middle; NaN without values.
+/// Returns the middle value, or the mean of the two values in the middle; NaN without values.
 double medianOf(std::vector<double> values);
 
 /// Returns the smallest value v such that at least a share p of the values are ≤ v (the nearest

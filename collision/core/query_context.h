@@ -8,18 +8,18 @@
 
 namespace corridor {
 
-/// All that a query may write apart from its result. Each thread has its own. The contents never
-/// change a verdict, nor a distance beyond its error bound.
+/// All that a query may write apart from its result. Each thread needs its own context. The
+/// contents never change a verdict, nor a distance beyond its error bound.
 struct QueryContext {
   Counters counters;  ///< the work of all queries since it was last cleared
   /// The pairs of triangles from which queries of scenes and motions start. Entry k belongs to pair
-  /// k of the query's bodies. Queries enlarge the list. It may change the counts, and which of
-  /// several closest or touching triangles is reported.
+  /// k of the query's bodies. Queries enlarge the list. The entries may change the counts, and
+  /// which of several closest or touching triangles is reported.
   std::vector<LastPair> lastPairs;
   Scratch scratch;
 
-  /// Returns the last pair of a pair of bodies, by its number. Valid until a call with a larger
-  /// number.
+  /// Returns the entry of the pair of bodies with number `pair`. The reference is valid until a
+  /// call with a larger number.
   LastPair& lastPair(std::size_t pair) {
     if (lastPairs.size() <= pair) lastPairs.resize(pair + 1);
     return lastPairs[pair];

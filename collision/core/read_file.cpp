@@ -111,7 +111,7 @@ std::string notBlank(std::string text, const std::string& name, const std::strin
   return text;
 }
 
-/// Returns all that comes until the end of the pipe.
+/// Returns all bytes up to the end of the pipe.
 std::string readPipe(int descriptor, const std::string& name, const std::string& what) {
   std::vector<char> part(std::size_t{1} << 18);
   std::string text;

@@ -4,9 +4,10 @@
 #include <filesystem>
 #include <string>
 
-/// Reading of input files: all of them are opened here. Only ordinary files are opened, and their
-/// size is tested before memory is allocated. No call waits for a device or a pipe, except
-/// `readTextStream`, for inputs that are documented to take one.
+/// Functions that read input files. No other code opens one, except the helper program that uses
+/// assimp. The functions open only ordinary files, and test their size before they allocate memory.
+/// They never wait for a device or a pipe. The exception is `readTextStream`, for inputs that may
+/// come from a pipe according to their documentation.
 namespace corridor {
 
 /// The maximum number of bytes of any input: 4 GiB.
@@ -29,14 +30,14 @@ std::string readFile(const std::filesystem::path& file, const std::string& what,
                      std::uint64_t most = kMostFileBytes);
 
 /// Returns the text of a document. @param what  for messages: "a problem".
-/// @throws InputError: as `requireFile`; also for more than 256 MiB, for blanks only, and for a
+/// @throws InputError: as `requireFile`; also if the file has more than 256 MiB, only blanks, or a
 /// byte 0, which no text has.
 std::string readTextFile(const std::filesystem::path& file, const std::string& what);
 
 /// Returns the text of a list that may be long or come from a pipe; "-" and "/dev/stdin" are the
 /// standard input. Reads a pipe to its end, and waits for its writer.
-/// @throws InputError: as `requireFile`; also for blanks only, and for a byte 0, which ends the
-/// reading of a pipe at once.
+/// @throws InputError: as `requireFile`; also if the text has only blanks, or a byte 0. A byte 0
+/// ends the reading of a pipe at once.
 std::string readTextStream(const std::filesystem::path& file, const std::string& what);
 
 }  // namespace corridor

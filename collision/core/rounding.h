@@ -15,19 +15,19 @@ inline constexpr double kUnit = 0x1p-53;
 /// without flush-to-zero. It is far below the coordinates of any mesh.
 inline constexpr double kTiny = 0x1p-1000;
 
-/// Returns an upper bound of the real value of `bound`, if that was computed from positive terms
+/// Returns an upper bound of the real value of `bound`, if `bound` was computed from positive terms
 /// with at most 16 roundings: (1 + u)^16 < 1 + 2^-48. Monotone; NaN stays NaN.
 inline double roundedUp(double bound) {
   return bound * (1 + 0x1p-48) + kTiny;
 }
 
-/// Returns a lower bound of the real value, likewise.
+/// Returns a lower bound of the real value of `bound`, under the same condition.
 inline double roundedDown(double bound) {
   return bound * (1 - 0x1p-48) - kTiny;
 }
 
-/// Returns a lower bound of the root of a sum of squares, up to the usual relative rounding errors.
-/// Returns 0 for small sums, which rounding to subnormals may have made too large.
+/// Returns the root of a computed sum of squares: a lower bound, except for relative rounding
+/// errors. Returns 0 if the sum is so small that rounding to subnormals may have made it too large.
 inline double rootFromBelow(double square) {
   return square > 0x1p-960 ? std::sqrt(square) : 0;
 }

@@ -7,19 +7,20 @@
 namespace corridor {
 
 /// Memory that queries keep for later queries, so that they need not allocate it again: one object
-/// of each requested type. A query must not rely on what the object holds when it begins. While a
-/// function uses an object, it calls nothing that uses the same type.
+/// of each requested type. A query must not rely on the contents that an object has when the query
+/// begins. While a function uses an object, it must not call a function that uses an object of the
+/// same type.
 class Scratch {
  public:
   Scratch() = default;
-  /// A copy has no memory yet.
+  /// A copy begins without any object.
   Scratch(const Scratch&) {}
   Scratch& operator=(const Scratch&) { return *this; }
   Scratch(Scratch&&) noexcept = default;
   Scratch& operator=(Scratch&&) noexcept = default;
   ~Scratch() = default;
 
-  /// Returns the object of type T; creates it at the first call. It keeps its address.
+  /// Returns the object of type T; creates it at the first call. The object keeps its address.
   template <class T>
   T& of() {
     for (const Slot& slot : slots_)
@@ -30,7 +31,7 @@ class Scratch {
 
  private:
   template <class T>
-  static inline char kType = 0;  // its address identifies T; writable, so that no linker folds two
+  static inline char kType = 0;  // its address identifies T; not const: linkers may merge constants
   struct Slot {
     const char* type;
     std::unique_ptr<void, void (*)(void*)> memory;

@@ -30,7 +30,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> mostSimilar(std::string_view word,
                                        const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest = 100;  // longer than any key; bounds the time of a hostile file
+  constexpr std::size_t longest = 100;  // longer than any key; limits the time for hostile files
   if (word.size() > longest) return std::nullopt;
   std::optional<std::string> best;
   std::size_t bestDistance = 0;

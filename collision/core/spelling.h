@@ -20,10 +20,11 @@ std::size_t editDistance(std::string_view a, std::string_view b);
 std::optional<std::string> mostSimilar(std::string_view word,
                                        const std::vector<std::string>& candidates);
 
-/// Returns ` (did you mean "…"?)` with the nearest candidate, or "". A message can go on behind it.
+/// Returns ` (did you mean "…"?)` with the most similar candidate, or "". The text can be appended
+/// to a message, or stand within it.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
-/// Returns ` (known: a, b, c)`, shortened as by `joinedFirst`.
+/// Returns ` (known: a, b, c)`, with at most 30 words (`joinedFirst`).
 std::string knownWords(const std::vector<std::string>& words);
 
 /// Returns "a, b, c", or the first 30 words and the number of the others: "a, b, c and 970 more".
@@ -32,7 +33,7 @@ std::string joinedFirst(const std::vector<std::string>& words);
 /// Returns all words: "a, b, c".
 std::string joined(const std::vector<std::string>& words);
 
-/// Returns `one of a, b is needed, not "c"`, and the word that may be meant.
+/// Returns `one of a, b is needed, not "c"`, followed by the suggestion of `didYouMean`.
 std::string notOneOf(std::string_view word, const std::vector<std::string>& words);
 
 /// Returns the word for a message: in double quotes, at most 60 bytes, control characters as '?'.

@@ -6,13 +6,13 @@ namespace corridor {
 
 /// A bounding sphere of a body at the middle of a time interval, with a bound on the motion of its
 /// centre in the interval, both in the frame from which the motion is seen (the world, or body a).
-/// The sphere holds the body however it rotates. Distant bodies are separated by it before any tree
-/// is built (motion/may_meet.h).
+/// Rotation of the body about the centre does not move the sphere. The sphere separates distant
+/// bodies before any tree is built (motion/may_meet.h).
 struct SweptSphere {
   Vec3 center = Vec3::Zero();
   double radius = 0;     ///< includes tube and rounding; rounded up; metres
   double isotropic = 0;  ///< isotropic motion bound of the centre, rounded up; metres
-  /// Directional motion bound: along a unit vector n the centre moves at most |n·first| + |n ×
+  /// Directional motion bound: along a unit vector n the centre moves by at most |n·first| + |n ×
   /// angular|·secondOrderAcross + secondOrder.
   Vec3 first = Vec3::Zero(), angular = Vec3::Zero();  ///< metres, radians
   double secondOrderAcross = 0, secondOrder = 0;      ///< metres

@@ -18,7 +18,7 @@ struct Transform {
   Mat3 m = Mat3::Identity();
   Vec3 t = Vec3::Zero();
 
-  /// Returns the image of a point, rounded. For the exact point see predicates/.
+  /// Returns the image of a point, rounded. `predicates/` works with the exact image.
   Vec3 operator*(const Vec3& p) const { return m * p + t; }
   /// Returns the composition, rounded.
   Transform operator*(const Transform& other) const { return {m * other.m, m * other.t + t}; }
@@ -27,8 +27,8 @@ struct Transform {
   bool operator==(const Transform& other) const { return m == other.m && t == other.t; }
 };
 
-/// Returns the inverse of a rigid map, with Rᵀ for R⁻¹. It is off by rounding, and by the defect of
-/// `X.m` from a rotation.
+/// Returns the inverse of a rigid map, computed with the transpose of `X.m` in place of its
+/// inverse. The result is off by rounding, and by the difference of `X.m` from a rotation.
 inline Transform rigidInverse(const Transform& X) {
   return {X.m.transpose(), -(X.m.transpose() * X.t)};
 }

@@ -21,9 +21,9 @@
 #include <assimp/scene.h>
 
 /// Replaces assimp's handler of failed assertions, which would end the program. Debian's assimp is
-/// built with assertions, and damaged files break some. The dynamic linker finds this definition
-/// first, because the program precedes assimp in the symbol search order. Throwing is safe:
-/// assimp's importers throw errors, and clean up, in the same way.
+/// built with assertions, and damaged files violate some of them. The dynamic linker finds this
+/// definition first, because the program precedes assimp in the symbol search order. Throwing is
+/// safe: assimp's importers throw errors, and clean up, in the same way.
 namespace Assimp {
 ASSIMP_API void aiAssertViolation(const char* expression, const char*, int) {
   throw std::runtime_error(std::string("assimp's assertion fails: ") + expression);
@@ -74,10 +74,10 @@ double shortestDecimal(float value) {
   return written;
 }
 
-/// Requires a sound unit in the root's transform, where assimp puts Collada's unit and up-axis. A
-/// unit that is 0, or too small for assimp's floats, would leave nothing of the mesh, and a
-/// negative one its mirror image. Under `OmplApp` a mirror image is accepted: it may be a node's
-/// own, which OMPL.app's import steps may have merged with the root.
+/// Checks the root's transform, where assimp puts Collada's unit and up-axis. A unit that is 0, or
+/// too small for assimp's floats, would shrink the mesh to a point, and a negative unit would
+/// mirror it. Under `OmplApp` a mirrored mesh is accepted: OMPL.app's import steps may have merged
+/// a node that mirrors with the root. @throws std::runtime_error if the unit is not above 0.
 void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
   const double volume = inDoubles(scene.mRootNode->mTransformation).linear().determinant();
   if (!(volume > 0 || (volume < 0 && rules == AssimpRules::OmplApp)))
@@ -112,8 +112,8 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-/// Opens ordinary files only, also for files that a file names (a glTF's buffers); any other counts
-/// as missing.
+/// Opens only ordinary files, including files to which the mesh file refers, such as the buffers of
+/// a glTF file. All other files count as missing.
 class OrdinaryFiles : public Assimp::DefaultIOSystem {
  public:
   bool Exists(const char* file) const override {  // assimp's own version would open the file
@@ -139,8 +139,8 @@ bool isLetThrough(const aiImporterDesc& description) {
   return false;
 }
 
-/// Removes the importers of all other formats. assimp would offer a file of unknown extension to
-/// every importer.
+/// Removes the importers of all other formats. Otherwise assimp would offer a file of unknown
+/// extension to every importer.
 void removeOtherFormats(Assimp::Importer& importer) {
   std::vector<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)

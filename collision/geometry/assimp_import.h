@@ -11,7 +11,7 @@
 namespace corridor {
 
 enum class AssimpRules {
-  /// Coordinates as stored: Collada's up-axis is not applied, and its unit is returned apart.
+  /// Coordinates as stored: Collada's up-axis is not applied, and its unit is returned separately.
   Stored,
   /// As in OMPL.app: its import steps, with Collada's up-axis and unit applied as assimp does.
   OmplApp,
@@ -25,8 +25,8 @@ constexpr std::array<std::string_view, 8> kAssimpFormats{".dae", ".gltf", ".glb"
 constexpr std::array<std::string_view, 4> kOwnFormats{".obj", ".stl", ".ply", ".off"};
 
 struct AssimpImport {
-  /// The mesh in the frame of the scene. It has all vertices that assimp keeps, also those of lines
-  /// and points, and equal ones several times.
+  /// The mesh in the frame of the scene. It has all vertices that assimp keeps, including those of
+  /// lines and points; equal vertices may be repeated.
   TriangleMesh mesh;
   std::string format;   ///< assimp's name of the format
   double fileUnit = 0;  ///< metres, not applied to the mesh; 0: the format has none

@@ -93,7 +93,7 @@ class Helper {
     }
   }
 
-  /// Returns its status as waitpid(2) gives it. @pre its output has ended.
+  /// Returns the status of the process, as waitpid(2) reports it. @pre its output has ended.
   int end() { return wait(); }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace corridor {
 
-/// Limits of reading one file by assimp, and the helper program that reads it.
+/// Limits for reading one file by assimp, and the helper program that reads it.
 struct AssimpLimits {
   double seconds = 60;                              ///< time from the helper's start to its answer
   std::uint64_t bytes = std::uint64_t{1} << 32;     ///< memory of the helper
@@ -18,13 +18,13 @@ struct AssimpLimits {
   /// this order:
   /// * the folder of the running program;
   /// * the run path of the program or shared library that contains this code (an installed library
-  /// adds its folder for those that link it);
+  ///   adds its folder for programs that link it);
   /// * the folder where the helper was built.
   static std::filesystem::path assimpProgram();
 };
 
 /// Reads a file by assimp in a process of its own. The process ends with the call, with the calling
-/// process, or when it reaches a limit. Several threads may call this at a time.
+/// process, or when it reaches a limit. Several threads may call this function at the same time.
 /// @throws InputError: assimp cannot read the file, crashes, or exceeds a limit; or the helper
 /// program is missing.
 AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,

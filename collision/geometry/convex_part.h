@@ -47,8 +47,8 @@ struct ConvexPart {
 };
 
 /// Returns the primitive in the frame of a body. The pose is applied once and rounded: the result
-/// is the model. Points are mapped, radii stay, also under a pose that is not rigid.
-/// @pre `checkPrimitive` reports nothing; it is not called here.
+/// is the model. Points are mapped; radii stay the same, even under a pose that is not rigid.
+/// @pre `checkPrimitive` reports nothing; `placed` does not call it.
 ConvexPart placed(const Primitive& primitive, const Transform& X_BodyPrimitive);
 
 }  // namespace corridor

@@ -75,7 +75,7 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
     }
     all.of[t] = n;
     MeshComponents::Component& component = all.components[n];
-    component.watertight = component.watertight || !folded[t];  // unless it has an open edge
+    component.watertight = component.watertight || !folded[t];  // open edges clear it below
     for (int i = 0; i < 3; ++i) {
       component.lower = component.lower.cwiseMin(mesh.corner(t, i));
       component.upper = component.upper.cwiseMax(mesh.corner(t, i));

@@ -15,7 +15,8 @@ struct MeshComponents {
     Vec3 corner = Vec3::Zero();                       ///< a corner of that triangle
     Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< its bounds
     /// True if each edge is used by exactly two triangles, in opposite directions (not counting
-    /// triangles with two equal corners). Then the component has an inside, whichever way it faces.
+    /// triangles with two equal corners). Then the component has an inside, whichever way its
+    /// triangles face.
     bool watertight = false;
   };
   std::vector<Component> components;

@@ -23,7 +23,7 @@ struct MeshFile {
   std::string format;  ///< "OBJ", "STL (binary)", "PLY (ASCII)" …, or assimp's name of the format
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
-  /// True if assimp read the file: then the vertices are the file's, rounded to float.
+  /// True if assimp read the file, and therefore rounded the vertices to float.
   bool floatVertices = false;
 };
 

@@ -17,7 +17,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// neither overflow nor underflow, whatever the mesh's size.
 struct Bounds {
   Vec3 min, max;
-  double scale = 1;  ///< 1/4 if the diagonal overflows. (Always 1/4 would cost subnormals bits.)
+  double scale = 1;  ///< 1/4 if the diagonal overflows (else 1: 1/4 would cost subnormals bits)
   double diagonal;   ///< times `scale`
 
   explicit Bounds(const TriangleMesh& mesh) : min(mesh.corner(0, 0)), max(min) {
@@ -36,7 +36,7 @@ struct Bounds {
 };
 
 TriangleQuality qualityOf(const Vec3& a, const Vec3& b, const Vec3& c, const Bounds& bounds) {
-  constexpr double degenerateArea = 1e-12, sliverRatio = 1e-3;  // by definition
+  constexpr double degenerateArea = 1e-12, sliverRatio = 1e-3;  // defined in the header
   const Vec3 ab = bounds.share(a, b), ac = bounds.share(a, c), bc = bounds.share(b, c);
   const double doubleArea = ab.cross(ac).norm();
   if (a == b || b == c || c == a || !(doubleArea / 2 > degenerateArea))
@@ -176,7 +176,7 @@ MeshHealth inspectMesh(const TriangleMesh& mesh) {
   health.min = bounds.min + Vec3::Zero();  // no -0
   health.max = bounds.max + Vec3::Zero();
 
-  std::vector<Triangle> all, fair;  // with sorted corners; below each is kept once
+  std::vector<Triangle> all, fair;  // with sorted corners; repeated ones are removed below
   for (const Triangle& t : triangles) {
     const auto quality = qualityOf(points[t[0]], points[t[1]], points[t[2]], bounds);
     health.degenerateTriangles += quality == TriangleQuality::degenerate;

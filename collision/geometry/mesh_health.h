@@ -21,10 +21,11 @@ struct MeshHealth {
   std::size_t sliverTriangles = 0;
   std::size_t boundaryEdges = 0;     ///< edges of only one distinct triangle that is not degenerate
   std::size_t nonManifoldEdges = 0;  ///< edges of three or more such triangles
-  /// Edges used by two triangles in the same direction, so that one faces out and the other in (not
-  /// counting triangles with two equal corners).
+  /// Edges used by two triangles in the same direction: one triangle faces out, the other in.
+  /// Triangles with two equal corners do not count.
   std::size_t turnedEdges = 0;
-  std::size_t components = 0;  ///< sets of triangles connected through shared corners
+  /// Sets of triangles connected through shared corners. (`findComponents` requires shared edges.)
+  std::size_t components = 0;
   /// True if every edge is used by exactly two triangles, in opposite directions (not counting
   /// triangles with two equal corners).
   bool watertight = false;

@@ -4,8 +4,8 @@
 
 namespace corridor {
 
-/// The most vertices, and the most triangles, that are read from one file. A mesh of that size
-/// takes 4 GB, and its tree some 8 GB.
+/// The maximum number of vertices, and of triangles, that are read from one file. A mesh of that
+/// size takes 4 GB, and its tree some 8 GB.
 constexpr std::size_t kMostOfAMesh = 100'000'000;
 
 }  // namespace corridor

@@ -6,9 +6,9 @@
 #include "collision/geometry/mesh_text.h"
 #include "collision/geometry/triangle_mesh.h"
 
-/// Corridor's own mesh readers, one per format. They take the bytes of a file and return
-/// coordinates as stored, in double. README.md lists what each reads and its limits. Every fault
-/// goes to `faults`; a reader throws InputError if there is one.
+/// Corridor's own mesh readers, one per format. Each reader takes the bytes of a file, and returns
+/// coordinates as stored, in double. README.md lists what the readers support, and their limits.
+/// Readers add every fault to `faults`, and throw InputError if there is one.
 namespace corridor {
 
 struct ReadMesh {

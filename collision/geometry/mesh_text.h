@@ -15,7 +15,7 @@ namespace corridor {
 
 /// Returns the word for a message: at most 32 bytes, unprintable ones shown as '?'.
 std::string printable(std::string_view word);
-/// Returns the same in double quotes.
+/// Returns `printable(word)` in double quotes.
 std::string inQuotes(std::string_view word);
 
 /// Collects the faults of one mesh file. Throws at the tenth, since the rest rarely adds
@@ -48,7 +48,7 @@ class MeshFaults {
 /// the nearest double. @returns a complaint, or nullopt on success.
 std::optional<std::string> parseCoordinate(std::string_view word, double& value);
 
-/// Reads a whole word as a decimal integer of 64 bits. @returns false if it is none.
+/// Reads a whole word as a decimal integer of 64 bits. @returns false if the word is not one.
 bool parseInteger(std::string_view word, std::int64_t& value);
 
 /// True for the blanks within a line.
@@ -77,8 +77,9 @@ class TextCursor {
   int line_;
 };
 
-/// Reads a vertex of three coordinates from the words that `next` returns; an empty word ends them.
-/// If a coordinate is missing or wrong, adds a fault of the cursor's line and leaves the rest 0.
+/// Reads a vertex of three coordinates from the words that `next` returns; an empty word means that
+/// no more words follow. If a coordinate is missing or wrong, adds a fault at the cursor's line,
+/// and leaves that coordinate and those after it 0.
 template <class Next>
 Vec3 parseVertex(const Next& next, const TextCursor& cursor, MeshFaults& faults) {
   Vec3 vertex = Vec3::Zero();

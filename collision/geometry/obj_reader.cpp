@@ -36,8 +36,8 @@ class ObjReader {
 
   std::int64_t count() const { return static_cast<std::int64_t>(mesh_.vertices.size()); }
 
-  /// Returns the next word of the logical line. A backslash at a line's end continues it; '#' ends
-  /// it.
+  /// Returns the next word of the logical line. A backslash at the end of a line continues the
+  /// logical line on the next one; '#' ends it.
   std::string_view nextWord() {
     std::string_view word = cursor_.wordInLine();
     while (word == "\\" || (word.empty() && continued_)) {

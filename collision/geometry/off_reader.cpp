@@ -18,7 +18,8 @@ class OffReader {
   ReadMesh read() {
     readKeyword();
     const std::int64_t vertices = count("vertices"), faces = count("faces");
-    // The count of edges must end this line. Otherwise a vertex would be taken for it, or be lost.
+    // The count of edges must end this line. Otherwise the first vertex would be read as that
+    // count, or be skipped.
     if (wordInLine().empty())
       faults_.fail(cursor_.line(), "the number of edges is missing; any number will do");
     if (const std::string_view more = wordInLine(); !more.empty())

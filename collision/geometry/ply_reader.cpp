@@ -21,15 +21,15 @@ struct Place {
   }
 };
 
-/// Reads values from an ASCII body, where each is a word.
+/// Reads values from an ASCII body, where each value is a word.
 class AsciiBody {
  public:
   AsciiBody(std::string_view body, const PlyHeader& header, MeshFaults& faults)
       : cursor_(body, header.lines + 1), faults_(faults) {}
 
-  /// Returns the least bytes of a value: a digit and a blank.
+  /// Returns the least number of bytes that a value takes: a digit and a blank.
   static std::uint64_t leastSize(PlyType) { return 2; }
-  /// Returns one more than there are: the last word needs no blank after it.
+  /// Returns the number of bytes left, plus one, because the last word needs no blank after it.
   std::uint64_t bytesLeft() const { return cursor_.bytesLeft() + 1; }
 
   double coordinate(PlyType) {

@@ -146,7 +146,8 @@ ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
   const std::uint64_t promised =
       hasHeader ? headerSize + std::uint64_t{facetSize} * littleEndian32(&bytes[80]) : 0;
   if (hasHeader && promised == bytes.size()) return readBinary(bytes, faults);
-  // Text has no zero byte. The count of a binary file has one, except for 2^24 triangles or more.
+  // Text has no zero byte. The number of triangles in a binary file has one, unless it is 2^24 or
+  // more.
   const std::string_view start = bytes.substr(0, headerSize);
   if (sameWord(TextCursor(start).word(), "solid") && start.find('\0') == start.npos) {
     return AsciiStl(bytes, faults).read();

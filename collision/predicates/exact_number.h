@@ -38,7 +38,7 @@ struct Vector {
   }
   bool isZero() const { return x.is_zero() && y.is_zero() && z.is_zero(); }
 };
-/// The product may have another type than the factors (small_int.h).
+/// The result may have another type than the coordinates (small_int.h).
 template <class A, class B>
 auto dot(const Vector<A>& a, const Vector<B>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -82,7 +82,7 @@ inline Dyadic dyadic(double value) {
   return {bits >> 63 ? -odd : odd, std::max(field, 1) - 1075 + zeros};
 }
 
-/// Up to three points and the affine map that they are under, as dyadic numbers.
+/// Up to three points, and the affine map to apply to them, as dyadic numbers.
 struct MappedCorners {
   std::array<std::array<Dyadic, 3>, 3> m, corners;
   std::array<Dyadic, 3> t;
@@ -157,7 +157,7 @@ Vector<Int> mapped(const MappedCorners& points, std::size_t p, const Grid& grid)
   return {c[0], c[1], c[2]};
 }
 
-/// Returns all three corners of a triangle likewise.
+/// Returns the three corners of a triangle under its map, exactly, in units of the grid.
 template <class Int>
 Points<Int> mapped(const MappedCorners& triangle, const Grid& grid) {
   return {mapped<Int>(triangle, 0, grid), mapped<Int>(triangle, 1, grid),

@@ -4,7 +4,7 @@
 
 namespace corridor {
 
-/// A point under an affine map. It refers to the map, which must outlive it.
+/// A point under an affine map. Holds a reference to the map: the map must outlive it.
 struct MappedPoint {
   const Transform& X;
   Vec3 p;

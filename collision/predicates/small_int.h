@@ -4,16 +4,17 @@
 #include <cstdint>
 
 /// Signed integers whose width grows with the degree of an expression. Coordinates have 64 bits,
-/// their products 128, and products of these with coordinates 192. This holds every orientation of
-/// points on a grid of 61 bits. Shapes that touch by construction (boxes, CAD models under
-/// rotations by 90°) are on such a grid. Ten times faster than integers of one large width. Results
-/// that need more bits wrap; those of `Int53` are rounded.
+/// their products 128, and products of these with coordinates 192. 192 bits hold every orientation
+/// of points on a grid of 61 bits. Shapes that touch by construction (boxes, CAD models under
+/// rotations by 90°) are on such a grid. These types are ten times faster than integers of one
+/// large width. Results that need more bits wrap; those of `Int53` are rounded.
 namespace corridor::exact {
 
 __extension__ using SignedPair = __int128;
 __extension__ using UnsignedPair = unsigned __int128;
 
-/// Integers stored as doubles, or integers times one common power of two. Exact below 2^53.
+/// Integers stored as doubles, or integers times one common power of two. Results are exact as long
+/// as the integers are below 2^53.
 class Int53 {
  public:
   Int53() = default;

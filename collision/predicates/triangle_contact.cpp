@@ -71,8 +71,8 @@ struct Filter {
     for (int i = 0; i < 3; ++i)
       if (sideA[i] == 0 || sideB[i] == 0) return -1;
     // General position: each triangle crosses the other's plane. Corners are numbered so that p1 is
-    // alone on its side of b's plane, and p2 on its side of a's. Each triangle is oriented so that
-    // p1 and p2 are on the positive side of the other.
+    // alone on its side of b's plane, and p2 is alone on its side of a's plane. Each triangle is
+    // oriented so that p1 and p2 are on the positive side of the other.
     const int i = alone(sideA), j = alone(sideB);
     const Vec3 &p1 = a[i], &p2 = b[j];
     const Vec3 *q1 = &a[(i + 1) % 3], *r1 = &a[(i + 2) % 3], *q2 = &b[(j + 1) % 3],

@@ -19,7 +19,8 @@ namespace corridor {
 PredicateResult trianglesTouch(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                const Transform& X_WB);
 
-/// The same without the filter in double: its fallback, and an independent path for tests.
+/// Returns the same answer without the filter in double. It decides where the filter cannot, and is
+/// an independent path for tests.
 bool trianglesTouchExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 

@@ -45,7 +45,8 @@ bool segmentsTouch(const Vector<Int>& p, const Vector<Int>& q, const Vector<Int>
   }
   const Vector<Int>& line = d.isZero() ? e : d;
   if (!cross(line, f).isZero()) return false;
-  // On one line (or two points): collinear segments meet if and only if their boxes do.
+  // The segments are on one line, or both are points. Then they meet if and only if their
+  // axis-aligned boxes do.
   return rangesMeet(p.x, q.x, r.x, s.x) && rangesMeet(p.y, q.y, r.y, s.y) &&
          rangesMeet(p.z, q.z, r.z, s.z);
 }
@@ -70,8 +71,8 @@ bool segmentTouchesTriangle(const Vector<Int>& p, const Vector<Int>& q, const Po
       if (orientation2(t[i], t[(i + 1) % 3], p, drop) * turn < 0) return false;
     return true;
   }
-  // The segment crosses the plane in one point. It is in the triangle unless it is left of one edge
-  // and right of another.
+  // The segment crosses the plane in one point. That point is in the triangle unless the segment
+  // passes left of one edge and right of another.
   bool positive = false, negative = false;
   const Vector<Int> d = q - p;
   for (int i = 0; i < 3; ++i) {
@@ -91,8 +92,8 @@ bool strictlyOneSide(const Points<Int>& plane, const Vector<Product>& n,
 }
 
 /// Tests two triangles. They meet if and only if an edge of one meets the other: an extreme point
-/// of their intersection lies on the boundary of one of them. (A degenerate triangle is all
-/// boundary.)
+/// of their intersection lies on the boundary of one of them. (A degenerate triangle consists of
+/// its boundary only.)
 template <class Int>
 bool touch(const Points<Int>& a, const Points<Int>& b) {
   const auto nA = cross(a[1] - a[0], a[2] - a[0]), nB = cross(b[1] - b[0], b[2] - b[0]);
@@ -109,7 +110,7 @@ bool touch(const exact::MappedCorners& a, const exact::MappedCorners& b, const e
   return touch<Int>(exact::mapped<Int>(a, grid), exact::mapped<Int>(b, grid));
 }
 
-/// Returns whether two arrays are equal up to signs. Compares bits, because == takes subnormals for
+/// Returns whether two arrays are equal up to signs. Compares bits, because == treats subnormals as
 /// zeros if the processor flushes them.
 template <class Array>
 bool sameSizes(const Array& x, const Array& y) {
@@ -120,7 +121,7 @@ bool sameSizes(const Array& x, const Array& y) {
 }
 
 /// Tests triangles under signed permutations on a grid so coarse that doubles are exact; nullopt if
-/// they are not of this kind. Most triangles that touch by construction are.
+/// they are not of this kind. Most triangles that touch by construction are of this kind.
 std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                    const Transform& X_WB) {
   double size = 0;

@@ -28,14 +28,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Method: separating axes: the normals of both triangles and the nine cross products of their
 /// edges.
 ///
-/// Rounding, u = 2^-24: corners are off by 3u·D per coordinate (`TrianglePairs`, D its size). A
-/// vector L of any direction separates the triangles if their projections onto it are disjoint. Two
-/// projections are off by less than 2(3u + 3u)·|L|₁·D, and `error` adds |L|₂·error. Both ends of an
-/// edge e are taken to project alike onto L = e × f. Their difference L·e is 0 except for the
-/// rounding of L, |δL| ≤ 2u|e||f| per coordinate: off by 2√3·u|e||f|·√3D. With |L|₁ ≤ √3|L|₂ and
-/// |L|₂ ≤ |e||f|(1 + 4u) the sum is below |e||f|·(error + 28u·D), and for normals likewise; the
-/// code takes 40u. Lengths enter as |e|₁ ≥ |e|₂. Products that underflow lose less than 2^-124,
-/// flushed or not, times an edge below 2^30. `pad` is multiplied by the true length of each axis.
+/// Rounding, with u = 2^-24 and D the size of a pair (`TrianglePairs`): corners are off by 3u·D per
+/// coordinate. A vector L of any direction separates the triangles if their projections onto it are
+/// disjoint.
+/// * Two projections together are off by less than 2(3u + 3u)·|L|₁·D. The error of the given
+///   corners adds |L|₂·error.
+/// * The code assumes that both ends of an edge e have the same projection onto L = e × f. The
+///   difference of the two projections is L·e, which is 0 except for the rounding of L. This
+///   rounding is |δL| ≤ 2u|e||f| per coordinate, so the difference is below 2√3·u|e||f|·√3D.
+/// * With |L|₁ ≤ √3|L|₂ and |L|₂ ≤ |e||f|(1 + 4u), the sum of these errors is below |e||f|·(error +
+///   28u·D). The same holds for normals. The code takes 40u, and |e|₁ ≥ |e|₂ as the length of an
+///   edge.
+/// * Products that underflow lose less than 2^-124, flushed or not, times an edge below 2^30.
+///
+/// `pad` is multiplied by the true length of each axis.
 HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCorners& b,
                                       const TriangleNumbers& numbers, float error, float pad = 0) {
   const LaneTag d;
@@ -81,13 +87,14 @@ HWY_INLINE unsigned touchingTriangles(const TriangleCorners& a, const TriangleCo
     if (padded) margin = hn::Add(margin, padding(nb));
     open = hn::AndNot(hn::Gt(gap, margin), open);
     if (!hn::AllFalse(d, open)) {
-      // Axis from edge i of a and edge j of b: both ends of an edge project alike, so one end and
-      // the opposite corner give the whole projection.
+      // The axis is orthogonal to edge i of a and to edge j of b. Both ends of such an edge have
+      // the same projection, so one end and the opposite corner give the projection of the
+      // triangle.
       for (int i = 0; i < 3; ++i) {
         const V reach = hn::Mul(per, le[i]);
         for (int j = 0; j < 3; ++j) {
           const Vec L = cross(ea[i], fb[j]);
-          const V s = i == 0 ? dot(L, e2) : dot(L, e1);  // the other value of a is 0
+          const V s = i == 0 ? dot(L, e2) : dot(L, e1);  // the projections of a are s and 0
           const V q0 = dot(L, j == 1 ? p1 : p0), q1 = dot(L, j == 0 ? p2 : j == 1 ? p0 : p1);
           gap = hn::Max(hn::Sub(hn::Min(q0, q1), hn::Max(s, zero)),
                         hn::Sub(hn::Min(s, zero), hn::Max(q0, q1)));

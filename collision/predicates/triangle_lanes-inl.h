@@ -71,18 +71,20 @@ HWY_INLINE LaneFloat lookedUp(const float* HWY_RESTRICT sixteen,
   }
 }
 
-/// The pairs to test: for each pair the numbers, below 16, of its triangles in `a` and in `b`.
+/// The pairs to test. Each pair has the numbers, below 16, of a triangle of `a` and of a triangle
+/// of `b`.
 struct TriangleNumbers {
   const std::uint8_t *a, *b;  ///< sixteen readable numbers each
 };
 
 /// The corners of the pairs `at`, `at` + 1, …, one pair per lane. All corners are relative to a's
-/// first corner, so that one, s_0, is 0.
+/// first corner. So this corner, s_0, is 0.
 ///
 /// Rounding, u = 2^-24. Let o be a's first corner and ΔC the difference of the two `center`s. The
-/// corners of b are t = b.x + (ΔC − o), in floats rounded at each step. b.x, o, ΔC, w = ΔC − o and
-/// t are each off by u of themselves. With |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w| and w = t_0 − b.x_0
-/// the error is less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size per coordinate. (Bounds by
+/// corners of b are t = b.x + (ΔC − o), in floats rounded at each step. Each of b.x, o, ΔC, w = ΔC
+/// − o and t is off by at most u times its own size. With |ΔC| ≤ |w| + |o|, |b.x| ≤ |t| + |w| and w
+/// = t_0 − b.x_0 the error is less than u(2|t| + 3|t_0| + 3|b.x_0| + 2|o|) ≤ 3u·size per
+/// coordinate. (Bounds by
 /// |b.x| would be worse: for small triangles far from `center` it is much larger than t.)
 struct TrianglePairs {
   LaneVec s1, s2, t[3];

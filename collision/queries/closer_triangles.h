@@ -8,7 +8,7 @@
 namespace corridor {
 
 /// Tests whether two triangles are at most `d` apart: the leaf test of tolerance queries, for any
-/// kind of tree. Keeps references to both maps.
+/// kind of tree. Keeps references to both maps, which must outlive it.
 class CloserTriangles {
  public:
   /// @param reachA, reachB  metres: each triangle lies within this distance of its frame's origin.
@@ -17,8 +17,8 @@ class CloserTriangles {
                   double d)
       : X_WA_(X_WA), X_WB_(X_WB), bounds_(X_WA, reachA, X_WB, reachB), d_(d) {}
 
-  /// Tries bounds in double first, then contact, then double-double. `closerThan` (distance.h)
-  /// states how exact the answer is.
+  /// Tests bounds in double first, then contact, then the distance in double-double. `closerThan`
+  /// (distance.h) states how exact the answer is.
   bool operator()(const Triangle& a, const Triangle& b, Counters& counters) const {
     const DistanceRange range = bounds_(a, b);
     if (range.lower > d_) return false;

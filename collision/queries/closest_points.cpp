@@ -37,11 +37,11 @@ Real nearest(const Point& p, const Point& d, const Point& q) {
   return square > Real(0) ? clamped(dot(d, q - p) / square) : Real(0);
 }
 
-/// Offers, for two edges, each end with its foot on the other edge, and the two points where their
-/// common perpendicular meets them. Uses cross products, because a·c − b² of nearly parallel edges
-/// has lost all digits. With cross products the point on the first edge is off by 2^-98/sin of the
-/// angle between the edges. The distance is off by 2^-98 of the coordinates, because the foot of
-/// that point is taken next.
+/// Offers, for two edges, each end with its foot on the other edge, and the two points where the
+/// common perpendicular meets the edges. Uses cross products: for nearly parallel edges, the usual
+/// denominator |d|²|e|² − (d·e)² would lose all digits. With cross products, the point on the first
+/// edge is off by 2^-98 divided by the sine of the angle between the edges. The second point is the
+/// foot of the first one, so the distance is off by only 2^-98 of the coordinates.
 void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, const Point& q1) {
   const Point d = p1 - p, e = q1 - q;
   const Point n = cross(d, e);
@@ -55,8 +55,8 @@ void offerEdges(Best& best, const Point& p, const Point& p1, const Point& q, con
 }
 
 /// Computes the foot of p in the plane of t; returns whether it lies inside t. Uses cross products,
-/// as `offerEdges` does, and repeats the step once from the point found. The error for a sliver is
-/// therefore relative to its height, not to the coordinates.
+/// as `offerEdges` does, and repeats the step once from the point found. Therefore the error for a
+/// sliver is relative to the sliver's height, not to the coordinates.
 bool foot(const Point& p, const Corners& t, Point& found) {
   const Point u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   const Real square = dot(n, n);
@@ -80,8 +80,8 @@ void offerFoot(Best& best, const Point& q, const Corners& t, bool swapped) {
   swapped ? best.offer(found, q) : best.offer(q, found);
 }
 
-/// Offers the points where edges of p pass through the face of t: there are some if the triangles
-/// cross.
+/// Offers the points where edges of p pass through the face of t. If the triangles cross, edges of
+/// p or of t have such points.
 void offerCrossings(Best& best, const Corners& p, const Corners& t, bool swapped) {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
   Real height[3];
@@ -106,17 +106,18 @@ Corners mapped(const Triangle& t, const Transform& X, double unit) {
   return corners;
 }
 
-/// Distances below kLost units count as 0. The unit is at most the largest coordinate.
+/// Distances below kLost units count as 0. The unit is at most S, the largest Σ|m||v| + |t| of the
+/// mapped corners.
 constexpr double kLost = 0x1p-56;
 
 bool isNothing(const Best& best) {
   return best.square < Real(kLost * kLost);
 }
 
-/// Offers the closest points of the two features that plain doubles, relative to one of the
-/// corners, find closest. Returns true if these points are proved to be the closest of the
-/// triangles: the projections of both triangles onto the line through them are as far apart as the
-/// points, up to kLost.
+/// Finds the two closest features in plain doubles, relative to one of the corners, and offers the
+/// closest points of these features. Returns true if these points are proved to be the closest of
+/// the triangles: the projections of both triangles onto the line through them are as far apart as
+/// the points, up to kLost.
 bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   Triangle a, b;
   for (int i = 0; i < 3; ++i) {
@@ -133,7 +134,7 @@ bool offerByProof(Best& best, const Corners& s, const Corners& t) {
   } else {
     offerFoot(best, s[feature - 12], t, false);
   }
-  if (!(best.square.hi < HUGE_VAL)) return false;  // the foot is not in the face after all
+  if (!(best.square.hi < HUGE_VAL)) return false;  // in double-double, the foot is not in the face
   if (isNothing(best)) return true;
   const Point n = best.b - best.a;
   const Real most = sqrt(best.square) * Real(kLost / 2);  // tolerance on each side, times |n|
@@ -173,8 +174,8 @@ WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Tria
       for (int k = 0; k < 3; ++k) offerEdges(best, s[i], s[(i + 1) % 3], t[k], t[(k + 1) % 3]);
     }
   }
-  // The error bound covers what the proof lets pass, what double-double loses (2^-90 of the unit),
-  // and the final rounding.
+  // The error bound covers the tolerance of the proof, the rounding of double-double (2^-90 of the
+  // unit), and the final rounding.
   const double distance = unit * sqrt(best.square).hi;
   return {rounded(best.a, unit), rounded(best.b, unit), distance,
           roundedUp(2 * kLost * unit + 2 * kUnit * distance)};
@@ -182,8 +183,8 @@ WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Tria
 
 // A mapped corner takes at most 7 roundings, the division by `unit` included, of terms below S =
 // ‖M‖_F·reach + |t|. It is off by 8u·√3·S < 14u·S. The difference of two corners is off by 14u(S_A
-// + S_B). A projection onto n of a vector below S_A + S_B, with n's own 4u, and the quotient add
-// 10u. The same holds for a distance.
+// + S_B). A projection onto n of a vector shorter than S_A + S_B, the error 4u of n itself, and the
+// quotient add 10u·(S_A + S_B). The same bound holds for a distance.
 TriangleDistances::TriangleDistances(const Transform& X_WA, double reachA, const Transform& X_WB,
                                      double reachB)
     : X_WA_(X_WA), X_WB_(X_WB) {

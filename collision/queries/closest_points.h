@@ -11,8 +11,8 @@ struct WitnessPoints {
   double error = 0;  ///< upper bound of the error of `distance`, metres
 };
 
-/// Computes the closest points of two triangles under their maps, in double-double on a
-/// power-of-two unit of their size: precise enough to be reported.
+/// Computes the closest points of two triangles under their maps, in double-double, with a power of
+/// two near their size as unit. The result is precise enough to be reported.
 ///
 /// The distance is off by less than u·(S/4 + 2·distance), where S is the largest Σ|m||v| + |t| of
 /// the mapped corners and u = 2^-53. The points are rounded to doubles and off by less than u·S per

@@ -39,7 +39,7 @@ enum class Crossing { none, one, degenerate };
 Crossing crossing(const MappedPoint& q, const MappedPoint& end, const Triangle& t,
                   const Transform& X_WS) {
   if (t[0] == t[1] && t[1] == t[2])
-    return Crossing::none;  // a point: the surface is closed without it
+    return Crossing::none;  // a point, without which the surface is closed, too
   const MappedPoint v[3] = {{X_WS, t[0]}, {X_WS, t[1]}, {X_WS, t[2]}};
   int sum = 0, zeros = 0;
   for (int i = 0; i < 3; ++i) {
@@ -48,7 +48,7 @@ Crossing crossing(const MappedPoint& q, const MappedPoint& end, const Triangle& 
     zeros += side == 0;
   }
   if (std::abs(sum) + zeros < 3)
-    return Crossing::none;  // passes left of one edge and right of another
+    return Crossing::none;  // the line passes left of one edge and right of another
   if (zeros > 0) return Crossing::degenerate;
   return orientationSign(v[0], v[1], v[2], q) == orientationSign(v[0], v[1], v[2], end)
              ? Crossing::none
@@ -121,7 +121,7 @@ std::optional<std::uint32_t> containing(const Posed<MeshBody>& posed, const Vec3
       count =
           crossings(solid, k, X_WS, {X_WP, p}, q_S, error, center + far * direction(cast), context);
     if (!count || *count % 2 == 1)
-      return component.triangle;  // undecided counts as inside: the safe answer
+      return component.triangle;  // if all rays are undecided, "inside" is the safe answer
   }
   return std::nullopt;
 }

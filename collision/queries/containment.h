@@ -22,16 +22,18 @@ struct MeshBody {
 ///
 /// A point is inside a component if a ray from it crosses the component an odd number of times,
 /// whichever way the component's triangles face. Each component counts by itself: a point inside
-/// several components, or in the hollow of a shell, is inside. Exact under both maps in real
-/// arithmetic; a point on the surface itself may be reported as either.
+/// several components, or in the hollow of a shell, is inside. The answer is exact under both maps
+/// in real arithmetic, with two exceptions. A point on the surface itself may be reported as inside
+/// or not. If all of 64 rays meet an edge or lie in the plane of a triangle, the point counts as
+/// inside.
 /// @pre The maps are finite, and standardFloatingPoint() holds (asserted in debug builds).
 std::optional<std::uint32_t> containing(const Posed<MeshBody>& solid, const Vec3& p,
                                         const Transform& X_WP, QueryContext& context);
 
-/// Returns a pair of triangles if a component of `inner` is inside `solid`, else nullopt: `a`
-/// belongs to the component around, `b` to the component inside.
-/// @pre The surfaces don't touch (`interference`): then one point of a component decides for all of
-/// it.
+/// Returns a pair of triangles if a component of `inner` is inside `solid`, else nullopt. Triangle
+/// `a` belongs to the component of `solid`, `b` to the component inside it.
+/// @pre The surfaces don't touch (`interference`): then one point of a component decides for the
+/// whole component.
 std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<MeshBody>& inner,
                                      QueryContext& context);
 /// The same for a convex part as `inner`; `b` is 0. Same precondition.
@@ -41,8 +43,8 @@ std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<C
 /// part touches it, so `interference` reports it. Same precondition.
 std::optional<TrianglePair> enclosed(const Posed<Body>& solid, const Posed<Body>& inner,
                                      QueryContext& context);
-/// Returns a pair (of a, of b) if one of two bodies, or a component of it, is inside the other,
-/// else nullopt.
+/// Returns a pair if a component of one body is inside the other body, else nullopt. The first
+/// number belongs to `a`, the second to `b`.
 /// @pre The surfaces don't touch.
 /// @throws std::invalid_argument for a pose that is not finite.
 std::optional<TrianglePair> insideEachOther(const Posed<Body>& a, const Posed<Body>& b,

@@ -17,14 +17,14 @@ namespace corridor {
 namespace {
 
 /// Returns the factor that turns a lower bound of a distance in frame A, where volumes are tested,
-/// into one in the world: |Mx| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|, with η the matrix's
+/// into a lower bound in the world: |Mx| ≥ √(1 − 3η)·|x| ≥ (1 − 3η)|x|, with η the matrix's
 /// `orthonormalityDefect`.
 double shrinkOf(const Transform& X_WA) {
   return std::max(0.0, roundedDown(1 - 3 * orthonormalityDefect(X_WA.m)));
 }
 
-/// The leaf tests by what the leaves hold: triangles in both trees, or convex parts in at least
-/// one.
+/// The leaf tests. `Triangles` is for two trees of triangles; `Parts` is for trees of which at
+/// least one has a convex part.
 struct Triangles {
   using Nearest = NearestTriangles;
   using Closer = CloserTriangles;

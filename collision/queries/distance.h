@@ -27,15 +27,15 @@ struct Distance {
 /// Computes the distance between the leaf primitives of two trees. Leaf primitives are triangles or
 /// convex parts; convex parts are solid.
 ///
-/// The result is 0 if and only if `interference` reports contact; then both witness points are one
-/// point that the two leaf primitives share. Otherwise the error, beyond what the options allow, is
-/// at most 1e-12 of the distance + 4·2^-53·S, and the result is at least 2^-1022. S is the largest
-/// Σ|m||v| + |t| of the mapped corners, for convex parts with their radii. Curved surfaces are not
-/// tessellated.
+/// The result is 0 if and only if `interference` reports contact; then both witness points are the
+/// same point, which the two leaf primitives share. Otherwise the error, beyond what the options
+/// allow, is at most 1e-12 of the distance + 4·2^-53·S, and the result is at least 2^-1022. S is
+/// the largest Σ|m||v| + |t| of the mapped corners, for convex parts with their radii. Curved
+/// surfaces are not tessellated.
 ///
-/// Branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999). Pairs
-/// of leaf primitives are bounded in double; those that may be the closest are measured again in
-/// double-double (`witnessPoints`, `convexDistance`).
+/// Method: branch and bound by the volumes' lower bounds, nearest pairs first (Larsen et al. 1999).
+/// Distances of leaf primitives are bounded in double. Pairs that may be the closest are measured
+/// again in double-double (`witnessPoints`, `convexDistance`).
 /// @pre The maps are finite; the options are not negative.
 template <BoundingVolume Volume>
 Distance distance(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b,
@@ -45,7 +45,7 @@ Distance distance(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Vol
 ///
 /// `false` is a proof that they are farther apart than d. `true` is right, except where the
 /// distance exceeds d by less than 1e-12·d + 4·2^-53·S + 2^-998 m, or where convex parts touch in
-/// the band of `convexSetsTouch`. For d = 0 it is `interference`.
+/// the band of `convexSetsTouch`. For d = 0 the answer is that of `interference`.
 /// @pre as for `distance`; d ≥ 0.
 template <BoundingVolume Volume>
 bool closerThan(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,

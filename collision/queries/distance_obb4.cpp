@@ -28,8 +28,8 @@ HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
 /// The distance query on two 4-wide OBB trees. Bounds pairs of triangles in float, sixteen at a
-/// time. Pairs that may be the closest are bounded again in double, and measured in double-double
-/// if they still may be.
+/// time. Pairs that may be the closest are bounded again in double. Those that may then still be
+/// the closest are measured in double-double.
 class Nearest {
  public:
   Nearest(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
@@ -53,8 +53,8 @@ class Nearest {
     return nearBoxes<true>(a, b, pose_.floats, limit_, squares);
   }
 
-  /// Measures the nearest leaf pairs first, because they may rule out the others, in batches of at
-  /// most sixteen pairs of triangles.
+  /// Measures leaf pairs in batches of at most sixteen pairs of triangles. The nearest leaf pairs
+  /// come first, because they may rule out the others.
   bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
               const float* keys) {
     while (pairs) {
@@ -75,8 +75,7 @@ class Nearest {
     return false;
   }
 
-  /// Takes a pair of triangles to start from, numbered in leaf order and at most `upper` metres
-  /// apart.
+  /// Starts from a pair of triangles, numbered in leaf order and at most `upper` metres apart.
   void start(std::uint32_t s, std::uint32_t t, double upper) {
     const float limit = pose_.limitOf(upper);
     if (!(limit < HUGE_VALF)) return;
@@ -90,7 +89,8 @@ class Nearest {
   }
 
   Distance result() {
-    // Because of the allowed error, the limit may be below the bound of the pair that set it.
+    // Measured first: because of the allowed error, the limit may be below the bound of the pair
+    // that set it, so that the loop below would skip this pair.
     if (least_ < HUGE_VALF) look(closest_.a, closest_.b);
     std::erase_if(candidates_, [&](const auto& c) { return c.bound > limit_; });
     std::ranges::sort(candidates_, {}, [](const auto& c) { return std::tuple(c.bound, c.a, c.b); });
@@ -124,7 +124,7 @@ class Nearest {
           for (unsigned rest = open; rest; rest &= rest - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(rest));
             const auto [s, t] = pairs.triangles(first + bit);
-            if (upper[bit] == HUGE_VALF) {  // too far for floats: doubles lower the limit
+            if (upper[bit] == HUGE_VALF) {  // too far apart for floats, so bounded in double
               look(s, t);
             } else if (!(lower[bit] > limit_)) {
               candidates_.push_back({s, t, lower[bit]});
@@ -154,7 +154,7 @@ class Nearest {
   std::vector<BoundedPair>& candidates_;
   NearestTriangles nearest_;
   float least_ = HUGE_VALF;  // least upper bound so far, in a's unit
-  TrianglePair closest_;     // the pair that has it, in leaf order
+  TrianglePair closest_;     // the pair with that bound, in leaf order
   float limit_ = HUGE_VALF;  // in a's unit: pairs that are farther apart are skipped
 };
 
@@ -238,9 +238,10 @@ HWY_EXPORT(obb4CloserThan);
 
 namespace {
 
-/// Returns true only if two triangles are at most d apart in real arithmetic. Every search then
-/// returns true, so starting from the remembered pair can't change the answer. (Distances within
-/// rounding of d are called closer by `CloserTriangles` only.)
+/// Returns true only if two triangles are at most d apart in real arithmetic. Then every search
+/// returns true, so starting from the remembered pair can't change the answer. (For distances that
+/// differ from d only by rounding, `CloserTriangles` may return true although this function returns
+/// false.)
 bool provedCloser(const Triangle& a, const Transform& X_WA, const Triangle& b,
                   const Transform& X_WB, const TriangleDistances& bounds, double d,
                   Counters& counters) {
@@ -255,8 +256,8 @@ Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last) {
   assert(!a.shape.part() && !b.shape.part());
   const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, HUGE_VAL);
-  // A search for contact alone ends far sooner: the search below would visit all pairs that may
-  // touch.
+  // First, search for contact only. If the trees touch, this ends far sooner than the search below,
+  // which would visit all pairs that may touch.
   if (const auto hit = touchingLeafTriangles(kWholeTrees, a, b, pose, context, last)) {
     const WitnessPoints w =
         witnessPoints(a.shape.triangle(hit->a), a.X_W, b.shape.triangle(hit->b), b.X_W);

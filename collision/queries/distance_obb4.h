@@ -7,17 +7,18 @@
 namespace corridor {
 
 /// `distance` (distance.h, with the same guarantees) for 4-wide OBB trees of triangles, several
-/// times faster. @pre No tree is of a convex part (queries of bodies take a binary tree there).
+/// times faster. @pre No tree is of a convex part. (For convex parts, queries of bodies use a
+/// binary tree.)
 ///
-/// @param last  if not null, the closest pair of the last query of these trees: the search starts
-/// from it, and the pair found is stored there. It changes the answer only within the guaranteed
-/// error, and may change which of several closest pairs of triangles is reported.
+/// @param last if not null, the closest pair of the last query of these trees: the search starts
+/// from it, and the pair found is stored there. The start changes the distance only within the
+/// guaranteed error. It may change which of several closest pairs of triangles is reported.
 Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last = nullptr);
 
 /// `closerThan` (distance.h, with the same guarantees) for 4-wide OBB trees of triangles, several
 /// times faster. @pre d = 0, or no tree is of a convex part.
-/// @param last  as for `distance`; it never changes the answer.
+/// @param last as for `distance`, but it never changes the answer.
 bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, QueryContext& context,
                 LastPair* last = nullptr);
 

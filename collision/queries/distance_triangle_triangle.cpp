@@ -22,7 +22,8 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
   const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), c = d1.dot(r),
                b = d1.dot(d2);
   const double denominator = a * e - b * b;
-  // Parallel edges: any s will do. If the second edge is a point, s is the parameter closest to it.
+  // For parallel edges, s = 0 is only a start: if t is clamped below, s is computed again. If the
+  // second edge is a point, s is the parameter closest to that point.
   double s = denominator > 0     ? clamped((b * f - c * e) / denominator)
              : !(e > 0) && a > 0 ? clamped(-c / a)
                                  : 0;
@@ -34,8 +35,8 @@ void offerEdges(ClosestPoints& best, const Vec3& p1, const Vec3& q1, const Vec3&
   offer(best, p1 + s * d1, p2 + t * d2, feature);
 }
 
-/// Computes the foot of p in the plane of t; returns whether it lies inside t. Edges and corners
-/// are offered by `offerEdges`.
+/// Computes the foot of p in the plane of t; returns whether the foot lies inside t. `offerEdges`
+/// covers the edges and corners of t.
 bool footInside(const Vec3& p, const Triangle& t, Vec3& foot) {
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), wu = w.dot(u),

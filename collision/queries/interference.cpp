@@ -6,7 +6,7 @@
 namespace corridor {
 namespace {
 
-/// Finds the first contact below the node pairs `start`.
+/// Finds the first contact in the subtrees of the node pairs `start`.
 template <class Volume, class Overlap = StandardOverlap, class TreeA, class TreeB>
 std::optional<TrianglePair> firstContact(std::span<const NodePair4> start, const Posed<TreeA>& a,
                                          const Posed<TreeB>& b, QueryContext& context,

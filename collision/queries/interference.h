@@ -19,9 +19,9 @@ namespace corridor {
 /// builders give the same verdict.
 ///
 /// For triangles the verdict is exact for the two maps with precisely the stored numbers, for any
-/// finite maps (collision/PROMISES.md, promise 1). Near-rigid maps are fast, because only then
-/// boxes prune. With a convex part, nullopt is always a proof, and a contact is right outside the
-/// band of `convexSetsTouch`.
+/// finite maps (collision/PROMISES.md, promise 1). Queries are fast only if the maps are nearly
+/// rigid: otherwise the boxes separate nothing. With a convex part, nullopt is always a proof;
+/// contact may be reported for gaps within the band of `convexSetsTouch`.
 /// @pre The maps are finite (`Scene` throws on others).
 /// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
 /// pair found is stored there. It may change which touching pair is reported, and the counts, but
@@ -33,8 +33,8 @@ std::optional<TrianglePair> interference(const Posed<VolumeTree<Volume>>& a,
                                          const Posed<VolumeTree<Volume>>& b, QueryContext& context,
                                          LastPair* last = nullptr);
 
-/// The same test, only below the node pairs `start`, and on the pair `last`. Gives up and returns
-/// nullopt soon after the counted box and triangle tests reach `workEnd`.
+/// The same test, restricted to the subtrees of the node pairs `start`, and to the pair `last`.
+/// Gives up and returns nullopt soon after the counted box and triangle tests reach `workEnd`.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>
 std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
                                               const Posed<VolumeTree<Volume>>& a,

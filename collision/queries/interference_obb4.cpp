@@ -32,8 +32,8 @@ struct ItemSet {
 
 /// The query for touching pairs. Node pairs and pairs of triangles are filtered in float; the exact
 /// predicate decides the triangles that remain, `convexSetsTouch` decides convex parts. Calls
-/// `Found(s, t)`, numbered in leaf order, for each touching pair until it returns true. All
-/// arguments must outlive it.
+/// `found(s, t)` for each touching pair, numbered in leaf order, until `found` returns true. All
+/// arguments must outlive this object.
 template <class Found>
 class Touching {
  public:
@@ -71,7 +71,7 @@ class Touching {
         [&](std::uint32_t s, std::uint32_t t) {
           const PredicateResult touch =
               trianglesTouch(a_.triangle(s), X_WA_, b_.triangle(t), X_WB_);
-          counters_.exactTests += touch.exact;  // the filter has counted the pair
+          counters_.exactTests += touch.exact;  // the filter has already counted the pair
           return touch && found_(s, t);
         });
   }

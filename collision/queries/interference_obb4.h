@@ -18,9 +18,9 @@
 namespace corridor {
 
 /// `interference` (interference.h) for 4-wide OBB trees: the same verdicts, several times faster.
-/// Returns the first contact found, or nullopt. For triangles it is exact for the twelve doubles of
-/// each map in real arithmetic, for any finite maps; near-rigid maps are fast. Convex parts are
-/// tested by `convexSetsTouch`, with its guarantee.
+/// Returns the first contact found, or nullopt. For triangles the verdict is exact for the twelve
+/// doubles of each map in real arithmetic, for any finite maps. Queries are fast only if the maps
+/// are nearly rigid. Convex parts are tested by `convexSetsTouch`, with its guarantee.
 /// @pre The maps are finite.
 ///
 /// Gives up and returns nullopt soon after the counted box and triangle tests reach `workEnd`.
@@ -35,14 +35,14 @@ std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<O
                                          QueryContext& context, LastPair* last = nullptr,
                                          std::uint64_t workEnd = kNoWorkLimit);
 
-/// The same test, only below the node pairs `start`, and on the pair `last`.
+/// The same test, restricted to the subtrees of the node pairs `start`, and to the pair `last`.
 std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
                                               const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                                               QueryContext& context, LastPair* last = nullptr,
                                               std::uint64_t workEnd = kNoWorkLimit);
 
-/// The same two for code that works on any kind of trees (`withTrees`): 4-wide trees have only one
-/// overlap test.
+/// The same two functions with the template argument `Overlap`, for code that works on any kind of
+/// trees (`withTrees`). 4-wide trees have only one overlap test.
 template <std::same_as<StandardOverlap> Overlap>
 std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                                          QueryContext& context, LastPair* last = nullptr) {
@@ -65,8 +65,7 @@ std::optional<TrianglePair> touchingLeafTriangles(std::span<const NodePair4> sta
                                                   LastPair* last,
                                                   std::uint64_t workEnd = kNoWorkLimit);
 
-/// `contacts` (contacts.h, with the same guarantees) for 4-wide OBB trees. Allocates what it
-/// returns.
+/// `contacts` (contacts.h, with the same guarantees) for 4-wide OBB trees.
 std::vector<TriangleContact> contacts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                                       QueryContext& context);
 template <std::same_as<StandardOverlap> Overlap>

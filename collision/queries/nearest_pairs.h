@@ -18,9 +18,9 @@ struct BoundedPair {
   double bound;
 };
 
-/// The leaf side of a distance query, for any trees and leaf primitives. Keeps the pairs that may
-/// be the closest, each with a proved range of its distance, and in the end measures them with all
-/// digits.
+/// The part of a distance query that tests leaf primitives, for any kind of trees. Keeps the pairs
+/// that may be the closest, each with a proved lower bound of its distance, and in the end measures
+/// them with all digits.
 class NearestPairs {
  public:
   NearestPairs(const DistanceOptions& options, QueryContext& context)
@@ -51,14 +51,14 @@ class NearestPairs {
     }
     candidates_.push_back({s, t, lower});
   }
-  /// Keeps only this pair, which touches: no other can be closer.
+  /// Keeps only this pair. It touches, so no other pair can be closer.
   void keepContact(std::uint32_t s, std::uint32_t t) {
     candidates_.assign(1, {s, t, 0});
     contact_ = true;
   }
   bool contact() const { return contact_; }
 
-  /// Returns the closest of the pairs kept. `measure(s, t)` returns `distance`, `p_WA` and `p_WB`.
+  /// Returns the closest of the kept pairs. `measure(s, t)` returns `distance`, `p_WA` and `p_WB`.
   template <class TreeA, class TreeB, class Measure>
   Distance closest(const TreeA& a, const TreeB& b, const Measure& measure) {
     Distance best;
@@ -81,10 +81,11 @@ class NearestPairs {
   struct Candidates {
     std::vector<BoundedPair> pairs;
   };
-  /// A share of the error 1e-12·d that distance.h allows. Pairs that tie within this share, as all
-  /// triangles around one corner do, are measured only once. The share is spent twice, because the
-  /// pair that ruled out another may itself be left unmeasured. If that pair is measured,
-  /// `convexDistance` spends 2^-41 instead. Both sums leave room for rounding.
+  /// A part of the error 1e-12·d that distance.h allows. If the distances of two pairs differ by
+  /// less than this part, one pair is not measured: for example, pairs of triangles around one
+  /// corner. The part may be used twice, because the pair that ruled out another may be left
+  /// unmeasured itself. If it is measured, `convexDistance` uses 2^-41·d instead. In both cases the
+  /// sum is below 1e-12·d and leaves room for rounding.
   static constexpr double kGiven = 0.49e-12;
 
   const DistanceOptions& options_;

@@ -8,8 +8,8 @@
 
 namespace corridor {
 
-/// The leaf side of a distance query on convex parts, or on convex parts and triangles, as
-/// `NearestTriangles` is for triangles.
+/// The part of a distance query that tests leaf primitives, for convex parts, or convex parts and
+/// triangles. `NearestTriangles` is its counterpart for triangles.
 class NearestParts : public NearestPairs {
  public:
   NearestParts(const Transform& X_WA, double reachA, const Transform& X_WB, double reachB,
@@ -22,7 +22,8 @@ class NearestParts : public NearestPairs {
               (X_WA.m.norm() * reachA + X_WA.t.norm() + X_WB.m.norm() * reachB + X_WB.t.norm())),
         context_(context) {}
 
-  /// Bounds a pair of leaf primitives, numbered in leaf order; returns whether it touches.
+  /// Bounds the distance of a pair of leaf primitives, numbered in leaf order; returns whether they
+  /// touch.
   bool look(std::uint32_t s, const ConvexSet& a, std::uint32_t t, const ConvexSet& b,
             Counters& counters) {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);
@@ -37,8 +38,8 @@ class NearestParts : public NearestPairs {
     return touches;
   }
 
-  /// Returns the closest pair. Within the band of `convexSetsTouch` the verdict may depend on which
-  /// volumes are tested first; there `interference` decides whether there is contact.
+  /// Returns the closest pair. Within the band of `convexSetsTouch` the verdict may depend on the
+  /// order of the tests. There `interference` decides, so that both queries agree.
   template <class Tree>
   Distance result(const Tree& a, const Tree& b) {
     const auto measure = [&](std::uint32_t s, std::uint32_t t) {
@@ -67,7 +68,7 @@ class CloserParts {
   CloserParts(const Transform& X_WA, double, const Transform& X_WB, double, double d)
       : X_WA_(X_WA), X_WB_(X_WB), d_(d) {}
 
-  /// `false` is a proof that they are farther apart than d.
+  /// Returning `false` is a proof that the sets are farther apart than d.
   bool operator()(const ConvexSet& a, const ConvexSet& b, Counters& counters) const {
     const PosedSet posedA(a, X_WA_), posedB(b, X_WB_);
     const ConvexRange range = convexDistanceRange(posedA, posedB, d_, d_);

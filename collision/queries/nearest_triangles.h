@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// The leaf side of a distance query on triangles. Bounds each pair in double, and in the end
-/// measures those that may be the closest in double-double.
+/// The part of a distance query that tests leaf primitives, for triangles. Bounds the distance of
+/// each pair in double. In the end, measures the pairs that may be the closest in double-double.
 class NearestTriangles : public NearestPairs {
  public:
   /// @param reachA, reachB  metres: each triangle lies within this distance of its frame's origin.
@@ -18,8 +18,8 @@ class NearestTriangles : public NearestPairs {
         X_WB_(X_WB),
         bounds_(X_WA, reachA, X_WB, reachB) {}
 
-  /// Bounds a pair of triangles, numbered in leaf order. Returns true if it touches: then no other
-  /// pair can be closer.
+  /// Bounds the distance of a pair of triangles, numbered in leaf order. Returns true if they
+  /// touch: then no other pair can be closer.
   bool look(std::uint32_t s, const Triangle& a, std::uint32_t t, const Triangle& b,
             Counters& counters) {
     const DistanceRange range = bounds_(a, b);

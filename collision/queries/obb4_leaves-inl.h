@@ -41,9 +41,10 @@ constexpr PairPatterns pairPatterns(bool second) {
 alignas(16) inline constexpr PairPatterns kFirst = pairPatterns(false), kSecond =
                                                                             pairPatterns(true);
 
-/// Calls `found(leaf_pair, s, t)` for each pair of leaf primitives of these leaf pairs of two
-/// nodes, until it returns true; returns whether it did. Leaf pairs are bits (4·i + j for lanes i
-/// and j); s and t are numbered in leaf order. For trees of which at least one holds a convex part.
+/// Calls `found(leaf_pair, s, t)` for each pair of leaf primitives in the leaf pairs `leaves` of
+/// two nodes, until `found` returns true. Returns whether `found` returned true. Leaf pairs are
+/// bits (4·i + j for lanes i and j); s and t are numbered in leaf order. Used if at least one of
+/// the two trees has a convex part.
 template <class Found>
 bool forEachItem(const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned leaves,
                  Found&& found) {
@@ -77,7 +78,8 @@ class NodeLeafPairs {
     lanesA_ |= 1U << i;
     lanesB_ |= 1U << j;
   }
-  /// Call it when all pairs are added: entries read beyond the last pair are then valid.
+  /// Must be called after the last `add`: then entries that are read beyond the last pair are
+  /// valid, too.
   void finish() {
     std::fill_n(a_ + count_, 16, a_[0]);
     std::fill_n(b_ + count_, 16, b_[0]);
@@ -116,13 +118,14 @@ class Obb4Leaves {
   Obb4Leaves(const Obb4Tree& a, const Obb4Tree& b, const Obb4TreePose& pose, Counters& counters)
       : a_(a), b_(b), pose_(pose), counters_(counters) {}
 
-  /// Finishes `pairs` and filters them sixteen at a time. Calls `near(corners_a, corners_b, first,
-  /// open)` for the sixteen from `first` on if some (`open`'s bits) aren't proved to be farther
-  /// apart than `pad()` (a's unit). Ends when `near` returns true; returns whether it did.
+  /// Finishes `pairs` and filters them sixteen at a time. If some of the sixteen pairs from `first`
+  /// on are not proved to be farther apart than `pad()` (in a's unit), calls `near(corners_a,
+  /// corners_b, first, open)`; the bits of `open` are these pairs. Ends when `near` returns true;
+  /// returns whether `near` returned true.
   template <class Pad, class Near>
   bool forEachNearSixteen(NodeLeafPairs& pairs, Pad&& pad, Near&& near) {
     pairs.finish();
-    if (!leavesA_) {  // late: most queries that the boxes decide never get here
+    if (!leavesA_) {  // only now: most queries that the boxes decide never need it
       leavesA_.emplace(a_, Mat3::Identity() * pose_.unitA, Vec3::Zero());
       leavesB_.emplace(b_, pose_.m() * pose_.unitA, pose_.t());
     }
@@ -137,9 +140,10 @@ class Obb4Leaves {
     }
     return false;
   }
-  /// Calls `found(s, t)`, numbered in leaf order, for each pair of triangles of these leaf pairs
-  /// that isn't proved to be farther apart than `pad()`. Ends when it returns true; returns whether
-  /// it did. Not inlined: the traversal is a sixth faster without it.
+  /// Calls `found(s, t)` for each pair of triangles in the leaf pairs `leaves` that isn't proved to
+  /// be farther apart than `pad()`; s and t are numbered in leaf order. Ends when `found` returns
+  /// true; returns whether `found` returned true. Not inlined: this makes the traversal a sixth
+  /// faster.
   template <class Pad, class Found>
   HWY_NOINLINE bool forEachNear(const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned leaves,
                                 Pad&& pad, Found&& found) {

@@ -14,7 +14,7 @@
 namespace corridor {
 namespace {
 
-/// A triangle's corners; those that it shares with another triangle come first.
+/// A triangle's corners, in an order that begins with those that it shares with another triangle.
 struct Corners {
   Triangle t;
   int shared = 0;
@@ -38,7 +38,7 @@ Triangle edge(const Vec3& p, const Vec3& q) {
   return {p, q, q};
 }
 
-/// Tests exactly whether the corners lie on a line: then every component of the normal is 0.
+/// Tests exactly whether the corners lie on a line, by whether every component of the normal is 0.
 bool onALine(const Triangle& t) {
   const Transform here;
   for (int k = 0; k < 3; ++k) {
@@ -76,9 +76,10 @@ class SelfPairs {
   /// @param qualities  indexed by a triangle's number in the mesh.
   SelfPairs(const Tree& tree, const std::vector<TriangleQuality>& qualities, Counters& counters)
       : tree_(tree), test_(pairTestOf<Aabb>(Posed(tree), Posed(tree))), counters_(counters) {
-    // `degenerate` is a bound for people and includes small triangles of a large mesh. It is 1e-12
-    // of the squared diagonal, where rounding is below 1e-15 of it. So it includes every triangle
-    // whose corners lie on a line, and the exact test finds these.
+    // The quality `degenerate` includes small triangles of a large mesh. It means an area of at
+    // most 1e-12 of the squared diagonal, and rounding is below 1e-15 of that square. So every
+    // triangle whose corners lie on a line is `degenerate`, and the exact test finds these
+    // triangles among them.
     for (std::uint32_t s = 0; s < qualities.size(); ++s)
       onALine_.push_back(qualities[tree.meshTriangle(s)] == TriangleQuality::degenerate &&
                          onALine(tree.triangle(s)));

@@ -8,13 +8,13 @@
 
 namespace corridor {
 
-/// Returns all pairs of triangles of a mesh (a < b, in that order) that intersect anywhere except
-/// in the corners and edges that they share. Exact. Corners are the same if their positions are
-/// equal, whatever their indices. A corner that touches a triangle without being one of its corners
-/// counts as an intersection.
+/// Returns all pairs of triangles of a mesh that intersect anywhere except in the corners and edges
+/// that they share. In each pair a < b; the pairs are sorted by a, then by b. The result is exact.
+/// Corners are the same if their positions are equal, whatever their indices. A corner that touches
+/// a triangle without being one of its corners counts as an intersection.
 ///
 /// Skipped: triangles whose corners lie on a line, and pairs with the same three corners.
-/// `inspectMesh` counts these as degenerate and as repeated. Costs about a microsecond for each of
+/// `inspectMesh` counts these as degenerate and as repeated. Cost: about a microsecond for each of
 /// the roughly twelve neighbours of a triangle.
 /// @pre `checkMesh` finds no fault.
 std::vector<TrianglePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context);

@@ -10,8 +10,8 @@
 namespace corridor {
 namespace {
 
-/// Calls `query` with both bodies' trees of the kind `trees`; binary trees of OBBs replace 4-wide
-/// ones where a body is a convex part.
+/// Calls `query` with both bodies' trees of the kind `trees`. If one body is a convex part, binary
+/// trees of OBBs replace 4-wide trees.
 template <class Query>
 auto onTrees(TreeKind trees, const Posed<Body>& a, const Posed<Body>& b, LastPair* last,
              const Query& query) {
@@ -26,12 +26,13 @@ auto onTrees(TreeKind trees, const Posed<Body>& a, const Posed<Body>& b, LastPai
                    });
 }
 
-/// A reported distance is off by at most this share of it plus `errorOf`. The share is twice the
-/// guaranteed 1e-12, to cover the roundings here.
+/// A reported distance is off by at most this share of itself plus `errorOf`. The share is twice
+/// the guaranteed 1e-12, to cover the roundings here.
 constexpr double kShare = 2e-12;
 /// Returns the absolute error of a reported distance, metres. It covers the guaranteed 4u·S, where
-/// S is the largest Σ|m||v| + |t|: at most √3(|v| + |t|) of one body if the maps are nearly rigid.
-/// It also covers 3·2^-48 of a swept sphere's radius, if its map is not a rotation bit for bit.
+/// S is the largest Σ|m||v| + |t|. If the maps are nearly rigid, S is at most √3(|v| + |t|) of one
+/// of the bodies. It also covers 3·2^-48 of a swept sphere's radius, because the sphere's map may
+/// differ from a rotation by rounding.
 double errorOf(const Posed<Body>& a, const Posed<Body>& b) {
   return roundedUp(0x1p-45 * (a.shape.radius() + a.X_W.t.cwiseAbs().sum() + b.shape.radius() +
                               b.X_W.t.cwiseAbs().sum()));
@@ -55,7 +56,7 @@ bool surfacesCloserThan(const Posed<Body>& a, const Posed<Body>& b, double d, Qu
 
 double provedDistance(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured,
                       const DistanceOptions& options, QueryContext& context, TreeKind trees) {
-  if (!(measured.distance < HUGE_VAL)) return 0;  // an overflow proves nothing; nor does a NaN
+  if (!(measured.distance < HUGE_VAL)) return 0;  // an overflow or a NaN proves nothing
   const double above = measured.distance - options.absolute - errorOf(a, b);
   const double lower = roundedDown(above / (1 + options.relative + kShare));
   if (!(lower > 0)) return 0;

@@ -9,11 +9,10 @@
 namespace corridor {
 
 /// `distance` and `closerThan` (distance.h, with the same guarantees) for two bodies: for the
-/// surfaces of meshes, and for convex parts, which are solid. They don't test whether a `solid`
-/// mesh has the other body inside; `world/body_queries.h` does. They build the trees that they
-/// need.
-/// @param trees  the kind of trees. Distance queries bound distances of volumes and never test
-/// overlap, so the kinds that differ in their overlap tests are equivalent. A convex part has no
+/// surfaces of meshes, and for convex parts, which are solid. They don't test whether the other
+/// body is inside a `solid` mesh; `world/body_queries.h` does. They build the trees that they need.
+/// @param trees the kind of trees. Distance queries bound distances of volumes and never test
+/// overlap. So kinds that differ only in their overlap tests are equivalent. A convex part has no
 /// 4-wide tree for distances: a binary tree of OBBs replaces it.
 /// @param last  as for `distance` and `closerThan` of 4-wide OBB trees; other trees don't use it.
 Distance surfaceDistance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOptions& options,
@@ -26,8 +25,7 @@ bool surfacesCloserThan(const Posed<Body>& a, const Posed<Body>& b, double d, Qu
 /// can be proved, or if they touch.
 ///
 /// For meshes the bound is the distance in `measured` minus its guaranteed error. For convex parts,
-/// for which the lower and upper bound of the search nearly always agree, the tolerance query
-/// proves the bound again.
+/// the tolerance query then proves the same bound again; if it cannot, the result is 0.
 /// @param measured  the result of `surfaceDistance` for the same bodies and maps, with these
 /// options.
 /// @pre The maps are within 2^-20 of rotations.
@@ -35,7 +33,7 @@ double provedDistance(const Posed<Body>& a, const Posed<Body>& b, const Distance
                       const DistanceOptions& options, QueryContext& context,
                       TreeKind trees = TreeKind::obb4);
 
-/// Returns an upper bound of the surfaces' distance, metres. `measured` as above.
+/// Returns an upper bound of the surfaces' distance, metres. `measured` is as for `provedDistance`.
 double distanceFromAbove(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured);
 
 }  // namespace corridor

@@ -24,17 +24,17 @@ PairTest<Volume, Overlap> pairTestOf(const Posed<TreeA>& a, const Posed<TreeB>& 
           relativePoseError(a.X_W, X_AB, b.X_W, b.shape.reach())};
 }
 
-/// Returns a tree's leaf primitive, numbered in leaf order, as a convex set. It is a convex part,
-/// or a triangle, which is convex, too.
+/// Returns a tree's leaf primitive, numbered in leaf order, as a convex set. The primitive is a
+/// convex part or a triangle.
 template <class Tree>
 ConvexSet convexSetOf(const Tree& tree, std::uint32_t item) {
   return tree.part(item) ? ConvexSet(*tree.part(item)) : ConvexSet(tree.triangles()[item]);
 }
 
 /// The query that `traverse` (hierarchy/traverse.h) runs to find touching leaf primitives of two
-/// trees. It drops node pairs whose volumes are separated, and calls `Found(s, t)`, numbered in
-/// leaf order, for each touching pair until that returns true. It ends, as if there were no more
-/// pairs, once the counted tests reach `workEnd`. All arguments must outlive it.
+/// trees. Drops node pairs whose volumes are separated. Calls `found(s, t)` for each touching pair,
+/// numbered in leaf order, until `found` returns true. Stops, as if there were no more pairs, once
+/// the counted tests reach `workEnd`. All arguments must outlive this object.
 template <class TreeA, class TreeB, class Test, class Found>
 class TouchingPairs {
  public:
@@ -63,7 +63,7 @@ class TouchingPairs {
     return false;
   }
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) { stack.push_back({i, k}); }
-  void opened(std::vector<Item>& stack, std::size_t first) {  // visit the first child first
+  void opened(std::vector<Item>& stack, std::size_t first) {  // visits the first child first
     std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end());
   }
 

@@ -22,8 +22,8 @@ namespace corridor::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// For each lane's pair of triangles, the vector from a point of a to a point of b, and its square.
-/// The points are the closest ones of an edge or corner of a and one of b, or of a corner and a
-/// face (Ericson 2005, 5.1.5, 5.1.9).
+/// The two points are the closest points over all pairs of two edges, or of a corner and a face
+/// (Ericson 2005, 5.1.5, 5.1.9).
 struct ClosestLanes {
   LaneVec n;
   LaneFloat square;
@@ -49,7 +49,7 @@ HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
   const Vec* const t = pairs.t;
   const Vec e[3] = {s[1], sub(s[2], s[1]), sub(s[0], s[2])};
   const Vec f[3] = {sub(t[1], t[0]), sub(t[2], t[1]), sub(t[0], t[2])};
-  Vec n = t[0];  // between the closest points found
+  Vec n = t[0];  // the vector between the closest points found so far
   V least = dot(n, n);
   const auto offer = [&](const Vec& p, auto allowed) {
     const V square = dot(p, p);
@@ -75,8 +75,8 @@ HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
       const V z = clamped(hn::Mul(hn::Add(hn::Mul(ef, y), er), perE[i]));
       offer(add(r, sub(scaled(f[k], y), scaled(e[i], z))), hn::FirstN(d, kTriangleLanes));
     }
-  // Offers the corners `ps` less their feet in a face. The face has the corner `at0`, and u and v
-  // are its edges from there.
+  // Offers the vectors between the corners `ps` and their feet in a face. The face has the corner
+  // `at0`; u and v are its edges from that corner.
   const auto faces = [&](const Vec* ps, const Vec& at0, const Vec& u, const Vec& v, V uu, V vv,
                          bool flip) {
     const V uv = dot(u, v);
@@ -98,24 +98,27 @@ HWY_INLINE ClosestLanes closestLanes(const TrianglePairs& pairs) {
   return {n, least};
 }
 
-/// Bounds the distances of sixteen pairs of triangles. `upper` is the distance of two points of the
-/// triangles, so at least their distance. `lower` is the gap along the line through these points,
-/// so at most their distance. Both include all rounding, and `error`, the distance by which the
-/// given corners may be off, both sides together. For crossing triangles `upper` is right and
-/// `lower` is 0. Where nothing can be proved, the range is [0, inf].
+/// Bounds the distances of sixteen pairs of triangles. `upper` is the distance of a point of a from
+/// a point of b, and therefore an upper bound. `lower` is the gap along the line through these two
+/// points, and therefore a lower bound. Both include all rounding, and `error`: the distance by
+/// which the given corners may be off, for both triangles together. For crossing triangles `upper`
+/// is valid and `lower` is 0. If nothing can be proved, the range is [0, inf].
 ///
 /// The points are the closest of two edges, or of a corner and a face (Ericson 2005, 5.1.5, 5.1.9).
-/// They are points of the triangles up to rounding, and any direction bounds from below. So the
-/// proof does not depend on how well they were found.
+/// Up to rounding they are points of the triangles, and any direction gives a lower bound. So the
+/// proof does not depend on how accurately the closest points were found.
 ///
-/// Rounding, u = 2^-24: all coordinates are relative to a corner of a's triangle, and each corner
-/// is off by 3u·D a coordinate (D is the pair's size in `TrianglePairs`). A point of an edge or a
-/// face is evaluated with less than 6u·D more, and parameters that add up to 1 + u move it by u·D.
-/// Two points, their difference and its length are therefore off by √3(2·10 + 2)u·D < 40u·D. A
-/// direction's projections are off by 3u + √3·3u of |n|·D on each side, with the quotient 20u·D.
-/// Products that underflow, flushed or not, lose less than 2^-124 per sum. That is a length of
-/// 2^-62 where nothing else is left, 2^-25 of a length above 2^-50, and less than u·|n|·D of a
-/// projection onto such an n. Below 2^-50, `lower` is 0.
+/// Rounding, with u = 2^-24 and D the pair's size (`TrianglePairs`):
+/// * All coordinates are relative to a corner of a's triangle. Each corner is off by 3u·D per
+///   coordinate.
+/// * The evaluation of a point of an edge or a face adds less than 6u·D. Parameters whose sum is
+///   off by u move the point by u·D. Two points, their difference and its length are therefore off
+///   by √3(2·10 + 2)u·D < 40u·D.
+/// * Projections onto a direction n are off by 3u + √3·3u of |n|·D for each triangle, or 20u·D with
+///   the quotient.
+/// * Products that underflow, flushed or not, lose less than 2^-124 per sum. If all products
+///   underflow, this loses a length of 2^-62. A length above 2^-50 loses 2^-25 of itself, and a
+///   projection onto such an n loses less than u·|n|·D. Below a length of 2^-50, `lower` is 0.
 HWY_INLINE void triangleDistances(const TriangleCorners& a, const TriangleCorners& b,
                                   const TriangleNumbers& numbers, float error,
                                   float* HWY_RESTRICT lower, float* HWY_RESTRICT upper) {

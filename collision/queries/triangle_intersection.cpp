@@ -27,11 +27,12 @@ Double2 determinant(const Vector2& a, const Vector2& b, const Vector2& c) {
 
 /// Two triangles in general position, in double-double.
 ///
-/// Error bound, with v = 2^-106 and S the largest Σ|m||v| + |t|: a mapped coordinate (three exact
-/// products, three additions of relative error 3v) is off by at most 10·v·S, a difference by e =
-/// 26·v·S. Let D be the largest difference, D ≤ 2.1·S. These errors move a determinant by at most
-/// 18·e·D². Its evaluation (two products of 7v and three sums of 3v a term, six terms) loses at
-/// most 6·23·v·D³ ≤ 290·v·S·D². The sum is below 2^10·v·S·D²; twice that is the bound B.
+/// Error bound, with v = 2^-106 and S the largest Σ|m||x| + |t| of the corners x: a mapped
+/// coordinate (three exact products, three additions of relative error 3v) is off by at most
+/// 10·v·S, a difference by e = 26·v·S. Let D be the largest difference, D ≤ 2.1·S. These errors
+/// move a determinant by at most 18·e·D². Its evaluation (six terms, each with two products of 7v
+/// and three sums of 3v) loses at most 6·23·v·D³ ≤ 290·v·S·D². The sum is below 2^10·v·S·D²; twice
+/// that is the bound B.
 class Crossing {
  public:
   Crossing(const Triangle& a0, const Transform& X_WA, const Triangle& b0, const Transform& X_WB) {
@@ -54,15 +55,15 @@ class Crossing {
 
   /// Returns the common segment, or nullopt if this arithmetic can't decide.
   std::optional<Segment> segment() const {
-    // Within these limits, products of three differences and their errors stay in the range of
-    // doubles.
+    // Within these limits, products of three differences, and their errors, neither overflow nor
+    // underflow.
     if (!(D_ > 0x1p-200 && S_ < 0x1p200)) return std::nullopt;
     std::array<Vector2, 4> ends;
     if (!crossings(a_, b_, &ends[0]) || !crossings(b_, a_, &ends[2])) return std::nullopt;
-    // All four points lie on one line, and each triangle has the segment between its two. The
-    // triangles touch, so the two points in the middle are the ends of the common segment. The axis
-    // along which the four spread most orders them up to their error. Points in the wrong order are
-    // apart only by that error.
+    // All four points lie on one line. The segment between the first two belongs to one triangle,
+    // the segment between the last two to the other. The triangles touch, so the two points in the
+    // middle are the ends of the common segment. The points are sorted along the axis of their
+    // largest spread. This order is right except for points whose distance is below their error.
     int axis = 0;
     double spread = -1;
     for (int k = 0; k < 3; ++k) {
@@ -80,7 +81,7 @@ class Crossing {
       s.p[k] = ends[1][k].hi;
       s.q[k] = ends[2][k].hi;
     }
-    // So short that it may be a point: integers decide.
+    // A segment this short may be a single point: integers decide.
     if ((s.q - s.p).cwiseAbs().maxCoeff() < 0x1p-48 * S_) return std::nullopt;
     return s;
   }
@@ -115,7 +116,7 @@ class Crossing {
       const std::size_t other = (alone + step) % 3;
       if (above[alone] == above[other]) return false;
       // The point is p + (q − p)·t with t = x/(x + y), where x, y > 0 are each off by B. Then t is
-      // off by B/(x + y) and less than that again, and the point by D times as much.
+      // off by less than 2·B/(x + y), and the point by D times that.
       const Double2 whole = side[alone] - side[other];
       if (!(D_ * bound_ <= 0x1p-56 * S_ * std::abs(whole.hi))) return false;
       const Double2 share = side[alone] / whole;

@@ -10,18 +10,20 @@ struct Segment {
 };
 
 /// Computes the longest segment within the intersection of two triangles, each under its map. For
-/// triangles that cross it is the whole intersection. For coplanar ones it joins the two corners of
-/// their common polygon that are farthest apart; a tie, or a difference below rounding, may go to
-/// either. For a single point both ends are equal, bit for bit.
+/// triangles that cross, the segment is the whole intersection. For coplanar triangles it joins the
+/// two corners of their common polygon that are farthest apart; if several pairs of corners are
+/// equally far apart up to rounding, it joins any of them. For a single point both ends are equal,
+/// bit for bit.
 ///
 /// Each coordinate of an end is off by at most 2^-50·S, where S is the largest Σ|m||v| + |t| of the
-/// mapped corners. Double-double arithmetic is used where it proves that bound itself, integers
+/// mapped corners. Double-double arithmetic is used where it can prove this bound, integers
 /// elsewhere.
 /// @pre The triangles touch (`trianglesTouch`); all numbers are finite.
 Segment triangleIntersection(const Triangle& a, const Transform& X_WA, const Triangle& b,
                              const Transform& X_WB);
 
-/// The same by integers alone: the ends are the true ones, rounded to the nearest doubles.
+/// The same by integers alone. The result is the exact segment with its ends rounded to the nearest
+/// doubles.
 Segment triangleIntersectionExact(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                   const Transform& X_WB);
 

@@ -26,8 +26,8 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   const bool negative = (numerator.sign() < 0) != (denominator.sign() < 0);
   numerator = abs(numerator);
   denominator = abs(denominator);
-  // The quotient has 63 or 64 bits. Its last bit also records whether a remainder is left; that bit
-  // is below half an ulp of the 53 bits that stay.
+  // The quotient has 63 or 64 bits. Its last bit is also set if there is a remainder; that bit is
+  // below half an ulp of the 53 bits that remain after rounding.
   const int shift = 63 - (static_cast<int>(msb(numerator)) - static_cast<int>(msb(denominator)));
   if (shift > 0)
     numerator <<= static_cast<unsigned>(shift);
@@ -40,8 +40,8 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   return negative ? -value : value;
 }
 
-/// The corners of the intersection of two triangles, found as the ends of each edge's piece inside
-/// the other triangle.
+/// The corners of the intersection of two triangles. They are found as the ends of the part of each
+/// edge that is inside the other triangle.
 template <class Int>
 class Corners {
  public:
@@ -113,7 +113,7 @@ class Corners {
       if (between(*x, p, q)) add(*x);
   }
 
-  /// Adds the ends of the piece of the segment pq inside the triangle t of normal n (zero if t is
+  /// Adds the ends of the part of the segment pq inside the triangle t with normal n (zero if t is
   /// degenerate).
   void clip(const Vector<Int>& p, const Vector<Int>& q, const Points<Int>& t,
             const Vector<Int>& n) {
@@ -167,10 +167,9 @@ Segment triangleIntersectionExact(const Triangle& a, const Transform& X_WA, cons
   exact::Grid grid;
   grid.include(cornersA);
   grid.include(cornersB);
-  // Let coordinates be below 2^k. Then signed volumes are below 2^(3k+6)
-  // (triangle_contact_exact.cpp), and a point's numerators below 2^(4k+9). The division shifts a
-  // numerator up only if the numerator has few bits compared with the denominator. The shifted
-  // numerator has at most 3k + 72 bits.
+  // Let coordinates be below 2^k. Then signed volumes are below 2^(3k+6) (exact_number.h), and a
+  // point's numerators below 2^(4k+9). The division shifts a numerator up only if the numerator has
+  // few bits compared with the denominator. The shifted numerator has at most 3k + 72 bits.
   const int bits = 4 * grid.coordinateBits() + 80;
   if (bits <= 1024) return longestSegment<exact::FixedInt<1024>>(cornersA, cornersB, grid);
   return longestSegment<exact::BigInt>(cornersA, cornersB, grid);

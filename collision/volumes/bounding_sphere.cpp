@@ -13,8 +13,8 @@ constexpr int kSteps = 16;  // more steps shrink the sphere only slowly
 }  // namespace
 
 BoundingSphere BoundingSphere::around(const Obb& box, const Content& content) {
-  // Lengths are in a power-of-two unit near the size, so that squares neither overflow nor
-  // underflow. Scaling by it is exact.
+  // The unit of length is a power of two near the size, so that squares neither overflow nor
+  // underflow. Scaling by this unit is exact.
   const double largest = box.half.maxCoeff();
   const double unit = powerOfTwo(largest);
   BoundingSphere best{box.center, HUGE_VAL};

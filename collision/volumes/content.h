@@ -8,7 +8,8 @@
 
 namespace corridor {
 
-/// A solid sphere: all points at most `radius` from `center`. A point if the radius is 0. Metres.
+/// A solid sphere: all points at most `radius` from `center`. If the radius is 0, it is a point.
+/// Metres.
 struct Ball {
   Vec3 center = Vec3::Zero();
   double radius = 0;

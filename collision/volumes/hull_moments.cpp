@@ -12,7 +12,8 @@ namespace corridor {
 namespace {
 
 /// One run of Qhull, whose memory is always freed. Qhull writes its messages to a FILE. They are
-/// discarded, because every failure has the same consequence: no hull, so another fit is used.
+/// discarded, because every failure has the same consequence: there is no hull, and another fit is
+/// used.
 class Hull {
  public:
   explicit Hull(std::vector<double>& xyz) : sink_(std::fopen("/dev/null", "w"), &std::fclose) {

@@ -9,9 +9,9 @@
 namespace corridor {
 namespace {
 
-/// Maps points to coordinates about a local origin, in a power-of-two unit near the mesh's size.
-/// Large offsets (10^6, say) then don't cancel, and squares neither overflow nor underflow. Scaling
-/// by the unit is exact.
+/// Maps points to coordinates about a local origin, in a unit that is a power of two near the
+/// mesh's size. Then large offsets (10^6, say) don't cancel, and squares neither overflow nor
+/// underflow. Scaling by the unit is exact.
 struct LocalUnit {
   Vec3 origin;
   double unit = 1;

@@ -31,9 +31,9 @@ double orthonormalityDefect(const Mat3& m) {
       worst = std::max(worst, std::abs(dot - (i == j)));
       if (i == j) longest = std::max(longest, dot);
     }
-  // An entry takes three products, two sums and a difference, which lose at most
+  // An entry takes three products, two sums and a difference, and these lose at most
   // 4u·(Σ|m_ki||m_kj| + 1). The sum is at most the longest column's square (Cauchy). `std::max` may
-  // drop a NaN, but the term 0·Σm keeps it: it is NaN if an entry is NaN or infinite.
+  // drop a NaN, but the term 0·Σm keeps it: this term is NaN if an entry is NaN or infinite.
   return roundedUp(worst + 8 * kUnit * (1 + longest)) + 0 * m.sum();
 }
 
@@ -57,7 +57,7 @@ std::optional<ObbFit> obbFitNamed(std::string_view name) {
 }
 
 ObbFrame fitFrame(const Content& content, ObbFit fit) {
-  std::vector<Triangle> points;  // spheres count as points: triangles without an extent
+  std::vector<Triangle> points;  // spheres count as points: triangles of three equal corners
   for (const Ball& b : content.balls) points.push_back({b.center, b.center, b.center});
   const Moments m = moments(points.empty() ? content.triangles : points, fit);
   return {m.mean, principalAxes(m.covariance)};
@@ -92,14 +92,15 @@ Obb enclosingObb(const Content& content, const Mat3& axes) {
     const Vec3 y = (axes.transpose() * (p - box.center)).cwiseAbs();
     reach = reach.cwiseMax((y.array() + r).matrix());
   });
-  // The box needs x = U⁻¹d with d = p − center, in real arithmetic. The code computes y ≈ Uᵀd. With
-  // E = UᵀU − I, |E| ≤ η: Uᵀd = (I + E)x, so |x − Uᵀd| ≤ η·Σ|x_k| per component, and
-  // Σ|x_k| ≤ Σ|y_k|/(1 − 3η).
-  // Rounding of y: u·|d| for the difference and γ3·Σ|u_k||d_k| ≤ 3.1u·‖d‖ for the product. Together
-  // they are at most 5u·‖d‖ ≤ 5.1u·Σ|y_k|. Twice the sum of both errors covers the second-order
-  // terms.
-  // A sphere reaches r|g_i|, where g_i is a row of U⁻¹ and |g_i| ≤ 1 + 6η + 16u (part_obb.cpp). The
-  // pad 2·(η + 6u)·Σ|y_k| covers that, too, since every |y_k| includes r.
+  // The box must contain x = U⁻¹d with d = p − center, in real arithmetic. The code computes y ≈
+  // Uᵀd.
+  // * Defect of the axes: with E = UᵀU − I and |E| ≤ η, Uᵀd = (I + E)x. So |x − Uᵀd| ≤ η·Σ|x_k| per
+  //   component, and Σ|x_k| ≤ Σ|y_k|/(1 − 3η).
+  // * Rounding of y: u·|d| for the difference and γ3·Σ|u_k||d_k| ≤ 3.1u·‖d‖ for the product.
+  //   Together they are at most 5u·‖d‖ ≤ 5.1u·Σ|y_k|.
+  // * Twice the sum of both errors, the pad 2·(η + 6u)·Σ|y_k|, covers the second-order terms.
+  // * A sphere reaches r|g_i|, where g_i is a row of U⁻¹ and |g_i| ≤ 1 + 6η + 16u (part_obb.cpp).
+  //   The pad covers this, too, since every |y_k| includes r.
   const double pad = 2 * (orthonormalityDefect(axes) + 6 * kUnit) * reach.sum();
   for (int i = 0; i < 3; ++i) box.half[i] = roundedUp(reach[i] + pad);
   return box;

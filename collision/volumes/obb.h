@@ -30,13 +30,13 @@ struct Obb {
 /// The distribution of points whose covariance gives a box its axes (Gottschalk, Lin, Manocha 1996,
 /// section 4).
 enum class ObbFit {
-  vertices,   ///< the triangles' corners: quick, but misled by uneven tessellation
+  vertices,   ///< the triangles' corners: quick, but sensitive to uneven tessellation
   triangles,  ///< area-weighted moments of the triangles
-  /// Area-weighted moments of the surface of the triangles' convex hull: not misled by inner
+  /// Area-weighted moments of the surface of the triangles' convex hull: independent of inner
   /// geometry.
   hull,
 };
-/// Returns the fit of this name, or nothing if there is none.
+/// Returns the fit of this name, or nullopt if there is none.
 std::optional<ObbFit> obbFitNamed(std::string_view name);
 
 /// Mean and principal axes of a content.
@@ -45,8 +45,8 @@ struct ObbFrame {
   /// Columns, largest variance first; right-handed, orthonormal to a few ulp.
   Mat3 axes = Mat3::Identity();
 };
-/// Returns the frame of a content by `fit`. Spheres count as points at their centres. Where a hull
-/// has no volume its triangles are used, and where these have no area their corners.
+/// Returns the frame of a content by `fit`. Spheres count as points at their centres. If the hull
+/// has no volume, the triangles are used instead; if these have no area, their corners are used.
 ObbFrame fitFrame(const Content& content, ObbFit fit);
 /// Returns the mean of all corners or sphere centres, with the identity as axes.
 ObbFrame alignedFrame(const Content& content);

@@ -5,14 +5,15 @@
 /// The overlap test of 4-wide OBB trees: sixteen pairs of oriented boxes at once, in float
 /// (overlap_obb4_obb4-inl.h), by the separating-axis theorem. All rounding is in the margins.
 ///
-/// Derivation. u = 2^-24. M, t, s map b's frame and unit to a's, in double; M̂, t̂ are their
-/// floats. A box of a is {c_a + A x, |x_i| ≤ a_i}, a box of b is {c_b + U y, |y_j| ≤ b_j}; their
-/// floats are taken as exact reals. Axes were orthonormal to 2^-40 before they were rounded to
-/// float: their defects are η ≤ 2.1u. |c| ≤ 3, since the content is in the cube [−1, 1]³.
+/// Derivation. u = 2^-24. M, t and s, in double, map b's frame and unit to a's; M̂ and t̂ are M and
+/// t rounded to float. A box of a is {c_a + A x, |x_i| ≤ a_i}, a box of b is {c_b + U y, |y_j| ≤
+/// b_j}; their floats are taken as exact reals. Axes were orthonormal to 2^-40 before they were
+/// rounded to float: their defects are η ≤ 2.1u. |c| ≤ 3, since the content is in the cube [−1,
+/// 1]³.
 ///
-/// In coordinates z = Aᵀ(x − c_a) box a is {AᵀA x}, inside the axis-aligned box of half extents
-/// a + η·Σa. Box b is {T + R y} with T = Aᵀ(sM c_b + t − c_a), R = AᵀMU, in real arithmetic.
-/// Computed are:
+/// In coordinates z = Aᵀ(x − c_a), box a is {AᵀA x}, which is inside the axis-aligned box of half
+/// extents a + η·Σa. Box b is {T + R y} with T = Aᵀ(sM c_b + t − c_a), R = AᵀMU, in real
+/// arithmetic. The code computes, with these errors:
 ///   p̂ = s(M̂ c_b) + t̂ − c_a: a coordinate is off by 6.2u·s|c_b| + 3.1u|t_i| + 1.1u|c_a|. As a
 ///       sphere's radius that is u·(33s + 3.1|t| + 6): absolute, computed once per query. The
 ///       product Aᵀp̂ adds 5.4u·|T|₁ to T.
@@ -22,9 +23,9 @@
 /// parallelepiped are then tested along e_i, R̂_j, and e_i × R̂_j, where R̂_j × R̂_k = ±R̂_l up to
 /// 3η_R. A projection and its radius take fewer than 12 roundings (fewer still if fused) of numbers
 /// below |T|₁ + Σa + Σb. `relative` is the factor of this sum. It must exceed the largest factor of
-/// any term, that of Σb: √3·ε_R + 3η_R + 13u < 178u + 9.3η_M. The sphere's radius is taken whole on
-/// cross axes, whose length is at most 1 + 2^-18. Underflow, flush to zero included, loses less
-/// than 2^-118.
+/// any term, which is that of Σb: √3·ε_R + 3η_R + 13u < 178u + 9.3η_M. On cross axes, whose length
+/// is at most 1 + 2^-18, the whole radius of the sphere is added. Underflow, flush to zero
+/// included, loses less than 2^-118.
 namespace corridor {
 
 /// Four oriented boxes {center + Σ_j axis_j·x_j : |x_j| ≤ half_j}, in real arithmetic on the floats
@@ -59,27 +60,29 @@ struct alignas(16) Obb4Pose {
   float ball;        ///< margin as the radius of a sphere, in a's unit
 };
 
-/// Motion bounds of four boxes of b over a time interval, at its middle (`RelativeMotion` defines
-/// the motion). A point x of box j moves to x + s·(linear_j + angular × (x − c_j)) + remainder, |s|
-/// ≤ 1. Along any vector n, |n·remainder| ≤ secondOrderAcross_j·|n × angular| + secondOrder_j·|n|,
-/// and no point moves farther than isotropic_j. Everything else that the pair must be separated by
-/// is in pad_j, such as tube and margin. Values are in a's unit and frame. All bounds are rounded
-/// up, and are at least (1 + 2^-16) times their value in A, which covers the defects of axes.
+/// Motion bounds of four boxes of b in a time interval, relative to its middle (`RelativeMotion`
+/// defines the motion). A point x of box j moves to x + s·(linear_j + angular × (x − c_j)) +
+/// remainder, |s| ≤ 1. Along any vector n, |n·remainder| ≤ secondOrderAcross_j·|n × angular| +
+/// secondOrder_j·|n|, and no point moves farther than isotropic_j. pad_j is all other distance that
+/// the pair must keep, such as tube and margin. Values are in a's unit and frame. All bounds are
+/// rounded up, and are at least (1 + 2^-16) times their value in A, which covers the defects of
+/// axes.
 ///
-/// Derivation of the test. In coordinates of a's box (above) a point T + R y of box b moves by
-/// s·(V + W × R y) and a remainder, with V = Aᵀlinear and W = Aᵀangular, up to 3η|W||y| for A's
-/// defect. Along a unit vector n that is at most |n·V| + Σ_k b_k |R_k·(n × W)|, and
+/// Derivation of the test. In the coordinates of a's box that are defined above, a point T + R y of
+/// box b moves by s·(V + W × R y) and a remainder, with V = Aᵀlinear and W = Aᵀangular, up to
+/// 3η|W||y| for A's defect. Along a unit vector n that is at most |n·V| + Σ_k b_k |R_k·(n × W)|,
+/// and
 ///   n = e_i:        R_k·(e_i × W) = R_(i+2)k W_(i+1) − R_(i+1)k W_(i+2), as written;
 ///   n = R_j:        R_k·(R_j × W) = ±W·R_l, l the third of j, k, l, up to 3η_R|W|;
 ///   n = e_i × R_j:  R_k·(n × W) = W_i (R_j·R_k) − R_ik (W·R_j), where R_j·R_k = δ_jk up to η_R.
-/// Coordinates of V and W round as T's do: each is off by less than 6u of its vector, and R by ε_R.
-/// All these are therefore off by less than
-/// (3η_R + 3η + 2·√3·ε_R + 20u)·|W|(Σb + secondOrderAcross) + 40u·(|V| + secondOrder + pad). The
-/// first factor is at most 209u + 10η_M. The code covers it with twice `relative`, which is 180u +
-/// 10η_M. The rounding of V in double, where V is small relative to its terms, is included in
-/// `secondOrder`.
+/// Coordinates of V and W round like those of T: each is off by less than 6u of its vector, and R
+/// by ε_R. Each of the sums above is therefore off by less than
+///   (3η_R + 3η + 2·√3·ε_R + 20u)·|W|(Σb + secondOrderAcross) + 40u·(|V| + secondOrder + pad).
+/// The first factor is at most 209u + 10η_M. The code uses twice `relative` instead, and `relative`
+/// is 180u + 10η_M. If V is small relative to its terms, its rounding in double matters;
+/// `secondOrder` includes it.
 struct Obb4MotionBound {
-  float linear[3][4];  ///< the boxes' centres move by s·linear, to first order
+  float linear[3][4];  ///< to first order, the boxes' centres move by s·linear
   float angular[3];    ///< radians; half of the interval's rotation
   float secondOrderAcross[4], secondOrder[4], isotropic[4], pad[4];
 };

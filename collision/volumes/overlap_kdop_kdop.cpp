@@ -16,12 +16,12 @@ std::pair<std::size_t, double> slabOf(const Vec3& d) {
 
 struct Term {
   double weight;
-  std::array<int, 3> direction;  // along the largest, the middle and the least |component|
+  std::array<int, 3> direction;  // entries for the largest, the middle and the least |component|
 };
 
-/// Returns the terms for x ≥ y ≥ z ≥ 0. Other vectors are mirrored and permuted into this cone, and
-/// slab directions with them. In each case the three directions span the part of the cone that
-/// holds the vector, and the weights are ≥ 0 there.
+/// Returns the terms for x ≥ y ≥ z ≥ 0. Other vectors are mirrored and permuted into this cone,
+/// together with the slab directions. In each case the three directions span the part of the cone
+/// that contains the vector, and so the weights are ≥ 0.
 template <int K>
 std::array<Term, 3> cone(double x, double y, double z) {
   if constexpr (K == 14)
@@ -50,8 +50,8 @@ SlabSum slabSum(const Vec3& n) {
     sum.weight[k] = sign * terms[k].weight;
     left -= terms[k].weight * d;
   }
-  // Each component takes three differences, which lose 3u of what is subtracted or left: as a
-  // vector, √3 times that.
+  // Each component of `left` takes three differences, which lose 3u of the numbers involved. The
+  // vector loses √3 times as much.
   sum.error = roundedUp(left.norm() + 8 * kUnit * (n.cwiseAbs().sum() + sum.size()));
   return sum;
 }

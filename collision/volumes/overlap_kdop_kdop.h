@@ -8,15 +8,15 @@
 #include "collision/volumes/kdop.h"
 #include "collision/volumes/volume.h"
 
-/// Tests k-DOP against k-DOP under any affine map, along the slab directions of either.
+/// Tests two k-DOPs under any affine map, along the slab directions of both.
 ///
-/// Derivation. Points x of b are at M x + t in frame A. Their projections on L are m·x + L·t with
-/// m = MᵀL. If m = Σ w_k d_k for slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where w_k > 0,
+/// Derivation. Points x of b are at M x + t in frame A. Their projections on L are m·x + L·t with m
+/// = MᵀL. If m = Σ w_k d_k for slab directions d_k of b, then m·x ≤ Σ w_k·(high_k where w_k > 0,
 /// else low_k), and m·x ≥ the same sum over the other ends. The remainder m − Σ w_k d_k adds at
 /// most its length times the largest |x| (`VolumeBounds::reach`). So any three weights give a
-/// proof. The weights of the cone of slab directions that holds m give the best bound. They are the
-/// same for all nodes: they are computed once per query, and an axis then takes three products per
-/// node.
+/// proof. The cone of slab directions that contains m gives the weights of the best bound. The
+/// weights are the same for all nodes, so they are computed once per query. Then an axis takes
+/// three products per node.
 namespace corridor {
 
 namespace internal {
@@ -44,7 +44,7 @@ struct SlabSum {
   double size() const { return std::abs(weight[0]) + std::abs(weight[1]) + std::abs(weight[2]); }
 };
 
-/// Returns the decomposition of n in the cone of slab directions that holds it.
+/// Returns the decomposition of n in the cone of slab directions that contains n.
 template <int K>
 SlabSum slabSum(const Vec3& n);
 
@@ -87,14 +87,14 @@ class PairTest<Kdop<K>> {
  private:
   static constexpr std::size_t kSlabs = Kdop<K>::kSlabs;
   struct Axis {
-    internal::SlabSum other;  ///< along the body that has no slab in this direction
+    internal::SlabSum other;  ///< the axis as a sum of slabs of the other body
     double offset = 0, length = 0, slack = 0;
   };
 
   static bool apart(double gap, double pad) { return gap > pad && gap < HUGE_VAL; }
 
-  /// Returns axis L with the slack that every axis needs: the caller's error, and rounding. With
-  /// F = ‖M‖_F, |L|₁ ≤ 3F and F ≥ |L|/√3, or L is a slab direction. So the weights of either body
+  /// Returns axis L with the slack that every axis needs: the caller's error, and rounding. L is a
+  /// slab direction, or, with F = ‖M‖_F, |L|₁ ≤ 3F and F ≥ |L|/√3. So the weights of either body
   /// sum up to at most 9(1 + F)². Slab ends are below 4·reach, since |n_i| ≤ √3 and a cylinder's
   /// slabs are around the corners of its box. A gap takes ten sums and products. L·t takes 4u, and
   /// so does the rounding of MᵀL, from which `SlabSum::error` was computed.

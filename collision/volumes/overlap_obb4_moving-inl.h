@@ -17,10 +17,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace corridor::HWY_NAMESPACE {
 
-/// Sixteen pairs of boxes of which those of b move, with the motion bound of b's box along each
-/// axis tested.
+/// Sixteen pairs of boxes, of which the boxes of b move. Computes the motion bound of b's box along
+/// each tested axis.
 struct MovingBoxPairs : BoxPairs {
-  V v[3], w[3], wB[3];  // V and W in coordinates of a's box; and W·R_j
+  V v[3], w[3], wB[3];  // V and W in coordinates of a's box, and W·R_j (obb4.h)
   V secondOrderAcross, secondOrder, isotropic;
   V rounding;  // the slack without `pad`
 
@@ -57,8 +57,8 @@ struct MovingBoxPairs : BoxPairs {
     y = hn::Abs(y);
     return hn::MulAdd(set(0.41422F), hn::Min(x, y), hn::Max(x, y));
   }
-  /// Returns the smaller of the isotropic and the directional bound. Each is a proof by itself, so
-  /// the minimum may drop a NaN of either.
+  /// Returns the smaller of the isotropic and the directional bound. Each bound is a proof by
+  /// itself, so it does no harm if the minimum drops a NaN of one of them.
   V least(V directional) const { return hn::Min(directional, isotropic); }
 
   V alongFaceA(int i) const {
@@ -99,16 +99,18 @@ struct MovingBoxes {
   unsigned coarse = 0;
 };
 
-/// Thresholds above which a shorter interval pays more than smaller boxes: of the isotropic bound,
-/// and of the remainder beyond first order (as 1/32), relative to the boxes' size. They are
-/// measured; soundness doesn't depend on them.
+/// Thresholds, relative to the boxes' size, above which halving the interval helps more than
+/// descending to smaller boxes. `kTravelOfSize` is for the isotropic bound. For the remainder
+/// beyond first order the threshold is 1/`kRemainderOfSize`. They were found by measurement; no
+/// proof depends on them.
 constexpr float kTravelOfSize = 1, kRemainderOfSize = 32;
 
-/// Tests the sixteen pairs over a time interval (obb4.h has the derivation). `keys` gets the
-/// largest gap along a face normal of each pair, less the motion bound of b along it.
+/// Tests the sixteen pairs over a time interval (obb4.h has the derivation). `keys` gets, for each
+/// pair, the largest difference of the gap along a face normal and the motion bound of b along that
+/// normal.
 /// @param clearances if not null, gets for each separated pair a lower bound of its distance beyond
 /// `pad`, valid over the whole interval, in a's unit. The factor 1 − 2^-18 covers axes of length up
-/// to 1 + 2^-20, and the difference, which rounds by 2^-24 of itself.
+/// to 1 + 2^-20, and the rounding of the difference by 2^-24 of itself.
 HWY_INLINE MovingBoxes movingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                    const Obb4MotionBound& bound, float* HWY_RESTRICT keys,
                                    float* HWY_RESTRICT clearances = nullptr) {

@@ -20,8 +20,8 @@ namespace corridor::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lane l is the pair (l / 4, l % 4). Rows of b's four boxes are repeated; of a's row, lane l takes
-/// element kRowOfLane[l].
+/// Lane l is the pair of boxes (l / 4, l % 4). A row of b's four boxes is repeated in all groups of
+/// four lanes. From a row of a, lane l takes element kRowOfLane[l].
 alignas(64) inline constexpr std::int32_t kRowOfLane[16] = {0, 0, 0, 0, 1, 1, 1, 1,
                                                             2, 2, 2, 2, 3, 3, 3, 3};
 
@@ -44,17 +44,19 @@ struct PosedBoxes {
   }
 };
 
-/// Sixteen pairs of boxes, each in the frame of a's box: the input of every test.
+/// Up to sixteen pairs of boxes, one per lane, each in the frame of a's box: the input of every
+/// test.
 struct BoxPairs {
   const hn::CappedTag<float, 16> d;
   using V = hn::Vec<hn::CappedTag<float, 16>>;
   static constexpr std::size_t kLanes = hn::MaxLanes(hn::CappedTag<float, 16>());
-  static_assert(kLanes % 4 == 0, "rows of four: of Highway's targets SCALAR can't");
+  static_assert(kLanes % 4 == 0,
+                "rows of four lanes are needed; Highway's target SCALAR has too few");
 
   // Centre and axes of b's box in coordinates of a's box, and |R|.
   V T[3], R[3][3], Q[3][3];
   V a[3], b[3];  // half extents
-  V slack;       // every gap must exceed this: rounding, and the pose's `ball`
+  V slack;       // a gap must exceed this to separate: rounding, and the pose's `ball`
 
   V set(float x) const { return hn::Set(d, x); }
   static V sum3(V x, V y, V z) { return hn::Add(hn::Add(x, y), z); }
@@ -96,8 +98,8 @@ struct BoxPairs {
     slack = hn::MulAdd(set(pose.relative), sizes, set(pose.ball));
   }
 
-  /// Gaps along axis i of a, along axis j of b, and along the cross product of the two (which is
-  /// not a unit vector).
+  /// These functions return gaps along axis i of a, along axis j of b, and along the cross product
+  /// of both axes, which is not a unit vector.
   V faceOfA(int i) const {
     return hn::Sub(hn::Abs(T[i]), dotAnd(a[i], b[0], b[1], b[2], Q[i][0], Q[i][1], Q[i][2]));
   }
@@ -112,9 +114,9 @@ struct BoxPairs {
         dotAnd(hn::Mul(a[i1], Q[i2][j]), a[i2], b[j1], b[j2], Q[i1][j], Q[i][j2], Q[i][j1]));
   }
   /// Returns a lower bound of the squared gap along T, the line between the centres. For boxes that
-  /// are far apart relative to their sizes it is close to the squared distance. The gap (|T|² − Σ
-  /// a_i|T_i| − Σ b_j|T·R_j|)/|T| needs no orthogonal axes, and its rounding is below `slack` per
-  /// unit of |T|₁.
+  /// are far apart relative to their sizes, this bound is close to the squared distance. The gap
+  /// (|T|² − Σ a_i|T_i| − Σ b_j|T·R_j|)/|T| needs no orthogonal axes, and its rounding is below
+  /// `slack` per unit of |T|₁.
   V squareAlongCenters() const {
     const V squared = dot(T[0], T[1], T[2], T[0], T[1], T[2]);
     V apart = hn::NegMulAdd(slack, sum3(hn::Abs(T[0]), hn::Abs(T[1]), hn::Abs(T[2])), squared);
@@ -122,8 +124,8 @@ struct BoxPairs {
       const V along = dot(T[0], T[1], T[2], R[0][k], R[1][k], R[2][k]);
       apart = hn::NegMulAdd(a[k], hn::Abs(T[k]), hn::NegMulAdd(b[k], hn::Abs(along), apart));
     }
-    // Divide first: `apart` is a squared length, and its own square would overflow from |T| = 2^32
-    // on.
+    // The division comes first: `apart` is a squared length, and its square would overflow for |T|
+    // ≥ 2^32.
     return hn::IfThenElseZero(hn::Gt(apart, hn::Zero(d)), hn::Mul(hn::Div(apart, squared), apart));
   }
   V largestEdgeGap(V gap) const {
@@ -142,13 +144,14 @@ HWY_INLINE unsigned bitsOf(const hn::CappedTag<float, 16> d, M mask, std::size_t
 }
 
 /// Returns which of the sixteen pairs of two nodes' boxes may touch: bit 4·i + j for box i of a and
-/// box j of b. A cleared bit proves that they are farther apart than the error that `pose.ball`
-/// covers (obb4.h has the derivation). `gaps` gets the largest gap along a face normal of each
-/// pair: the smaller it is, the deeper they overlap.
+/// box j of b. A cleared bit proves that the boxes are farther apart than the error that
+/// `pose.ball` covers (obb4.h has the derivation). `gaps` gets the largest gap along a face normal
+/// for each pair: the smaller it is, the deeper the boxes overlap.
 ///
-/// Operations have a fixed order and are fused on every target that can, so that those targets
-/// decide alike. SSE cannot: it may open a box more or less, for the same answer. Each axis alone
-/// is a proof. A maximum may drop the NaN of one axis, but a NaN never separates.
+/// Operations have a fixed order, and are fused on every target that supports it, so that these
+/// targets give the same bits. SSE does not: it may open a box more or less, but the query's answer
+/// is the same. Each axis alone is a proof. A maximum may drop the NaN of one axis, but a NaN never
+/// separates.
 HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose,
                                      float* HWY_RESTRICT gaps) {
   const hn::CappedTag<float, 16> d;
@@ -167,18 +170,18 @@ HWY_INLINE unsigned overlappingBoxes(const Obb4& a, const Obb4& b, const Obb4Pos
   return mask;
 }
 
-/// Returns which of the sixteen pairs may be at most `limit` apart (a's unit). A cleared bit proves
-/// that they are farther apart. `squares` gets a proven lower bound of each pair's squared
-/// distance.
+/// Returns which of the sixteen pairs may be at most `limit` apart (in a's unit). A cleared bit
+/// proves that the boxes are farther apart. `squares` gets a proven lower bound of each pair's
+/// squared distance.
 ///
 /// Gaps along three orthogonal axes u_i bound the distance by √Σ gap_i²: for any vector d,
 /// Σ(u_i·d)² ≤ (1 + 3η)|d|². For a's axes, and for b's (R̂) if the map is rigid, η < 2^-17. The
-/// factor 1 − 2^-14 covers that and the rounding of the sum. For a less rigid map `relative` has
-/// taken 10η·(|T|₁ + Σa + Σb) ≥ 9η·|u_i·d| off each gap, and (1 − 9η)²(1 + 3η) < 1. The same holds
+/// factor 1 − 2^-14 covers that and the rounding of the sum. For a less rigid map, `relative` has
+/// reduced each gap by 10η·(|T|₁ + Σa + Σb) ≥ 9η·|u_i·d|, and (1 − 9η)²(1 + 3η) < 1. The same holds
 /// for the gap along the line between the centres.
 ///
-/// `kFar` adds that line as an axis. It is the best one for boxes that are far apart relative to
-/// their sizes, and takes a fifth longer.
+/// `kFar` adds that line as an axis. This axis is the best one for boxes that are far apart
+/// relative to their sizes. The test then takes a fifth longer.
 template <bool kFar>
 HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose, float limit,
                               float* HWY_RESTRICT squares) {
@@ -197,7 +200,7 @@ HWY_INLINE unsigned nearBoxes(const Obb4& a, const Obb4& b, const Obb4Pose& pose
     }
     auto square = hn::Max(ofA, ofB);
     if constexpr (kFar) square = hn::Max(square, pairs.squareAlongCenters());
-    // Where a bound overflows or is NaN it becomes 0.
+    // A bound that overflows or is NaN becomes 0.
     square = hn::Mul(square, pairs.set(1 - 0x1p-14F));
     square = hn::IfThenElseZero(hn::Lt(square, pairs.set(0x1p120F)), square);
     hn::Store(square, d, squares + at);

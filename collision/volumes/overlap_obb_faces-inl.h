@@ -20,8 +20,8 @@ namespace corridor::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Returns true if a face normal of either box separates them by more than `beyond` (in a's unit)
-/// and the error that `pose.ball` covers. True is a proof: the derivation in obb4.h holds for these
-/// lanes, too. Lane j is b's axis j, and lane 3 its centre.
+/// and the error that `pose.ball` covers. True is a proof by the derivation in obb4.h, which holds
+/// for these lanes, too. Lane j holds b's axis j, and lane 3 its centre.
 HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose, float beyond) {
   const hn::CappedTag<float, 4> d;
   const auto set = [&](float x) { return hn::Set(d, x); };
@@ -41,7 +41,8 @@ HWY_INLINE bool facesSeparate(const Obb1& a, const Obb1& b, const Obb4Pose& pose
   };
   const auto p0 = posed(0), p1 = posed(1), p2 = posed(2);
   const auto halfB = hn::Mul(set(pose.scale), hn::Load(d, b.half));
-  // Row i: a's axis i in terms of b's axes; lane 3 is the centres' distance along it.
+  // Row i: the products of a's axis i with b's axes; lane 3 is the centres' distance along a's axis
+  // i.
   const auto row = [&](int i) {
     return hn::MulAdd(set(a.vectors[2][i]), p2,
                       hn::MulAdd(set(a.vectors[1][i]), p1, hn::Mul(set(a.vectors[0][i]), p0)));

@@ -13,12 +13,12 @@
 /// the margins.
 ///
 /// Derivation. Let A be the frame of box a, and x ↦ M x + t the map from b's frame (doubles, taken
-/// as exact). In coordinates y = U_Aᵀ(x − c_A) box a is {U_AᵀU_A x}, inside the axis-aligned box of
-/// half extents a + η_A·Σa. Box b is {T + R x} with T = U_Aᵀ(M c_B + t − c_A), R = U_Aᵀ M U_B in
-/// real arithmetic. The computed T̂, R̂ are off by at most ε_T and ε_R per coordinate. So box b is
-/// inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. That growth is moved from b to a. It
-/// remains to test whether an exactly axis-aligned box and an exact parallelepiped, given by
-/// doubles, are apart. Any direction L may be used:
+/// as exact). In coordinates y = U_Aᵀ(x − c_A), box a is {U_AᵀU_A x}, which is inside the
+/// axis-aligned box of half extents a + η_A·Σa. Box b is {T + R x} with T = U_Aᵀ(M c_B + t − c_A),
+/// R = U_Aᵀ M U_B in real arithmetic. The computed T̂, R̂ are off by at most ε_T and ε_R per
+/// coordinate. So box b is inside {T̂ + R̂ x} grown by ε_T + ε_R·Σb per coordinate. That growth is
+/// added to box a instead of box b. It remains to test whether an exactly axis-aligned box and an
+/// exact parallelepiped, given by doubles, are apart. Any direction L may be used:
 ///   L = e_i:        radius of a: a_i; of b: Σ b_k |R̂_ik|, both as written, no orthogonality used.
 ///   L = R̂_j:        of a: Σ a_i |R̂_ij|; of b: Σ b_k |R̂_j·R̂_k| ≤ b_j + η_R Σ b_k.
 ///   L = e_i × R̂_j:  of a: as written; of b: Σ b_k |e_i·(R̂_j × R̂_k)|, where R̂_j × R̂_k = ±R̂_l up to
@@ -33,7 +33,8 @@ namespace corridor {
 /// Margins that hold for all pairs of boxes of two trees under one relative map.
 struct BoxPairMargins {
   double relative = 0;  ///< slack of every axis, as a factor of (|T|₁ + Σa + Σb)
-  /// Metres: ε_T and what the caller adds (pose errors), as the radius of a sphere.
+  /// Metres: the sum of ε_T and of the errors that the caller adds (of poses), as the radius of a
+  /// sphere.
   double absolute = 0;
 };
 
@@ -43,24 +44,27 @@ struct BoxPairMargins {
 inline BoxPairMargins boxPairMargins(double defectA, double reachA, double defectB, double reachB,
                                      const Transform& X_AB) {
   // ε_R: an entry of R̂ is two nested sums of three products of unit vectors' entries. It takes 6
-  // roundings with Σ|·||·| ≤ √3: 12u. ε_T: M c_B + t − c_A has at most 5 roundings of terms below
-  // S = reachB + |t| + reachA per coordinate, and the product with U_Aᵀ 3 more. That is
-  // (5√3 + 3)·u·S·1.01 < 12u·S per coordinate, and ×√3 as a sphere's radius: 24u·S.
+  // roundings with Σ|·||·| ≤ √3: 12u. ε_T: M c_B + t − c_A has at most 5 roundings of terms below S
+  // = reachB + |t| + reachA per coordinate, and the product with U_Aᵀ 3 more. That is (5√3 +
+  // 3)·u·S·1.01 < 12u·S per coordinate. As the radius of a sphere it is √3 times as much: below
+  // 24u·S.
   const double defectM = orthonormalityDefect(X_AB.m);
   const double defectR = 3 * (defectA + defectB + defectM) + 64 * kUnit;
   BoxPairMargins margins;
-  // In order: η_A·Σa and ε_R·Σb of the growth (as spheres: ×√3 < 2), 3η_R·Σb, rounding.
+  // In this order: the growth by η_A·Σa and by ε_R·Σb (as spheres: times √3 < 2), then 3η_R·Σb,
+  // then rounding.
   margins.relative = roundedUp(2 * defectA + 24 * kUnit + 4 * defectR + 16 * kUnit);
   margins.absolute = roundedUp(24 * kUnit * (reachA + reachB + X_AB.t.cwiseAbs().sum()));
-  // Far from rigid, the dropped second-order terms are not small. Then no box is ever separated.
+  // If a matrix is far from a rotation, the omitted second-order terms are not small. Then no box
+  // is ever separated.
   if (!(defectR < 0x1p-10)) margins.absolute = HUGE_VAL;
   return margins;
 }
 
 namespace internal {
 
-/// `std::hypot` would guard against overflow at ten times the cost; the entries here are of
-/// rotations.
+/// Returns √(x² + y²). `std::hypot` would guard against overflow, at ten times the cost. Here x and
+/// y are entries of rotations, so there is no overflow.
 inline double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
@@ -109,9 +113,9 @@ bool separated(const Pair& pair, const Vec3& a, const Vec3& b, const BoxPairMarg
 
 /// Returns a lower bound of the distance of two boxes. The three axes of either box are orthogonal
 /// up to their defects, so the root of the summed squares of the gaps along them is a lower bound.
-/// Along an edge axis the gap alone is one. In the coordinates of box a distances are those of
-/// frame A times (1 ± 1.5η_A), and along the R̂_j times (1 ± 1.5η_R); both changes are less than
-/// `relative`. Every gap is computed as in `separated`.
+/// The gap along a single edge axis is a lower bound, too. In the coordinates of box a distances
+/// are those of frame A times (1 ± 1.5η_A), and along the R̂_j times (1 ± 1.5η_R); both changes are
+/// less than `relative`. Every gap is computed as in `separated`.
 template <class Pair>
 double boxDistanceBound(const Pair& pair, const Vec3& a, const Vec3& b,
                         const BoxPairMargins& margins) {

@@ -3,20 +3,21 @@
 
 /// If two closed boxes share a point, an edge of one meets a face of the other, or one box is
 /// inside the other. Proof: if neither is inside the other, their surfaces meet, so two faces do,
-/// and a corner of the faces' intersection is on an edge of one of them. (A flat box is its own
-/// surface.)
+/// and a corner of the faces' intersection is on an edge of one of them. (A flat box consists of
+/// its surface only.)
 ///
 /// The two boxes here are A and B. A is box a grown by `margin` along its axes; it contains the
 /// grown box a of overlap_obb_obb.h. B is the exact parallelepiped {T + R y, |y_j| ≤ b_j}. Points
-/// are in coordinates x of A, or z = Rᵀ(x − T). There a point of B, z = RᵀR y, is off y by at most
-/// η_R·Σb. In either coordinates an edge's ends have fewer than 12 roundings of terms below
-/// |T|₁ + Σa + Σb. Faces are taken `slack` thicker and wider, which is more than both errors.
+/// are in coordinates x of A, or z = Rᵀ(x − T). In coordinates z, a point of B is z = RᵀR y, which
+/// differs from y by at most η_R·Σb. In both kinds of coordinates, the ends of an edge have fewer
+/// than 12 roundings of terms below |T|₁ + Σa + Σb. Faces are enlarged by `slack` in all
+/// directions, which is more than both errors.
 namespace corridor {
 namespace {
 
 /// A segment {q + t·d, low ≤ t ≤ high}, clipped to |q_i + t·d_i| ≤ e.
 ///
-/// The quotient, as rounded, is the exact one for an e that is off by 2.1u(e + |q|), which `slack`
+/// A rounded quotient is the exact quotient for an e that is off by 2.1u(e + |q|), which `slack`
 /// covers. A NaN clips nothing.
 struct Cut {
   double low = -1, high = 1;

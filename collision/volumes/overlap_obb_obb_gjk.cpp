@@ -5,8 +5,8 @@
 namespace corridor {
 namespace {
 
-/// More rounds than pairs of boxes need, except flat boxes so close that the simplices cycle (one
-/// in a million of the pairs in the tests).
+/// The maximum number of rounds. Pairs of boxes need fewer, except flat boxes that are so close
+/// that the simplices cycle (one in a million of the pairs in the tests).
 constexpr int kRounds = 32;
 
 double signOf(double x) {
@@ -15,15 +15,15 @@ double signOf(double x) {
 
 }  // namespace
 
-/// Searches for the point of the difference b − a that is closest to the origin. Each direction on
-/// the way is tried for a proof, so rounding in the search does no harm.
+/// Searches for the point of the difference b − a that is closest to the origin. Each direction of
+/// the search is tested by a proof of its own, so rounding in the search does no harm.
 bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
                     const BoxPairMargins& margins, double pad) {
   using gjk::nearest;
   using Point = gjk::Vector<double>;
   const internal::DirectedBoxes pair(boxA, boxB, X_AB, margins, pad);
   const double size = pair.size();
-  if (!(size > kTiny && size < HUGE_VAL)) return false;  // no proof for such sizes
+  if (!(size > kTiny && size < HUGE_VAL)) return false;  // nothing can be proved for such sizes
   // The search multiplies up to five lengths, some of which are 2^-50 of others. `scale` avoids
   // underflow and overflow.
   double scale = 1;
@@ -41,7 +41,7 @@ bool Gjk::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
     const Point w(Vec3(corner * scale));
     const Point* const c = face.corner;
     for (int i = 0; i < face.count; ++i)
-      if (w == c[i]) return pair.apartAlongAny();  // no nearer point is left
+      if (w == c[i]) return pair.apartAlongAny();  // no corner is closer to the origin
     switch (face.count) {
       case 0:
         face = nearest(w);

@@ -6,12 +6,12 @@
 #include "collision/volumes/overlap_obb_obb_variants.h"
 
 /// R. Seidel, Small-dimensional linear programming and convex hulls made easy, Discrete &
-/// Computational Geometry 6 (1991). Half-spaces are added one by one. Where the best point so far
-/// is outside the new one, the next best point is on its plane: the same problem with one variable
-/// less.
+/// Computational Geometry 6 (1991). Half-spaces are added one by one. If the best point so far is
+/// outside the new half-space, the next best point is on the plane of that half-space. It is found
+/// by the same algorithm with one variable less.
 ///
-/// Here the variables are bounded, |x_i| ≤ reach_i. These are the six half-spaces of box a, and the
-/// first best point is a corner of it.
+/// Here the variables are bounded: |x_i| ≤ reach_i. These bounds are the six half-spaces of box a,
+/// and the first best point is a corner of box a.
 namespace corridor {
 namespace {
 
@@ -23,7 +23,7 @@ template <std::size_t D>
 struct HalfSpace {
   Point<D> normal;
   double offset;
-  int face;  ///< the box axis across which it is a face: 0 to 2 of a, 3 to 5 of b
+  int face;  ///< the box axis that is its normal: 0 to 2 for a, 3 to 5 for b
 };
 
 /// |x_i| ≤ reach_i.
@@ -56,7 +56,7 @@ std::array<T, D - 1> without(const std::array<T, D>& all, std::size_t k) {
 }
 
 /// Sets x to the point within the bounds and half-spaces that is farthest along `goal`. Returns
-/// false if there is none; `conflict` then gets the faces that prove it.
+/// false if there is no such point; then `conflict` gets the faces that prove this.
 bool solve(const Bounds<1>& bounds, const HalfSpace<1>* list, std::size_t count,
            const Point<1>& goal, Point<1>& x, Conflict& conflict) {
   double low = -bounds.reach[0], high = bounds.reach[0];
@@ -86,7 +86,8 @@ bool solve(const Bounds<D>& bounds, const HalfSpace<D>* list, std::size_t count,
   for (std::size_t i = 0; i < count; ++i) {
     const HalfSpace<D>& plane = list[i];
     if (!(dot(plane.normal, x) > plane.offset)) continue;
-    // On the plane, x_k = share − Σ slope_j x_j, for the k of the normal's largest entry.
+    // On the plane, x_k = share − Σ slope_j x_j, where k is the index of the normal's largest
+    // entry.
     std::size_t k = 0;
     for (std::size_t j = 1; j < D; ++j)
       if (std::abs(plane.normal[j]) > std::abs(plane.normal[k])) k = j;
@@ -125,16 +126,18 @@ bool solve(const Bounds<D>& bounds, const HalfSpace<D>* list, std::size_t count,
 
 }  // namespace
 
-/// If the boxes share no point, then by Helly's theorem four of the half-spaces have none in
-/// common. By Farkas' lemma their normals have weights ≥ 0 that sum up to zero, while the weighted
+/// If the boxes share no point, then by Helly's theorem four of the half-spaces have no common
+/// point. By Farkas' lemma their normals have weights ≥ 0 that sum up to zero, while the weighted
 /// offsets sum up to less than zero. The weighted sum of one box's normals is then a direction
-/// along which the boxes are apart. With one normal of a, it is that normal. With two of either
-/// box, e_i, e_j, R_k, R_l, it is in the span of both pairs: (e_i × e_j) × (R_k × R_l). So the dual
-/// solution is one of the 15 axes, and is proved as they are.
+/// along which the boxes are apart. If only one of the four normals belongs to box a, or only one
+/// to box b, the direction is that normal. If two normals belong to each box, e_i, e_j and R_k,
+/// R_l, the direction is in the span of both pairs: (e_i × e_j) × (R_k × R_l). So the direction is
+/// one of the 15 axes, and is proved like them.
 ///
-/// The problem separates box a grown by `margin`, and by another `slack` for the rounding of the
-/// proof. The algorithm's own rounding needs no bound. For edges that are parallel up to rounding
-/// it names a wrong axis for some in 10,000 pairs of such boxes; then all 15 are tried.
+/// The linear program separates the boxes after box a has grown by `margin`, and both by another
+/// `slack` for the rounding of the proof. The algorithm's own rounding needs no bound. If edges are
+/// parallel up to rounding, it finds a wrong axis for some in 10,000 of such pairs; then all 15
+/// axes are tried.
 bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform& X_AB,
                               const BoxPairMargins& margins, double pad) {
   const internal::DirectedBoxes pair(boxA, boxB, X_AB, margins, pad);
@@ -146,8 +149,8 @@ bool LinearProgram::separated(const Obb& boxA, const Obb& boxB, const Transform&
     const double grown = pair.margin + pair.slack, along = axis.dot(pair.T);
     bounds.reach[i] = pair.a[static_cast<Eigen::Index>(i)] + grown;
     bounds.face[i] = static_cast<int>(i);
-    // Seidel adds half-spaces in random order, which pays for many. Here the few that face box a
-    // come first: they are the ones that may leave no point.
+    // Seidel adds half-spaces in random order, which is worth while for large numbers of them. Here
+    // the half-spaces that face box a come first, because these may leave no point.
     const double half = pair.b[static_cast<Eigen::Index>(i)] + pair.slack, toA = along > 0 ? -1 : 1;
     for (const std::size_t far : {std::size_t{0}, std::size_t{3}}) {
       const double s = far ? -toA : toA;

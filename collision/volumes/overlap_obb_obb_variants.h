@@ -9,11 +9,11 @@
 ///
 /// Tests of millions of pairs found no false negative for pairs farther apart than
 /// 4·(margins.absolute + pad) + 32·margins.relative·(their sizes and distance): each test reported
-/// them as separated. A factor √3 of it is due to growing box a along its axes.
+/// them as separated. A factor √3 of this distance arises because box a grows along its axes.
 namespace corridor {
 
 /// Closest features: the algorithm of Gilbert, Johnson, Keerthi (1988) searches for a direction
-/// along which the projections are apart, and stops at the first.
+/// along which the projections are apart, and stops at the first such direction.
 struct Gjk {
   static bool separated(const Obb& a, const Obb& b, const Transform& X_AB,
                         const BoxPairMargins& margins, double pad);
@@ -26,8 +26,8 @@ struct LinearProgram {
                         const BoxPairMargins& margins, double pad);
 };
 
-/// Tests each edge of one box against each face of the other, 144 tests, and each centre for being
-/// inside the other box.
+/// Tests each edge of one box against each face of the other, 144 tests, and whether the centre of
+/// each box is inside the other box.
 struct EdgeFace {
   static bool separated(const Obb& a, const Obb& b, const Transform& X_AB,
                         const BoxPairMargins& margins, double pad);

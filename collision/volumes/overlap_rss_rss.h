@@ -10,14 +10,16 @@
 namespace corridor {
 
 /// Tests whether two rectangles are farther apart than the sum of their spheres' radii. The first
-/// test treats them as flat boxes with 15 axes, which decides faces and crossing edges. The second
-/// is along the line between their closest points, found by alternating projections (Cheney,
-/// Goldstein, Proc. AMS 10, 1959). If these have not converged the direction is still valid, only
-/// less tight: the proof is the projection of both rectangles onto it.
+/// test treats the rectangles as flat boxes with 15 axes; it decides if faces or crossing edges are
+/// closest. The second test is along the line between the closest points, which alternating
+/// projections find (Cheney, Goldstein, Proc. AMS 10, 1959). If the projections have not converged,
+/// the direction is still valid but the gap is smaller: the proof is the projection of both
+/// rectangles onto that direction.
 ///
-/// Derivation. As for boxes (overlap_obb_obb.h), in the coordinates of rectangle a, for a direction
-/// n: the gap of the cores less the radii times |n|. In these coordinates the swept spheres have
-/// radii ≤ r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A + 2η_M): less than `relative` more.
+/// Derivation. As for boxes (overlap_obb_obb.h), in the coordinates of rectangle a. For a direction
+/// n, the gap is that of the two cores minus the radii times |n|. In these coordinates the radii of
+/// the swept spheres are at most r_a(1 + 1.5η_A) and r_b(1 + 1.5η_A + 2η_M). The factor 1 +
+/// `relative` covers both.
 template <>
 class PairTest<Rss> {
  public:
@@ -46,13 +48,15 @@ class PairTest<Rss> {
  private:
   static constexpr int kSteps = 8;
 
-  /// Returns the best gap along the directions that the projections produce, or 0. Stops at a gap
-  /// above `enough`, or as soon as the rectangles are found to be within radii + pad.
+  /// Returns the largest gap along the directions that the projections produce, or 0. Stops at a
+  /// gap above `enough`, or when two points of the rectangles are found that are at most radii +
+  /// pad apart.
   double alongClosest(const internal::BoxPair& pair, const Vec3& a, const Vec3& b, double radii,
                       double pad, double enough) const {
     const double slack = margins_.relative * (pair.T.cwiseAbs().sum() + a.sum() + b.sum() + radii) +
                          margins_.absolute + radii + kTiny;
-    // Far from rigid, 1 − relative could be negative and would reverse the sign of the gap.
+    // If a map is far from rigid, 1 − relative could be negative and would change the sign of the
+    // gap.
     if (!(slack < HUGE_VAL && margins_.relative < 1)) return 0;
     double best = 0;
     Vec3 q = pair.T;  // a point of b

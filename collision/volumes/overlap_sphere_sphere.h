@@ -9,12 +9,12 @@
 
 namespace corridor {
 
-/// Tests the distance of the centres against the radii.
+/// Tests whether the distance of the centres exceeds the sum of the radii.
 ///
-/// Derivation. In frame A the image of sphere b is within r_b(1 + 2η) of M c_B + t, with
-/// η = ‖MᵀM − I‖_max, since ‖M‖₂² ≤ 1 + 3η. The computed d = M c_B + t − c_A is off by less than
-/// the 24u·S of `boxPairMargins`, and |d| by 4u more of itself; `relative` there is over
-/// 12η + 200u.
+/// Derivation. In frame A the image of sphere b is within r_b(1 + 2η) of M c_B + t, with η = ‖MᵀM −
+/// I‖_max, since ‖M‖₂² ≤ 1 + 3η. The computed d = M c_B + t − c_A is off by less than the 24u·S of
+/// `boxPairMargins`. The computed |d| is off by another 4u·|d|. Both 2η and 4u are covered by the
+/// margin `relative` of `boxPairMargins`, which exceeds 12η + 200u.
 template <>
 class PairTest<BoundingSphere> {
  public:

@@ -8,9 +8,9 @@
 #include "collision/volumes/overlap_rss_rss.h"
 #include "collision/volumes/overlap_sphere_sphere.h"
 
-// The list of all volumes, and of all volumes with each of their overlap tests. Explicit
-// instantiations, `TreeKind`, the trees of a `Body`, dispatch and the names that users write follow
-// from it.
+// The list of all volumes, and the list of all volumes with each of their overlap tests. They
+// generate the explicit instantiations, `TreeKind`, the trees of a `Body`, the dispatch, and the
+// names that users write.
 //
 // CORRIDOR_EACH_OVERLAP(F) expands F(name in TreeKind, Volume, Overlap, the volume's name for
 // users, the test's name for users). The tests of one volume are adjacent; the first is its

@@ -9,8 +9,9 @@
 namespace corridor {
 namespace {
 
-/// Returns orthonormal axes that begin with u and continue towards v. Returns the identity if u
-/// vanishes, and any completion if v adds nothing.
+/// Returns orthonormal axes: the first along u, the second in the plane of u and v. If v is
+/// parallel to u, the second axis is any vector orthogonal to u. If u vanishes, returns the
+/// identity.
 Mat3 axesAlong(const Vec3& u, const Vec3& v) {
   const Vec3 x = u.stableNormalized();
   if (!(std::abs(x.norm() - 1) < 0x1p-20)) return Mat3::Identity();
@@ -24,7 +25,8 @@ Mat3 axesAlong(const Vec3& u, const Vec3& v) {
   return axes.allFinite() && orthonormalityDefect(axes) < 0x1p-40 ? axes : Mat3::Identity();
 }
 
-/// Returns the box of smaller sum of half extents. That also compares flat sets, whose volume is 0.
+/// Returns the box with the smaller sum of half extents. (The volume of flat boxes is 0, so volumes
+/// cannot be compared.)
 const Obb& smaller(const Obb& a, const Obb& b) {
   return a.half.sum() <= b.half.sum() ? a : b;
 }
@@ -44,9 +46,9 @@ Obb enclosingObb(const ConvexPart& part) {
   if (part.radius == 0) return box;
 
   // A sphere of radius r reaches r|g_i| along axis i, where g_i are the rows of U⁻¹. A disc
-  // orthogonal to d̂ reaches r|g_i × d̂|. With η the axes' defect, |g_i − u_i| ≤ 4η (U⁻¹ =
-  // (UᵀU)⁻¹Uᵀ, |UᵀU − I|₂ ≤ 3η), and |u_i| ≤ 1 + η. Rounding of d̂ and of the cross product takes
-  // less than 16u.
+  // orthogonal to d̂ reaches r|g_i × d̂|. With η the defect of the axes, |g_i − u_i| ≤ 4η, because
+  // U⁻¹ = (UᵀU)⁻¹Uᵀ and |UᵀU − I|₂ ≤ 3η. Also, |u_i| ≤ 1 + η. Rounding of d̂ and of the cross
+  // product takes less than 16u.
   const double loose = 6 * orthonormalityDefect(box.axes) + 16 * kUnit;
   const Vec3 d = edge(1).stableNormalized();
   const bool discs = part.flatEnds && std::abs(d.norm() - 1) < 0x1p-20;

@@ -8,13 +8,13 @@
 namespace corridor {
 
 /// Returns a tight box around a convex part, rounded outward: it contains the part in real
-/// arithmetic. Capsules and cylinders get a box along their axis. Other point sets get the smaller
-/// of two: along the edges at the first corner (a box's own axes, then), or by the moments of the
-/// hull's surface.
+/// arithmetic. Capsules and cylinders get a box along their axis. Other parts get the smaller of
+/// two boxes. One is along the edges at the first corner: for a box, these are its own axes. The
+/// other has its axes from the moments of the hull's surface.
 Obb enclosingObb(const ConvexPart& part);
 
-/// Returns solid spheres whose hull contains the part: its points with its radius. The discs of a
-/// cylinder are no spheres, so a cylinder gets the corners of its box.
+/// Returns solid spheres whose hull contains the part: spheres of its radius about its points. A
+/// cylinder has discs instead of spheres, so it gets the corners of its box.
 std::vector<Ball> ballsOf(const ConvexPart& part);
 
 }  // namespace corridor

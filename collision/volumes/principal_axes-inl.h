@@ -32,7 +32,8 @@ struct alignas(64) Axes8 {
 /// farther from the eigenvalue between them. Its eigenvector is the largest cross product of two
 /// rows. The other two eigenvectors are found in the plane orthogonal to it. The first eigenvalue
 /// is ±p·x, where x in [√3, 2] is the largest root of x³ − 3x = 2h. Newton's method finds x, since
-/// the cubic is steep there: errors are 1e-3, 1e-6, 1e-12.
+/// the cubic is steep there: the start has an error of 1e-3, and the two steps reduce it to 1e-6
+/// and 1e-12.
 HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
   const hn::CappedTag<double, 8> d;
   using V = hn::Vec<decltype(d)>;
@@ -57,8 +58,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
   };
   const V zero = hn::Zero(d), one = set(1), third = set(1.0 / 3);
   // Eigenvalues that differ by less than `even` (relative) count as equal, since sums of floats are
-  // off by some 2^-22. The axes are then those of the coordinates: noise would rotate the axes of a
-  // cube.
+  // off by some 2^-22. The axes are then those of the coordinates; otherwise noise would rotate the
+  // axes of a cube.
   const V even = set(0x1p-20);
   for (std::size_t at = 0; at < 8; at += hn::Lanes(d)) {
     const auto load = [&](int k) { return hn::Load(d, c.entry[k] + at); };
@@ -77,8 +78,8 @@ HWY_INLINE void principalAxes8(const Covariances8& c, Axes8& out) {
     const V determinant = dot(row0, cross(row1, row2));
     const auto largest = hn::Ge(determinant, zero);
     const V p3 = hn::Mul(p2, p);
-    // 2h is at most 2, except for rounding. Where all spreads are equal it is 0/0; the result is
-    // then the identity.
+    // 2h is at most 2, except for rounding. If all eigenvalues are equal, h2 is 0/0; then the
+    // result is the identity.
     const V h2 = hn::Min(hn::Div(hn::Abs(determinant), p3), set(2));
     V x =
         hn::Add(set(1.7320508), hn::Mul(h2, hn::Sub(set(0.1606942), hn::Mul(h2, set(0.0133598)))));

@@ -11,13 +11,13 @@ namespace {
 /// The interval [low, high] of the rectangle along one of its axes.
 struct Side {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  void settle() {  // shorter than the sphere reaches: one point in the middle suffices
+  void settle() {  // the sphere reaches farther than the content: one point in the middle suffices
     if (low > high) low = high = low + 0.5 * (high - low);
   }
 };
 
-/// Returns how far a corner must move out along the diagonal so that a point beyond it by (dx, dy)
-/// is within √square of it.
+/// Returns how far a corner must move out along the diagonal so that a point that lies beyond it by
+/// (dx, dy) is within √square of the moved corner.
 double push(double dx, double dy, double square) {
   const double apart = 0.5 * (dx - dy);
   return 0.5 * (dx + dy) - std::sqrt(std::max(0.0, 0.5 * square - apart * apart));
@@ -31,17 +31,20 @@ Rss Rss::around(const Obb& box, const Content& content) {
   int normal = 0;
   box.half.minCoeff(&normal);
   for (int i = 0; i < 3; ++i) rss.core.axes.col(i) = box.axes.col((normal + 1 + i) % 3);
-  // Coordinates are relative to the box's centre, in a power-of-two unit near its size. Scaling by
-  // it is exact, and no square overflows.
+  // Coordinates are relative to the box's centre, in a unit that is a power of two near its size.
+  // Scaling by this unit is exact, and no square overflows.
   const double unit = powerOfTwo(box.half.maxCoeff());
   const auto local = [&](const Vec3& p, const Vec3& center) -> Vec3 {
     return rss.core.axes.transpose() * ((p - center) / unit);
   };
   const double radius = box.half[normal] / unit;
 
-  // First the length that the rectangle needs along each axis alone, then its corners.
+  // First the rectangle gets the interval that it needs along each axis alone. Then its corners
+  // move out where necessary.
   Side x, y;
-  const auto squareAt = [&](double z, double r) {  // square of the sphere's reach within the plane
+  // Returns the square of the sphere's reach in the rectangle's plane, for a solid sphere of radius
+  // r at height z.
+  const auto squareAt = [&](double z, double r) {
     const double left = std::max(0.0, radius - r);
     return std::max(0.0, left * left - z * z);
   };
@@ -67,8 +70,8 @@ Rss Rss::around(const Obb& box, const Content& content) {
   const Vec3 half(std::max(0.0, x.high - middle[0]), std::max(0.0, y.high - middle[1]), 0);
   rss.core.half = unit * half;
 
-  // The radius makes the volume contain its content, whatever the rectangle is. In coordinates
-  // x = U⁻¹(p − centre) a point is off its computed y by at most 2(η + 6u)·Σ|y_k| per coordinate
+  // This radius makes the volume contain its content, for any rectangle. In coordinates x = U⁻¹(p −
+  // centre) a point is off its computed y by at most 2(η + 6u)·Σ|y_k| per coordinate
   // (`enclosingObb`). U stretches by at most 1 + 1.5η.
   double farthest = 0;
   Vec3 reach = Vec3::Zero();

@@ -6,27 +6,29 @@
 
 namespace corridor {
 
-/// What a `VolumeTree` requires of a volume: a convex set that its doubles define in real
-/// arithmetic.
+/// The requirements of a `VolumeTree` on a volume. A volume is a convex set, which its doubles
+/// define in real arithmetic.
 ///
 /// Every volume is fitted in the frame of a box around the same content. The frame's axes are those
 /// of the content's moments if `kOriented`, else those of the mesh. `PairTest<Volume>`, declared
 /// beside each volume (`overlap_<volume>_<volume>.h`), tests two volumes against each other. A
 /// volume may also have `merged(a, b)`, if the result is as tight as a fit around the contents of
-/// both: refitting then uses it.
+/// both; then refitting uses it.
 template <class V>
 concept BoundingVolume = requires(const V v, const Obb& box, const Content& content) {
   { V::kOriented } -> std::convertible_to<bool>;
   /// Returns a volume that contains the content in real arithmetic. `box` is around the content.
   { V::around(box, content) } -> std::same_as<V>;
-  /// The axes of the frame in which it is fitted again.
+  /// The axes of the frame in which the volume is fitted again.
   { v.frameAxes() } -> std::convertible_to<Mat3>;
-  /// Terms of its tests' margins: the axes' `orthonormalityDefect`, and |center|₂; rounded up.
+  /// Terms in the margins of the volume's tests: the `orthonormalityDefect` of the axes, and
+  /// |center|₂; rounded up.
   { v.axisDefect() } -> std::same_as<double>;
   { v.centerReach() } -> std::same_as<double>;
-  /// Radius of a sphere about its centre that contains it, rounded up: its size.
+  /// Radius of a sphere about the centre that contains the volume, rounded up: a measure of its
+  /// size.
   { v.radius() } -> std::same_as<double>;
-  /// That centre, off by at most 2u of itself and of the radius.
+  /// The centre of that sphere, off by at most 2u of itself and of the radius.
   { v.ballCenter() } -> std::convertible_to<Vec3>;
 };
 
@@ -37,7 +39,7 @@ struct VolumeBounds {
   double reach = 0;        ///< metres: largest |x|₂ of all points of their contents
 };
 
-/// Tests volumes of two trees against each other under one relative map. Constructed once per
+/// Tests volumes of two trees against each other under one relative map. It is constructed once per
 /// query, from the bounds of both trees, the map X_AB (doubles, taken as exact) and an `error` in
 /// metres. Each specialisation has:
 ///
@@ -45,10 +47,10 @@ struct VolumeBounds {
 /// content of a, and the image under X_AB of the content of b, are apart by more than error + pad
 /// metres in real arithmetic. `false` proves nothing.
 ///
-/// `double distanceBound(const Volume& a, const Volume& b) const` returns a proven lower bound of
-/// their distance less `error`, or 0 where nothing is known.
+/// `double distanceBound(const Volume& a, const Volume& b) const` returns a proved lower bound of
+/// the distance of the contents minus `error`, or 0 if nothing is known.
 ///
-/// A NaN or an overflow separates nothing.
+/// If a NaN or an overflow occurs, nothing is separated.
 ///
 /// `Overlap` selects the test where there is a choice (overlap_obb_obb_variants.h).
 struct StandardOverlap {};

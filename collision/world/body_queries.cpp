@@ -22,7 +22,7 @@ void require(double x, const char* what) {
     throw std::invalid_argument(std::string(what) + " must be finite and not negative");
 }
 
-/// Returns a point of the part of `inner` that `enclosed` found.
+/// Returns a point of the component or convex part of `inner` that `enclosed` found.
 Vec3 pointOf(const Posed<Body>& inner, std::uint32_t number) {
   const Body& body = inner.shape;
   return inner.X_W * (body.part() ? body.part()->points[0] : body.mesh().corner(number, 0));

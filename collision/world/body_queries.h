@@ -16,22 +16,23 @@ namespace corridor {
 /// Queries of two bodies of any kind, each under its own map: surfaces of meshes, `solid` meshes
 /// with everything that they enclose, and convex parts, which are solid and never tessellated.
 ///
-/// With a convex part, sizes and coordinates must be within 2^±440 m, or 0. Beyond that the queries
-/// may report bodies as closer than they are, or in contact, but never as farther apart.
+/// With a convex part, sizes and coordinates must be within 2^±440 m, or 0. Beyond that range the
+/// queries may report bodies as closer than they are, or in contact, but never as farther apart.
 ///
 /// The queries build the trees that they need, of the kind `trees`. Containment in a solid mesh
-/// always uses the binary tree of boxes. They throw std::invalid_argument for maps that are not
-/// finite, and for numbers that are not finite or negative. Threads may call them in parallel, with
-/// one context per thread.
+/// always uses the binary tree of boxes. Queries throw std::invalid_argument for maps that are not
+/// finite, and for numbers that are not finite or are negative. Threads may call them in parallel,
+/// with one context per thread.
 ///
 /// `last`, if not null, is a guess from the last query of the same two bodies with the same kind of
 /// trees. Queries test it first, and store the pair that they find. If bodies move in small steps,
-/// it saves a tenth to two thirds of the time (hierarchy/MEASURED.md); with convex parts it has no
-/// effect. It never changes a verdict, nor a distance beyond its error bound.
+/// the guess saves a tenth to two thirds of the time (hierarchy/MEASURED.md). With convex parts it
+/// has no effect. It never changes a verdict, nor a distance beyond its error bound.
 
-/// Returns a pair of triangles or convex parts that touch, or a triangle of a solid mesh and one of
-/// the body inside it. Returns nothing if the bodies are separated. Exact for meshes; with a convex
-/// part, in the band of `convexSetsTouch` the answer may be contact.
+/// Returns a pair of triangles or convex parts that touch, or a triangle of a solid mesh together
+/// with a triangle or convex part of the body inside it. Returns nullopt if the bodies are
+/// separated. Exact for meshes; with a convex part, in the band of `convexSetsTouch` the answer may
+/// be contact.
 std::optional<TrianglePair> interference(const Posed<Body>& a, const Posed<Body>& b,
                                          QueryContext& context, TreeKind trees = TreeKind::obb4,
                                          LastPair* last = nullptr);

@@ -26,16 +26,17 @@ class RigidScene {
   /// All queries throw std::invalid_argument for poses that are not finite, a zero quaternion, and
   /// numbers that are not finite or out of range.
 
-  /// Returns a contact of the moving bodies under X_WB, or nothing. Exact: see
-  /// `Scene::interference`.
+  /// Returns a contact of the moving bodies under X_WB, or nullopt. `Scene::interference` states
+  /// how exact the answer is.
   std::optional<Contact> interference(const Transform& X_WB, QueryContext& context) const;
 
   /// Decides whether the motion from `from` to `to` is free: a straight line, and slerp along the
   /// shorter arc (collision/PROMISES.md, "What an edge is").
-  /// @param tube what the proof covers around the nominal curve.
+  /// @param tube the deviations from the nominal curve for which the proof holds, too.
   MotionResult certifyEdge(const RigidPose& from, const RigidPose& to, const MotionOptions& options,
                            QueryContext& context, const Tube& tube = {}) const;
-  /// The same in the plane z = 0: (x, y, yaw), metres and radians, the yaw the shorter way round.
+  /// The same for a motion in the plane z = 0. Poses are (x, y, yaw), in metres and radians; the
+  /// yaw goes the shorter way round.
   MotionResult certifyEdgePlanar(const Vec3& from, const Vec3& to, const MotionOptions& options,
                                  QueryContext& context, const Tube& tube = {}) const;
   /// Decides whether a state is free: an edge of zero length.

@@ -21,16 +21,16 @@
 namespace corridor {
 namespace {
 
-/// Relative motions of zero length for `sweptSphere`, under any maps: of a frame as seen from the
-/// world, and of a frame as seen from another one.
+/// Relative motions of zero length for `sweptSphere`, under any maps. The first function describes
+/// a frame as seen from the world, the second a frame as seen from another frame.
 RelativeMotion atRest(const Transform& X_WB) {
   // No matrix of doubles is exactly a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|.
   const double defect = orthonormalityDefect(X_WB.m);
   RelativeMotion still;
   still.X_AB = X_WB;
   still.reachError = 3 * defect;
-  // Far from a rotation, the terms of M·centre may cancel, so that rounding dominates. No pair is
-  // skipped then.
+  // If M is far from a rotation, the terms of M·centre may cancel, so that rounding dominates. Then
+  // no pair is skipped.
   if (!(defect < 0x1p-10)) still.fixedError = HUGE_VAL;
   return still;
 }
@@ -190,8 +190,8 @@ double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context,
 namespace {
 
 /// Returns a relative pose at a time in [0, until] at which the surfaces of the two bodies are
-/// farther apart than the pose's rounding and tube. Returns nothing if they are not at any of the
-/// times tried. Nearly all motions have such a pose at t = 0.
+/// farther apart than the pose's rounding and tube. Returns nullopt if none of the times tried has
+/// such a pose. Nearly all motions have such a pose at t = 0.
 std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion, double until,
                                    QueryContext& context) {
   for (const double t : {0.0, until, until / 2, until / 4, until / 8}) {
@@ -214,10 +214,10 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
   if (!solidMeshes_) return result;
   if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
   const double until = result.verdict == MotionVerdict::free ? 1 : result.certifiedUntil;
-  // The surfaces do not meet on [0, until], so one pose there decides containment for the whole of
-  // it. It must be a pose whose rounding cannot carry a point through a surface.
+  // The surfaces do not meet on [0, until], so one pose decides containment for this whole
+  // interval. The rounding of that pose must be too small to move a point through a surface.
   for (const MotionPair& pair : pairs) {
-    // A convex part is solid itself: the motion query finds what is inside it.
+    // No test is needed for a convex part: it is solid, so the motion query finds bodies inside it.
     if (!isSolidMesh(*pair.a) && !isSolidMesh(*pair.b)) continue;
     if (!mayMeet(*pair.a, sweptSphere(*pair.b, motion.relativeMotion(pair.motion, 0, 0)), 0))
       continue;
@@ -264,7 +264,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   require(options);
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
-  MotionResult undecidedOne;  // counts as one query, undecided if any pair is
+  MotionResult undecidedOne;  // counts as one query, which is undecided if any pair is
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     MotionResult& result = results[order_[i]];
     result = certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::directional);

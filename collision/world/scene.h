@@ -15,10 +15,10 @@ namespace corridor {
 
 /// Bodies on frames that move, and the pairs of bodies that are tested. Frame 0 is the world.
 ///
-/// A scene does not know why frames move. Queries of a state take the transform of each frame.
-/// Queries of a motion take a `MotionSource`, which describes how the two frames of each pair move
-/// relative to each other. A scene is const after construction, except for trees, which are built
-/// when first needed. Threads may run any query in parallel, with one `QueryContext` (and one
+/// A scene does not depend on what moves the frames. Queries of a state take the transform of each
+/// frame. Queries of a motion take a `MotionSource`, which describes how the two frames of each
+/// pair move relative to each other. A scene is const after construction, except that trees are
+/// built when first needed. Threads may run any query in parallel, with one `QueryContext` (and one
 /// `MotionSource`) per thread.
 class Scene {
  public:
@@ -29,7 +29,8 @@ class Scene {
   struct Pair {
     std::size_t a = 0, b = 0;  ///< bodies, by index
   };
-  /// A pair of frames; b is seen from a. Its index in `framePairs()` is the number of its motion.
+  /// A pair of frames. Its motion is that of b as seen from a, and has the index in `framePairs()`
+  /// as its number.
   struct FramePair {
     std::size_t a = 0, b = 0;
   };
@@ -44,17 +45,18 @@ class Scene {
   /// Returns the pairs of frames whose motions a `MotionSource` has to supply: the distinct pairs
   /// of frames among `pairs()`, and each moving frame of these as seen from the world.
   const std::vector<FramePair>& framePairs() const { return framePairs_; }
-  /// Returns a tolerance in metres: 1e-7 of the smallest radius of the frames, or what the rounding
-  /// of rigid motions needs if that is larger (`RigidMotion::roundingTolerance`). The radius of a
-  /// frame is that of one sphere around its bodies; frames in no pair do not count.
+  /// Returns a tolerance in metres: 1e-7 of the smallest radius of a frame, or the tolerance that
+  /// the rounding of rigid motions requires (`RigidMotion::roundingTolerance`) if that is larger.
+  /// The radius of a frame is that of one sphere around all of its bodies; frames in no pair do not
+  /// count.
   /// @param farthest metres; the poses of frames are at most this far from the origin.
   double defaultTolerance(double farthest = 0) const;
 
-  /// All queries throw std::invalid_argument for options that are not finite or out of range. They
-  /// also throw it if the transform of the world (frame 0), or of a frame in a pair, is missing or
-  /// not finite. They build the trees that they need.
+  /// All queries throw std::invalid_argument for options that are not finite or out of range, and
+  /// if the transform of the world (frame 0) or of a frame in a pair is missing or not finite. They
+  /// build the trees that they need.
 
-  /// Returns the first contact found under the maps X_WF of the frames, or nothing. Exact for
+  /// Returns the first contact found under the maps X_WF of the frames, or nullopt. Exact for
   /// meshes (collision/PROMISES.md, promise 1); with a convex part, contact may be reported for
   /// gaps below 2^-44 of the largest coordinate. A body inside a solid one is in contact with it.
   /// @param trees the kind of trees to walk (motion queries take `MotionOptions::trees`). The trees
@@ -63,13 +65,14 @@ class Scene {
                                       TreeKind trees = TreeKind::obb4) const;
 
   /// Returns the least distance over all pairs, metres. It is 0 if and only if `interference`
-  /// reports contact; otherwise its errors are those of queries/distance.h. Infinite without pairs.
+  /// reports contact; otherwise its errors are those of queries/distance.h. It is infinite if the
+  /// scene has no pairs.
   double clearance(std::span<const Transform> X_WF, QueryContext& context,
                    TreeKind trees = TreeKind::obb4) const;
 
-  /// Decides whether the motion is free, by any method (`certifyMotion`). If a body is inside a
-  /// solid one, the answer is a contact at t = 0. Motion number i of `motion` is that of
-  /// `framePairs()[i]`.
+  /// Decides whether the motion is free, by the given method (`certifyMotion` describes the
+  /// answers). If a body is inside a solid one, the answer is a contact at t = 0. Motion number i
+  /// of `motion` is that of `framePairs()[i]`.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        EdgeMethod method = EdgeMethod::directional) const;
   /// The same, by the method `EdgeMethod::directional`, with a certificate. `checkCertificate`
@@ -96,10 +99,10 @@ class Scene {
 
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;
-  std::vector<std::size_t> order_;       // indices of `pairs_`, pairs of one motion together
+  std::vector<std::size_t> order_;  // indices of `pairs_`; pairs of the same motion are adjacent
   std::vector<MotionPair> motionPairs_;  // in that order
   std::vector<FramePair> framePairs_;
-  bool solidMeshes_ = false;  // some pair has one: containment must be decided
+  bool solidMeshes_ = false;  // a pair has a solid mesh, so containment must be decided
 };
 
 }  // namespace corridor
