@@ -15,7 +15,7 @@ struct GoalRegion {
   double joint = 0;     ///< each single joint, rad or m
 };
 
-/// What a path must do: where it starts and ends, and how far it keeps from contact.
+/// The requirements of a path: its start, its goals, and the distance that it keeps from contact.
 struct Task {
   Configuration start;
   std::vector<Configuration> goals;  ///< one or more; a path may end at any of them
