@@ -216,7 +216,7 @@ void EdgeMotion::Impl::setErrors(Path& path) {
   path.edge = edge;
   double length = 0;
   for (const Step& step : path.steps) length += places[views[step.view].place].joint.length();
-  LeverError turned;  // error of what is transformed into A, if A is not the ancestor
+  LeverError turned;  // error of points transformed into A's frame, if A is not the ancestor
   LeverError pose, axes;
   if (path.b != kItself) {
     const View& b = viewWithErrors(path.b);

@@ -37,8 +37,8 @@ std::pair<LongPose::Mat, LongPose::Mat> rodrigues(const LongPose::Vec& axis) {
 //
 // Revolute joint, fixed + sin φ·FK + (1 − cos φ)·FK²:
 // - the three constant matrices: √3 + √2 + 2√2 < 6u;
-// - sine and cosine within 1 ulp, doubled to be generous with libm, 4u each, and the rounding of 1
-//   − cos: 9u;
+// - sine and cosine, 1 ulp each, doubled as a reserve for libm: 4u each; with the rounding of 1 −
+//   cos φ: 9u;
 // - the sum, 3 roundings of terms with norms √3, √2, 2√2: 18u.
 // Together below 40u. The error of φ is added separately.
 constexpr double kFoldError = 0x1p-58;

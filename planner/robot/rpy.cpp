@@ -29,7 +29,7 @@ SineCosine ofRadians(double radians, int divisor) {
 
 /// Returns sine and cosine of `degrees / divisor`. @pre divisor is 1 or 2.
 SineCosine ofDegrees(double degrees, int divisor) {
-  int eighths = 0;  // its lowest three bits are right
+  int eighths = 0;  // remquo defines only its lowest three bits
   const long double rest =
       std::remquo(static_cast<long double>(degrees) / divisor, 45.0L, &eighths);  // exact
   const SineCosine whole = ofEighths(eighths);
