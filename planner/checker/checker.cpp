@@ -14,7 +14,7 @@
 namespace corridor {
 namespace {
 
-/// Returns the body of each shape of `makeScene`.
+/// Returns the model's body of each shape, in the order of the scene that `makeScene` returns.
 std::vector<std::size_t> bodiesOfShapes(const Model& model) {
   std::vector<std::size_t> owner;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -22,7 +22,7 @@ std::vector<std::size_t> bodiesOfShapes(const Model& model) {
   return owner;
 }
 
-/// The answer where the floating-point mode makes the bounds invalid; nothing is computed.
+/// Returns the answer for a floating-point mode that makes the bounds invalid.
 MotionResult refused() {
   MotionResult result;
   result.verdict = MotionVerdict::undecided;

@@ -17,7 +17,7 @@ struct Problem;
 /// order, and the pairs that its filter does not exclude. Builds no tree.
 Scene makeScene(const Model& model, ObbFit fit = {});
 
-/// What a checker proves of states and edges, and how.
+/// What a checker proves about states and edges, and by which method.
 struct CheckerOptions {
   double margin = 0;  ///< metres that all tested pairs must keep apart; 0: touching is contact
   /// The tube that the proofs cover, as `tubeOf` returns it; empty: rounding only.
@@ -27,8 +27,9 @@ struct CheckerOptions {
   TreeChoice trees = {};
 };
 
-/// Returns the options that a problem asks for. @throws std::invalid_argument if the words for its
-/// trees don't go together (`invalidNameIn`).
+/// Returns the options that a task and settings describe.
+/// @throws std::invalid_argument if a name of the trees is unknown, or illegal together with the
+/// others (`invalidNameIn`).
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings);
 
 /// Checks states and edges of a model. The OMPL classes in this folder forward to it.
@@ -38,12 +39,12 @@ CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings)
 class Checker {
  public:
   /// The model must outlive the checker; its bodies are copied.
-  /// @throws std::invalid_argument for a margin that is negative or a tolerance that is not above
-  /// 0, or not finite; for a tube of another length than a configuration, or with a number that is
-  /// not 0 or more; for an overlap test that is not its volume's first, together with a method that
-  /// measures distances.
+  /// @throws std::invalid_argument if margin or tolerance is not finite, the margin is negative, or
+  /// the tolerance is not above 0; if the tube has another length than a configuration, or a number
+  /// that is not 0 or more; if the method measures distances and the overlap test is not the
+  /// volume's first; if a solid mesh is not watertight, or a mesh is invalid.
   explicit Checker(const Model& model, const CheckerOptions& options = {});
-  /// The checker of a problem's model, with `checkerOptions`.
+  /// Makes the checker of a problem's model, with `checkerOptions`.
   explicit Checker(const Problem& problem);
   ~Checker();
 
@@ -52,16 +53,17 @@ class Checker {
   const Scene& scene() const { return scene_; }
   /// The tube that the proofs cover.
   const Configuration& tube() const { return tube_; }
-  /// The tolerance and margin. The clearance slack is the tolerance: `free` requires
-  /// a clearance of margin plus tolerance. With less clearance the verdict may be `undecided`
-  /// anyway. So no returned path depends on the last digits of a clearance. The work to prove a
-  /// path again is at most proportional to its length divided by the tolerance.
+  /// The options of motion queries, with tolerance and margin. The clearance slack is the
+  /// tolerance: `free` requires a clearance of at least the tolerance beyond margin and tube. Less
+  /// clearance may give `undecided` anyway, so this costs little. It has two advantages. No
+  /// returned path depends on the last digits of a clearance. The work to prove a path again is at
+  /// most proportional to its length divided by the tolerance.
   const MotionOptions& options() const { return options_; }
   /// Returns the body of the model that a shape of the scene belongs to.
   std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
 
-  /// Tests the bounds, which are inclusive. A configuration that is not finite or has a zero
-  /// quaternion is out of bounds.
+  /// Returns whether a configuration is within the bounds, which are inclusive. A configuration
+  /// that is not finite or has a zero quaternion is out of bounds.
   bool inBounds(const Configuration& q) const;
   /// Decides whether a state is free, as an edge of zero length by the default method. Doesn't test
   /// the bounds. @pre finite.
@@ -74,26 +76,26 @@ class Checker {
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h). So do `clearance` and `pairsNotFree`.
   std::optional<Contact> interference(const Configuration& q) const;
-  /// Returns the smallest distance of the tested pairs less the margin, metres. If it is 0 or less,
-  /// `state` is not `free`; below tolerance plus tube, `state` may be undecided. If a pair touches,
-  /// the result is 0 − margin, since no penetration depth is computed. Infinite if no pair is
-  /// tested. @pre finite.
+  /// Returns the smallest distance of the tested pairs minus the margin, metres. If the result is 0
+  /// or less, `state` is not `free`. If it is below twice the tolerance plus the displacement that
+  /// the tube allows, `state` may be `undecided`. If a pair touches, the result is 0 − margin,
+  /// since no penetration depth is computed. It is infinite if no pair is tested. @pre finite.
   double clearance(const Configuration& q) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
     std::size_t a = 0, b = 0;
-    bool tooLarge = false;  ///< undecided, as the rounding of a large value hides the gap
+    bool tooLarge = false;  ///< undecided, because the rounding of a large value may exceed the gap
   };
   /// Returns all pairs of bodies for which `state` is not free, each once. @pre finite.
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
   /// Returns whether q is in bounds and `state` is `free`.
   bool certifiedState(const Configuration& q) const;
-  /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free
-  /// by the default method, whatever the method of the options.
+  /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free.
+  /// Uses the default method, not that of the options.
   bool certifiedEdge(const Configuration& from, const Configuration& to) const;
 
-  /// Returns the sum over all threads. Call it while no query runs.
+  /// Returns the sum of the counters of all threads. No query may run during this call.
   Counters counters() const;
 
  private:

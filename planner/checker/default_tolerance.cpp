@@ -10,22 +10,22 @@
 /// of the lengths of both stretched chains, from the world to the farthest points of the two
 /// bodies.
 ///
-/// `EdgeMotion` returns errors of rotation and position. Each is at most u·S times a sum over the
-/// joints of both chains:
+/// `EdgeMotion` bounds the errors of rotation and position. Each bound is at most u·S times a sum
+/// over the joints of both chains:
 ///   revolute: 103 + 12·V_j  (sine and matrix 40, fixed pose 2, value 12·V_j, product 10 + 11;
 ///     an axis 40)
 ///   prismatic, translation: 51  (value and sum 24 + 12, product 10 + 11 of S)
 ///   rotation: 575  (2^-44 = 512, and the products)
 ///
-/// A pose has both errors, transformed into one body's frame: twice that sum. So have points and
-/// axes of joints. Together four times the sum: w_j below contains two, and the factor 2 in E the
-/// other two.
+/// A relative pose has the errors of both bodies' poses, transformed into one body's frame: twice
+/// that sum. The same holds for the points and axes of joints. Together this is four times the sum.
+/// The constants w_j below contain a factor 2, and E contains the other factor 2.
 ///
 /// Leaf triangles and parts are compared with an error of 64u·(2|t| + L) ≤ 64u·3S, which gives 300.
 ///
 /// With E = u·S·(300 + 2·Σ w_j), a clearance of 2τ is proved in a time interval whose motion bound
-/// is below τ. The direction of the closest points is tilted by at most a quarter of the gap. So
-/// 0.75·2τ > τ + 2E is needed: τ = 4E.
+/// is below τ. The direction between the closest points may be off, which loses at most a quarter
+/// of the gap. So 0.75·2τ > τ + 2E is needed: τ = 4E.
 namespace corridor {
 namespace {
 
@@ -42,7 +42,7 @@ double largestOf(const ConfigurationSpace& space, std::size_t number) {
   return 0;
 }
 
-/// What a frame adds to the length and to the roundings of its chain.
+/// The share of a frame in the length and in the roundings of its chain.
 struct Share {
   double length = 0, roundings = 0;
 };

@@ -8,13 +8,13 @@ namespace corridor {
 /// or a larger one, every free edge with a clearance above twice the tolerance is proved. This
 /// holds even if coordinates are large compared with the bodies.
 ///
-/// Angles of circles count as π; larger ones are outside of this guarantee.
+/// The guarantee assumes that the angles of circles are in [−π, π].
 double roundingTolerance(const Model& model);
 
 /// Returns a model's default tolerance, metres: the larger of `usual` (1e-7 of the bodies' size)
-/// and roundingTolerance(), but at most 1000 times `usual`. Without that limit, joint limits of
-/// 10^16 rad would need kilometres. With it, edges with values that large are undecided, and all
-/// others are proved.
+/// and roundingTolerance(), but at most 1000 times `usual`. Without this upper limit, joint limits
+/// of 10^16 rad would need a tolerance of kilometres. With it, edges with such large values are
+/// undecided, and all other edges are proved as described above.
 double defaultTolerance(const Model& model, double usual);
 
 }  // namespace corridor

@@ -7,23 +7,24 @@
 
 namespace corridor {
 
-/// Which pairs of bodies take the time of a model's edges, measured on a sample of edges.
+/// The share of each pair of bodies in the time that a model's edges take, measured on a sample of
+/// edges.
 struct EdgeCosts {
   std::size_t edges = 0, free = 0;  ///< numbers of tested edges, and of free ones among them
-  double freeSeconds = 0, otherSeconds = 0;  ///< medians per edge; 0 if there is none
+  double freeSeconds = 0, otherSeconds = 0;  ///< medians of free and of other edges; 0: none
   struct OfPair {
     std::size_t a = 0, b = 0;  ///< bodies of the model
     double share = 0;          ///< share of the time of all pairs, each certified alone
     std::uint64_t boxTests = 0, triangleTests = 0;  ///< over all edges
   };
-  std::vector<OfPair> pairs;  ///< pairs that take any time, the most expensive first
+  std::vector<OfPair> pairs;  ///< all tested pairs, the most expensive first
 };
 
-/// Certifies random edges. Each goes from a random state within the bounds a fifth of the way to
-/// another, as do planners with OMPL's usual range. The result is for display only: times depend on
-/// the machine and its load.
+/// Certifies random edges. Each edge begins at a random state within the bounds and goes a fifth of
+/// the way to another one. Planners with OMPL's default range have edges of a similar length. The
+/// result is for display only: times depend on the machine and its load.
 /// @param edges the maximum number of edges to certify; at least one is certified.
-/// @param seconds after this time no further edge is begun.
+/// @param seconds time after which no further edge is begun.
 EdgeCosts sampleEdgeCosts(const Checker& checker, std::size_t edges, double seconds,
                           std::uint64_t seed);
 

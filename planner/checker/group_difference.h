@@ -4,8 +4,8 @@
 
 namespace corridor {
 
-/// Return, for a planar or floating joint, |Δp| in metres and the angle of its rotation, in [0, π],
-/// without weights.
+/// Differences of two poses of a planar or floating joint, without weights: |Δp| in metres, and the
+/// angle of the rotation from one to the other, radians in [0, π].
 double positionDifference(const ConfigurationSpace& space, const CoordinateGroup& group,
                           const Configuration& a, const Configuration& b);
 double rotationDifference(const ConfigurationSpace& space, const CoordinateGroup& group,

@@ -60,8 +60,9 @@ std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastF
   const MotionResult result = checker_.edge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   // The tube covers the rounding of a state on the edge, so the first try nearly always succeeds.
-  // But [0, t0] may be proved with a clearance that is too small for a second proof: `advancement`
-  // goes as close as it can. So the loop moves back by a little, then by twice as much each time.
+  // But the clearance with which [0, t0] was proved may be too small for a second proof, since
+  // `advancement` goes as close to contact as it can. So the loop goes back on the edge by a small
+  // step, and doubles the step in each turn.
   const double least = checker_.options().timeTolerance;
   for (double back = 0; result.certifiedUntil - back >= least; back = back > 0 ? 2 * back : least) {
     const double t = result.certifiedUntil - back;
@@ -88,7 +89,7 @@ unsigned DiscreteMotionValidator::steps(const Configuration& from, const Configu
 bool DiscreteMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
   if (checker_.space().ambiguous(from, to) || !isValid(to)) return false;
   const unsigned n = steps(from, to);
-  // Middles first, as in OMPL, because contacts are found sooner there.
+  // The middles are tested first, as in OMPL: this finds contacts sooner.
   std::queue<std::pair<unsigned, unsigned>> parts;  // untested steps, first to last
   if (n > 1) parts.emplace(1, n - 1);
   for (; !parts.empty(); parts.pop()) {
@@ -113,7 +114,8 @@ std::optional<CountingMotionValidator::Progress> DiscreteMotionValidator::lastFr
     if (i == n) return std::nullopt;
     last = {t, at};
   }
-  // The shorter edge has other samples, which must be free, too.
+  // The shorter edge from `from` to `last` has other samples than the whole edge. They must be
+  // free, too.
   while (last.t > 0 && !isFree(from, last.state)) {
     last.t = last.t > 1.0 / n ? last.t / 2 : 0;
     last.state = checker_.space().interpolate(from, to, last.t);

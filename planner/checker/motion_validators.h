@@ -16,26 +16,26 @@ namespace corridor {
 ///   If lastValid.first is given, it becomes a state such that this validator finds the edge from
 ///   s1 to it valid. For t0 = 0 it is s1 itself, bit for bit.
 /// - lastValid.first may be s1 or s2: both are read before anything is written.
-/// As everywhere in OMPL, s1 is assumed to be valid. Safe for several threads at once.
+/// As everywhere in OMPL, s1 is assumed to be valid. Several threads may use one validator at once.
 class CountingMotionValidator : public ompl::base::MotionValidator {
  public:
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const final;
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                    std::pair<ompl::base::State*, double>& lastValid) const final;
-  /// The sum of OMPL's counts, safe to call while motions are checked; getCheckedMotionCount() is
-  /// not.
+  /// Returns the number of valid and invalid motions so far. Unlike OMPL's getCheckedMotionCount(),
+  /// it may be called while motions are checked.
   std::uint64_t checkedMotions() const;
 
  protected:
   CountingMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker);
 
-  /// How far a motion that is not valid is free.
+  /// The part of an invalid motion that is free: [0, t].
   struct Progress {
     double t = 0;
-    Configuration state;  ///< at t; set only if t > 0
+    Configuration state;  ///< the state at t; set only if t > 0
   };
   virtual bool isFree(const Configuration& from, const Configuration& to) const = 0;
-  /// Returns nullopt if the motion is free.
+  /// Returns the part of the motion that is free, or nullopt if the whole motion is.
   virtual std::optional<Progress> lastFree(const Configuration& from,
                                            const Configuration& to) const = 0;
 
@@ -47,7 +47,7 @@ class CountingMotionValidator : public ompl::base::MotionValidator {
   bool count(bool valid) const;
 };
 
-/// Calls a motion valid if the whole continuous edge is certified free.
+/// A motion is valid if the whole continuous edge is certified free.
 class CertifiedMotionValidator final : public CountingMotionValidator {
  public:
   CertifiedMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker)
@@ -59,10 +59,11 @@ class CertifiedMotionValidator final : public CountingMotionValidator {
                                    const Configuration& to) const override;
 };
 
-/// Calls a motion valid if the sampled states on it are valid: OMPL's rule, as a baseline. The
-/// space's `validSegmentCount` cuts the edge into steps of at most longest_valid_segment_fraction
-/// of each subspace's extent. The state at the end of each step is tested by the state validity
-/// checker, whose contact test is exact. Nothing is tested between two such states.
+/// A motion is valid if sampled states on it are valid: OMPL's rule, as a baseline. The space's
+/// `validSegmentCount` cuts the edge into steps of at most longest_valid_segment_fraction of each
+/// subspace's extent. The state at the end of each step is tested by the state validity checker of
+/// the SpaceInformation (in `corridor solve` an ExactStateValidityChecker). Nothing is tested
+/// between two such states.
 class DiscreteMotionValidator final : public CountingMotionValidator {
  public:
   DiscreteMotionValidator(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

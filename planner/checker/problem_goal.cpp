@@ -13,8 +13,8 @@ namespace {
 
 bool inRegion(const Problem& problem, const Configuration& goal, const Configuration& q,
               double grow) {
-  // Normalising a quaternion is off by less than 4u a component. The angle of two such quaternions
-  // is off by less than 32u, and computing it adds as much.
+  // Each component of a normalised quaternion is off by less than 4u. The angle between two such
+  // quaternions is off by less than 32u, and its computation adds as much.
   const double same = 64 * kUnit;
   const GoalRegion& region = *problem.task.goalRegion;
   for (const CoordinateGroup& group : problem.model.space.groups()) {

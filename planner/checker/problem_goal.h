@@ -4,20 +4,22 @@
 
 namespace corridor {
 
-/// The problem's start and goals, with normalised quaternions and the angles of circles in [−π, π].
+/// Return the problem's start and goals, with normalised quaternions, and with the angles of
+/// circles in [−π, π].
 Configuration startOf(const Problem& problem);
 std::vector<Configuration> goalsOf(const Problem& problem);
 
-/// Returns whether q is in the goal: in the goal region about one of `goals`; or, if the problem
-/// has none, within the .cfg's threshold; or else equal to a goal up to the rounding of its
-/// quaternion.
+/// Returns whether q is in the goal. If the task has a goal region, q must be in the region about
+/// one of `goals`. If it has a threshold (`.cfg`), q must be at most that far from a goal.
+/// Otherwise q must be equal to a goal (`ConfigurationSpace::equal`).
 /// @param slack enlarges (> 0) or shrinks (< 0) the region or threshold by this fraction.
 bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, const Configuration& q,
             double slack = 0);
 
-/// Returns how far a configuration is outside of the nearest goal region: the sum over the groups
-/// of coordinates, in metres and radians, weighted as in distances. @pre the task has a goal
-/// region.
+/// Returns how far a configuration is outside of the nearest goal region; 0 inside. It is a sum
+/// over single joints, positions and rotation angles: the part of each difference that is beyond
+/// the region, in metres or radians, times the weight of the coordinate.
+/// @pre the task has a goal region.
 double outsideGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
                          const Configuration& q);
 

@@ -13,16 +13,16 @@ namespace corridor {
 /// A ConfigurationSpace as an OMPL compound space. Consecutive lines of one group are a
 /// RealVectorStateSpace, circles are SO2, rotations are SO3.
 ///
-/// `interpolate`, `distance` and `equalStates` are Corridor's. OMPL 1.5.2's own treat rotations
-/// under 9e-5 rad as distance 0 and return `from` for them, even at t = 1; near half turns a last
-/// bit flips their direction.
+/// `interpolate`, `distance` and `equalStates` are Corridor's own. Those of OMPL 1.5.2 treat
+/// rotations below 9e-5 rad as distance 0, and its `interpolate` then returns `from`, even at t =
+/// 1. Near half turns, the last bit of a number decides the direction of OMPL's rotations.
 ///
-/// OMPL's samplers, bounds and `validSegmentCount` (the largest of the subspaces') are kept. A
-/// single rigid body is sampled as by SE2StateSpace and SE3StateSpace.
+/// Samplers, bounds and `validSegmentCount` (the largest count of a subspace) are OMPL's. A single
+/// rigid body is sampled as by SE2StateSpace or SE3StateSpace.
 class ProblemStateSpace : public ompl::base::CompoundStateSpace {
  public:
   /// `space` must outlive the object.
-  /// @throws ompl::Exception at setup unless all bounds have lower < upper.
+  /// OMPL's setup of the space throws ompl::Exception unless all bounds have lower < upper.
   explicit ProblemStateSpace(const ConfigurationSpace& space);
 
   const ConfigurationSpace& configurations() const { return space_; }
@@ -37,10 +37,11 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   ompl::base::State* allocState() const override;
   void freeState(ompl::base::State* state) const override;
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
-  /// Largest possible value of `distance`.
+  /// Returns the largest possible value of `distance`.
   double getMaximumExtent() const override;
-  /// Registers the default projection: the position of the first planar or floating joint. Without
-  /// one, the first joints, at most three, because they move the most.
+  /// Registers the default projection: the position of the first planar or floating joint. If there
+  /// is none, it is the values of the first joints, at most three, because these joints move the
+  /// robot the most.
   void registerProjections() override;
 
  private:
@@ -58,7 +59,7 @@ class ProblemStateSpace : public ompl::base::CompoundStateSpace {
   std::size_t bytes_ = 0;    // size of a state
 };
 
-/// @pre the space of `si` is a ProblemStateSpace.
+/// Returns the numbers of a state. @pre the space of `si` is a ProblemStateSpace.
 Configuration configurationOf(const ompl::base::SpaceInformation& si,
                               const ompl::base::State* state);
 

@@ -11,16 +11,16 @@
 namespace corridor {
 namespace {
 
-/// Where a frame's origin may be, and which orientations it may have: R only, R followed by a
-/// rotation about the world's z, or any.
+/// The box in which a frame's origin may be, and the orientations that the frame may have: R only;
+/// R followed by a rotation about the world's z; or any.
 struct FrameReach {
   ReachBox origin;
   Mat3 R = Mat3::Identity();
   enum class Turned { no, aboutZ, any } turned = Turned::no;
 };
 
-/// Returns a box, relative to the frame's origin and along the world's axes, of where the points of
-/// a box in the frame's coordinates may be.
+/// Returns a box that contains all possible places of the points of `box`. `box` is in the frame's
+/// coordinates; the result is relative to the frame's origin, along the world's axes.
 ReachBox around(const FrameReach& frame, const ReachBox& box) {
   const Vec3 c = frame.R * (box.lower + box.upper) / 2,
              h = frame.R.cwiseAbs() * (box.upper - box.lower) / 2;
@@ -121,7 +121,8 @@ std::vector<ReachBox> reachOf(const Model& model) {
 bool outOfReach(const Task& task, const ReachBox& a, const ReachBox& b) {
   const Vec3 gap = (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(Vec3::Zero());
   const double size = (a.upper - a.lower).norm() + (b.upper - b.lower).norm();
-  // A tube displaces a point by at most the sum of its lengths, plus its angles times the sizes.
+  // The tube displaces a point by at most the sum of the tube's lengths, plus the sum of its angles
+  // times the size.
   const double pad = task.margin + task.tube.sum() * (1 + size) + 1e-9 * size;
   return gap.norm() > pad;
 }

@@ -12,11 +12,12 @@ struct ReachBox {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
 };
 
-/// Returns for each body a box that it never leaves in any configuration within the bounds. Metres,
-/// in the world. The boxes are rough and not proved: for display only, never for verdicts.
+/// Returns for each body a box that contains it in every configuration within the bounds; metres,
+/// in the world. The boxes are rough and not proved: they are for display only, never for verdicts.
 std::vector<ReachBox> reachOf(const Model& model);
 
-/// Returns whether two bodies in these boxes keep more than margin and tube from each other.
+/// Returns whether two bodies in these boxes are farther apart than the margin plus the
+/// displacement that the tube allows.
 bool outOfReach(const Task& task, const ReachBox& a, const ReachBox& b);
 
 }  // namespace corridor

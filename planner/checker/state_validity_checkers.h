@@ -6,9 +6,10 @@
 
 namespace corridor {
 
-/// Base of the state validity checkers: provides `clearance` for OMPL's samplers and objectives. It
-/// is `Checker::clearance`, metres: positive beyond the margin, 0 − margin if bodies touch (no
-/// depth is computed), −∞ for a state that is not finite. Bounds are ignored.
+/// Base of the state validity checkers: provides `clearance` for OMPL's samplers and objectives.
+/// The value is `Checker::clearance`, metres. It is positive if the bodies are farther apart than
+/// the margin, 0 − margin if bodies touch (no depth is computed), and −∞ for a state that is not
+/// finite. Bounds are ignored.
 class ClearanceChecker : public ompl::base::StateValidityChecker {
  public:
   double clearance(const ompl::base::State* state) const final;
@@ -19,8 +20,8 @@ class ClearanceChecker : public ompl::base::StateValidityChecker {
   const Checker& checker_;
 };
 
-/// Calls a state valid if it is in bounds and certified free, with tolerance, margin and tube.
-/// Undecided is not valid.
+/// A state is valid if it is in bounds and certified free, with tolerance, margin and tube. An
+/// undecided state is not valid.
 class CertifiedStateValidityChecker : public ClearanceChecker {
  public:
   CertifiedStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)
@@ -28,8 +29,9 @@ class CertifiedStateValidityChecker : public ClearanceChecker {
   bool isValid(const ompl::base::State* state) const override;
 };
 
-/// Calls a state valid if it is in bounds and nothing touches, by an exact test. With a margin the
-/// state must be certified instead. For the discrete baseline.
+/// For the discrete baseline. A state is valid if it is in bounds and no tested pair touches, by an
+/// exact test of the rounded poses; the tube is ignored. If the checker has a margin, the state
+/// must be in bounds and certified free.
 class ExactStateValidityChecker : public ClearanceChecker {
  public:
   ExactStateValidityChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker)

@@ -11,7 +11,8 @@ namespace corridor {
 namespace {
 
 void include(const ConvexPart& part, Corners& box) {
-  // The points are swept by a sphere, or for a cylinder by a disc at a right angle to its axis.
+  // The points are swept by a sphere. Those of a cylinder are swept by a disc at a right angle to
+  // the axis.
   Vec3 reach = Vec3::Constant(part.radius);
   if (part.flatEnds) {
     const Vec3 along = (part.points.back() - part.points.front()).stableNormalized();

@@ -20,10 +20,11 @@ struct DegreeOfFreedom {
   std::size_t coordinate = 0;  ///< index of its (first) coordinate in Model::space
 };
 
-/// A robot of a model: its description, how it is planned for, and its place in the model.
+/// A robot of a model: its description, the joints that are planned for, and the robot's frames and
+/// coordinates in the model.
 struct ModelRobot {
-  /// "left" for the robot `left` of several. Empty for a single robot: names of its links, joints
-  /// and coordinates then have no prefix.
+  /// "left" for the robot `left` of several robots. Empty for a single robot: the names of its
+  /// links, joints and coordinates then have no prefix.
   std::string name;
   RobotModel model;
   RigidPose base;  ///< X_WB
@@ -49,10 +50,11 @@ struct ModelBody {
   std::vector<PlacedShape> shapes;   ///< at least one, in the coordinates of `frame`
 };
 
-/// Decides which pairs of bodies are tested. Without rules, every pair is.
+/// Decides which pairs of bodies are tested. By default, every pair is tested.
 class PairFilter {
  public:
-  /// Excludes a pair of bodies from all tests. A pair's last reason counts.
+  /// Excludes a pair of bodies from all tests. A later reason for the same pair replaces the
+  /// earlier one.
   /// @param reason not empty: "adjacent", "SRDF: Never", "allow", …
   void skip(std::size_t a, std::size_t b, std::string reason);
   /// Excludes pairs of bodies that never move against each other.
@@ -72,15 +74,15 @@ class PairFilter {
 /// The reason of PairFilter for bodies with the same mover.
 inline constexpr std::string_view kNeverMove = "never move against each other";
 
-/// Everything that moves, and what it could hit. Plain data, which a `ModelBuilder` makes. Lengths
-/// are in metres, angles in radians.
+/// The robots, the obstacles, and the pairs of bodies that are tested. Plain data, which a
+/// `ModelBuilder` makes. Lengths are in metres, angles in radians.
 struct Model {
   std::vector<ModelRobot> robots;
   KinematicTree tree;
   /// The planned coordinates, by the names that `start` and `goal` of a problem file use.
   ConfigurationSpace space;
   std::vector<ModelBody> bodies;  ///< the robots' links that have shapes, then the obstacles
-  PairFilter filter;              ///< of the pairs of `bodies`
+  PairFilter filter;              ///< decides which pairs of `bodies` are tested
 };
 
 /// Calls visit(a, b, why) for every pair of two bodies, a < b, of which at least one belongs to a
@@ -114,8 +116,9 @@ void forEachTestedPair(const Model& model, Visit visit) {
 /// Returns the number of pairs that `forEachPair` visits, in constant memory and linear time.
 double pairCount(const Model& model);
 
-/// Returns for each frame the nearest one that a variable moves, among the frame itself and those
-/// above it, or else the world. Two frames move against each other if theirs differ.
+/// Returns the mover of each frame. The mover is the nearest frame whose joint has a variable,
+/// among the frame itself and its ancestors. If there is none, the mover is the world. Two frames
+/// with the same mover never move against each other.
 std::vector<std::size_t> moversOf(const KinematicTree& tree);
 
 /// Returns whether the model has a planar or floating joint, or a rigid robot.

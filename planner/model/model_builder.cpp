@@ -14,13 +14,14 @@ namespace {
 
 constexpr const char* kPlace = "ModelBuilder";
 
-/// Excludes the pairs of a robot's links that are not tested: pairs that SRDF and robot.yaml allow,
-/// and adjacent links. Links are adjacent if one is above the other in the tree and no link between
-/// them has shapes. At most one joint between them is not fixed, and it is neither planar nor
-/// floating: over two joints, or one of these, links can meet anywhere.
+/// Excludes pairs of a robot's links from the tests: pairs that SRDF and robot.yaml allow, and
+/// adjacent links. Two links are adjacent under three conditions. One is above the other in the
+/// tree. No link between them has shapes. At most one joint between them is not fixed, and this
+/// joint is neither planar nor floating. Links with two moving joints between them, or with a
+/// planar or floating joint, can meet anywhere.
 void skipLinks(Model& model, std::size_t robot) {
   const RobotModel& description = model.robots[robot].model;
-  // A body of the robot is the only one on its link's frame.
+  // A frame of the robot has at most one body.
   std::map<std::size_t, std::size_t> bodyOnFrame;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (model.bodies[b].robot == robot) bodyOnFrame[model.bodies[b].frame] = b;

@@ -11,16 +11,17 @@
 
 namespace corridor {
 
-/// How a robot that is read from a URDF takes part in a model.
+/// Options of a robot that is read from a URDF.
 struct UrdfOptions {
-  /// For several robots: comes before the names of its links, joints and coordinates, as in
-  /// "left/hand".
+  /// The robot's name. Required if the model has several robots. It is the prefix of the names of
+  /// links, joints and coordinates, as in "left/hand".
   std::string name = {};
   RigidPose base = {};              ///< X_WB
-  std::filesystem::path srdf = {};  ///< allowed pairs of links; empty: none
+  std::filesystem::path srdf = {};  ///< gives pairs of links that may touch; empty: no SRDF
   PackageMap packages = {};         ///< see readUrdf
-  /// The joints that are planned for; empty: all that move by themselves. The others are held at
-  /// the value nearest to 0 within their limits.
+  /// The joints that are planned for; empty: all joints that can move and mimic no other. The
+  /// others are held at the value nearest to 0 within their limits, planar and floating joints at
+  /// the identity.
   std::vector<std::string> joints = {};
 };
 
@@ -30,14 +31,15 @@ class ModelBuilder {
  public:
   /// Adds a robot with joints. Planar and floating joints need bounds (`bound`).
   ModelBuilder& addRobot(const std::filesystem::path& urdf, const UrdfOptions& options = {});
-  /// Adds a robot whose members are set, except for those that the builder sets.
+  /// Adds a robot. All its members must be set, except for those that the builder sets.
   ModelBuilder& addRobot(ModelRobot robot);
   /// Adds a rigid body that moves in the plane (`planar`) or in space (`floating`). Its coordinates
-  /// are called "NAME/x", "NAME/y", … Shapes: see `shapeOf`.
+  /// have the names "NAME/x", "NAME/y", … `shapeOf` makes shapes.
   /// @param bounds of its position.
   ModelBuilder& addRigidBody(const std::string& name, JointType type,
                              std::vector<PlacedShape> shapes, const Corners& bounds);
-  /// Adds an obstacle, or nothing if there are no shapes.
+  /// Adds an obstacle. Its shapes (`shapeOf`) are in world coordinates. Without shapes, adds
+  /// nothing.
   ModelBuilder& addObstacle(std::string name, std::vector<PlacedShape> shapes);
   ModelBuilder& addObstacle(const std::string& name, const Primitive& primitive,
                             const RigidPose& at = {});
@@ -47,13 +49,15 @@ class ModelBuilder {
   /// Excludes a pair of bodies from all tests, by their names.
   ModelBuilder& allow(std::string a, std::string b);
 
-  /// Returns the model. Links are not tested against each other if their robot's SRDF allows it,
-  /// if they are adjacent, or if they never move against each other. The builder is then empty.
+  /// Returns the model. Two links are not tested against each other if their robot's SRDF allows
+  /// it, if they are adjacent, or if they never move against each other. Afterwards the builder is
+  /// empty.
   /// @throws InputError with all faults: those of the URDF and SRDF files; unknown or repeated
-  /// names; missing or bad bounds; more than 10^7 pairs of bodies.
+  /// names; illegal primitives; a robot that was added after an obstacle; missing or bad bounds;
+  /// more than 10^7 pairs of bodies.
   Model build();
-  /// The same for readers, which set bounds and allowed pairs afterwards: positions without bounds
-  /// are NaN, and the number of pairs is not limited.
+  /// Returns the model for readers, which set bounds and allowed pairs afterwards. It ignores
+  /// `bound` and `allow`: all bounds of positions are NaN. The number of pairs is not limited.
   Model buildUnbounded();
 
  private:
@@ -75,12 +79,14 @@ class ModelBuilder {
 /// Makes the description of a rigid robot. @param type planar or floating.
 RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes);
 
-/// Makes a shape. A primitive must be legal (`checkPrimitive`). A mesh is solid if everything
-/// inside it belongs to it, else a surface; it must then be watertight.
+/// Makes a shape. A primitive must be legal (`checkPrimitive`). With `solid`, everything inside the
+/// mesh belongs to the shape; the mesh must then be watertight, or else the constructor of
+/// `Checker` throws. Without `solid` the mesh is a surface. Vertices are in the coordinates of the
+/// link, or of the world for an obstacle.
 PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPose& at = {});
 PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid = false);
 
-/// Throws where a model has more pairs of bodies than are handled, 10^7.
+/// Throws if a model has more than 10^7 pairs of bodies.
 /// @param place for the message: the problem's file.
 /// @throws InputError
 void requireFewPairs(const Model& model, const std::string& place);

@@ -4,18 +4,18 @@
 
 #include "planner/model/model.h"
 
-/// Which joints of a robot are planned for.
+/// Functions that choose the joints of a robot that are planned for.
 namespace corridor {
 
-/// Returns whether the joint has a value of its own, and its limits leave it more than one.
+/// Returns whether the joint is neither fixed nor a mimic, and its lower and upper limit differ.
 bool canMove(const JointModel& joint);
 
 /// Returns all joints that can move, except those that are held already.
 std::vector<std::size_t> allMoving(const ModelRobot& robot);
 
-/// Sets the joints that are planned for. Other joints without a value in `held` or `heldPoses` are
-/// held at the value nearest to 0 within their limits, planar and floating ones at the identity,
-/// with a note in `robot.model.notes`.
+/// Sets the joints that are planned for. Other joints without a value in `held` or `heldPoses` get
+/// one: the value nearest to 0 within their limits, or the identity for planar and floating joints.
+/// A note in `robot.model.notes` lists them.
 void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active);
 
 }  // namespace corridor

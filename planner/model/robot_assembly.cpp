@@ -64,7 +64,8 @@ class RobotAssembly {
     for (const char* axis : planar ? std::vector{"x", "y"} : std::vector{"x", "y", "z"})
       group.coordinates.push_back(
           model_.space.add({Kind::line, in + axis, 0, unknown, unknown, false, weight}));
-    // The space measures a rotation by its quaternion's angle, half the rotation angle: hence 2 ×.
+    // The space measures a rotation by its quaternion's angle, which is half the rotation angle. So
+    // the weight is doubled.
     group.coordinates.push_back(model_.space.add(
         planar ? Coordinate{Kind::circle, in + "yaw", 0, -pi, pi, true, robot_.rotationWeight}
                : Coordinate{Kind::rotation, in + "rotation", 0, 0, 0, true,

@@ -12,12 +12,12 @@
 
 namespace corridor {
 
-/// How edges are checked: by a method that proves them, or by samples, as a baseline.
-/// The values before `discrete` are those of `EdgeMethod`, in the same order.
+/// How edges are checked: by a method that proves them, or by samples, as a baseline. The values
+/// before `discrete` correspond to those of `EdgeMethod`, in the same order.
 enum class EdgeCheck { certified, adaptive, advancement, discrete };
 /// OMPL's samplers of valid states.
 enum class StateSampler { uniform, gaussian, obstacleBased, bridgeTest, maxClearance };
-/// What planners optimise.
+/// The objectives that planners can optimise.
 enum class Objective { length, maxMinClearance, mechanicalWork };
 
 /// Returns the words that users write for the values of a choice, in the order of the enumeration.
@@ -49,8 +49,8 @@ std::optional<Choice> choiceNamed(std::string_view word) {
 /// Returns the method that proves edges; for `discrete`, the default method.
 EdgeMethod methodOf(EdgeCheck check);
 
-/// The finest resolution of sampled edges. Finer ones have no use, and OMPL counts an edge's steps
-/// in 32 bits.
+/// The finest resolution of sampled edges. A finer resolution has no use, and OMPL counts an edge's
+/// steps in 32 bits.
 inline constexpr double kFinestResolution = 1e-9;
 /// Returns whether a value is legal as OMPL's longest_valid_segment_fraction: from
 /// `kFinestResolution` to below 1.
@@ -59,23 +59,23 @@ inline bool isResolution(double value) {
 }
 
 struct PlannerSettings {
-  std::string name = "RRTConnect";  ///< OMPL's
+  std::string name = "RRTConnect";  ///< OMPL's name of the planner
   double time = 20;                 ///< seconds
   /// Whether to stop at the first solution. Unset: planners that optimise use all the time, and the
-  /// others stop.
+  /// others stop at the first solution.
   std::optional<bool> stopAtFirst;
   std::map<std::string, std::string> params;  ///< by OMPL's own names
 };
 
 struct CheckerSettings {
   EdgeCheck edges = EdgeCheck::certified;
-  double resolution = 0.01;         ///< for discrete; see isResolution
+  double resolution = 0.01;         ///< for `discrete`; see isResolution
   std::optional<double> tolerance;  ///< metres; unset: see checker/default_tolerance.h
   /// The trees that queries walk, by the words that users write.
   TreeNames trees = {"obb", "", ""};
 };
 
-/// How a path is searched. Every value is legal: readers check ranges and words.
+/// How a path is searched. Every value must be legal; readers check ranges and words.
 struct Settings {
   PlannerSettings planner;
   StateSampler sampler = StateSampler::uniform;

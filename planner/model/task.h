@@ -7,15 +7,15 @@
 
 namespace corridor {
 
-/// The largest deviation of a path's end from a goal, inclusive. Where a value is 0, only rounding
-/// is allowed.
+/// The largest deviation of a path's end from a goal, inclusive. If a value is 0, only rounding is
+/// allowed.
 struct GoalRegion {
   double position = 0;  ///< |Δp| of each planar or floating joint, metres
   double angle = 0;     ///< rotation angle of each planar or floating joint, radians
   double joint = 0;     ///< each single joint, rad or m
 };
 
-/// What a path must do: where it starts and ends, and how far it keeps from contact.
+/// The requirements of a path: its start, its goals, and the distance that it keeps from contact.
 struct Task {
   Configuration start;
   std::vector<Configuration> goals;  ///< one or more; a path may end at any of them
@@ -27,17 +27,28 @@ struct Task {
   Configuration tube;
 };
 
-/// The tracking error that a proof shall cover. Unset values stand for rounding only.
+/// The deviation from the path that a proof shall cover, in each coordinate that is planned for. It
+/// is for errors of these coordinates: the tracking error of joints, offsets of encoders, the
+/// localisation of a mobile base whose planar joint is planned for. The robot as a whole may also
+/// be early or late on the path. A joint or robot that lags behind another is covered only up to
+/// these values.
+///
+/// All other errors are excluded: the pose of a fixed base, the poses and axes of joints in their
+/// links, the values of held joints, the deviation of a mimic joint from its rule, and the shapes
+/// and positions of links and obstacles. The margin is for them (planner/README.md lists more).
+///
+/// Unset values stand for rounding only.
 struct TubeSpec {
-  std::optional<double> joints;    ///< for each single joint, rad or m
+  std::optional<double> joints;    ///< for each single joint: rad, or m if it is prismatic
   std::optional<double> position;  ///< for each coordinate of planar and floating joints, m
   std::optional<double> rotation;  ///< for the rotation of planar and floating joints, rad
 };
 
 /// Returns the half width of the tube that a proof covers, for each number of a configuration (m,
-/// rad): the larger of `asked` and rounding. A rotation has its value at the first of its four
-/// numbers. Rounding is 2^-40 of the coordinate's range; for a position, of the longest range of
-/// its joint's coordinates.
+/// rad). It is the value of `asked`, but at least the share for rounding: 2^-40 of the coordinate's
+/// range. For the coordinates of a position, that is the longest range of the joint's coordinates.
+/// A rotation has its half width at the first of its four numbers.
+/// @pre the bounds of all positions are set.
 Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked = {});
 
 }  // namespace corridor

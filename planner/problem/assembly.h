@@ -6,7 +6,8 @@
 #include "planner/model/model_builder.h"
 #include "planner/problem/robot_file.h"
 
-/// What all readers of problems do alike: the first and the last steps of making a `Problem`.
+/// The steps that all readers of problems have in common: the first and the last ones of making a
+/// `Problem`.
 namespace corridor {
 
 /// Adds the robots to a model, and their notes and files to the source.
@@ -15,10 +16,11 @@ void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& so
 /// Pairs of bodies that may touch, by index.
 using AllowedBodies = std::vector<std::array<std::size_t, 2>>;
 
-/// Completes a problem whose other members are set: excludes the allowed pairs, and sets tube and
-/// digest. Adds notes on pairs of different robots, or of robot and world, that are not tested
-/// because they never move against each other, and on a problem without tested pairs.
-/// @throws InputError where the problem has more than 10^7 pairs.
+/// Completes a problem whose other members are set: excludes the allowed pairs from the tests, and
+/// sets the tube. Adds a note that lists pairs which are not tested because they never move against
+/// each other, if the two bodies belong to different robots, or to a robot and the world. Adds a
+/// note if no pair is tested.
+/// @throws InputError if the problem has more than 10^7 pairs.
 void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& problem);
 
 }  // namespace corridor

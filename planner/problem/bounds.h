@@ -7,11 +7,12 @@
 
 namespace corridor {
 
-/// Enlarges the bounds of the group to contain start and goals. @returns whether that was needed.
+/// Enlarges the bounds of the group so that they contain start and goals. @returns whether that was
+/// needed.
 bool enlargeBounds(Problem& problem, const CoordinateGroup& group);
 
-/// Returns why the group's position in `q` is illegal ("outside of the bounds: x = 9 is not in
-/// [0, 1]"), or "".
+/// Returns why the group's position in `q` is outside of the bounds ("outside of the bounds: x = 9
+/// is not in [0, 1]"), or "".
 std::string whyOutside(const ConfigurationSpace& space, const CoordinateGroup& group,
                        const Configuration& q);
 

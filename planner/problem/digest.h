@@ -10,9 +10,9 @@ namespace corridor {
 /// its files (32 bytes each, one after the other). In a shell: sha256sum FILES | cut -c-64 | xxd -r
 /// -p | sha256sum.
 ///
-/// Reads the files again. The digest is that of the problem that was read if no file has changed
-/// since `readProblem`. Callers therefore compute it at once after reading, not at the end of their
-/// work, when a file may be another.
+/// The function reads the files again. If no file has changed since `readProblem`, the digest is
+/// that of the problem that was read. Callers should therefore compute it directly after
+/// `readProblem`, not at the end of their work, when a file may have changed.
 /// @throws InputError if a file can't be read.
 std::string digestOf(const Problem& problem);
 

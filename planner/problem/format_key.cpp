@@ -13,7 +13,7 @@ bool hasFormat(const YamlValue& document, const std::string& format, YamlSource&
   const auto entry = std::find_if(document.entries.begin(), document.entries.end(),
                                   [](const auto& e) { return e.key == "format"; });
   if (entry == document.entries.end()) {
-    source.fault(0, "missing key \"format\": the file begins with format: " + format);
+    source.fault(0, "missing key \"format\"; begin the file with format: " + format);
     return true;
   }
   if (entry->value.text == format) return true;

@@ -7,13 +7,13 @@
 
 namespace corridor {
 
-/// Checks the key `format` of a file. Returns false, with a fault, if the file is no map or has
-/// another format: other faults would only mislead then. A missing key is a fault, too, but returns
-/// true, so that the caller reads on.
+/// Checks the key `format` of a file. If the file is no map or has another format, adds a fault and
+/// returns false: further faults would only mislead. If the key is missing, adds a fault and
+/// returns true, so that the caller reads on.
 bool hasFormat(const YamlValue& document, const std::string& format, YamlSource& source);
 
-/// Returns the file's name without extension, or the folder's name where the file is called
-/// `usual`.yaml.
+/// Returns the file's name without extension. If that is `usual`, returns the name of the file's
+/// folder.
 std::string nameOfFile(const std::filesystem::path& file, const std::string& usual);
 
 }  // namespace corridor

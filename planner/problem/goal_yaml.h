@@ -5,8 +5,8 @@
 
 namespace corridor {
 
-/// Reads `start` and `goal` (one state or several, and `within`) into the problem. Faults go to the
-/// file's list. @pre the problem is assembled and has the bounds that its file gives.
+/// Reads `start` and `goal` (one state or several, and `within`) into the problem. Faults are added
+/// to the file's list. @pre the problem has its model, and the bounds that its file gives.
 void readStartAndGoals(const YamlMap& file, Problem& problem);
 
 }  // namespace corridor

@@ -19,13 +19,15 @@ class IniFile {
     int line = 0;
   };
 
-  /// Adds a fault to `faults` for each line of another form. `faults` must outlive the object.
+  /// Parses `text`. Adds a fault to `faults` for each line that has another form. `faults` must
+  /// outlive the object.
   IniFile(std::string file, const std::string& text, FaultList& faults);
 
   const std::vector<Entry>& entries() const { return entries_; }
-  /// Returns the first entry with that key ("section.key"), or nullptr.
+  /// Returns the first entry with this key ("section.key"), or nullptr.
   const Entry* find(const std::string& key) const;
-  /// Returns the value of that key as a number, or nullopt if it is absent or faulted.
+  /// Returns the value of this key as a number. Returns nullopt if the key is absent, or if a fault
+  /// was added.
   std::optional<double> number(const std::string& key, Range range = Range::Any) const;
   void fault(const Entry& entry, const std::string& text) const;
   void fault(int line, const std::string& text) const { faults_->add(file_, line, text); }

@@ -12,26 +12,26 @@
 /// Readers of maps of joint values, as in `start`, `goal`, `states`, `hold` and `bounds`.
 namespace corridor {
 
-/// Returns a message such as `there is no joint "pam" (did you mean "pan"?)`.
+/// Returns a message for an unknown joint, such as `there is no joint "pam" (did you mean "pan"?)`.
 std::string noSuchJoint(const std::string& name, const RobotModel& model);
 /// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
 std::string whyNotActive(const RobotModel& model, std::size_t joint);
 std::string outsideLimits(double value, double lower, double upper);
 
-/// Calls `read` for each entry of the map whose key is a joint's name, or that name and "_deg"
-/// (`degrees` is then true). Adds a fault for every other key except `others`.
+/// Calls `read` for each entry of the map whose key is a joint's name, or a joint's name followed
+/// by "_deg" (then `degrees` is true). Adds a fault for every other key that is not in `others`.
 void readJointValues(
     const YamlMap& map, const RobotModel& model,
     const std::function<void(std::size_t joint, const YamlValue::Entry& entry, bool degrees)>& read,
     const std::set<std::string>& others = {});
 
-/// Reads the pose of a planar or floating joint. Returns nullopt if it is faulted.
+/// Reads the pose of a planar or floating joint. Returns nullopt if a fault was added.
 std::optional<PlanarOrSpatialPose> readJointPose(const YamlValue& value, const std::string& path,
                                                  const JointModel& joint, YamlSource& source,
                                                  std::vector<std::string>& notes);
 
-/// Returns the numbers of a planar or floating joint's pose by their names in states: "base/x",
-/// "base/y", "base/yaw", or "body/x" … "body/qw".
+/// Returns the numbers of the pose of a planar or floating joint, by their names in states:
+/// "base/x", "base/y", "base/yaw", or "body/x" … "body/qw".
 std::map<std::string, double> numbersOf(const JointModel& joint, const PlanarOrSpatialPose& pose);
 
 }  // namespace corridor

@@ -23,7 +23,7 @@ const Words shapeKeys =
 
 using Keys = std::map<std::string, MapKeys>;
 
-/// Adds the keys of a shape at `path`, and `more` keys beside them.
+/// Adds the keys of a shape at `path`, and the keys `more`.
 void addShape(Keys& keys, const std::string& path, const Words& more) {
   keys[path] = {shapeKeys + more, {}};
   keys[path + ".sphere"] = {{"radius"}, {}};
@@ -73,7 +73,7 @@ Words volumeNames() {
   return names;
 }
 
-/// Returns the fits, or the overlap tests, of all volumes together, each once.
+/// Returns the names of the fits, or of the overlap tests, of all volumes, each once.
 Words ofAnyVolume(Words VolumeKind::*variants) {
   Words all;
   for (const VolumeKind& kind : volumeKinds())

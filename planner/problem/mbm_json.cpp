@@ -20,14 +20,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Limits of a set, which keep a damaged or hostile file from taking all memory or the stack. The
-/// parser reports one event for a key, one for a value, and two for a value that is a list or an
-/// object (begin, end). So a file beyond the limit has more than 10^7 keys and values.
+/// Limits of a set, which keep a damaged or hostile file from using all memory or the whole stack.
+/// The parser reports one event for a key, one for a value, and two for a value that is a list or
+/// an object (begin, end). So a file beyond the limit has more than 10^7 keys and values.
 constexpr std::size_t kMostEvents = 20'000'000;
 constexpr int kMostDepth = 64;
 
-/// Reads a set. Its faults have no lines, except for JSON errors; their text names the key or the
-/// object instead ("goals[2]", "box1.size").
+/// Reads one problem of a set. Faults have no line numbers, except for JSON errors. Their text
+/// names the key or the object instead ("goals[2]", "box1.size").
 class MbmReader {
  public:
   MbmReader(const std::filesystem::path& file, const std::string& index)
@@ -101,7 +101,7 @@ class MbmReader {
          "; there are " + ranges(indices));
   }
 
-  /// Returns "1 to 50" for indices without gaps, else the first of them, listed.
+  /// Returns "1 to 50" for indices without gaps, else a list of the first indices.
   static std::string ranges(const std::vector<std::string>& indices) {
     bool inRow = indices.size() > 2;
     for (std::size_t i = 0; i < indices.size() && inRow; ++i)
@@ -138,7 +138,8 @@ class MbmReader {
     return result;
   }
 
-  /// Returns the file that `key` names, in the nearest folder above the set that holds it.
+  /// Returns the path of the file that `key` names: in the nearest folder above the set that
+  /// contains such a file.
   std::filesystem::path dataFile(const Json& set, const char* key) const {
     const std::string name = word(set, key);
     std::filesystem::path folder = std::filesystem::absolute(file_).lexically_normal();

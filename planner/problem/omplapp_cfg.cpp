@@ -29,8 +29,8 @@ const Keys spatialOnlyKeys{"start.z", "start.axis.x", "start.axis.y", "start.axi
 /// OMPL.app's default of `threshold`, in the state space's distance.
 constexpr double kThreshold = 1e-6;
 
-/// Returns those of `keys` that the section `problem` has, or with `present` false those that it
-/// lacks.
+/// Returns the subset of `keys` that the section `problem` has, or, if `present` is false, the
+/// subset that it lacks.
 Keys select(const IniFile& ini, const Keys& keys, bool present) {
   Keys result;
   for (const std::string& key : keys)
@@ -38,8 +38,8 @@ Keys select(const IniFile& ini, const Keys& keys, bool present) {
   return result;
 }
 
-/// Returns planar or floating by OMPL.app's rule: planar where the file has only x, y and theta,
-/// floating where it has z and axis, too. nullopt: faulted.
+/// Returns planar or floating by OMPL.app's rule: planar if the file has only x, y and theta,
+/// floating if it has z and axis, too. nullopt: a fault was added.
 std::optional<JointType> spaceOf(const IniFile& ini) {
   const Keys missing = select(ini, planarKeys, false),
              missing3 = select(ini, spatialOnlyKeys, false);
@@ -55,8 +55,8 @@ std::optional<JointType> spaceOf(const IniFile& ini) {
   return std::nullopt;
 }
 
-/// OMPL's setAxisAngle: the axis is normalised, and one shorter than the machine epsilon means no
-/// rotation.
+/// Computes the same as OMPL's setAxisAngle: the axis is normalised, and an axis shorter than the
+/// machine epsilon means no rotation.
 Eigen::Quaterniond axisAngle(const Vec3& axis, double angle) {
   const double norm = axis.stableNorm();
   if (norm < std::numeric_limits<double>::epsilon()) return Eigen::Quaterniond::Identity();
@@ -124,7 +124,7 @@ struct CfgMesh {
   PlacedShape shape;
 };
 
-/// Reads the mesh that the key `robot` or `world` names. Returns nullopt if it is faulted.
+/// Reads the mesh that the key `robot` or `world` names. Returns nullopt if a fault was added.
 std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Problem& problem,
                                 FaultList& faults) {
   const IniFile::Entry* entry = ini.find("problem." + key);
@@ -158,8 +158,8 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
   }
 }
 
-/// Makes a robot of one mesh, recentred. From an empty `mesh`, for a file that could not be read,
-/// it makes a robot whose poses can still be checked.
+/// Makes a robot of one mesh, recentred. `mesh` may be empty, for a file that could not be read:
+/// the poses of the robot can then still be checked.
 RobotSetup robotOf(CfgMesh mesh, JointType type) {
   Vec3 centre = mesh.read.vertexAverage;
   if (type == JointType::planar) centre.z() = 0;
@@ -207,8 +207,8 @@ void faultDuplicates(const IniFile& ini) {
                                 ", first on line " + std::to_string(ini.find(entry.key)->line));
 }
 
-/// Notes the keys that are not read. `turningradius` is left out: it only matters for the state
-/// spaces that `rejectDynamics` refuses.
+/// Adds a note that lists the keys that are not read. `turningradius` is left out of the list: it
+/// only has a meaning for the state spaces that `rejectDynamics` refuses.
 void noteUnused(const IniFile& ini, Problem& problem) {
   std::set<std::string> used{"problem.name",
                              "problem.robot",

@@ -8,7 +8,7 @@
 namespace corridor {
 namespace {
 
-/// OMPL's names of planners, by OMPL.app's.
+/// OMPL's names of planners, by the names in OMPL.app.
 const std::map<std::string, std::string>& omplNames() {
   static const std::map<std::string, std::string> names{{"rrt", "RRT"},
                                                         {"rrtconnect", "RRTConnect"},
@@ -43,10 +43,10 @@ const std::map<std::string, std::string>& omplNames() {
 }
 
 struct Instance {
-  std::string name;  ///< OMPL.app's
+  std::string name;  ///< the planner's name in OMPL.app
   int line = 0;
   std::map<std::string, const IniFile::Entry*> params,
-      problem;  ///< its own parameters, and the keys of the problem that it overrides
+      problem;  ///< the planner's parameters, and the keys of `problem` that it overrides
 };
 
 }  // namespace

@@ -11,9 +11,9 @@
 namespace corridor {
 namespace {
 
-/// The largest deviation from 1 of the norm of a typed quaternion. Rounding to three digits after
-/// the point causes 0.001 at most: four components, each off by at most 0.0005, change the norm by
-/// at most 0.0005·√4.
+/// The largest deviation from 1 that the norm of a quaternion in a file may have. Rounding to three
+/// digits after the point causes 0.001 at most: four components, each off by at most 0.0005, change
+/// the norm by at most 0.0005·√4.
 constexpr double normSlack = 1e-3;
 
 std::optional<Orientation> readQuaternion(const YamlMap& map) {
@@ -56,7 +56,7 @@ bool isWrongKind(const YamlValue& value, const PoseForm& form) {
   return !hasLegal;
 }
 
-/// Reads `yaw` or `yaw_deg`, in radians; 0 if both are absent. Returns nullopt if it is faulted.
+/// Returns `yaw` or `yaw_deg` in radians, 0 if both are absent, or nullopt if a fault was added.
 std::optional<double> readYaw(const YamlMap& map, std::vector<std::string>& notes) {
   if (!map.find("yaw") && !map.find("yaw_deg")) return 0;
   if (map.find("yaw") && map.find("yaw_deg")) return map.angle("yaw");

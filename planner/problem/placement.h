@@ -20,16 +20,17 @@ struct Orientation {
 Orientation fromRpyDegrees(const Vec3& degrees);
 Orientation fromRpy(const Vec3& radians);
 
-/// Returns the angle brought into (-π, π], to a double in that interval.
+/// Returns the angle minus whole turns, a double in [−π, π] (collision/core/circle.h).
 double wrappedYaw(double radians);
 /// Returns the angle brought into (-180, 180] degrees, without rounding.
 double wrappedYawDegrees(double degrees);
 
-/// Reads the orientation that a map gives by at most one of rpy_deg, rpy and quat_xyzw. If none of
-/// them is there, it is the identity. Returns nullopt after a fault.
+/// Reads the orientation that a map gives by at most one of rpy_deg, rpy and quat_xyzw. Without any
+/// of them it is the identity. Returns nullopt if a fault was added.
 std::optional<Orientation> readOrientation(const YamlMap& map);
 
-/// The pose of a frame or a shape in two forms: as written, and as a map of points.
+/// The pose of a frame or a shape in two forms: as written in the file, and as the map that is
+/// applied to points.
 struct Placement {
   RigidPose pose;
   Transform X;
@@ -39,13 +40,13 @@ struct Placement {
 /// Returns the composition a · b, rounded.
 Placement operator*(const Placement& a, const Placement& b);
 
-/// Reads a map's `at` and its rotation, both optional. Returns nullopt if one is faulted.
+/// Reads a map's `at` and its rotation, both optional. Returns nullopt if a fault was added.
 std::optional<Placement> readPlacement(const YamlMap& map);
 
 /// The pose of a rigid robot, or of a planar or floating joint.
 struct PlanarOrSpatialPose {
   RigidPose pose;  ///< planar: z = 0 and the rotation by `yaw`
-  double yaw = 0;  ///< planar only, in (-π, π]
+  double yaw = 0;  ///< planar only, radians in [−π, π]
 };
 /// The form in which a pose is expected.
 struct PoseForm {
@@ -53,10 +54,11 @@ struct PoseForm {
   std::string mover;              ///< for messages: "the robot moves in SE3 (rigid: SE3)"
   const MapKeys* keys = nullptr;  ///< the legal keys
 };
-/// Reads a pose. Returns nullopt if it is faulted; a planar pose instead of a spatial one, or the
-/// other way round, gives the single fault "goal of the wrong kind: …".
+/// Reads a pose. Returns nullopt if a fault was added. A planar pose where a spatial one is
+/// expected, or a spatial pose where a planar one is expected, gives the single fault "goal of the
+/// wrong kind: …".
 /// @param path of the value: "start", "goal[0].left".
-/// @param notes gets a line where a yaw is wrapped.
+/// @param notes gets a note if whole turns were subtracted from a yaw.
 std::optional<PlanarOrSpatialPose> readPose(const YamlValue& value, const std::string& path,
                                             const PoseForm& form, YamlSource& source,
                                             std::vector<std::string>& notes);

@@ -13,7 +13,8 @@
 
 namespace corridor {
 
-/// Where a problem comes from, for messages and solution files.
+/// The files that a problem was read from, and notes on reading them; for messages and solution
+/// files.
 struct Source {
   std::filesystem::path file;
   std::string name;
@@ -27,13 +28,14 @@ struct Source {
   /// one ("start", "planner.name", "planner.params.range", "sampler", …).
   std::map<std::string, int> lines;
 
-  /// Returns a fault at the line of `key`. Without such a line it takes the nearest enclosing key
-  /// ("planner.params", then "planner"), and without any of these no line (0).
+  /// Returns a fault at the line of `key`. If `key` has no line, the fault is at the line of the
+  /// nearest enclosing key ("planner.params", then "planner"). If none of these has a line, the
+  /// line is 0 (none).
   Fault faultAt(std::string_view key, std::string text) const;
 };
 
 /// A motion planning problem as read from a `problem.yaml`, an OMPL.app `.cfg` or a benchmark set
-/// (`FILE.json#INDEX`). It is complete, and its input files are free of faults. Lengths are in
+/// (`FILE.json#INDEX`). All members are set, and its input files had no faults. Lengths are in
 /// metres, angles in radians.
 struct Problem {
   Model model;

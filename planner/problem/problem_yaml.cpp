@@ -22,8 +22,8 @@ const std::vector<std::string>& wordsOf(const char* key) {
   return problemChoices().at(key);
 }
 
-/// Reads robot files. A file that several robots name is read once, so that its faults are listed
-/// once.
+/// Reads robot files. If several robots name the same file, it is read once, so that its faults are
+/// listed once.
 class RobotFiles {
  public:
   explicit RobotFiles(FaultList& faults) : faults_(faults) {}
@@ -58,8 +58,8 @@ void readBase(const YamlMap& map, std::optional<RobotSetup>& robot) {
   robot->robot.base = base->pose;
 }
 
-/// Reads `robot` or `robots`. Returns nothing if there are none, or if one of them is not known
-/// well enough to read its start.
+/// Reads `robot` or `robots`. Returns an empty list if there are no robots, or if `readRobotFile`
+/// returned nullopt for one of them.
 std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::path& folder) {
   std::vector<RobotSetup> robots;
   RobotFiles files(file.source().faults);

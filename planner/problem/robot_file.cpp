@@ -65,7 +65,7 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
     }
 }
 
-/// Returns nullopt if `rigid` (SE2 or SE3) is faulted.
+/// Returns nullopt if the value of `rigid` is neither SE2 nor SE3.
 std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
                                     const std::filesystem::path& folder, RobotSetup setup) {
   for (const char* key : {"srdf", "packages", "group", "joints", "hold", "states", "allow"})

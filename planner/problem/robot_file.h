@@ -11,15 +11,16 @@
 
 namespace corridor {
 
-/// A robot while a problem is read: what its file says, before a model is built.
+/// The content of a robot's file, while a problem is read and before a model is built.
 struct RobotSetup {
   ModelRobot robot;
-  std::vector<std::filesystem::path> files;  ///< the robot's file, then all that it names
+  std::vector<std::filesystem::path> files;  ///< the robot's file, then the files that it names
 };
 
-/// Reads a file of the format corridor-robot-1, or a bare URDF. Its faults, and those of the files
-/// that it names, go to `faults`. Returns nullopt if the robot is not known well enough to read its
-/// start. A rigid robot is returned without the shapes that have faults.
+/// Reads a file of the format corridor-robot-1, or a bare URDF. The faults of this file, and of the
+/// files that it names, are added to `faults`. Returns nullopt if faults leave unknown which joints
+/// the robot has, or in which space (SE2 or SE3) a rigid robot moves. A rigid robot is returned
+/// even if shapes have faults; these shapes are left out.
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults);
 
 }  // namespace corridor

@@ -13,7 +13,7 @@ namespace corridor {
 /// @throws std::runtime_error if the library is not installed.
 std::array<std::uint8_t, 32> sha256(std::string_view bytes);
 
-/// Returns `sha256` in 64 lower-case hexadecimal digits.
+/// Returns `sha256` as 64 lower-case hexadecimal digits.
 std::string sha256Hex(std::string_view bytes);
 
 }  // namespace corridor

@@ -28,7 +28,8 @@ MeshFileOptions readMeshOptions(const YamlMap& map) {
   return options;
 }
 
-/// Reads the mesh file that `key` names, and adds it to `files`. Returns nullopt if it is faulted.
+/// Reads the mesh file that `key` names, and adds it to `files`. Returns nullopt if a fault was
+/// added.
 std::optional<MeshFile> readMesh(const YamlMap& map, const char* key,
                                  const std::filesystem::path& folder, std::filesystem::path& file,
                                  std::vector<std::filesystem::path>& files) {
@@ -138,7 +139,7 @@ bool isFinite(const ConvexPart& part) {
                      [](const Vec3& point) { return point.allFinite(); });
 }
 
-/// Returns whether the mesh can be solid, that is, watertight. If it can't, adds a fault.
+/// Returns whether the mesh is watertight, as a solid mesh must be. If not, adds a fault.
 bool checkSolid(const YamlMap& map, const PlacedShape& shape) {
   const MeshHealth health = inspectMesh(shape.mesh->mesh);
   if (health.watertight) return true;

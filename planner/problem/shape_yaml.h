@@ -18,15 +18,15 @@ struct ShapePlace {
   Placement outer = {};          ///< placement of the obstacle that lists the shape in `shapes`
 };
 
-/// Reads a mesh or a primitive, with unit, up-axis and placement applied. Returns nullopt if it is
-/// faulted.
+/// Reads a mesh or a primitive, and applies unit, up-axis and placement. Returns nullopt if a fault
+/// was added.
 /// @param files gets the shape's file, if it has one.
 std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place,
                                      std::vector<std::filesystem::path>& files);
 
-/// Reads the list `shapes` of a robot or an obstacle. A single shape gets the name `place.name`;
-/// one of several gets that name, a slash, and its own name or its number from 1. Faulted shapes
-/// are left out. @pre the map has `shapes`.
+/// Reads the list `shapes` of a robot or an obstacle. A single shape gets the name `place.name`.
+/// Each of several shapes gets this name, a slash, and its own name or its number from 1. Shapes
+/// with faults are left out. @pre the map has `shapes`.
 /// @param keys the legal keys of one shape.
 std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
                                     const ShapePlace& place,
@@ -35,7 +35,7 @@ std::vector<PlacedShape> readShapes(const YamlMap& map, const MapKeys& keys,
 /// Translates a shape. @returns whether all its coordinates are still finite.
 bool shift(PlacedShape& shape, const Vec3& by);
 
-/// Adds a file to the list, unless it is there already.
+/// Adds a file to the list, unless the list already has it.
 void addFile(std::vector<std::filesystem::path>& files, const std::filesystem::path& file);
 
 }  // namespace corridor

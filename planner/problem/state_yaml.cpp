@@ -14,8 +14,8 @@
 
 namespace corridor {
 
-/// The numbers of one robot's state by their names in the robot ("pan", "base/yaw"), each with its
-/// line and path for messages.
+/// The numbers of one robot's state by their names in the robot ("pan", "base/yaw"). Each number
+/// has its line and its path, for messages.
 struct StateReader::Given {
   struct Number {
     double value = 0;

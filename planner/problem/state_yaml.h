@@ -10,11 +10,11 @@
 
 namespace corridor {
 
-/// Reads states as in `start` and `goal`: one configuration of all robots of a problem.
+/// Reads states of a problem, as in `start` and `goal`. A state is one configuration of all robots.
 class StateReader {
  public:
   /// All arguments must outlive the object.
-  /// @param problem with its model, and the bounds that its file gives.
+  /// @param problem has its model, and the bounds that its file gives.
   StateReader(Problem& problem, YamlSource& source) : problem_(problem), source_(source) {}
 
   /// Returns the configuration, or nullopt after adding a fault.
@@ -23,7 +23,8 @@ class StateReader {
   std::optional<Configuration> read(const YamlValue& value, const std::string& path,
                                     const std::set<std::string>& others = {});
 
-  /// Returns whether the problem has one robot by `robot: …`: its states are then not under a name.
+  /// Returns whether the problem has one robot, given by `robot: …`. Its states are then not under
+  /// a robot's name.
   bool isAlone() const { return robots().size() == 1 && robots().front().name.empty(); }
 
  private:
@@ -48,9 +49,9 @@ class StateReader {
   YamlSource& source_;
 };
 
-/// Returns the value to store in a coordinate. A circle's angle is wrapped into (−π, π]; a line's
-/// value beyond a limit by at most `limitSlack` becomes the limit. Both add a note. Returns
-/// nullopt, and sets `why`, if the value is outside of the limits.
+/// Returns the value to store in a coordinate. A circle's angle is brought into (−π, π]. A line's
+/// value that is beyond a limit by at most `limitSlack` is replaced by the limit. Both add a note.
+/// If a line's value is farther outside of its limits, returns nullopt and sets `why`.
 /// @param path the value's place in the file, for the note and for `why`.
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
                                       const std::string& path, std::vector<std::string>& notes,

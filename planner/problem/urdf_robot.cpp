@@ -16,7 +16,8 @@
 namespace corridor {
 namespace {
 
-/// Returns the path that a key names, or nullopt if the key is absent or faulted.
+/// Returns the path of the file that a key names. Returns nullopt if the key is absent, or if a
+/// fault was added.
 std::optional<std::filesystem::path> readFileName(const YamlMap& map, const char* key,
                                                   const std::filesystem::path& folder) {
   const auto name = map.text(key);
@@ -45,7 +46,7 @@ PackageMap readPackages(const YamlMap& file, const std::filesystem::path& folder
   return packages;
 }
 
-/// Reads URDF and SRDF. Returns nullopt if one of them is faulted.
+/// Reads URDF and SRDF. Returns nullopt if one of them has a fault.
 std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const PackageMap& packages,
                                     const std::optional<std::filesystem::path>& srdf,
                                     FaultList& faults, std::vector<std::filesystem::path>& files) {
@@ -134,7 +135,8 @@ void readHold(const YamlMap& file, RobotSetup& setup) {
   });
 }
 
-/// Reads `states`: maps of joint values by name, which replace the SRDF's states of these names.
+/// Reads `states`: maps of joint values, by the state's name. A state replaces the SRDF's state of
+/// the same name.
 void readStates(const YamlMap& file, RobotModel& model) {
   const YamlValue* value = file.find("states");
   if (!value) return;

@@ -25,8 +25,8 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
                                       const BodiesByName& bodies) {
   std::vector<std::size_t> found;
   if (const auto same = bodies.find(name); same != bodies.end()) found = same->second;
-  // Links of a single robot have no prefix. The robot's name before a link's name is accepted, and
-  // distinguishes the link from an obstacle of the same name.
+  // Links of a single robot have no prefix. A link's name with the robot's name before it is also
+  // accepted: it distinguishes the link from an obstacle of the same name.
   const ModelRobot& first = model.robots.front();
   const std::string own = first.model.name + "/";
   if (!first.name.empty() || !name.starts_with(own)) return found;
@@ -36,8 +36,8 @@ std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& mode
   return found;
 }
 
-/// Returns whether this is the name of a link. A link that is no body has no shapes, so that a pair
-/// with it needs no permission; naming it is no mistake.
+/// Returns whether this is the name of a link. A link without shapes is no body, so a pair with it
+/// needs no `allow`. But it is no fault to list it.
 bool isBareLink(const std::string& name, const Model& model) {
   for (const ModelRobot& robot : model.robots)
     for (const LinkModel& link : robot.model.links)

@@ -6,10 +6,10 @@
 namespace corridor {
 
 /// Reads `world` and adds its obstacles to the model.
-/// @param needed whether a problem without obstacles is faulted.
+/// @param needed whether a problem without obstacles has a fault.
 void readWorld(const YamlMap& file, bool needed, ModelBuilder& builder, Source& source);
 
-/// Reads `allow`, a list of pairs of bodies' names. A pair with a link that has no shapes is left
+/// Reads `allow`, a list of pairs of names of bodies. A pair with a link that has no shapes is left
 /// out. @pre the model has all its bodies.
 AllowedBodies readAllow(const YamlMap& file, const Model& model);
 

@@ -25,7 +25,7 @@ struct LaterKey {
   std::string instead;  ///< what to do instead: the end of the message
 };
 
-/// The keys of a map: legal ones, and ones with a fault of their own.
+/// The keys of a map: the legal ones, and unsupported ones, whose fault says what to do instead.
 struct MapKeys {
   std::vector<std::string> legal;
   std::vector<LaterKey> later;
@@ -41,7 +41,7 @@ struct YamlSource {
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };
 
-/// The numbers that are legal as the value of a key.
+/// The range of numbers that are legal as the value of a key.
 enum class Range { Any, NotNegative, Positive, Resolution /**< see isResolution */ };
 
 /// The whole numbers that are legal as the value of a key, both ends included.
@@ -51,15 +51,16 @@ struct WholeRange {
 };
 
 /// Parses the whole text as a decimal number. Returns "" and sets `value`, or returns a complaint
-/// ("a number is needed, not …"). A number too small for a double becomes the nearest double; one
-/// too large counts as not finite, and so do nan and inf: each is a fault.
+/// ("a number is needed, not …"). A number that is too small for a double becomes the nearest
+/// double. A number that is too large, nan and inf are not finite, and give a complaint.
 std::string parseNumber(std::string_view text, Range range, double& value);
 
 /// One map of a file.
 class YamlMap {
  public:
-  /// Adds a fault if the value is no map, and one for each unknown, unsupported or repeated key. If
-  /// a key is repeated, its first value is used. `value` and `source` must outlive the object.
+  /// Adds a fault if the value is no map, and a fault for each unknown, unsupported or repeated
+  /// key. If a key is repeated, its first value is used. `value` and `source` must outlive the
+  /// object.
   /// @param path of the map in its file: "", "planner", "planner.params".
   /// @param keys the legal keys; nullptr: any key is legal.
   YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source);
@@ -73,13 +74,13 @@ class YamlMap {
 
   const YamlValue* find(std::string_view key) const;  ///< nullptr: absent
   /// Returns the same as `find`. Adds a fault if the key is absent, unless an earlier fault
-  /// explains its absence: the value is no map, or an unknown key is probably this one with a
-  /// typing error.
-  /// @param purpose what the key should hold, for the message.
+  /// explains its absence: the value is no map, the map has an unsupported key, or it has an
+  /// unknown key that is similar to this one.
+  /// @param purpose the value that the key should have, for the message.
   const YamlValue* require(std::string_view key, const std::string& purpose) const;
 
-  /// Returns the one of `keys` that is present. Adds a fault if several are, and, like `require`,
-  /// if none is.
+  /// Returns the only one of `keys` that is present. Adds a fault if several are present, and,
+  /// under the conditions of `require`, if none is.
   /// @param what the keys describe, for messages: "one shape".
   std::optional<std::string> requireOne(const std::vector<std::string>& keys,
                                         const std::string& what, const std::string& purpose) const;
@@ -93,7 +94,7 @@ class YamlMap {
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& of) const;
   /// Returns a list of exactly `count` numbers.
   std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const;
-  /// Returns an angle in radians, given as `key` or, in degrees, as `key_deg`.
+  /// Returns an angle in radians. The map has it in radians as `key`, or in degrees as `key_deg`.
   std::optional<double> angle(const std::string& key, Range range = Range::Any) const;
 
  private:
@@ -105,20 +106,20 @@ class YamlMap {
   std::vector<const YamlValue::Entry*> entries_;
   std::unordered_map<std::string_view, const YamlValue::Entry*> index_;  ///< `entries_` by key
   std::set<std::string> missed_;  ///< legal keys that an unknown key resembles
-  bool explainsMissing_ = false;  ///< it is no map, or has a key that is not supported
+  bool explainsMissing_ = false;  ///< the value is no map, or has an unsupported key
 };
 
-/// Returns a number, or nullopt if it is faulted. @param path for messages.
+/// Returns a number, or nullopt if a fault was added. @param path for messages.
 std::optional<double> readNumber(const YamlValue& value, Range range, const std::string& path,
                                  const YamlSource& source);
 
-/// Returns a list of words, or nullopt if it is faulted.
+/// Returns a list of words, or nullopt if a fault was added.
 /// @param form an example for the message: "such as [arm, hand]".
 std::optional<std::vector<std::string>> readWords(const YamlValue& value, const std::string& form,
                                                   const std::string& path,
                                                   const YamlSource& source);
 
-/// Returns a list of `count` numbers, or nullopt if it is faulted. @param path for messages.
+/// Returns a list of `count` numbers, or nullopt if a fault was added. @param path for messages.
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
                                                const std::string& path, const YamlSource& source);
 

@@ -6,8 +6,8 @@
 
 namespace corridor {
 
-/// A value of a YAML document, with everything in it. Repeated keys are kept, and each value and
-/// key has its line in the file, from 1.
+/// A value of a YAML document: a scalar, or a list or map with all values in it. Repeated keys are
+/// kept. Each value and each key has its line in the file, from 1.
 struct YamlValue {
   enum class Kind { Null, Scalar, List, Map };
   struct Entry;
@@ -26,11 +26,11 @@ struct YamlValue::Entry {
   YamlValue value;
 };
 
-/// Limits of a document, which keep it below 1.4 GB of memory and its nesting small. Aliases are
-/// faulted, since nested aliases can expand a small file without bound.
+/// Limits of a document. They keep its memory below 1.4 GB and its nesting small. Aliases are
+/// errors, because nested aliases can expand a small file without bound.
 struct YamlLimits {
   std::size_t nodes = 10'000'000;  ///< keys and values
-  std::size_t depth = 64;          ///< how deep lists and maps may be nested
+  std::size_t depth = 64;          ///< the largest depth of nested lists and maps
 };
 
 /// Parses one YAML document.

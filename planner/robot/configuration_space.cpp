@@ -34,7 +34,7 @@ Quaterniond slerp(const Quaterniond& from, const Quaterniond& to, double t) {
   return Quaterniond(Eigen::Vector4d(wa * a.coeffs() + wb * b.coeffs())).normalized();
 }
 
-/// Euclidean norm, also of numbers whose squares overflow or underflow.
+/// Returns the Euclidean norm, also if the squares of the numbers overflow or underflow.
 template <class Vector>
 double lengthOf(const Vector& v) {
   const double norm = v.norm();
@@ -157,10 +157,10 @@ double ConfigurationSpace::distance(const double* a, const double* b) const {
 bool ConfigurationSpace::equal(const Configuration& a, const Configuration& b) const {
   return std::all_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& c) {
     // OMPL normalises quaternions and wraps angles in passing (enforceBounds), and treats the
-    // result as the same state. So rotations may differ by 64u, u = 2^-53. A quaternion's norm (sum
-    // of squares, root) and quotient are within 5u, so two normalised quaternions differ by at most
-    // 12u in angle; the angle computed here is off by 8u. An angle in [−π, π] is off by its ulp,
-    // 2u·π.
+    // result as the same state. So rotations may differ by 64u, u = 2^-53. The norm of a quaternion
+    // (sum of squares, root) and the quotient are off by at most 5u. So the angle between two
+    // normalised quaternions is off by at most 12u, and its computation adds 8u. An angle brought
+    // into [−π, π] is off by its ulp, 2u·π.
     const double off = differenceOf(c, a, b);
     return off <= (c.kind == Coordinate::Kind::line ? 0 : 32 * kUnit);
   });

@@ -8,8 +8,8 @@
 
 namespace corridor {
 
-/// A state of everything that moves: the numbers of a ConfigurationSpace, in its order. Metres,
-/// radians; quaternions as (x, y, z, w).
+/// A state of all robots of a problem: the numbers of a ConfigurationSpace, in the order of its
+/// coordinates. Metres, radians; quaternions as (x, y, z, w).
 using Configuration = Eigen::VectorXd;
 
 /// One coordinate of a configuration: a number, or the four numbers of a quaternion.
@@ -23,15 +23,15 @@ struct Coordinate {
   std::string name;  ///< "pan", "left/pan"; for a body that moves as a whole "x", "y", "z", "yaw",
                      ///< "rotation", or "left/x"
   std::size_t first = 0;        ///< index of its first number in a Configuration
-  double lower = 0, upper = 0;  ///< line only; inclusive
+  double lower = 0, upper = 0;  ///< used for lines only; inclusive
   bool angular = false;         ///< line only: in radians, not metres
   double weight = 1;            ///< factor of the difference (m or rad) in distances
 
   std::size_t size() const { return kind == Kind::rotation ? 4 : 1; }
 };
 
-/// Coordinates that belong together in a distance: the position and angle of a planar or floating
-/// joint, or all single joints of the problem.
+/// Coordinates that are combined in a distance: the position and the rotation of a planar or
+/// floating joint, or all single joints of the problem.
 struct CoordinateGroup {
   enum class Kind { joints, planar, floating };
   Kind kind = Kind::joints;
@@ -45,7 +45,7 @@ struct CoordinateGroup {
 /// - a circle goes the shorter way round, linear in t;
 /// - a rotation is the slerp of the two quaternions, normalised in real arithmetic, along the
 ///   shorter arc.
-/// An edge defines no curve where the shorter way is not unique within 1e-9 rad; see ambiguous().
+/// An edge defines no curve if the shorter way is not unique within 1e-9 rad; see ambiguous().
 class ConfigurationSpace {
  public:
   /// Adds a coordinate and sets its `first`. Each coordinate must be in one group; see addGroup().
@@ -66,20 +66,21 @@ class ConfigurationSpace {
   /// Brings the angles of circles into [−π, π] and quaternions to norm 1.
   void normalise(Configuration& q) const;
 
-  /// Returns the configuration on the edge at t in [0, 1]. It is within a few ulp at every angle,
-  /// except at half turns. It is `from` at t = 0 and `to` at t = 1 bit for bit, except that a
-  /// circle is brought into [−π, π]. Lines never leave [from, to].
+  /// Returns the configuration on the edge at t in [0, 1]. The rounding error is a few ulp for
+  /// every angle between `from` and `to`, except for half turns. The result is `from` at t = 0 and
+  /// `to` at t = 1 bit for bit, except that a circle's angle is brought into [−π, π]. Lines never
+  /// leave [from, to].
   Configuration interpolate(const Configuration& from, const Configuration& to, double t) const;
-  /// Returns the sum over the groups. Joints: the root of Σ (weight·difference)². Planar and
-  /// floating: weight·|Δp| + weight·angle, where a rotation counts by its quaternion angle, half of
-  /// the rotation's. The distance is 0 only for equal configurations.
+  /// Returns the sum of the distances in each group. Joints: the root of Σ (weight·difference)².
+  /// Planar and floating joints: weight·|Δp| + weight·angle. The angle of a `rotation` is its
+  /// quaternion angle, half of the rotation angle. The distance is 0 only for equal configurations.
   double distance(const Configuration& a, const Configuration& b) const {
     return distance(a.data(), b.data());
   }
-  /// The same for configurations in other memory, `size()` numbers each.
+  /// Returns the distance of two configurations given by pointers to `size()` numbers each.
   double distance(const double* a, const double* b) const;
-  /// Returns whether both are the same configuration up to the rounding of normalising: lines are
-  /// equal, circles within 32u, rotations within 64u, u = 2^-53.
+  /// Returns whether two configurations are the same up to the rounding of `normalise`: lines are
+  /// equal, circles differ by at most 32u and rotations by at most 64u, with u = 2^-53.
   bool equal(const Configuration& a, const Configuration& b) const;
   /// Returns whether some circle or rotation makes a half turn within 1e-9 rad. Then the edge
   /// defines no curve.

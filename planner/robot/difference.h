@@ -9,10 +9,10 @@
 
 namespace corridor {
 
-/// Returns how far b is from a in one coordinate, ≥ 0 and without its weight: metres, or radians
-/// the shorter way round. For a rotation this is the quaternion angle, half of the rotation's.
-/// Defined here because planners spend much of their time in distances.
-/// @param a, b  all numbers of a configuration.
+/// Returns the difference of a and b in one coordinate, ≥ 0 and without the weight: metres, or
+/// radians the shorter way round. For a rotation it is the quaternion angle, half of the rotation
+/// angle. Defined here because planners spend much of their time in distances.
+/// @param a, b pointers to all numbers of a configuration.
 inline double differenceOf(const Coordinate& c, const double* a, const double* b) {
   if (c.kind == Coordinate::Kind::rotation)
     return quaternionAngle(Eigen::Quaterniond(a + c.first), Eigen::Quaterniond(b + c.first));

@@ -13,11 +13,12 @@
 namespace corridor {
 namespace {
 
-/// Metres; part of every stated error. Squares below 2^-1022 underflow, and with them lengths below
-/// 2^-500. For levers below 2^99 m this covers what underflow can take from any bound.
+/// Metres; added to every error bound. Squares below 2^-1022 underflow, so that lengths below
+/// 2^-500 may be lost. For levers below 2^99 m this constant covers everything that a bound can
+/// lose by underflow.
 constexpr double kLeastError = 0x1p-400;
 
-constexpr std::size_t kItself = SIZE_MAX;  // instead of a view: the frame itself
+constexpr std::size_t kItself = SIZE_MAX;  // in place of a view: the frame itself
 
 /// The bound fixed + reach·|y| metres for a point at lever y from b's origin.
 struct LeverError {
@@ -26,12 +27,13 @@ struct LeverError {
 
 }  // namespace
 
-/// Poses are cached in *views*: the pose of a frame f in one of its ancestors. A view is computed
-/// once per t for all pairs with this lowest common ancestor. So the common part of two chains is
-/// never computed and its rounding never counted. A pair of frames on one chain needs one product
-/// of poses.
+/// Poses are cached in *views*. A view is the pose of a frame in the coordinates of one of its
+/// ancestors. It is computed once per t, for all pairs with this lowest common ancestor, by one
+/// product of poses from the view of the parent. So the joints between the world and this ancestor
+/// are not evaluated for these pairs, and their rounding is not counted. If one frame of a pair is
+/// the ancestor itself, the view of the other frame is the relative pose.
 struct EdgeMotion::Impl {
-  struct Place {  // pose of a frame in the nearest ancestor that isn't folded
+  struct Place {  // pose of a frame in its nearest ancestor that is kept
     MovingJoint joint;
     Transform X;
     std::uint64_t stamp = 0;  // identifies the t that X was computed for
@@ -42,8 +44,8 @@ struct EdgeMotion::Impl {
     Transform X;
     Vec3 axis = Vec3::UnitX();  // axis of the frame's joint, in the ancestor's coordinates
     std::uint64_t stamp = 0;
-    // Valid for the edge numbered `edge`: bounds of the errors of X, as an operator norm and in
-    // metres.
+    // Valid for the edge numbered `edge`: bounds on the errors of X.m (operator norm) and of X.t
+    // (metres).
     std::uint64_t edge = 0;
     double rotationError = 0, shiftError = 0, reach = 0;  // reach: upper bound of |X.t|
   };
@@ -55,8 +57,8 @@ struct EdgeMotion::Impl {
     std::size_t a = kItself, b = kItself;  // views, from the lowest common ancestor
     std::vector<Step> steps;               // from a's side to b's
     std::vector<ScrewMotion> screws;
-    // Valid for the edge numbered `edge`, and computed when the motion is first queried: the error
-    // of the pose and of the axes, and the error of the twist per unit of h.
+    // Valid for the edge numbered `edge`, and computed when the motion is first queried. `still`:
+    // the error of the pose and of the axes. `rate`: the error of the twist per unit of h.
     std::uint64_t edge = 0;
     LeverError still, rate;
   };
@@ -106,8 +108,8 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     : space(moved) {
   requireStandardFloatingPoint();
   const std::size_t count = tree.frames.size();
-  // Keep the frames that are in pairs, their common ancestors, and those that move by themselves.
-  // All others are folded into the fixed poses of their descendants.
+  // Keep the world, the frames of pairs, their common ancestors, and all frames whose joint moves.
+  // The constant poses of the other frames are multiplied into those of their descendants.
   std::vector<char> kept(count);
   for (std::size_t f = 0; f < count; ++f) kept[f] = f == 0 || moves(tree.frames[f]);
   std::vector<std::size_t> ancestors;
@@ -214,7 +216,7 @@ void EdgeMotion::Impl::setErrors(Path& path) {
   path.edge = edge;
   double length = 0;
   for (const Step& step : path.steps) length += places[views[step.view].place].joint.length();
-  LeverError turned;  // error of what is transformed into A, if A is not the ancestor
+  LeverError turned;  // error of points transformed into A's frame, if A is not the ancestor
   LeverError pose, axes;
   if (path.b != kItself) {
     const View& b = viewWithErrors(path.b);

@@ -10,9 +10,9 @@
 namespace corridor {
 
 /// The relative motions of the frames of a kinematic tree along one edge of its configuration
-/// space, as `Scene` queries them. A relative motion runs over the joints between its two frames
-/// only. All rounding (interpolation, sine, kinematics) is included: each frame has an error bound,
-/// accumulated along the chain.
+/// space, for queries of a `Scene`. A relative motion depends only on the joints between its two
+/// frames. All rounding (interpolation, sine, kinematics) is included: each frame has an error
+/// bound, accumulated along the chain.
 ///
 /// Poses are computed on demand, at most once per time interval. Use one object per thread. Call
 /// `set` for every edge; after the first edge it doesn't allocate.
@@ -20,8 +20,8 @@ class EdgeMotion final : public MotionSource {
  public:
   /// `tree` and `space` must outlive the object.
   /// @param pairs frames whose relative motions are queried; motion i is that of pairs[i].
-  /// @param tube for each number of a Configuration, how far it may deviate from the edge, ≥ 0
-  /// (metres or radians). For a rotation the first of its four numbers counts, radians.
+  /// @param tube for each number of a Configuration, the largest deviation from the edge, ≥ 0
+  /// (metres or radians). The deviation of a rotation is at the first of its four numbers, radians.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h).
   EdgeMotion(const KinematicTree& tree, const ConfigurationSpace& space,

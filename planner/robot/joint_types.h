@@ -9,12 +9,14 @@
 
 namespace corridor {
 
-/// Joint types by the names that URDF gives them; nullopt for an unknown name.
+/// Conversions between joint types and their names in URDF. `jointType` returns nullopt for an
+/// unknown name.
 std::string nameOf(JointType type);
 std::optional<JointType> jointType(std::string_view name);
 std::vector<std::string> jointTypeNames();
 
-/// Returns whether the joint is planar or floating: it then has a pose, not a single value.
+/// Returns whether the joint is planar or floating. Such a joint has a pose in place of a single
+/// value.
 bool isWhole(JointType type);
 /// Returns whether the joint has a value of its own: it is neither fixed nor a mimic.
 bool movesItself(const JointModel& joint);

@@ -26,21 +26,23 @@ struct Frame {
   };
   static constexpr std::size_t noVariable = SIZE_MAX;
 
-  std::string name;  ///< the link's name, such as "left/hand"; for an inner frame, the joint's
+  /// The link's name, such as "left/hand". A planar or floating joint has two frames; the first one
+  /// has the joint's name, or "position" for a rigid robot.
+  std::string name;
   std::size_t parent = 0;
   RigidPose fixed;  ///< X_P0
   Joint joint = Joint::none;
   Vec3 axis = Vec3::UnitZ();  ///< in the frame after `fixed`; any length but 0
-  /// Index of the first number in a Configuration. With `noVariable` a `revolute` or `prismatic`
-  /// joint is held at `offset`.
+  /// Index of the first number in a Configuration. If it is `noVariable`, a `revolute` or
+  /// `prismatic` joint is held at `offset`.
   std::size_t variable = noVariable;
   std::size_t count = 1;              ///< `translation` only: how many numbers, 2 or 3
   double multiplier = 1, offset = 0;  ///< `revolute`, `prismatic`: value = multiplier·q + offset
 };
 
-/// The frames of everything that moves, and of the world. Frame 0 is the world; parents come before
-/// their children. Plain data: the planner's kinematics and the verifier's independent kinematics
-/// both read it.
+/// The frames of all robots, and of the world. Frame 0 is the world; parents come before their
+/// children. Plain data, which both the planner's kinematics and the verifier's independent
+/// kinematics read.
 struct KinematicTree {
   std::vector<Frame> frames{Frame{}};
 

@@ -12,10 +12,10 @@
 
 namespace corridor {
 
-/// The mesh files that a URDF names, each read once.
+/// Reads the mesh files that a URDF names, each file once.
 class MeshStore {
  public:
-  /// The file that a URDF's mesh name stands for.
+  /// The file that a mesh name in a URDF stands for.
   struct Place {
     std::filesystem::path file;
     std::string complaint;  ///< empty if the file was read, or if its fault was reported before

@@ -28,24 +28,24 @@ std::pair<LongPose::Mat, LongPose::Mat> rodrigues(const LongPose::Vec& axis) {
   return {K, K * K};
 }
 
-// Error constants, with u the unit roundoff. The norm of a matrix error is bounded by Frobenius'
-// norm of its entries' errors.
+// Error constants, with u the unit roundoff. The norm of a matrix error is bounded by the Frobenius
+// norm of the errors of the entries.
 //
-// Constant poses. A long double pose rounded to double: 2^-53·√3 < 2u for a matrix with rows of
-// norm 1. Each pose that was multiplied in loses < 2^-58 in long double (some 30 roundings of
+// Constant poses. Rounding a long double pose to double costs 2^-53·√3 < 2u for a matrix with rows
+// of norm 1. Each product of poses in long double costs less than 2^-58 (some 30 roundings of
 // 2^-64).
 //
 // Revolute joint, fixed + sin φ·FK + (1 − cos φ)·FK²:
 // - the three constant matrices: √3 + √2 + 2√2 < 6u;
-// - sine and cosine within 1 ulp, doubled to be generous with libm, 4u each, and the rounding of 1
-//   − cos: 9u;
+// - sine and cosine, 1 ulp each, doubled as a reserve for libm: 4u each; with the rounding of 1 −
+//   cos φ: 9u;
 // - the sum, 3 roundings of terms with norms √3, √2, 2√2: 18u.
-// Together below 40u. The error of φ comes in addition.
+// Together below 40u. The error of φ is added separately.
 constexpr double kFoldError = 0x1p-58;
 constexpr double kTurnError = 40 * kUnit;
-// Free rotation (rigid_motion.cpp counts the steps):
+// Free rotation (collision/motion/rigid_motion.cpp derives the first two items):
 // - normalising: 6u per quaternion; the relative quaternion: 20u;
-// - its angle θ = 2·atan2(s, w): 48u; its axis: 20u/s + 3u, where θ/s ≤ π. The rotation vector is
+// - the angle θ = 2·atan2(s, w): 48u; the axis: 20u/s + 3u, where θ/s ≤ π. The rotation vector is
 //   therefore within 48u + 73u, below 2^-45.
 // - the matrices, and their sum with sine and cosine: below 200u for the orientation;
 // - the product of `fixed` with each of the three matrices (norms √3, √2, 2√2): 3u·√3·6 + 6·2u <
@@ -54,8 +54,8 @@ constexpr double kTurnError = 40 * kUnit;
 constexpr double kFreeTurnError = 0x1p-44;
 constexpr double kFreeRateError = 0x1p-45;
 
-/// Squares of values from here on are normal numbers. Smaller motions are covered by EdgeMotion's
-/// least error.
+/// Squares of values that are not smaller than this are normal numbers. Smaller motions are treated
+/// as rest; EdgeMotion's least error covers them.
 constexpr double kLeastMotion = 0x1p-500;
 
 }  // namespace
@@ -86,8 +86,8 @@ MovingJoint::MovingJoint(const LongPose& fixed)
     : fixed_(fixed.m.cast<double>()),
       shift_(fixed.t.cast<double>()),
       fixedError_(fixed.error),
-      // Rounding the sum to double costs 2u·length. In long double each pose rotates its own
-      // vector, which costs less than 2^-5 of that.
+      // Rounding the sum to double costs 2u·length. In long double the vector of each pose is
+      // rotated, which costs less than 2^-5 of that.
       fixedShiftError_(2 * kUnit * fixed.length * (1 + 0x1p-5 * fixed.poses)),
       fixedLength_(fixed.length),
       still_(fixed_),
@@ -146,8 +146,9 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
   ambiguous_ = false;
   if (kind_ == Coordinate::Kind::circle) {
     const CircleTurn turn = circleTurn(q0, q1);
-    // A joint that mimics a circle by a whole multiplier returns to the same pose after a full turn
-    // of the circle. Any other joint would jump where the edge crosses the seam at ±π.
+    // A revolute joint that mimics a circle by a whole multiplier returns to the same pose after a
+    // full turn of the circle. Any other joint that mimics a circle would jump where the edge
+    // crosses the seam at ±π.
     const bool comesRound =
         joint_ == Frame::Joint::revolute && multiplier_ == std::trunc(multiplier_);
     ambiguous_ = turn.ambiguous() || (!comesRound && turn.angle != delta);
@@ -167,7 +168,7 @@ void MovingJoint::setValue(const Configuration& from, const Configuration& to) {
     rotationError_ = roundedUp(kTurnError + fixedError_ + valueError);
     return;
   }
-  // Errors besides `valueError`: the slide axis is within 2u, and value·axis, t times the
+  // Errors besides `valueError`: the slide axis is off by 2u. Then value·axis, t times the
   // displacement, and the sums round by u each of at most V, V, 2V and |p|. Together 13u + 2·2u +
   // 2·1u + 4u < 24u of V.
   from_ = shift_ + value * slideAxis_;

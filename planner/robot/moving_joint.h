@@ -17,26 +17,26 @@ struct LongPose {
   Mat m = Mat::Identity();
   Vec t = Vec::Zero();
   double error = 0;   ///< bound of the error of m, as an operator norm
-  double length = 0;  ///< metres: the sum of the lengths of the poses multiplied so far
-  int poses = 0;      ///< number of these poses
+  double length = 0;  ///< metres: sum of the lengths of their translations
+  int poses = 0;      ///< number of poses multiplied so far
 
   /// Returns this pose followed by the fixed pose of `frame` and, if its joint is held, by that
   /// joint.
   LongPose then(const Frame& frame) const;
 };
 
-/// The pose X(t) = fixed · joint(t) of a frame in its parent's frame, along an edge. Everything
-/// that is constant on the edge is computed once per edge. One rounding bound holds for the whole
-/// edge.
+/// The pose X(t) = fixed · joint(t) of a frame in its nearest kept ancestor (EdgeMotion), along an
+/// edge. Everything that is constant on the edge is computed once per edge. One rounding bound
+/// holds for the whole edge.
 class MovingJoint {
  public:
-  /// The constant pose `fixed`, which includes the frame's own fixed pose, followed by the frame's
-  /// joint.
-  /// @param kind of the coordinate that moves the joint.
-  /// @param tube for all numbers of a Configuration, as in EdgeMotion.
+  /// Makes the constant pose `fixed` followed by the frame's joint. `fixed` includes the frame's
+  /// own fixed pose.
+  /// @param kind the kind of the coordinate that moves the joint.
+  /// @param tube as in EdgeMotion, for all numbers of a Configuration.
   MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::Kind kind,
               const Configuration& tube);
-  /// A constant pose.
+  /// Makes a constant pose.
   explicit MovingJoint(const LongPose& fixed);
 
   void set(const Configuration& from, const Configuration& to);
@@ -52,10 +52,10 @@ class MovingJoint {
   const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame itself
   /// Signed speed of the joint per unit of t, about or along the axis; rad or m.
   double rate() const { return rate_; }
-  /// Upper bounds, valid on the whole edge. `rateError`: |rate·axis − the real one|; the direction
-  /// of `axis` may be off by another 32u. `rotationError`: error of the matrix of `at`, as an
-  /// operator norm. `shiftError`: error of the vector of `at`, metres. `length`: length of the real
-  /// vector, metres.
+  /// Upper bounds, valid on the whole edge. `rateError`: the error of the vector rate·axis; the
+  /// direction of `axis` may be off by another 32u. `rotationError`: the error of the matrix of
+  /// `at`, as an operator norm. `shiftError`: the error of the vector of `at`, metres. `length`:
+  /// the length of the exact vector, metres.
   double rateError() const { return rateError_; }
   double rotationError() const { return rotationError_; }
   double shiftError() const { return shiftError_; }

@@ -10,13 +10,13 @@
 
 namespace corridor {
 
-/// A shape in the coordinates of its link, or of the world. Its vertices or points already include
-/// the scale, the up-axis rotation, the local pose, and the translation to a rigid robot's
-/// reference point.
+/// A shape in the coordinates of its link, or of the world. Scale, up-axis rotation, local pose,
+/// and the translation to a rigid robot's reference point are already applied to its vertices or
+/// points.
 struct PlacedShape {
   std::string name;  ///< "table"; if a link has several shapes, "hand/2"
   /// Exactly one of `mesh` and `part` is set.
-  std::optional<MeshFile> mesh;  ///< format and rules of the file; `mesh` in final coordinates
+  std::optional<MeshFile> mesh;  ///< with how the file was read; vertices in final coordinates
   std::optional<ConvexPart> part;
   std::filesystem::path file;          ///< mesh only
   std::optional<Primitive> primitive;  ///< part only: as the user wrote it

@@ -12,8 +12,8 @@ namespace corridor {
 
 enum class JointType { fixed, revolute, continuous, prismatic, planar, floating };
 
-/// The rule of a joint that follows another: value = multiplier·(value of `joint`) + offset. The
-/// reader resolves chains of mimics, so `joint` doesn't mimic another one.
+/// The rule of a joint that mimics another one: value = multiplier·(value of `joint`) + offset. The
+/// reader resolves chains of mimics, so `joint` itself is no mimic.
 struct Mimic {
   std::size_t joint = 0;
   double multiplier = 1, offset = 0;
@@ -23,8 +23,8 @@ struct JointModel {
   std::string name;
   JointType type = JointType::fixed;
   std::size_t parent = 0, child = 0;  ///< indices of links
-  RigidPose X_PJ;  ///< pose in the parent link's frame: of the joint's frame, and of the child's at
-                   ///< value 0
+  RigidPose X_PJ;  ///< pose of the joint's frame in the parent link's frame; at value 0 the child
+                   ///< link has the same pose
   Vec3 axis = Vec3::UnitX();  ///< in the joint's frame, not 0; a planar joint's normal
   /// Inclusive limits, rad or m. Revolute and prismatic joints only.
   double lower = -std::numeric_limits<double>::infinity();

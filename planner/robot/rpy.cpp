@@ -20,8 +20,7 @@ SineCosine ofEighths(int eighths) {
 SineCosine ofRadians(double radians, int divisor) {
   const long double quarter = std::numbers::pi_v<long double> / 2;
   const long double quarters = std::nearbyint(radians / quarter);
-  // Up to 1,024 turns, as files hardly contain larger multiples of 90 degrees. Beyond that, doubles
-  // are too sparse to recognise them.
+  // Recognises multiples of 90 degrees up to 1024 turns. Files hardly contain larger ones.
   if (std::abs(quarters) <= 4096 && static_cast<double>(quarters * quarter) == radians)
     return ofEighths(static_cast<int>(quarters) * 2 / divisor);
   const long double part = static_cast<long double>(radians) / divisor;
@@ -30,7 +29,7 @@ SineCosine ofRadians(double radians, int divisor) {
 
 /// Returns sine and cosine of `degrees / divisor`. @pre divisor is 1 or 2.
 SineCosine ofDegrees(double degrees, int divisor) {
-  int eighths = 0;  // its lowest three bits are right
+  int eighths = 0;  // remquo defines only its lowest three bits
   const long double rest =
       std::remquo(static_cast<long double>(degrees) / divisor, 45.0L, &eighths);  // exact
   const SineCosine whole = ofEighths(eighths);
@@ -40,7 +39,7 @@ SineCosine ofDegrees(double degrees, int divisor) {
   return {whole.sine * cosine + whole.cosine * sine, whole.cosine * cosine - whole.sine * sine};
 }
 
-/// @param x, y, z  of the halves of roll, pitch and yaw.
+/// @param x, y, z sine and cosine of half of roll, pitch and yaw.
 Eigen::Quaterniond quaternionOf(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   const auto rounded = [](long double value) { return static_cast<double>(value); };
   return {rounded(x.cosine * y.cosine * z.cosine + x.sine * y.sine * z.sine),
@@ -49,7 +48,7 @@ Eigen::Quaterniond quaternionOf(const SineCosine& x, const SineCosine& y, const 
           rounded(x.cosine * y.cosine * z.sine - x.sine * y.sine * z.cosine)};
 }
 
-/// @param x, y, z  of roll, pitch and yaw.
+/// @param x, y, z sine and cosine of roll, pitch and yaw.
 Mat3 matrixOf(const SineCosine& x, const SineCosine& y, const SineCosine& z) {
   Eigen::Matrix<long double, 3, 3> R;
   R << z.cosine * y.cosine, z.cosine * y.sine * x.sine - z.sine * x.cosine,

@@ -13,7 +13,8 @@ namespace {
 
 using Element = XmlFile::Element;
 
-/// Reads groups and states as MoveIt does (srdfdom), and reports as a fault what srdfdom skips.
+/// Reads groups and states as MoveIt does (srdfdom). Elements that srdfdom skips because they are
+/// wrong are faults.
 class SrdfReader {
  public:
   SrdfReader(XmlFile& file, RobotModel& model) : file_(file), model_(model) {
@@ -68,7 +69,7 @@ class SrdfReader {
     std::unordered_map<std::string, std::size_t> indices_;
   };
 
-  /// Reports each count above its limit. @returns whether there is any.
+  /// Reports each count of elements above its limit. @returns whether there is such a count.
   bool isTooLarge(const Element& root) {
     std::map<std::string_view, std::size_t> counts;  // number of elements with each name
     std::size_t members = 0, chains = 0;
@@ -113,7 +114,8 @@ class SrdfReader {
     model_.notes.push_back(file_.at(element.GetLineNum(), text));
   }
 
-  /// Returns the index of the thing that an attribute names. nullopt: a fault was reported.
+  /// Returns the index, in `known`, of the name that an attribute contains. nullopt: a fault was
+  /// reported.
   std::optional<std::size_t> find(const Element& element, const char* attribute,
                                   const std::string& owner, const char* kind, const Names& known) {
     const auto name = file_.text(element, attribute, owner);
@@ -131,8 +133,8 @@ class SrdfReader {
                                       const std::string& owner) {
     return find(element, attribute, owner, "link", links_);
   }
-  /// Returns nullopt also for virtual joints. These are ignored, as the problem file places the
-  /// robot in the world.
+  /// Returns nullopt without a fault for virtual joints. They are ignored, because the problem file
+  /// places the robot in the world.
   std::optional<std::size_t> findJoint(const Element& element, const char* attribute,
                                        const std::string& owner) {
     const char* const name = element.Attribute(attribute);
@@ -251,7 +253,8 @@ class SrdfReader {
   void faultCircle(std::size_t root, std::size_t last, const std::vector<std::size_t>& above) {
     std::vector<std::string> names{groupNames_[root]};
     for (std::size_t i = last; i != root; i = above[i]) names.push_back(groupNames_[i]);
-    // Every group of the circle finds it; only the one with the least name reports it.
+    // `collect` finds the circle from each of its groups. Only the group with the smallest name
+    // reports it.
     if (*std::min_element(names.begin(), names.end()) != names.front()) return;
     names.push_back(names.front());
     std::reverse(names.begin(), names.end());

@@ -10,8 +10,8 @@
 
 namespace corridor {
 
-/// Returns the quaternion with norm 1, without overflow or underflow for any size of the
-/// coefficients. @pre finite, not zero.
+/// Returns the normalised quaternion, without overflow or underflow for coefficients of any size.
+/// @pre finite, not zero.
 inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
   const double squared = q.squaredNorm();
   if (squared > 1e-200 && squared < 1e200) return q.normalized();
@@ -25,9 +25,9 @@ inline Eigen::Quaterniond unitQuaternion(const Eigen::Quaterniond& q) {
 ///
 /// Error: 4u·√3 from the vector part's sums of four products, and a few ulp.
 ///
-/// Planners spend half of their own time here. The relative quaternion has a vector part (the sine)
-/// and a scalar part (the cosine). The function takes the arc sine or arc cosine of the smaller
-/// one: this is well conditioned, and costs half as much as an arc tangent.
+/// Planners spend half of their own time in this function. The relative quaternion has a vector
+/// part (the sine) and a scalar part (the cosine). The function takes the arc sine or arc cosine of
+/// the smaller one: this is well conditioned, and costs half as much as an arc tangent.
 inline double quaternionAngle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const double squares = a.squaredNorm() * b.squaredNorm();
   const bool plain = squares > 1e-200 && squares < 1e200;

@@ -16,8 +16,8 @@
 namespace corridor {
 namespace {
 
-/// Reports everything that urdfdom printed as one fault, at the line of the joint or link that it
-/// names.
+/// Reports everything that urdfdom printed as one fault, at the line of the joint or link that the
+/// text names.
 void faultErrors(const std::vector<std::string>& errors, const UrdfOutline& outline,
                  XmlFile& file) {
   std::string text = "urdfdom, the reader of URDF, refuses it";
@@ -92,7 +92,7 @@ class UrdfBuilder {
       addJoint(outline_.joints[j]);
       const JointModel& joint = model_.joints.back();
       hasParent[joint.child] = true;
-      // A planar or floating joint lets its links pass through each other, so they are tested.
+      // Two links that a planar or floating joint connects can collide, so they are tested.
       if (joint.type != JointType::planar && joint.type != JointType::floating)
         model_.allowed.push_back(
             {model_.links[joint.parent].name, model_.links[joint.child].name, "adjacent"});

@@ -11,22 +11,24 @@
 
 namespace corridor {
 
-/// Folders by package name, for names such as `package://NAME/…` in a URDF. For a package that is
-/// not listed the reader tries NAME/… beside the URDF, then each folder called NAME above it.
+/// Folders by package name, for names such as `package://NAME/…` in a URDF. If a package is not
+/// listed, the reader tries the folder NAME beside the URDF, then each folder called NAME above the
+/// URDF.
 using PackageMap = std::map<std::string, std::filesystem::path>;
 
 /// Reads a URDF with its collision geometry, by urdfdom, and checks what urdfdom doesn't. Visuals
 /// are ignored.
 ///
-/// All faults are appended to `faults`, with file and line; the result is nullopt if there is any.
-/// `files` receives the URDF and every mesh file, in the order in which they are first named.
+/// All faults are appended to `faults`, with file and line. The result is nullopt if the URDF has a
+/// fault. `files` receives the URDF and every mesh file, in the order in which they are first
+/// named.
 std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const PackageMap& packages,
                                    std::vector<Fault>& faults,
                                    std::vector<std::filesystem::path>& files);
 
 /// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states, and
 /// disabled collisions with their reasons. A name that the model doesn't have is a fault. Virtual
-/// joints and end effectors are ignored.
+/// joints and end effectors are ignored. Passive joints are only checked for unknown names.
 void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults);
 
 }  // namespace corridor

@@ -14,7 +14,7 @@ namespace {
 using Element = XmlFile::Element;
 using Numbers = std::optional<std::vector<double>>;
 
-/// Requires `count` numbers above 0.
+/// Reports a fault unless the attribute has `count` numbers above 0.
 void checkSize(XmlFile& file, Element& shape, const char* attribute, std::size_t count,
                const std::string& owner) {
   file.require(shape, attribute, owner);
@@ -248,7 +248,7 @@ bool addUnique(Named named, const char* kind, std::vector<Named>& all, Lines& li
   return true;
 }
 
-/// Reports each count above its limit. @returns whether there is any.
+/// Reports each count of elements above its limit. @returns whether there is such a count.
 bool isTooLarge(XmlFile& file, const Element& root) {
   constexpr std::size_t mostLinks = 10'000, mostShapes = 100'000;
   std::size_t links = 0, joints = 0, shapes = 0;
@@ -274,8 +274,8 @@ bool isTooLarge(XmlFile& file, const Element& root) {
   return file.faultCount() != before;
 }
 
-/// Limits the triangles of all shapes together, because each shape has a copy of its mesh. @pre the
-/// file has no fault.
+/// Reports a fault if all shapes together have too many triangles. Each shape has a copy of its
+/// mesh. @pre the file has no fault.
 void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile& file) {
   std::size_t triangles = 0;
   for (const UrdfLink& link : outline.links)

@@ -41,7 +41,7 @@ struct UrdfJoint {
   std::optional<UrdfMimic> mimic;
 };
 
-/// The links and joints in the order of the file, without those that have no name of their own.
+/// The links and joints in the order of the file. Those without a unique name are left out.
 struct UrdfOutline {
   std::string name;
   std::vector<UrdfLink> links;
@@ -53,7 +53,9 @@ struct UrdfOutline {
 /// decimals, for urdfdom. @pre file.root() is not null.
 UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::string>& notes);
 
-/// Reports links that don't form a tree with one root, and mimics that follow no movable joint.
+/// Reports links that don't form a tree with one root, and mimics that are not supported (of a
+/// fixed, planar or floating joint, in a circle, or with a multiplier that would make the joint
+/// jump).
 /// @returns indices of the joints in the tree's order: depth first, siblings as in the file. Empty
 /// if the file has any fault.
 std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file);

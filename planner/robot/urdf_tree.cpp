@@ -45,8 +45,8 @@ class Tree {
   std::vector<std::size_t> check() {
     bool joined = outline_.complete;
     for (std::size_t j = 0; j < joints_.size(); ++j) joined &= join(j);
-    // A joint with a misspelt link, or one that was left out, leaves its child without a parent.
-    // That child would also be reported as a second root.
+    // If a joint has a misspelt link, or was left out, its child has no parent. The child would
+    // then also be reported as a second root.
     if (joined) checkShape();
     for (std::size_t j = 0; j < joints_.size(); ++j) findLeader(j);
     for (std::size_t j = 0; j < joints_.size(); ++j)
@@ -109,7 +109,8 @@ class Tree {
                                            std::to_string(links_[root].line) +
                                            "; a robot has one root");
     }
-    // Every link has at most one parent, so a link that no root reaches hangs from a circle.
+    // Every link has at most one parent. So a link that is not below a root is in a circle, or
+    // below one.
     std::vector<int> walk(links_.size(), 0);
     for (std::size_t start = 0; start < links_.size(); ++start) {
       std::size_t link = start;
@@ -174,8 +175,8 @@ class Tree {
     std::size_t last = leader_[j];
     for (std::size_t steps = 0; joints_[last].mimic && joints_[last].type != JointType::fixed;
          ++steps) {
-      // A mimic without a valid leader was reported by findLeader(). A circle that this joint only
-      // leads into is reported for the circle's own joints.
+      // findLeader() has reported mimics without a valid leader. If this joint leads into a circle
+      // but is not part of it, the circle is reported for its own joints.
       if (last == j && !inCircle_[j]) faultMimicCircle(j);
       if (last == j || leader_[last] == none || steps > joints_.size()) return;
       multiplier *= joints_[last].mimic->multiplier;

@@ -75,7 +75,7 @@ urdf::ModelInterfaceSharedPtr parseByUrdfdom(XmlFile::Element& robot,
   } catch (const std::exception& error) {
     errors.push_back(error.what());
   }
-  if (!model && errors.empty()) errors.push_back("no robot came back");
+  if (!model && errors.empty()) errors.push_back("it returned no robot");
   return errors.empty() ? model : nullptr;
 }
 

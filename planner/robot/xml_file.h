@@ -22,7 +22,8 @@ class XmlFile {
   /// @param what describes the expected file in messages: "a robot (URDF)".
   XmlFile(std::filesystem::path file, const std::string& what);
 
-  /// nullptr if the file couldn't be read; then it has a fault.
+  /// Returns the root element. nullptr if the file couldn't be read or has another root; a fault
+  /// was then reported.
   Element* root() { return root_; }
   const std::filesystem::path& path() const { return path_; }
 
@@ -30,10 +31,11 @@ class XmlFile {
   /// Formats "file:line: text", for notes.
   std::string at(int line, const std::string& text) const;
   bool sound() const { return faultCount_ == 0; }
-  /// Counts all faults, also those that are not kept: the list is cut at a limit.
+  /// Returns the number of all faults, including those that are not kept because the list is
+  /// limited.
   std::size_t faultCount() const { return faultCount_; }
-  /// Whether to search for similar names in a message. The search is skipped after 100 faults,
-  /// because its time grows with the number of names.
+  /// Returns whether to search for similar names for messages. The search is skipped after 100
+  /// faults, because its time grows with the number of names.
   bool hints() const { return faultCount_ < 100; }
   /// Returns the faults, sorted by line.
   std::vector<Fault> takeFaults();
@@ -45,17 +47,18 @@ class XmlFile {
   /// that every reader takes for the same doubles. nullopt: it is missing, or a fault was reported.
   std::optional<std::vector<double>> numbers(Element& element, const char* attribute,
                                              std::size_t count, const std::string& owner);
-  /// Reports a missing attribute.
+  /// Reports a fault if the attribute is missing.
   void require(const Element& element, const char* attribute, const std::string& owner);
-  /// Returns the child of that name, or nullptr. Reports any further one.
+  /// Returns the first child of that name, or nullptr. Each further child of that name is a fault.
   Element* child(Element& parent, const char* name, const std::string& owner);
   /// Checks for children that are in neither list. Such a child is a fault if something would be
-  /// lost: its name is similar to one in `read`, or it contains a <geometry>. Otherwise it is a
-  /// note. Elements of other formats ("drake:joint") are ignored.
+  /// lost: its name is similar to one in `read`, or it contains a <geometry>. For other children a
+  /// note is added. Elements of other formats ("drake:joint") are ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<std::string>& notes);
-  /// The same for optional attributes.
+  /// Checks for attributes that are not in `read`. Such an attribute is a fault if its name is
+  /// similar to one in `read`. For other attributes a note is added.
   void checkAttributes(const Element& element, const std::vector<std::string>& read,
                        const std::string& owner, std::vector<std::string>& notes);
 

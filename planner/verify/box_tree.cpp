@@ -8,9 +8,9 @@
 namespace corridor::verify {
 namespace {
 
-/// Pairs whose lower bound is at least this share of the smallest distance found are pruned. It is
-/// below 1 to prune ties: many triangles share the closest vertex or edge, and their bounds round
-/// to either side.
+/// Pairs are pruned if their lower bound is at least this share of the smallest distance found. The
+/// share is below 1 so that ties are pruned: many triangles share the closest vertex or edge, and
+/// their bounds may round up or down.
 constexpr Real kSame = 1 - 0x1p-30L;
 
 }  // namespace
@@ -48,7 +48,7 @@ BoxTree::BoxTree(const ConvexPart& part) {
     node.upper = node.upper.cwiseMax(point);
     radius_ = std::max(radius_, point.cast<Real>().norm());
   }
-  for (int i = 0; i < 3; ++i) {  // rounded outward; the disc is within the sphere
+  for (int i = 0; i < 3; ++i) {  // rounded outward; a disc is within its sphere
     node.lower[i] = std::nextafter(node.lower[i] - part.radius, -HUGE_VAL);
     node.upper[i] = std::nextafter(node.upper[i] + part.radius, HUGE_VAL);
   }
@@ -155,7 +155,8 @@ Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
       partB_ ? startOfB_ : direction_.dot(boxOfB.around.centre) - along.dot(boxOfB.around.half);
   gap = std::max(gap, startOfB - endOfA);
   if (gap >= enough) return gap;
-  // The plane of a long triangle that is not along the axes bounds it better than its box.
+  // For a long triangle that is not along the axes, the slab along its normal is a better bound
+  // than its box.
   if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !partA_)
     gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB.around));
   if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !partB_)
@@ -218,7 +219,7 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
   Real enough = stop;
   const auto test = [&](PiecePair pair) {
     TriangleGap found;
-    if (!partA_ && !partB_) {  // slabs are cheaper than the distance, if they suffice
+    if (!partA_ && !partB_) {  // slabs are tried first: they cost less than the distance
       const auto a = cornersA(pair.a), b = cornersB(pair.b);
       const RealVec normals[2] = {a_->piece(pair.a).normal,
                                   X_AB_.rotation * b_->piece(pair.b).normal};

@@ -15,14 +15,14 @@ namespace corridor::verify {
 /// A leaf primitive of a body: a triangle of its mesh, or its convex part.
 struct Piece {
   Corners corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< triangle only
-  RealVec normal = RealVec::Zero();  ///< triangle only: unit, rounded; 0 if it has none
+  RealVec normal = RealVec::Zero();  ///< triangle only: unit, rounded; 0 if degenerate
   std::uint32_t triangle = 0;
   const ConvexPart* part = nullptr;
 };
 
-/// A binary tree of axis-aligned boxes over a body's leaf primitives, one per leaf. Nodes are split
-/// at the median centroid along the longest axis. Boxes of triangles are exact: minima and maxima
-/// of stored doubles.
+/// A binary tree of axis-aligned boxes over a body's leaf primitives. Each leaf has one leaf
+/// primitive. Nodes are split at the median centroid along the longest axis. Boxes of triangles are
+/// exact: minima and maxima of stored doubles.
 class BoxTree {
  public:
   static constexpr std::uint32_t noLeaf = UINT32_MAX;
@@ -55,8 +55,8 @@ struct PiecePair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Lower and upper bound of the distance of two bodies, up to the rounding of TriangleGap, and
-/// witness points in a's frame.
+/// Lower and upper bound of the distance of two bodies, and witness points in a's frame. Both
+/// bounds may be off by the rounding that TriangleGap describes.
 struct BodyGap {
   Real lower = std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();
@@ -76,24 +76,28 @@ class BodyDistance {
   /// Sets the bodies and their relative placement. Both trees must outlive all queries.
   void place(const BoxTree& a, const BoxTree& b, const Placement& X_AB);
 
-  /// Bounds the distance by branch and bound on the distances of boxes. The search starts with
-  /// `guess`, a pair of leaf primitives that is likely close. Pairs farther apart than `stop` are
-  /// pruned. Pairs of leaf primitives at a distance of at most `doubt` are passed to `touches`,
-  /// which decides contact exactly. The first contact ends the search.
+  /// Bounds the distance of the bodies by branch and bound on the distances of boxes.
+  /// @param guess a pair of leaf primitives that is likely close; the search starts with it.
+  /// @param doubt pairs of leaf primitives with a lower bound of at most `doubt` are passed to
+  /// `touches`.
+  /// @param stop pairs with a lower bound of at least `stop` are pruned.
+  /// @param touches decides whether two leaf primitives touch. The first contact ends the search.
   ///
-  /// `lower` also covers everything that was pruned: it is the smallest bound of all pruned node
-  /// pairs and all tested pairs of leaf primitives. The box of a node of b has the half extents
-  /// |R|·(half extents) about the image of its centre. Its rounding (3 sums of 3 products, a root
-  /// of three squares: under 32u·S) is left to the caller, as is all other rounding.
+  /// The result's `lower` also covers all pruned pairs: it is the smallest bound of all pruned node
+  /// pairs and all tested pairs of leaf primitives. The box of a node of b, in a's frame, has the
+  /// half extents |R|·(half extents) about the image of its centre. The caller must add the
+  /// rounding of the boxes (3 sums of 3 products, a root of three squares: under 32u·S), and all
+  /// other rounding.
   BodyGap measure(PiecePair guess, Real doubt, Real stop,
                   const std::function<bool(PiecePair)>& touches);
 
-  /// Collects pairs of leaf primitives whose boxes are closer than `within`, except those in boxes
-  /// that are `settled`.
-  /// @param most the largest number of pairs collected.
-  /// @returns false if there are more. If true, all pairs not collected are at least `within`
-  /// apart, or settled.
+  /// Returns whether all pairs of leaf primitives in two boxes can be left out by `near`.
   using Settled = std::function<bool(const CentredBox& a, const CentredBox& b)>;
+  /// Collects the pairs of leaf primitives whose boxes are closer than `within`. Pairs in two boxes
+  /// for which `settled` returns true are left out.
+  /// @param most the largest number of pairs collected.
+  /// @returns false if there are more pairs. If true, all pairs that are not collected are at least
+  /// `within` apart, or settled.
   bool near(Real within, std::size_t most, const Settled& settled, std::vector<PiecePair>& pairs);
 
   ConvexSet setA(std::uint32_t piece) const;
@@ -108,24 +112,24 @@ class BodyDistance {
     Real lower;
   };
   CentredBox boxA(std::uint32_t node) const;
-  /// The placed box of a node of b: the box around it along a's axes, and the box itself, along b's
-  /// axes.
+  /// The box of a node of b in a's frame, in two forms: a box along a's axes around it, and the box
+  /// itself, along b's axes.
   struct PlacedBox {
     CentredBox around;
     RealVec centre = RealVec::Zero(), half = RealVec::Zero();  ///< half extents along b's axes
     std::uint64_t stamp = 0;  ///< identifies the placement that it was computed for
   };
   const PlacedBox& boxB(std::uint32_t node);
-  /// Sets `direction_` to that of the closest points so far.
+  /// Sets `direction_` to the direction of `between`, the vector between the closest points so far.
   void lookAlong(const RealVec& between);
   /// Returns a lower bound of the distance of two nodes. Tries better and more expensive bounds
-  /// until one is `enough`.
+  /// until one reaches `enough`.
   Real boxGap(std::uint32_t a, std::uint32_t b, Real enough);
   Item item(std::uint32_t a, std::uint32_t b, Real enough) { return {a, b, boxGap(a, b, enough)}; }
-  /// Splits one node of a node pair that is not a leaf pair.
+  /// Splits one node of a node pair into its children. @pre it is no leaf pair.
   std::array<Item, 2> split(const Item& item, Real enough);
-  /// Lower bound of the distance of a triangle and a box: the slab along the triangle's normal, on
-  /// either side.
+  /// Returns a lower bound of the distance of a triangle and a box: the width of the slab along the
+  /// triangle's normal, for the box on either side.
   static Real planeGap(const RealVec& normal, const std::array<RealVec, 3>& corners,
                        const CentredBox& box);
   std::array<RealVec, 3> cornersA(std::uint32_t piece) const;
@@ -136,7 +140,7 @@ class BodyDistance {
   Placement X_AB_;
   RealMat extents_ = RealMat::Identity();   ///< |X_AB_.rotation|
   std::optional<ConvexSet> partA_, partB_;  ///< set if the body is a convex part
-  RealVec direction_ = RealVec::Zero();     ///< unit or zero; slabs along it give bounds for boxes
+  RealVec direction_ = RealVec::Zero();     ///< unit or zero; boxGap() tries a slab along it
   Real endOfA_ = 0, startOfB_ = 0;          ///< ends of the convex parts along `direction_`
   std::vector<PlacedBox> boxesB_;
   std::uint64_t stamp_ = 0;

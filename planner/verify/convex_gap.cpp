@@ -23,9 +23,9 @@ struct Nearest {
   std::array<Real, 4> weights{};
 };
 
-/// Finds the point of least norm in the plane through the chosen corners. If all its weights are
-/// positive it is the nearest point of their hull, and replaces `best` if it is nearer. The subset
-/// of all four corners must be tried last.
+/// Finds the point of least norm in the affine hull (point, line, plane) of the chosen corners. If
+/// all its weights are positive, this point is also the nearest one of their convex hull. It then
+/// replaces `best` if it is nearer. The subset of all four corners must be tried last.
 void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, Nearest& best) {
   std::array<std::size_t, 4> chosen{};
   int count = 0;
@@ -63,9 +63,9 @@ void trySubset(const std::vector<Corner>& corners, unsigned subset, Real size, N
   for (std::size_t i = 0; i < corners.size(); ++i)
     point += found.weights[i] * corners[i].difference();
   found.square = point.squaredNorm();
-  // Four corners around the origin: the origin is a point of their hull, up to rounding. If the
-  // hull is almost flat, rounding may claim this wrongly. But then the computed point is no nearer
-  // than the faces.
+  // If four corners are around the origin, the origin is a point of their hull, up to rounding. If
+  // the hull is almost flat, rounding may give this result wrongly. But then the computed point is
+  // not nearer than the faces.
   if (count == 4 && !(std::sqrt(found.square) <= 0x1p-30L * size && 4 * found.square < best.square))
     return;
   if (found.square < best.square) best = found;
@@ -79,8 +79,9 @@ RealVec ConvexSet::farthest(const RealVec& direction) const {
   for (const RealVec& point : points)
     if (const Real along = direction.dot(point); along > most) most = along, best = &point;
   if (!flatEnds) return *best;
-  // The component across the axis may be nothing but rounding, in an arbitrary direction, so it is
-  // made orthogonal a second time. If the result is unusable, only rounding is lost.
+  // The component across the axis may consist only of rounding errors, in an arbitrary direction.
+  // So it is made orthogonal a second time. If the result is unusable, the component is ignored;
+  // the error is as small as rounding.
   const auto acrossAxis = [&](const RealVec& v) { return RealVec(v - axis * axis.dot(v)); };
   RealVec across = acrossAxis(direction);
   if (!(across.norm() > 0)) return *best;
@@ -123,7 +124,7 @@ TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b, const RealVec& gue
         }))
       break;  // no progress is possible
     corners.push_back(corner);
-    // Any point nearer than before needs the new corner.
+    // Any point that is nearer than the last one has a positive weight at the new corner.
     Nearest best;
     best.square = length * length;
     const unsigned newest = 1u << (corners.size() - 1);

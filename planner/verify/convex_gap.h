@@ -16,8 +16,8 @@ struct ConvexSet {
   bool flatEnds = false;
   RealVec axis = RealVec::Zero();  ///< unit; flatEnds only
 
-  /// Returns the farthest point along `direction` of the set without its swept sphere (with its
-  /// disc).
+  /// Returns the farthest point along `direction` of the set without its swept sphere. With
+  /// `flatEnds` the disc is included.
   RealVec farthest(const RealVec& direction) const;
   /// Returns the radius of the swept sphere, which is 0 with flat ends.
   Real ball() const { return flatEnds ? 0 : radius; }
@@ -26,14 +26,15 @@ struct ConvexSet {
 /// Returns `part` under a rigid map.
 ConvexSet placed(const ConvexPart& part, const Placement& placement);
 
-/// Bounds the distance of two convex sets from both sides, as TriangleGap describes: `upper` by
-/// witness points, `lower` by a slab. Any direction gives a true bound.
+/// Returns a lower and an upper bound of the distance of two convex sets, as TriangleGap describes:
+/// `upper` by witness points, `lower` by the width of a slab. A slab in any direction gives a true
+/// bound.
 ///
 /// Method: the point of least norm of the difference of the sets, without their swept spheres, from
 /// at most four of its corners at a time (Gilbert, Johnson, Keerthi 1988). All subsets of the
-/// corners are tried, which is the simplest way to choose them. Rounding as for triangles; 2^-50 of
-/// the size covers it amply.
-/// @param guess direction in which the search starts, from a to b, of any length; 0 for none.
+/// corners are tried, which is the simplest way to choose them. The rounding is similar to that for
+/// triangles; 2^-50 of the size is far more than enough for it.
+/// @param guess the direction in which the search starts, from a to b, of any length; 0: none.
 /// @param enough the search ends when `lower` reaches this value.
 TriangleGap convexGap(const ConvexSet& a, const ConvexSet& b,
                       const RealVec& guess = RealVec::Zero(),

@@ -30,8 +30,8 @@ RealVec axisOf(const Frame& frame) {
   return frame.axis.cast<Real>().normalized();
 }
 
-/// Returns whether the frame follows the circle and has another pose after a full turn of the
-/// circle.
+/// Returns whether the circle moves the frame, and the frame has another pose after a full turn of
+/// the circle.
 bool leavesCircle(const Frame& frame, const Coordinate& circle) {
   if (frame.joint == Frame::Joint::none || frame.variable != circle.first) return false;
   return frame.joint != Frame::Joint::revolute || frame.multiplier != std::trunc(frame.multiplier);
@@ -73,7 +73,8 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
     if (c.kind != Coordinate::Kind::rotation) {
       const bool circle = c.kind == Coordinate::Kind::circle;
       const Real way = circle ? circleWay(from[i], to[i]) : Real(to[i]) - Real(from[i]);
-      // `way` is off by u of itself, or by 32u for a circle; each product and each sum by u.
+      // `way` is off by u·|way|, or by 32u for a circle; each product and each sum is off by u of
+      // its value.
       lines_[c.first] = {Real(from[i]), way,
                          std::abs(Real(from[i])) + std::abs(way) + (circle ? 4 : 0)};
       if (!circle) continue;
@@ -243,10 +244,10 @@ Configuration EdgeCurve::configuration(Real t) const {
 
 Reach EdgeCurve::reach(const KinematicChain& limb, Real radius, const Configuration& tube) const {
   Reach reach;
-  // Goes from the frame back to the base. `length` is that of the chain after the current joint.
-  // The revolute joints before it are not known yet, so each adds its share of `bend` when the loop
-  // reaches it. That share is 2 |Δ_i| D. D is `speed` so far: the sum of |Δ_j| R_j and |Δ_j| over
-  // the joints after joint i. The same holds with τ.
+  // The loop goes from the frame back to the base. `length` is the length of the chain after the
+  // current joint. Each revolute joint i adds its share of `bend` with all joints after it: 2 |Δ_i|
+  // D. D is `speed` so far: the sum of |Δ_j| R_j (revolute) and |Δ_j| (prismatic) over the joints j
+  // after joint i. The same holds with τ in place of Δ.
   Real length = radius, manyTurns = 1;
   const auto turn = [&](Real delta, Real stray) {
     reach.bend += delta * (delta * length + 2 * reach.speed);

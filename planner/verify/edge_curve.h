@@ -8,7 +8,7 @@
 
 namespace corridor::verify {
 
-/// The map x ↦ rotation·x + position. It is rounded; the caller bounds the error.
+/// The map x ↦ rotation·x + position. Its numbers are rounded; the caller bounds their error.
 struct Placement {
   RealMat rotation = RealMat::Identity();
   RealVec position = RealVec::Zero();
@@ -21,15 +21,14 @@ struct FrameState {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
 };
 
-/// First-order perturbation of the points of a frame, for all curves within the tube, at one time.
-/// In the coordinates of the base, a point x is displaced by a sum of
+/// The first-order perturbation of the points of a frame at one time, for all curves within the
+/// tube. In the coordinates of the base, a point x is displaced by a sum of
 /// - c·(linear + angular × x) for each twist, with any c in [−1, 1];
 /// - w × (x − at) for each pivot rotation, with any vector w of length at most `angle`.
 struct Perturbation {
   struct Twist {
     RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
-    std::size_t number = 0;  ///< index in the configuration; all joints that follow this number
-                             ///< share one perturbation
+    std::size_t number = 0;  ///< index in a configuration; the joints that it moves share a twist
   };
   struct PivotRotation {
     RealVec at = RealVec::Zero();
@@ -49,8 +48,8 @@ struct KinematicChain {
 KinematicChain chainOf(const KinematicTree& tree, std::size_t base, std::size_t frame);
 std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b);
 
-/// Bounds, for all times of an edge, of the motion of points of a frame that are at most `radius`
-/// from its origin. The weights R_j are constant (Schwarzer, Saha, Latombe 2005).
+/// Bounds on the motion of points of a frame, for all times of an edge. The points are at most
+/// `radius` from the frame's origin. The weights R_j are constant (Schwarzer, Saha, Latombe 2005).
 ///
 /// Let Δ_j be the displacement of joint j along the whole edge. Let R_j be the length of the chain
 /// from joint j to the frame, plus `radius`. Let P_j = Σ |Δ_i| over the revolute joints i before j.
@@ -64,33 +63,33 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
 ///   tube = Σ_revolute τ_j R_j + Σ_prismatic τ_j.
 ///
 /// Second order with perturbations. Let joint j deviate by δ_j, |δ_j| ≤ τ_j, from its value at a
-/// time s after t. It is then s·Δ_j + δ_j away from its value at t. Moving there in a straight
-/// line, all joints at once, is a motion of the same kind, with |s||Δ_j| + τ_j in place of |Δ_j|.
-/// (The perturbation of a free rotation is a rotation by at most τ about any axis, after s·Δ. Two
-/// successive rotations about one point, with the same R, add up like one.) So x differs from its
-/// first-order value by at most half of `bend` with these values, which is a quadratic form in
-/// them:
+/// time s after t. It is then s·Δ_j + δ_j away from its value at t. If all joints move linearly
+/// from their values at t to these values, this is a motion of the same kind, with |s||Δ_j| + τ_j
+/// in place of |Δ_j|. (The perturbation of a free rotation is a rotation by at most τ about any
+/// axis, after s·Δ. Two successive rotations about one point have the same R and are bounded like
+/// one rotation by the sum of their angles.) So x differs from its first-order value by at most
+/// half of `bend` with these values, which is a quadratic form in them:
 ///   |x − x(t) − s x'(t) − Σ δ_j ∂x/∂q_j(t)| ≤ (s² bend + |s| bendCross + bendTube) / 2.
 struct Reach {
   Real speed = 0, bend = 0, tube = 0;
-  Real bendCross = 0;  ///< twice the bilinear form of Δ and τ
-  Real bendTube = 0;   ///< the quadratic form of τ
-  Real size = 0;       ///< upper bound of every length in the pose; rounding is within 2^-50 of it
+  Real bendCross = 0;  ///< the mixed terms of Δ and τ in the quadratic form
+  Real bendTube = 0;   ///< the quadratic form with τ in place of Δ
+  Real size = 0;       ///< upper bound of all lengths in the pose; rounding is below 2^-50 of it
   Real lengths = 0;    ///< `size` without the share of large angles
 };
 
-/// Returns the shorter way round a circle, radians, in [−π, π]: to − from in real arithmetic on the
-/// two doubles, less whole turns. The result is off by at most 32u, u = 2^-64, for angles of any
-/// size.
+/// Returns the shorter way round a circle, radians, in [−π, π]: the real value of to − from, minus
+/// whole turns. The result is off by at most 32u, u = 2^-64, for angles of any size.
 ///
 /// Error: if |to − from| ≤ π the difference rounds by πu. Otherwise the sines and cosines of both
-/// are within 2u, because the C library reduces their arguments with enough digits of π. Those of
-/// the difference are within 11u, and the arc tangent of these within 11√2·u + 2πu.
+/// angles are off by at most 2u, because the C library reduces its arguments with enough digits of
+/// π. Sine and cosine of the difference are off by at most 11u, and their arc tangent by at most
+/// 11√2·u + 2πu.
 Real circleWay(double from, double to);
 
 /// The curve of an edge, as ConfigurationSpace defines it, in the verifier's own arithmetic. Lines
-/// are linear in t, circles go the shorter way round, rotations are the slerp of the quaternions
-/// normalised in real arithmetic, by the shorter arc. Frames follow by forward kinematics on the
+/// are linear in t. Circles go the shorter way round. Rotations are the slerp of the quaternions,
+/// normalised in real arithmetic, along the shorter arc. Frames follow by forward kinematics on the
 /// tree's stored doubles, with quaternions and axes normalised.
 ///
 /// Rounding, with u = 2^-64, and t of at most 63 bits:
@@ -101,9 +100,9 @@ Real circleWay(double from, double to);
 ///   and the rounding of Δ). Sine, cosine and Rodrigues' matrix are off by < 16u.
 /// - A frame multiplies two such matrices into the rotation, 10u more. Each frame adds < 300u for
 ///   free rotations, < 40u otherwise.
-/// - With n frames a point is off by ≤ n·300u times the lengths that come after. This is below
-///   2^14·u·size = 2^-50·size for n ≤ 54. `Reach::size` grows with n beyond that, and with `terms`
-///   of angles.
+/// - With n frames a point is off by ≤ n·300u times the length of the chain. This is below
+///   2^14·u·size = 2^-50·size for n ≤ 54. For larger n, `Reach::size` is increased in proportion to
+///   n; it is also increased with `terms` of angles.
 class EdgeCurve {
  public:
   EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& coordinates,
@@ -113,7 +112,7 @@ class EdgeCurve {
   /// curve.
   bool ambiguous() const { return ambiguous_; }
   /// Returns whether a joint would jump: a circle crosses its seam at ±π, and a joint that mimics
-  /// it has another value after a full turn. Such a joint is prismatic, or revolute with a
+  /// it has another pose after a full turn. Such a joint is prismatic, or revolute with a
   /// multiplier that is no whole number. Then the edge defines no curve.
   bool jumps() const { return jumps_; }
   FrameState at(const KinematicChain& limb, Real t) const;
@@ -122,10 +121,10 @@ class EdgeCurve {
   Reach reach(const KinematicChain& limb, Real radius, const Configuration& tube) const;
 
  private:
-  /// The values of a coordinate along the edge: from + t·way. An Arc is the slerp of a rotation.
+  /// The value of a number of the configuration along the edge: from + t·way.
   struct Line {
     Real from = 0, way = 0;
-    Real terms = 0;  ///< 8u of it bounds the rounding of from + t·way
+    Real terms = 0;  ///< 8u·terms bounds the rounding of from + t·way
   };
   struct Arc {
     Eigen::Matrix<Real, 4, 1> q0, q1;  // x, y, z, w

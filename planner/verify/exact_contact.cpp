@@ -45,7 +45,8 @@ std::optional<Point> segmentsMeet(const Point& p, const Point& q, const Point& r
   const Point& d = isZero(d1) ? d2 : d1;
   if (isZero(d)) return isZero(w) ? std::optional(p) : std::nullopt;  // two points
   if (!isZero(cross(w, d))) return std::nullopt;                      // parallel lines
-  // Collinear segments: the larger of the lower ends is common unless it is beyond an upper end.
+  // Collinear segments: the larger of the two lower ends is a common point, unless it is beyond an
+  // upper end.
   const auto before = [&](const Point& a, const Point& b) { return dot(a - b, d) < 0; };
   const auto [low1, high1] = before(q, p) ? std::pair(q, p) : std::pair(p, q);
   const auto [low2, high2] = before(s, r) ? std::pair(s, r) : std::pair(r, s);
@@ -90,7 +91,7 @@ Point exact(const Vec3& v) {
 std::optional<Vec3> exactContact(const RigidPose& pose, const Corners& moving,
                                  const Corners& fixed) {
   const Rational w(pose.q.w()), x(pose.q.x()), y(pose.q.y()), z(pose.q.z());
-  // All coordinates are scaled by |q|², which avoids divisions.
+  // All coordinates are multiplied by |q|², which avoids divisions.
   const Rational scale = w * w + x * x + y * y + z * z;
   const Point rows[3] = {{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
                          {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},

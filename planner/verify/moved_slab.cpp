@@ -9,11 +9,11 @@ namespace corridor::verify {
 namespace {
 
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
-/// The largest number of pairs of leaf primitives that one time interval proves one by one, each by
-/// its own slab. With more pairs it is cheaper to halve the interval.
+/// The largest number of pairs of leaf primitives that are proved one by one in a time interval,
+/// each by its own slab. With more pairs it costs less to halve the interval.
 constexpr std::size_t kNear = 400;
-/// The same if halving gains little, because the tube displaces points farther than the motion
-/// does.
+/// The same number for intervals in which the tube displaces points farther than the motion does.
+/// There halving gains little.
 constexpr std::size_t kNearInTube = 64 * kNear;
 
 }  // namespace
@@ -111,15 +111,15 @@ Real MovedSlab::width(const CentredBox& a, const CentredBox& b) const {
 Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotion& motion,
                   const Sought& sought, std::vector<PiecePair>& scratch) {
   const Real lost = motion.secondOrder + motion.rounding;
-  // Subtracting this is enough in any direction.
+  // In any direction, motion, tube and rounding take at most this much from a distance.
   const Real most = motion.travel + motion.tube + motion.rounding;
   const auto slabAlong = [&](const RealVec& direction) {
     return MovedSlab(motion.a, motion.b, motion.half, direction);
   };
   const MovedSlab general = slabAlong(measured.onB - measured.onA);
-  // Every direction gives a true bound, so several are tried: that of the bodies' closest points;
-  // that of the two leaf primitives' closest points; and the triangles' normals, for triangles that
-  // face each other at an angle.
+  // Every direction gives a true bound, so several are tried: the direction between the closest
+  // points of the bodies; the direction between the closest points of the two leaf primitives; and
+  // the triangles' normals, for triangles that face each other at an angle.
   const auto boundOf = [&](PiecePair pieces) {
     const ConvexSet a = placed.setA(pieces.a), b = placed.setB(pieces.b);
     Real best = general.width(a, b) - lost;
@@ -141,8 +141,8 @@ Real boundBySlabs(BodyDistance& placed, const BodyGap& measured, const PairMotio
   };
   if (measured.lower - lost <= sought.needed || boundOf(measured.pair) <= sought.needed)
     return -kInfinity;
-  // Pairs of leaf primitives that are farther apart than all motion need no slab. Pairs in boxes
-  // that a slab already separates are settled.
+  // Pairs of leaf primitives that are farther apart than `bound + most` need no slab. Pairs in two
+  // boxes that the general slab separates by `bound` are settled.
   const std::size_t count = motion.tube > motion.travel ? kNearInTube : kNear;
   for (Real bound : {sought.wanted, sought.little}) {
     const auto settled = [&](const CentredBox& a, const CentredBox& b) {

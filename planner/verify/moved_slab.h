@@ -6,9 +6,9 @@
 
 namespace corridor::verify {
 
-/// The motion of a body's points about the middle of a time interval, in coordinates that are fixed
-/// there. A point x has the velocity linear + angular × x per unit of t, and the perturbations
-/// `strays`.
+/// The motion of a body's points around the middle of a time interval, to first order. The
+/// coordinates do not move in the interval. A point x has the velocity linear + angular × x per
+/// unit of t, and the perturbations `strays`.
 struct BodyMotion {
   RealVec linear = RealVec::Zero(), angular = RealVec::Zero();
   Perturbation strays;  ///< empty if the caller bounds the tube by other means
@@ -19,14 +19,15 @@ struct BodyMotion {
 BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturbation strays);
 
 /// The width of the slab between two moving bodies along a direction n, to first order of the
-/// motion. It is a lower bound of their distance, up to the second-order terms that Reach bounds. n
-/// is fixed in the coordinates in which the bodies move.
+/// motion. The width is a lower bound of their distance in the whole interval and tube, except for
+/// second-order terms, which Reach bounds. The direction n is fixed in the coordinates in which the
+/// bodies move.
 ///
 /// Points. At a time s from the middle, |s| ≤ half, a core point x (without its swept sphere) is at
 ///   x + s·v(x) + Σ c_j T_j(x) + Σ w_k × (x − p_k),
 /// except for second-order terms. Here v is the velocity; T_j are the twists of the perturbations,
-/// |c_j| ≤ 1; p_k are the points of their pivot rotations w_k, |w_k| ≤ angle_k. Swept spheres move
-/// with their centres. A swept sphere's radius is the same in every pose.
+/// |c_j| ≤ 1; p_k are the points of their pivot rotations w_k, |w_k| ≤ angle_k. A swept sphere
+/// moves with its centre; its radius is the same in every pose.
 ///
 /// Width. Let h_A be the support of A along n, and h_B that of B along −n. The width is −h_A − h_B,
 /// with
@@ -36,8 +37,8 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// core. The maximum is convex in s, so the width is concave and least at s = −half or s = half.
 ///
 /// For core points the width is sharp: at that corner each c_j can be ±1 and each w_k perpendicular
-/// to n. It ignores that both bodies may share a joint (two chains that mimic one), which could
-/// only give a larger width.
+/// to n. If one variable moves joints in the chains of both bodies (mimics), the formula treats its
+/// perturbations as independent. The true width can only be larger.
 ///
 /// Discs and boxes. A disc about the corner x has the points x + d, with d perpendicular to the
 /// axis, |d| ≤ r. Let ⟂ be the component perpendicular to the axis. Then n·(d + s ω × d) = d·(n + s
@@ -45,7 +46,7 @@ BodyMotion motionSeenFrom(const Placement& at, const FrameState& state, Perturba
 /// box has the points x + d, |d_i| ≤ e_i: d·g ≤ Σ e_i |g_i|, and |n × d| ≤ |e|. These bounds are
 /// not sharp if there are several terms.
 ///
-/// Rounding: about 2^-58, relative to lengths that Reach::size contains.
+/// Rounding: about 2^-58 of lengths that Reach::size includes.
 class MovedSlab {
  public:
   /// @param direction from a to b, of any length; with 0 the width is −infinity.
@@ -93,9 +94,9 @@ struct Sought {
   Real wanted = 0;  ///< a larger bound is of no use
 };
 
-/// Returns a lower bound of the clearance of two bodies, for the whole interval and tube. Each pair
-/// of leaf primitives that comes near has a slab of its own. Returns −infinity if the bound is at
-/// most `sought.needed`.
+/// Returns a lower bound of the clearance of two bodies, for the whole interval and tube. Each near
+/// pair of leaf primitives has a slab of its own. Returns −infinity if no bound above
+/// `sought.needed` was found.
 /// @param placed the bodies at the middle of the interval.
 /// @param measured their distance there.
 /// @param scratch memory for the pairs of leaf primitives.

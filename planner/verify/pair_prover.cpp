@@ -127,10 +127,10 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t limb, Real t
   return state;
 }
 
-/// Returns how close the two closest points come under displacements within the tube. This is
-/// computed for a body whose chain begins with a translation, against a body that is fixed in the
-/// base. Such a body can be displaced in any direction by the smallest number of its tube; with a
-/// planar translation, only in the plane. For other pairs it is the distance at the pose.
+/// Returns an upper bound of the smallest distance that the pair has within the tube. For most
+/// pairs this is the distance at the pose. It is smaller for a body whose chain begins with a
+/// translation, against a body that is fixed in the base: the tube can displace such a body in any
+/// direction (of the plane, for a planar translation) by the smallest number of its tube.
 Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
   const RealVec between = m.gap.onB - m.gap.onA;
   const KinematicChain& limb = chains_[pairs_[pair].chainB];
@@ -149,15 +149,15 @@ Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
   return std::hypot(std::max<Real>(along - stray, 0), across);
 }
 
-/// Returns why the path is refuted at these poses, or null if it is not. Poses that may be far from
-/// the path refute nothing: then it returns why the pair is undecided, if it is.
+/// Returns why the path is refuted at these poses, or null if it is not. If the poses may be far
+/// from the path (not `sharp`), they refute nothing. The function then returns why the pair is
+/// undecided, or null.
 const char* PairProver::whyRefuted(const PairReach& reach, std::size_t pair,
                                    const Measured& m) const {
   if (!reach.sharp) return m.gap.upper <= problem_.margin + reach.rounding ? kTooLarge : nullptr;
   if (m.gap.touching) return "contact";
   if (problem_.margin > 0 && m.gap.upper <= problem_.margin) return "closer than the margin";
-  // Some curve in the tube is displaced by this much, so it touches or comes as close as the
-  // margin.
+  // Some curve in the tube comes this close, so it touches, or violates the margin.
   if (std::isfinite(m.gap.upper) && leastInTube(pair, m) <= problem_.margin)
     return "closer than the tube allows";
   return nullptr;

@@ -18,11 +18,13 @@ struct TimeInterval {
   Real middle = 0.5L, half = 0.5L;
 };
 
-/// A pair of bodies in a time interval, and what is known from a longer interval.
+/// A pair of bodies that is not yet proved in a time interval, and the results from the longer
+/// interval around it.
 struct OpenPair {
   std::size_t pair = 0;
   PiecePair guess;  ///< a pair of leaf primitives that is likely close
-  Real bound = -std::numeric_limits<Real>::infinity();  ///< proved; see PairAnswer::bound
+  Real bound = -std::numeric_limits<Real>::infinity();  ///< proved for the longer interval; see
+                                                        ///< PairAnswer::bound
 };
 
 /// The answer about a pair of bodies in a time interval. Lengths in metres.
@@ -32,7 +34,7 @@ struct PairAnswer {
   /// - undecided: no shorter interval about the same middle can be proved; `reason` says why.
   /// - empty: halve the interval.
   std::optional<PathVerdict> verdict;
-  /// Every curve in the tube keeps at least this distance in the whole interval.
+  /// In the whole interval, every curve in the tube keeps at least this distance.
   Real bound = -std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();  ///< ≥ the distance at the middle
   PiecePair closest;                ///< the closest pair of leaf primitives at the middle
@@ -40,11 +42,12 @@ struct PairAnswer {
   const char* reason = nullptr;     ///< without a verdict: the reason if halving doesn't help
 };
 
-/// Decides one pair of bodies in one time interval of one edge. verifyPath() bisects with it. No
-/// answer depends on earlier queries.
+/// Decides one pair of bodies in one time interval of one edge. verifyPath() calls it for ever
+/// shorter intervals. No answer depends on earlier queries.
 ///
-/// It holds what depends only on the problem (box trees, kinematic chains) or only on an edge (its
-/// curve and reach weights). It also caches the frames' states at the latest time.
+/// The object stores all data that depend only on the problem (box trees, kinematic chains) or only
+/// on an edge (its curve and reach weights). It also caches the states of the frames at the latest
+/// time.
 class PairProver {
  public:
   /// @throws std::invalid_argument as verifyPath() does.
@@ -52,15 +55,16 @@ class PairProver {
 
   std::size_t edges() const { return curves_.size(); }
   std::size_t pairs() const { return pairs_.size(); }
-  /// The finding `refuted` if the edge defines no curve: an end is not a state, a half turn is
-  /// ambiguous, or a joint jumps. Such an edge must not be passed to the functions below.
+  /// Returns the finding `refuted` if the edge defines no curve: an end is not a state, a half turn
+  /// is ambiguous, or a joint jumps. Such an edge must not be passed to the functions below.
   const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
 
-  /// @param interesting a bound of the clearance larger than this is of no use.
+  /// Decides a pair of bodies in an interval. @param interesting a bound of the clearance above
+  /// this value is of no use.
   PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real interesting);
 
-  /// Refutes a pair if one body has a point inside the other body, which is solid, at t = 0 of the
-  /// first edge. nullopt otherwise. @pre they do not touch there.
+  /// Refutes a pair if, at t = 0 of the first edge, one body has a point inside the other body, a
+  /// solid mesh. Returns nullopt otherwise. @pre the bodies do not touch there.
   std::optional<PairAnswer> insideAtStart(std::size_t pair);
 
   /// Returns the finding that reports an answer. @pre the answer has a verdict.
@@ -77,7 +81,7 @@ class PairProver {
   struct PairReach {
     Reach sum;
     Real rounding = 0;  ///< metres; bound for every computed distance and displacement
-    bool sharp = true;  ///< the poses are so close to the path that a contact there refutes it
+    bool sharp = true;  ///< the computed poses are so close to the path that a contact refutes it
   };
   /// Both bodies at the middle of an interval.
   struct Measured {
@@ -100,8 +104,8 @@ class PairProver {
   const char* whyStuck(const PairReach& reach, const Measured& m) const;
   std::optional<Vec3> pointInside(std::size_t solid, std::size_t other,
                                   const Placement& X_SolidOther) const;
-  /// Returns whether the tube exceeds the tolerance. Only then bounding it by direction may change
-  /// a verdict.
+  /// Returns whether the tube displaces points by more than the tolerance. Only then can a bound of
+  /// the tube along one direction change a verdict.
   bool tubeMatters(const PairReach& reach) const { return reach.sum.tube > problem_.tolerance; }
 
   const PathProblem& problem_;

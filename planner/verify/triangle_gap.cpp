@@ -15,9 +15,9 @@ void keepCloser(TriangleGap& best, const RealVec& onA, const RealVec& onB) {
   if (square < best.upper) best = {0, square, onA, onB};  // `upper` holds squares until the end
 }
 
-/// Closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9). If the segments
-/// are nearly parallel, any first parameter will do: the second is then chosen best for it, and the
-/// first best for the second.
+/// Tries the closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9). If the
+/// segments are nearly parallel, the first guess of a parameter may be arbitrary: the best u for
+/// this guess is computed, then the best t for this u.
 void edgeEdge(TriangleGap& best, const RealVec& p, const RealVec& q, const RealVec& r,
               const RealVec& s) {
   const RealVec d1 = q - p, d2 = s - r, w = p - r;
@@ -41,8 +41,9 @@ bool footInside(const RealVec& p, const RealVec t[3], RealVec& foot) {
   return true;
 }
 
-/// Returns the widest slab along the normals, the cross products of edges, and the normals of edges
-/// in the planes. It is for triangles so thin that their computed closest points are wrong.
+/// Returns the width of the widest slab along these directions: the normals, the cross products of
+/// edges, and the normals of edges in the planes. It is used for triangles that are so thin that
+/// their computed closest points are wrong.
 Real widestSlab(const RealVec a[3], const RealVec b[3]) {
   const RealVec normalA = (a[1] - a[0]).cross(a[2] - a[0]);
   const RealVec normalB = (b[1] - b[0]).cross(b[2] - b[0]);
@@ -84,7 +85,7 @@ TriangleGap triangleGap(const RealVec a[3], const RealVec b[3]) {
   }
   best.upper = std::sqrt(best.upper);
   best.lower = std::max<Real>(0, slabWidth(a, b, best.onB - best.onA));
-  // In a good direction the slab is as wide as the distance. The threshold 1/1024 only decides
+  // In the best direction the slab is as wide as the distance. The threshold 1/1024 only decides
   // whether a second attempt is worth its time.
   if (best.lower < best.upper * (1 - Real(1) / 1024)) {
     best.lower = std::max(best.lower, widestSlab(a, b));

@@ -17,7 +17,7 @@ using RealMat = Eigen::Matrix<Real, 3, 3>;
 ///
 /// `upper` is the distance of the two witness points: the closest of the 15 pairs of features (6 of
 /// a vertex and a face, 9 of two edges). `lower` doesn't depend on that computation. It is the
-/// width of a slab between two parallel planes, with a triangle on either side. Any direction n
+/// width of a slab between two parallel planes, with one triangle on each side. Any direction n
 /// gives a true bound:
 ///     distance ≥ (min over B of n·b − max over A of n·a) / |n|.
 /// If the triangles meet, every slab has width ≤ 0. So `lower` is right without a test for
@@ -25,9 +25,9 @@ using RealMat = Eigen::Matrix<Real, 3, 3>;
 ///
 /// Rounding: let S be the largest norm of a corner. A dot product is off by at most 3u|n|S(1 +
 /// O(u)), the difference of two by another u·2|n|S, and the division by |n| by a factor 1 ± 4u.
-/// `lower` exceeds the true distance of the given corners by less than (3 + 3 + 2 + 8)u·S =
-/// 2^-60·S. `upper` is below the distance of the witness points by less than that. Callers add this
-/// error.
+/// So `lower` exceeds the true distance of the given triangles by less than (3 + 3 + 2 + 8)u·S =
+/// 2^-60·S. `upper` may be below the distance of the witness points by less than that. Callers add
+/// this error.
 struct TriangleGap {
   Real lower = 0;
   Real upper = std::numeric_limits<Real>::infinity();

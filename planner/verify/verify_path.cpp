@@ -19,12 +19,12 @@ constexpr int kFindings = 100;
 /// The maximum number of times that an edge is halved: t then has 60 bits, and EdgeCurve's bounds
 /// on rounding allow 63.
 constexpr int kDepth = 60;
-/// An edge is first halved into 2^kCoarse intervals, the worst first, to find a deep collision
-/// quickly. After that the deepest interval is next, to find an undecidable place without halving
-/// all others as far.
+/// An edge is first halved into 2^kCoarse intervals, beginning with those of the smallest bound:
+/// this finds a deep collision quickly. After that the shortest interval is next: this finds an
+/// undecidable place before all other intervals are halved as far.
 constexpr int kCoarse = 5;
-/// After the proof, refining the bound of the clearance may take this many queries, plus four times
-/// those of the proof.
+/// After the proof, this many queries, plus four times the number of those of the proof, may be
+/// used to refine the bound of the clearance.
 constexpr std::uint64_t kRefinement = 4000;
 constexpr Real kRefined = 0.9L;
 
@@ -58,8 +58,8 @@ struct WorstOnTop {
   bool operator()(const Interval& a, const Interval& b) const { return a.bound > b.bound; }
 };
 
-/// Bisects all edges. If a pair is undecided somewhere on an edge, it is not tested further on that
-/// edge. Other pairs are, because one of them may refute the edge.
+/// Bisects all edges. If a pair is undecided somewhere on an edge, this pair is not tested further
+/// on that edge. The other pairs are, because one of them may refute the edge.
 class Verifier {
  public:
   Verifier(const PathProblem& problem, const std::vector<Configuration>& states)
@@ -80,7 +80,8 @@ class Verifier {
   PathReport report() const;
   bool outOfWork() const { return queries_ >= problem_.workLimit; }
   bool hasFinding(std::size_t edge) const { return findings_.count(static_cast<int>(edge)) > 0; }
-  /// Returns whether nothing more can be learned about the edge.
+  /// Returns whether the edge needs no more queries: it is refuted, or it is undecided and the work
+  /// limit is reached.
   bool closed(std::size_t edge) const {
     const auto found = findings_.find(static_cast<int>(edge));
     return found != findings_.end() &&
@@ -153,8 +154,9 @@ void Verifier::testAll(Interval& interval) {
   interval.pairs = std::move(left);
 }
 
-/// Tests the states before the edges, for two reasons: bisection alone only approaches them, and
-/// the smallest distance there limits what is `interesting()` elsewhere.
+/// Tests the states before the edges, for two reasons. Bisection comes close to the states, but
+/// never tests them. And the smallest distance at the states is an upper bound of the clearance,
+/// which `interesting()` uses.
 void Verifier::proveStates() {
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     for (const Real t : {0, 1}) {
@@ -181,7 +183,7 @@ void Verifier::proveEdge(std::size_t edge) {
   }
 }
 
-/// Tests whether a body is inside another at the start. If not, it stays outside along a path
+/// Tests whether a body is inside another one at the start. If not, it stays outside along a path
 /// without contact. A pair that is undecided at the start is skipped, because its surfaces may
 /// touch.
 void Verifier::proveOutside() {

@@ -11,22 +11,21 @@
 
 namespace corridor {
 
-/// The verifier: a second opinion that proves or refutes the path of everything that moves. It is
-/// independent of the planner's checker. It shares only the plain data of meshes, parts, frames and
-/// coordinates, and no bound, pose, tree, distance or predicate.
+/// The verifier proves or refutes a path of all robots of a problem. It is independent of the
+/// planner's checker. The two share only the plain data of meshes, parts, frames and coordinates,
+/// and no bound, pose, tree, distance or predicate.
 ///
 /// The method is adaptive bisection (Schwarzer, Saha, Latombe 2005). At the middle of a time
 /// interval of an edge, the distance d of two bodies is bounded from below. Seen from the common
 /// ancestor of their frames, no point moves farther in the interval than the motion bound
-///     travel = Σ over the joints between the two of |Δ_j|·h·reach_j.
-/// Here h is the half width of the interval in t, and reach_j is a constant: the length of the
-/// chain after the joint.
+///     travel = Σ |Δ_j|·h·reach_j  over the joints between the two frames.
+/// Here h is the half width of the interval in t. reach_j is a constant: the length of the chain
+/// after joint j, plus the radius of the body (1 for a prismatic joint).
 ///
 /// 1. If d > travel + margin + tube + rounding, the interval is proved for this pair.
-/// 2. Otherwise each pair of leaf primitives that comes near is tested along a slab of its own.
-/// Three
-///    things count along it: the velocity at the middle; the tube, where it exceeds the tolerance;
-///    and a second-order term, a constant times (h + tube)².
+/// 2. Otherwise each near pair of leaf primitives is tested along the direction of a slab of its
+///    own. Three terms count in this direction: the velocity at the middle; the tube, if it exceeds
+///    the tolerance; and a second-order term, which is quadratic in h and the tube.
 /// 3. Otherwise the interval is halved, until the motion bound is below the tolerance.
 ///
 /// Distances come from plain AABB trees in long double, each certified by a slab between the two
@@ -39,8 +38,8 @@ namespace corridor {
 
 struct VerifyBody {
   std::string name;
-  /// Exactly one of `mesh` and `part` is set. Not owned; must outlive the call. In the frame's
-  /// coordinates.
+  /// Exactly one of `mesh` and `part` is set. Not owned; must outlive the call. Its vertices or
+  /// points are in the frame's coordinates.
   const TriangleMesh* mesh = nullptr;
   const ConvexPart* part = nullptr;
   bool solid = false;  ///< mesh only: its interior counts, too (a part is always solid)
@@ -56,21 +55,24 @@ struct PathProblem {
   const ConfigurationSpace* space = nullptr;  ///< not owned; only its `coordinates()` are read
   std::vector<VerifyBody> bodies;
   std::vector<VerifyPair> pairs;
-  double margin =
-      0;  ///< metres; a clearance of at most this is a violation (0: touching is contact)
+  double margin = 0;     ///< metres; a clearance of at most this is a violation
   Configuration tube;    ///< the proof holds for all curves in it (planner/model/task.h)
   double tolerance = 0;  ///< metres, > 0
-  std::uint64_t workLimit = 2'000'000;  ///< distance queries; after that edges are left undecided
+  std::uint64_t workLimit = 2'000'000;  ///< distance queries; beyond it edges are left undecided
 };
 
 enum class PathVerdict {
-  proved,    ///< every curve in the tube keeps more than the margin everywhere; never wrong
-  refuted,   ///< some finding is: a contact, or a point closer than margin or tube allow, at a pose
-             ///< within rounding of the path (2^-48 of the lengths involved, or the tolerance); an
-             ///< ambiguous half turn; a joint that would jump; or a state that is not valid data
-  undecided  ///< neither: somewhere the clearance left is below twice the tolerance, or below what
-             ///< the tube takes by the first order of MovedSlab and the second of Reach; or the
-             ///< rounding of a large value takes it; or the work limit was reached
+  /// Every curve in the tube keeps more than the margin everywhere. Never wrong.
+  proved,
+  /// At least one finding is a refutation: a contact, or a distance that margin or tube do not
+  /// allow, at a pose within rounding of the path (2^-48 of the lengths involved, or the
+  /// tolerance); an ambiguous half turn; a joint that would jump; or a state that is not valid
+  /// data.
+  refuted,
+  /// Neither. Somewhere the clearance beyond the margin is below twice the tolerance, or below the
+  /// displacement by the tube (the first order in MovedSlab and the second in Reach); or the
+  /// rounding of a large value may exceed the clearance; or the work limit was reached.
+  undecided
 };
 
 /// A fault of an edge: its first refutation, or else its first undecided place.
@@ -80,7 +82,7 @@ struct PathFinding {
   double t = 0;  ///< time on the edge, in [0, 1]
   /// The state at t. A contact is exact at a pose that differs from this state's by rounding only.
   Configuration configuration;
-  std::string a, b;  ///< names of the two bodies that touch or are closest there; empty: none
+  std::string a, b;  ///< the two bodies that touch, or could not be decided there; empty: none
   std::uint32_t triangleA = 0, triangleB = 0;  ///< numbers in their meshes; 0 for parts
   Vec3 point = Vec3::Zero();  ///< the contact, or the closest point of `b`; metres, world
   double gap = 0;             ///< distance of the two bodies at t, metres; 0: contact
@@ -93,23 +95,26 @@ struct PathReport {
   int edges = 0;
   int edgesProved = 0;
   /// Metres. If the path is proved, every curve in the tube keeps at least this distance; infinite
-  /// if no pair is tested. It is refined until it reaches 90 % of `smallestDistanceMet` less the
-  /// tube, until the motion bound of the worst interval is below the tolerance, or until a limit of
-  /// queries. 0 if the path is not proved.
+  /// if no pair is tested. It is refined until one of three conditions holds: it reaches 90 % of
+  /// the difference between `smallestDistanceMet` and the displacement by the tube; the motion
+  /// bound of the worst interval is below the tolerance; or a limit of queries is reached. 0 if the
+  /// path is not proved.
   double provenClearance = 0;
   /// Metres: the smallest distance met at the poses tested. The path's clearance is not larger.
   double smallestDistanceMet = std::numeric_limits<double>::infinity();
   std::uint64_t distanceQueries = 0;
 };
 
-/// Verifies a path through `states`. A path of one state is a check of that state. The caller must
-/// check the bounds of the variables, and that start and goal are those of the problem.
+/// Verifies a path through `states`. For a path of one state, this state is verified. The caller
+/// must check the bounds of the variables, and that start and goal are those of the problem.
 ///
 /// A state that is not finite or has a zero quaternion is a finding. If the processor's
 /// floating-point mode makes the bounds invalid (collision/core/floating_point.h), every edge is
 /// undecided.
-/// @throws std::invalid_argument if there are no states, if a pointer is null, or if a margin, tube
-/// or tolerance is negative or not finite.
+/// @throws std::invalid_argument if there are no states; if a pointer is null; if margin, tube or
+/// tolerance is negative or not finite, or the tolerance is 0; if the tube has another length than
+/// a configuration; if a body has neither a mesh nor a part, or both, or an empty one; or if a pair
+/// names a body that does not exist.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 
 }  // namespace corridor

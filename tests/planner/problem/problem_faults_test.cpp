@@ -84,13 +84,12 @@ TEST_F(ProblemFaults, AMistypedKeyIsNotAlsoMissing) {
 }
 
 TEST_F(ProblemFaults, MissingKeys) {
-  EXPECT_EQ(
-      complaintOf("seed: 1\n"),
-      "problem.yaml: missing key \"format\": the file begins with format: corridor-problem-1\n"
-      "problem.yaml: missing one of robot and robots: the robot's file, such as robot: "
-      "../../robots/piano/robot.yaml\n"
-      "problem.yaml: missing key \"world\": the obstacles, such as world: {table: {mesh: "
-      "table.obj, unit: m}}");
+  EXPECT_EQ(complaintOf("seed: 1\n"),
+            "problem.yaml: missing key \"format\"; begin the file with format: corridor-problem-1\n"
+            "problem.yaml: missing one of robot and robots: the robot's file, such as robot: "
+            "../../robots/piano/robot.yaml\n"
+            "problem.yaml: missing key \"world\": the obstacles, such as world: {table: {mesh: "
+            "table.obj, unit: m}}");
   EXPECT_EQ(complaintOf(head),
             "problem.yaml: missing key \"start\": the robot's pose, such as start: {at: [0, 0, 1], "
             "rpy_deg: [0, 0, 90]}\n"
