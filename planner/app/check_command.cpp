@@ -36,9 +36,8 @@ struct CheckedState {
   bool valid = false;
   std::vector<std::string> pairs;        ///< pairs that are not free: "hand~table"
   std::vector<std::string> outOfBounds;  ///< names of coordinates and of joints that mimic
-  /// Set if a pair is undecided because a large value was rounded: the name of the largest angle,
-  /// or
-  /// "" if the value is in metres.
+  /// Set if a pair is undecided because a large value was rounded. It is then the name of the
+  /// largest angle, or "" if the value is in metres.
   std::optional<std::string> tooLarge;
 };
 

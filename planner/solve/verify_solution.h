@@ -18,7 +18,7 @@ const char* nameOf(DigestState state);
 
 /// What to do with a solution whose digest differs from the problem's.
 enum class OtherDigest {
-  refused,  ///< it is not verified: a proof for this problem is no proof for the solution's own
+  refused,  ///< it is not verified: a proof would be for another problem than the solution's
   ignored   ///< it is verified for this problem
 };
 
