@@ -18,7 +18,7 @@ ROBOTS, PROBLEMS = ROOT / 'robots', ROOT / 'problems'
 # A piano through an apartment
 
 def piano():
-    """A small grand piano of 1.40 x 1.50 x 0.95 m with its lid closed; the keyboard looks to -y."""
+    """A small grand piano of 1.40 x 1.50 x 0.95 m with its lid closed. The keyboard is at -y."""
     rim = [(0.7, -0.30), (0.66, -0.06), (0.46, 0.13), (0.22, 0.30), (0.09, 0.52), (-0.10, 0.69), (-0.34, 0.75), (-0.58, 0.68), (-0.7, 0.45)]
     outline = [(-0.7, -0.50), (0.7, -0.50)] + spline(rim, 4)
     lid = [(x * 1.015, y * 1.015) for x, y in outline]
@@ -39,7 +39,7 @@ def piano():
 
 
 def apartment():
-    """Three rooms of 2.7 m height and two doors, 1 m wide: less than the piano in any upright position."""
+    """Three rooms, 2.7 m high, and two doors, 1 m wide: narrower than the piano, however it is turned upright."""
     door = 2.1
     walls = carve(
         [((-0.2, -0.2, 0), (9.2, 6.2, 2.7))],
@@ -62,12 +62,12 @@ def apartment():
 
 
 def make_piano():
-    write(piano(), ROBOTS / 'piano/piano.obj', scale=100, up='y')  # as many a download has it: centimetres, y up
+    write(piano(), ROBOTS / 'piano/piano.obj', scale=100, up='y')  # like many downloaded models: centimetres, y up
     for name, mesh in apartment().items():
         write(mesh, PROBLEMS / 'piano' / name)
 
 
-# A bug in a bottle whose neck is turned in
+# A bug in a bottle whose neck points inward
 
 def make_bug_trap():
     body = ellipsoid((0, 0, 0), (0.10, 0.10, 0.20), 20, 14) + ellipsoid((0, 0, 0.21), (0.06, 0.06, 0.06), 14, 8)
@@ -89,9 +89,8 @@ def make_bug_trap():
 # Two bent tubes, linked
 
 def make_twisted_tubes():
-    """One and a bit turns of a coil, with short straight ends; where the turns overlap, there is `pitch` - 2 `radius`
-    between them, and a tube that is to get out of the coil has to slide along there, from one end of the overlap to the
-    other."""
+    """A coil of 1.4 turns with short straight ends. Where the turns overlap, the gap between them is `pitch` - 2 `radius`.
+    A tube that leaves the coil must slide through this gap, from one end of the overlap to the other."""
     radius, coil, pitch, turns, straight, steps = 0.08, 0.45, 0.43, 1.4, 0.2, 66
     path = []
     for k in range(steps + 1):
@@ -151,7 +150,7 @@ def make_thin_plate():
 # A rod through a hole with 1 % play
 
 def make_rod_hole():
-    """The corners of the rod are at its radius, the middles of the hole's sides at 1.01 times that: 1 % is what there is."""
+    """The rod's corners are at `radius`, the middles of the hole's sides at 1.01 times that: the play is nowhere below 1 %."""
     radius, sides = 0.02, 48
     write(revolve([(0, -0.1), (radius, -0.1), (radius, 0.1), (0, 0.1)], sides), ROBOTS / 'rod/rod.obj')
     plate = plate_with_hole(0.16, 1.01 * radius / math.cos(math.pi / sides), sides, -0.0025, 0.0025)
@@ -197,7 +196,7 @@ def make_hook_maze():
     write(prism(outline[::-1], 0.05, 0.25), ROBOTS / 'hook/hook.obj')
 
 
-# What robots with joints work in (the robots: robots/make_robots.py)
+# Worlds for the robots with joints (robots/make_robots.py makes these robots)
 
 def make_robot_worlds():
     boards = [((0, -0.52, z), (0.34, 0.52, z + 0.02)) for z in (0.40, 0.78, 1.13, 1.48)]

@@ -9,7 +9,7 @@ import math
 import struct
 from bisect import bisect_left
 
-DECIMALS = 7  # of a metre: far below any play in these scenes, far above the last bits in which sines differ
+DECIMALS = 7  # in metres: far below any play in these scenes, far above the last bits, in which machines' sines differ
 
 
 class Mesh:
@@ -18,7 +18,7 @@ class Mesh:
         self.triangles = list(triangles)
 
     def __add__(self, other):
-        """Both, side by side; where they overlap they are a soup, which is all that a surface needs to be."""
+        """Returns the triangles of both meshes. Overlaps are not removed: a surface may intersect itself."""
         shift = len(self.vertices)
         return Mesh(self.vertices + other.vertices, self.triangles + [tuple(i + shift for i in t) for t in other.triangles])
 
@@ -26,14 +26,14 @@ class Mesh:
         return self.mapped(lambda p: tuple(a + b for a, b in zip(p, by)))
 
     def mapped(self, function):
-        """Every vertex under `function`, which must keep the orientation."""
+        """Applies `function` to every vertex. It must keep the orientation."""
         return Mesh([function(p) for p in self.vertices], self.triangles)
 
     def quad(self, a, b, c, d):
         self.triangles += [(a, b, c), (a, c, d)]
 
     def check(self):
-        """Closed and oriented: every edge is used as often forwards as backwards; and the inside is inside."""
+        """Asserts that the mesh is closed, oriented (each edge is used as often forwards as backwards) and not inside out."""
         balance = {}
         for t in self.triangles:
             assert len(set(t)) == 3
@@ -54,8 +54,8 @@ class Mesh:
 # Constructions
 
 def carve(solids, openings=()):
-    """The union of the boxes `solids` less the boxes `openings`, each ((x0, y0, z0), (x1, y1, z1)): walls with doors,
-    floors with holes, furniture, mazes. One watertight surface, on the grid of all the boxes' faces."""
+    """The union of the boxes `solids` minus the boxes `openings`, each ((x0, y0, z0), (x1, y1, z1)): walls with doors,
+    floors with holes, furniture, mazes. Returns one watertight surface, on the grid of all faces of the boxes."""
     boxes = list(solids) + list(openings)
     grid = [sorted({corner[axis] for box in boxes for corner in box}) for axis in range(3)]
     cells = set()
@@ -97,8 +97,8 @@ def box(lower, upper):
 
 
 def revolve(profile, sides):
-    """The surface of revolution of `profile`, points (radius, z) from one point of the z-axis to another; the inside is
-    on its left, as it is for a profile that goes up on the right."""
+    """The surface of revolution of `profile`: points (radius, z) from one point of the z-axis to another. Drawn with the
+    radius to the right and z up, the profile has the inside on its left: an outer wall goes up."""
     mesh, rings = Mesh(), []
     for radius, z in profile:
         ring = []
@@ -168,7 +168,7 @@ def prism(polygon, z0, z1):
 
 
 def plate_with_hole(half_width, hole_radius, sides, z0, z1):
-    """A square plate with a round hole in its middle. `sides`, a multiple of 8, are the corners of the hole, all at
+    """A square plate with a round hole in its middle. The hole has `sides` corners, a multiple of 8, all at
     `hole_radius`."""
     mesh = Mesh()
     for z in (z0, z1):
@@ -188,7 +188,7 @@ def plate_with_hole(half_width, hole_radius, sides, z0, z1):
 
 
 def spline(points, steps):
-    """A smooth curve through `points` (Catmull-Rom), `steps` pieces between two of them; ends included."""
+    """A smooth curve through `points` (Catmull-Rom), with `steps` pieces between two of them; ends included."""
     curve = []
     for i in range(len(points) - 1):
         p0, p1, p2, p3 = points[max(i - 1, 0)], points[i], points[i + 1], points[min(i + 2, len(points) - 1)]
@@ -201,7 +201,7 @@ def spline(points, steps):
 
 
 def _ears(polygon):
-    """Triangles of a simple polygon by ear clipping; the roundest ear first, so that no slivers are left over."""
+    """Triangles of a simple polygon by ear clipping. The roundest ear is cut first, so that few slivers are left."""
     def turn(a, b, c):
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
@@ -244,8 +244,8 @@ def _unit(a):
 # Files
 
 def write(mesh, path, scale=1, up='z'):
-    """Checks and writes `mesh`; the format is that of the name: .obj, .ply (ASCII), .stl (binary), .ascii.stl. `scale`:
-    units of the file in a metre; `up`: the file's up-axis."""
+    """Checks and writes `mesh`. The name decides the format: .obj, .ply (ASCII), .stl (binary), .ascii.stl. `scale`:
+    units of the file per metre; `up`: the file's up-axis."""
     mesh.check()
     turn = {'z': lambda p: p, 'y': lambda p: (p[0], p[2], -p[1])}[up]
     decimals = DECIMALS - round(math.log10(scale))

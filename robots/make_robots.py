@@ -21,8 +21,8 @@ HALF = math.pi / 2
 # Parts of links: round housings with rounded edges, as castings have
 
 def housing(radius, low, high, sides=36, edge=0.25, waist=1.0):
-    """A round housing along z, from `low` to `high`; `edge`: radius of its edges, as a share of `radius`; `waist`: the
-    radius in its middle, as a share."""
+    """A round housing along z, from `low` to `high`. `edge`: the radius of its rounded edges; `waist`: the radius in its
+    middle; both as shares of `radius`."""
     e = min(edge * radius, 0.45 * (high - low))
     profile = [(0, low)]
     for k in range(5):
@@ -49,7 +49,7 @@ def barrel(radius, low, high, z=0.0, y=0.0, sides=36):
 
 
 def gripper(z0, opening=0.07):
-    """A palm and two fingers that look along z."""
+    """A palm and two fingers that point along z."""
     palm = carve([((-0.022, -0.075, z0), (0.022, 0.075, z0 + 0.05))])
     fingers = Mesh()
     for side in (-1, 1):
@@ -70,7 +70,7 @@ def numbers(v):
 
 
 class Urdf:
-    """The text of a URDF: links and joints as they are added."""
+    """Collects links and joints, and writes them as a URDF."""
 
     def __init__(self, name):
         self.name, self.parts = name, []
@@ -123,7 +123,7 @@ def write_srdf(path, name, groups, states=(), disabled=()):
     path.write_text('\n'.join(rows + ['</robot>']) + '\n')
 
 
-# A 7-joint arm: roll and bend joints in turn, all in one line
+# A 7-joint arm: roll and bend joints alternate, all in one line
 
 ARM7 = [  # joint, height of its origin in the parent link, axis, limits
     ('pan', 0.16, (0, 0, 1), 2.9), ('lift', 0.20, (0, 1, 0), 2.0), ('roll', 0.20, (0, 0, 1), 2.9), ('elbow', 0.20, (0, 1, 0), 2.4),
@@ -193,7 +193,7 @@ def make_arm6():
                [('up', 'arm', zero), ('ready', 'arm', dict(zero, lift=-0.9, elbow=2.0, wrist1=0.4))])
 
 
-# A mobile manipulator: a cart that drives and turns in the plane, and the 6-joint arm on it, at three quarters
+# A mobile manipulator: a cart that drives and rotates in the plane carries the 6-joint arm at three quarters of its size
 
 def make_rover():
     body = carve([((-0.36, -0.25, 0.08), (0.36, 0.25, 0.30)), ((-0.30, -0.21, 0.30), (-0.02, 0.21, 0.46))])
@@ -201,7 +201,7 @@ def make_rover():
     for x in (-0.22, 0.22):
         for y in (-0.285, 0.285):
             body += wheel.moved((x, y, 0.09))
-    body += housing(0.03, 0.46, 0.75, 24).moved((-0.22, 0, 0))  # a mast, and what looks out from it
+    body += housing(0.03, 0.46, 0.75, 24).moved((-0.22, 0, 0))  # a mast with a camera
     body += box((-0.27, -0.06, 0.75), (-0.15, 0.06, 0.79))
     write(body, ROOT / 'rover/cart.stl')
     urdf = Urdf('rover')
@@ -213,7 +213,7 @@ def make_rover():
     urdf.write(ROOT / 'rover/rover.urdf')
 
 
-# A gantry of primitives: three slides and a turn
+# A gantry of primitives: three prismatic joints, and a gripper that rotates
 
 def make_gantry():
     urdf = Urdf('gantry')

@@ -50,9 +50,9 @@ struct BenchmarkArguments {
   throw InputError(Fault{option, 0, why});
 }
 
-/// Splits the values of an option at commas; refuses empty entries. CLI11's own delimiter drops
-/// these: then "$A,certified" with an unset variable would silently run another comparison.
-/// @throws InputError
+/// Splits the values of an option at commas. CLI11's own delimiter drops empty entries: then
+/// "$A,certified" with an unset variable A would silently run another comparison.
+/// @throws InputError for an empty entry.
 std::vector<std::string> wordsOf(const std::string& option, const std::vector<std::string>& lists) {
   std::vector<std::string> words;
   for (const std::string& list : lists) {
@@ -68,8 +68,9 @@ std::vector<std::string> wordsOf(const std::string& option, const std::vector<st
   return words;
 }
 
-/// Returns the competitors that can take part. Their modules are opened only if a variant names a
-/// competitor or something unknown. @throws InputError if a variant names one that can't take part.
+/// Returns the competitors that are available. Their modules are opened only if a variant names a
+/// competitor or something unknown. @throws InputError if a variant names a competitor that is not
+/// available.
 std::vector<BenchmarkCompetitor> peersOf(const std::vector<std::string>& variants) {
   const std::vector<std::string>& edges = problemChoices().at("checker.edges");
   bool needed = false;
@@ -109,7 +110,7 @@ Campaign campaignOfProblems(const BenchmarkArguments& a) {
   return campaign;
 }
 
-/// Reads the campaign's file, or makes one of problems; options override what it says.
+/// Reads a campaign's file, or makes a campaign of problems. Options override its values.
 Campaign campaignOf(const BenchmarkArguments& a) {
   const auto file = std::find_if(a.files.begin(), a.files.end(),
                                  [](const std::string& name) { return isCampaignFile(name); });
@@ -134,13 +135,13 @@ bool anyRun(const std::vector<CampaignCell>& cells) {
 int benchmarkCommand(const BenchmarkArguments& a) {
   if (a.resume && !a.output) refuse("--resume", "needs -o with the folder of the campaign");
   Campaign campaign = campaignOf(a);
-  for (std::size_t i = campaign.problems.size(); i-- > 0;)  // these notes come first
+  for (std::size_t i = campaign.problems.size(); i-- > 0;)  // put these notes before all others
     if (nothingIsTested(campaign.problems[i]))
       campaign.notes.insert(campaign.notes.begin(),
                             campaign.problemNames[i] + ": " + kNothingTested);
   for (const std::string& note : campaign.notes) warn(note);
   checkCampaign(campaign);
-  // From here on the command makes files, which it must finish or remove on a signal.
+  // From here on the command creates files. If a signal arrives, it must finish or remove them.
   const std::atomic<bool>& interrupted = listenForInterrupts();
   const bool made = a.output && makeReportFolder(*a.output, campaign);
   std::vector<CampaignCell> cells = cellsOf(campaign);
@@ -160,8 +161,8 @@ int benchmarkCommand(const BenchmarkArguments& a) {
   const CampaignResult result = runCampaign(campaign, options, std::move(cells));
   if (show) std::fputs("\r\033[K", stderr);
   const bool any = anyRun(result.cells);
-  // A file that can't be written, such as in a folder that is gone, must not lose the table on
-  // stdout: its error is kept, and thrown after the table.
+  // If a file can't be written (its folder may be gone), the table is still printed on stdout. The
+  // error is kept, and thrown after the table.
   std::exception_ptr unwritten;
   std::vector<CampaignSession> sessions;
   try {
@@ -259,15 +260,16 @@ void addBenchmark(CLI::App& program, int& status) {
   command->footer(
       std::string(
           "Example: corridor benchmark problems/campaigns/error.yaml -o results --jobs 2\n"
-          "Or without a file: corridor benchmark problems/thin_plate problems/piano --variants "
+          "Or without a campaign file: corridor benchmark problems/thin_plate problems/piano "
+          "--variants "
           "certified,discrete:0.01,discrete:0.001 -o results\n"
           "Each run is a separate process, under OMPL's Benchmark. The independent verifier tests "
-          "each path: `refuted` counts those that collide, or violate the problem's margin, "
+          "each path: `refuted` counts the paths that collide, or violate the problem's margin, "
           "bounds, start or goal. Times and counts are medians over the solved runs.\n"
-          "Columns: *_s in seconds (time_s: all except reading files; time_p95_s: its 95 % "
-          "quantile; processor_s: of all threads), length_m in metres, rotation_rad in radians, "
-          "checking_share: checking's share of time_s. All columns, and the keys of campaigns: "
-          "planner/benchmark/README.md.\n") +
+          "Columns: *_s in seconds (time_s: everything except reading files; time_p95_s: its 95 % "
+          "quantile; processor_s: processor time of all threads), length_m in metres, rotation_rad "
+          "in radians, checking_share: the share of time_s that checking takes. All columns, and "
+          "the keys of campaign files: planner/benchmark/README.md.\n") +
       kExitStatus);
   command->callback([arguments, &status] { status = benchmarkCommand(*arguments); });
 }

@@ -7,15 +7,15 @@
 #include "planner/benchmark/campaign_database.h"
 #include "planner/benchmark/run_campaign.h"
 
-/// What `corridor benchmark` prints besides its table.
+/// The output of `corridor benchmark` besides its table.
 namespace corridor::app {
 
-/// Prints a line on stderr over the line before:
+/// Prints a line on stderr that replaces the line before:
 /// "[####······] 41 of 240, 2:10 left: piano, certified, RRT, seed 2".
 void showProgress(const Campaign& campaign, const CampaignProgress& progress);
 
-/// Returns what a reader of the results must know: runs of several builds or on several machines,
-/// and competitors that leave out a margin.
+/// Returns notes for the readers of the results: on runs of several builds or machines, and on
+/// competitors that ignore a margin.
 std::vector<std::string> notesOf(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                                  const std::vector<CampaignSession>& sessions);
 

@@ -31,18 +31,18 @@ struct CheckArguments {
 
 using nlohmann::ordered_json;
 
-/// What is wrong with a state of a file.
+/// The verdict on a state of a file, and the reasons.
 struct CheckedState {
   bool valid = false;
   std::vector<std::string> pairs;        ///< pairs that are not free: "hand~table"
   std::vector<std::string> outOfBounds;  ///< names of coordinates and of joints that mimic
-  /// Set if rounding leaves a pair undecided: the name of the largest angle, or "" if coordinates
-  /// in metres are too large.
+  /// Set if a pair is undecided because a large value was rounded. It is then the name of the
+  /// largest angle, or "" if the value is in metres.
   std::optional<std::string> tooLarge;
 };
 
-/// Returns the name of the largest angle beyond 2π, or "" if there is none: then the rounding is
-/// that of coordinates in metres.
+/// Returns the name of the largest angle beyond 2π, or "" if there is none. Then the large values
+/// are coordinates in metres.
 std::string largestAngle(const ConfigurationSpace& space, const Configuration& q) {
   const Coordinate* largest = nullptr;
   const auto size = [&](const Coordinate& c) {
@@ -57,7 +57,7 @@ std::string largestAngle(const ConfigurationSpace& space, const Configuration& q
   return largest ? largest->name : "";
 }
 
-/// Checks a state as it is: a continuous joint takes any angle, and no angle is wrapped.
+/// Checks a state as given: a continuous joint may have any angle, and no angle is wrapped.
 CheckedState checkState(const Checker& checker, Configuration q, std::vector<std::string>& notes) {
   CheckedState checked;
   for (const Coordinate& c : checker.space().coordinates()) {
@@ -164,11 +164,12 @@ void addCheck(CLI::App& program, int& status) {
   const auto arguments = std::make_shared<CheckArguments>();  // the callback keeps it
   CheckArguments& a = *arguments;
   CLI::App* command =
-      program.add_subcommand("check", "Check a problem, or many states of it, without planning");
+      program.add_subcommand("check", "Check a problem, or many states, without planning");
   command->add_option("PROBLEM", a.problem, "the problem, as for solve")->required();
   command->add_option("--states", a.states,
-                      "a file of states (-: standard input), one per line, numbers blank or comma "
-                      "separated, # starts a comment; prints a line state,valid,pairs for each");
+                      "check the states in this file (-: standard input): one per line, numbers "
+                      "separated by blanks or commas, # starts a comment. Prints a line "
+                      "state,valid,pairs for each state");
   addJson(*command, a.json);
   command->footer(
       std::string(

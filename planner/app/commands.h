@@ -5,7 +5,7 @@ class App;
 }
 
 /// The commands of the program. Each is a file NAME_command.cpp, which declares its options and
-/// their help, checks which of them go together, and does the work.
+/// their help, checks which of them can be combined, and does the work.
 namespace corridor::app {
 
 /// Exit statuses of all commands, documented by --help and in the README. A command that a signal N

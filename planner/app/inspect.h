@@ -13,7 +13,7 @@ namespace corridor::app {
 
 struct InspectArguments {
   std::string file;
-  std::optional<std::string> unit, up;  ///< how to read a mesh file
+  std::optional<std::string> unit, up;  ///< a mesh file's unit and up-axis
   bool selfIntersections = false;       ///< mesh files: compute self-intersections
   bool pairs = false;                   ///< problems: list every pair of bodies
   std::optional<std::string> against;   ///< a second mesh file: measure queries of the two

@@ -63,8 +63,8 @@ ordered_json meshJson(const MeshFile& file) {
 
 namespace {
 
-/// Figures of the 4-wide OBB tree, the one that queries use by default, and the depth of a binary
-/// one.
+/// Figures of a mesh's 4-wide OBB tree, which queries use by default, and the depth of its binary
+/// OBB tree.
 struct TreeFigures {
   std::size_t nodes = 0, bytes = 0, depth = 0;
   double buildMs = 0;
@@ -148,9 +148,9 @@ bool isRobotFile(const std::string& file) {
   });
 }
 
-/// Returns the robot of a folder: its robot.yaml, else its only URDF. Returns "" for a folder that
-/// holds a problem, and for anything that is not a folder.
-/// @throws InputError if a folder holds no problem, no robot.yaml and not exactly one URDF.
+/// Returns the robot of a folder: its robot.yaml, or else its only URDF. Returns "" for a folder
+/// that contains a problem, and for anything that is not a folder.
+/// @throws InputError if a folder contains no problem, no robot.yaml and not exactly one URDF.
 std::string robotInFolder(const std::filesystem::path& folder) {
   std::error_code none;
   if (!std::filesystem::is_directory(folder, none) ||
@@ -212,35 +212,35 @@ void addInspect(CLI::App& program, int& status) {
   const auto arguments = std::make_shared<InspectArguments>();  // the callback keeps it
   InspectArguments& a = *arguments;
   CLI::App* command = program.add_subcommand(
-      "inspect", "Report on a mesh, a robot or a problem, and on pairs that are never tested");
+      "inspect", "Describe a mesh, a robot or a problem, with the pairs that are never tested");
   command
       ->add_option("FILE", a.file,
-                   "a mesh file, a URDF or robot.yaml, a problem, or a folder that holds a problem "
-                   "or a robot")
+                   "a mesh file, a URDF or robot.yaml, a problem, or a folder that contains a "
+                   "problem or a robot")
       ->required();
-  command->add_option("--unit", a.unit, "for a mesh file: its unit, m, cm, mm or in")
+  command->add_option("--unit", a.unit, "for a mesh file: the unit of its coordinates")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
-  command->add_option("--up", a.up, "for a mesh file: its up-axis, which is turned to z")
+  command->add_option("--up", a.up, "for a mesh file: its up-axis, which is rotated to z")
       ->check(CLI::IsMember({"x", "y", "z"}));
   command->add_flag(
       "--self-intersections", a.selfIntersections,
-      "for a mesh file: count the pairs of its triangles that intersect, except in the "
-      "corners and edges that they share (seconds for a million triangles; each pair "
+      "for a mesh file: count the pairs of its triangles that intersect elsewhere than in the "
+      "corners and edges that they share (takes seconds for a million triangles; each pair "
       "of coincident triangles counts)");
   command->add_flag("--pairs", a.pairs,
-                    "for a problem: list every pair of bodies, and why it is not tested");
+                    "for a problem: list every pair of bodies: tested, or the reason why not");
   const char* cost = "Cost of queries of two meshes";
   command
       ->add_option(
           "--against", a.against,
-          "a second mesh file; reports, for every bounding volume, the tests of an interference "
-          "query (N_v, N_p), the cost of a test (C_v, C_p), and how well "
-          "T = N_v C_v + N_p C_p predicts the time")
+          "a second mesh file. Reports for every bounding volume: the mean numbers of volume and "
+          "triangle tests of an interference query (N_v, N_p), the costs of one test (C_v, C_p), "
+          "and how well T = N_v C_v + N_p C_p predicts the time")
       ->group(cost);
   command
       ->add_option("--poses", a.poses,
-                   "with --against: poses of the second mesh, as for corridor query (default: a "
-                   "grid over the bounds of both)")
+                   "with --against: poses of the second mesh, as for corridor query (default: "
+                   "864 poses, like --grid 6x6x6 --rotations 4)")
       ->group(cost);
   addJson(*command, a.json);
   command->footer(

@@ -26,11 +26,12 @@ using nlohmann::ordered_json;
 constexpr int kPasses = 5;
 
 /// One line of the table: the cost of queries with one bounding volume. N_v and N_p are means over
-/// the poses that count. T is a mean over every second of them, predicted from the other half.
+/// the poses that count. T is the mean over one half of these poses; it is predicted with the costs
+/// that were fitted to the other half.
 struct CostRow {
   std::string volume;
   double boxTests = 0, triangleTests = 0;  ///< N_v, N_p
-  double callNs = 0;                       ///< time of a query that its first test decides
+  double callNs = 0;                       ///< time of a query that is decided by its first test
   CostModel cost;                          ///< C_v, C_p
   double measuredNs = 0, predictedNs = 0;  ///< T
   double low = 0, middle = 0, high = 0;    ///< predicted/measured: quantiles 0.05, 0.5, 0.95
@@ -42,12 +43,12 @@ struct CostRow {
 ///
 /// The costs C_v and C_p are fitted to whole queries. So they include a test's share of walking the
 /// tree, and trees that test sixteen node pairs at once are measured like the others. A prediction
-/// must not be fitted to the times that it predicts: the costs come from one half of the poses, and
-/// the other half is predicted.
+/// must not be fitted to the times that it predicts: the costs are fitted to one half of the poses,
+/// and the other half is predicted.
 ///
-/// The model leaves out what a query costs besides its tests. This is measured with B far away,
-/// subtracted before the fit, and reported as `callNs`.
-/// @param count the number of poses; the answers after these are those with B far away.
+/// The model does not contain the cost of a query besides its tests. This cost is measured with B
+/// far away, subtracted before the fit, and reported as `callNs`.
+/// @param count the number of poses; the later answers are those with B far away.
 /// @param kept the poses that count.
 CostRow costRow(const VolumeKind& volume, const BatchResult& result, std::size_t count,
                 const std::vector<std::size_t>& kept) {
@@ -142,9 +143,9 @@ int inspectCost(const InspectArguments& a) {
   for (const VolumeKind& volume : volumeKinds())
     results.push_back(runPoses({meshA.mesh, meshB.mesh, asked, Asked::interference,
                                 treesNamed({volume.name, "", ""}), 0, kPasses}));
-  // A query that its first test decides measures the cost of a call, not of a test, so its pose
-  // does not count. All volumes are compared at the same poses: those where the root boxes of the
-  // binary OBB trees overlap.
+  // If the first test decides a query, its time is the cost of a call, not of a test. So its pose
+  // does not count. All volumes are compared at the same poses: those at which the root boxes of
+  // the binary OBB trees overlap.
   std::size_t reference = 0;
   while (volumeKinds()[reference].name != "obb-binary") ++reference;
   std::vector<std::size_t> kept;

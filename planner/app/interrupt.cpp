@@ -14,8 +14,8 @@ std::atomic<std::int64_t> askedAt = 0;  // time of the first signal, millisecond
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);
 
-/// Milliseconds within which a second signal counts as the same interrupt: timeout(1) sends its
-/// signal twice, to the program and then to its process group.
+/// Milliseconds within which a second signal counts as the same interrupt. timeout(1) sends its
+/// signal twice: to the program, and then to its process group.
 constexpr std::int64_t kSameMs = 500;
 
 void onInterrupt(int signal) {

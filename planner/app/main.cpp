@@ -1,5 +1,5 @@
-// The program's frame: standard streams, signals, help, errors and exit statuses. The commands are
-// in NAME_command.cpp.
+// The start of the program: standard streams, help, errors and exit statuses. The commands are in
+// NAME_command.cpp.
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -19,8 +19,8 @@ using namespace corridor::app;
 
 int main(int argc, char** argv) {
   openStandardStreams();
-  // Without this, SIGXFSZ ends the program where a file reaches its size limit (ulimit -f). With
-  // it, writing fails, and is reported as for a full disk.
+  // By default SIGXFSZ ends the program when a file reaches the size limit (ulimit -f). If the
+  // signal is ignored, writing fails instead, and is reported like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   if (const auto arithmetic = corridor::floatingPoint();
       arithmetic != corridor::FloatingPoint::standard) {

@@ -36,8 +36,8 @@ void addQuiet(CLI::App& command, bool& quiet, const char* heading) {
 void addIgnoreDigest(CLI::App& command, bool& ignore) {
   command.add_flag(
       "--ignore-digest", ignore,
-      "verify the solution even if its digest differs, because the problem's files have "
-      "changed since it was made (without this the verdict is: other problem)");
+      "verify the solution even if its digest is not the problem's: it was made for another "
+      "problem, or a file has changed since (without this option the verdict is: other problem)");
 }
 
 }  // namespace corridor::app

@@ -12,7 +12,7 @@ namespace corridor::app {
 
 /// The last lines of every help text.
 inline constexpr const char* kExitStatus =
-    "Exit status: 0 done; 1 no (nothing found, not proved, or not valid); 2 bad input, or a result "
+    "Exit status: 0 done; 1 no: nothing found, not proved, or not valid; 2 bad input, or a result "
     "can't be written; 3 internal error; 128 + N stopped by signal N (130: Ctrl-C).";
 
 /// Accepts numbers from `low` to `high`; `needed` describes them in the error. (CLI11's own ranges
@@ -30,7 +30,7 @@ CLI::Validator isWithin(Number low, Number high, const std::string& needed) {
 }
 CLI::Validator isSeconds();  ///< a number above 0
 CLI::Validator isSeed();     ///< a whole number of 64 bits
-/// The rule of `checker: {resolution: …}`, in the same words.
+/// The range of `checker: {resolution: …}` in problem files, with the same message.
 CLI::Validator isResolution();
 
 /// The heading in the help under which CLI11 lists options that have no other.

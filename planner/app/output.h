@@ -16,8 +16,8 @@ namespace corridor::app {
 
 enum class Tone { plain, good, bad };
 
-/// Prints results for people on stdout, as lines `key: value`. They are coloured on a terminal
-/// only.
+/// Prints results for people on stdout, as lines `key: value`, with colours if stdout is a
+/// terminal.
 class Lines {
  public:
   explicit Lines(bool quiet) : quiet_(quiet) {}
@@ -43,12 +43,12 @@ VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
 
 /// Tests that a file can be written: its folder exists, and files can be made in it. Commands call
 /// this before they spend time on the file's contents.
-/// @throws InputError that names the option, if not.
+/// @throws InputError that names the option, if it can't be written.
 void requireFolderFor(const std::optional<std::string>& file, const char* option);
 
 /// Tests that writing a file does not overwrite one of the files `read`.
-/// @param what these files belong to: "the problem".
-/// @throws InputError that names the option, if it does.
+/// @param what the owner of these files, for the message: "the problem".
+/// @throws InputError that names the option, if it would be overwritten.
 void requireNotRead(const std::optional<std::string>& file, const char* option,
                     const std::vector<std::filesystem::path>& read, const std::string& what);
 

@@ -22,10 +22,10 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-/// Runs and measures `ask(pose number, context)` for `count` poses, `passes` times. A pass runs
-/// over all poses, instead of repeating each: so a query finds the processor's caches as other
-/// poses left them. No query starts from the pair of triangles that the last one found: so cost and
-/// answer of a pose do not depend on the poses before it.
+/// Runs and measures `ask(pose number, context)` for `count` poses, `passes` times. Each pass runs
+/// over all poses. (If one pose were repeated instead, its data would already be in the processor's
+/// caches.) No query starts from the pair of triangles that the query before it found. So neither
+/// cost nor answer of a pose depends on the poses before it.
 template <class Ask>
 std::vector<Answer> timed(std::size_t count, int passes, const Ask& ask) {
   std::vector<Answer> answers(count);
@@ -103,10 +103,10 @@ BatchResult runOn(const Batch& batch, const Make& make) {
   return result;
 }
 
-/// What building a body's tree took.
+/// The size of a body's tree, and the time to build it.
 struct BuiltTree {
   std::size_t bytes = 0;
-  double ms = 0;  ///< time to build it
+  double ms = 0;
 };
 BuiltTree builtTree(const Body& body, TreeKind trees) {
   const auto start = std::chrono::steady_clock::now();

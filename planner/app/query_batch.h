@@ -12,11 +12,11 @@
 #include "collision/queries/distance.h"
 #include "planner/app/query_poses.h"
 
-/// The queries of `corridor query`, and the batches of them that are timed. Volumes and overlap
+/// The queries of `corridor query`, and batches of queries that are timed. Volumes and overlap
 /// tests are those of hierarchy/tree_kinds.h.
 namespace corridor::app {
 
-/// The query that is run at every pose.
+/// The kind of query that is run at every pose.
 enum class Asked { interference, contacts, distance, tolerance };
 /// Returns true if the query tests whether volumes overlap, so that the choice of an overlap test
 /// matters. The other queries compute how far volumes are apart.
@@ -60,7 +60,7 @@ struct BatchResult {
   std::vector<Distance> distances;    ///< per pose, only for `Asked::distance`
   std::vector<ContactRow> contacts;   ///< only for `Asked::contacts`
   std::vector<MotionAnswer> motions;  ///< per motion
-  double tolerance = 0;               ///< metres, for motions: the one used
+  double tolerance = 0;               ///< metres, for motions: the tolerance used
   double buildMsA = 0, buildMsB = 0;
   std::size_t bytesA = 0, bytesB = 0;
 };

@@ -29,7 +29,7 @@ struct QueryArguments {
   std::optional<std::string> savePoses;           ///< with `grid` only: write its poses here
   std::optional<std::string> motions;        ///< instead of poses: a file of motions, one per line
   std::optional<std::string> edges;          ///< with `motions` only: the method; unset: the first
-  std::optional<std::string> query, volume;  ///< `query` with poses only; unset: the first
+  std::optional<std::string> query, volume;  ///< `query`: with poses only; unset: the first
   std::optional<std::string> fit, overlap;   ///< unset: the first that the volume has
   std::optional<double> tolerance;           ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;
@@ -62,8 +62,8 @@ TreeNames treesAsked(const QueryArguments& a) {
 }
 
 /// Refuses an --overlap other than the volume's default, for a query that computes distances
-/// between volumes and so has no use for it. @throws InputError
-/// @param of what takes an overlap test. @param asked the query that does not.
+/// between volumes and so runs no overlap test. @throws InputError
+/// @param of the options with which overlap tests are run. @param asked the name of the query.
 void requireUsualOverlap(const TreeNames& trees, const std::string& of, const std::string& asked) {
   if (trees.overlap == withDefaults({trees.volume, "", ""}).overlap) return;
   throw InputError(Fault{"--overlap", 0,
@@ -83,7 +83,7 @@ std::vector<Transform> posesOf(const QueryArguments& a, const TriangleMesh& mesh
   return gridPoses(grid, meshA, meshB);
 }
 
-/// Checks which options go together, which CLI11 can't. @throws InputError
+/// Checks the rules for combining options that CLI11 can't express. @throws InputError
 void checkOptions(const QueryArguments& a) {
   if (a.motions) {
     const auto ofPoses = [&](const char* option, bool given) {
@@ -192,8 +192,14 @@ void addQuery(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand(
       "query",
       "Query two meshes at many poses, or along many motions: CSV on stdout, times on stderr");
-  command->add_option("A", a.meshA, "a mesh file, in metres; it does not move")->required();
-  command->add_option("B", a.meshB, "a mesh file, in metres; it takes the poses")->required();
+  command
+      ->add_option("A", a.meshA,
+                   "a mesh file, in metres unless its format has another unit; it does not move")
+      ->required();
+  command
+      ->add_option("B", a.meshB,
+                   "a mesh file, likewise; it is placed at the poses, or moves along the motions")
+      ->required();
   const char* poses = "Poses of B";
   command
       ->add_option("--poses", a.poses,
@@ -202,15 +208,18 @@ void addQuery(CLI::App& program, int& status) {
       ->group(poses);
   command
       ->add_option("--grid", a.grid,
-                   "NXxNYxNZ: put the centre of B's bounds on every point of a lattice, x changing "
-                   "first")
+                   "NXxNYxNZ: put the centre of B's bounds on every point of a lattice; x changes "
+                   "fastest")
       ->group(poses);
   command
       ->add_option("--lower", a.lower,
-                   "x,y,z in metres: the lattice's first point (default: A's bounds grown by half "
-                   "the diagonal of B's)")
+                   "x,y,z in metres: the lattice's first point (default: the lower corner of A's "
+                   "bounds, enlarged by half the diagonal of B's bounds)")
       ->group(poses);
-  command->add_option("--upper", a.upper, "x,y,z in metres: the lattice's last point")
+  command
+      ->add_option("--upper", a.upper,
+                   "x,y,z in metres: the lattice's last point (default: the upper corner of the "
+                   "same box)")
       ->group(poses);
   command
       ->add_option("--rotations", a.rotations,
@@ -244,7 +253,7 @@ void addQuery(CLI::App& program, int& status) {
     return joined(names);
   };
   const auto variants = [](std::vector<std::string> VolumeKind::*of) {
-    std::string text = "the first is the default";
+    std::string text = "the first in each list is the default";
     for (const VolumeKind& kind : volumeKinds())
       text += "; with " + kind.name + ": " + joined(kind.*of);
     return text;
@@ -257,7 +266,8 @@ void addQuery(CLI::App& program, int& status) {
       ->add_option("--volume", a.volume,
                    "the bounding volume; the first is the default: " + named(volumeKinds()))
       ->group(asked);
-  command->add_option("--fit", a.fit, "what volumes are fitted to; " + variants(&VolumeKind::fits))
+  command
+      ->add_option("--fit", a.fit, "what the volumes are fitted to; " + variants(&VolumeKind::fits))
       ->group(asked);
   command
       ->add_option("--overlap", a.overlap,
@@ -268,8 +278,9 @@ void addQuery(CLI::App& program, int& status) {
       ->add_option(
           "--tolerance", a.tolerance,
           "metres. With --query tolerance: report whether A and B are at most this far apart. With "
-          "--motions: above 0; a clearance below twice this may be undecided (default: 1e-7 of the "
-          "smaller one's radius, or what the rounding of poses needs if that is more)")
+          "--motions, above 0: a motion whose clearance is below twice this may be undecided "
+          "(default: 1e-7 of the smaller mesh's radius, or what the rounding of poses needs, if "
+          "that is more)")
       ->check(isWithin(0.0, std::numeric_limits<double>::max(), "a number of metres, 0 or more,"))
       ->group(asked);
   command
@@ -285,19 +296,19 @@ void addQuery(CLI::App& program, int& status) {
           "         corridor query a.obj b.obj --motions motions.txt > first_contacts.csv\n"
           "CSV on stdout; poses, motions and triangles count from 0:\n"
           "  interference: pose,hit,bv_tests,triangle_tests\n"
-          "  contacts: pose,a,b,px,py,pz,qx,qy,qz, a line per pair of triangles with the segment "
-          "that they share\n"
+          "  contacts: pose,a,b,px,py,pz,qx,qy,qz, one line per pair of triangles that touch, with "
+          "the ends p and q of the segment that they share\n"
           "  distance: pose,distance,ax,ay,az,bx,by,bz, with a closest point of each mesh\n"
-          "  tolerance: pose,closer\n"
+          "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"
           "  motions: motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,"
           "splits\n"
-          "Verdicts of motions: free; contact: none before t0, one at t1, at most 1/1024 of the "
-          "motion later unless the meshes graze; undecided: no contact before t0, and at t1 the "
-          "two triangles are gap metres apart. t is 0 at the start of a motion and 1 at its end; "
-          "-1 means none.\n"
+          "Verdicts of motions: free; contact: no contact before t0, and one at t1, where t1 - t0 "
+          "is at most 1/1024 unless the meshes graze; undecided: no contact before t0, and at t1 "
+          "the two triangles are gap metres apart. t is 0 at the start of a motion and 1 at its "
+          "end. A value that does not exist is -1.\n"
           "Touching is contact; meshes are surfaces. Times are those of one query on one core, "
-          "without reading and printing. A query shorter than 5 µs is repeated, and the mean "
-          "counts.\n") +
+          "without reading and printing. A query shorter than 5 µs is repeated; its time is the "
+          "mean.\n") +
       kExitStatus);
   command->callback([arguments, &status] { status = queryCommand(*arguments); });
 }

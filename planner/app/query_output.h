@@ -5,8 +5,8 @@
 
 #include "planner/app/query_batch.h"
 
-/// What `corridor query` prints: CSV on stdout, and a summary on stderr. The CSV is printed in a
-/// single write: this is quick for millions of lines, and stdout and stderr don't mix.
+/// The output of `corridor query`: CSV on stdout, and a summary on stderr. The CSV is printed in a
+/// single write. This is quick for millions of lines, and keeps stdout and stderr apart.
 /// @throws InputError if it can't be printed.
 namespace corridor::app {
 

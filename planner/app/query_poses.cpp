@@ -33,9 +33,9 @@ constexpr int kFaultsListed = 10;
 std::string whyNoRotation(const Mat3& R) {
   const double defect = orthonormalityDefect(R);
   const double determinant = R.determinant();
-  // The determinant is a sum of six products of one number from each column, each at most the
-  // product of the columns' largest entries. With at most five roundings in each, the error is
-  // below 64u times that. If it overflows, only the defect decides: R is not a rotation.
+  // The determinant is a sum of six products of one number from each column. Each of them is at
+  // most P, the product of the columns' largest entries, and has at most five roundings. So the
+  // error is below 64u·P. If that overflows, only the defect decides: R is not a rotation.
   const double error = 64 * kUnit * R.colwise().lpNorm<Eigen::Infinity>().prod();
   if (std::abs(determinant) <= error && std::isfinite(error))
     return "the matrix is singular (determinant " + rounded(determinant) +
@@ -109,7 +109,7 @@ std::string numbersOf(std::string_view line, Numbers& values) {
   }
 }
 
-/// Reads a file of lines, each by `parse(numbers, made)`. `what` names the lines in messages.
+/// Reads a file; `parse(numbers, made)` reads each line. `what` names the lines in messages.
 /// Blank lines and comments are skipped. @throws InputError with the faults.
 template <class Made, class Parse>
 std::vector<Made> readLines(const std::filesystem::path& file, const std::string& what,

@@ -25,18 +25,19 @@ std::vector<Transform> readPoses(const std::filesystem::path& file);
 
 /// A motion of B: its first and its last pose. `readMotions` reads 24 numbers per line, otherwise
 /// as `readPoses`. Each matrix M is replaced by the nearest rotation R, as a unit quaternion;
-/// `defect` bounds |M − R|. Used as the tube of the motion, it makes `free` valid for the maps in
+/// `defect` bounds |M − R|. If the motion's tube is `defect`, then `free` holds for the matrices in
 /// the file, too.
 struct PoseMotion {
   RigidPose from, to;
-  double defect = 0;  ///< the larger |M − R|, rounded up; metres per metre of lever
+  double defect = 0;  ///< the larger |M − R| of the two, rounded up; metres per metre of lever
 };
 std::vector<PoseMotion> readMotions(const std::filesystem::path& file);
 
 /// The largest ‖RᵀR − I‖_max that counts as rounding. A rotation written with four decimals has
 /// entries off by up to 0.5e-4, so entries of RᵀR are off by up to 2·√3·0.5e-4 < 1.8e-4. The limit
-/// also keeps queries fast: where the defects of map and trees add up to 2^-10/3 or more,
-/// `boxPairMargins` lets no box test separate, and a query tests all pairs of triangles.
+/// also keeps queries fast. If the defects of map and trees add up to 2^-10/3 or more, then
+/// `boxPairMargins` makes every box test fail to separate, and a query tests all pairs of
+/// triangles.
 inline constexpr double kRotationDefect = 2e-4;
 
 /// A lattice of positions, repeated for each of several rotations.

@@ -9,15 +9,15 @@ namespace corridor::app {
 /// Returns the nanoseconds that one call takes.
 ///
 /// Reading the clock costs some 30 ns. A call shorter than `kLongEnough` nanoseconds is therefore
-/// repeated between two readings until that much time has passed, and the mean of the repeats is
-/// returned: the clock's share of it is below 1 %. A longer call runs once. During a call of
-/// `kMaybeParted` nanoseconds or more the system may have run another program: the result is then
-/// the smaller of the elapsed time and the thread's own processor time. (For short calls, reading
-/// the clock of processor time takes too long.)
+/// repeated between two readings, as often as the first call would fit into `kLongEnough`. The mean
+/// of the repeats is returned; the clock's share of it is about 1 %. A longer call runs once.
+/// During a call of `kMaybeParted` nanoseconds or more, the system may have run another program.
+/// The result is then the smaller of the elapsed time and the thread's own processor time. (For
+/// shorter calls, reading the clock of processor time takes too long.)
 ///
-/// @param ask the first call.
-/// @param again the repeated call. It must do the same work as the first, so it must clear what an
-/// earlier call left in a cache.
+/// @param ask makes the first call.
+/// @param again makes a repeated call. It must do the same work as the first, so it must clear what
+/// an earlier call left in a cache.
 inline constexpr double kLongEnough = 5'000, kMaybeParted = 100'000;
 template <class Ask, class Again>
 double nanosecondsOf(Ask&& ask, Again&& again) {

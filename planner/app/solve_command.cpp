@@ -48,7 +48,7 @@ std::map<std::string, std::string> applyArguments(const SolveArguments& a, Probl
   std::map<std::string, std::string> set;
   if (a.planner && *a.planner != problem.settings.planner.name) {
     problem.settings.planner.name = *a.planner;
-    problem.settings.planner.params.clear();  // they belong to the planner in the problem
+    problem.settings.planner.params.clear();  // they are those of the problem's planner
     set["planner.name"] = "--planner";
   }
   if (a.sampler) {
@@ -168,7 +168,7 @@ struct Solved {
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
   Problem problem = readProblemOf(file);
-  // Before planning: later a file may be another than the one that was read.
+  // Computed before planning, because the files may change while the planner runs.
   const std::string digest = a.output ? digestOf(problem) : "";
   requireNotRead(a.output, "--output", problem.source.files, "the problem");
   requireNotRead(a.picture, "--picture", problem.source.files, "the problem");
@@ -239,15 +239,17 @@ void addSolve(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand("solve", "Find a path and prove it");
   command
       ->add_option("PROBLEM", a.problems,
-                   "problem.yaml, a folder that holds one, an OMPL.app .cfg, or SET.json#INDEX")
+                   "a problem.yaml, a folder that contains one, an OMPL.app .cfg file, or "
+                   "SET.json#INDEX: one problem of a set of MotionBenchMaker")
       ->required();
   const char* planning = "Planning (replaces settings of the problem)";
   command
-      ->add_option("--planner", a.planner, "OMPL's name of the planner; an unknown name lists all")
+      ->add_option("--planner", a.planner,
+                   "OMPL's name of the planner; the error for an unknown name lists all names")
       ->group(planning);
   command
       ->add_option("--set", a.set,
-                   "key=value: sets a parameter of the planner, by OMPL's name; repeatable")
+                   "key=value: set a parameter of the planner, by OMPL's name; may be repeated")
       ->group(planning)
       ->allow_extra_args(false);
   command

@@ -7,12 +7,12 @@
 /// Faults of the command line itself.
 namespace corridor::app {
 
-/// Lets every option of every command refuse an empty name or value. They come from unset shell
-/// variables, and a later message could not name them.
+/// Makes every option of every command refuse an empty value. Empty values come from unset shell
+/// variables; a later message could not name the option.
 void refuseEmptyValues(CLI::App& program);
 
-/// Returns what is wrong with the command line, in one line, and which help to read.
-/// @param firstWord of the command line, or "".
+/// Returns a message, in one line: what is wrong with the command line, and which help to read.
+/// @param firstWord the first word of the command line, or "".
 std::string usageFault(const CLI::App& program, const CLI::ParseError& error,
                        const std::string& firstWord);
 

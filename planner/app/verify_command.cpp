@@ -15,7 +15,7 @@ namespace {
 
 struct VerifyArguments {
   std::string problem, solution;
-  bool ignoreDigest = false;  ///< verify a solution although its digest is not the problem's
+  bool ignoreDigest = false;  ///< verify the solution even if its digest is not the problem's
   bool json = false, quiet = false;
 };
 

@@ -38,7 +38,7 @@ std::string pageName(const Problem& problem) {
   return (name.empty() || name[0] == '.' ? "view" + name : name) + ".html";
 }
 
-/// Refuses a file whose extension names another format. A name without an extension is accepted.
+/// Refuses a file name whose extension stands for another format. Accepts one without extension.
 /// @throws InputError
 void requireExtension(const std::optional<std::string>& file, const char* option,
                       const std::string& kind, const std::vector<std::string>& extensions) {
@@ -89,7 +89,7 @@ int viewCommand(const ViewArguments& a) {
     out.line("page", *pageFile);
   }
   if (a.image) {
-    // A second signal is ignored: on the first, the browser and its folder are removed in a moment.
+    // A second signal is ignored: after the first, the browser ends and its folder is removed soon.
     const std::atomic<bool>& interrupted = listenForInterrupts(SecondInterrupt::isIgnored);
     if (!writePicture(page, *browser, size, *a.image, interrupted)) return interruptedStatus();
     out.line("image", *a.image);
@@ -112,13 +112,13 @@ void addView(CLI::App& program, int& status) {
   const char* results = "Results";
   command
       ->add_option("-o,--output", a.output,
-                   "write the page to this file: HTML that loads no other file (default without "
-                   "--image: the problem's name with .html)")
+                   "write the page to this file: HTML that loads no other file (default, unless "
+                   "--image is given: the problem's name with .html)")
       ->group(results);
   command
       ->add_option("--image", a.image,
-                   "write a PNG of the scene, the path's poses and the verdict of verify to this "
-                   "file; needs Chromium, but no display")
+                   "write a PNG to this file, with the scene, poses along the path and the verdict "
+                   "of verify; needs Chromium, but no display")
       ->group(results);
   command
       ->add_option("--size", a.size, "size of the image: WIDTHxHEIGHT, pixels (default 1366x768)")

@@ -33,13 +33,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, sol
 
 namespace {
 
-/// Seconds beyond a planner's time limit for work that doesn't check the clock: set-up, and some
-/// steps of some planners.
+/// Seconds beyond twice a planner's time limit, for work that doesn't check the clock: set-up, and
+/// some steps of some planners.
 constexpr double kPatience = 60;
 
-/// The planner as OMPL's Benchmark sees it: plans, simplifies and certifies as `solve` does. OMPL's
-/// own simplification (in Benchmark::Request) is not used: it would replace the planner's path
-/// before this code could read it.
+/// The planner that OMPL's Benchmark runs: it plans, simplifies and certifies as `solve` does.
+/// OMPL's own simplification (in Benchmark::Request) is not used, because it would replace the
+/// planner's path before this code could read it.
 class WholeSolve final : public ob::Planner {
  public:
   WholeSolve(Solve& solve, const CheckingTally& checking, BenchmarkRun& run)
@@ -59,7 +59,7 @@ class WholeSolve final : public ob::Planner {
       status = solve_.plan(stop);
     } catch (const std::bad_alloc&) {
       run_.failure = "out of memory";
-    } catch (const std::exception& error) {  // Benchmark would print it and continue
+    } catch (const std::exception& error) {  // Benchmark would only print it
       run_.failure = error.what();
     }
     solve_.clock().pause();
@@ -81,7 +81,7 @@ class WholeSolve final : public ob::Planner {
   bool begun_ = false;
 };
 
-/// The problem as OMPL's Benchmark sees it. SimpleSetup's own `print` measures the space with
+/// The problem that OMPL's Benchmark gets. SimpleSetup's own `print` measures the space with
 /// thousands of random states and motions. That would take longer than many runs, count as tests,
 /// and change the planner's random numbers.
 class PlainSetup final : public og::SimpleSetup {
@@ -204,8 +204,8 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
   benchmark.benchmark(request);
 
   take(solve.report(), run);
-  // Benchmark plans in a thread of its own, and continues if there is no memory for that thread's
-  // stack.
+  // Benchmark plans in a thread of its own. If there is no memory for that thread's stack,
+  // Benchmark continues without planning.
   if (!planner->begun()) run.failure = "no memory for the thread that plans";
   if (!run.failure.empty()) run.result = "failed";
   const auto& experiment = benchmark.getRecordedExperimentData();
@@ -244,8 +244,8 @@ RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std
             if (run.solved && problem) verifyRun(*problem, path, run);
             send(text(run));
           },
-          // OMPL stops a planner at limits.memory if the planner checks its termination condition;
-          // the larger limit here holds for everything else.
+          // At limits.memory OMPL stops a planner, if the planner checks its termination condition.
+          // The larger limit here covers everything else.
           {{2 * planned.settings.planner.time + kPatience, limits.patience},
            static_cast<std::size_t>(1.5 * limits.memory * 1024 * 1024)}) {}
 

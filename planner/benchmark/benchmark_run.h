@@ -17,7 +17,7 @@ namespace corridor {
 /// strings.
 struct OmplRecord {
   std::string planner;                            ///< "geometric_RRTConnect"
-  std::string setup, host, cpu;                   ///< the experiment's
+  std::string setup, host, cpu;                   ///< description of the experiment
   std::map<std::string, std::string> settings;    ///< the planner's parameters
   std::map<std::string, std::string> properties;  ///< name and SQL type: "time REAL" → "0.1"
   std::vector<std::string> progressNames;         ///< "best cost REAL", …
@@ -64,7 +64,7 @@ struct BenchmarkRun {
 };
 
 struct BenchmarkLimits {
-  double memory = 4096;   ///< MB per run, beyond what reading the problems took
+  double memory = 4096;   ///< MB per run, in addition to what reading the problems took
   double patience = 600;  ///< seconds for verifying one path
 };
 
@@ -72,15 +72,15 @@ struct BenchmarkLimits {
 std::string text(const BenchmarkRun& run);
 BenchmarkRun readRun(const std::string& text);
 
-/// Sets a run up without running it, to find its faults. @throws InputError as solveProblem.
+/// Sets up a run, without planning, to find its faults. @throws InputError as solveProblem.
 /// @param setElsewhere as SolveOptions::setElsewhere.
 void checkRun(const Problem& planned, const std::map<std::string, std::string>& setElsewhere);
 
 /// Runs a planner once under OMPL's Benchmark, in this process: sets up, plans, simplifies and
 /// certifies as solveProblem does, with the same random numbers.
 /// @param planned the problem with the variant, planner, seed and time of the run.
-/// @param digest of the problem, for OMPL's record.
-/// @param memory MB, at which OMPL stops the planner.
+/// @param digest the problem's digest, for OMPL's record.
+/// @param memory the limit at which OMPL stops the planner, MB.
 /// @param path receives the path if the run is solved.
 /// @throws InputError as solveProblem.
 BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
@@ -89,17 +89,17 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
 
 /// Verifies a run's path with the independent verifier: sets verdict, finding, verificationTime,
 /// provenClearance and leastDistance.
-/// @param problem as its file has it, without the variant, so that all variants are verified alike.
+/// @param problem the problem as its file has it, without the variant: all variants are verified
+/// alike.
 void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);
 
-/// Runs and verifies in a process of its own: a crash, an endless loop or a lack of memory there
-/// becomes the failure of this run only. Planning is stopped after twice planner.time plus a
-/// minute.
+/// Makes and verifies a run in a process of its own: a crash, an endless loop or a lack of memory
+/// is then a failure of this run only. Planning is stopped after twice planner.time plus a minute.
 /// @pre the caller has one thread.
 class RunProcess {
  public:
-  /// Starts the process. @param problem as its file has it, for verifying the path; null: the path
-  /// is not verified.
+  /// Starts the process. @param problem the problem as its file has it, for verifying the path;
+  /// null: the path is not verified.
   RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
              const std::optional<BenchmarkCompetitor>& peer, const BenchmarkLimits& limits);
   ChildProcess& process() { return process_; }

@@ -27,7 +27,7 @@ std::string placeOf(const Campaign& campaign, const CampaignPlanner& planner) {
   return planner.place.empty() ? placeOf(campaign, "planners") : planner.place;
 }
 
-/// Collects names of variants or planners, and adds a fault for a repeated one.
+/// Collects names of variants or planners, and adds a fault for a repeated name.
 class Names {
  public:
   explicit Names(std::vector<Fault>& faults) : faults_(faults) {}
@@ -41,8 +41,8 @@ class Names {
   std::set<std::string> seen_;
 };
 
-/// A folder's name may contain any bytes: returns it as UTF-8 in one line, so that tables, plots
-/// and JSON can show it.
+/// Returns a name as UTF-8 in one line, so that tables, plots and JSON can show it. (A folder's
+/// name may contain any bytes.)
 std::string printable(const std::string& name) {
   const auto replace = nlohmann::json::error_handler_t::replace;
   std::string text =
@@ -52,8 +52,8 @@ std::string printable(const std::string& name) {
   return text;
 }
 
-/// Returns the faults of all cells, each once, in order. Cells are set up in a child process: OMPL
-/// has one random number stream per process, which setting up here would advance.
+/// Returns the faults of all cells, each once, in order. Cells are set up in a child process:
+/// set-up advances OMPL's random numbers, and a process has only one stream of them.
 std::vector<Fault> faultsInChild(const Campaign& campaign) {
   const std::vector<CampaignCell> cells = cellsOf(campaign);
   const auto work = [&](const auto& send) {
@@ -120,7 +120,7 @@ Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::
   if (cell.planner.params)
     problem.settings.planner.params = *cell.planner.params;
   else if (cell.planner.name != problem.settings.planner.name)
-    problem.settings.planner.params.clear();  // they belong to another planner
+    problem.settings.planner.params.clear();  // they are those of the problem's own planner
   problem.settings.planner.name = cell.planner.name;
   problem.settings.planner.time = campaign.time.value_or(problem.settings.planner.time);
   problem.settings.simplify = campaign.simplify.value_or(problem.settings.simplify);

@@ -25,7 +25,7 @@ struct CampaignPlanner {
 /// What a benchmark runs: every problem with every variant and every planner, all with the same
 /// seeds.
 struct Campaign {
-  std::string name;  ///< name of its file; "" if it came from the command line
+  std::string name;  ///< the name of its file; "" for a campaign from the command line
   std::vector<Problem> problems;
   /// The problems' names in the results, and their digests (planner/problem/digest.h). Both are set
   /// by `identifyProblems`.
@@ -35,21 +35,21 @@ struct Campaign {
   std::uint64_t runs = 10, seed = 1;      ///< seeds: seed … seed + runs − 1
   std::optional<double> time;             ///< seconds per run; unset: the problem's own limit
   std::optional<bool> simplify;           ///< unset: the problem's own setting
-  /// Verify every path. Without it nothing reports which paths are in collision.
+  /// Whether every path is verified. If not, nothing reports which paths are in collision.
   bool verify = true;
   BenchmarkLimits limits;
-  /// For error messages: where variants, planners and runs are set ("--planners", "lecture.yaml:4:
-  /// planners").
+  /// For error messages: the places where variants, planners and runs are set ("--planners",
+  /// "lecture.yaml:4: planners").
   std::map<std::string, std::string> places;
-  std::vector<std::string> notes;  ///< what was left out, and why
+  std::vector<std::string> notes;  ///< for users: what was left out, and why
 };
 
-/// Sets the problems' names for results, printable and distinct ("plate", "plate-2"), and their
-/// digests. To be called at once after reading the problems.
+/// Sets the problems' names in the results, printable and distinct ("plate", "plate-2"), and their
+/// digests. Call it immediately after reading the problems, before their files can change.
 /// @throws InputError if one of their files can't be read.
 void identifyProblems(Campaign& campaign);
 
-/// A problem with a variant and a planner, and the runs of these three.
+/// A combination of a problem, a variant and a planner, and its runs.
 struct CampaignCell {
   std::size_t problem = 0, variant = 0;  ///< indices
   CampaignPlanner planner;
@@ -66,11 +66,11 @@ struct CampaignResult {
   double seconds = 0;
 };
 
-/// Returns the problem as one run of a cell gets it: with variant, planner, time and seed set.
+/// Returns the problem for one run of a cell: with variant, planner, time and seed set.
 Problem plannedProblem(const Campaign& campaign, const CampaignCell& cell, std::uint64_t seed);
 
-/// Checks the whole campaign before any time is spent: names, parameters, and whether starts and
-/// goals are free for every variant. @throws InputError with all faults.
+/// Checks the whole campaign before the first run: names, parameters, and whether starts and goals
+/// are free for every variant. @throws InputError with all faults.
 /// @pre the caller has one thread.
 void checkCampaign(const Campaign& campaign);
 

@@ -129,8 +129,8 @@ class CampaignDatabase::Tables {
     throw InputError(Fault{file_.string(), 0, why});
   }
 
-  /// Turns SQLite's exceptions into InputError: a full disk or a foreign file is the user's to
-  /// mend.
+  /// Turns SQLite's exceptions into InputError, since users can mend the cause, such as a full disk
+  /// or a file of another program.
   template <class Step>
   void withFileInErrors(const Step& step) const {
     try {
@@ -162,8 +162,8 @@ class CampaignDatabase::Tables {
     }
   }
 
-  /// Returns a note on the limit of file sizes, or "" if there is none: SQLite's error code is the
-  /// same for that limit and for a failing disk.
+  /// Returns a note on the limit of file sizes, or "" if there is no limit. SQLite's error code
+  /// does not distinguish this limit from a failing disk.
   static std::string sizeLimit() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
@@ -259,7 +259,7 @@ class CampaignDatabase::Tables {
     return campaign_.problemNames[cell.problem] + ", " + campaign_.variants[cell.variant].name +
            ", " + cell.planner.label;
   }
-  /// Returns a text on the first key whose values differ.
+  /// Describes the first key whose values differ.
   static std::string difference(const std::string& was, const std::string& is) {
     const auto a = nlohmann::json::parse(was), b = nlohmann::json::parse(is);
     for (const auto& [key, value] : b.items())

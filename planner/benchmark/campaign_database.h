@@ -10,17 +10,17 @@
 
 namespace corridor {
 
-/// One call of the program that made runs of a campaign.
+/// A call of the program that made runs of a campaign.
 struct CampaignSession {
   std::string started;   ///< "2026-05-04 03:02:01", UTC
-  std::string commit;    ///< the program's (`buildCommit`)
+  std::string commit;    ///< the program's commit (`buildCommit`)
   std::size_t jobs = 1;  ///< runs at a time
   std::size_t runs = 0;
 };
 
 /// A campaign's results in an SQLite file. The file has the tables and columns that OMPL's
-/// `ompl_benchmark_statistics` makes of logs, so that Planner Arena reads it. Tables of our own
-/// beside them allow a campaign to be resumed.
+/// `ompl_benchmark_statistics` makes of logs, so that Planner Arena can read it. Further tables of
+/// Corridor allow a campaign to be resumed.
 /// A run is in all tables or in none, whenever the process ends.
 class CampaignDatabase {
  public:
@@ -40,8 +40,8 @@ class CampaignDatabase {
                    std::vector<CampaignCell>& cells, std::size_t jobs = 1);
   ~CampaignDatabase();
 
-  /// Stores a run. @param cell its index in the campaign's cells. @throws InputError if it can't be
-  /// written; what was stored before remains.
+  /// Stores a run. @param cell the index of its cell in the campaign's cells. @throws InputError if
+  /// it can't be written; the runs that were stored before remain.
   void add(std::size_t cell, const BenchmarkRun& run);
 
   /// Returns the sessions that made at least one run, oldest first. @throws InputError as `add`.
@@ -52,8 +52,8 @@ class CampaignDatabase {
   std::unique_ptr<Tables> tables_;
 };
 
-/// Returns what must not change in a cell from one session to the next, as JSON: problem file,
-/// checker, planner with its parameters, limits, `simplify` and `verify`.
+/// Returns, as JSON, the settings of a cell that must be the same in all sessions: the problem's
+/// digest, checker, planner with its parameters, limits, `simplify` and `verify`.
 std::string specOf(const Campaign& campaign, const CampaignCell& cell);
 
 }  // namespace corridor

@@ -21,7 +21,7 @@ constexpr std::size_t kMostOfARange = 1000, kMostVariants = 1000;
 constexpr WholeRange kRuns{1, 1'000'000, "1 to 1,000,000"};
 constexpr WholeRange kSeeds{1, 0xffffffff, "1 to 2^32 - 1"};  // OMPL's seeds have 32 bits
 
-/// One variant of a checker of the file: one value of each of its lists.
+/// One variant of a checker in the file, with one value chosen from each list.
 struct Expanded {
   std::string suffix;  ///< the chosen values, " 0.01"; "" if the checker has no list
   YamlValue map;
@@ -64,15 +64,16 @@ std::optional<std::size_t> problemNumber(const std::string& digits) {
   return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
 }
 
-/// Returns whether a text can be a name in tables, plots and logs: not empty, in one line.
+/// Returns whether a text can be a name in tables, plots and logs: one line, not empty.
 bool isName(const std::string& text) {
   return !text.empty() && std::none_of(text.begin(), text.end(),
                                        [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
-/// Returns the keys of a checker that have an effect. A resolution has none on edges that are not
-/// sampled, a tolerance none on sampled ones, and a competitor uses none of the keys on trees.
-/// Without the key `edges` the problem's edges apply, so both resolution and tolerance count.
+/// Returns a text of the keys of a checker that have an effect, with their values. A resolution has
+/// no effect on edges that are proved, and a tolerance none on sampled edges. Keys on trees have no
+/// effect on a competitor. Without the key `edges` the problem's method applies, so both resolution
+/// and tolerance count.
 std::string effectOf(const YamlValue& checker) {
   std::map<std::string, std::string> keys;
   for (const YamlValue::Entry& entry : checker.entries) keys[entry.key] = entry.value.text;
@@ -133,7 +134,7 @@ class CampaignReader {
     for (const std::string& word : *words)
       faults_.collect([&] {
         for (const std::string& name : problemsOf(word)) {
-          // The fault has the line of this file, and what is wrong at that path.
+          // The fault names this file's line; readProblem could not.
           const std::filesystem::path at = path_.parent_path() / name.substr(0, name.find('#'));
           std::error_code ignored;
           if (!std::filesystem::exists(at, ignored))
@@ -224,7 +225,7 @@ class CampaignReader {
                                     std::to_string(kMostVariants) + " variants");
       return;
     }
-    std::set<std::string> seenFaults;  // faults that were already added for another of its variants
+    std::set<std::string> seenFaults;  // faults that another variant of this checker also has
     std::map<std::string, std::string> same;  // keys that have an effect → the variant's suffix
     for (const Expanded& one : expanded(entry.value)) {
       FaultList faults;
@@ -309,7 +310,7 @@ bool isCampaignFile(const std::filesystem::path& file) {
     const YamlValue document = parseYaml(file.string(), readTextFile(file, "a campaign"));
     return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
       return (entry.key == "format" && entry.value.text.rfind("corridor-campaign", 0) == 0) ||
-             entry.key == "checkers";  // a campaign without its format: reading it reports that
+             entry.key == "checkers";  // if the format is missing, readCampaign reports that
     });
   } catch (const InputError&) {
     return false;

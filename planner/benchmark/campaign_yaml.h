@@ -13,18 +13,18 @@ namespace corridor {
 /// `checkers` without any format. Returns false for a file that can't be read as YAML.
 bool isCampaignFile(const std::filesystem::path& file);
 
-/// Reads a campaign file, and the problems that it names, relative to its folder. Every key:
-/// planner/benchmark/README.md. A key of a checker may have a list of values; then each combination
-/// is a variant (1,000 variants at most). Competitors that are not available here are left out,
-/// with a note.
+/// Reads a campaign file, and the problems that it names; their paths are relative to its folder.
+/// planner/benchmark/README.md lists every key. A key of a checker may have a list of values; then
+/// each combination is a variant (1,000 variants at most). Competitors that are not available are
+/// left out, with a note.
 /// @throws InputError with all faults of the file and its problems at once.
 Campaign readCampaign(const std::filesystem::path& file);
 
-/// Returns the keys of every map of a campaign file, by the map's path (as problemKeys).
+/// Returns the legal keys of every map of a campaign file, by the map's path (like problemKeys).
 const std::map<std::string, MapKeys>& campaignKeys();
 
 /// Expands a range of problems: "set.json#3-5" gives three names. Any other text, such as
-/// "set.json#3", gives itself.
+/// "set.json#3", is returned as it is.
 /// @throws InputError for a range that ends before it begins, or has more than 1,000 problems.
 std::vector<std::string> problemsOf(const std::string& text);
 

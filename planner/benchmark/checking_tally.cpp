@@ -12,7 +12,7 @@ namespace ob = ompl::base;
 
 namespace {
 
-/// Adds the time of its own lifetime, unless it is nested in another one of the same thread.
+/// Adds the duration of its lifetime, unless it is nested in another `Timed` of the same thread.
 class Timed {
  public:
   explicit Timed(CheckingTally& tally) : tally_(tally) {
@@ -69,7 +69,7 @@ class TimedMotions final : public ob::MotionValidator {
   }
 
  private:
-  /// OMPL reads the counts of valid and invalid motions from the validator that is installed.
+  /// OMPL reads the counts of valid and invalid motions from this validator, not from `inner_`.
   bool count(bool valid) const {
     ++tally_.motions;
     std::atomic_ref(valid ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);

@@ -10,11 +10,11 @@ class SpaceInformation;
 
 namespace corridor {
 
-/// Counts and times OMPL's calls of the state and motion checkers, of all threads together.
+/// Counts and times OMPL's calls of the state and motion checkers, in all threads together.
 struct CheckingTally {
   std::atomic<std::uint64_t> states = 0;  ///< states tested, including the samples of motions
   std::atomic<std::uint64_t> motions = 0;
-  std::atomic<std::int64_t> nanoseconds = 0;  ///< a state tested within a motion is timed once
+  std::atomic<std::int64_t> nanoseconds = 0;  ///< a state test within a motion test counts once
 
   double seconds() const { return 1e-9 * static_cast<double>(nanoseconds); }
 };

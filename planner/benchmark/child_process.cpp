@@ -77,7 +77,7 @@ ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
   // O_CLOEXEC: programs that the child starts must not keep the pipe open.
   if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw systemError("pipe");
   std::cout.flush();
-  std::fflush(nullptr);  // else the child would write buffered output a second time
+  std::fflush(nullptr);  // otherwise the child would write buffered output a second time
   const pid_t parent = ::getpid();
   id_ = ::fork();
   if (id_ < 0) {
@@ -88,7 +88,7 @@ ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
   }
   if (id_ == 0) {
     ::close(pipe[0]);
-    ::fcntl(pipe[1], F_SETFL, 0);  // the child's end blocks: it waits until its parent has read
+    ::fcntl(pipe[1], F_SETFL, 0);  // writing blocks until the parent has read
     child(pipe[1], work, limits.bytes, parent);
   }
   ::close(pipe[1]);
@@ -113,7 +113,7 @@ void ChildProcess::stop(const std::string& reason) {
   finish(true);
 }
 
-/// Takes one line of the text read, if there is a whole one. The child is over after its last
+/// Takes one line of the text read, if there is a whole line. The child has ended after its last
 /// message, or after a line that reports a failure.
 bool ChildProcess::takeLine() {
   const auto at = text_.find('\n');

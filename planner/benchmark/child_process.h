@@ -10,8 +10,8 @@
 namespace corridor {
 
 struct ChildLimits {
-  /// Seconds that the parent waits for the first message, for the second, and so on. The child's
-  /// work is done once the last of these messages has arrived.
+  /// Seconds that the parent waits for the first message, for the second, and so on. The work is
+  /// finished when the last of these messages has arrived.
   std::vector<double> patience;
   /// Memory that the child may allocate beyond what its parent has; 0: no limit.
   std::size_t bytes = 0;
@@ -20,7 +20,7 @@ struct ChildLimits {
 /// How a child process ended.
 struct ChildEnd {
   std::vector<std::string> messages;  ///< those that arrived
-  /// Why messages are missing: "killed by signal 11 (Segmentation fault)". Empty if none is.
+  /// Why messages are missing: "killed by signal 11 (Segmentation fault)". Empty if all arrived.
   std::string failure;
 };
 
@@ -39,11 +39,11 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Reads the messages sent so far, and kills the child if its time is over. @returns `over()`.
+  /// Reads the messages sent so far, and kills the child if it took too long. @returns `over()`.
   bool advance();
-  /// Kills the child, with `reason` as its failure. Does nothing if it is over.
+  /// Kills the child, with `reason` as its failure. Does nothing if the child has ended.
   void stop(const std::string& reason);
-  bool over() const { return id_ < 0; }
+  bool over() const { return id_ < 0; }         ///< whether the child has ended
   const ChildEnd& end() const { return end_; }  ///< @pre over
 
   /// Waits until one of the children has sent something or ended, for at most `milliseconds`.

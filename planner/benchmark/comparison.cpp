@@ -21,7 +21,7 @@ double lengthShare(const BenchmarkRun& run) {
 }
 
 /// Fits the costs of tests. Their quality is judged on runs that were not fitted: each half of the
-/// runs is predicted with the other half's costs. No quality for fewer than four runs.
+/// runs is predicted with the other half's costs. With fewer than four runs it is NaN.
 VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   VariantScore::Cost cost{fittedCosts(queries), kNone, kNone, kNone};
   if (queries.size() < 4) return cost;
@@ -41,7 +41,7 @@ VariantScore::Cost costOf(const std::vector<QueryCost>& queries) {
   return cost;
 }
 
-/// Appends the time of each run over that of the reference variant's run with the same seed, where
+/// For each run, appends its time over that of the reference variant's run with the same seed, if
 /// both are solved.
 void addRatios(const CampaignCell& cell, const CampaignCell& reference,
                std::vector<double>& ratios) {

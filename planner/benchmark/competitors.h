@@ -24,14 +24,15 @@ class CompetitorScene {
 };
 
 extern "C" {
-/// The functions that the FCL module exports under these names. The module is opened at first need,
-/// so that the program does not depend on FCL. The caller owns the scene, which may keep a
-/// reference to the checker. @throws std::runtime_error for shapes that fcl_scene.h can't convert.
+/// The functions that the FCL module exports under these names. The module is opened when it is
+/// first needed, so that the program does not depend on FCL. The caller owns the scene, which may
+/// keep a reference to the checker. @throws std::runtime_error for shapes that fcl_scene.h can't
+/// convert.
 CompetitorScene* corridorFclScene(const Checker& checker);
 const char* corridorFclVersion();  ///< "FCL 0.7.0"
 }
 
-/// Returns the names of all competitors that Corridor knows.
+/// Returns the names of all competitors, available or not.
 const std::vector<std::string>& peerNames();
 /// Returns why a competitor is not available here; "" if it is. @pre the name is one of
 /// `peerNames`.

@@ -21,11 +21,11 @@ struct CostModel {
   }
 };
 
-/// Returns the costs ≥ 0 that fit the queries best. Least squares of the errors, each divided by
-/// √T, since the error of a sum of many tests grows so. (Without weights the few longest queries
-/// would decide; with errors relative to T, the shortest.) If N_v and N_p are proportional, box
-/// tests get the whole cost.
-/// @param call  nanoseconds of each T that no test takes. @pre queries not empty.
+/// Returns the costs ≥ 0 that fit the queries best: by least squares of the errors, each divided by
+/// √T, because the error of a sum of many tests grows like √T. (Without weights, the few longest
+/// queries would decide; with errors divided by T, the shortest.) If N_v and N_p are proportional,
+/// box tests get the whole cost.
+/// @param call  nanoseconds that each query takes besides its tests. @pre queries not empty.
 inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call = 0) {
   // Normal equations of Σ (N_v·C_v + N_p·C_p + call − T)²/T.
   double vv = 0, vp = 0, pp = 0, v = 0, p = 0;
@@ -42,7 +42,7 @@ inline CostModel fittedCosts(const std::vector<QueryCost>& queries, double call 
     if (both.box >= 0 && both.triangle >= 0) return both;
   }
   // One of the two costs would be negative, or the two can't be separated: use the single cost that
-  // fits better. It lowers the sum of squares by v²/vv, or p²/pp.
+  // fits better. A single cost lowers the sum of squares by v²/vv (C_v) or p²/pp (C_p).
   const CostModel boxes{vv > 0 ? std::max(v / vv, 0.0) : 0, 0};
   const CostModel triangles{0, pp > 0 ? std::max(p / pp, 0.0) : 0};
   // If the counts are proportional, both fit equally well up to the rounding of the sums; prefer

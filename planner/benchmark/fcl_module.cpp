@@ -1,5 +1,5 @@
-// A shared library of its own, opened at run time: see competitors.h. It uses only those parts of
-// Corridor that are in headers.
+// A shared library that is opened at run time (competitors.h). It uses only code of Corridor that
+// is in headers, because it does not link Corridor's libraries.
 #include <fcl/config.h>
 
 #include "planner/benchmark/competitors.h"

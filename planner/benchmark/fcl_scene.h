@@ -35,14 +35,14 @@ std::shared_ptr<fcl::BVHModel<Volume>> fclMesh(const TriangleMesh& mesh) {
   return model;
 }
 
-/// A shape in the frame of its body. @throws std::runtime_error for convex hulls: no problem that
-/// is compared has one.
+/// A shape of FCL, and its pose in the frame of its body.
 struct FclShape {
   FclGeometry geometry;
   std::size_t frame = 0;
   fcl::Transform3d at = fcl::Transform3d::Identity();
 };
 
+/// @throws std::runtime_error for convex hulls: no problem that is compared has one.
 inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
   FclShape made{nullptr, frame};
   if (shape.mesh) {
@@ -64,7 +64,7 @@ inline FclShape fclShape(const PlacedShape& shape, std::size_t frame) {
   return made;
 }
 
-/// The problem's shapes in FCL, and the same tested pairs as Corridor's.
+/// A problem's shapes in FCL. The tested pairs are the same as Corridor's.
 class FclScene {
  public:
   explicit FclScene(const Checker& checker) : pairs_(checker.scene().pairs()) {

@@ -22,7 +22,7 @@ namespace {
 
 using ompl::tools::Benchmark;
 
-/// The line of a run's setup between its part on the problem and its part on the planner.
+/// The line of a run's setup text that begins its part on the planner.
 constexpr const char* kPlannersBegin = "Properties of benchmarked planners:\n";
 
 /// OMPL's writer, for an experiment that was not run in this process.
@@ -32,8 +32,8 @@ class Log final : public Benchmark {
   CompleteExperiment& experiment() { return exp_; }
 };
 
-/// Returns OMPL's list of a planner's runs. A planner that reports progress has a list of samples
-/// for each run.
+/// Returns a planner's runs as OMPL's Benchmark stores them. A planner that reports progress has a
+/// list of samples for each run.
 Benchmark::PlannerExperiment plannerOf(const Campaign& campaign, const CampaignCell& cell) {
   Benchmark::PlannerExperiment planner;
   planner.name = omplPlannerName(cell, {});

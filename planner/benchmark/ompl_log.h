@@ -11,8 +11,8 @@ namespace corridor {
 
 /// Returns a log as OMPL's own Benchmark (OMPL 1.5) writes it, for the runs of a problem with a
 /// variant and all planners. `ompl_benchmark_statistics` and Planner Arena can read it. A run has
-/// OMPL's properties, and every count and measure of `runRow` under its name there. A failed run is
-/// a row with the status "Crash".
+/// OMPL's properties, and every count and measure of `runRow` under the same name. A failed run has
+/// the status "Crash".
 std::string omplLog(const Campaign& campaign, const CampaignResult& result, std::size_t problem,
                     std::size_t variant);
 
@@ -27,8 +27,8 @@ std::map<std::string, std::string> omplProperties(const Campaign& campaign,
 std::string omplExperimentName(const Campaign& campaign, const CampaignCell& cell);
 std::map<std::string, std::string> omplParameters(const Campaign& campaign,
                                                   const CampaignCell& cell);
-/// Returns the planner's label if it has one of its own, else the name that OMPL recorded,
-/// "geometric_RRTConnect".
+/// Returns the planner's label if it differs from its name, else the name that OMPL recorded, such
+/// as "geometric_RRTConnect".
 std::string omplPlannerName(const CampaignCell& cell, const OmplRecord& record);
 /// Splits a run's setup text into its part on the problem and its part on the planner.
 std::pair<std::string, std::string> omplSetup(const std::string& setup);

@@ -19,7 +19,7 @@
 namespace corridor {
 namespace {
 
-/// Replaces the characters that gnuplot or SVG would take for syntax: names are the users' own.
+/// Replaces the characters that are syntax for gnuplot or SVG: users may have any names.
 std::string plain(std::string text) {
   for (char& c : text)
     if (c == '"' || c == '\'' || c == '\\' || c == '<' || c == '>' || c == '&' || c == '`')
@@ -82,7 +82,7 @@ class Script {
       out_ << "set " << name << "range [" << number(range->first) << ":" << number(range->second)
            << "]\n";
   }
-  /// Labels 1, 2 and 5 of each decade: with powers of ten alone a narrow range could have a single
+  /// Labels 1, 2 and 5 of each decade: with powers of ten alone, a narrow range could have only one
   /// label.
   void labelHalfDecades(char name, const std::pair<double, double>& range) {
     std::string tics;
@@ -171,8 +171,8 @@ std::string runGnuplot(const std::string& script) {
   int status = -1;
   std::string word = file;  // quoted for the shell: TMPDIR may contain any characters
   replaceAll(word, "'", "'\\''");
-  // -d: without the user's own settings (~/.gnuplot). The trap: only the parent decides what a
-  // signal to the whole group means.
+  // -d ignores the user's own settings (~/.gnuplot). The trap ignores signals to the whole process
+  // group: only the parent decides what they mean.
   const std::string command = "trap '' INT TERM HUP; exec gnuplot -d '" + word + "' 2>&1";
   if (FILE* const pipe = ::popen(command.c_str(), "r")) {
     std::array<char, 65536> part;

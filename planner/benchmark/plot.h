@@ -31,12 +31,12 @@ struct Plot {
   bool logX = false, logY = false;  ///< a logarithmic axis leaves out values ≤ 0
   std::optional<std::pair<double, double>> rangeX = {}, rangeY = {};
   std::vector<PlotSeries> series = {};
-  std::vector<std::string> shapes = {};  ///< meanings of points' shapes; none: all are round
+  std::vector<std::string> shapes = {};  ///< meanings of points' shapes; empty: all are round
 };
 
-/// Returns a colour by its number, the same in plots and tables: "#0072b2". The first six are
-/// distinct for readers with red-green colour blindness (Okabe, Ito 2008). The colours repeat after
-/// `kPlotColors`.
+/// Returns a colour by its number, the same in plots and tables, such as "#0072b2". The first six
+/// are distinct for readers with red-green colour blindness (Okabe, Ito 2008). The colours repeat
+/// after `kPlotColors`.
 std::string plotColor(std::size_t number);
 constexpr std::size_t kPlotColors = 18;
 /// The number of shapes of points; they repeat after that.

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using view::escapedHtml;
 
-/// Plots and tables of up to this many problems are shown at once; with more they are folded.
+/// Plots and tables of up to this many problems are shown at once; those of more are folded.
 constexpr std::size_t kMostAtOnce = 8;
 
 /// "1 problem", "2 problems"
@@ -139,7 +139,7 @@ class Report {
     return list + "</ul>";
   }
 
-  /// Returns the HTML on each problem; with many problems behind a line that opens it.
+  /// Returns `html`, which shows each problem; if there are many, folded behind a line to open it.
   std::string ofEach(const std::string& what, const std::string& html) const {
     const std::size_t count = campaign_.problems.size();
     if (count <= kMostAtOnce) return html;
@@ -200,7 +200,7 @@ class Report {
   std::vector<VariantScore> scores_;
   std::size_t reference_;
   std::vector<fs::path> files_;
-  std::set<std::string> plots_;  // names that are taken
+  std::set<std::string> plots_;  // names of plots that are already used
 };
 
 }  // namespace

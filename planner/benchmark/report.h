@@ -19,8 +19,8 @@ std::vector<std::filesystem::path> writeReport(const Campaign& campaign,
                                                const std::filesystem::path& folder,
                                                const std::vector<CampaignSession>& sessions = {});
 
-/// Returns the text of a file of planner/benchmark/page/ by its name; CMakeLists.txt embeds them in
-/// the program.
+/// Returns the text of a file of planner/benchmark/page/ by its name; CMakeLists.txt embeds these
+/// files in the program.
 std::string_view reportFile(std::string_view name);
 
 }  // namespace corridor

@@ -10,9 +10,10 @@
 namespace corridor {
 namespace {
 
-/// The range of shares, so that points at 0 and at 1 are drawn whole.
+/// The range of axes of shares: slightly more than [0, 1], so that points at the ends are drawn
+/// whole.
 constexpr std::pair kShares{-0.03, 1.03};
-/// Seconds: smaller times count as this, so that ratios are finite.
+/// Seconds. Smaller times count as this time, so that ratios are finite.
 constexpr double kClockTick = 1e-9;
 
 std::string digits(double value) {
@@ -77,8 +78,8 @@ Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& c
       }
     });
   plot.rangeX = decades(times);
-  // End the time axis at the time limit, or at the longest run if that took more, not at the next
-  // decade.
+  // The time axis ends at the time limit, or at the longest run if that is later, instead of at the
+  // next decade.
   if (!times.empty()) {
     const double limit = campaign.time.value_or(campaign.problems[problem].settings.planner.time);
     const double most = std::max(limit, *std::max_element(times.begin(), times.end()));
@@ -157,7 +158,7 @@ Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells
 }
 
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  // Count only what every variant has run: a variant that ran alone would always be the quickest.
+  // Count only runs that every variant has made: a variant that ran alone would be the quickest.
   const std::size_t variants = campaign.variants.size();
   std::size_t runs = 0;
   std::vector<std::vector<double>> ratios(variants);

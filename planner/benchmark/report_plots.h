@@ -12,17 +12,17 @@ namespace corridor {
 /// count paths that are not refuted; dashed lines count all paths.
 Plot solvedOverTime(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                     std::size_t problem);
-/// For a problem, one point per planner (its shape) and variant (its colour): median time against
-/// the share of returned paths that are refuted, with confidence intervals of both.
+/// For a problem, one point per planner (shown by shape) and variant (shown by colour): median time
+/// against the share of returned paths that are refuted, with confidence intervals of both.
 Plot timeAgainstError(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                       std::size_t problem);
-/// For all problems, one point per variant: the same, with time as a multiple of the reference
-/// variant's, as in the ranking.
+/// For all problems, one point per variant: time, as a multiple of the reference variant's (as in
+/// the ranking), against the share of returned paths that are refuted.
 Plot errorOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                 const std::vector<VariantScore>& scores);
 /// Performance profile (Dolan, Moré 2002) over the problems, planners and seeds that every variant
-/// has run. It shows the share of these for which a variant returned a path that is not refuted,
-/// within x times the time of the quickest variant with such a path.
+/// has run: the share of these runs for which a variant returned a path that is not refuted, within
+/// x times the time of the quickest variant with such a path.
 Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 /// For a problem, the share of returned paths whose least distance to an obstacle is at most x.
 /// Paths in collision have the distance 0, so that a line begins at their share.

@@ -16,7 +16,7 @@ namespace {
 
 using view::escapedHtml;
 
-/// Three significant digits; numbers of four and more digits are whole, in groups of three.
+/// Returns three significant digits. Numbers from 1000 are whole, with digits in groups of three.
 std::string digits(double value) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return "∞";
@@ -43,7 +43,7 @@ std::string interval(const Interval& of, std::string (*text)(double)) {
 std::string count(std::size_t hits, std::size_t of) {
   return std::to_string(hits) + " of " + std::to_string(of);
 }
-/// One refuted path is enough for the mark `bad`.
+/// Marks the text as `bad` if at least one path is refuted.
 std::string refuted(std::size_t hits, std::size_t judged) {
   if (judged == 0) return "–";
   return std::string("<span class=\"") + (hits ? "bad" : "good") + "\">" + count(hits, judged) +

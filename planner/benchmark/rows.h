@@ -12,25 +12,27 @@
 /// and OMPL's log. planner/benchmark/README.md lists every column.
 namespace corridor {
 
-/// A value: nothing (a run without a path has no length), a text, yes or no, a count, or a measure.
+/// A value: nothing (for example the length, if there is no path), a text, yes or no, a count, or a
+/// measure.
 using RowValue = std::variant<std::monostate, std::string, bool, std::uint64_t, double>;
 using Row = std::vector<std::pair<std::string, RowValue>>;
 
 /// Returns the row of one run.
 Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRun& run);
 
-/// Returns the row of all runs of a cell: how many ended how, and medians over the solved ones.
+/// Returns the row of all runs of a cell: counts of their results, and medians over the solved
+/// runs.
 Row summaryRow(const Campaign& campaign, const CampaignCell& cell);
 
 std::vector<Row> runRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 std::vector<Row> summaryRows(const Campaign& campaign, const std::vector<CampaignCell>& cells);
 
-/// Returns CSV: a line of names, then a line per row. Numbers have all their digits; yes is 1, no
-/// is 0. @pre all rows have the same columns.
+/// Returns CSV: a line of names, then a line per row. Numbers read back as the same doubles; yes is
+/// 1, no is 0. @pre all rows have the same columns.
 std::string csvOf(const std::vector<Row>& rows);
 
-/// Returns an aligned table to read, with four digits. A column without information (0 or nothing
-/// in every row) is left out, except `runs`, `solved` and `refuted`.
+/// Returns an aligned table for people to read, with four significant digits. A column without
+/// information (0 or nothing in every row) is left out, except `runs`, `solved` and `refuted`.
 std::string tableOf(const std::vector<Row>& rows);
 
 }  // namespace corridor

@@ -41,8 +41,8 @@ class Durations {
     cells_[cell].seconds += seconds, ++cells_[cell].runs;
     all_.seconds += seconds, ++all_.runs;
   }
-  /// Returns the estimated seconds of the tasks, one after the other: each takes the mean of its
-  /// cell, or of all runs if its cell has none. Negative: unknown.
+  /// Returns the estimated seconds of all tasks, one after the other. Each takes the mean time of
+  /// its cell, or of all runs if its cell has none. Negative: unknown.
   double of(const std::deque<QueuedRun>& tasks) const {
     if (all_.runs == 0) return -1;
     double sum = 0;
@@ -77,7 +77,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   const std::uint64_t total = cells.size() * campaign.runs;
   std::uint64_t done = total - tasks.size();
   Durations durations(cells.size());
-  std::list<Running> running;  // an exception kills these runs
+  std::list<Running> running;  // its destructor kills these runs
 
   const auto begin = [&] {
     const QueuedRun task = tasks.front();
@@ -107,7 +107,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
   const auto interrupted = [&] { return options.interrupted && options.interrupted->load(); };
   while (!(tasks.empty() && running.empty())) {
     while (!tasks.empty() && running.size() < options.jobs && !interrupted()) begin();
-    if (interrupted()) break;  // runs under way are killed, however near their end
+    if (interrupted()) break;  // destroying `running` kills its runs
     std::vector<ChildProcess*> children;
     for (Running& one : running) children.push_back(&one.run.process());
     ChildProcess::waitForAny(children, kLookMs);

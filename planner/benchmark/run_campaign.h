@@ -16,15 +16,15 @@ struct CampaignProgress {
 
 struct CampaignOptions {
   std::function<void(const CampaignProgress&)> progress;
-  /// Called with each finished run and the index of its cell. @throws to end the campaign.
+  /// Called with each finished run and the index of its cell. If it throws, the campaign ends.
   std::function<void(std::size_t cell, const BenchmarkRun&)> done;
   std::size_t jobs = 1;  ///< runs at a time; with several, times are those of a busy machine
-  /// When it becomes true, the runs under way are given up, and the result is what is finished.
+  /// When it becomes true, unfinished runs are killed; the result has the finished runs.
   const std::atomic<bool>* interrupted = nullptr;
 };
 
-/// Makes the runs that the cells don't have yet, each in a process of its own. The variants take
-/// turns seed by seed, so that other work on the machine affects all of them alike.
+/// Makes the runs that are missing in the cells, each in a process of its own. The variants take
+/// turns seed by seed, so that other work on the machine affects all variants alike.
 /// @param cells as returned by `cellsOf`, with the runs of earlier sessions.
 /// @pre checkCampaign passed; the caller has one thread.
 CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& options,

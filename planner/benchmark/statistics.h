@@ -6,16 +6,16 @@
 /// Confidence intervals for reports.
 namespace corridor {
 
-/// A confidence interval: holds the true value with probability `kConfidence`.
+/// A confidence interval: contains the true value with probability `kConfidence`.
 struct Interval {
   double from = 0, to = 0;
 };
 constexpr double kConfidence = 0.95;
 
-/// Returns an interval for the median of the distribution that the values are drawn from, whatever
-/// it is. The interval is between two of the values, with ranks so that the binomial distribution
-/// gives each side a probability of at most (1 − kConfidence)/2. Infinite if there are too few
-/// values (fewer than six).
+/// Returns an interval for the median of the distribution that the values are drawn from; any
+/// distribution is allowed. The interval lies between two of the values. By the binomial
+/// distribution, the median is below it with a probability of at most (1 − kConfidence)/2, and
+/// above it, too. Infinite if there are too few values (fewer than six).
 Interval medianInterval(std::vector<double> values);
 
 /// Returns Wilson's score interval (1927) for the probability of an event that was observed in

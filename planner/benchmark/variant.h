@@ -27,13 +27,13 @@ struct BenchmarkCompetitor {
       const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>;
 
   std::string name;
-  Make<ompl::base::StateValidityChecker> states;        ///< null: Corridor's, by `edges`
-  Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: Corridor's, by `edges`
+  Make<ompl::base::StateValidityChecker> states;        ///< null: Corridor's for `edges`
+  Make<ompl::base::MotionValidator> motions = nullptr;  ///< null: Corridor's for `edges`
   /// The value of checker.edges that the competitor replaces. With "discrete", edges are sampled by
   /// OMPL's rule, and `states` tests the samples.
   std::string edges = "discrete";
-  /// Makes a whole run in place of runUnderOmpl, with the same result; null: runUnderOmpl. Runs in
-  /// a process of its own. @throws to make the run fail, with that text.
+  /// Makes a whole run in place of runUnderOmpl, in a process of its own; null: runUnderOmpl. If it
+  /// throws, the run fails with the exception's text.
   std::function<BenchmarkRun(const Problem& planned, double memory,
                              std::vector<Configuration>& path)>
       run = nullptr;
@@ -43,8 +43,8 @@ struct BenchmarkCompetitor {
 /// A checker that a benchmark compares with others.
 struct Variant {
   std::string name;
-  /// The keys that it sets in a problem's `checker:`, as a map that `readCheckerKeys` reads without
-  /// a fault.
+  /// The keys that the variant sets in a problem's `checker:`. `readCheckerKeys` reads this map
+  /// without a fault.
   YamlValue checker;
   std::optional<BenchmarkCompetitor> peer;
 
@@ -58,10 +58,10 @@ struct Variant {
 YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& keys);
 
 /// Reads NAME or NAME:KNOB, where NAME is a value of `checker: {edges: …}` or a competitor's name.
-/// The knob of edges that are sampled is the resolution (OMPL's longest_valid_segment_fraction);
-/// that of all others is the tolerance in metres.
-/// @throws InputError: unknown name (lists the known ones), or a knob that is not a number or out
-/// of range (a resolution, see isResolution; a tolerance above 0).
+/// For sampled edges, KNOB is the resolution (OMPL's longest_valid_segment_fraction); for all
+/// others, it is the tolerance in metres.
+/// @throws InputError for an unknown name (it lists the known names), and for a knob that is not a
+/// number or out of range: a resolution by isResolution, a tolerance above 0.
 Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetitor>& peers = {});
 
 }  // namespace corridor

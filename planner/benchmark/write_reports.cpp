@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tests whether files can be created in a folder, by creating one: permissions don't show a file
-/// system that is read-only.
-/// @returns why not; "" if they can.
+/// Tests whether files can be created in a folder, by creating one: permissions don't show whether
+/// the file system is read-only.
+/// @returns the reason if they can't, else "".
 std::string whyNoFiles(const fs::path& folder) {
   std::string probe = (folder / ".corridor-benchmark-XXXXXX").string();
   const int file = ::mkstemp(probe.data());  // a new file, never an existing one
@@ -30,8 +30,8 @@ std::string whyNoFiles(const fs::path& folder) {
   return "";
 }
 
-/// Returns the logs' files, whether there are runs for them or not, in order of problem, then
-/// variant.
+/// Returns the files of all logs, in order of problem, then variant. Logs without runs are
+/// included.
 std::vector<fs::path> logFiles(const Campaign& campaign, const fs::path& folder) {
   std::vector<fs::path> files;
   std::set<std::string> taken;

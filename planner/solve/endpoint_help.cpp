@@ -35,8 +35,8 @@ std::string position(const Configuration& q, const CoordinateGroup& pose, int di
   return text + "]";
 }
 
-/// Returns for example `"shelf" (shape 2, triangle 12)`. A body of one shape needs no shape number,
-/// and convex parts have no triangles.
+/// Returns for example `"shelf" (shape 2, triangle 12)`. The shape number is left out for a body of
+/// one shape, and the triangle for a convex part.
 std::string described(const Checker& checker, std::size_t shape, std::uint32_t triangle) {
   const std::size_t owner = checker.bodyOf(shape);
   const ModelBody& body = checker.model().bodies[owner];
@@ -54,14 +54,15 @@ std::string described(const Checker& checker, std::size_t shape, std::uint32_t t
 std::string described(const Checker& checker, const Contact& pair) {
   const std::string a = described(checker, pair.bodyA, pair.triangleA),
                     b = described(checker, pair.bodyB, pair.triangleB);
-  // In the problem's order, in which links come before obstacles.
+  // The order of the bodies in the problem: links come before obstacles.
   return checker.bodyOf(pair.bodyA) < checker.bodyOf(pair.bodyB) ? a + " and " + b
                                                                  : b + " and " + a;
 }
 
-/// Returns an upper bound, metres, of what the tube takes from the gap between two shapes: the sum
-/// over the joints between them of the joint's tube times its lever. The lever is 1 for a
-/// translation; for a rotation it reaches from the joint to the farthest point of the shape.
+/// Returns an upper bound, metres, of how much the tube can reduce the gap between two shapes. It
+/// is the sum over all joints between the shapes of the joint's tube times its lever. The lever of
+/// a rotation reaches from the joint to the farthest point of the shape. The lever of a translation
+/// is 1 for a prismatic joint, and √n for n coordinates of a planar or floating joint.
 double tubeOf(const Checker& checker, const Configuration& q, const Contact& pair) {
   const std::vector<Frame>& frames = checker.model().tree.frames;
   const std::vector<Transform> poses = framePoses(checker.model().tree, q);
@@ -99,8 +100,8 @@ double tubeOf(const Checker& checker, const Configuration& q, const Contact& pai
 
 /// Returns directions in which to search for a free configuration, as steps of its numbers. For a
 /// pose the directions are evenly spread positions (a circle, or a Fibonacci spiral on the sphere)
-/// with the orientation kept. Otherwise they are each line and circle alone, and random mixtures,
-/// with a largest step of 1; rotations are kept.
+/// with the orientation kept. Otherwise a direction changes one line or circle alone, or it is a
+/// random mixture of all; its largest step is 1, and rotations are kept.
 std::vector<Configuration> directions(const ConfigurationSpace& space) {
   constexpr int count = 64;
   const auto size = static_cast<Eigen::Index>(space.size());
@@ -136,13 +137,13 @@ std::vector<Configuration> directions(const ConfigurationSpace& space) {
 
 struct NearestFree {
   Configuration q;
-  int digits = 17;  ///< printed with this many digits and read back, `q` is free
-  double away = 0;  ///< distance of the position, metres; or the largest step of a number
+  int digits = 17;  ///< if `q` is printed with this many digits and read back, it is still free
+  double away = 0;  ///< for a pose the distance of its position, metres; else the largest step
 };
 
-/// Rounds the numbers that the message prints to as few digits (at least four) as leave `exact`
-/// free. The message prints the whole position of a pose, or else the numbers that differ from
-/// `from`.
+/// Rounds the numbers that the message prints: to the fewest digits, at least four, with which
+/// `exact` remains free. The message prints the whole position of a pose, or else the numbers that
+/// differ from `from`.
 NearestFree withFewDigits(const Configuration& exact, const Configuration& from, double away,
                           const Checker& checker) {
   const CoordinateGroup* const pose = onlyPose(checker.space());
@@ -215,7 +216,7 @@ std::string outOfBounds(const std::string& name, const Configuration& q,
   return name + ": " + text;
 }
 
-/// Explains reasons that have nothing to do with the gap between two bodies.
+/// Explains the reasons that do not depend on the gap between two bodies.
 std::string whyUndecided(UndecidedReason reason) {
   switch (reason) {
     case UndecidedReason::floatingPoint:
@@ -239,7 +240,7 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
   const std::string pair = result.pair ? described(checker, *result.pair) : "two bodies";
   const MotionOptions& options = checker.options();
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::clearance) {
-    // The clearance slack is not in `needed`: the message on the tolerance covers it.
+    // `needed` does not contain the clearance slack: the message on the tolerance covers that.
     const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
     if (result.gap <= needed) {
       return name + ": the gap between " + pair + " is " + number(result.gap) +

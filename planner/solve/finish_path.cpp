@@ -22,8 +22,8 @@ namespace {
 constexpr unsigned kAttempts = 10;
 /// After this many rounds in a row without progress, simplifying ends.
 constexpr int kEmptyRounds = 8;
-/// The maximum number of rounds of each kind. No path needed more. Without a limit shortening would
-/// not end, since it always finds a path that is shorter in the last digits.
+/// The maximum number of rounds of each kind. No path needed more. The limit is for a path that
+/// each round shortens by little more than the 0.1 % that counts as progress.
 constexpr int kRounds = 60;
 
 }  // namespace

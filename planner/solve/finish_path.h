@@ -21,8 +21,8 @@ using Path = std::vector<Configuration>;
 Path readPath(const ompl::geometric::PathGeometric& path);
 
 /// Simplifies a path and returns its versions, from the planner's own to the simplest, so that an
-/// earlier one can be used if a later one can't be certified. Ends when simplifying brings no more,
-/// or when `stop` returns true. The first and last state stay.
+/// earlier version can be used if a later one can't be certified. Ends when simplifying no longer
+/// improves the path, or when `stop` returns true. The first and the last state stay.
 std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInformation>& si,
                                      ompl::geometric::PathGeometric& path,
                                      const std::function<bool()>& stop);
@@ -32,8 +32,8 @@ std::vector<Path> simplifiedVersions(const std::shared_ptr<ompl::base::SpaceInfo
 /// turn, whose direction is not defined.
 Path withShortTurns(const ConfigurationSpace& space, const Path& path);
 
-/// Tests every state and every edge of the path again, by the default method. Returns whether all
-/// states are in bounds and all edges certified.
+/// Tests the path again, state by state and edge by edge, by the default method. Returns whether
+/// all states are in bounds and all edges are certified.
 bool certifiedPath(const Checker& checker, const Path& path);
 
 /// The length of a path, summed over its edges. `metres`: |Δp| of planar and floating joints, and

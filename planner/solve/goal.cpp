@@ -18,15 +18,15 @@ namespace ob = ompl::base;
 
 namespace {
 
-/// The goal region is shrunk by this fraction, which exceeds a few roundings. A planner's state in
-/// it is then also inside for the verifier, which rounds differently.
+/// The goal region is shrunk by this fraction, which is more than a few roundings. So a state that
+/// is inside for the planner is also inside for the verifier, which rounds differently.
 constexpr double kShrink = 0x1p-40;
-/// Random states tried per sample that is wanted. Most goals are free nearly everywhere around
-/// them.
+/// The number of random states that are tried per wanted sample. Around most goals nearly all
+/// states are free.
 constexpr std::size_t kTries = 20;
 
 double uniform(std::mt19937_64& random, double low, double high) {
-  // std::uniform_real_distribution differs among libraries; this gives the same numbers with all.
+  // std::uniform_real_distribution gives different numbers with different standard libraries.
   return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
@@ -87,7 +87,7 @@ double ProblemGoal::distanceGoal(const ob::State* state) const {
   const Configuration q = configurationOf(*si_, state);
   if (problem_.task.goalRegion) {
     if (inGoal(problem_, goals_, q, -kShrink)) return 0;
-    // Twice the threshold keeps a state just outside of the region from being taken as inside.
+    // A state outside has at least twice the threshold, so that OMPL does not count it as inside.
     return std::max(outsideGoalRegion(problem_, goals_, q), 2 * threshold_);
   }
   double least = std::numeric_limits<double>::infinity();

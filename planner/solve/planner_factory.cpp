@@ -64,7 +64,7 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// Properties of a planner that most planners don't have.
+/// Properties of a planner; the defaults are those of most planners.
 struct Traits {
   bool optimises = false;
   bool repeats = true;
@@ -148,7 +148,7 @@ std::vector<std::string> plannerNames() {
   return names;
 }
 
-/// Returns the number that the whole text is, or nullopt. Infinities and NaN are not accepted.
+/// Returns the number if the whole text is a finite number, else nullopt.
 template <class T>
 std::optional<T> parsedAs(const std::string& text) {
   T value{};
@@ -159,31 +159,33 @@ std::optional<T> parsedAs(const std::string& text) {
   return value;
 }
 
-/// Returns whether negative values of a parameter are wrong.
+/// Returns whether a negative value of a parameter is a fault.
 /// @param range OMPL's suggestion, "0.:.05:1." (smallest, step, largest). Many parameters accept
-/// less than the smallest suggestion; but if that is not negative, a negative value has no meaning.
+/// values below the smallest suggestion. But if that is not negative, a negative value has no
+/// meaning.
 bool neverNegative(const std::string& range) {
   const auto least = parsedAs<double>(range.substr(0, range.find(':')));
   return least && *least >= 0;
 }
 
-/// Returns whether the parameter is a fraction in (0, 1] whose range OMPL tests only when it begins
-/// to plan; it then throws.
+/// Returns whether the parameter is a fraction in (0, 1] that OMPL does not test before planning
+/// begins; then it throws.
 bool isShare(const ob::GenericParam& parameter) {
   return parameter.getRangeSuggestion().empty() &&
          (parameter.getName() == "min_valid_path_fraction" ||
           parameter.getName() == "failed_expansion_score_factor");
 }
 
-/// Returns whether OMPL accepts 0 for the parameter although a failed assertion, or worse, then
-/// ends the program.
+/// Returns whether the parameter must be at least 1 although OMPL accepts 0: with 0, a failed
+/// assertion or worse ends the program later.
 bool isAtLeastOne(const std::string& name) {
   return name == "degree" || name == "min_degree" || name == "num_planners" ||
          name == "samples_per_batch";
 }
 
-/// Returns why `text` is no value of the parameter ("not a number", "below 0"), or nullopt. Tested
-/// before OMPL's own conversion, whose complaint about "0.6abc" does not say what is wrong.
+/// Returns why `text` is not a legal value of the parameter ("not a number", "below 0"), or
+/// nullopt. Called before OMPL's own conversion, whose error for "0.6abc" does not say what is
+/// wrong.
 std::optional<std::string> complaint(ob::GenericParam& parameter, const std::string& text) {
   const auto is = [&]<class T>(T) {
     return dynamic_cast<ob::SpecificParam<T>*>(&parameter) != nullptr;
@@ -195,7 +197,7 @@ std::optional<std::string> complaint(ob::GenericParam& parameter, const std::str
   if (is(double{}) || is(float{})) {
     const auto value = parsedAs<double>(text);
     if (!value) return "not a number";
-    // OMPL reads a negative range as its default, and a share above 1 as 1 or worse.
+    // OMPL replaces a negative range by its default, and treats a goal_bias above 1 as 1 or worse.
     if (*value < 0 && neverNegative(parameter.getRangeSuggestion())) return "below 0";
     if (*value > 1 && parameter.getName() == "goal_bias") return "above 1";
     if (isShare(parameter) && !(*value >= std::numeric_limits<double>::epsilon() && *value <= 1))

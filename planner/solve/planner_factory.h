@@ -21,11 +21,12 @@ struct PlannerInfo {
   /// Whether the same seed gives the same path, if the time does not run out: the planner has no
   /// threads and no clock of its own.
   bool repeats = true;
-  bool optimises = false;  ///< uses all its time for better paths, unless set to stop at the first
+  /// Uses all its time for better paths, unless it is set to stop at the first path.
+  bool optimises = false;
 };
 
-/// Returns all planners that `makePlanner` knows, in the order in which help lists them. To add
-/// one, add a line to planner_factory.cpp.
+/// Returns all planners that `makePlanner` accepts, in the order in which messages list them. To
+/// add a planner, add a line to planner_factory.cpp.
 const std::vector<PlannerInfo>& knownPlanners();
 
 /// Returns a message that lists the known planners if `name` is not one of them, else nullopt.
@@ -38,7 +39,7 @@ struct PlannerParameter {
   int line = 0;
 };
 
-/// Makes a planner and sets its parameters.
+/// Creates a planner and sets its parameters.
 /// @param nameAt the place where the name was written, for messages; its key and value are ignored.
 /// @throws InputError for an unknown name, or with all wrong parameters: unknown ones (with a list
 /// of those that the planner has), and values of the wrong type or range.

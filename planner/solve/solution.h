@@ -11,7 +11,7 @@ namespace corridor {
 /// The content of a solution file, which `corridor solve -o` writes and `corridor verify` reads:
 /// YAML, format corridor-solution-1 (keys in planner/README.md). Metres, radians.
 struct Solution {
-  std::string problem;  ///< the problem's file; in a solution file relative to its folder
+  std::string problem;  ///< the problem's file; in a solution file relative to that file's folder
   /// The digest of the problem and all its files; empty: not known (`.path` files).
   std::string digest;
   std::string space;  ///< "SE2" or "SE3"; empty if the states have named joints
@@ -26,7 +26,7 @@ struct Solution {
   Path path;
 };
 
-/// @param digest  of the problem (planner/problem/digest.h), or "".
+/// @param digest the problem's (planner/problem/digest.h), or "".
 Solution makeSolution(const Problem& problem, const SolveReport& report, std::string digest = "");
 
 /// Writes a solution file. Numbers have enough digits to read back as the same doubles. The file is
@@ -35,8 +35,8 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
 void writeSolution(const Solution& solution, const std::filesystem::path& file);
 
 /// Reads a solution file strictly, or an OMPL.app `.path` file, which has one state per line.
-/// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states that
-/// are not of `space`.
+/// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states of
+/// another space.
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space);
 
 }  // namespace corridor

@@ -31,14 +31,14 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// The number of states of a goal region that planners get. It is small, since planners with an
-/// informed sampler keep an ellipse for each.
+/// The number of states of a goal region that planners get. It is small, because planners with an
+/// informed sampler keep an ellipse for each state.
 constexpr std::size_t kGoalSamples = 32;
-/// The share of planner.time that simplifying gets after a planner that used all of it.
+/// The least share of planner.time that simplifying gets, also if the planner used all of it.
 constexpr double kSimplifyShare = 0.05;
 constexpr double kProgressPeriod = 0.1;  // s
-/// Minimises the length of a path in the space's distance. OMPL's own class throws for a space that
-/// its direct sampling of ellipses doesn't know. For such a space this class samples the whole
+/// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses
+/// directly, and throws for spaces in which it can't. For such a space this class samples the whole
 /// space and rejects states that can't improve the path.
 class PathLengthObjective : public ob::PathLengthOptimizationObjective {
  public:
@@ -52,10 +52,10 @@ class PathLengthObjective : public ob::PathLengthOptimizationObjective {
 };
 
 /// Returns the default of the parameter `range` (the longest edge that a tree grows) where all
-/// coordinates are angles: 0.7 rad in the joint of the largest weight. Otherwise nullopt, for
-/// OMPL's default of 20 % of the space's extent. For arms OMPL's is 3 to 6 rad, and nearly every
-/// such edge hits something. Measured on problems of two arms: trees with OMPL's take 2 to 15 times
-/// as long.
+/// coordinates are angles: 0.7 rad in the joint of the largest weight. Otherwise returns nullopt;
+/// OMPL's default is then used, 20 % of the space's extent. For arms OMPL's default is 3 to 6 rad,
+/// and nearly every edge of that length hits something. Measured on problems of two arms: with
+/// OMPL's default, planners that grow trees take 2 to 15 times as long.
 std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
   double weight = 0;
   for (const Coordinate& c : space.coordinates()) {
@@ -67,7 +67,7 @@ std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
 }
 
 /// Returns the report's words for the trees: ", sphere", ", hull" or ", obb-binary, vertices, gjk".
-/// Leaves out what is the default; "" for the default trees.
+/// Leaves out defaults; returns "" for the default trees.
 std::string treesText(const TreeNames& words) {
   const TreeNames trees = withDefaults(words), usual = withDefaults({trees.volume, "", ""});
   return (trees.volume == withDefaults({}).volume ? "" : ", " + trees.volume) +
@@ -151,7 +151,7 @@ void Solve::setUpPlanner() {
 }
 
 void Solve::setUp() {
-  ompl::msg::noOutputHandler();  // the report has everything that users need
+  ompl::msg::noOutputHandler();  // the report contains what users need
   ompl::RNG::setSeed(problem_.settings.seed);
   setUpSpace();
   definition_ = std::make_shared<ob::ProblemDefinition>(si_);
@@ -183,10 +183,12 @@ void Solve::setUpObjective() {
     objective = std::make_shared<PathLengthObjective>(si_);
   }
   if (!objective) return;
-  // Without `planner.stop` a planner that optimises uses its time, as PRMstar does, and the others
-  // stop at the first solution, as PRM does.
+  // Without `planner.stop`, planning uses all its time if the problem names an objective, or if
+  // `knownPlanners` says that the planner optimises. Otherwise it stops at the first solution; this
+  // includes PRM, although its specification in OMPL says that it optimises.
   const bool first = problem_.settings.planner.stopAtFirst.value_or(!wanted && !optimises_);
-  // Every path has a clearance of at least 0, so a threshold of 0 would stop at the first one.
+  // Every free path has a clearance of at least 0: with a threshold of 0, planning would stop at
+  // the first path.
   const double threshold = keepsClear() && !(problem_.settings.objectiveThreshold > 0)
                                ? std::numeric_limits<double>::infinity()
                                : problem_.settings.objectiveThreshold;
@@ -260,8 +262,8 @@ ob::PlannerStatus Solve::plan(const ob::PlannerTerminationCondition& orElse) {
   return status;
 }
 
-/// Returns whether the path begins at the start, bit for bit, and ends in the goal. Tested here
-/// since the result must not depend on the planner and the simplifier.
+/// Returns whether the path begins at the start, bit for bit, and ends in the goal. This is tested
+/// so that the promise does not rely on the planner and the simplifier.
 bool Solve::joinsStartAndGoal(const Path& path) const {
   return !path.empty() && path.front() == start_ && inGoal(problem_, goals_, path.back());
 }
@@ -276,7 +278,8 @@ bool Solve::certified(const Path& path) {
 }
 
 void Solve::finish() {
-  // The path is copied, since CForest's has another space, a wrapper; its states are of our space.
+  // The path is copied, because CForest's path belongs to another space, a wrapper of ours. Its
+  // states belong to our space.
   og::PathGeometric path(si_);
   for (const ob::State* state :
        definition_->getSolutionPath()->as<og::PathGeometric>()->getStates())

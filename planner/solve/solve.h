@@ -13,10 +13,10 @@
 
 namespace corridor {
 
-/// The state of a solve that is under way.
+/// How far a running solve has got.
 struct SolveProgress {
   double seconds = 0;
-  std::uint64_t edges = 0;  ///< that the planner has had tested so far
+  std::uint64_t edges = 0;  ///< number of edges tested so far for the planner
 };
 
 struct SolveOptions {
@@ -25,12 +25,12 @@ struct SolveOptions {
   std::function<void(const SolveProgress&)> progress;
   /// When this becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
-  /// Where values of the problem come from that were not read from its file, by key, for messages:
-  /// "planner.name" → "--planner".
+  /// For messages: the origins of values that were not read from the problem's file, by key, such
+  /// as "planner.name" → "--planner".
   std::map<std::string, std::string> setElsewhere;
-  /// Called before planning, once the checkers of states and motions are set. It may replace them:
-  /// planner/benchmark does so to measure competitors, and times. Tests of start and goals and the
-  /// final certification always use the `Checker`.
+  /// Called once before planning, after the checkers of states and motions were set. It may replace
+  /// them: planner/benchmark does so to measure times, and to use competitors. Tests of start and
+  /// goals, and the final certification, always use the `Checker`.
   std::function<void(const std::shared_ptr<ompl::base::SpaceInformation>&, const Checker&)>
       adaptChecking;
 };
@@ -47,7 +47,7 @@ enum class SolveOutcome {
 struct SolveReport {
   SolveOutcome outcome = SolveOutcome::notFound;
   std::string why;              ///< why not solved, in one line; empty if solved
-  std::vector<Fault> warnings;  ///< goals that are not used although others are, and why
+  std::vector<Fault> warnings;  ///< which goals are not used (others are), and why
 
   Path path;  ///< empty unless solved; no rotation by more than 90° between two states
   bool certified = false;  ///< every edge of `path` was proved by the final certification
@@ -57,10 +57,10 @@ struct SolveReport {
   bool repeats = true;
   std::uint64_t seed = 0;
   double time = 0, planningTime = 0;  ///< seconds of the whole solve, and until the planner ended
-  double setUpTime = 0;               ///< until the planner began
+  double setUpTime = 0;               ///< seconds until the planner began
   double certificationTime = 0;       ///< seconds of the final certification
   double processorTime = 0;           ///< processor time of the whole solve, all threads
-  double searchProcessorTime = 0;     ///< the share of the planner and the simplifier in it
+  double searchProcessorTime = 0;     ///< the part of processorTime in planner and simplifier
   /// Counts of all queries: states, edges, undecided, and N_v, N_p of the cost model.
   Counters counters;
   PathLength length;
@@ -71,22 +71,24 @@ struct SolveReport {
 };
 
 /// Solves a problem: checks start and goals (one free goal is enough), plans, simplifies, and
-/// certifies the final path edge by edge. If an edge of it fails, the last simplified version that
-/// can be certified as a whole is returned. With `discrete` edges nothing is certified.
+/// certifies the final path edge by edge. If an edge of that path fails, the last simplified
+/// version that can be certified as a whole is returned. With `discrete` edges nothing is
+/// certified.
 ///
-/// Planning ends within planner.time, except for the edge that is tested then. Simplifying gets the
-/// rest of that time, but at least 5 % of it; the final certification comes on top.
+/// Planning ends within planner.time, except that an edge that is being tested when the time runs
+/// out is still finished. Simplifying gets the rest of planner.time, but at least 5 % of it. The
+/// final certification takes its time in addition.
 ///
-/// The same problem and seed give the same path, for planners that repeat (planner/README.md), if
-/// the time does not run out. OMPL has one random seed per process: don't call this from two
-/// threads at once.
+/// The same problem and seed give the same path, if the planner repeats (planner/README.md) and the
+/// time does not run out. OMPL has one random seed per process: don't call this from two threads at
+/// once.
 /// @throws InputError for a start or goals that are in contact, too close or out of bounds, and for
 /// an unknown planner, parameter or sampler.
 SolveReport solveProblem(const Problem& problem, const SolveOptions& options = {});
 
 /// Tests the problem's planner, parameters, sampler, resolution and objective as `solveProblem`
 /// does.
-/// @throws InputError with all that is wrong with them.
+/// @throws InputError with all faults.
 void checkSettings(const Problem& problem);
 
 }  // namespace corridor

@@ -20,7 +20,7 @@ namespace corridor {
 /// A stopwatch of wall time and of processor time (all threads), which can be paused.
 class SolveClock {
  public:
-  /// Cheap, since planners call it in every step.
+  /// Wall time. Cheap: planners call it in every step.
   double seconds() const { return wall_ + (running_ ? now(CLOCK_MONOTONIC) - wallSince_ : 0); }
   double processorSeconds() const {
     return processor_ + (running_ ? now(CLOCK_PROCESS_CPUTIME_ID) - processorSince_ : 0);
@@ -48,16 +48,16 @@ class SolveClock {
   bool running_ = true;
 };
 
-/// The steps of `solveProblem`, for a caller that works between them: planner/benchmark puts OMPL's
-/// Benchmark around `plan`. Call setUp, setUpEnds and plan once each, in this order. Between them
-/// the clock may be paused, so that the caller's own work is not counted.
+/// The steps of `solveProblem`, for a caller that works between them: planner/benchmark lets OMPL's
+/// Benchmark call `plan`. Call setUp, setUpEnds and plan once each, in this order. Between them the
+/// clock may be paused, so that the caller's own work is not counted.
 class Solve {
  public:
   /// Both arguments must outlive the object.
   Solve(const Problem& problem, const SolveOptions& options);
 
   /// Sets up space, checker, sampler, planner and objective, and seeds OMPL's random numbers.
-  /// @throws InputError with all that is wrong with names and parameters.
+  /// @throws InputError with all faults of names and parameters.
   void setUp();
   /// Sets start and goals. @throws InputError if the start or all goals are not free.
   void setUpEnds();

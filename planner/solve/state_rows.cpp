@@ -41,7 +41,7 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
                                     const ConfigurationSpace& space) {
   std::vector<StateRow> rows;
   FaultList faults(file.string());
-  std::istringstream lines(readTextStream(file, "states, one a line"));
+  std::istringstream lines(readTextStream(file, "a file of states, one per line,"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     line.resize(std::min(line.size(), line.find('#')));

@@ -19,8 +19,8 @@ using RealQuaternion = Eigen::Matrix<Real, 4, 1>;
 /// Angles up to this count as equal. A path's quaternions are normalised in double, which rotates
 /// them by less than 32·2^-53 against the start or goal as read (derived in problem_goal.cpp).
 constexpr Real kSameAngle = 0x1p-46L;
-/// The radius of a goal region is enlarged by 2^-44 of it, since rounding decides whether a state
-/// on its rim is inside.
+/// The radius of a goal region is enlarged by 2^-44 of the radius. Otherwise rounding would decide
+/// whether a state on its rim is inside.
 constexpr Real kRim = 1 + 0x1p-44L;
 
 /// Returns the angle between the lines through two quaternions: half the angle of the rotation
@@ -48,13 +48,14 @@ Real awayIn(const Coordinate& c, const Configuration& a, const Configuration& b)
   return 0;
 }
 
-/// The differences of two configurations, the largest of each kind.
+/// The difference of two configurations: the largest difference of each kind of coordinate.
 struct Away {
   /// `position` (m) and `angle` (rad) of planar and floating joints; `joint` (rad or m) of single
   /// joints, except continuous ones.
   Real position = 0, angle = 0, joint = 0;
-  Real distance = 0;  ///< distance of the space, with its weights
-  /// Continuous joints. Their angles round when they are reduced to one revolution.
+  Real distance = 0;  ///< distance in the configuration space, with its weights
+  /// The same for continuous joints, whose angles are rounded when they are reduced to one
+  /// revolution.
   Real jointAngle = 0;
 };
 
@@ -115,7 +116,8 @@ bool isInGoal(const Problem& problem, const Away& away) {
   return isSame(away);
 }
 
-/// @returns whether the path's end is in the goal.
+/// Checks that the path begins at the start and ends in the goal. @returns whether its end is in
+/// the goal.
 bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   const Away start = awayFrom(problem.model.space, problem.task.start, path.front());
   if (!isSame(start)) violations.push_back("the first state is not the start: " + inFact(start));
@@ -157,8 +159,9 @@ double sizeOf(const VerifyBody& body) {
   return 0.5 * (upper - lower).norm() + (body.part ? body.part->radius : 0);
 }
 
-/// Returns a tenth of the checker's tolerance, so that the verifier decides paths that the checker
-/// certified. Unless it is set, that is 1e-7 of the smallest body, or what rounding needs.
+/// Returns a tenth of the checker's tolerance, so that the verifier can decide paths that the
+/// checker certified. If `checkers` is unset, the checker's tolerance is `defaultTolerance` for the
+/// smallest tested body, or for a body of 1 m if all are larger.
 double toleranceOf(const Model& model, const PathProblem& plain,
                    const std::optional<double>& checkers) {
   if (checkers) return 0.1 * *checkers;
@@ -229,7 +232,7 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution, Ot
     report.verdict = report.motion.verdict = PathVerdict::undecided;
     report.motion.edges = static_cast<int>(solution.path.size()) - 1;
     std::vector<std::string> unused;
-    report.reachesGoal = checkEnds(problem, solution.path, unused);  // pictures show it
+    report.reachesGoal = checkEnds(problem, solution.path, unused);  // for pictures
     return report;
   }
   report.reachesGoal = checkEnds(problem, solution.path, report.violations);

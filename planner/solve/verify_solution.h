@@ -8,7 +8,7 @@
 
 namespace corridor {
 
-/// The comparison of a solution's digest with that of a problem's files (planner/problem/digest.h).
+/// The result of comparing a solution's digest with that of a problem (planner/problem/digest.h).
 enum class DigestState {
   same,     ///< the solution was made for these files
   differs,  ///< the problem or one of its files has changed, or it is another problem
@@ -18,7 +18,7 @@ const char* nameOf(DigestState state);
 
 /// What to do with a solution whose digest differs from the problem's.
 enum class OtherDigest {
-  refused,  ///< it is not verified: a proof for this problem is no proof for the solution's own
+  refused,  ///< it is not verified: a proof would be for another problem than the solution's
   ignored   ///< it is verified for this problem
 };
 
@@ -26,7 +26,7 @@ enum class OtherDigest {
 struct VerifyReport {
   PathVerdict verdict = PathVerdict::proved;
   DigestState digest = DigestState::none;
-  /// The digest differs and was not ignored. Nothing was verified then, and `verdict` is
+  /// True if the digest differs and was not ignored. Then nothing was verified, and `verdict` is
   /// `undecided`.
   bool otherProblem = false;
   PathReport motion;  ///< planner/verify's report on contacts and clearances
@@ -41,9 +41,10 @@ const char* nameOf(PathVerdict verdict);
 /// Returns "proved", "refuted", "undecided", or "other problem".
 const char* verdictName(const VerifyReport& report);
 
-/// Returns the plain data that planner/verify reads: the model's bodies, and the pairs that its
-/// filter does not exclude. The model must outlive it. It uses the margin and tube of the task.
-/// @param tolerance the checker's, metres; unset: its default. The verifier's is a tenth of it.
+/// Returns the plain data that planner/verify reads: the model's bodies, the pairs that its filter
+/// does not exclude, and the task's margin and tube. The model must outlive the result.
+/// @param tolerance the checker's tolerance, metres; unset: its default. The verifier's tolerance
+/// is a tenth of that.
 PathProblem plainProblem(const Model& model, const Task& task,
                          const std::optional<double>& tolerance = {});
 PathProblem plainProblem(const Problem& problem);
@@ -51,7 +52,7 @@ PathProblem plainProblem(const Problem& problem);
 /// Verifies that the path begins at the start, ends in the goal and stays in the bounds, and by
 /// planner/verify that every curve in the problem's tube around it keeps the problem's margin.
 /// planner/verify shares no bounds, poses or trees with the checker of the planner. If the solution
-/// has a digest, first reads the problem's files again and compares theirs.
+/// has a digest, it is first compared with that of the problem's files, which are read again.
 /// @throws InputError if one of these files can't be read.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
                             OtherDigest other = OtherDigest::refused);

@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-/// Blocks, while it exists, the signals by which users end programs, in this thread.
+/// While it exists, this thread blocks the signals by which users end programs.
 class SignalsWait {
  public:
   SignalsWait() {

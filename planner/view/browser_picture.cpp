@@ -31,7 +31,7 @@ namespace {
 /// Time limit in seconds. A million triangles take about ten without a graphics card.
 constexpr int kPatience = 180;
 
-/// A temporary folder for one picture; removed with all files that the browser leaves in it.
+/// A temporary folder for one picture. It is removed with all files that the browser leaves in it.
 class WorkFolder {
  public:
   WorkFolder() {
@@ -64,7 +64,7 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
-/// Returns what the browser wrote; "" if there is nothing.
+/// Returns the contents of a file that the browser wrote; "" if it can't be read.
 std::string contents(const std::filesystem::path& file) {
   try {
     return readFile(file, "a file of the browser");
@@ -73,7 +73,7 @@ std::string contents(const std::filesystem::path& file) {
   }
 }
 
-/// Returns whether a picture is complete: on a full disk browsers leave a part of it.
+/// Returns whether a picture is complete: on a full disk browsers leave an incomplete file.
 bool isWholePng(const std::string& png) {
   return png.starts_with("\x89PNG") && png.ends_with("IEND\xAE\x42\x60\x82");
 }
@@ -92,9 +92,9 @@ std::string fileUrl(const std::filesystem::path& path) {
   return url;
 }
 
-/// Returns the environment with TMPDIR set to this folder: Chromium leaves files there when it is
-/// killed. One of them is a socket, whose path may have 107 bytes. TMPDIR is unchanged if the
-/// folder's name is too long for that.
+/// Returns the environment with TMPDIR set to this folder, because Chromium leaves files in TMPDIR
+/// when it is killed. One of them is a socket, whose path can have at most 107 bytes. If the
+/// folder's name is too long for that, TMPDIR is unchanged.
 std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
   constexpr std::size_t kLongest =
       107 - std::string_view("/org.chromium.Chromium.XXXXXX/SingletonSocket").size();
@@ -106,7 +106,7 @@ std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
   return words;
 }
 
-/// Returns C's form of the words: pointers that end with a null pointer, valid as long as `words`.
+/// Returns pointers to the words, and a null pointer at the end. Valid as long as `words`.
 std::vector<char*> pointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -131,8 +131,8 @@ End run(std::vector<std::string> words, const std::filesystem::path& folder,
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   posix_spawnattr_setpgroup(&attributes, 0);
-  // SIGXFSZ ends the browser if a file exceeds `ulimit -f`; if it inherited an ignored signal it
-  // would hang.
+  // SIGXFSZ must end the browser if a file exceeds `ulimit -f`. This program ignores that signal;
+  // if the browser inherited this, it would hang.
   sigset_t usual;
   sigemptyset(&usual);
   sigaddset(&usual, SIGXFSZ);
@@ -150,7 +150,7 @@ End run(std::vector<std::string> words, const std::filesystem::path& folder,
     if (std::chrono::steady_clock::now() > latest) end = End::late;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  ::kill(-child, SIGKILL);  // the program, or the children that it has left behind
+  ::kill(-child, SIGKILL);  // the whole group: the program, or children that it has left behind
   if (end != End::itself) ::waitpid(child, nullptr, 0);
   return end;
 }

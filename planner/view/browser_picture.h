@@ -6,17 +6,17 @@
 
 namespace corridor {
 
-/// Draws pages as pictures, by a browser without a display.
+/// Pictures of pages, drawn by a browser without a display.
 
 struct PictureSize {
   int width = 1366, height = 768;  ///< pixels
 };
-/// Reads a size, "1200x800", each number from 100 to 8000. @param option the option that is named
-/// in the error. @throws InputError.
+/// Reads a size such as "1200x800", each number from 100 to 8000. @param option its name in the
+/// error message. @throws InputError.
 PictureSize pictureSize(const std::string& text, const std::string& option);
 
-/// Returns the path of Chromium, searched in PATH by its usual names.
-/// @throws InputError, which names the option, if there is none.
+/// Searches PATH for Chromium by its usual names, and returns its path.
+/// @throws InputError, which names the option, if Chromium is not found.
 std::filesystem::path requireBrowser(const std::string& option);
 
 /// Writes a page of `viewPage` as a PNG, without the page's panel and controls. The file is written

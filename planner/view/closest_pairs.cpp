@@ -10,7 +10,7 @@ namespace corridor::view {
 std::optional<ClosestPair> closestPair(const Checker& checker, const std::vector<Transform>& X_WF,
                                        QueryContext& context) {
   const Scene& scene = checker.scene();
-  // A lower bound of the distance, and the index of the pair.
+  // For each pair: a lower bound of its distance, and its index.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < scene.pairs().size(); ++i) {
     const Scene::Placed &a = scene.bodies()[scene.pairs()[i].a],

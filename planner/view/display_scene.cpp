@@ -72,7 +72,8 @@ class MeshList {
 /// Returns whether every joint that moves rotates about a vertical axis or translates horizontally.
 /// Testing the start pose is enough: such joints keep all axes vertical or horizontal.
 bool isPlanar(const Problem& problem) {
-  constexpr double kUpright = 1e-9;  // for unit vectors: above rounding, far below what is seen
+  constexpr double kUpright =
+      1e-9;  // for unit vectors: above rounding, and far below visible tilts
   const std::vector<Transform> poses = framePoses(problem.model.tree, problem.task.start);
   bool moves = false;
   for (std::size_t i = 1; i < problem.model.tree.frames.size(); ++i) {

@@ -9,11 +9,11 @@
 
 namespace corridor::view {
 
-/// The surfaces of a problem as a graphics card needs them, in floats, and the frames that they are
-/// fixed to. Lengths in metres.
+/// The surfaces of a problem in floats, as a graphics card needs them, and the frames to which they
+/// are fixed. Lengths are in metres.
 
 /// A mesh in floats. Positions are relative to `origin`, so that meshes far from the frame's origin
-/// are as precise as those near it: vertex k is off by at most 2^-24 of its distance from `origin`.
+/// are as precise as meshes near it: each coordinate is off by at most 2^-24 of itself.
 struct DisplayMesh {
   Vec3 origin = Vec3::Zero();          ///< the centre of its bounds, in the frame
   std::vector<float> positions;        ///< x, y, z of each vertex
@@ -31,16 +31,16 @@ struct DisplayBody {
 struct DisplayScene {
   std::vector<DisplayMesh> meshes;
   std::vector<DisplayBody> bodies;  ///< in the problem's order
-  /// The world point that poses and points are relative to. It is amid the bodies, since the
-  /// world's coordinates may be large.
+  /// The world point that poses and points are relative to. It is in the middle of the bodies,
+  /// since the world's coordinates may be large.
   Vec3 origin = Vec3::Zero();
   /// Frames with bodies, except the world's, in ascending order.
   std::vector<std::size_t> frames;
-  /// For each robot, the last frame that has a body: a rigid body's own, an arm's hand. Robots
-  /// without one are left out.
+  /// For each robot, the last frame that has a body: a rigid body's own frame, or an arm's hand.
+  /// Robots without such a frame are left out.
   std::vector<std::size_t> lastFrames;
-  /// All joints rotate about vertical axes or translate horizontally: the scene is best seen from
-  /// above.
+  /// True if all joints rotate about vertical axes or translate horizontally: then the scene is
+  /// best seen from above.
   bool planar = false;
 };
 

@@ -1,8 +1,8 @@
 # corridor_embed(TARGET FUNCTION FILE…): embeds files in a target, byte by byte. The caller declares FUNCTION, with its
 # namespaces, in a header of its own as
 #     std::string_view FUNCTION(std::string_view name);
-# It returns the text of the file with that name, the last part of its path; the text is valid as long as the program runs. For
-# other names it throws std::out_of_range. The next build embeds a changed file anew.
+# FUNCTION returns the text of the file whose name (the last part of its path) is `name`. The text is valid as long as
+# the program runs. For other names it throws std::out_of_range. If a file changes, the next build embeds it again.
 function(corridor_embed target function)
   string(REPLACE "::" ";" scopes ${function})
   list(POP_BACK scopes short)
@@ -18,7 +18,7 @@ function(corridor_embed target function)
     get_filename_component(name ${file} NAME)
     list(APPEND files ${file})
     set(first ${symbol}_${number})
-    # The assembler includes the file: it has no limit as string literals have, and takes no time, however long the file is.
+    # The assembler includes the file. Unlike a string literal, this has no limit of length, and takes almost no time.
     string(APPEND assembly "    \"${first}: .incbin \\\"${file}\\\"\\n${first}_end: .byte 0\\n\"\n")
     string(APPEND declarations "extern const char ${first}[], ${first}_end[];\n")
     string(APPEND cases "  if (name == \"${name}\") return {${first}, static_cast<std::size_t>(${first}_end - ${first})};\n")

@@ -25,7 +25,7 @@ class PageBuffers {
     bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
     return view;
   }
-  /// Adds indices below `limit`, with two bytes each if these are enough.
+  /// Adds indices that are below `limit`, in two bytes each if that is enough, else in four.
   View addIndices(const std::vector<std::uint32_t>& indices, std::size_t limit) {
     if (limit > 0x10000) return add(indices);
     return add(std::vector<std::uint16_t>(indices.begin(), indices.end()));

@@ -67,7 +67,7 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
     text.remove_prefix(end + 2);
   }
   for (const auto& [key, value] : values)
-    if (!asked.count(key)) throw std::logic_error("a page does not ask for {{" + key + "}}");
+    if (!asked.count(key)) throw std::logic_error("a page does not use {{" + key + "}}");
   return page.append(text);
 }
 

@@ -11,9 +11,9 @@ namespace corridor::view {
 namespace {
 
 constexpr double kTurn = std::numbers::pi / 90;  // largest rotation from sample to sample, rad
-constexpr double kShare = 1.0 / 400;             // largest step, as a share of the path's way
+constexpr double kShare = 1.0 / 400;             // largest step, as a share of the path's length
 constexpr double kMostSamples = 1500;
-constexpr int kLook = 8;  // pieces into which an edge is cut to estimate its way
+constexpr int kLook = 8;  // pieces into which an edge is cut to estimate how far bodies move on it
 
 /// Computes how far the moving bodies go from pose to pose.
 class Travel {
@@ -62,7 +62,7 @@ double turnBetween(const std::vector<Transform>& from, const std::vector<Transfo
   return largest;
 }
 
-/// Returns the values of t of an edge's samples: even steps, and those of its findings.
+/// Returns the values of t of an edge's samples: even steps, and the times of its findings.
 std::vector<double> timesOf(std::size_t edge, double steps,
                             const std::vector<PathFinding>& findings) {
   std::vector<double> times;

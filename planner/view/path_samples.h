@@ -13,15 +13,15 @@ namespace corridor::view {
 struct PathSample {
   std::size_t edge = 0;  ///< index: the edge from state `edge` to the next
   double t = 0;          ///< time on the edge, in [0, 1]
-  /// The place in [0, 1] of the whole path, in proportion to the way of the moving bodies, so that
-  /// playing at an even rate looks even. The way from sample to sample is that of the
-  /// farthest-moving corner of the bodies' bounds.
+  /// The place in [0, 1] of the whole path, in proportion to how far the bodies move, so that
+  /// playing at an even rate looks even. From sample to sample, the largest distance that a corner
+  /// of the bodies' bounds moves counts.
   double at = 0;
   std::vector<Transform> X_WF;
 };
 
-/// A path for playing. Poses are on Corridor's own edges, and near enough to each other to be
-/// interpolated linearly in a picture.
+/// A path for playing. Poses are on Corridor's own edges, and so near to each other that a picture
+/// can interpolate linearly between them.
 struct PathSamples {
   std::vector<PathSample> samples;
   std::vector<std::size_t> states;    ///< index of the sample of each state of the path

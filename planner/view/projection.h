@@ -8,15 +8,15 @@
 
 namespace corridor::view {
 
-/// A parallel projection from world coordinates, metres, to the picture's (x right, y down, depth
-/// towards the viewer), pixels.
+/// A parallel projection from world coordinates (metres) to picture coordinates (pixels): x to the
+/// right, y down, depth towards the viewer.
 class Camera {
  public:
   /// @param azimuth of the viewer about z, radians. @param elevation of the viewer above the
   /// ground, radians.
   Camera(double azimuth, double elevation);
-  /// Sets scale and offset so that the points fill a picture of at most this width, with a border;
-  /// the picture is at most about 0.8 times as high as wide. Pixels.
+  /// Sets scale and offset so that the points fill a picture of at most this width, with a border.
+  /// The picture's height is at most about 0.8 times `width`. Pixels.
   void fit(const std::vector<Vec3>& points, double width, double border);
 
   Vec3 project(const Vec3& point) const;
@@ -36,6 +36,8 @@ using Corners = std::array<Vec3, 3>;  ///< projected
 /// A depth buffer that also stores the owner of the nearest surface of each pixel.
 class DepthBuffer {
  public:
+  /// @param width, height of the picture, pixels. @param pixelsAPixel pixels of the buffer along
+  /// one pixel of the picture.
   DepthBuffer(double width, double height, double pixelsAPixel);
 
   /// Calls visit(pixel, depth) for each pixel whose centre the triangle covers.

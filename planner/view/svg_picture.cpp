@@ -21,7 +21,7 @@ using view::Corners;
 using view::DepthBuffer;
 
 constexpr double kWidth = 1000, kBorder = 20;  // sizes of the picture, pixels
-/// Pixels: triangles with longer edges are cut, so that they can be sorted by depth.
+/// Pixels. Triangles with longer edges are cut, so that they can be sorted by depth.
 constexpr double kPiece = 70;
 /// Limits on the number of copies of the robots drawn between start and goal. The more triangles a
 /// copy has, the fewer are drawn.
@@ -30,8 +30,8 @@ constexpr int kMostGhosts = 14, kFewestGhosts = 4;
 constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 60'000, kGhostsLimit = 180'000;
 constexpr int kShades = 8;
 /// A moving shape with more than `kFewTriangles` triangles is drawn coarser, on a grid of cells.
-/// Cells are larger while one copy of all that moves has more than `kMostTriangles`. Cell sizes are
-/// shares of the scene's diagonal.
+/// The cells are enlarged, up to `kLargestCell`, until one copy of all moving bodies has at most
+/// `kMostTriangles` triangles. Cell sizes are shares of the scene's diagonal.
 constexpr std::size_t kFewTriangles = 500, kMostTriangles = 5000;
 constexpr double kCell = 1.0 / 250, kLargestCell = 1.0 / 60;
 
@@ -67,13 +67,14 @@ std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   return triangles;
 }
 
-/// The triangles of all that moves, with the frames that they are fixed to.
+/// The triangles of all moving bodies, and for each the frame that it is fixed to.
 struct Moving {
   std::vector<Triangle3> triangles;
   std::vector<std::size_t> frames;
 };
 
-/// Returns all that moves, with at most `kMostTriangles` triangles if the largest cells allow that.
+/// Returns all moving bodies, with at most `kMostTriangles` triangles if the largest cells allow
+/// that.
 /// @param size the scene's diagonal, metres.
 Moving whatMoves(const Problem& problem, double size) {
   for (double cell = kCell * size;; cell *= 1.25) {
@@ -97,8 +98,8 @@ std::vector<Triangle3> placedAt(const Problem& problem, const Moving& moving,
   return placed;
 }
 
-/// Returns for each robot the last frame that has a body (a rigid body's own, an arm's hand), or 0
-/// if there is none.
+/// Returns for each robot the last frame that has a body (a rigid body's own frame, or an arm's
+/// hand), or 0 if no frame has one.
 std::vector<std::size_t> lastFrames(const Problem& problem) {
   std::vector<std::size_t> last(problem.model.robots.size(), 0);
   for (const ModelBody& body : problem.model.bodies)
@@ -179,7 +180,8 @@ std::vector<Face> visible(const Camera& camera, const std::vector<Face>& faces, 
   return kept;
 }
 
-/// Returns SVG paths with coordinates in whole pixels; consecutive faces of one shade share a path.
+/// Returns SVG paths with coordinates in whole pixels. Consecutive faces of equal shade share a
+/// path.
 std::string draw(const std::vector<Face>& faces, char palette) {
   std::string svg;
   int shade = -1;
@@ -202,7 +204,7 @@ std::string draw(const std::vector<Face>& faces, char palette) {
   return shade >= 0 ? svg + "\"/>\n" : svg;
 }
 
-/// As `draw`, but leaves out faces with few visible pixels, until the text has at most `limit`
+/// Like `draw`, but leaves out faces with few visible pixels, until the text has at most `limit`
 /// bytes or only large faces are left.
 std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, char palette,
                         std::size_t limit) {
@@ -212,8 +214,8 @@ std::string drawVisible(const Camera& camera, const std::vector<Face>& faces, ch
   }
 }
 
-/// Returns poses evenly spaced along the path, ends included. An edge's length is the largest
-/// distance that any of a sample of corners moves.
+/// Returns poses evenly spaced along the path, ends included. The length of an edge is the largest
+/// distance that a corner moves, among a sample of the triangles' corners.
 Path poses(const Problem& problem, const Moving& moving, const Path& path, int count) {
   Moving sample;
   const std::size_t stride = moving.triangles.size() / 64 + 1;
@@ -254,7 +256,7 @@ std::string palette(char name, const Vec3& dark, const Vec3& light) {
   return css;
 }
 
-/// Returns an SVG line along which the origin of a frame moves: a curve if joints rotate.
+/// Returns an SVG line along which the origin of a frame moves. It is a curve if joints rotate.
 std::string polyline(const Camera& camera, const Problem& problem, const Path& path,
                      std::size_t frame) {
   constexpr int parts = 12;
@@ -326,8 +328,8 @@ std::string svgPicture(const Problem& problem, const Path& path) {
   for (std::size_t i = 0; i < world.size(); ++i) {
     const Triangle3& triangle = world[i];
     faces.push_back(makeFace(camera, triangle));
-    // Seen from above, walls show no sides that would distinguish them from the ground: everything
-    // higher than the robot's lowest point is dark.
+    // Seen from above, walls have no visible sides that distinguish them from the ground. So
+    // everything that is higher than the robot's lowest point is drawn dark.
     if (plan)
       faces.back().shade =
           std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;

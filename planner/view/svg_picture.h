@@ -9,8 +9,8 @@ namespace corridor {
 
 /// Returns a picture of a scene and a path, as an SVG document of at most some hundred KB. The
 /// world is seen from above at an angle. Robots are drawn at poses along the path, from green
-/// (start) to red (goal), with the way of a rigid body's reference point or of an arm's last link.
-/// Parts of the world that hide the robot are drawn like glass.
+/// (start) to red (goal), with the curve along which a rigid body's reference point, or an arm's
+/// last link, moves. Parts of the world that hide the robots are drawn like glass.
 std::string svgPicture(const Problem& problem, const Path& path);
 
 }  // namespace corridor

@@ -5,12 +5,13 @@
 
 namespace corridor::view {
 
-/// Returns the surface of a convex part as a mesh, for pictures only. Its vertices are the part's
-/// farthest points in directions spread over a sphere, joined like these directions.
+/// Returns the surface of a convex part as a mesh, for pictures only. Each vertex is the part's
+/// farthest point in one of many directions. The directions form a grid on a sphere, and the
+/// vertices are joined like neighbours in this grid.
 TriangleMesh tessellated(const ConvexPart& part);
 
 /// Returns a coarser mesh, for pictures in which triangles would be smaller than a pixel: in each
-/// cell of a grid of size `cell`, the first vertex stands for all.
+/// cell of a grid of size `cell`, the first vertex replaces all others.
 TriangleMesh coarsened(const TriangleMesh& mesh, double cell);
 
 }  // namespace corridor::view

@@ -13,11 +13,11 @@ namespace corridor::view {
 /// boxes contain the shape only up to the rounding to float.
 struct TreeBoxes {
   std::vector<float> numbers;        ///< level 0 (the root) first
-  std::vector<std::uint8_t> leaves;  ///< 1: the box holds leaf primitives, not boxes
+  std::vector<std::uint8_t> leaves;  ///< 1: the box contains leaf primitives, not boxes
   std::vector<std::size_t> counts;   ///< boxes per level; a leaf is counted on its own level only
 };
 
-/// Returns the levels from the root down, as long as they have at most `most` boxes together.
+/// Returns as many levels, from the root down, as have at most `most` boxes together.
 TreeBoxes treeBoxes(const Obb4Tree& tree, const Vec3& origin, std::size_t most);
 
 }  // namespace corridor::view

@@ -29,7 +29,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostDistances = 500;  // samples for which the closest pair is computed
+constexpr std::size_t kMostDistances = 500;  // evenly chosen samples that get a closest pair
 constexpr std::size_t kMostBoxes = 16'000;   // all trees together: 640 KB
 constexpr std::size_t kMostGoals = 8;        // goals shown
 
@@ -221,7 +221,8 @@ class PageData {
     addDistances(samples);
   }
 
-  /// Adds the closest pair at all states and findings, and at samples evenly between them.
+  /// Adds the closest pair at evenly chosen samples, at all findings, and at all states unless
+  /// there are too many.
   void addDistances(const PathSamples& samples) {
     const std::size_t count = samples.samples.size();
     const std::size_t stride = (count + kMostDistances - 1) / kMostDistances;
@@ -260,7 +261,7 @@ class PageData {
   ordered_json json_;
 };
 
-/// The page's own scripts. They share one scope, so each must come after those it uses.
+/// The page's own scripts. They share one scope, so each must come after the scripts that it uses.
 constexpr std::array kScripts = {"data.js",   "shapes.js", "stage.js", "robots.js", "glass.js",
                                  "extras.js", "chart.js",  "panel.js", "main.js"};
 

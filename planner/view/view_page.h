@@ -7,7 +7,7 @@
 
 namespace corridor {
 
-/// A path that a page shows, and the verifier's report on it.
+/// A path to be shown by a page, and the verifier's report on it.
 struct ViewedPath {
   Solution solution;
   VerifyReport report;

@@ -10,7 +10,7 @@ class Chart {
     this.draw(false);
   }
 
-  /** @param decades a logarithmic scale, which shows micrometres beside metres; contact is drawn at its lower end. */
+  /** @param decades true: a logarithmic scale, on which micrometres and metres are visible; contact is at its lower end. */
   draw(decades) {
     const {closest, margin, left, right, top, bottom} = this;
     const most = closest.metres.reduce((a, b) => Math.max(a, b), 2 * margin) || 1;

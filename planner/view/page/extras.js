@@ -93,13 +93,13 @@ class Trees {
     return sum;
   }
 
-  /** Returns whether some tree has boxes on `level` that are not in the page. */
+  /** Returns whether some tree has boxes on `level` that the page does not contain. */
   cut(level) {
     return [...this.byMesh.values()].some((trees) => trees.some((tree) => tree.counts.length - 1 < level && !finished(tree)));
   }
 }
 
-/** Returns whether every box on the lowest level in the page is a leaf. */
+/** Returns whether every box on the lowest level that the page contains is a leaf. */
 function finished({counts, leaves}) {
   const last = counts[counts.length - 1];
   return leaves.subarray(leaves.length - last).every((leaf) => leaf);
@@ -115,7 +115,7 @@ function addBox(boxes, first, positions) {
   }
 }
 
-/** Shows a finding in the scene: lights its two bodies and draws a ring where they meet. */
+/** Shows a finding in the scene: highlights its two bodies, and draws a ring where they meet. */
 class Contact {
   constructor(scene) {
     this.ring = new THREE.Mesh(new THREE.RingBufferGeometry(11, 14, 40), new THREE.MeshBasicMaterial(

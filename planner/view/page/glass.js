@@ -1,6 +1,6 @@
 'use strict';
 
-/** Shares of the robots' pixels: a body that hides more than kHides becomes glass, and solid again at kNoLonger. */
+/** Shares of the robots' pixels: a body that hides more than kHides becomes glass, and solid again below kNoLonger. */
 const kHides = 0.08, kNoLonger = 0.03;
 
 /** Makes glass more opaque at its rims, where the surface is seen at a grazing angle. */
@@ -9,7 +9,7 @@ function thickenedRims(shader) {
     'gl_FragColor.a *= mix(0.6, 4.0, pow(1.0 - abs(dot(normal, normalize(vViewPosition))), 3.0));\n#include <tonemapping_fragment>');
 }
 
-/** The bodies that do not move, each solid or like glass. */
+/** The bodies that do not move, each drawn solid or like glass. */
 class Obstacles {
   constructor(scene, lowest) {
     this.bodies = [];
@@ -58,9 +58,9 @@ class Obstacles {
   }
 
   /**
-   * Measures the share of the robots' pixels that each body hides. Renders a small picture of the robots alone, then one with the
-   * obstacles. Obstacles that hide robots are removed and the rest is rendered again, up to four times, to find others behind
-   * them.
+   * Measures the share of the robots' pixels that each body hides. Renders a small picture of the robots alone, then a picture with
+   * the obstacles. Obstacles that hide robots are then removed and the rest is rendered again, four pictures at most, to find
+   * obstacles behind them.
    */
   look(motion, stage) {
     const width = 256, height = Math.max(16, Math.round(width / stage.aspect)), pixels = new Uint8Array(4 * width * height);

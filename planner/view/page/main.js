@@ -47,7 +47,7 @@ function start() {
   const triangles = data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0);
   if (!data.planar && triangles <= kShadowTriangles) stage.castShadows();
 
-  // Obstacles solid or like glass.
+  // Buttons: obstacles solid or like glass, and the view.
   const glass = (mode) => {
     if (obstacles.apply(mode, motion, stage)) stage.renderer.shadowMap.needsUpdate = true;
     byId('glass').querySelectorAll('button').forEach((button) => button.setAttribute('aria-pressed', String(button.dataset.glass === mode)));
@@ -102,7 +102,7 @@ function start() {
     byId('ghosts-row').hidden = byId('trace-row').hidden = true;
   }
 
-  // Controls of what is shown only on demand.
+  // Controls of parts that are shown on demand.
   const ghosts = byId('ghosts');
   ghosts.max = motion.mostGhosts;
   ghosts.value = motion.ghosts.length;

@@ -52,12 +52,12 @@ const Panel = {
     });
   },
 
-  /** Returns the index of the finding that a picture shows: the first with the same verdict as the path; -1: none. */
+  /** Returns the index of the finding that a picture shows: the first finding with the path's verdict; -1: none. */
   mainFinding() {
     return data.verdict ? data.verdict.findings.findIndex((f) => f.verdict === data.verdict.verdict) : -1;
   },
 
-  /** Returns whether the path is proved only because no pair is tested. */
+  /** Returns whether the path counts as proved only because no pair is tested. */
   provedOfNothing: () => data.verdict.verdict === 'proved' && data.pairs.tested === 0,
 
   /** Returns the CSS class of the verdict: only a proof with tested pairs is green. */

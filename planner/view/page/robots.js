@@ -4,7 +4,7 @@ const origin = new THREE.Vector3(...data.origin);
 const kGhostTriangles = 1.5e6;  // for all poses along the path together
 const kPose = 7;                // numbers per pose of a frame
 
-/** Reads the pose (x y z and a quaternion) at index `first` of an array; with u > 0 interpolates to the one at `next`. */
+/** Reads the pose (x y z and a quaternion) at index `first` of an array; with u > 0 interpolates to the pose at `next`. */
 function poseOf(array, first, next, u, position, quaternion) {
   position.set(array[first], array[first + 1], array[first + 2]);
   quaternion.set(array[first + 3], array[first + 4], array[first + 5], array[first + 6]);
@@ -21,7 +21,7 @@ const path = data.path && {
   states: data.path.states, findings: data.path.findings, trace: data.path.trace,
 };
 const frameCount = data.array(data.start).length / kPose;
-/** For each frame, whether it stays where it is on the whole path, as an arm's base does. */
+/** For each frame, whether it never moves on the path (without a path: between start and goals), like an arm's base. */
 const isStill = Array.from({length: frameCount}, (_, frame) => {
   const samples = path ? path.poses : Float32Array.from([data.start, ...data.goals].flatMap((end) => [...data.array(end)]));
   for (let i = frame * kPose; i < samples.length; i += frameCount * kPose) {
@@ -30,7 +30,7 @@ const isStill = Array.from({length: frameCount}, (_, frame) => {
   return true;
 });
 
-/** Computes the pose of a frame at `at` in [0, 1] of the path. */
+/** Computes the pose of a frame at the place `at`, in [0, 1] of the path. */
 function framePose(at, frame, position, quaternion) {
   const i = lastNotAbove(path.at, at), k = Math.min(i + 1, path.at.length - 1);
   const u = k > i && path.at[k] > path.at[i] ? Math.min(1, (at - path.at[i]) / (path.at[k] - path.at[i])) : 0;
@@ -67,7 +67,7 @@ class Copy {
   }
 }
 
-/** Creates a surface's material; `more` overrides its properties, as for glass. */
+/** Creates the material of a surface; `more` overrides its properties, for example for glass. */
 function surface(colour, shape, more = {}) {
   return new THREE.MeshPhongMaterial({color: light(colour), specular: 0x111111, shininess: 24, side: THREE.DoubleSide,
     flatShading: shape.flat, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, ...more});
@@ -79,12 +79,12 @@ function lines(shape, colour, opacity) {
   return new THREE.LineSegments(shape.edges, new THREE.LineBasicMaterial({color: light(colour), transparent: true, opacity, depthWrite: false}));
 }
 
-/** Returns the depth offset of a copy. If copies coincide, as at a joint, the one of least rank is visible. */
+/** Returns the depth offset of a copy. If copies coincide, as at a joint, the copy of least rank is visible. */
 const behind = (rank) => ({polygonOffsetFactor: 1 + 0.25 * rank, polygonOffsetUnits: 1 + 300 * rank});
 
-/** Solid robots, which are also dimly visible through whatever hides them. */
+/** Solid robots. Parts that other bodies hide are dimly visible. */
 class Robots extends Copy {
-  /** @param hex colour; unset: a colour per robot. @param rank only rank 0 also has the frames that never move. */
+  /** @param hex colour; unset: a colour per robot. @param rank if above 0, frames that never move are left out. */
   constructor(hex, rank = 0) {
     const materials = new Map();
     super((body, shape, index) => {
@@ -106,8 +106,8 @@ class Robots extends Copy {
 }
 
 /**
- * Another pose of the robots, like glass. All of these poses form one layer: their depths are drawn first, behind solid things,
- * and then their colours. So the nearest one is visible, whatever the order.
+ * Another pose of the robots, like glass. All ghosts form one layer: their depths are drawn first, behind solid things, and then
+ * their colours. So the nearest ghost is visible, whatever the order of drawing.
  */
 class Ghost extends Copy {
   constructor(colour, opacity, rank) {
@@ -126,7 +126,7 @@ class Ghost extends Copy {
   }
 }
 
-/** Everything that moves: the robots now, at the start and goals, at poses along the path, and the way of a point. */
+/** All robots: at the current place, at the start and goals, and at poses along the path; and the trace of a point. */
 class Motion {
   /** @param picture true for pictures, which show poses but no robots at the current place. */
   constructor(scene, picture) {
@@ -168,7 +168,7 @@ class Motion {
     this.now.goTo(at);
   }
 
-  /** Shows or hides start, goals and the poses between; hidden, only the robots now are left. */
+  /** Shows or hides start, goals and the poses between. If hidden, only the robots at the current place remain visible. */
   showPoses(shown) {
     for (const copy of [this.start, ...this.goals, ...this.ghosts]) copy.root.visible = shown;
   }
@@ -178,7 +178,7 @@ class Motion {
     this.now.frames.forEach((frame, i) => { frame.visible = isStill[i]; });
   }
 
-  /** Returns points that the robots reach: the corners of their bodies' bounds, at the ends and along the path. */
+  /** Returns points that the robots reach: the corners of their bodies' bounds, at the start and along the path, or at all ends. */
   points() {
     const points = [], position = new THREE.Vector3(), quaternion = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
     const matrix = new THREE.Matrix4();
@@ -203,7 +203,7 @@ class Motion {
       .map((body) => 2 * shapes[body.mesh].geometry.boundingSphere.radius));
   }
 
-  /** Draws a thin tube along the way of each robot's last frame, with dots at its ends, since small robots are hard to find. */
+  /** Draws a thin tube along the curve of each robot's last frame, with dots at its ends, since small robots are hard to find. */
   addTrace() {
     this.trace = new THREE.Group();
     this.tubes = [];
@@ -227,7 +227,7 @@ class Motion {
     this.scene.add(this.trace);
   }
 
-  /** Before drawing: sets the tube's and dots' sizes in pixels, whatever their distance. */
+  /** Called before drawing. Keeps the sizes of tubes and dots constant in pixels, whatever their distance. */
   placeTrace(stage) {
     if (!this.trace) return;
     const radius = 1.2 * stage.pixelAt(stage.target);
@@ -236,7 +236,7 @@ class Motion {
   }
 }
 
-/** Creates a tube about points, with colours from the start's to the goal's. `scaleTube` sets its radius. */
+/** Creates a tube around a curve of points, with colours from the start's to the goal's. `scaleTube` sets its radius. */
 function tube(points) {
   const sides = 6, kept = points.filter((point, i) => i === 0 || point.p.distanceTo(points[i - 1].p) > 0);
   const positions = [], directions = [], colours = [], indices = [];

@@ -1,13 +1,13 @@
 'use strict';
 
 /**
- * Geometry of meshes. A mesh of at most this many triangles gets lines along its creases, and normals that are smooth except
- * there. Larger meshes are drawn with flat triangles, so that they do not delay the first picture.
+ * Geometry of meshes. A mesh of at most this many triangles gets lines along its creases, and normals that are smooth elsewhere.
+ * Larger meshes are drawn with flat triangles, so that they do not delay the first picture.
  */
 const kMostCreased = 120000;
 const kCrease = Math.cos(32 * Math.PI / 180);
 
-/** Numbers distinct positions: equal positions get one number, so that meshes without shared vertices become smooth, too. */
+/** Numbers the vertices. Equal positions get the same number, so that meshes without shared vertices become smooth, too. */
 function welded(positions) {
   const count = positions.length / 3, bits = new Int32Array(positions.buffer, positions.byteOffset, positions.length);
   let size = 16;
@@ -50,7 +50,7 @@ function faceNormals(positions, indices) {
   return normals;
 }
 
-/** Returns a surface with normals, and in `edges` the end positions of its creases and borders. */
+/** Returns a surface with normals. `edges` has the end positions of its creases and borders. */
 function creased(positions, indices) {
   const {number, distinct} = welded(positions);
   const vertices = new Uint32Array(indices.length);

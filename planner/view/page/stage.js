@@ -17,7 +17,7 @@ class Stage {
     this.beforeDraw = [];
     this.onView = () => {};
     this.below = 0;  // pixels at the bottom that the legend covers, if more than the 5 % that `fit` always leaves
-    this.moved = false;  // by the user: from then on only the user moves the camera
+    this.moved = false;  // whether the user has moved the camera; then `frame` no longer does
     this.top = options.top;
     this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.1, 10);
     this.perspective.up.set(0, 0, 1);
@@ -41,7 +41,7 @@ class Stage {
   get camera() { return this.top ? this.flat : this.perspective; }
   get target() { return this.controls[this.top ? 1 : 0].target; }
 
-  /** Sets what is to be seen. @param points that robots reach, and obstacles near them. @param bounds of everything. */
+  /** Sets what is shown. @param points to be in the picture: of the robots and obstacles near them. @param bounds of all bodies. */
   show(points, bounds) {
     this.points = points;
     this.bounds = bounds;
@@ -70,7 +70,7 @@ class Stage {
   }
 
   /**
-   * Switches shadows on. They cost as much as drawing everything again, so they are not used for large meshes or seen from above.
+   * Switches shadows on. They cost as much as drawing everything again. So they are not used for large meshes, nor from above.
    */
   castShadows() {
     this.renderer.shadowMap.enabled = true;
@@ -164,7 +164,7 @@ class Stage {
     for (let pass = 0; pass < 8; ++pass) {
       distance = largest(seen.map((s) => s[2] + Math.max(Math.abs(s[0] - x) / (tangent * this.aspect), Math.abs(s[1] - y) / tangent)));
       if (this.top) break;
-      // Move the centre of what is seen to the centre of the picture.
+      // Move the middle of the points to the middle of the picture.
       const inPicture = (i, o) => middle(range(seen.map((s) => (s[i] - o) / (distance - s[2]))));
       x += inPicture(0, x) * (distance - zHigh);
       y += inPicture(1, y) * (distance - zHigh);
@@ -181,8 +181,8 @@ class Stage {
   }
 
   /**
-   * Turns to a point in the same direction of view, and comes near enough that `size` fills a third of the picture; never moves
-   * away.
+   * Moves the camera, without turning it, so that the point is in the middle, and near enough that `size` fills a third of the
+   * picture. Never moves the camera farther away.
    */
   approach(point, size) {
     const camera = this.camera, away = camera.position.clone().sub(this.target);

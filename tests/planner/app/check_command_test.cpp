@@ -76,7 +76,7 @@ TEST_F(CheckCommand, CheckOfStatesFromAPipe) {
   EXPECT_EQ(wrong.status, 2);
   EXPECT_EQ(wrong.err, "-:1: a number is needed, not \"x\"\n");
   EXPECT_EQ(run("check arm.yaml --states - </dev/null").err,
-            "-: is empty; states, one a line is needed\n");
+            "-: is empty; a file of states, one per line, is needed\n");
 }
 
 TEST_F(CheckCommand, CheckQuotesNamesWithCommas) {
