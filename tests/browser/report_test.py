@@ -1,4 +1,4 @@
-"""A campaign's report in a browser: no error, nothing loaded, plots with their data, and a text where a pointer rests on a point."""
+"""Tests a campaign's report in a browser: no error, nothing loaded, plots with their data, and a text if the pointer rests on a point."""
 
 import csv
 import os
