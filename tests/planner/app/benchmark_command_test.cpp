@@ -1,5 +1,5 @@
-// Tests of `corridor benchmark` from outside: table, JSON, files, and bad input, which runs
-// nothing.
+// Tests of the program `corridor benchmark`: table, JSON, files, and bad input, after which it must
+// not run anything.
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -103,7 +103,7 @@ TEST_F(BenchmarkCommand, JsonAgreesWithItself) {
   }
   EXPECT_EQ(json["results"][0]["proved"], 2);
   EXPECT_EQ(json["results"][0]["rows"][0]["failure"], nullptr);
-  // `solve` with the same seed does the same work.
+  // `solve` with the same seed must have the same counters.
   const auto solved = nlohmann::json::parse(run("solve hall.yaml --seed 2 --json").out);
   const auto& row = json["results"][0]["rows"][1];
   EXPECT_EQ(row["triangle_tests"], solved["problems"][0]["triangle_tests"]);
@@ -166,7 +166,8 @@ TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
   EXPECT_THAT(run("benchmark hall.yaml -o /proc").err, StartsWith("/proc: can't be written to: "));
 }
 
-/// Obstacles to the output files are reported before the first run, and stay as they are.
+/// Files or folders that prevent writing the output are reported before the first run, and are not
+/// changed.
 TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsReportedAtOnce) {
   const auto inTheWay = [&](const char* name) {
     return "results/" + std::string(name) + ": is a folder; a file is to be written here\n";
@@ -242,7 +243,8 @@ TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
   EXPECT_THAT(files("results"), UnorderedElementsAre("campaign.db", "runs.csv"));
 }
 
-/// No empty files, no logs without planners, and no empty table are left.
+/// An interrupt before any run has finished must not leave empty files, logs without planners, or
+/// an empty table.
 TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"

@@ -1,5 +1,5 @@
-// Tests of `corridor benchmark CAMPAIGN` from outside: killed at any moment, it resumes and ends
-// with the same rows; it reports what it can't resume.
+// Tests of the program `corridor benchmark CAMPAIGN`: if it was killed at any moment, it resumes
+// and ends with the same rows; it reports why a campaign can't be resumed.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <csignal>
@@ -93,7 +93,7 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(repeatable("killed"), repeatable("whole"));
   EXPECT_EQ(repeatable("killed").size(), 1u + 2 * 3 * 12);
-  // At least one session added runs before it was killed, else nothing was tested.
+  // At least one session must have added runs before it was killed. Otherwise nothing was tested.
   EXPECT_GT(grown, 0u);
   SQLite::Database base((folder_ / "killed/campaign.db").string());
   EXPECT_EQ(base.execAndGet("SELECT count(*) FROM runs").getInt(), 2 * 3 * 12);
@@ -104,9 +104,10 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   EXPECT_GT(base.execAndGet("SELECT count(*) FROM corridor_sessions").getInt(), 1);
 }
 
-/// A limit on files' sizes acts like a full disk: it is reported, and earlier runs are kept.
+/// A limit on the size of files acts like a full disk: the fault is reported, and earlier runs are
+/// kept.
 TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
-  // 300 blocks of 512 bytes: more than the empty tables take, less than all runs need.
+  // 300 blocks of 512 bytes: enough for the empty tables, too little for all runs.
   const Result stopped = run("benchmark campaign.yaml -o results", "ulimit -f 300 && ");
   EXPECT_EQ(stopped.status, 2);
   EXPECT_EQ(stopped.out, "");

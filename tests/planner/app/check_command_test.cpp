@@ -1,4 +1,4 @@
-// Tests of `corridor check` from outside: start and goals, and files of states.
+// Tests of the program `corridor check`: start and goals, and files of states.
 #include <cmath>
 #include <string>
 

@@ -1,5 +1,5 @@
-// Tests of the program from outside, of what all commands share: usage faults, help, results on
-// stdout, exit statuses.
+// Tests of what all commands of the program share: usage faults, help, results on stdout, exit
+// statuses.
 #include <filesystem>
 #include <string>
 
@@ -15,7 +15,8 @@ using testing::HasSubstr;
 
 using CommandLine = corridor::test::CubeTest;
 
-/// `check` and `solve` must report it, too, if an angle was wrapped: not only `inspect`.
+/// If the reader has wrapped an angle, not only `inspect`, but also `check` and `solve` must report
+/// it.
 TEST_F(CommandLine, WhatWasReadDifferentlyIsReported) {
   write("arm.urdf",
         "<robot name='arm'><link name='a'/><link name='b'><collision><geometry><box size='1 1 1'/>"
@@ -78,7 +79,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   EXPECT_EQ(run("solve problem.yaml --seed 0").status, 0);
 }
 
-/// CLI11's own messages name the option last, or not at all.
+/// CLI11's own messages would name the option at the end, or not at all.
 TEST_F(CommandLine, WordsThatNoCommandTakesAreReported) {
   const auto fault = [&](const std::string& arguments, const std::string& message) {
     expectFault(arguments,
@@ -103,7 +104,7 @@ TEST_F(CommandLine, WordsThatNoCommandTakesAreReported) {
   EXPECT_EQ(run("solve problem.yaml --quiet --quiet").status, 0);
 }
 
-/// Results lost on a full disk must not end with exit status 0.
+/// If results are lost on a full disk, the exit status must not be 0.
 TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsReported) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   write("poses.txt", "1 0 0 0 1 0 0 0 1 0 0 0\n");

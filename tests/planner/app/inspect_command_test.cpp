@@ -1,5 +1,5 @@
-// Tests of `corridor inspect` from outside: its reports on meshes, robots and problems, and which
-// file it finds in a folder.
+// Tests of the program `corridor inspect`: its reports on meshes, robots and problems, and the file
+// that it selects in a folder.
 #include <filesystem>
 #include <string>
 
@@ -56,7 +56,7 @@ TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
   EXPECT_EQ(found.out, named.out);
   expectFault("inspect " + arm6 + " --pairs",
               "--pairs: needs a problem, and " + arm6 + "/robot.yaml is a robot");
-  // In a folder with both, the problem is inspected, as other commands take it.
+  // If a folder has both a problem and a robot, the problem is inspected, as by other commands.
   write("robot.yaml",
         "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
   write("problem.yaml",
@@ -80,7 +80,8 @@ TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
 }
 
 TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
-  // A tetrahedron with one triangle turned; its corner is the upper end of the bounds (and -0).
+  // A tetrahedron with one triangle of the wrong orientation. One corner is the upper end of the
+  // bounds, and has coordinates of -0.
   write("turned.obj",
         "v -0 -0 -0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const Result text = run("inspect turned.obj");

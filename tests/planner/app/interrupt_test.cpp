@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kWentOn = 7, kNotReported = 8;
 
-/// Returns how a process ends that gets a signal, and the same signal again some milliseconds
-/// later.
+/// Sends a signal to a process, and the same signal again after some milliseconds. Returns how the
+/// process ends.
 int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT) {
   const pid_t id = ::fork();
   if (id == 0) {
-    ::signal(SIGHUP, SIG_DFL);  // also where this test runs under nohup
+    ::signal(SIGHUP, SIG_DFL);  // the default, even if this test runs under nohup
     const std::atomic<bool>& interrupted = listenForInterrupts(second);
     std::raise(signal);
     if (!interrupted || interruptedStatus() != 128 + signal) ::_exit(kNotReported);
@@ -43,7 +43,7 @@ TEST(Interrupt, ASecondEndsOrIsIgnored) {
   }
 }
 
-/// A program under nohup(1) goes on after its terminal is closed.
+/// A program that nohup(1) started must continue after its terminal is closed.
 TEST(Interrupt, UnderNohupHangingUpIsNothing) {
   const pid_t id = ::fork();
   if (id == 0) {

@@ -1,5 +1,5 @@
-// Tests of solutions that were made for another problem, or for files that have changed since:
-// their digests differ, and they are not verified.
+// Tests of solutions that were made for another problem, or whose problem's files have changed
+// since: the digests differ, so the solutions are not verified.
 #include <map>
 #include <string>
 

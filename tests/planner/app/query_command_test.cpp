@@ -101,7 +101,7 @@ TEST_F(QueryCommand, AllVolumesAnswerAlike) {
           hits)
           << volume << asked;
   }
-  // An axis-aligned box of b is oriented as seen from a, so 15 separating axes are tested.
+  // An axis-aligned box of b is not axis-aligned in a's frame, so 15 separating axes are tested.
   EXPECT_EQ(summary(query("--poses poses.txt --volume aabb")).at("overlap"), "sat");
 }
 
@@ -133,7 +133,8 @@ TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
   EXPECT_THAT(poses[7], testing::Not(HasSubstr(kStill)));
   EXPECT_EQ(query("--poses saved.txt").out, result.out);
   EXPECT_EQ(query(grid).out, result.out);
-  // By default a's bounds, grown by half of b's diagonal, √8/2: nothing touches at the corners.
+  // By default the grid spans a's bounds, grown by half of b's diagonal, √8/2. So nothing touches
+  // at the grid's corners.
   EXPECT_EQ(query("--grid 2x2x2 --save-poses saved.txt").status, 0);
   EXPECT_THAT(lines(read("saved.txt"))[1], HasSubstr(kStill + "-3.41421356"));
   EXPECT_EQ(summary(query("--grid 2x2x2")).at("hits"), "0");
@@ -183,7 +184,8 @@ TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
   fault("1 0.001 0 0 1 0 0 0 1 0 0 0",
         "the matrix is not a rotation: RᵀR differs from the identity by 0.001; at most 0.0002 "
         "counts as rounding");
-  // A matrix with large or overflowing entries is reported as no rotation, not as singular.
+  // For a matrix with large or overflowing entries the fault must be that it is no rotation, not
+  // that it is singular.
   fault("1e9 0 0 0 1 0 0 0 1 0 0 0",
         "the matrix is not a rotation: RᵀR differs from the identity by 1e+18; at most 0.0002 "
         "counts as rounding");

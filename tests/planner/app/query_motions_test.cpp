@@ -145,7 +145,8 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
   EXPECT_GT(tests.size(), 4u) << "they walk trees of their own, and make other tests";
 }
 
-/// A half turn has no shorter way round, so it is undecided, without time, gap or triangles.
+/// For a half turn no way round is shorter. So the verdict is undecided, without time, gap or
+/// triangles.
 TEST_F(QueryMotions, HalfATurnIsUndecided) {
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
     const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
@@ -154,8 +155,8 @@ TEST_F(QueryMotions, HalfATurnIsUndecided) {
   }
 }
 
-/// Matrices with few digits are not quite rotations. A motion that is free must touch at neither of
-/// its two poses, taken exactly as they are in the file.
+/// Matrices with few digits are not quite rotations. If a motion is free, the meshes must touch at
+/// neither of its two poses, with exactly the numbers of the file.
 TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
   // The needle's tip is 7 m from B's origin, so that an error of the matrix moves the tip.
   write("b.obj", "v 7 0 0\nv 7.1 0 1\nv 6.9 0 1\nf 1 2 3\n");
@@ -246,7 +247,7 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   };
   option("--grid 2x2x2", "--grid: applies to poses, not to --motions; leave it out");
   option("--query distance", "--query: applies to poses, not to --motions; leave it out");
-  // Motions refuse the default query of poses, too.
+  // --motions also refuses the query that is the default for poses.
   option("--query interference", "--query: applies to poses, not to --motions; leave it out");
   option("--volume aabb --overlap gjk",
          "--overlap: \"gjk\" is for volume obb-binary; volume aabb has: sat");
@@ -273,9 +274,9 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
 /// Compares motions of the shared data with their known times of first contact.
 class SharedMotions : public QueryMotions {
  protected:
-  /// Expects, for the first `most` motions of each set, that no contact is missed, none is
-  /// invented, and every bracket [t0, t1] contains the true time. @returns how many motions are
-  /// undecided.
+  /// Tests the first `most` motions of each set. Expects that each contact is found, that no free
+  /// motion is called contact, and that every bracket [t0, t1] contains the true time. @returns how
+  /// many motions are undecided.
   std::size_t expectTruth(const std::string& edges, std::size_t most) {
     const auto folder = *corridor::test::dataFolder() / "collision";
     std::size_t undecided = 0;

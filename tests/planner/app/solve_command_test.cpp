@@ -1,4 +1,4 @@
-// Tests of `corridor solve` from outside.
+// Tests of the program `corridor solve`.
 #include <filesystem>
 #include <string>
 
@@ -116,7 +116,7 @@ TEST_F(SolveCommand, InterruptedIsExit130) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
 }
 
-/// A limit on files' sizes acts like a full disk; SIGXFSZ must not end the program.
+/// A limit on the size of files acts like a full disk; SIGXFSZ must not end the program.
 TEST_F(SolveCommand, AFileThatMayNotGrowIsReportedAndNotLeftInHalf) {
   const Result whole = run("solve problem.yaml --seed 1 --picture p.svg");
   ASSERT_EQ(whole.status, 0) << whole.err;

@@ -1,4 +1,4 @@
-// Tests of `corridor view` from outside: a page or a picture, complete or absent, and one line per
+// Tests of the program `corridor view`: a page or a picture, complete or absent, and one line per
 // fault.
 #include <chrono>
 #include <csignal>
@@ -121,7 +121,7 @@ TEST_F(ViewCommand, WithoutChromiumThereIsNoPicture) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }
 
-/// A browser that draws nothing must leave the file that was there before.
+/// If the browser draws nothing, the file that existed before must stay.
 TEST_F(ViewCommand, ABrowserThatFailsIsReported) {
   write("chromium", "#!/bin/sh\nexit 1\n");
   std::filesystem::permissions(folder_ / "chromium", std::filesystem::perms::owner_all);
@@ -137,8 +137,8 @@ TEST_F(ViewCommand, ABrowserThatFailsIsReported) {
 /// An interrupt ends the browser and removes its folder, even if a second interrupt comes during
 /// the removal.
 TEST_F(ViewCommand, TwoInterruptsLeaveNothing) {
-  // Stands in for Chromium: leaves a file, writes its process id, and goes on. (interrupt_test
-  // tests that the second interrupt is ignored.)
+  // A script that stands in for Chromium: it writes a file that it does not remove, writes its
+  // process id, and then waits. (interrupt_test tests that the second interrupt is ignored.)
   write("chromium",
         "#!/bin/sh\nfor word in \"$@\"; do case \"$word\" in --user-data-dir=*) "
         "folder=\"${word#*=}\";; esac; done\nmkdir -p \"$folder\" && cd \"$folder\"\n"

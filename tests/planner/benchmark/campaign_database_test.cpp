@@ -1,5 +1,5 @@
-// The database of a campaign: it returns the runs that were stored, equals what OMPL's own script
-// makes of OMPL's logs, and reports what it can't accept.
+// Tests of a campaign's database: it returns the runs that were stored, equals the database that
+// OMPL's own script makes from OMPL's logs, and reports campaigns and files that it can't accept.
 #include "planner/benchmark/campaign_database.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -80,7 +80,7 @@ std::vector<std::string> rowsOf(const std::filesystem::path& file, const std::st
   return rows;
 }
 
-/// OMPL's readers turn "one pct" and "one_pct" into the same name, but they are two variants.
+/// OMPL's readers turn "one pct" and "one_pct" into the same name. But these are two variants.
 TEST_F(Database, VariantsOfOneWordAreTwoExperiments) {
   Campaign campaign = hallCampaign({"discrete:0.1", "certified"});
   campaign.variants[0].name = "one pct";

@@ -1,5 +1,6 @@
-// Campaigns as a whole: a run has the figures of `solve`, seeds repeat, a crash costs only its run,
-// logs are readable by OMPL's rules, and the verifier refutes sampled paths through the thin plate.
+// Tests of whole campaigns: a run has the same figures as `solve`, seeds repeat, only the run that
+// crashes is lost, logs are readable by OMPL's rules, and the verifier refutes sampled paths
+// through the thin plate.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -168,7 +169,8 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
   EXPECT_EQ(runs[1].result, "failed");
   EXPECT_EQ(runs[1].failure, "killed by signal 9 (Killed)");
   EXPECT_EQ(runs[2].failure, "out of memory");
-  // The competitor runs the same test as `discrete`, whose runs must not be affected.
+  // The competitor runs the same test as `discrete`. The crashes must not affect the runs of
+  // `discrete`.
   for (const BenchmarkRun& run : result.cells[1].runs) EXPECT_TRUE(run.solved) << run.failure;
   EXPECT_EQ(runs[3].states, result.cells[1].runs[3].states);
   EXPECT_EQ(runs[3].edges, result.cells[1].runs[3].edges);
@@ -184,7 +186,8 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
   EXPECT_EQ(log.parameters.at("edges TEXT"), "shaky");
 }
 
-/// OMPL's Benchmark would continue after an exception in a planner, as if the run had ended well.
+/// After an exception in a planner, OMPL's Benchmark would continue as if the run had ended
+/// normally.
 TEST(Campaign, AThrowWithinAPlannerIsReported) {
   class Thrower : public ExactStateValidityChecker {
    public:
@@ -246,7 +249,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
         EXPECT_EQ(row.at("proved"), run.verdict == "proved" ? "1" : "0");
         EXPECT_EQ(row.at("refuted"), run.verdict == "refuted" ? "1" : "0");
         EXPECT_EQ(row.at("box_tests"), std::to_string(run.counters.boxTests));
-        // OMPL's clock measures all except set-up, and is written with six digits.
+        // OMPL's time excludes only the set-up, and is written with six digits.
         EXPECT_GE(std::stod(row.at("time")), 0.999 * (run.time - run.setUpTime));
         if (p == 1) {
           EXPECT_GT(log.planners[1].progressSamples.at(i), 0u);
@@ -306,8 +309,7 @@ TEST(Campaign, ProblemsOfOneNameAreToldApart) {
   EXPECT_THAT(campaign.problemNames, ElementsAre("hall", "hall-2", "hall-3"));
 }
 
-/// The same planner with another label and parameters of its own is compared as a planner of its
-/// own.
+/// A planner that occurs twice, with different labels and parameters, counts as two planners.
 TEST(Campaign, PlannersHaveLabelsAndParameters) {
   Campaign campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].settings.planner.params = {{"range", "0.5"}};

@@ -107,7 +107,7 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(planned.settings.seed, 9u);
 }
 
-/// A short file with many lists could ask for more variants than memory or time allow.
+/// A short file with many lists could describe more variants than memory or time allow.
 TEST_F(CampaignYaml, CombinationsHaveALimit) {
   const auto list = [](int count) {
     std::string text = "[";
@@ -174,7 +174,7 @@ TEST_F(CampaignYaml, Defaults) {
   EXPECT_EQ(cellsOf(c)[0].planner.name, "RRTConnect");
 }
 
-/// FCL is used if it is installed, and else left out with a note.
+/// FCL is used if it is installed. Otherwise it is left out, with a note.
 TEST_F(CampaignYaml, Peers) {
   const Campaign c = read(std::string(kStart) +
                           "checkers: {fcl: {peer: fcl, edges: discrete, resolution: [0.1, 0.2]}, "
@@ -235,7 +235,7 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
                           "problem uses its own"));
 }
 
-/// A list under a key without effect would give the same variant several times.
+/// If a key has no effect, a list of its values would give the same variant several times.
 TEST_F(CampaignYaml, VariantsDiffer) {
   const auto of = [&](const char* checker) {
     return faults(std::string(kStart) + "checkers:\n  a: " + checker + "\n");

@@ -1,4 +1,5 @@
-// Work in a process of its own: its messages arrive, and every way of ending is reported.
+// Tests of work in a child process: its messages arrive, and every way in which the process may end
+// is reported.
 #include "planner/benchmark/child_process.h"
 
 #include <chrono>

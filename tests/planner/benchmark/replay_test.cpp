@@ -1,5 +1,5 @@
-// Replays of recorded answers: the second run repeats the first without its tests, and any
-// difference between them is reported.
+// Tests of replays of recorded answers: the second run repeats the first one without its tests, and
+// any difference between the two runs is reported.
 #include "tests/benchmark/replay.h"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(Replay, TellsAnotherQuestion) {
     replay.question(kind, *si, state.get());
     EXPECT_TRUE(replay.answer<bool>([] { return false; }));  // the recorded answer, not the new one
     EXPECT_TRUE(replay.done());
-    replay.question(kind, *si, state.get());  // one question more than recorded
+    replay.question(kind, *si, state.get());  // one query more than recorded
   };
   const auto summaryOf = [&](Transcript::Ask kind, const ompl::base::ScopedState<>& state) {
     try {

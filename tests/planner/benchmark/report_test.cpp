@@ -1,4 +1,4 @@
-// The report of a campaign: its ranking, its plots and their data, and names that contain HTML.
+// Tests of a campaign's report: its ranking, its plots and their data, and names that contain HTML.
 #include "planner/benchmark/report.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A campaign of two problems, three variants, one planner and ten runs, with computed figures
+/// A campaign of two problems, three variants, one planner and ten runs, with figures by formulas
 /// instead of real runs.
 class Report : public testing::Test {
  protected:
@@ -168,7 +168,7 @@ TEST_F(Report, PlotsHaveTheirData) {
   const Plot clear = clearances(campaign_, cells_, 0);
   ASSERT_EQ(clear.series.size(), 3u);
   EXPECT_DOUBLE_EQ(clear.rangeX->first, 0.01);
-  // Half of the paths have the distance 0, so the line begins at a half.
+  // Half of the paths have the distance 0, so the line begins at 0.5.
   double first = 0;
   for (const PlotPoint& p : clear.series[1].points)
     if (p.x <= clear.rangeX->first) first = p.y;
@@ -196,10 +196,10 @@ TEST_F(Report, PlotsOfAllProblems) {
     EXPECT_LT(error.rangeX->first, p.x);
     EXPECT_GT(error.rangeX->second, p.x);
   }
-  // Per problem with ten seeds: discrete:0.1 has five paths that are not refuted, and is the
-  // quickest with them. For these five certified takes twice as long; for the others it is the
-  // quickest. discrete:0.01 takes 20 or 10 times as long as the quickest, and one of its paths is
-  // refuted.
+  // Each problem has ten seeds. With five of them the path of discrete:0.1 is not refuted. With
+  // these five, discrete:0.1 is the quickest, and certified takes twice as long. With the other
+  // five, certified is the quickest. discrete:0.01 takes 20 or 10 times as long as the quickest,
+  // and one of its paths is refuted.
   const Plot profile = profileOfAll(campaign_, cells_);
   ASSERT_EQ(profile.series.size(), 3u);
   const auto at = [&](std::size_t variant, double x) {
@@ -220,7 +220,7 @@ TEST_F(Report, PlotsOfAllProblems) {
   EXPECT_THAT(profile.title, HasSubstr("the 20 runs that every variant has made"));
 }
 
-/// A variant must not count as the quickest in runs that no other variant has made.
+/// A variant must not count as the quickest in runs that other variants have not made.
 TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
   const auto shareAtOnce = [&](std::size_t variant) {
     const Plot profile = profileOfAll(campaign_, cells_);
@@ -244,7 +244,7 @@ TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
   EXPECT_THAT(page(), HasSubstr("All problems"));
 }
 
-/// Every point is drawn once, whatever its shape, and has its text.
+/// Every point is drawn once, whatever its shape, and has a text.
 TEST_F(Report, PointsAreDrawnOnce) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   std::vector<CampaignCell> two = cells_;
@@ -352,7 +352,7 @@ TEST_F(Report, ThePageAndItsFiles) {
   EXPECT_THAT(page(), HasSubstr("53 runs of 60 (not finished)"));
 }
 
-/// Names are the users' own: none may act as HTML or as gnuplot's syntax.
+/// Users choose the names: no name may act as HTML or as gnuplot's syntax.
 TEST_F(Report, HostileNames) {
   const std::string evil = "<script>alert('1')</script> \"x\" `id` $0 {/x} \\n & %s";
   campaign_.name = evil;

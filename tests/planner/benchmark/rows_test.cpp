@@ -1,4 +1,4 @@
-// Figures of several runs, and how they are written.
+// Tests of the figures of several runs, and of how they are written.
 #include "planner/benchmark/rows.h"
 
 #include <cmath>

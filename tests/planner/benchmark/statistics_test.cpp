@@ -1,5 +1,5 @@
-// Confidence intervals of medians and shares, tested against enumeration, simulation and
-// published values.
+// Tests of confidence intervals of medians and shares against enumeration, simulation and published
+// values.
 #include "planner/benchmark/statistics.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What `--variants` accepts.
+// Tests of the values of `--variants`.
 #include "planner/benchmark/variant.h"
 
 #include <gmock/gmock.h>

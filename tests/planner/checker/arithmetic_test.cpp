@@ -1,4 +1,4 @@
-// In a floating-point mode in which no bound holds, the checker answers only that.
+// In a floating-point mode in which no bound holds, the checker must refuse every query.
 #include <stdexcept>
 #include <thread>
 
@@ -32,7 +32,7 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
         throws = true;
       }
     };
-    query();  // in a thread that has a workspace already; below, in new ones
+    query();  // in a thread that already has a workspace; below, in new threads
     for (int n = 0; n < 2; ++n, std::thread(query).join()) {
       EXPECT_EQ(throws, !setting.standard()) << setting.name;
       for (const MotionResult& result : {state, edge}) {
@@ -47,7 +47,8 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
   }
 }
 
-/// A motion that was set in another floating-point mode stays invalid afterwards.
+/// If a motion was set in a floating-point mode in which no bound holds, queries refuse it even
+/// after the mode was restored.
 TEST(CheckerArithmetic, MotionsMadeElsewhereAreRefused) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");

@@ -1,5 +1,5 @@
-// The clearance for OMPL's samplers and objectives agrees with closed forms and with the states'
-// validity.
+// Tests the clearance for OMPL's samplers and objectives against closed forms and against the
+// validity of states.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -91,8 +91,8 @@ TEST(Clearance, BothCheckersOfOmplTellIt) {
   EXPECT_EQ(hall.checker.counters().states, before + 1) << "a state, of however many pairs";
 }
 
-/// The clearance of a valid state is positive. A state is valid if its clearance exceeds what the
-/// proof needs.
+/// The clearance of a valid state is positive. If the clearance of a state exceeds what its proof
+/// needs, the state is valid.
 TEST(Clearance, IsInStepWithWhatIsValid) {
   std::mt19937_64 random(test::testSeed(3));
   std::uniform_real_distribution<double> u(-1, 1);

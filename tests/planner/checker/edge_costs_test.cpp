@@ -1,4 +1,4 @@
-// Counts and shares of edge costs add up, and the sampling ends in time.
+// Tests that counts and shares of edge costs add up, and that the sampling of edges ends in time.
 #include "planner/checker/edge_costs.h"
 
 #include <gtest/gtest.h>

@@ -152,7 +152,7 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:6: goal.at: a number is needed, not \"x\"");
 }
 
-/// Each word is known, but they do not belong together.
+/// Each name is known, but the names can't be combined.
 TEST_F(ProblemFaults, VolumesAndWhatTheyHave) {
   EXPECT_EQ(
       with("checker:\n  volume: sphere\n  overlap: gjk\n"),

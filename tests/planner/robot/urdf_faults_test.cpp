@@ -7,11 +7,11 @@ namespace {
 
 class UrdfFaults : public UrdfTest {
  protected:
-  /// The faults of two links and a joint on line 4.
+  /// Returns the faults of two links and a joint on line 4.
   std::string complaintOfJoint(const std::string& type, const std::string& content) {
     return complaintOfParts(link("a") + link("b") + joint("j", type, "a", "b", content));
   }
-  /// The faults of a collision element on line 2.
+  /// Returns the faults of a collision element on line 2.
   std::string complaintOfCollision(const std::string& content) {
     return complaintOfParts(link("a", "<collision>" + content + "</collision>"));
   }
@@ -81,7 +81,7 @@ TEST_F(UrdfFaults, Trees) {
       complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c")),
       "r.urdf:3: link \"b\" is not a child of any joint, and neither is \"a\" on line 2; a robot "
       "has one root");
-  // A circle beside the root, which urdfdom accepts; then a circle without any root.
+  // First a cycle of links beside the root, which urdfdom accepts; then a cycle without any root.
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
                              joint("i", "fixed", "c", "d") + joint("j", "fixed", "b", "c") +
                              joint("k", "fixed", "c", "b")),
@@ -300,7 +300,7 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("package://hand/a.stl"),
             of + "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
                  "folder; add robot.yaml: packages: {hand: FOLDER}");
-  // An unreadable mesh is reported where the URDF names it first, once per file.
+  // An unreadable mesh file is reported once, at the place where the URDF names it first.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +
                                            collision("<mesh filename=\"bad.obj\"/>")) +

@@ -1,4 +1,5 @@
-// Solution files: bit-for-bit round trips, strict reading, OMPL.app's .path files.
+// Tests of solution files: they read back bit for bit, reading is strict, and OMPL.app's .path
+// files are supported.
 #include "planner/solve/solution.h"
 
 #include <filesystem>

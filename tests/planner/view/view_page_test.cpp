@@ -1,5 +1,5 @@
-// A page shows the problem as it is: meshes, poses on Corridor's own edges, distances, boxes and
-// findings, whatever names it contains.
+// Tests that a page shows the problem correctly: meshes, poses on Corridor's own edges, distances,
+// boxes and findings, whatever names occur.
 #include "planner/view/view_page.h"
 
 #include <cmath>
@@ -240,7 +240,8 @@ TEST(ViewPage, FindingsHaveTheirPlaces) {
   }
 }
 
-/// On each level every vertex of the mesh must be in one of its boxes, or in a leaf above.
+/// On each level of the tree, every vertex of the mesh must be in a box of this level, or in a leaf
+/// of a higher level.
 TEST(ViewPage, BoxesHoldTheirMeshOnEveryLevel) {
   const Problem problem = ownProblem("piano");
   const PageReader page(viewPage(problem, std::nullopt));
