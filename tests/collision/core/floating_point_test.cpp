@@ -31,8 +31,8 @@ TEST(FloatingPointTest, EverySettingIsSeen) {
   }
 }
 
-/// Bodies and trees hold bounds that proofs use, so they refuse to be built where rounding is not
-/// to nearest.
+/// Bodies and trees store bounds that proofs use. So building them must fail in a floating-point
+/// mode that does not round to nearest.
 TEST(FloatingPointTest, NothingIsBuiltInAnUnsoundArithmetic) {
   TriangleMesh mesh;
   test::add(mesh, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY());

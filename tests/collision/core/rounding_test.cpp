@@ -1,4 +1,4 @@
-// Properties of the compiler that every proof of rounding assumes, and the guarantees of
+// Tests of the compiler's properties that every bound on rounding assumes, and of the guarantees of
 // rounding.h.
 #include "collision/core/rounding.h"
 

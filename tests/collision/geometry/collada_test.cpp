@@ -97,7 +97,7 @@ TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
         "<comments><![CDATA[<unit meter=\"0\"/>]]></comments><up_axis >Z_UP</up_axis>"})
     EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
   EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
-  // Units that the check of the text misses show in the imported mesh.
+  // The check of the text misses these units. They are detected in the imported mesh.
   const std::string message = ": its <unit> is not above 0, or too small";
   for (const char* const hidden : {"<unit name=\"a>b\" meter=\"0\"/>", "<unit meter=\"1e-60\"/>"}) {
     EXPECT_THAT(complaint("a.dae", collada(hidden)), testing::EndsWith(message)) << hidden;

@@ -82,9 +82,9 @@ long double lowest(const Feature& b, const LineAndTurn& motion, long double t, c
   return origin.dot(nL) + least - set.ball * m.norm() - set.disc * m.cross(axis).norm();
 }
 
-/// Grazing by construction. a is below a plane and touches it in one place. b is above the plane,
-/// and its lowest place is above that very place, at a distance `gap`. This holds at the end of the
-/// motion, or throughout, if b slides on the plane and rotates about its normal.
+/// Grazing by construction. a is below a plane and touches it at one place. b is above the plane,
+/// and its lowest place is exactly above the place of a, at a distance `gap`. This holds at the end
+/// of the motion. It holds throughout if b slides along the plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = (test::stressAsked() ? 100'000 : 20'000) / test::kSlowdown;

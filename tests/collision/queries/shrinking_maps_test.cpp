@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kShrink = 1e-4;
 
-/// Triangles around a speck at the origin. Their distances from it differ by less than the
-/// shrinkage.
+/// Triangles around a tiny mesh at the origin. Their distances from it differ by less than the map
+/// shrinks lengths.
 struct Shell {
   TriangleMesh around, speck;
   Transform X_WA, X_WB;
