@@ -189,7 +189,7 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
 
 /// A corner touches a face exactly, in integers. Both sets have the same map, so they still touch.
 /// With an error bound that is too small, the query would report them as apart.
-TEST(ConvexContact, WhatTouchesDoesUnderAMapOfBoth) {
+TEST(ConvexContact, TouchingSetsTouchUnderACommonMap) {
   Touching make(test::testSeed(26));
   const auto integers = [&] {
     return Vec3(make.pick(64) - 32, make.pick(64) - 32, make.pick(64) - 32);

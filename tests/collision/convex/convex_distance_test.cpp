@@ -125,7 +125,7 @@ TEST(ConvexDistance, KnownGaps) {
 /// Random poses. The gap along `normal_W`, computed in long double, is a lower bound of the true
 /// distance. The distance of the witness points is an upper bound. The reported distance must agree
 /// with both.
-TEST(ConvexDistance, AnywhereByAPlaneBetween) {
+TEST(ConvexDistance, RandomPosesAgainstASeparatingPlane) {
   Touching make(test::testSeed(32));
   int apart = 0, touching = 0;
   for (int n = 0; n < 12'000 / test::kSlowdown; ++n) {
@@ -166,7 +166,7 @@ TEST(ConvexDistance, AnywhereByAPlaneBetween) {
 }
 
 /// Compares polytopes with brute force over all triangles of their corners, with a hundred digits.
-TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
+TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
   Touching make(test::testSeed(33));
   int apart = 0;
   for (int n = 0; n < 60 / test::kSlowdown + 1; ++n) {
@@ -347,7 +347,7 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
 
 /// If the cores barely overlap, the four corners around the origin are nearly in one plane. Even
 /// then the witness point must belong to both sets.
-TEST(ConvexDistance, APointOfBothWhereTheyBarelyOverlap) {
+TEST(ConvexDistance, WitnessPointOfBarelyOverlappingSets) {
   Touching make(test::testSeed(35));
   int touching = 0;
   for (int n = 0; n < 4'000 / test::kSlowdown; ++n) {

@@ -53,7 +53,7 @@ class ReadFile : public testing::Test {
   std::filesystem::path folder_ = newFolder();
 };
 
-TEST_F(ReadFile, WhatIsNoOrdinaryFile) {
+TEST_F(ReadFile, RefusesWhatIsNoOrdinaryFile) {
   expectRefused(folder_ / "missing", "no such file");
   expectRefused(folder_, "is a folder; a file is needed");
   for (const char* const device : {"/dev/zero", "/dev/null", "/dev/full"})
@@ -116,7 +116,7 @@ TEST_F(ReadFile, AStreamTakesAPipe) {
 }
 
 /// A stream that has a byte 0 is refused at once, since it may never end.
-TEST_F(ReadFile, AStreamOfZeros) {
+TEST_F(ReadFile, RefusesAStreamOfZerosAtOnce) {
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);
   const int before = ::dup(STDIN_FILENO);

@@ -128,7 +128,7 @@ TEST_F(AssimpProcess, TimeEnds) {
 
 /// If the calling program ignores SIGCHLD, waiting for the helper program fails. Reading must
 /// succeed nevertheless.
-TEST_F(AssimpProcess, WhereChildrenAreIgnored) {
+TEST_F(AssimpProcess, WorksIfSigchldIsIgnored) {
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   const AssimpImport import = readWithAssimp(file_, AssimpRules::Stored);
   std::signal(SIGCHLD, before);
@@ -150,7 +150,7 @@ TEST_F(AssimpProcess, SeveralThreadsAtATime) {
   EXPECT_EQ(same, 4);
 }
 
-TEST_F(AssimpProcess, NamesThatAShellWouldTakeApart) {
+TEST_F(AssimpProcess, NamesWithShellCharacters) {
   std::filesystem::create_directories(folder_ / "$(exit 3) 'a b");
   const auto file = write("$(exit 3) 'a b/-c \"d\".dae", grid(1));
   EXPECT_EQ(readMeshFile(file).mesh.triangles.size(), 2u);
@@ -168,7 +168,7 @@ std::string gltf(const std::string& uri) {
 {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}]})";
 }
 
-TEST_F(AssimpProcess, FilesThatAFileNames) {
+TEST_F(AssimpProcess, FilesThatAMeshFileRefersTo) {
   std::string numbers;
   for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 2.f, 0.f}) numbers += bytesOf(x);
   for (std::uint16_t corner = 0; corner < 3; ++corner) numbers += bytesOf(corner);

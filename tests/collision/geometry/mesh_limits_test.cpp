@@ -140,7 +140,7 @@ TEST_F(MeshLimits, SizesOfFiles) {
                   ": has 1073741825 bytes, more than 1073741824, the limit for a mesh file");
 }
 
-TEST_F(MeshLimits, OnlyTheFormatsThatAreWrittenDown) {
+TEST_F(MeshLimits, OnlySupportedExtensions) {
   const std::string formats =
       " is not supported; save the mesh as .obj, .stl, .ply, .off, .dae, "
       ".gltf, .glb, .fbx, .3ds, .x3d, .3mf or .amf";

@@ -117,7 +117,7 @@ TEST_P(Obb4TreePoses, Soups) {
 }
 
 /// Under maps that are far from rigid, or not finite, nothing may be separated.
-TEST_P(Obb4TreePoses, NothingIsDecidedForOtherMaps) {
+TEST_P(Obb4TreePoses, NothingIsSeparatedUnderOtherMaps) {
   const TriangleMesh cube = test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   const Transform far{Mat3::Identity(), Vec3(10, 0, 0)};
   ASSERT_TRUE(apart(cube, {}, cube, far, 0));

@@ -37,7 +37,7 @@ TEST(Obb4Tree, ContainsItsTrianglesInRationals) {
 #ifdef __SSE2__
 /// Builds trees while the processor flushes underflow to zero, and reads denormals as zero. Boxes
 /// must contain the triangles nevertheless.
-TEST(Obb4Tree, ContainsWhatIsFlushed) {
+TEST(Obb4Tree, ContainsTrianglesUnderFlushToZero) {
   std::mt19937_64 random(test::testSeed(23));
   for (const int exponent : {-1005, -1015, -1030}) {
     TriangleMesh mesh = test::soup(random, 100, 0.3);

@@ -117,7 +117,7 @@ TYPED_TEST(VolumeTrees, MedianSplitsAreBalanced) {
             std::ceil(std::log2(static_cast<double>(mesh.triangles.size()))) + 1);
 }
 
-TYPED_TEST(VolumeTrees, RefitContainsWhatMoved) {
+TYPED_TEST(VolumeTrees, RefitContainsTheMovedTriangles) {
   std::mt19937_64 random(test::testSeed(5));
   std::normal_distribution<double> normal;
   for (const TreeParams& params : kParams) {

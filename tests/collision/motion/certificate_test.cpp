@@ -76,7 +76,7 @@ TEST_P(Certificate, ASlideHasTheClearanceOfItsGap) {
   }
 }
 
-TEST_P(Certificate, KeepsTheInputs) {
+TEST_P(Certificate, IncludesMarginSlackAndTube) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   Case slide(wall, cube,
@@ -225,7 +225,7 @@ TEST_P(Certificate, TheWorkLimitEndsTheCheck) {
 
 /// Certificates claim as much as possible, true or not. If one is accepted, its claim must hold at
 /// samples, margin and tube included.
-TEST_P(Certificate, WhatIsAcceptedHolds) {
+TEST_P(Certificate, AcceptedClaimsHold) {
   std::mt19937_64 random(test::testSeed(43));
   int accepted = 0, refused = 0;
   for (int n = 0; n < 400; ++n) {
@@ -266,7 +266,7 @@ TEST_P(Certificate, WhatIsAcceptedHolds) {
 
 /// The check uses the tube's effect on the farthest point for the whole body. So it may fail to
 /// prove a true claim, but it must not report that the claim is false.
-TEST_P(Certificate, WhatATubeTakesIsNotRefuted) {
+TEST_P(Certificate, TubesRefuteNoTrueClaim) {
   TriangleMesh two;
   add(two, Vec3::Zero(), Vec3(0.01, 0, 0), Vec3(0, 0, 0.01));
   add(two, Vec3(10, 5, 0), Vec3(10.01, 5, 0), Vec3(10, 5, 0.01));

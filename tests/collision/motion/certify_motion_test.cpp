@@ -264,7 +264,7 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
 /// The body hits a wall at t = 0.29, and at t = 3/4 a tip is within the tube. The second half
 /// becomes undecided before the first half is divided. Then the query must not claim anything about
 /// the first half.
-TEST(CertifyMotion, NothingIsClaimedOfWindowsThatWereNotRefined) {
+TEST(CertifyMotion, NothingIsClaimedOfUndividedIntervals) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
   add(tip, Vec3(0.75, 0, -1e-9), Vec3(0.75, -1, -1), Vec3(0.75, 1, -1));
@@ -285,7 +285,7 @@ TEST(CertifyMotion, NothingIsClaimedOfWindowsThatWereNotRefined) {
 
 /// The contact begins at a time at which intervals end and begin. An interval that ends at this
 /// time can never be proved.
-TEST(CertifyMotion, ContactsThatBeginWithAWindow) {
+TEST(CertifyMotion, ContactsThatBeginWithAnInterval) {
   const Body a = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones())),
              b = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
   for (const EdgeMethod method :

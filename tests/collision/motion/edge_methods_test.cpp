@@ -68,7 +68,7 @@ TEST_P(EdgeMethods, SlideBesideAWall) {
 }
 
 /// If a displacement overflows, the verdict must be neither `contact` nor `free`.
-TEST_P(EdgeMethods, WaysThatOverflowAreUndecided) {
+TEST_P(EdgeMethods, DisplacementsThatOverflowAreUndecided) {
   const Body cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5))),
              aside = bodyOf(box(Vec3(-1, 5, -1), Vec3(1, 6, 1)));
   for (const double far : {1e308, 9e307}) {
@@ -300,7 +300,7 @@ TEST_P(EdgeMethods, PointThroughAPointEnds) {
 
 /// At t = 1/4 a tip is within the tube, and at t = 1/2 the body hits a wall. Between these times
 /// nothing grazes.
-TEST_P(EdgeMethods, GrazingIsSaidOnlyOfNarrowGaps) {
+TEST_P(EdgeMethods, GrazingIsReportedOnlyForNarrowGaps) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
   add(tip, Vec3(0.25, 0, -1e-9), Vec3(0.25, -1, -1), Vec3(0.25, 1, -1));

@@ -68,7 +68,7 @@ TEST(ManyMotions, CertificateChangesNoVerdict) {
 
 /// A joint may make any number of revolutions. Intervals that are too wide to be tested must count
 /// as work. Otherwise the query would take nearly forever.
-TEST(ManyMotions, WhatTurnsOftenEndsAtTheWorkLimit) {
+TEST(ManyMotions, ManyRevolutionsEndAtTheWorkLimit) {
   const Body hub = cube(0.1), tip = cube(0.05, Vec3(1, 0, 0));
   Motions motions({ChainMotion({{.from = 0, .to = 1e6}})});
   const MotionPair pair = {.a = &hub, .b = &tip, .worldB = 0};
@@ -87,7 +87,7 @@ TEST(ManyMotions, WhatTurnsOftenEndsAtTheWorkLimit) {
 
 /// Indices of bodies may be arbitrarily large, because bodies without a sphere in the world need no
 /// memory.
-TEST(ManyMotions, IndicesOfBodiesMayBeAnything) {
+TEST(ManyMotions, IndicesOfBodiesMayBeLarge) {
   const Body a = cube(1), b = cube(1, Vec3(10, 0, 0));
   Motions motions({ChainMotion({slide(Vec3::UnitX(), 0, -9)})});
   const std::size_t last = static_cast<std::size_t>(-1);

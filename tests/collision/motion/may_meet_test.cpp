@@ -99,7 +99,7 @@ TEST(MayMeet, RandomMotions) {
 }
 
 /// Both bodies move far, and nearly in the same way. Their common motion must not count.
-TEST(MayMeet, WhatGoesAlongKeepsItsGap) {
+TEST(MayMeet, CommonMotionKeepsTheGap) {
   const Body bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
   std::array<ScrewMotion, 2> screwsA, screwsB;
   for (const double nearer : {0.0, 0.1}) {

@@ -159,7 +159,7 @@ TEST(MovingParts, SlidesOnceAndKeepsMargins) {
   EXPECT_FALSE(close.separated);
 }
 
-TEST(MovingParts, StuckWhereTheTubeAloneForbidsAProof) {
+TEST(MovingParts, UndecidedIfTheTubeExceedsTheGap) {
   const ConvexPart a{{Vec3(0, 0, 0)}, 1, false}, b{{Vec3(0, 0, 0)}, 0.5, false};
   LineAndTurn motion;
   motion.start.t = Vec3(1.51, 0, 0);

@@ -230,7 +230,7 @@ TEST(MotionBounds, OneTurn) {
 
 /// `angular` is rounded, so it may be shorter than the real rotation vector by its stated error
 /// (here `reachError`). The bound must still cover the second-order term of the real rotation.
-TEST(MotionBounds, OneTurnWhoseRateIsOff) {
+TEST(MotionBounds, OneRotationWithARoundedRate) {
   for (const double amount : {0.02, 0.1, 0.4})
     for (const double error : {1e-2 * amount, 1e-3 * amount}) {
       const ScrewMotion screw{ScrewMotion::Kind::revolute, Vec3::UnitZ(), Vec3::Zero(), amount, 0};

@@ -66,7 +66,7 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
 
 /// For random points, times and directions in random intervals, the bound is never below the
 /// displacement. Somewhere it is attained.
-TEST(RigidMotion, WindowsBoundTheTravel) {
+TEST(RigidMotion, IntervalsBoundTheDisplacement) {
   Cases cases(test::testSeed(2));
   double tightest = 0, tightestDirectional = 0;
   const int count = test::stressAsked() ? 2'000'000 : 100'000;

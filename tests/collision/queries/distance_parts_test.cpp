@@ -161,7 +161,7 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
 }
 
 /// A mesh of many triangles against one convex part: the query must prune most of the tree.
-TEST(DistanceOfParts, LooksAtFewTriangles) {
+TEST(DistanceOfParts, TestsFewTriangles) {
   std::mt19937_64 random(test::testSeed(43));
   const TriangleMesh mesh = test::soup(random, 3'000, 0.02);
   const ObbTree a(mesh);

@@ -32,7 +32,7 @@ class MadeUp : public NearestPairs {
 
 /// Distances are nearly equal, or exceed the least one by as much as the options allow, and come in
 /// any order. The result must exceed the least distance by no more than distance.h allows.
-TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
+TEST(NearestPairs, TiesStayWithinTheAllowedError) {
   std::mt19937_64 random(test::testSeed(53));
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution(low, high)(random);
@@ -70,7 +70,7 @@ TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
 
 /// A pair that may touch is measured even if the options allow the query to skip it. A NaN must not
 /// exclude any pair.
-TEST(NearestPairs, WhatMayTouchIsMeasured) {
+TEST(NearestPairs, PairsThatMayTouchAreMeasured) {
   QueryContext context;
   const DistanceOptions options{.relative = 1, .absolute = 1};
   MadeUp pairs(options, context);

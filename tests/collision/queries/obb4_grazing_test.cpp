@@ -121,7 +121,7 @@ class Obb4Grazing : public test::EveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Simd, Obb4Grazing, testing::ValuesIn(test::simdTargets()),
                          &test::targetName);
 
-TEST_P(Obb4Grazing, ThoseThatJustMeetTouch) {
+TEST_P(Obb4Grazing, BodiesThatJustMeetTouch) {
   Random random(test::testSeed(71));
   int touching = 0;
   for (int n = 0; n < 1'000 / test::kSlowdown; ++n) {
@@ -139,7 +139,7 @@ TEST_P(Obb4Grazing, ThoseThatJustMeetTouch) {
   EXPECT_GT(touching, 500 / test::kSlowdown);
 }
 
-TEST_P(Obb4Grazing, ThoseThatAreAKnownDistanceApartAreNotFarther) {
+TEST_P(Obb4Grazing, KnownDistancesAreNotExceeded) {
   Random random(test::testSeed(72));
   for (int n = 0; n < 1'000 / test::kSlowdown; ++n) {
     const double gap = std::pow(10.0, real(random, -6, 2));

@@ -112,7 +112,7 @@ TriangleMesh slats(int count) {
 
 /// The pair that decided the last query is tested first. So the next query tests no box, or far
 /// fewer boxes.
-TEST(Obb4LastPair, AnswersTheNextOne) {
+TEST(Obb4LastPair, DecidesTheNextQuery) {
   std::mt19937_64 random(test::testSeed(42));
   const Body a(slats(40)), b(soup(random, 100, 0.1));
   Transform X;
@@ -145,7 +145,7 @@ TEST(Obb4LastPair, AnswersTheNextOne) {
 }
 
 /// For unrelated queries, the stored pair may cost at most a thousandth of the triangle tests.
-TEST(Obb4LastPair, CostsNothingWhereItHelpsNothing) {
+TEST(Obb4LastPair, CostsLittleForUnrelatedQueries) {
   std::mt19937_64 random(test::testSeed(43));
   const Body a(soup(random, 300, 0.1)), b(soup(random, 300, 0.1));
   QueryContext used, fresh;

@@ -48,7 +48,7 @@ TEST(SelfIntersections, OfTwoPartsThatCross) {
   EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
 }
 
-TEST(SelfIntersections, ACornerOnAnEdgeThatHasNoCornerThere) {
+TEST(SelfIntersections, ACornerInTheMiddleOfAnEdge) {
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(2, 0, 0), Vec3(4, -1, 0), Vec3(0, -1, 0));
@@ -96,7 +96,7 @@ TEST(SelfIntersections, SmallBesideALargeMesh) {
   EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
 }
 
-TEST(SelfIntersections, TrianglesOnALineAreLeftAside) {
+TEST(SelfIntersections, CollinearTrianglesAreIgnored) {
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 0, 0));

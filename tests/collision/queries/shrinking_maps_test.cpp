@@ -74,7 +74,7 @@ template <class Volume>
 class ShrinkingMaps : public testing::Test {};
 TYPED_TEST_SUITE(ShrinkingMaps, test::Volumes, test::VolumeNames);
 
-TYPED_TEST(ShrinkingMaps, DistancesAreTheWorlds) {
+TYPED_TEST(ShrinkingMaps, DistancesAreThoseInTheWorld) {
   std::mt19937_64 random(test::testSeed(20261125));
   for (int n = 0; n < 20; ++n) {
     const Shell shell(random);

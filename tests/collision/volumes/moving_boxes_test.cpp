@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Simd, MovingBoxesKernel, testing::ValuesIn(test::simdTa
 
 constexpr unsigned kDiagonal = 0x8421;
 
-TEST_P(MovingBoxesKernel, BoxesThatMeetAreOpen) {
+TEST_P(MovingBoxesKernel, BoxesThatMeetAreNotSeparated) {
   Random random(test::testSeed(61));
   for (int n = 0; n < 40'000 / test::kSlowdown; ++n) {
     const By by = n % 5 ? By::directions : By::isotropic;
@@ -179,7 +179,7 @@ TEST_P(MovingBoxesKernel, BoxesThatMeetAreOpen) {
 /// Nearly all pairs of boxes that stay apart must be separated. Here the motion bounds have only
 /// first-order terms, or only the isotropic bound. For these the kernel's test is tight up to
 /// rounding.
-TEST_P(MovingBoxesKernel, BoxesThatStayApartAreNot) {
+TEST_P(MovingBoxesKernel, BoxesThatStayApartAreSeparated) {
   Random random(test::testSeed(62));
   int asked = 0, open = 0;
   for (int n = 0; n < 40'000 / test::kSlowdown; ++n) {

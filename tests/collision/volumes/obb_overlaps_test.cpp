@@ -159,7 +159,7 @@ TYPED_TEST_SUITE(ObbOverlaps, Overlaps, OverlapNames);
 
 /// Without rationals, so that many more pairs can be tested. If the separating-axis theorem
 /// separates a pair by several times its rounding margin, every test must separate it.
-TYPED_TEST(ObbOverlaps, TellWhatIsClearlyApart) {
+TYPED_TEST(ObbOverlaps, SeparateBoxesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(64));
   const int rounds = (test::stressAsked() ? 10'000'000 : 100'000) / test::kSlowdown;
   int clear = 0, missed = 0;
@@ -214,7 +214,7 @@ TYPED_TEST(ObbOverlaps, ExactlyTouching) {
   EXPECT_FALSE(TestFixture::of(x).separated(x.a, x.b, 0)) << "one point";
 }
 
-TYPED_TEST(ObbOverlaps, NothingIsDecidedForWhatIsNotFinite) {
+TYPED_TEST(ObbOverlaps, NonFiniteBoxesAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(63));
   const double nan = std::nan("");
   for (int n = 1; n < 200; ++n) {
@@ -248,7 +248,7 @@ TYPED_TEST(ObbOverlaps, NothingIsDecidedForWhatIsNotFinite) {
 }
 
 /// All tests in one loop, since rationals are slow.
-TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlapping) {
+TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
   std::mt19937_64 random(test::testSeed(61));
   const int rounds = (test::stressAsked() ? 100'000 : 2'000) / test::kSlowdown;
   const char* const names[] = {"separating axes", "GJK", "linear program", "edges and faces"};

@@ -112,7 +112,7 @@ TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
 
 /// Maps that are far from rigid: they scale, shear, mirror, or flatten nearly to a plane. No bound
 /// may exceed the distance of two points of the contents.
-TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
+TYPED_TEST(PairTests, NoFalseSeparationUnderMapsFarFromRigid) {
   std::mt19937_64 random(test::testSeed(44));
   for (int n = 0; n < 20'000; ++n) {
     const double defect = std::pow(10.0, std::uniform_real_distribution(-3.0, 1.0)(random));
@@ -161,7 +161,7 @@ TYPED_TEST(PairTests, ShearsAreNoRotations) {
 }
 
 /// Volumes that are far apart must be separated, and the bound must be close to their distance.
-TYPED_TEST(PairTests, TellClearDistances) {
+TYPED_TEST(PairTests, SeparateVolumesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(42));
   for (int n = 0; n < 1'000; ++n) {
     const Meeting m = meeting(random, n, 100, 1);
@@ -178,7 +178,7 @@ TYPED_TEST(PairTests, TellClearDistances) {
   }
 }
 
-TYPED_TEST(PairTests, NothingIsDecidedForWhatIsNotFinite) {
+TYPED_TEST(PairTests, NonFiniteVolumesAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(43));
   const Meeting m = meeting(random, 1, 10, 1);
   const Fitted<TypeParam> a(m.a), b(m.b);

@@ -71,7 +71,7 @@ TEST(BodyQueries, InsideASolidMesh) {
   }
 }
 
-TEST(BodyQueries, PrimitivesContainWhatIsInThem) {
+TEST(BodyQueries, BodiesInsidePrimitivesTouchThem) {
   const Body box("box", placed(Box{Vec3(2, 2, 2)}, {})), mesh("mesh", cube(true));
   const Transform larger{2 * Mat3::Identity(), Vec3::Zero()};
   QueryContext context;
@@ -116,7 +116,7 @@ TEST(BodyQueries, AllPairs) {
       }
 }
 
-TEST(BodyQueries, RejectsPrimitivesThatAreNone) {
+TEST(BodyQueries, RejectsInvalidPrimitives) {
   const auto message = [](const Primitive& primitive) -> std::string {
     try {
       Body("x", placed(primitive, {}));
@@ -162,7 +162,7 @@ TEST(BodyQueries, CylinderWithoutAnAxisKeepsItsBounds) {
   EXPECT_EQ(scene.certifyState(touching, options, context).verdict, MotionVerdict::contact);
 }
 
-TEST(BodyQueries, RejectsWhatIsNotFinite) {
+TEST(BodyQueries, RejectsNonFiniteInput) {
   const Body a("a", cube()), b("b", placed(Sphere{0.1}, {}));
   QueryContext context;
   Transform bad;

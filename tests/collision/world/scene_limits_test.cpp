@@ -76,7 +76,7 @@ TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {
   EXPECT_NEAR(both.clearance(X_WF, context), 999 * (1 - 0x1p-12) - 0.01, 1e-9);
 }
 
-TEST(SceneLimits, RefusesWhatIsOutOfRange) {
+TEST(SceneLimits, RefusesOptionsOutOfRange) {
   const RigidScene s = scene({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
                              {Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)});
   QueryContext context;

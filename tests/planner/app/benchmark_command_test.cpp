@@ -155,7 +155,7 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml touching.yaml", "touching.yaml:5: start is in contact");
 }
 
-TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
+TEST_F(BenchmarkCommand, RefusesFoldersThatCannotBeWritten) {
   const auto refuse = [&](const std::string& folder, const std::string& message) {
     expectFault("benchmark hall.yaml --runs 1 -o " + folder, message);
   };
@@ -168,7 +168,7 @@ TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
 
 /// Files or folders that prevent writing the output are reported before the first run, and are not
 /// changed.
-TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsReportedAtOnce) {
+TEST_F(BenchmarkCommand, ReportsObstaclesToOutputFilesBeforeTheFirstRun) {
   const auto inTheWay = [&](const char* name) {
     return "results/" + std::string(name) + ": is a folder; a file is to be written here\n";
   };
@@ -201,7 +201,7 @@ TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsReportedAtOnce) {
               "results/plots: is a file; a folder is needed");
 }
 
-TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
+TEST_F(BenchmarkCommand, KeepsOtherFilesOfAnExistingFolder) {
   std::filesystem::create_directory(folder_ / "results");
   write("results/notes.txt", "mine");
   write("results/runs.csv", "old");
@@ -213,7 +213,7 @@ TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
                                    "report.html", "plots", "hall.discrete-0.05.log"));
 }
 
-TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
+TEST_F(BenchmarkCommand, AnInterruptKeepsFinishedRuns) {
   const std::string command = "cd '" + folder_.string() +
                               "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
                               "' benchmark hall.yaml --runs 500000 -o results >out.txt 2>err.txt";
@@ -230,7 +230,7 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
 }
 
 /// Results of long runs must reach stdout even if the folder can't be written.
-TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
+TEST_F(BenchmarkCommand, PrintsTheTableIfFilesCannotBeWritten) {
   // A folder named like one of the files appears while the runs are under way.
   const Result result =
       run("benchmark hall.yaml --variants discrete:0.05 --runs 40 -o results",
@@ -245,7 +245,7 @@ TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
 
 /// An interrupt before any run has finished must not leave empty files, logs without planners, or
 /// an empty table.
-TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
+TEST_F(BenchmarkCommand, AnInterruptDuringTheFirstRunLeavesNoFiles) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
         "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");
@@ -270,7 +270,7 @@ TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
   EXPECT_EQ(read("mine/runs.csv"), "old");
 }
 
-TEST_F(BenchmarkCommand, ARunWithoutMemoryHasFailed) {
+TEST_F(BenchmarkCommand, ARunOutOfMemoryCountsAsFailed) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "AddressSanitizer ends the process where memory ends";
 #endif
@@ -284,7 +284,7 @@ TEST_F(BenchmarkCommand, ARunWithoutMemoryHasFailed) {
   EXPECT_FALSE(cell["rows"][0]["failure"].get<std::string>().empty());
 }
 
-TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
+TEST_F(BenchmarkCommand, AnUnsolvedProblemIsNoError) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
         "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");

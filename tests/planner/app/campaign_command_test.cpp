@@ -54,7 +54,7 @@ class CampaignCommand : public corridor::test::ProgramTest {
 };
 
 /// Sends SIGKILL ten times, at random moments, and resumes.
-TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
+TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
   ASSERT_EQ(run("benchmark campaign.yaml -o whole").status, 0);
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -106,7 +106,7 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
 
 /// A limit on the size of files acts like a full disk: the fault is reported, and earlier runs are
 /// kept.
-TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
+TEST_F(CampaignCommand, ReportsAFullDiskAndResumesLater) {
   // 300 blocks of 512 bytes: enough for the empty tables, too little for all runs.
   const Result stopped = run("benchmark campaign.yaml -o results", "ulimit -f 300 && ");
   EXPECT_EQ(stopped.status, 2);
@@ -127,7 +127,7 @@ TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
   EXPECT_EQ(runs(), 2 * 3 * 12);
 }
 
-TEST_F(CampaignCommand, ItsReportTellsTheSessions) {
+TEST_F(CampaignCommand, ReportListsTheSessions) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 2 --jobs 2 --resume -o results").status, 0);
   const std::string page = read("results/report.html");
@@ -136,7 +136,7 @@ TEST_F(CampaignCommand, ItsReportTellsTheSessions) {
 }
 
 /// Names of variants may be long, and folders' names may hold bytes that are not UTF-8.
-TEST_F(CampaignCommand, AnyNames) {
+TEST_F(CampaignCommand, AcceptsAnyNames) {
   const std::string name = "a\xff b\x1b[31m " + std::string(200, 'n');
   std::filesystem::create_directory(folder_ / name);
   std::filesystem::copy_file(folder_ / "robot.yaml", folder_ / name / "robot.yaml");
@@ -155,7 +155,7 @@ TEST_F(CampaignCommand, AnyNames) {
   EXPECT_EQ(read("problem/runs.csv").find('\x1b'), std::string::npos);
 }
 
-TEST_F(CampaignCommand, OptionsSayMoreThanTheFile) {
+TEST_F(CampaignCommand, OptionsOverrideTheFile) {
   const Result result =
       run("benchmark campaign.yaml --runs 2 --seed 5 --time 30 --memory 2000 --jobs 2 --json");
   ASSERT_EQ(result.status, 0) << result.err;

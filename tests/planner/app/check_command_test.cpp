@@ -88,7 +88,7 @@ TEST_F(CheckCommand, CheckQuotesNamesWithCommas) {
             "state,valid,pairs\n0,0,\"lower~post \"\"a\"\", b\"\n");
 }
 
-TEST_F(CheckCommand, CheckFaultsStatesByLine) {
+TEST_F(CheckCommand, ReportsFaultyStatesByLine) {
   write("states.txt", "0 0 0\n0 0\n0 x\n");
   const Result checked = run("check arm.yaml --states states.txt");
   EXPECT_EQ(checked.status, 2);

@@ -19,7 +19,7 @@ using InspectProblem = corridor::test::ArmTest;
 using InspectCube = corridor::test::CubeTest;
 
 /// The range of a joint that mimics another follows from that joint, even beyond its own limits.
-TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
+TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   const auto joint = [](const std::string& name, const std::string& parent,
                         const std::string& more) {
     return "<link name='" + name + "'/><joint name='" + name + "' type='prismatic'><parent link='" +
@@ -48,7 +48,7 @@ TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
   EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 
-TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
+TEST_F(InspectCommand, SelectsTheFileOfAFolder) {
   const std::string arm6 = CORRIDOR_SOURCE_DIR "/robots/arm6";
   const Result named = run("inspect " + arm6 + "/robot.yaml"), found = run("inspect " + arm6);
   EXPECT_EQ(named.status, 0) << named.err;
@@ -79,7 +79,7 @@ TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
   expectFault("inspect none", "none: no problem.yaml, robot.yaml or URDF in this folder");
 }
 
-TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
+TEST_F(InspectCommand, ReportsWhyAMeshIsNotWatertight) {
   // A tetrahedron with one triangle of the wrong orientation. One corner is the upper end of the
   // bounds, and has coordinates of -0.
   write("turned.obj",
@@ -111,7 +111,7 @@ TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
   EXPECT_FALSE(closed.contains("why_not_watertight"));
 }
 
-TEST_F(InspectProblem, InspectTellsPairsAndRobots) {
+TEST_F(InspectProblem, ReportsPairsAndRobots) {
   const Result problem = run("inspect arm.yaml --pairs");
   EXPECT_EQ(problem.status, 0) << problem.err;
   EXPECT_THAT(problem.out, HasSubstr("joint: \"elbow\": -2 to 2 rad\n"));

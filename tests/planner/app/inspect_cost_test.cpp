@@ -101,7 +101,7 @@ TEST_F(InspectCost, JsonHasTheCountsOfQueries) {
   }
 }
 
-TEST_F(InspectCost, ATableForPeopleOverAGridWhereNoPosesAreGiven) {
+TEST_F(InspectCost, PrintsATableOverAGridWithoutPoses) {
   const Result result = run("inspect a.obj --against b.obj");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("meshes: a.obj, 288 triangles; b.obj, 162 triangles\n"));

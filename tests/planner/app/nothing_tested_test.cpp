@@ -38,7 +38,7 @@ class NothingTested : public corridor::test::HallTest {
 };
 
 /// Covers all commands that --help lists: the test fails for a new command until it is added here.
-TEST_F(NothingTested, EveryCommandSaysFirstThatNothingIsTested) {
+TEST_F(NothingTested, EveryCommandWarnsFirst) {
   const std::map<std::string, std::vector<std::string>> uses = {
       {"solve", {"solve alone.yaml", "solve alone.yaml --json"}},
       {"verify", {"verify alone.yaml turn.yaml", "verify alone.yaml turn.yaml --json"}},
@@ -70,7 +70,7 @@ TEST_F(NothingTested, EveryCommandSaysFirstThatNothingIsTested) {
   EXPECT_THAT(read("page.html"), HasSubstr("\"notes\":[\"" + kNothing));
 }
 
-TEST_F(NothingTested, AClearanceOfNothingIsNoNumber) {
+TEST_F(NothingTested, ClearanceIsNotPrintedAsANumber) {
   const Result text = run("verify alone.yaml turn.yaml");
   EXPECT_THAT(text.out, HasSubstr("clearance: none: no pair is tested\n"));
   EXPECT_THAT(text.out, HasSubstr("note: " + kNothing));
@@ -83,7 +83,7 @@ TEST_F(NothingTested, AClearanceOfNothingIsNoNumber) {
 }
 
 /// It does not matter why no pair is tested: here an `allow` excludes the only pair.
-TEST_F(NothingTested, AllPairsAllowedIsNothingTested) {
+TEST_F(NothingTested, WarnsIfAllPairsAreAllowed) {
   const Result result = run("verify allowed.yaml through.yaml");
   EXPECT_EQ(result.err, "corridor: warning: allowed.yaml: " + kNothing + "\n");
   EXPECT_EQ(run("verify hall.yaml through.yaml").err, "");

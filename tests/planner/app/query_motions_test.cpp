@@ -147,7 +147,7 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
 
 /// For a half turn no way round is shorter. So the verdict is undecided, without time, gap or
 /// triangles.
-TEST_F(QueryMotions, HalfATurnIsUndecided) {
+TEST_F(QueryMotions, HalfTurnsAreUndecided) {
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
     const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
     EXPECT_EQ(result.status, 0) << result.err;
@@ -217,7 +217,7 @@ TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
   }
 }
 
-TEST_F(QueryMotions, BelowTheToleranceItIsUndecided) {
+TEST_F(QueryMotions, ClearanceBelowTheToleranceIsUndecided) {
   const std::string along = kStill + "-1 0 1e-3 " + kStill + "1 0 1e-3\n";
   const auto verdict = [&](const std::string& more) {
     return rowsOf(query(along, more).out).at(0).at("verdict");
@@ -324,13 +324,13 @@ class SharedMotions : public QueryMotions {
   }
 };
 
-TEST_F(SharedMotions, FirstContactsAreTheTruth) {
+TEST_F(SharedMotions, FirstContactsAgreeWithTheTruth) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   EXPECT_EQ(expectTruth("certified", 1'000'000), 0u);
 }
 
-TEST_F(SharedMotions, OtherVolumesFindThemToo) {
+TEST_F(SharedMotions, FirstContactsWithOtherVolumes) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   for (const std::string volume :
@@ -338,7 +338,7 @@ TEST_F(SharedMotions, OtherVolumesFindThemToo) {
     EXPECT_EQ(expectTruth("certified --volume " + volume, 60), 0u);
 }
 
-TEST_F(SharedMotions, MethodsByDistancesFindThemToo) {
+TEST_F(SharedMotions, FirstContactsByDistanceMethods) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   for (const char* edges : {"adaptive", "advancement"}) EXPECT_LE(expectTruth(edges, 60), 2u);

@@ -45,7 +45,7 @@ class Signals : public UseTest {
   }
 };
 
-TEST_P(Signals, EndItCleanly) {
+TEST_P(Signals, EndTheProgramCleanly) {
   const Use& use = GetParam();
   learnWhole(use);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})

@@ -53,7 +53,7 @@ TEST_F(ViewCommand, NamesThePageByTheProblem) {
   EXPECT_EQ(read("quiet.html"), read("thin_plate.html"));
 }
 
-TEST_F(ViewCommand, APathOfOtherFilesIsReportedOnThePage) {
+TEST_F(ViewCommand, ReportsAPathOfChangedFilesOnThePage) {
   write("path.yaml", "format: corridor-solution-1\nspace: SE3\ndigest: " + std::string(64, 'a') +
                          "\npath:\n  - [-3, -2, 0, 0, 0, 0, 1]\n  - [3, -2, 0, 0, 0, 0, 1]\n");
   const Result result = run("view " + plate + " path.yaml -o page.html");
@@ -136,7 +136,7 @@ TEST_F(ViewCommand, ABrowserThatFailsIsReported) {
 
 /// An interrupt ends the browser and removes its folder, even if a second interrupt comes during
 /// the removal.
-TEST_F(ViewCommand, TwoInterruptsLeaveNothing) {
+TEST_F(ViewCommand, TwoInterruptsLeaveNoFilesOrProcesses) {
   // A script that stands in for Chromium: it writes a file that it does not remove, writes its
   // process id, and then waits. (interrupt_test tests that the second interrupt is ignored.)
   write("chromium",

@@ -72,7 +72,7 @@ std::vector<Row> repeatable(const Campaign& campaign, const CampaignResult& resu
   return rows;
 }
 
-TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
+TEST(Campaign, OnlySampledPathsPassThroughTheThinPlate) {
   Campaign campaign = campaignOf({"certified", "discrete:0.01"}, 3);
   campaign.problems = {
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / "thin_plate")};
@@ -99,7 +99,7 @@ TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
 }
 
 /// A run must equal `solve` with that seed, down to the number of box tests.
-TEST(Campaign, ARunIsASolve) {
+TEST(Campaign, ARunEqualsASolve) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 2);
   campaign.planners = named({"RRTConnect", "KPIECE1"});
   campaign.seed = 5;
@@ -148,7 +148,7 @@ TEST(Campaign, TheSameSeedsGiveTheSameRows) {
   EXPECT_GT(countOf(first.cells[1], "refuted"), 0);
 }
 
-TEST(Campaign, ACrashCostsItsRunOnly) {
+TEST(Campaign, ACrashLosesOnlyItsRun) {
   const BenchmarkCompetitor exact{"exact", [](const auto& si, const Checker& checker) {
                                     return std::make_shared<ExactStateValidityChecker>(si, checker);
                                   }};
@@ -188,7 +188,7 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
 
 /// After an exception in a planner, OMPL's Benchmark would continue as if the run had ended
 /// normally.
-TEST(Campaign, AThrowWithinAPlannerIsReported) {
+TEST(Campaign, AnExceptionInAPlannerIsReported) {
   class Thrower : public ExactStateValidityChecker {
    public:
     using ExactStateValidityChecker::ExactStateValidityChecker;
@@ -259,7 +259,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
   }
 }
 
-TEST(Campaign, InterruptedItKeepsWhatIsDone) {
+TEST(Campaign, AnInterruptKeepsFinishedRuns) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 50);
   std::atomic<bool> interrupted = false;
   CampaignOptions options;
@@ -279,7 +279,7 @@ TEST(Campaign, InterruptedItKeepsWhatIsDone) {
   EXPECT_EQ(OmplLogReader::read(omplLog(campaign, result, 0, 1)).planners.at(0).runs.size(), 1u);
 }
 
-TEST(Campaign, AllThatIsWrongIsReportedBeforeAnythingRuns) {
+TEST(Campaign, ReportsAllFaultsBeforeTheFirstRun) {
   EXPECT_EQ(complaintOf(campaignOf({"certified", "discrete:0.1"}, 1)), "");
   EXPECT_EQ(complaintOf(campaignOf({"certified", "certified"}, 0)),
             "--variants: \"certified\" is named twice\n--runs: 1 or more are needed, not 0");
@@ -301,7 +301,7 @@ TEST(Campaign, AllThatIsWrongIsReportedBeforeAnythingRuns) {
   EXPECT_EQ(complaintOf(campaign), "");
 }
 
-TEST(Campaign, ProblemsOfOneNameAreToldApart) {
+TEST(Campaign, ProblemsWithTheSameNameGetDifferentNames) {
   Campaign campaign = campaignOf({"discrete:0.02"}, 1);
   campaign.problems.push_back(campaign.problems[0]);
   campaign.problems.push_back(campaign.problems[0]);
@@ -335,7 +335,7 @@ TEST(Campaign, PlannersHaveLabelsAndParameters) {
 }
 
 /// Several runs at a time must give the same rows in the same order.
-TEST(Campaign, JobsChangeNothingButTimes) {
+TEST(Campaign, ParallelJobsGiveTheSameRows) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 5);
   campaign.time = 20.0 * test::kSlowdown;
   CampaignOptions options;
@@ -352,7 +352,7 @@ TEST(Campaign, JobsChangeNothingButTimes) {
   EXPECT_EQ(csvOf(repeatable(campaign, many)), csvOf(repeatable(campaign, runCampaign(campaign))));
 }
 
-TEST(Campaign, WhatIsThereIsNotRunAgain) {
+TEST(Campaign, StoredRunsAreNotRepeated) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 3);
   campaign.time = 20.0 * test::kSlowdown;
   std::vector<CampaignCell> cells = cellsOf(campaign);
@@ -372,7 +372,7 @@ TEST(Campaign, WhatIsThereIsNotRunAgain) {
   EXPECT_EQ(result.cells[1].runs[1].why, "it was there");
 }
 
-TEST(Campaign, WithoutAJudgeNobodySaysWhatCollides) {
+TEST(Campaign, WithoutVerifierNoVerdicts) {
   Campaign campaign = campaignOf({"discrete:0.2"}, 2);
   campaign.verify = false;
   const CampaignResult result = runCampaign(campaign);

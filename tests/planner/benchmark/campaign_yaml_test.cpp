@@ -132,7 +132,7 @@ TEST_F(CampaignYaml, CombinationsHaveALimit) {
   EXPECT_THROW(read(many + "peer: fcl}}\n"), InputError);
 }
 
-TEST_F(CampaignYaml, NamesAreOfOneLine) {
+TEST_F(CampaignYaml, NamesMustBeOneLine) {
   for (const char* wrong : {"checkers: {\"a\\nb\": {}}\n", "checkers: {\"\": {}}\n",
                             "checkers: {a: {}}\nplanners: [{name: RRT, label: \"x\\ty\"}]\n"})
     EXPECT_THROW(read(kStart + std::string(wrong)), InputError) << wrong;
@@ -289,7 +289,7 @@ TEST_F(CampaignYaml, FaultsOfProblemsAreReported) {
               testing::Contains(HasSubstr("hall.yaml:2: unknown key \"robbot\"")));
 }
 
-TEST_F(CampaignYaml, WhatIsACampaign) {
+TEST_F(CampaignYaml, RecognisesCampaignFiles) {
   write("c.yaml", kStart);
   write("newer.yaml", "format: corridor-campaign-2\n");
   write("broken.yaml", "format: [corridor-campaign-1\n");

@@ -21,7 +21,7 @@ using Send = std::function<void(const std::string&)>;
 
 constexpr double kLong = 600;
 
-TEST(InChild, AllMessagesComeLongOnesToo) {
+TEST(InChild, AllMessagesArriveLongOnesToo) {
   const std::string text(3'000'000, 'x');  // more than a pipe holds
   int here = 0;
   const ChildEnd end = inChild(
@@ -38,7 +38,7 @@ TEST(InChild, AllMessagesComeLongOnesToo) {
   EXPECT_EQ(here, 0);  // the work ran in another process
 }
 
-TEST(InChild, ASignalCostsNoMessageThatWasSent) {
+TEST(InChild, SentMessagesArriveDespiteASignal) {
   const ChildEnd end = inChild(
       [](const Send& send) {
         send("first");
@@ -60,7 +60,7 @@ TEST(InChild, OtherEnds) {
   EXPECT_EQ(failure([] { throw std::bad_alloc(); }), "out of memory");
 }
 
-TEST(InChild, PatienceIsForEachMessage) {
+TEST(InChild, TimeLimitHoldsForEachMessage) {
   const auto start = std::chrono::steady_clock::now();
   const ChildEnd end = inChild(
       [](const Send& send) {

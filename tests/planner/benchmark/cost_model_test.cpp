@@ -21,7 +21,7 @@ TEST(CostModel, FindsTheCostsOfQueriesThatFollowIt) {
 
 /// If the cost per test differs between two queries, the fit must not follow the longest or the
 /// shortest query alone.
-TEST(CostModel, LongQueriesCountAsTheirTimeDoes) {
+TEST(CostModel, QueriesAreWeightedByTheirTime) {
   const CostModel model = fittedCosts({{1, 0, 10}, {1000, 0, 20'000}});
   EXPECT_NEAR(model.box, 1001 / (0.1 + 50), 1e-9);
 }
@@ -38,7 +38,7 @@ TEST(CostModel, CostsAreNeverNegative) {
 }
 
 /// If both counts are proportional, only one cost can be determined; it is attributed to box tests.
-TEST(CostModel, CostsThatCannotBeDistinguishedAreOne) {
+TEST(CostModel, ProportionalCountsGiveOneCost) {
   const CostModel model = fittedCosts({{10, 5, 100}, {20, 10, 200}, {40, 20, 400}});
   EXPECT_NEAR(model.box, 10, 1e-9);
   EXPECT_EQ(model.triangle, 0);

@@ -28,7 +28,7 @@ CampaignResult resultOf(const std::string& planner, const std::vector<std::strin
   return runCampaign(campaign);
 }
 
-TEST(Replay, IsTheSameRunWithoutItsTests) {
+TEST(Replay, RepeatsTheRunWithoutItsTests) {
   for (const char* planner : {"RRTConnect", "KPIECE1", "SBL"}) {  // KPIECE1 also queries lastValid
     const CampaignResult result = resultOf(planner, {"certified", "replay"});
     for (std::size_t i = 0; i < 2; ++i) {
@@ -51,7 +51,7 @@ TEST(Replay, RefusesWhatDoesNotRepeat) {
   EXPECT_EQ(result.cells[0].runs[0].failure, "replay: CForest doesn't repeat");
 }
 
-TEST(Replay, TellsAnotherQuestion) {
+TEST(Replay, ReportsADifferentQuery) {
   const Problem problem = test::hallProblem(test::Rigid::SE3);
   const auto space = std::make_shared<ProblemStateSpace>(problem.model.space);
   const auto si = std::make_shared<ompl::base::SpaceInformation>(space);

@@ -17,7 +17,7 @@ TEST(Rows, CsvHasAllDigitsAndQuotesWhatNeedsIt) {
   EXPECT_EQ(csvOf({}), "");
 }
 
-TEST(Rows, TableLinesUpAndLeavesOutWhatSaysNothing) {
+TEST(Rows, TableIsAlignedAndOmitsZeroFailures) {
   const std::vector<Row> rows{{{"name", std::string("naïve")},
                                {"time_s", 0.123456},
                                {"failed", std::uint64_t{0}},

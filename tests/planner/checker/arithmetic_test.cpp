@@ -13,7 +13,7 @@
 namespace corridor {
 namespace {
 
-TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
+TEST(CheckerArithmetic, OtherFloatingPointModesAreRefusedInEveryThread) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
   const Checker checker(problem);
@@ -49,7 +49,7 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
 
 /// If a motion was set in a floating-point mode in which no bound holds, queries refuse it even
 /// after the mode was restored.
-TEST(CheckerArithmetic, MotionsMadeElsewhereAreRefused) {
+TEST(CheckerArithmetic, MotionsSetInOtherModesAreRefused) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
   const Scene scene = makeScene(problem.model);

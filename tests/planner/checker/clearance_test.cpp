@@ -62,13 +62,13 @@ TEST(Clearance, InASolidIsContact) {
   EXPECT_EQ(clearanceOf(problem, poseOf(Rigid::SE3, 0.25, 0)), -0.5);
 }
 
-TEST(Clearance, WithoutTestedPairsThereIsNoEndOfIt) {
+TEST(Clearance, WithoutTestedPairsItIsInfinite) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.model.filter.skip(0, 1, "allow");
   EXPECT_EQ(clearanceOf(problem, poseOf(Rigid::SE2, 0, 0)), kInfinity);
 }
 
-TEST(Clearance, BothCheckersOfOmplTellIt) {
+TEST(Clearance, BothValidityCheckersReturnIt) {
   Hall hall(Rigid::SE3);
   const CertifiedStateValidityChecker certified(hall.si, hall.checker);
   const ExactStateValidityChecker exact(hall.si, hall.checker);
@@ -93,7 +93,7 @@ TEST(Clearance, BothCheckersOfOmplTellIt) {
 
 /// The clearance of a valid state is positive. If the clearance of a state exceeds what its proof
 /// needs, the state is valid.
-TEST(Clearance, IsInStepWithWhatIsValid) {
+TEST(Clearance, AgreesWithValidity) {
   std::mt19937_64 random(test::testSeed(3));
   std::uniform_real_distribution<double> u(-1, 1);
   for (const double margin : {0.0, 0.2}) {

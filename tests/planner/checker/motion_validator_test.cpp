@@ -157,7 +157,7 @@ TEST_P(MotionValidators, LastValidMayBeTheGoalOrTheStart) {
   EXPECT_EQ(bits(s1), bits(expected));
 }
 
-TEST_P(MotionValidators, AtOnceBlockedGivesTheStart) {
+TEST_P(MotionValidators, BlockedAtTheStartGivesTheStart) {
   auto last = state(1, 1);
   std::pair<ob::State*, double> lastValid{last.get(), -1};
   EXPECT_FALSE(validator().checkMotion(state(-0.5006, 0).get(), state(3, 0).get(), lastValid));

@@ -137,7 +137,7 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
               Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
 }
 
-TEST_F(ArmProblem, ABareUrdfWillDo) {
+TEST_F(ArmProblem, AUrdfAloneIsARobot) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
       "goal: {pan: 1, lift: 0, slide: 0.02}\n");
@@ -280,7 +280,7 @@ TEST_F(ArmProblem, APlanarJointMovesInThePlaneOfItsAxis) {
   EXPECT_LT((X.m * Vec3::UnitX() - Vec3::UnitZ()).norm(), 1e-15) << "90 degrees about -y";
 }
 
-TEST_F(ArmProblem, AProblemWithoutPairsSaysSo) {
+TEST_F(ArmProblem, NotesThatNoPairIsTested) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.yaml\nstart: ready\ngoal: ready\nallow: [[base, "
       "finger], [base, thumb], [upper, finger], [upper, thumb]]\n");

@@ -73,7 +73,7 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
                    testing::Eq("planners that OMPL does not have are skipped: aps")}));
 }
 
-TEST_F(OmplAppCfg, PlannersAreChosenOnlyWhereThereIsOne) {
+TEST_F(OmplAppCfg, DefaultPlannerIfTheFileListsSeveral) {
   const Problem p =
       readProblem(cfg(meshes + planar + "[planner]\nprm=\nrrt=\nrrt=\nrrt.range=3\n"));
   EXPECT_EQ(p.settings.planner.name, "RRTConnect");
@@ -361,7 +361,7 @@ TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
   }
 }
 
-TEST(OmplAppProblems, EveryOtherOneIsReadOrSaysWhyNot) {
+TEST(OmplAppProblems, EveryOtherProblemIsReadOrRefused) {
   const auto folder = omplAppFolder();
   if (!folder) GTEST_SKIP() << "set CORRIDOR_OMPLAPP to OMPL.app's folder resources";
   int read = 0, dynamic = 0;

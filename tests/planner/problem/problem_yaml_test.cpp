@@ -92,7 +92,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
     }
 }
 
-TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
+TEST_F(ProblemYaml, Defaults) {
   const Problem p = read(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\n");
   EXPECT_EQ(p.source.name, folder_.filename());
   EXPECT_EQ(p.settings.planner.name, "RRTConnect");
@@ -118,7 +118,7 @@ TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
       << "the folder stands for its problem.yaml";
 }
 
-TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
+TEST_F(ProblemYaml, LinesAreKeptForLaterFaults) {
   const Problem p = read(everything);
   EXPECT_EQ(p.source.lines.at("planner.name"), 12);
   EXPECT_EQ(p.source.lines.at("planner.params.range"), 16);

@@ -142,7 +142,7 @@ TEST(EdgeMotion, LongChainsAreWithinTheirStatedError) {
   std::cout << "error as a share of its bound: " << worst << "; twist: " << worstTwist << '\n';
 }
 
-TEST(EdgeMotion, FarFromTheOriginNothingIsLostBetweenLinks) {
+TEST(EdgeMotion, ErrorsBetweenLinksAreSmallFarFromTheOrigin) {
   KinematicTree tree;
   ConfigurationSpace space;
   for (const char* name : {"x", "y", "z", "shoulder", "elbow"}) {
@@ -214,7 +214,7 @@ TEST(EdgeMotion, ScrewsAreTheMotion) {
   }
 }
 
-TEST(EdgeMotion, ManyPairsShareWhatTheyHaveInCommon) {
+TEST(EdgeMotion, ManyPairsShareOneMotion) {
   RandomTrees random(test::testSeed(3));
   for (int n = 0; n < 500; ++n) {
     random.makeTree(8);

@@ -91,7 +91,7 @@ TEST_F(UrdfFaults, Trees) {
             "r.urdf:4: the links a, b, a are joined in a circle; a tree is needed");
 }
 
-TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
+TEST_F(UrdfFaults, HintsOnlyForTheFirstHundredFaults) {
   std::string parts = link("base");
   for (int i = 0; i < 101; ++i) parts += joint("j" + std::to_string(i), "fixed", "bse", "base");
   const std::string text = complaintOfParts(parts);
@@ -100,7 +100,7 @@ TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
   EXPECT_THAT(text, testing::EndsWith("joint \"j100\": " + line));
 }
 
-TEST_F(UrdfFaults, LongCirclesAreReportedByTheirFirst) {
+TEST_F(UrdfFaults, LongCyclesListTheirFirstJoints) {
   std::string parts = link("l0");
   for (int i = 0; i < 40; ++i) {
     parts += link("l" + std::to_string(i + 1));
@@ -252,7 +252,7 @@ TEST_F(UrdfFaults, Geometry) {
             "r.urdf:2: shape \"a\": its origin, size or scale is out of the range of doubles");
 }
 
-TEST_F(UrdfFaults, WhatWouldBeLost) {
+TEST_F(UrdfFaults, ElementsThatWouldBeIgnored) {
   const std::string of = "r.urdf:2: link \"a\": ";
   EXPECT_EQ(complaintOfParts(link("a", "<colision/>") + "<lnk name=\"b\"/>"),
             of + "<colision> is not known (did you mean <collision>?)\n"
@@ -316,7 +316,7 @@ TEST_F(UrdfFaults, MeshFiles) {
             of + "\"folder.stl\": folder.stl: is a folder; a file is needed");
 }
 
-TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
+TEST_F(UrdfFaults, UrdfdomsErrorsAreFaults) {
   class Other final : public console_bridge::OutputHandler {
     void log(const std::string&, console_bridge::LogLevel, const char*, int) override { ++lines; }
 
@@ -342,7 +342,7 @@ TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
   console_bridge::restorePreviousOutputHandler();
 }
 
-TEST_F(UrdfFaults, OfAllKindsAtOnceInOrder) {
+TEST_F(UrdfFaults, AllKindsAreReportedAtOnceInOrder) {
   write("bad.obj", "f 1 2 3\n");
   const std::string text = complaintOfParts(
       link("a", collision("<mesh filename=\"bad.obj\"/>")) + link("b", collision("<torus/>")) +

@@ -95,13 +95,13 @@ TEST_F(SolutionFile, RoundTripIsBitForBit) {
   }
 }
 
-TEST_F(SolutionFile, WhatMovesAsAWholeHasASpace) {
+TEST_F(SolutionFile, RigidBodiesNameTheirSpace) {
   EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE2).model.space), "SE2");
   EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE3).model.space), "SE3");
   EXPECT_EQ(rigidSpaceOf(test::armProblem().model.space), "");
 }
 
-TEST_F(SolutionFile, NothingIsLeftWhereItCantBeWritten) {
+TEST_F(SolutionFile, LeavesNoFileIfItCannotBeWritten) {
   EXPECT_THROW(writeSolution(example(test::rigidProblem(Rigid::SE3).model.space),
                              folder_ / "nowhere" / "s.yaml"),
                InputError);

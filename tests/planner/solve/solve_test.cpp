@@ -88,7 +88,7 @@ TEST_P(Spaces, GoalRegion) {
   }
 }
 
-TEST_P(Spaces, AThresholdOfZeroCanBeReached) {
+TEST_P(Spaces, AGoalThresholdOfZeroCanBeReached) {
   Problem problem = hallProblem(GetParam());
   problem.task.goalThreshold = 0;
   problem.settings.planner.name = "RRT";  // uses the goal's own test to end
@@ -177,7 +177,7 @@ TEST(Solve, EveryPlannerSolves) {
   }
 }
 
-TEST(Solve, BadNamesListWhatThereIs) {
+TEST(Solve, UnknownNamesListTheKnownOnes) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.settings.planner.name = "RRTConect";
   EXPECT_THAT(complaintOf(problem),
@@ -330,7 +330,7 @@ TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
 
 /// The validator of this test accepts every edge that is longer than the planner's edges, so
 /// simplified versions of the path go through the wall. The result must be a version that does not.
-TEST(Solve, TheLastVersionThatHoldsIsReturned) {
+TEST(Solve, ReturnsTheLastCertifiedVersion) {
   class Believes final : public ompl::base::MotionValidator {
    public:
     explicit Believes(const ompl::base::SpaceInformationPtr& si)
@@ -410,7 +410,7 @@ TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
   }
 }
 
-TEST(Arm, TreesGrowByAShareOfATurnUnlessTheProblemSaysOtherwise) {
+TEST(Arm, DefaultRangeIsAShareOfARevolution) {
   Problem problem = armProblem();
   problem.settings.simplify = false;
   problem.settings.planner.stopAtFirst = true;
@@ -459,7 +459,7 @@ TEST(Arm, StartInSelfContactNamesTheLinks) {
   EXPECT_EQ(complaintOf(armAt(0, 3, 0)), "arm.yaml:4: start: elbow = 3 is not in [-2.5, 2.5]");
 }
 
-TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
+TEST(Solve, KeepsTheTimeLimitAndReportsNothingFound) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.model.bodies[1].shapes[0].mesh->mesh =
       test::boxMesh({0.001, 20, 20});  // a wall without gap

@@ -160,7 +160,7 @@ TEST(LargeValues, TheErrorOfAWayIsAsStated) {
 
 /// The rod meets a post in the middle of the true way, and does not meet one a half turn away from
 /// there.
-TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
+TEST(LargeValues, OnlyThePostOnTheShorterWayIsMet) {
   std::mt19937_64 random(test::testSeed(4));
   int refuted = 0, proved = 0, contact = 0, free = 0;
   for (int n = 0; n < 2'000; ++n) {
@@ -211,7 +211,7 @@ TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
 }
 
 /// States are not brought into [−π, π]: the verdict is that of the angle as it is.
-TEST(LargeValues, StatesAreTakenAsTheyAre) {
+TEST(LargeValues, StatesAreNotWrapped) {
   std::mt19937_64 random(test::testSeed(5));
   for (int n = 0; n < 1'000; ++n) {
     const double angle = large(random, n);

@@ -138,7 +138,7 @@ struct Case {
   }
 };
 
-TEST(MovedSlab, NoCurveOfTheTubeGetsBelowIt) {
+TEST(MovedSlab, BoundsAllCurvesOfTheTube) {
   std::mt19937_64 random(test::testSeed(8));
   const int cases = test::stressAsked() ? 3000 : 200;
   Real fullest = 0;
@@ -175,7 +175,7 @@ TEST(MovedSlab, IsAttained) {
 // A point that rotates about z approaches an obstacle between it and the axis in second order only,
 // by 1 − cos(h|Δ| + τ). The second-order term is that of the sum of motion and perturbation, not of
 // each alone.
-TEST(MovedSlab, SecondOrderIsOfMotionAndStrayTogether) {
+TEST(MovedSlab, SecondOrderIsThatOfMotionPlusPerturbation) {
   KinematicTree tree;
   ConfigurationSpace space;
   Frame turn;

@@ -158,7 +158,7 @@ TEST(VerifyChain, TubesOfJointsCount) {
   EXPECT_EQ(verifyPath(chain.problem, {joints({0.00358, 0.00358})}).verdict, PathVerdict::refuted);
 }
 
-TEST(VerifyChain, WhatATubeDoesAcrossTheDirectionTakesNothing) {
+TEST(VerifyChain, TubesAcrossTheDirectionTakeNoClearance) {
   // The obstacle is in front of a stretched arm. Rotations within the tube move the arm sideways.
   Chain chain(2, boxPart(Vec3(1.952, -0.2, -0.2), Vec3(2.2, 0.2, 0.2)));
   chain.problem.tube = joints({0.001, 0.001});
@@ -192,7 +192,7 @@ TEST(VerifyChain, AnArmSlidesOverATableWithATube) {
 // One joint reverses the rotation of the joint before it, so the hand keeps its direction.
 // Perturbations displace all points of the hand, up to its far end, in the same way, and only
 // sideways.
-TEST(VerifyChain, JointsThatFollowOneVariableStrayAsOne) {
+TEST(VerifyChain, JointsOfOneVariableHaveOnePerturbation) {
   Chain chain(2, boxPart(Vec3(-2, -0.2, -0.2), Vec3(2, 0.948, 0.2)));
   chain.tree.frames[2].variable = 0;
   chain.tree.frames[2].multiplier = -1;

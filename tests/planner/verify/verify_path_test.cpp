@@ -351,7 +351,7 @@ TEST(VerifyPath, HalfTurnsAreAmbiguous) {
   EXPECT_EQ(world.verify(Poses{poseOf({0, 0, 0}), negative}).verdict, PathVerdict::proved);
 }
 
-TEST(VerifyPath, SlidingAlongAWallTakesNoMoreThanTheStates) {
+TEST(VerifyPath, SlidingAlongAWallNeedsFewQueries) {
   // The gap of 1e-9 is a hundredth of the tolerance, but nothing moves towards the wall.
   World world(kCube, boxMesh(Vec3(-3, 0.5 + 1e-9, -1), Vec3(3, 2, 1)));
   const PathReport report = world.verify(Poses{poseOf({-5, 0, 0}), poseOf({5, 0, 0})});

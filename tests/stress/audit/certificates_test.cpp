@@ -77,7 +77,7 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
 /// A rotation within 1e-9 rad of a half turn has no defined direction. Even if all bodies are far
 /// apart, the checker must report it as ambiguous, the verifier must not prove it, and no
 /// certificate may be accepted.
-TEST(Certificates, HalfTurnsAreNoEdges) {
+TEST(Certificates, HalfTurnsAreNotProved) {
   const std::uint64_t seed = test::testSeed(6);
   const long count = countOf(1'000, 50'000);
   int free = 0, proved = 0, accepted = 0;
