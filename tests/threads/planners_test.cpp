@@ -195,7 +195,7 @@ TEST_P(PlannersWithThreads, VerdictsAreThoseOfOneThread) {
     EXPECT_FALSE(GetParam().finds) << run->report.why;
   }
   if (GetParam().threadsAsk) {
-    EXPECT_GT(run->recorder.logs().size(), 1u) << "one thread alone asked";
+    EXPECT_GT(run->recorder.logs().size(), 1u) << "only one thread made queries";
   }
   const std::size_t asked = expectTheSameOfOneThread(problem, run->recorder);
   EXPECT_GT(asked, 20u);

@@ -89,7 +89,7 @@ TEST_P(Certificate, IncludesMarginSlackAndTube) {
   EXPECT_GE(slide.leastClearance(), 0.07 * (1 - 1e-12)) << "margin and clearance slack";
   // The tube may add 0.01 along each coordinate. The proof bounds this by a displacement of √3·0.01
   // in any direction.
-  EXPECT_LE(slide.leastClearance(), 0.09 * (1 + 1e-12)) << "the tube takes its own";
+  EXPECT_LE(slide.leastClearance(), 0.09 * (1 + 1e-12)) << "the tube reduces the clearance";
   EXPECT_FALSE(slide.check());
 }
 
@@ -126,15 +126,15 @@ TEST_P(Certificate, TamperedWithItFails) {
   swing.certificate.free[0].clearance = std::nan("");
   EXPECT_EQ(fault(), Kind::malformed);
   swing.certificate.free[0].clearance = 0;
-  EXPECT_EQ(fault(), Kind::malformed) << "claims nothing";
+  EXPECT_EQ(fault(), Kind::malformed) << "a clearance of 0";
   swing.certificate.free[0].t1 = 0.1;
-  EXPECT_EQ(fault(), Kind::malformed) << "on no grid";
+  EXPECT_EQ(fault(), Kind::malformed) << "t1 is not on the grid";
   swing.certificate.free[0].t1 = 1.5;
   EXPECT_EQ(fault(), Kind::malformed);
   swing.certificate.free[0].t1 = swing.certificate.free[0].t0;
   EXPECT_EQ(fault(), Kind::malformed);
   swing.options.margin = 1;
-  EXPECT_EQ(fault(), Kind::malformed) << "less than what was asked for";
+  EXPECT_EQ(fault(), Kind::malformed) << "less than the required clearance";
 }
 
 /// If the distance is below the margin, however little, no claim is accepted.

@@ -58,7 +58,7 @@ TEST_P(EdgeMethods, SlideBesideAWall) {
               gap > 0 ? MotionVerdict::free : MotionVerdict::contact)
         << gap;
     EXPECT_EQ(context_.counters.edges, 1u);
-    EXPECT_EQ(context_.counters.states, 0u) << "what an edge measures is no state";
+    EXPECT_EQ(context_.counters.states, 0u) << "queries within an edge must not count as states";
     if (gap > 0) {
       // Intervals move the body by at most twice the gap, and are halved at most once too often.
       // `advancement` computes up to three motion bounds per step.
@@ -195,13 +195,13 @@ TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_EQ(r.reason, UndecidedReason::clearance);
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
-  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance) << "nothing moves but in the tube";
+  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance) << "only the tube moves the body";
   tube = {};
   options_.clearanceSlack = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
   options_.clearanceSlack = 0.1001;
   EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
-      << "too near to be called free, but no contact";
+      << "too close to be free, but no contact";
   EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance);
   options_.clearanceSlack = 0;
   EXPECT_EQ(context_.counters.undecided, 4u);
@@ -357,8 +357,8 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
     const bool limit = r.reason == UndecidedReason::workLimit;
     tooMuch += limit;
     if (!options_.earliest && r.verdict != MotionVerdict::free) {
-      ASSERT_EQ(r.certifiedUntil, 0) << "it was not asked for";
-      ASSERT_FALSE(r.grazing) << "nor was this";
+      ASSERT_EQ(r.certifiedUntil, 0) << "the time was not requested";
+      ASSERT_FALSE(r.grazing) << "grazing is reported only with `earliest`";
     }
     if (gap < 0) {
       ASSERT_NE(r.verdict, MotionVerdict::free) << n;

@@ -138,7 +138,7 @@ TEST(MovingParts, GrazingByConstruction) {
   EXPECT_EQ(notFound, 0);
   EXPECT_GT(apart, count / 4);
   EXPECT_GT(together, count / 10);
-  std::cout << apart << " apart, " << together << " together; windows a slide "
+  std::cout << apart << " apart, " << together << " together; intervals per slide "
             << double(slideWindows) / double(slides) << "\n";
 }
 
@@ -151,7 +151,7 @@ TEST(MovingParts, SlidesOnceAndKeepsMargins) {
   motion.angle = 1.5;  // about its own axis
   std::uint64_t decided = 0;
   EXPECT_EQ(certify(table, can, motion, 0.5, 0.5, 1e-7, 0, decided), Verdict::free);
-  EXPECT_EQ(decided, 1U) << "the disc turns in itself, the slide is along the table";
+  EXPECT_EQ(decided, 1U) << "the disc rotates about its axis, and slides along the table";
   EXPECT_EQ(certify(table, can, motion, 0.5, 0.5, 1e-7, 0.0099, decided), Verdict::free);
   const MovingTrianglesAnswer close =
       decideMovingParts(table.part, can.part, motion.relativeMotion(0.5, 0.25), 0.0101);

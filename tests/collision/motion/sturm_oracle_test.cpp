@@ -149,7 +149,7 @@ TEST(SturmContact, Samples) {
   EXPECT_GT(contacts, count / 3);
   EXPECT_GT(count - contacts, count / 5);
   if (count >= 400) {  // the fewer cases under sanitizers may have none
-    EXPECT_GT(missed, count / 200) << "some contacts are for the oracle only";
+    EXPECT_GT(missed, count / 200) << "samples must miss some contacts";
   }
 }
 

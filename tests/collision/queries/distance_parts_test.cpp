@@ -175,7 +175,7 @@ TEST(DistanceOfParts, TestsFewTriangles) {
     queries += 2;
   }
   std::cout << context.counters.triangleTests / queries << " of " << mesh.triangles.size()
-            << " triangles looked at a query\n";
+            << " triangles tested per query\n";
   EXPECT_LT(context.counters.triangleTests / queries, mesh.triangles.size() / 10);
 }
 

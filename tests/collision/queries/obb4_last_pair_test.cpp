@@ -134,7 +134,7 @@ TEST(Obb4LastPair, DecidesTheNextQuery) {
     EXPECT_GT(distance(Posed(a.tree), Posed(b.tree, X), {}, context, &last).distance, 0);
   };
   EXPECT_GT(boxTests(touch), 0U);
-  EXPECT_GT(boxTests(touch), 0U) << "a pair that was found once is not trusted yet";
+  EXPECT_GT(boxTests(touch), 0U) << "a pair that decided one query is not used yet";
   EXPECT_EQ(boxTests(touch), 0U);
   EXPECT_EQ(boxTests(close), 0U);
   EXPECT_EQ(boxTests([&] { (void)distance(Posed(a.tree), Posed(b.tree, X), {}, context, &last); }),

@@ -142,7 +142,7 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
     EXPECT_EQ(rows[1].at("verdict"), "free");
     tests.insert(result.out);
   }
-  EXPECT_GT(tests.size(), 4u) << "they walk trees of their own, and make other tests";
+  EXPECT_GT(tests.size(), 4u) << "the volumes must differ in their tests";
 }
 
 /// For a half turn no way round is shorter. So the verdict is undecided, without time, gap or

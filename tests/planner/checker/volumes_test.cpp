@@ -71,7 +71,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
     }
     EXPECT_GT(std::count(usual.begin(), usual.end(), 1), count / 4);
     EXPECT_GT(std::count(usual.begin(), usual.end(), 0), count / 4);
-    EXPECT_GT(tests.size(), 6u) << "all walked other trees";
+    EXPECT_GT(tests.size(), 6u) << "each must walk trees of its own kind";
   }
 }
 

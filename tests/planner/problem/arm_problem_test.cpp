@@ -120,7 +120,7 @@ TEST_F(ArmProblem, AllMovingJointsWithoutAGroup) {
   EXPECT_EQ(p.model.space.coordinates()[0].weight, 1);
   EXPECT_FALSE(p.model.space.coordinates()[2].angular);
   EXPECT_EQ(p.task.tube, numbers({0.001, 0.001, 0.001}));
-  EXPECT_EQ(skipped(p, "finger", "thumb"), "") << "one follows the other the other way";
+  EXPECT_EQ(skipped(p, "finger", "thumb"), "") << "thumb mimics slide in the opposite direction";
   EXPECT_EQ(skipped(p, "base", "lower"), "") << "no SRDF";
 }
 
@@ -142,7 +142,7 @@ TEST_F(ArmProblem, AUrdfAloneIsARobot) {
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
       "goal: {pan: 1, lift: 0, slide: 0.02}\n");
   EXPECT_EQ(p.model.robots.at(0).model.name, "armbot");
-  EXPECT_EQ(p.model.bodies.size(), 5u) << "and no world";
+  EXPECT_EQ(p.model.bodies.size(), 5u) << "there are no bodies of a world";
 }
 
 TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndReported) {

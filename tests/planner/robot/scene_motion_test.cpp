@@ -115,7 +115,7 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
     }
   }
   std::cout << "free " << free << ", contact " << contact << ", undecided " << undecided
-            << "; windows of motions " << poses << ", asked pair by pair " << posesAlone << "\n";
+            << "; time intervals " << poses << ", if tested pair by pair " << posesAlone << "\n";
   EXPECT_GT(free, count / 10);
   EXPECT_GT(contact, count / 10);
   EXPECT_LE(undecided, 1 + count / 100);
