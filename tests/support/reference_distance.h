@@ -11,7 +11,7 @@ namespace corridor::test {
 double referenceDistance(const Triangle& a, const Transform& X_WA, const Triangle& b,
                          const Transform& X_WB);
 
-/// The same for a point and a triangle under its map.
+/// Returns the distance of a point of the world from a triangle under its map, equally exact.
 double referenceDistance(const Vec3& p_W, const Triangle& t, const Transform& X_WT);
 
 }  // namespace corridor::test

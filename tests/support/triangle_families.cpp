@@ -192,7 +192,8 @@ PlacedPair farAway(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 shift = anyOffset(random);
   return baked(a, b, [&](const Vec3& p) { return Vec3(p + shift); });
 }
-/// The same map for both, so that contacts remain. The map is rigid up to rounding, or less rigid.
+/// Both triangles get the same map, so contacts remain. The map is rigid up to rounding, or less
+/// rigid.
 PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WA.m = rotation(random);
