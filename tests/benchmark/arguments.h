@@ -15,7 +15,7 @@
 
 namespace corridor::bench {
 
-/// A benchmark's command line: options `--name value`, each any number of times, and flags.
+/// A benchmark's command line: options `--name value`, which may be repeated, and flags.
 class Arguments {
  public:
   /// @throws std::runtime_error for an option that is not in `known`, or that has no value.

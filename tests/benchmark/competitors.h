@@ -23,9 +23,9 @@
 #include "planner/app/query_timing.h"
 #include "tests/support/workload.h"
 
-/// The competitors in query_benchmark. FCL is called as by users who want speed: BVHModels are
-/// built once, transforms are prepared, and only the first contact is requested, without contact
-/// points or nearest points.
+/// The competitors in query_benchmark. FCL is called in its fastest way: BVHModels are built once,
+/// transforms are prepared, and only the first contact is requested, without contact points or
+/// nearest points.
 namespace corridor::bench {
 
 enum class Query { interference, distance, tolerance };
@@ -44,7 +44,7 @@ struct Record {
   std::vector<Answer> answers;  ///< per pose
 };
 
-/// A library, with its trees of a pair of meshes.
+/// A library that is measured, with its trees of a pair of meshes.
 class Competitor {
  public:
   virtual ~Competitor() = default;
@@ -53,7 +53,8 @@ class Competitor {
   Record record;
 };
 
-/// Times a `Library`, which has prepare(poses), answer(pose number) → Answer, forget() and bytes().
+/// Measures the times of a `Library`, a class with prepare(poses), answer(pose number) → Answer,
+/// forget() and bytes().
 template <class Library>
 class Timed : public Competitor {
  public:
@@ -95,8 +96,8 @@ class Timed : public Competitor {
   std::unique_ptr<Library> library_;
 };
 
-/// One of our trees: any type with `interference`, and with `distance` and `closerThan` if these
-/// are measured, as overloads.
+/// One of our trees: any type with an overload of `interference`, and of `distance` and
+/// `closerThan` if these are measured.
 template <class Tree>
 class Ours {
  public:
@@ -105,7 +106,8 @@ class Ours {
       : query_(query), tolerance_(tolerance), a_(w.a, params...), b_(w.b, params...) {}
   std::size_t bytes() const { return a_.bytes() + b_.bytes(); }
   void prepare(const std::vector<Transform>& poses) { poses_ = poses; }
-  /// Clears the remembered pair, so that a repeated query is not made cheap by the answer before.
+  /// Clears the pair from which the next query would start. Otherwise a repeated query would be
+  /// cheap because of the answer before.
   void forget() { last_ = {}; }
   Answer answer(std::size_t i) {
     Answer answer;
@@ -191,7 +193,8 @@ class Fcl {
 
  private:
   using Model = fcl::BVHModel<Volume>;
-  /// Returns the bytes in use: FCL's memUsage prints, and returns no size.
+  /// Returns the bytes in use, computed here because FCL's memUsage prints the size and does not
+  /// return it.
   static std::size_t bytesOf(const Model& model) {
     return sizeof(fcl::BVNode<Volume>) * static_cast<std::size_t>(model.getNumBVs()) +
            sizeof(fcl::Vector3d) * static_cast<std::size_t>(model.num_vertices) +

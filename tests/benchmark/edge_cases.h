@@ -27,7 +27,7 @@ struct EdgeCase {
   double size = 1;  ///< what tolerances are relative to, metres
   bool contact = false;
   double firstContact = -1;  ///< t, if it is known
-  /// Sets the motion up anew: this counts as part of an edge's cost.
+  /// Constructs the motion. Its time counts as part of the edge's cost.
   std::function<MotionSource&()> motion;
   /// Computes the poses of the scene's frames at t.
   std::function<void(double t, std::vector<Transform>& X_WF)> poses;
@@ -70,8 +70,8 @@ inline void addRigid(EdgeSet& set, TriangleMesh fixed, TriangleMesh moving, cons
   set.kept.push_back(scene);
 }
 
-/// Returns edges on which meshes touch, or miss each other by a gap, at the end of the motion or
-/// all along it; ±10^-2 to ±10^-13 of the size.
+/// Returns edges that graze by construction: at the end of the motion or all along it, two meshes
+/// overlap or are apart by 10^-2 to 10^-13 of their size.
 inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
   EdgeSet set{"grazing", {}, {}, 0};
   for (int n = 0; static_cast<int>(set.cases.size()) < count; ++n) {
@@ -83,9 +83,9 @@ inline EdgeSet grazingEdges(int count, std::mt19937_64& random) {
   return set;
 }
 
-/// Returns edges in closed form, with the time of first contact. They are a rod that falls about
-/// its end onto a plate, a box that slides into a wall, and a blade that rotates past a needle and
-/// touches it or not.
+/// Returns edges in closed form, with the time of first contact: a rod that rotates about its end
+/// down onto a plate, a box that slides into a wall, and a blade that rotates past a needle. Half
+/// of them are free.
 inline EdgeSet closedForms(int count, std::mt19937_64& random) {
   EdgeSet set{"closed forms", {}, {}, 0};
   const auto real = [&](double low, double high) {
@@ -153,7 +153,7 @@ inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed
         random.next(random.rigid() ? std::vector{0.02, 0.05, 0.1, 0.2}[n % 4]
                                    : std::vector{0.1, 0.3, 1.0, 3.0}[n % 4]);
     if (!checker->inBounds(e.to) || checker->interference(e.from)) continue;
-    // This verdict only balances the set: half of each kind.
+    // This verdict only serves to get as many free edges as others.
     const bool maybeFree = checker->edge(e.from, e.to, false).verdict == MotionVerdict::free;
     if ((maybeFree ? free : touching) >= count / 2) continue;
     const PathVerdict truth = verifyPath(plain, {e.from, e.to}).verdict;

@@ -10,12 +10,12 @@
 /// * its static test at samples ("FCL discrete");
 /// * its continuousCollide, if all bodies are rigid meshes: by samples ("FCL naive") and by
 ///   advancement ("FCL continuous", whose answers are wrong: fcl_motion.h);
-/// * the advancement that FCL contains but never reaches ("FCL advancement").
+/// * the advancement that FCL contains but never calls ("FCL advancement").
 ///
 /// Prints CSV on stdout, one line per set, method and knob: µs of processor time per edge, contacts
 /// missed, free edges called contact, undecided edges, free edges lost (called contact, or
-/// undecided), and the error of the time of first contact. With --out, also writes plots of each
-/// set, with the methods that finished it within a minute.
+/// undecided), and the error of the time of first contact. With --out, also writes plots for each
+/// set, with those methods that tested all of its edges within a minute.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -40,10 +40,10 @@ struct Answer {
   double firstContact = -1;  ///< t, if a contact was found
 };
 
-/// A method with its knob set: returns its answer for an edge.
+/// A method with a value of its knob: a function that returns the answer for an edge.
 using Method = std::function<Answer(const EdgeCase&)>;
 
-/// Requests the first contact, as a planner does that wants to know how far it can go.
+/// Requests the first contact, as a planner does that continues from the last valid state.
 Method proving(EdgeMethod method, double tolerance) {
   const auto context = std::make_shared<QueryContext>();
   return [=](const EdgeCase& edge) {
@@ -56,8 +56,8 @@ Method proving(EdgeMethod method, double tolerance) {
   };
 }
 
-/// OMPL's rule with the resolution as a share of the edge: tests poses one after another from the
-/// start.
+/// Samples by OMPL's rule, with a resolution that is a share of the edge: tests poses one after
+/// another from the start.
 template <class Touches>
 Method sampling(int steps, Touches touches) {
   const auto poses = std::make_shared<std::vector<Transform>>();
@@ -105,8 +105,8 @@ class FclMoving {
     for (const EdgeCase& edge : set.cases) {
       auto& motions = motions_[edge.scene];
       if (!motions) motions = FclMotions::of(*edge.scene);
-      // The tolerance 1e-9 of the size is far above the rounding of poses, and as small as the
-      // finest time tolerance requested.
+      // 1e-9 of the size is far more than the rounding of poses, and as small as the finest time
+      // tolerance requested.
       all_ = all_ && motions && motions->moveAs(edge.poses, 1e-9 * edge.size);
     }
   }
@@ -134,7 +134,7 @@ class FclMoving {
 
 template <class Volume>
 Method fclContinuous(const FclMoving& moving, fcl::CCDSolverType solver, std::size_t iterations) {
-  // FCL uses the lesser of num_max_iterations and 1 / toc_err, where it uses them at all.
+  // FCL uses the lesser of num_max_iterations and 1 / toc_err, if it uses them at all.
   const fcl::ContinuousCollisionRequestd request(iterations, 1 / static_cast<double>(iterations),
                                                  fcl::CCDM_LINEAR, fcl::GST_LIBCCD, solver);
   return moving.method([request](const FclMotions& models, const std::vector<FclMotion>& motions) {
@@ -164,7 +164,7 @@ double processorTime() {
 }
 
 /// Measures a method on all edges: the median time of the rounds, and the answers of the last
-/// round. Stops early after a minute; the tally then covers the edges tested so far.
+/// round. Stops after a minute; the tally then covers only the edges tested so far.
 Tally run(const EdgeSet& set, const Method& method, int rounds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();

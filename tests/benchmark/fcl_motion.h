@@ -20,17 +20,18 @@ namespace corridor::bench {
 
 using FclMotion = fcl::InterpMotion<double>;
 
-/// Returns FCL's motion that equals our edges': the frame's origin moves straight, and the body
-/// rotates the shorter way at constant speed. FCL has other constructors: one leaves the reference
-/// point unset, one the velocities.
+/// Returns the motion of FCL that equals that of our edges: the frame's origin moves straight, and
+/// the body rotates the shorter way at constant speed. Two other constructors of FCL don't work:
+/// one leaves the reference point unset, one the velocities.
 inline FclMotion fclMotion(const Transform& from, const Transform& to) {
   return FclMotion(from.m, from.t, to.m, to.t, fcl::Vector3d::Zero());
 }
 
-/// FCL's own advancement on trees of RSSs, which its continuousCollide never reaches. That function
-/// takes the variant for volumes without axes, which moves the vertices anew in every step and
-/// moves them once more in its bounds. FCL fixes the step at which it reports contact, and
-/// constructs this object itself: hence the static member.
+/// FCL's own advancement on trees of RSSs, which its continuousCollide never calls. That function
+/// uses the variant for volumes without axes, which moves the stored vertices in every step, and
+/// applies the motion once more in its bounds. FCL fixes the step below which it reports contact.
+/// `leastStep`, which replaces this step, is a static member because FCL constructs the object
+/// itself.
 struct FclAdvancementNode : fcl::detail::MeshConservativeAdvancementTraversalNodeRSS<double> {
   static inline thread_local double leastStep = 1e-5;  ///< the least step of t
   FclAdvancementNode() { t_err = leastStep; }
@@ -95,7 +96,8 @@ class FclMotions {
       return result.time_of_contact;
     });
   }
-  /// The same by FclAdvancementNode. `leastStep` is a step of t.
+  /// Returns the time of first contact in [0, 1] that FclAdvancementNode reports, or nullopt.
+  /// `leastStep` is a step of t.
   std::optional<double> advance(std::span<const FclMotion> motions, double leastStep) const {
     FclAdvancementNode::leastStep = leastStep;
     return earliest(motions, [&](std::size_t a, std::size_t b) -> std::optional<double> {
@@ -129,7 +131,7 @@ class FclMotions {
   std::optional<double> earliest(std::span<const FclMotion> motions, const Ask& ask) const {
     std::optional<double> first;
     for (const Scene::Pair& pair : pairs_) {
-      motions[pair.a].integrate(0);  // FCL begins where the last pair ended
+      motions[pair.a].integrate(0);  // back to the start: FCL would begin where the last pair ended
       motions[pair.b].integrate(0);
       if (const auto t = ask(pair.a, pair.b); t && (!first || *t < *first)) first = t;
     }

@@ -1,23 +1,23 @@
 /// Measures the cost of overlap tests of two oriented boxes: `overlap_benchmark [--data DIR]
 /// [--workload TEXT]… [--rounds N] [--cpu N]`.
 ///
-/// The tests are separating axes, and those that they replaced: closest features (GJK), linear
-/// programming, and edges against faces. Gottschalk, Lin, Manocha 1996, section 5, found separating
-/// axes some 10 times faster than closest features and some 30 times faster than linear
-/// programming.
+/// The tests are separating axes, and the tests that this one replaced in the literature: closest
+/// features (GJK), linear programming, and edges against faces. Gottschalk, Lin, Manocha 1996,
+/// section 5, found separating axes some 10 times faster than closest features and some 30 times
+/// faster than linear programming.
 ///
 /// Pairs of boxes are those that real queries meet. Trees over the workloads of DIR/collision are
 /// traversed at all their poses. (DIR defaults to $CORRIDOR_DATA; without it, the workload is a
 /// sphere and a torus made here.) Up to 2,000 pairs that are separated and 2,000 that overlap are
-/// kept, sampled evenly, in the order in which they are met. Each test gets them as a query does:
-/// boxes in their meshes' frames, and the relative pose. In every round each test takes all pairs
-/// in turn; the least time of the rounds counts. *Mixed* weighs both kinds by how often the queries
-/// meet them.
+/// kept, sampled evenly, in the order in which the queries test them. Each test gets the pairs in
+/// the same form as in a query: boxes in their meshes' frames, and the relative pose. In every
+/// round each test runs on all pairs; the least time of the rounds counts. *Mixed* is the mean over
+/// both kinds, weighted by how often the queries test them.
 ///
-/// *Posing* is the step that all our tests begin with: computing the pose of one box relative to
-/// the other. Competitors are FCL's overlap test of OBBs, which guarantees nothing about rounding,
-/// and the kernel of our 4-wide OBB tree. The kernel's C_v, a pair's share of the traversal
-/// included, is fitted by least squares over whole queries (planner/benchmark/cost_model.h).
+/// *Posing* is the first step of all our tests: computing the pose of one box relative to the
+/// other. Competitors are FCL's overlap test of OBBs, which guarantees nothing about rounding, and
+/// the kernel of our 4-wide OBB tree. The kernel's C_v, a pair's share of the traversal included,
+/// is fitted by least squares over whole queries (planner/benchmark/cost_model.h).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -61,7 +61,7 @@ struct BoxPair {
   std::uint64_t met;  ///< its position among all pairs met
 };
 
-/// Keeps some of the pairs that it is shown, each with equal probability (reservoir sampling).
+/// Keeps some of the pairs that are passed to it, each with equal probability (reservoir sampling).
 struct Sample {
   std::vector<BoxPair> kept;
   std::uint64_t seen = 0;
@@ -125,9 +125,9 @@ struct Recorded {
   VolumeBounds bounds_[2];
 };
 
-/// Returns the mean time of `separated(pair number)`, and adds to `found` how many pairs it
-/// separated. Costs are comparable only between tests with the same verdicts, so the report shows
-/// differences.
+/// Returns the mean time of `separated(pair number)`, and adds the number of pairs that it
+/// separated to `found`. Costs are comparable only between tests with the same verdicts, so the
+/// report shows differences of these numbers.
 template <class Separated>
 double pass(std::size_t count, std::uint64_t& found, const Separated& separated) {
   if (count == 0) return 0;
@@ -220,7 +220,7 @@ class Wide {
   std::vector<QueryCost> costs_;
 };
 
-/// The step that all our tests begin with, and nothing else.
+/// Only the first step of all our tests.
 struct Posing {
   static bool separated(const Obb& a, const Obb& b, const Transform& X_AB, const BoxPairMargins&,
                         double) {

@@ -10,9 +10,9 @@
 
 namespace corridor::bench {
 
-/// Returns poses of b, with a at the identity, rotated at random and `gap` (to 1 %) from touching.
-/// b approaches from outside along a random line through the origin of a's frame, each step by the
-/// free distance.
+/// Returns poses of b, with a at the identity. b is rotated at random, and its distance from a is
+/// `gap` to 1 %. b approaches from outside along a random line through the origin of a's frame;
+/// each step is as long as the distance that is left.
 inline std::vector<Transform> posesAtGap(const Obb4Tree& a, const Obb4Tree& b, double gap,
                                          int count, std::mt19937_64& random) {
   std::normal_distribution<double> normal;

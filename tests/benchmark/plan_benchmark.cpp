@@ -33,7 +33,7 @@ std::vector<BenchmarkCompetitor> peers() {
   return peers;
 }
 
-/// Compares seed by seed, where both runs were solved.
+/// Compares `certified` with its replay, for each seed with which both runs were solved.
 void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
   const auto specOf = [&](const CampaignCell& cell) {
     CheckerSettings checker = campaign.problems[cell.problem].settings.checker;

@@ -9,7 +9,7 @@
 #include "planner/benchmark/plot.h"
 #include "planner/solve/whole_file.h"
 
-/// What the benchmarks add to the plots of planner/benchmark: lines with a dot at every
+/// Additions of the benchmarks to the plots of planner/benchmark: lines with a dot at every
 /// measurement.
 namespace corridor::bench {
 

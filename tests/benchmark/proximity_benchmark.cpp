@@ -2,15 +2,16 @@
 /// `proximity_benchmark [--out FOLDER] [--frequency N]… [--rotations N]`.
 ///
 /// A sphere of 20·N² triangles (corners at radius 1) is inside another one, concentric and rotated
-/// at random. The outer one's facet planes stay 1 + gap away from the centre. The query is
-/// interference; nothing touches, and every point of one sphere is near the other. Gaps go from 0.3
+/// at random. The facet planes of the outer sphere are 1 + gap away from the centre. The query is
+/// interference. Nothing touches, but every point of one sphere is near the other. Gaps go from 0.3
 /// down to 30 sagittas, where the spheres are still parallel for boxes of a leaf's size.
 ///
 /// Prints CSV on stdout:
 /// * N_v and N_p (means over the rotations) and the median time;
-/// * the slope of log N_v over log 1/gap, over all gaps, and over those where fewer than one test
-///   in 100 is of triangles, that is, before the tree's depth is used up;
-/// * such a pair at several placements, with the best of the trees that share one traversal.
+/// * the slope of log N_v over log 1/gap, for all gaps, and for those at which fewer than one test
+///   in 100 is of triangles (at smaller gaps the queries reach the leaves nearly everywhere);
+/// * the same measurements for such a pair at several placements, with the best of the trees that
+///   share one traversal.
 ///
 /// FOLDER gets the plots.
 #include <functional>
@@ -35,8 +36,8 @@ struct Cost {
   double boxTests = 0, triangleTests = 0, us = 0;
 };
 
-/// Measures the queries at all poses of b, with a at the identity. b is a sphere like a, scaled;
-/// returns one cost per scale.
+/// Measures the queries at all poses of b, with a at the identity. b is a scaled copy of a. Returns
+/// one cost per scale.
 using Ask = std::function<std::vector<Cost>(
     const TriangleMesh& a, const std::vector<double>& scales, const std::vector<Transform>&)>;
 
@@ -64,7 +65,7 @@ std::vector<Cost> ask(const TriangleMesh& sphere, const std::vector<double>& sca
       double least = app::nanosecondsOf(counted, counted);
       cost.boxTests += static_cast<double>(context.counters.boxTests);
       cost.triangleTests += static_cast<double>(context.counters.triangleTests);
-      for (int i = 0; i < 2 && least < 1e8; ++i)  // longer queries vary little
+      for (int i = 0; i < 2 && least < 1e8; ++i)  // long queries vary little
         least = std::min(least, app::nanosecondsOf(query, query));
       ns.push_back(least);
     }

@@ -5,16 +5,16 @@
 /// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
 /// $CORRIDOR_DATA). All competitors build their trees once. Then there are N rounds. In each round
 /// every competitor in turn answers all poses in one pass. So no pose is repeated immediately,
-/// except queries that are too short for the clock (planner/app/query_timing.h), and a noisy
-/// neighbour disturbs all competitors alike. A pose's time is the least of its rounds, because
-/// other programs only ever add time. A workload's time is the median of its poses'. The
-/// competitors, and how each is called: competitors.h.
+/// except by queries that are too short for the clock (planner/app/query_timing.h), and other
+/// programs on the machine disturb all competitors alike. A pose's time is the least of its rounds,
+/// because other programs only ever add time. A workload's time is the median of its poses'.
+/// competitors.h describes how each competitor is called.
 ///
-/// Prints three tables: queries without the poses that the root boxes of the reference tree
-/// separate; those poses, where the overhead of a call counts; and building. Ratios are to the
-/// quickest FCL tree of the row; above 1 ours is quicker. *Wrong* counts verdicts that are not
-/// exact. For distance it counts results that are off by more than 1e-12·d + 4·2^-53·S, where S is
-/// the largest coordinate.
+/// Prints three tables. The first has the poses at which the root boxes of the reference tree
+/// overlap. The second has the other poses, where the overhead of a call counts. The third has the
+/// building of trees. Ratios are the time of the quickest FCL tree of the row over ours: above 1
+/// ours is quicker. *Wrong* counts verdicts that are not exact. For distance it counts results that
+/// are off by more than 1e-12·d + 4·2^-53·S, where S is the largest coordinate.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -21,8 +21,9 @@ class RandomEdges {
     return problem_.model.space.groups().size() == 1 &&
            problem_.model.space.groups()[0].kind != CoordinateGroup::Kind::joints;
   }
-  /// Returns an edge from a random state. It may leave the bounds.
-  /// @param length  for a rigid body, a share of the scene's size; else a norm of joint values.
+  /// Returns an edge that starts at a random state. The edge may leave the bounds.
+  /// @param length for a rigid body, a share of the scene's size; otherwise the Euclidean norm of
+  /// the change of the joint values.
   Edge next(double length) {
     Edge e{uniform(), {}};
     e.to = e.from;

@@ -3,11 +3,11 @@
 ///
 /// A bumpy torus bends to a half circle, twists by a full rotation between its ends, or has a wave
 /// running through it. In every frame there are a tree that has only been refitted since the first
-/// frame, and a tree built anew. Measured are the milliseconds of both (least of three), and the
-/// cost of queries against a sphere with either tree, at poses 0.02 apart and at poses where they
-/// just touch: means of N_v and N_p, and the median time. Prints CSV on stdout, with the means over
-/// the frames at the end; FOLDER gets plots of N_v. The 4-wide OBB tree can't be refitted; its
-/// rebuilding is included for comparison.
+/// frame, and a tree built anew. The program measures the milliseconds for refitting and for
+/// building (least of three). With either tree it measures the cost of queries against a sphere, at
+/// poses where both are 0.02 apart and at poses where they just touch: means of N_v and N_p, and
+/// the median time. Prints CSV on stdout, with the means over the frames at the end; FOLDER gets
+/// plots of N_v. The 4-wide OBB tree can't be refitted; its rebuilding is included for comparison.
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -33,7 +33,8 @@ struct Options {
   int frames = 0;
 };
 
-/// Maps a point of the torus in its frame; the number is the progress of the deformation, 0 to 1.
+/// Maps a point of the torus in its frame. The second argument is the progress of the deformation,
+/// 0 to 1.
 using Deformation = std::function<Vec3(const Vec3&, double)>;
 
 Vec3 bent(const Vec3& p, double s) {

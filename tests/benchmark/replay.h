@@ -19,16 +19,16 @@
 
 /// Measures the time of a run if verdicts cost nothing. The run is made twice, in two processes,
 /// with the same random numbers. The first records every answer of Corridor's checkers, and the
-/// second gets the recorded answers. Both therefore visit the same states, and the second run's
-/// time is that of the planner and the simplifier alone.
+/// second gets the recorded answers. Both runs therefore visit the same states, and the second
+/// run's time is that of the planner and the simplifier alone.
 namespace corridor::bench {
 
-/// The questions of a run to the checkers and the answers, in order, as bytes. For one thread.
+/// The queries of a run to the checkers and their answers, in order, as bytes. For one thread.
 class Transcript {
  public:
   enum class Ask : char { state, clearance, motion, lastValid };
 
-  /// Records a question, or compares it with the recorded one.
+  /// Records a query, or compares it with the recorded one.
   /// @throws std::runtime_error if they differ in kind, or in any bit of a state.
   void question(Ask ask, const ompl::base::SpaceInformation& si, const ompl::base::State* s1,
                 const ompl::base::State* s2 = nullptr) {
@@ -63,7 +63,8 @@ class Transcript {
     }
     return value;
   }
-  /// The same for a state: records its present value, or overwrites it with the recorded one.
+  /// Does the same for an answer that is a state: records its present value, or overwrites it with
+  /// the recorded one.
   void answer(const ompl::base::SpaceInformation& si, ompl::base::State* state) {
     const std::size_t size = si.getStateSpace()->getSerializationLength();
     if (recording_) {
@@ -132,8 +133,8 @@ class TranscriptStates final : public ompl::base::StateValidityChecker {
 
 class TranscriptMotions final : public ompl::base::MotionValidator {
  public:
-  /// The same for the motion validator of `si`. @pre That validator doesn't use OMPL's validity
-  /// checker.
+  /// Records the answers of the motion validator of `si`, or returns the recorded answers instead.
+  /// @pre That validator doesn't use OMPL's validity checker.
   TranscriptMotions(const ompl::base::SpaceInformationPtr& si, Transcript& transcript)
       : MotionValidator(si), inner_(si->getMotionValidator()), transcript_(transcript) {}
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override {
@@ -169,9 +170,9 @@ inline BenchmarkCompetitor transcriptPeer(Transcript& transcript) {
           "certified"};
 }
 
-/// Makes both runs and returns the second. Set-up (start and goals are tested) and the last
-/// certification are done in full; BenchmarkRun::searchProcessorTime excludes both. OMPL's own
-/// tests of the path, which are outside of all measured times, are replayed, too.
+/// Makes both runs and returns the second. Both runs do the set-up (which tests start and goals)
+/// and the last certification in full; BenchmarkRun::searchProcessorTime excludes both. OMPL's own
+/// tests of the path are replayed, too; they are outside of all measured times.
 /// @throws std::runtime_error for a planner that doesn't repeat, or if recording failed.
 inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& path) {
   for (const PlannerInfo& info : knownPlanners())
@@ -179,13 +180,14 @@ inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& pat
       throw std::runtime_error("replay: " + info.name + " doesn't repeat");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
   if (!file) throw std::runtime_error("replay: a temporary file can't be created");
-  // OMPL can be seeded once per process: this process is for the second run.
+  // OMPL can be seeded only once per process. So the first run gets a process of its own, and this
+  // process makes the second run.
   const auto record = [&](const auto& send) {
     Transcript transcript;
     Path ignored;
     const BenchmarkRun run = runUnderOmpl(planned, "", transcriptPeer(transcript), memory, ignored);
     if (!run.failure.empty()) throw std::runtime_error(run.failure);
-    // The time may have run out, and the moment when it does isn't repeatable.
+    // The time may have run out, and the moment when that happens does not repeat.
     if (!run.solved) throw std::runtime_error(run.why);
     transcript.write(file.get());
     send("done");

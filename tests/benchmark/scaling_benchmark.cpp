@@ -4,8 +4,9 @@
 /// Two bumpy tori of the same shape, from 10^3 to N triangles each (default 10^6), are apart by a
 /// gap of G times their size (default 0.1, 0.01, 0.001). The query is interference; nothing
 /// touches. Our 4-wide OBB tree runs at all sizes. The reference tree and FCL's OBB tree need
-/// several times the memory, and run up to 10^6 triangles only. All run in turns (competitors.h).
-/// Before each turn other memory is read, so that no tree has its nodes in the processor's caches.
+/// several times the memory, and run up to 10^6 triangles only. All competitors run in turns
+/// (competitors.h). Before each turn the program reads other memory, so that no nodes of a tree are
+/// in the processor's caches.
 ///
 /// Prints CSV on stdout. At the end, for each competitor and gap, it prints by which factors time,
 /// N_v and the logarithm of the number of triangles grew from the smallest mesh to the largest. It
@@ -44,13 +45,13 @@ struct Curve {
   std::vector<PlotPoint> us, boxTests;
 };
 
-/// Returns the distance of a facet of a torus of n triangles from its circle: radius 0.4, √(n/4)
-/// chords.
+/// Returns how far the facets of a torus of n triangles are from the true surface, at most: the
+/// sagitta of a circle of radius 0.4 that is divided into √(n/4) chords.
 double sagitta(double n) {
   return 0.4 * (1 - std::cos(std::numbers::pi / std::sqrt(n / 4)));
 }
 
-/// Reads enough other memory to remove all of a tree from every cache.
+/// Reads enough other memory to remove a tree completely from every cache.
 void sweepCaches() {
   static std::vector<std::uint64_t> other(std::size_t{8} << 20, 1);  // 64 MB
   std::uint64_t sum = 0;

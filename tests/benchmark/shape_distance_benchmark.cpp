@@ -29,8 +29,8 @@ using test::Shape;
 constexpr const char* kNames[] = {"box", "sphere", "capsule", "cylinder", "convex"};
 constexpr int kBatch = 100, kRounds = 15;
 
-/// Returns a shape that is nowhere thinner than 5 cm. The convex one is an octahedron, with its top
-/// as the feature.
+/// Returns a shape that is nowhere thinner than 5 cm. The convex polytope is an octahedron, with
+/// its top as the feature.
 Feature featureOf(test::Touching& make, Shape shape) {
   if (shape != Shape::convex)
     while (true) {

@@ -56,7 +56,7 @@ inline TriangleMesh icosphere(int frequency) {
   return mesh;
 }
 
-/// Returns the least distance of a facet's plane from the origin, for a mesh around it.
+/// Returns the least distance of a facet's plane from the origin, for a mesh around the origin.
 inline double inradius(const TriangleMesh& mesh) {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

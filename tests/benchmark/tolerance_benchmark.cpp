@@ -1,17 +1,18 @@
-/// Compares the tolerance query with interference at equal remaining gap: `tolerance_benchmark
-/// [--data DIR] [--workload TEXT]… [--poses N] [--rounds N]`.
+/// Compares the tolerance query with interference, such that both have the same gap to prove:
+/// `tolerance_benchmark [--data DIR] [--workload TEXT]… [--poses N] [--rounds N]`.
 ///
 /// Runs every workload of DIR/collision whose name contains a TEXT (DIR defaults to
-/// $CORRIDOR_DATA). It takes the first N poses that are free with a gap g and not decided by the
-/// root boxes alone. There it compares interference with "closer than t?" where the gap is g + t,
-/// for t = 10^-4, 10^-3 and 10^-2 of the smaller mesh's size. Both queries have g left to prove:
-/// the former that the gap is above 0, the latter that it is above t.
+/// $CORRIDOR_DATA). It uses the first N poses that are free and that the root boxes alone do not
+/// decide. The gap of such a pose is g. The program compares interference at this pose with "closer
+/// than t?" at a pose where the gap is g + t, for t = 10^-4, 10^-3 and 10^-2 of the smaller mesh's
+/// size. Both queries have g left to prove: the former that the gap is above 0, the latter that it
+/// is above t.
 ///
-/// The gap is widened by moving B along the line between the closest points, as far as needed.
-/// Where no such motion helps, because one mesh is inside the other (concentric spheres), A is
-/// scaled about the origin. A pose at which the gap is then off by more than 1 % of g is left out.
-/// Reported is the median over the poses of the ratio of the two times, each the least of the
-/// rounds, with both queries in turn. Trees are 4-wide OBB trees.
+/// To widen the gap, B is moved along the line between the closest points, as far as needed. If one
+/// mesh is inside the other (concentric spheres), no such motion helps; then A is scaled about the
+/// origin. A pose is left out if its gap is then off by more than 1 % of g. The program reports the
+/// ratio of the times of both queries: the median over the poses. Each time is the least of the
+/// rounds, in which both queries take turns. Trees are 4-wide OBB trees.
 #include <limits>
 #include <optional>
 
@@ -65,7 +66,7 @@ struct Options {
 Row measure(const test::Workload& w, double relative, const Options& o) {
   const double tolerance = relative * std::min(diagonal(w.a), diagonal(w.b));
   const Obb4Tree a(w.a), b(w.b);
-  // Concentric: A, of radius 1, shrinks by t.
+  // Concentric spheres: A has the radius 1, and shrinks by t.
   const bool concentric = w.name.find("spheres") != w.name.npos;
   const Obb4Tree smaller(concentric ? scaled(w.a, 1 - tolerance) : w.a);
   QueryContext context;

@@ -65,8 +65,8 @@ struct Textbook {
   }
   static bool oneSide(const Point& h) { return h[0] * h[1] > 0 && h[0] * h[2] > 0; }
 
-  /// Computes where a triangle meets the line that the planes share, along one coordinate. Returns
-  /// false if the triangle is in the other's plane.
+  /// Computes the interval, along one coordinate, in which a triangle meets the common line of both
+  /// planes. Returns false if the triangle lies in the plane of the other triangle.
   static bool interval(const Corners& t, const Point& h, int axis, Scalar& low, Scalar& high) {
     int alone = 2;
     if (h[0] * h[1] > 0)
@@ -157,8 +157,8 @@ constexpr Named kMethods[] = {
      [](const test::PlacedPair& p) { return test::rationalContact(p.a, p.X_WA, p.b, p.X_WB); },
      true}};
 
-/// Returns nanoseconds of processor time per pair, in one pass over all pairs (for slow methods,
-/// over some).
+/// Returns nanoseconds of processor time per pair, in one pass over all pairs, or over some of them
+/// if the method is slow.
 double nanoseconds(const Named& named, const std::vector<Judged>& pairs) {
   const std::size_t count = named.slow ? std::min<std::size_t>(200, pairs.size()) : pairs.size();
   int hits = 0;
@@ -171,7 +171,7 @@ double nanoseconds(const Named& named, const std::vector<Judged>& pairs) {
 }
 
 /// Prints a line of the table: for each method the contacts missed, the false contacts, and the
-/// median time of nine passes, in turn with the other methods.
+/// median time of nine passes, in which the methods take turns.
 void report(const std::string& name, const std::vector<Judged>& pairs) {
   std::array<std::array<double, 9>, std::size(kMethods)> times{};
   for (std::size_t pass = 0; pass < 9; ++pass)

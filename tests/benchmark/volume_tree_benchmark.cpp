@@ -2,11 +2,11 @@
 /// [FOLDER]`.
 ///
 /// WORKLOAD is the name of one of the shared collision workloads in FOLDER (default:
-/// $CORRIDOR_DATA/collision). Prints CSV on stdout, with one row per volume and way of building,
-/// and one for the octree (the tree over space). Columns: milliseconds to build and to refit the
+/// $CORRIDOR_DATA/collision). Prints CSV on stdout, with one row per volume and build method, and
+/// one for the octree (a tree that divides space). Columns: milliseconds to build and to refit the
 /// tree of the first mesh (least of three), the bytes of this tree, median microseconds of
 /// interference, distance and "closer than 10^-3 of the size?" over the poses, and the means of N_v
-/// and N_p of interference. The octree has neither refitting nor distances.
+/// and N_p of interference. For the octree there are no refitting and no distances.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -1,4 +1,4 @@
-"""Shared by the tests of pages: the program, a browser without a display, and checks that every page must pass.
+"""Helpers for the tests of pages: they run the program and a browser without a display, and check every page.
 
 A test is a script that imports this file and ends with `main([test, …])`, a list of functions of a browser and a folder. Without
 Chromium, its driver or Selenium it prints the reason and ends with status 77, which ctest shows as skipped."""
@@ -54,7 +54,7 @@ class Browser:
     """Chromium with one open page."""
 
     def __init__(self, *flags):
-        """flags: of Chromium, in addition to those for drawing without a graphics card."""
+        """flags: command-line flags of Chromium, in addition to those for drawing without a graphics card."""
         browser, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not browser or not driver:
             skip("needs Debian's chromium and chromium-driver")
@@ -110,7 +110,7 @@ class Browser:
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
     def check_page(self):
-        """Checks what every page must satisfy at any size: no error, nothing loaded, nothing wider than the window."""
+        """Checks the rules for every page at any size: no error, nothing loaded, nothing wider than the window."""
         assert not (found := self.complaints()), found
         loaded = self.js("performance.getEntriesByType('resource').map((entry) => entry.name)")
         assert not loaded, f"the page loads {loaded}"

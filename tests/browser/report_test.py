@@ -1,4 +1,4 @@
-"""A campaign's report in a browser: no error, nothing loaded, plots with their data, and a text where a pointer rests on a point."""
+"""Tests a campaign's report in a browser: no error, nothing loaded, plots with their data, and a text if the pointer rests on a point."""
 
 import csv
 import os
@@ -44,10 +44,10 @@ def pages(browser, folder):
     # A label that looks like HTML is text.
     assert browser.js("document.querySelectorAll('#cells b').length") == 0
     assert "<b>short</b>" in browser.find("#cells").text
-    points_have_words(browser, out)
+    points_have_texts(browser, out)
 
 
-def points_have_words(browser, out):
+def points_have_texts(browser, out):
     """Each point of a plot is in its data, and shows its text to a pointer."""
     browser.size("desktop")
     browser.open(os.path.join(out, "report.html"))

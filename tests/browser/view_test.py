@@ -207,7 +207,7 @@ def pictured(browser, page, size):
     return browser.find("#legend .verdict").text
 
 
-def picture_tells_the_verdict(browser, path):
+def picture_shows_the_verdict(browser, path):
     """The legend has the verdict. For a refuted path a ring marks the place, and all poses keep their own colours."""
     ring = "corridorView.contact.ring.visible"
     sizes = (1366, 768), (600, 400)
@@ -249,7 +249,7 @@ def picture_tells_the_verdict(browser, path):
             assert browser.js(ring) == (solution == "through")
 
 
-def hollow_proofs(browser, path):
+def not_shown_as_proved(browser, path):
     """Neither a path of another problem, nor one of a problem without tested pairs, may look proved."""
     for file, text in {
             "robot.yaml": "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [1, 1, 1]}]\n",
@@ -271,4 +271,4 @@ def hollow_proofs(browser, path):
         assert pictured(browser, page, (600, 400)) == verdict
 
 
-main([hollow_proofs, two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture, picture_tells_the_verdict])
+main([not_shown_as_proved, two_arms, hook_maze, without_solution, refuted, hostile_names, without_webgl, picture, picture_shows_the_verdict])

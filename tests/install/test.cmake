@@ -87,7 +87,7 @@ file(WRITE "${WORK}/cube.dae" "<?xml version=\"1.0\"?>
 <scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>
 ")
 
-# An OMPL program with Corridor's checkers, and the same robot in the installed program.
+# An OMPL program with Corridor's checkers. Then the installed program inspects the Collada file.
 set(source "${CMAKE_CURRENT_LIST_DIR}/../..")
 run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}/ompl_program" -B "${WORK}/ompl" -G "${GENERATOR}"
     "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
@@ -113,10 +113,10 @@ closer than 0.75
 distance 1 from *1${number}${number} to *2${number}${number}
 farther than 0.75
 $")
-  message(FATAL_ERROR "it says:\n${out}")
+  message(FATAL_ERROR "two_meshes printed:\n${out}")
 endif()
 
-# The installed helper must be the one that reads Collada: replaced by another program, reading fails.
+# The installed helper program must be the one that reads Collada: if another program replaces it, reading must fail.
 file(GLOB_RECURSE helper "${prefix}/lib/corridor_assimp")
 file(WRITE "${helper}" "#!/bin/sh\nexit 7\n")
 execute_process(COMMAND "${build}/two_meshes" "${WORK}/cube.obj" "${WORK}/cube.dae" RESULT_VARIABLE status

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every promise and every section that a comment cites exists, and so does every file that a page links to."""
+"""Tests that every promise and section that a comment cites exists, and every file to which a page links."""
 
 import pathlib
 import re
@@ -20,13 +20,13 @@ def headingsOf(text):
 
 
 def anchorOf(heading):
-    """As GitHub makes it."""
+    """Returns the anchor that GitHub makes from a heading."""
     plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").lower()
     return re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
 
 
 def citationFaults(text, name, pages):
-    """Citations are `PAGE.md, promise N` or `PAGE.md, "Section"`, maybe over two lines of a comment."""
+    """Yields citations that lead nowhere. A citation is `PAGE.md, promise N` or `PAGE.md, "Section"`, maybe over two lines."""
     flat = re.sub(r"\n\s*(///?|#|\*)?\s*", " ", text)
     for page, what in re.findall(rf"({'|'.join(PAGES)})\)?, (promises? \d|\"[^\"]+\")", flat):
         headings = pages[page]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every C++ file is as clang-format 14 writes it, and no line of a page is longer than 120 characters, tables excepted."""
+"""Tests that every C++ file is formatted by clang-format 14, and no line of a page, except tables, exceeds 120 characters."""
 
 import pathlib
 import shutil

@@ -11,12 +11,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = [
     "collision/core", "collision/predicates", "collision/geometry", "collision/convex", "collision/volumes",
     "collision/hierarchy", "collision/queries", "collision/motion", "collision/world",
-    "collision/collision.h",  # for programs outside: our own files include what they use
+    "collision/collision.h",  # only for programs of users: our own files include the headers that they need
     "planner/robot", "planner/model", "planner/problem", "planner/checker", "planner/verify", "planner/solve",
     "planner/view", "planner/benchmark", "planner/app",
 ]
 
-# The verifier shares plain data with the checker, and no code: its includes are listed one by one.
+# The verifier shares only plain data with the checker. So the headers that it may include are listed one by one.
 VERIFIER = {
     "collision/core/floating_point.h",
     "collision/core/rigid_pose.h",
@@ -45,7 +45,7 @@ def faultsOf(path):
             if (ROOT / included).exists():
                 yield f"{name}:{number}: {included} is in no layer"
         elif included == "collision/collision.h":
-            yield f"{name}:{number}: only programs outside include collision.h"
+            yield f"{name}:{number}: only programs of users include collision.h"
         elif LAYERS.index(folder) > LAYERS.index(own):
             yield f"{name}:{number}: {included} is in a higher layer"
         elif own == "planner/verify" and folder != own and included not in VERIFIER:

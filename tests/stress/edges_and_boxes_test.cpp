@@ -81,8 +81,8 @@ std::vector<Case> cases(Random& random) {
   return all;
 }
 
-/// The robot of a case. Its last frame carries the moving mesh; an arm's two frames before carry
-/// it, too.
+/// The robot of a case. Its last frame carries the moving mesh. On an arm, the two frames before
+/// the last one carry a copy, too.
 struct Robot {
   KinematicTree tree;
   ConfigurationSpace space;

@@ -1,6 +1,7 @@
-// Meshes of triangles that are hard to decide. The 4-wide OBB tree is compared with the binary one,
-// with brute force and with rationals, and with what must hold whatever the answer is.
-// 1,000 pairs of meshes; 20,000 with CORRIDOR_STRESS.
+// Meshes of triangles for which contact is hard to decide. The 4-wide OBB tree is compared with the
+// binary one, with brute force and with rationals. Properties that do not depend on the answer are
+// tested, too: results after rotating, scaling and adding triangles. 1,000 pairs of meshes; 20,000
+// with CORRIDOR_STRESS.
 #include "tests/support/soups.h"
 
 #include <algorithm>
@@ -35,9 +36,10 @@ struct Soups {
   Transform X_WA, X_WB;
 };
 
-/// Returns two meshes: pairs of triangles of the families at random places. Pairs that touch by
-/// construction still do where both meshes have the same map. Some meshes are dense, some sparse
-/// compared with their triangles. Some maps are rigid only up to rounding, and far away.
+/// Returns two meshes: pairs of triangles of the families at random places. If both meshes have the
+/// same map, pairs that touch by construction still touch. Compared with the size of their
+/// triangles, some meshes are dense and some sparse. Some maps are rigid only up to rounding, with
+/// large translations.
 Soups anySoups(Random& random, int count) {
   Soups s;
   const auto families = test::pairFamilies();
@@ -88,8 +90,8 @@ TrianglePairs pairsOf(const std::vector<TriangleContact>& contacts) {
 
 class SoupQueries : public testing::Test {
  protected:
-  /// Expects that contacts, distances and tolerance queries of both kinds of trees, either way
-  /// round, agree with brute force.
+  /// Expects that contacts, distances and tolerance queries agree with brute force, for both kinds
+  /// of trees and both orders of the meshes.
   void expectAgreement(const Soups& s, const TrianglePairs& expected) {
     const Obb4Tree a(s.a), b(s.b);
     const ObbTree binaryA(s.a), binaryB(s.b);
@@ -141,9 +143,9 @@ class SoupQueries : public testing::Test {
     ASSERT_EQ(pairsOf(contacts(Posed(a, q.X_WA), Posed(b, q.X_WB), context_)), expected);
   }
 
-  /// Expects the same verdict, and when scaled the same distance bit for bit. When rotated, sums
-  /// are taken in another order: the distance is within the promised error, and nearly always the
-  /// same.
+  /// Expects the same verdict for the rotated and the scaled meshes. Scaling must scale the
+  /// distance bit for bit. After a rotation sums are taken in another order: the distance must be
+  /// within the promised error, and is nearly always the same.
   template <class Tree>
   void expectSameDistance(const Soups& s, const Soups& turned, const Soups& scaled, double unit) {
     const auto answerOf = [](const Soups& t) {
@@ -206,7 +208,7 @@ TEST_F(SoupQueries, AgainstBruteForce) {
   std::cout << cases << " pairs of meshes, " << touching << " touching, " << pairs
             << " contacts; N_v " << context_.counters.boxTests << ", N_p "
             << context_.counters.triangleTests << "; " << otherBits_ << " of " << distances_
-            << " distances in other bits when turned\n";
+            << " distances differ in their last bits when rotated\n";
   EXPECT_LE(otherBits_, distances_ / 100 + 9);
   EXPECT_GT(touching, cases / 4);
   EXPECT_LT(touching, cases - cases / 8);

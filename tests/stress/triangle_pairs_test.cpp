@@ -1,5 +1,6 @@
-// Pairs of triangles that are hard to decide (tests/support/triangle_families.h), compared with
-// rationals, and with what must hold whatever the verdict is. 10^5 pairs; 10^7 with
+// Pairs of triangles for which contact is hard to decide (tests/support/triangle_families.h),
+// compared with rationals. Properties that do not depend on the verdict are tested, too: results
+// after swapping, rotating, scaling and growing the triangles. 10^5 pairs; 10^7 with
 // CORRIDOR_STRESS.
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,8 @@ std::optional<Triangle> grown(const Triangle& t) {
 
 class Pairs : public testing::TestWithParam<test::PairFamily> {
  protected:
-  /// Expects the exact verdict from all predicates: swapped, rotated, scaled and grown.
+  /// Expects the exact verdict from all predicates, also for the swapped, rotated, scaled and grown
+  /// triangles.
   void expectVerdict(Random& random, const PlacedPair& p, bool expected) {
     ASSERT_EQ(touch(p), expected);
     ASSERT_EQ(touch(swapped(p)), expected);
@@ -153,7 +155,8 @@ class Pairs : public testing::TestWithParam<test::PairFamily> {
     const auto off = [&](const Vec3& p, const Vec3& q) {
       return std::max((s.p - p).cwiseAbs().maxCoeff(), (s.q - q).cwiseAbs().maxCoeff());
     };
-    // If two diagonals are equally long, either may be reported: then only lengths are compared.
+    // If two diagonals are equally long, either of them may be reported. Then only the lengths are
+    // compared.
     const double ends = std::min(off(t.p, t.q), off(t.q, t.p));
     const double lengths = std::abs((s.p - s.q).stableNorm() - (t.p - t.q).stableNorm());
     return std::min(ends, lengths);

@@ -6,7 +6,7 @@
 
 #include "collision/geometry/triangle_mesh.h"
 
-/// The oracle for queries on trees: the double loop over exact triangle tests.
+/// Oracles for queries on trees: brute force over all pairs of triangles, by exact tests.
 namespace corridor::test {
 
 /// Returns whether two meshes share a point.
@@ -18,7 +18,8 @@ using TrianglePairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 TrianglePairs bruteForcePairs(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                               const Transform& X_WB);
 
-/// Returns the least distance of all pairs by `witnessPoints`, or 0 if the meshes touch.
+/// Returns the least distance of all pairs of triangles, computed by `witnessPoints`; 0 if the
+/// meshes touch.
 double bruteForceDistance(const TriangleMesh& a, const Transform& X_WA, const TriangleMesh& b,
                           const Transform& X_WB);
 

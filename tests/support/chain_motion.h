@@ -11,8 +11,8 @@
 namespace corridor::test {
 
 /// A kinematic chain of revolute and prismatic joints from a to b, with joint values linear in t.
-/// Poses are products of exponentials in long double. It is the reference for points and, rounded,
-/// a MotionSource.
+/// Poses are products of exponentials in long double. The poses are the reference for the positions
+/// of points; rounded to double, they are a MotionSource.
 class ChainMotion final : public MotionSource {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;
@@ -79,8 +79,8 @@ class ChainMotion final : public MotionSource {
     w.speed = roundedUp(w.linear.norm());
     w.angle = roundedUp(w.angular.norm());
     w.screws = screws_;
-    // Each number is rounded once: 4u of all lengths, and 4u of all angles. There may be many of
-    // them, so 16u.
+    // Each number is rounded once. One joint needs 4u of all lengths and 4u of all angles; 16u
+    // leaves room for several joints.
     w.fixedError = 16 * kUnit * static_cast<double>(size);
     w.reachError = 16 * kUnit * static_cast<double>(1 + angular.norm());
     return w;

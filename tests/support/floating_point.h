@@ -14,7 +14,7 @@ namespace corridor::test {
 /// A floating-point mode of the processor.
 struct FloatingPointSetting {
   std::string name;
-  int rounding = FE_TONEAREST;  ///< rounding mode of all operations, unless restricted below
+  int rounding = FE_TONEAREST;  ///< rounding mode of all operations, unless `sseOnly` or `x87Only`
   bool flushToZero = false;     ///< also reads subnormals as zero
   bool sseOnly = false;         ///< `rounding` applies only to vectors and doubles
   bool x87Only = false;         ///< `rounding` applies only to long double
@@ -23,7 +23,7 @@ struct FloatingPointSetting {
   bool standard() const { return rounding == FE_TONEAREST && !shortExtended; }
 };
 
-/// Returns the modes that this machine has.
+/// Returns the modes that this machine supports.
 inline std::vector<FloatingPointSetting> floatingPointSettings() {
   std::vector<FloatingPointSetting> all = {{"nearest"},
                                            {"upward", FE_UPWARD},

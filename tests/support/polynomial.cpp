@@ -18,8 +18,8 @@ Polynomial squareFree(const Polynomial& p) {
   return *quotient(p, greatestCommonDivisor(p, p.derivative()));
 }
 
-/// Counts roots by Sturm's theorem. A square-free polynomial has as many roots in (a, b], a < b, as
-/// its chain has more changes of sign at a than at b.
+/// Counts roots by Sturm's theorem. For a < b, a square-free polynomial has as many roots in (a, b]
+/// as its chain has changes of sign at a, minus those at b.
 class SturmChain {
  public:
   explicit SturmChain(const Polynomial& squareFree) : chain_{squareFree} {
@@ -119,8 +119,8 @@ Polynomial remainder(const Polynomial& a, const Polynomial& b) {
   return r.primitive();
 }
 
-// By Gauss's lemma, a rational quotient by a primitive polynomial has integer coefficients if a
-// has. So if an integer division leaves a remainder, a is not a multiple of b.
+// By Gauss's lemma, if b is primitive and divides a, the quotient has integer coefficients. So if
+// an integer division leaves a remainder, a is not a multiple of b.
 std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b) {
   const Integer& lead = b.coefficients().back();
   Polynomial q;

@@ -26,12 +26,12 @@ class Polynomial {
   bool isZero() const { return c_.empty(); }
   int degree() const { return static_cast<int>(c_.size()) - 1; }  ///< −1 for zero
   const std::vector<Integer>& coefficients() const { return c_; }
-  /// Returns the sign of its value at n/2^k.
+  /// Returns the sign of the polynomial at n/2^k.
   int signAt(const Integer& n, unsigned k) const;
-  /// Returns 2^(k·degree) times its value at n/2^k.
+  /// Returns 2^(k·degree) times the polynomial's value at n/2^k.
   Integer scaledValue(const Integer& n, unsigned k) const;
   Polynomial derivative() const;
-  /// Returns it divided by the greatest common divisor of its coefficients.
+  /// Returns the polynomial divided by the greatest common divisor of its coefficients.
   Polynomial primitive() const;
 
   friend Polynomial operator+(const Polynomial& a, const Polynomial& b);
@@ -43,7 +43,8 @@ class Polynomial {
   std::vector<Integer> c_;  // the last is not 0
 };
 
-/// Returns the remainder of a divided by b, up to a positive factor; primitive. @pre b is not zero.
+/// Returns the remainder of a divided by b, made primitive, which changes it only by a positive
+/// factor. @pre b is not zero.
 Polynomial remainder(const Polynomial& a, const Polynomial& b);
 /// Returns a/b, or nullopt if b does not divide a. @pre b is primitive and not zero.
 std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b);
@@ -58,7 +59,7 @@ class Root {
 
   const Integer& n() const { return n_; }
   unsigned k() const { return k_; }
-  /// Returns the exact sign of g at the root; may narrow the interval.
+  /// Returns the exact sign of g at the root. May narrow the interval of the root.
   int signOf(const Polynomial& g);
   /// Halves the interval until `k()` is at least `k`.
   void narrow(unsigned k);

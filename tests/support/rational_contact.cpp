@@ -37,7 +37,7 @@ using Row = std::array<Integer, kColumns + 1>;  // the right side last
 
 /// Returns whether there is an x ≥ 0 with M x = r, for r ≥ 0. Phase one of the simplex method with
 /// Bland's rule, by integer pivoting (Edmonds). The tableau is T/D, and the entries of T are minors
-/// of [M | r], so all divisions are exact. It always ends, with the right answer.
+/// of [M | r], so all divisions are exact. Bland's rule guarantees that it ends.
 bool feasible(std::array<Row, kRows>& T) {
   Integer D = 1;
   std::array<std::size_t, kRows> basis;

@@ -10,8 +10,9 @@
 namespace corridor::test {
 namespace {
 
-// Integers, because no fixed number of digits is enough: two corners 2^-1074 apart and some metres
-// from a third make a triangle whose long sides are different lines.
+// Integers are used because no fixed number of digits is enough. For example, a triangle may have
+// two corners 2^-1074 apart and the third one some metres away: its two long sides differ only by
+// 2^-1074.
 namespace mp = boost::multiprecision;
 using Integer = mp::number<mp::cpp_int::backend_type, mp::et_off>;
 using P = std::array<Integer, 3>;
@@ -103,8 +104,8 @@ Fraction toTriangle(const P& p, const std::array<P, 3>& t) {
   return std::min(sides, {height * height, area});
 }
 
-/// Returns the lesser of `best` and the distance of two edges at inner points; the edges' ends are
-/// left to `toTriangle`.
+/// Returns the lesser of `best` and the squared distance of two edges if their closest points are
+/// inner points. `toTriangle` handles the edges' ends.
 Fraction edges(const P& p, const P& p1, const P& q, const P& q1, const Fraction& best) {
   const P d = minus(p1, p), e = minus(q1, q), r = minus(q, p), n = cross(d, e);
   const Integer area = square(n);

@@ -7,8 +7,8 @@
 
 namespace corridor::test {
 
-/// A second implementation of an edge's definition, in long double and by another formula than the
-/// code under test: slerp by the two sine weights.
+/// A second implementation of a rigid body's edge, in long double. Its formula differs from that of
+/// the code under test: slerp as a sum of the two quaternions, weighted by sines.
 class ReferenceMotion {
  public:
   using Vec3L = Eigen::Matrix<long double, 3, 1>;

@@ -172,8 +172,8 @@ class Pair {
     }
   }
 
-  /// Records the earliest root at which `meet` is true as the first contact, unless an earlier one
-  /// is known.
+  /// Records the earliest root at which `meet` is true as the first contact, unless an earlier
+  /// contact is known.
   template <class Meet>
   void tryRoots(const Polynomial& p, const Meet& meet) {
     if (p.isZero()) return;
@@ -210,7 +210,7 @@ class Pair {
   }
 
   /// Finds when two edges cross. Edges that stay in one plane, or that are parallel when they begin
-  /// to meet, do so with an end of one: `cornerInFace` finds these.
+  /// to meet, meet first at an end of one of them: `cornerInFace` finds these contacts.
   void edgesCross(int i, int j) {
     const Vector &e = moving_.edges[i], &f = fixed_.edges[j];
     const Vector &a = moving_.corners[i], &a1 = moving_.corners[(i + 1) % 3],

@@ -10,31 +10,33 @@ namespace corridor::test {
 /// (1, s·m) (Cayley).
 ///
 /// It is exactly the motion of an edge (RigidMotion::spatial) between `from()` and `to()`, because
-/// quaternions of edges are normalised in real arithmetic. Only time runs differently: t = s on a
-/// line, t = atan(s|m|)/atan(|m|) in a rotation.
+/// an edge normalises its quaternions in real arithmetic. Only the parameter differs. The edge's t
+/// is s on a line, and atan(s|m|)/atan(|m|) in a rotation.
 class RationalMotion {
  public:
-  /// A straight line from from.p to p with constant orientation.
+  /// Returns the straight line from from.p to p with constant orientation.
   static RationalMotion line(const RigidPose& from, const Vec3& p);
-  /// A rotation by the angle 2·atan(|m|) about m, an axis in the world. @pre m is not zero.
+  /// Returns the rotation by the angle 2·atan(|m|) about m, an axis in the world. @pre m is not
+  /// zero.
   /// @throws std::invalid_argument  if the last quaternion, (1, m)·from.q, isn't exact in doubles.
   static RationalMotion turn(const RigidPose& from, const Vec3& m);
 
   const RigidPose& from() const { return from_; }
   const RigidPose& to() const { return to_; }
-  /// Returns the m of a rotation, or zero for a line.
+  /// Returns the vector m of a rotation, or zero for a line.
   const Vec3& m() const { return m_; }
-  /// Returns t at s, off by less than 2^-60: s|m|, both arcs, |m| and the ratio round by a few
-  /// units of 2^-64 in long double, and the arc's relative error is at most its argument's.
+  /// Returns t at s, with an error below 2^-60. In long double, s|m|, both arcs, |m| and the ratio
+  /// are each off by a few units of 2^-64, and the relative error of an arc is at most that of its
+  /// argument.
   long double time(long double s) const;
 
-  /// The pose at s times a weight > 0, so that it is free of fractions: {weight·m, weight·t}.
+  /// The pose at s, multiplied by a weight > 0 so that it has no fractions: {weight·m, weight·t}.
   struct Scaled {
     Transform X;
     double weight = 1;
   };
-  /// Returns this pose exactly. @pre 0 ≤ s ≤ 1. @throws std::invalid_argument if doubles can't hold
-  /// it.
+  /// Returns the multiplied pose at s, exactly. @pre 0 ≤ s ≤ 1. @throws std::invalid_argument if
+  /// doubles can't hold it.
   Scaled at(double s) const;
 
  private:
@@ -52,21 +54,22 @@ struct FirstContact {
 /// than the code under test.
 ///
 /// Triangles that are separated at first begin to touch with a corner in a face or with two edges
-/// that cross. For each such pair of features, the polynomials that vanish when it is coplanar have
-/// their roots isolated by Sturm's theorem. At each root, an algebraic number, the signs of further
-/// polynomials decide exactly whether the features meet. No case is left out: if a corner stays in
-/// a face's plane, the roots are those of crossing the face's sides.
+/// that cross. For each such pair of features, a polynomial in s vanishes when the pair is
+/// coplanar. Sturm's theorem isolates the roots of this polynomial. At each root, an algebraic
+/// number, the signs of further polynomials decide exactly whether the features meet. No case is
+/// left out: if a corner stays in a face's plane, the oracle uses the times at which the corner
+/// crosses the lines of the face's sides.
 ///
-/// All polynomials are determinants of the corners, divided by the pose's denominator as often as
-/// possible: quadratic then.
+/// All polynomials are determinants of the corners. They are divided by the pose's denominator as
+/// often as possible, which leaves them quadratic.
 /// @param fixed  in the world.
 /// @param moving  in the frame of the motion.
 /// @pre Neither triangle's corners lie on a line.
 FirstContact sturmContact(const Triangle& fixed, const Triangle& moving,
                           const RationalMotion& motion);
 
-/// Returns whether the triangles touch at s. Exact for a double s of few digits. @throws  as
-/// RationalMotion::at.
+/// Returns whether the triangles touch at s, exactly. s must have few digits, else doubles can't
+/// hold the pose. @throws as RationalMotion::at.
 bool touchesAt(const Triangle& fixed, const Triangle& moving, const RationalMotion& motion,
                double s);
 

@@ -8,25 +8,27 @@
 namespace corridor::test {
 
 /// Returns the folder of shared test data: the environment variable CORRIDOR_DATA, or `shared/data`
-/// beside the project; nullopt if it is absent. Tests that need it skip themselves, visibly.
+/// beside the project; nullopt if there is no such folder. Tests that need the data are then
+/// reported as skipped.
 std::optional<std::filesystem::path> dataFolder();
 
-/// Returns OMPL.app's `resources` folder: the environment variable CORRIDOR_OMPLAPP.
+/// Returns OMPL.app's `resources` folder: the environment variable CORRIDOR_OMPLAPP; nullopt if it
+/// is not set, or is no folder.
 std::optional<std::filesystem::path> omplAppFolder();
 
 /// Returns whether the long versions of stress tests are requested (`./corridor test --all` sets
 /// CORRIDOR_STRESS).
 bool stressAsked();
 
-/// About how much slower this build is than a release. Time limits are multiplied by it, and long
-/// counts divided by it.
+/// The factor by which this build is slower than a release build, roughly. Tests multiply time
+/// limits by it, and divide large numbers of cases by it.
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kSlowdown = 20;
 #else
 constexpr int kSlowdown = 1;
 #endif
 
-/// Creates an empty folder for the files of one test. The test removes it at its end.
+/// Creates an empty folder for the files of one test. The test must remove the folder at its end.
 std::filesystem::path newFolder();
 
 /// Returns a file's bytes; "" if it can't be read.

@@ -28,7 +28,7 @@ int anySize(Random& random) {
   constexpr int kSizes[] = {2, 5, 100, 1 << 20};
   return kSizes[integer(random, 0, 3)];
 }
-/// Shuffles the corners; every third time, moves one triangle by a step.
+/// Shuffles the corners of both triangles. Every third time, also moves one triangle by a step.
 void finish(Random& random, Triangle& a, Triangle& b) {
   std::shuffle(a.begin(), a.end(), random);
   std::shuffle(b.begin(), b.end(), random);
@@ -38,7 +38,7 @@ void finish(Random& random, Triangle& a, Triangle& b) {
   }
   if (random() % 2) std::swap(a, b);
 }
-/// Returns a direction that doesn't go below the plane with this normal.
+/// Returns a direction that does not point below the plane with this normal.
 Vec3 above(Random& random, const Vec3& normal, int size) {
   const Vec3 d = grid(random, size);
   return d.dot(normal) < 0 ? Vec3(-d) : d;
@@ -50,7 +50,8 @@ void anyOnAGrid(Random& random, Triangle& a, Triangle& b) {
     for (Vec3& p : *t) p = grid(random, size);
 }
 
-/// Triangles that are a step off a segment. Both segments pass through one point.
+/// Each triangle is a segment with a third corner one step off it. Both segments pass through one
+/// point.
 void slivers(Random& random, Triangle& a, Triangle& b) {
   const Vec3 common = grid(random, 100);
   for (Triangle* t : {&a, &b}) {
@@ -62,7 +63,7 @@ void slivers(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// Points and segments, against each other and against triangles.
+/// Triangles of zero area (points and segments), with each other and with ordinary triangles.
 void zeroArea(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random) / 2;
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -106,7 +107,8 @@ void sharedEdge(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// A corner of a in b's face, or on its boundary; all else of a on one side.
+/// A corner of a is in b's face, or on its boundary. All other points of a are on one side of b's
+/// plane.
 void cornerOnFace(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random);
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -117,7 +119,7 @@ void cornerOnFace(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// An edge of a in b's face, or across it in its plane.
+/// An edge of a lies in b's plane: inside b's face, across it, or beside it.
 void edgeOnFace(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random) / 2;
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -128,8 +130,8 @@ void edgeOnFace(Random& random, Triangle& a, Triangle& b) {
   finish(random, a, b);
 }
 
-/// Edges that cross in a point, or end there. The rest of each triangle is on either side of the
-/// edges' plane.
+/// An edge of a and an edge of b cross in a point, or end there. The rest of a and the rest of b
+/// are on different sides of the plane of both edges.
 void edgeOnEdge(Random& random, Triangle& a, Triangle& b) {
   const int size = anySize(random) / 2;
   const Vec3 p = grid(random, size), u = grid(random, size), v = grid(random, size);
@@ -172,9 +174,9 @@ PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b)
   }
   return pair;
 }
-/// Rotated by a rational (Pythagorean) rotation times its denominator, which keeps integers. Among
-/// rotations themselves only the 24 signed permutations are doubles: if three squares sum up to a
-/// multiple of 4, all three are even.
+/// Rotated by a rational (Pythagorean) rotation times its denominator, which maps integers to
+/// integers. Of the rotation matrices themselves, doubles hold only the 24 signed permutations
+/// exactly: if three squares sum up to a multiple of 4, all three numbers are even.
 PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
   const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
                z = integer(random, 1, 5);
@@ -190,7 +192,8 @@ PlacedPair farAway(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 shift = anyOffset(random);
   return baked(a, b, [&](const Vec3& p) { return Vec3(p + shift); });
 }
-/// The same map for both, rigid up to rounding or less rigid: an affine image.
+/// Both triangles get the same map, so contacts remain. The map is rigid up to rounding, or less
+/// rigid.
 PlacedPair movedTogether(Random& random, const Triangle& a, const Triangle& b) {
   PlacedPair pair{a, b, {}, {}};
   pair.X_WA.m = rotation(random);
@@ -219,8 +222,8 @@ PlacedPair scaledByTens(Random& random, const Triangle& a, const Triangle& b) {
   const double scale = std::pow(10.0, integer(random, -100, 100)) / 3;
   return baked(a, b, [&](const Vec3& p) { return Vec3(p * scale); });
 }
-/// Coordinates of very different sizes: one grid for all of them needs hundreds or thousands of
-/// bits.
+/// Coordinates of very different sizes: a common grid for all of them needs hundreds or thousands
+/// of bits.
 PlacedPair stretched(Random& random, const Triangle& a, const Triangle& b) {
   const Vec3 scale(std::ldexp(1.0, integer(random, -400, 400)), 1,
                    std::ldexp(1.0, integer(random, -40, 40)));

@@ -6,7 +6,8 @@
 #include "collision/predicates/triangle.h"
 
 /// Pairs of triangles for which contact is hard to decide. They are made on a grid of integers,
-/// where contact is exact, and then placed so that it stays exact, or may be lost by rounding.
+/// where touching triangles touch exactly. Then they are placed; some placings keep every contact
+/// exactly, others round coordinates and may lose it.
 namespace corridor::test {
 
 struct PlacedPair {
@@ -15,14 +16,14 @@ struct PlacedPair {
 };
 
 /// A way of making two triangles with integer coordinates of at most 2^24. About half of the pairs
-/// made touch.
+/// touch.
 struct PairFamily {
   const char* name;
   void (*make)(std::mt19937_64& random, Triangle& a, Triangle& b);
 };
 std::span<const PairFamily> pairFamilies();
 
-/// A way of placing a pair of a family.
+/// A way of placing a pair of triangles made by a family.
 struct PairPlacing {
   const char* name;
   /// Whether the placed triangles touch if and only if they do on the grid.
@@ -31,7 +32,8 @@ struct PairPlacing {
 };
 std::span<const PairPlacing> pairPlacings();
 
-/// Returns one of the 24 rotations that are exact in doubles: signed permutations.
+/// Returns one of the 24 rotations that are exact in doubles: the signed permutations with
+/// determinant 1.
 Mat3 exactRotation(std::mt19937_64& random);
 
 }  // namespace corridor::test

@@ -24,10 +24,10 @@ struct Workload {
 std::vector<std::string> workloadNames(const std::filesystem::path& collisionFolder);
 Workload loadWorkload(const std::filesystem::path& collisionFolder, const std::string& name);
 
-/// Returns the numbers of the poses on which the `way`-th of `ways` tree variants is tested, to
-/// save time. Under CORRIDOR_STRESS these are all poses. Otherwise every `step`-th pose is tested,
-/// and the variants (`way` modulo `ways`) take turns. If a workload has few poses, building several
-/// trees takes longer than the queries. Then variant 0 gets all poses, and the others get none.
+/// Returns the numbers of the poses on which the `way`-th of `ways` tree variants is tested. Under
+/// CORRIDOR_STRESS these are all poses. Otherwise, to save time, only every `step`-th pose is
+/// tested, and the variants take turns. If a workload has few poses, building several trees would
+/// take longer than the queries. Then variant 0 gets all of these poses, and the others get none.
 std::vector<std::size_t> posesInTurn(const Workload& w, std::size_t step, std::size_t way,
                                      std::size_t ways);
 

@@ -1,7 +1,7 @@
 // Tests of collision/ in several threads, which share bodies and have a QueryContext each. Every
-// test starts with bodies without trees, so that threads build trees while others wait for them.
-// The answers must be those of one thread: to the last bit on the same bodies, in their verdicts on
-// equal ones.
+// test starts with bodies without trees, so that some threads build trees while others wait for
+// them. The answers must be those of one thread: to the last bit on the same bodies; on copies of
+// these bodies, only the verdicts must agree.
 #include "tests/collision/motion/bodies.h"
 
 #include <array>
@@ -37,7 +37,7 @@ constexpr TreeKind kKinds[] = {
     TreeKind::obbEdgeFace, TreeKind::aabb,      TreeKind::sphere, TreeKind::rss,
     TreeKind::kdop14,      TreeKind::kdop18,    TreeKind::kdop26};
 
-/// Returns bodies of every kind, equal at every call: soups, solid meshes, primitives.
+/// Returns bodies of every kind: soups, solid meshes, primitives. All calls return equal bodies.
 std::vector<Body> someBodies() {
   std::mt19937_64 random(61);
   TriangleMesh rooms;  // two separate boxes
@@ -95,8 +95,8 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
   return answers;
 }
 
-/// Compares the answers of the threads with those of one thread, for each kind of trees: to the
-/// last bit on the same bodies, and in the verdicts on bodies that only that thread has used.
+/// Compares the answers of several threads with those of one thread, for each kind of trees. On the
+/// same bodies all bits must agree; on copies that only the one thread has used, the verdicts.
 /// `make` makes the bodies. Half of the threads start with another kind of trees than the others.
 template <class Make, class Ask>
 std::vector<Answers> expectOneAnswerOfEachKind(const Make& make, const Ask& ask) {
@@ -127,7 +127,7 @@ TEST(Threads, StillBodies) {
   }
 }
 
-/// All threads must get the same tree, by its address.
+/// All threads must get the same tree: its address must be equal.
 TEST(Threads, TreesAreBuiltOnce) {
   for (int round = 0; round < 20; ++round) {
     const std::vector<Body> bodies = someBodies();
@@ -237,8 +237,8 @@ const char* const kCollada = R"(<?xml version="1.0"?>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>
 )";
 
-/// All threads at once are the first to use what a program makes at its first use: this test runs
-/// in its own process (ctest starts one per test).
+/// Some data of the library are made at their first use. Here all threads use them first at the
+/// same time. This works because ctest starts each test in its own process.
 TEST(Threads, FirstUse) {
   const std::filesystem::path folder = test::newFolder();
   std::ofstream(folder / "a.dae") << kCollada;

@@ -94,7 +94,8 @@ TEST_P(Threads, CheckerInOneOrder) {
   }
 }
 
-/// In another order a context holds other guesses. The verdicts must not change.
+/// In another order, queries start from other pairs, which the context stores. The verdicts must
+/// not change.
 TEST_P(Threads, CheckerInAnotherOrder) {
   const Problem problem = ownProblem(GetParam());
   const std::vector<Edge> edges = someEdges(problem, 60);
@@ -140,7 +141,8 @@ TEST_P(Threads, SceneAndEdgeMotions) {
   EXPECT_GT(answers.count(MotionVerdict::contact), 2);
 }
 
-/// Tests OMPL's interface with three methods, inside the tally that benchmarks put around it.
+/// Tests the classes through which OMPL calls the checker, with three methods, inside the tally
+/// that benchmarks put around them.
 TEST_P(Threads, Validators) {
   for (const char* const method : {"certified", "adaptive", "discrete"}) {
     Problem problem = ownProblem(GetParam());

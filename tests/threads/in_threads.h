@@ -32,11 +32,12 @@ void inThreads(const Work& work) {
     });
 }
 
-/// A list of answers of queries, as bits. Two lists are equal if all answers agree to the last bit.
+/// The answers of several queries, as a list of bits. Two lists are equal if all answers agree to
+/// the last bit.
 ///
-/// A `QueryContext` stores guesses by the addresses of trees. Two copies of the same bodies have
-/// other addresses, so their queries may differ in counts, in the triangles that they report, and
-/// in last digits. Only the verdicts must agree.
+/// A `QueryContext` stores, by the addresses of trees, the pair from which the next query starts.
+/// Two copies of a body have different addresses. So their queries may differ in counters, in the
+/// triangles that they report, and in last digits. Only the verdicts must agree.
 class Answers {
  public:
   void add(std::integral auto value) { bits_.push_back(static_cast<std::uint64_t>(value)); }
@@ -80,8 +81,8 @@ class Answers {
   std::vector<int> verdicts_;  // these agree for equal bodies elsewhere in memory, too
 };
 
-/// Expects that `ask()` returns the same bits in all threads at once and in one more thread after
-/// them. All threads are new. @returns the answers of the last.
+/// Calls `ask()` in all threads at once, and then in one more thread. Expects the same bits from
+/// all of them. All threads are new. @returns the answers of the last thread.
 template <class Ask>
 Answers expectOneAnswer(const Ask& ask) {
   std::array<Answers, kThreads> answers;

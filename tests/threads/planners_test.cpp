@@ -1,6 +1,6 @@
-// Tests of OMPL's planners that have threads, with Corridor's checker. Every verdict that they get
-// on a state or motion must be that of a new checker in one thread, and the path that they return
-// is proved.
+// Tests of OMPL's planners that have threads, with Corridor's checker. Every verdict that a planner
+// gets on a state or motion must equal that of a new checker in one thread, and the verifier must
+// prove the path that the planner returns.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -36,8 +36,8 @@ struct AskedMotion {
   bool valid;
 };
 
-/// Records what planners query, in one log per thread. So recording takes no lock that would order
-/// the threads and hide a data race.
+/// Records the queries of planners, in one log per thread. So recording needs no lock, which would
+/// order the threads' accesses and hide a data race.
 class Recorder {
  public:
   struct Log {
@@ -119,7 +119,7 @@ class RecordedMotions final : public ob::MotionValidator {
 struct Case {
   std::string planner, problem;
   bool threadsAsk = true;  ///< false: one thread queries, another waits for a path
-  bool finds = true;       ///< false: finding a path takes too long; queries suffice
+  bool finds = true;       ///< false: finding a path takes too long; some queries are enough
 };
 std::ostream& operator<<(std::ostream& out, const Case& one) {
   return out << one.planner << " on " << one.problem;
@@ -137,7 +137,7 @@ Problem problemOf(const Case& one) {
   return problem;
 }
 
-/// A run of a planner with everything that is compared afterwards.
+/// A run of a planner, with all data that are compared afterwards.
 struct Recording {
   Recorder recorder;
   std::shared_ptr<RecordedMotions> motions;
@@ -195,7 +195,7 @@ TEST_P(PlannersWithThreads, VerdictsAreThoseOfOneThread) {
     EXPECT_FALSE(GetParam().finds) << run->report.why;
   }
   if (GetParam().threadsAsk) {
-    EXPECT_GT(run->recorder.logs().size(), 1u) << "one thread alone asked";
+    EXPECT_GT(run->recorder.logs().size(), 1u) << "only one thread made queries";
   }
   const std::size_t asked = expectTheSameOfOneThread(problem, run->recorder);
   EXPECT_GT(asked, 20u);

@@ -15,7 +15,7 @@ using test::Feature;
 using test::Shape;
 using test::Touching;
 
-/// All pairs of shapes and features, at gaps and depths that are multiples of the largest
+/// All pairs of shapes and features, at gaps and depths that are fractions of the largest
 /// coordinate. The verdict is known by construction, without an oracle.
 TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
   Touching make(test::testSeed(21));
@@ -52,7 +52,7 @@ TEST(ConvexContact, RightOutsideTheBandNeverFalselyFree) {
             }
             ++cases;
           }
-        // Within the band: a depth of 2^-48·size exceeds the rounding of the poses, 2^-53·size
+        // This depth is within the band. 2^-48·size exceeds the rounding of the poses, 2^-53·size
         // each, so the sets touch.
         Transform X_WB = touching;
         X_WB.t -= normal * (0x1p-48 * size);
@@ -84,8 +84,8 @@ long double distanceFrom(const Primitive& primitive, const Vec3L& q) {
   return std::hypot(beyond(radial - c.radius), beyond(z - 0.5L * c.length));
 }
 
-/// Spheres against all primitives with closed forms. A third of the spheres are nearly points,
-/// which tests containment in every primitive, too.
+/// Tests spheres against all primitives with closed forms. A third of the spheres are nearly
+/// points, so containment in every primitive is tested, too.
 TEST(ConvexContact, SpheresAgainstClosedForms) {
   Touching make(test::testSeed(22));
   int touching = 0, apart = 0;
@@ -154,8 +154,8 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
         for (const IntVec& f : edges[s]) axes.push_back(e.cross(f));
     for (int s = 0; s < 2; ++s)
       for (const IntVec& e : edges[s]) axes.push_back(e.cross(corners[1][0] - corners[0][0]));
-    // If both lie in one plane, all these axes are its normal. So normals of edges within the plane
-    // are added, and directions of lines.
+    // If both sets lie in one plane, all these axes are parallel to its normal. So the test also
+    // uses the normals of edges within the plane, and the directions of lines.
     const auto normal =
         std::find_if(axes.begin(), axes.end(), [](const IntVec& axis) { return !axis.isZero(); });
     if (normal != axes.end()) {
@@ -187,9 +187,9 @@ TEST(ConvexContact, PolytopesAgainstIntegers) {
   EXPECT_GT(exactly, 100);
 }
 
-/// A corner touches a face exactly, in integers; one map for both sets preserves this. An error
-/// bound that is too small would report them as apart.
-TEST(ConvexContact, WhatTouchesDoesUnderAMapOfBoth) {
+/// A corner touches a face exactly, in integers. Both sets have the same map, so they still touch.
+/// With an error bound that is too small, the query would report them as apart.
+TEST(ConvexContact, TouchingSetsTouchUnderACommonMap) {
   Touching make(test::testSeed(26));
   const auto integers = [&] {
     return Vec3(make.pick(64) - 32, make.pick(64) - 32, make.pick(64) - 32);
@@ -206,8 +206,8 @@ TEST(ConvexContact, WhatTouchesDoesUnderAMapOfBoth) {
   EXPECT_EQ(falseFree, 0);
 }
 
-/// Under a map that is not rigid the set is its image: a sphere becomes an ellipsoid. Here a sphere
-/// and a cylinder are stretched along z, above a plate.
+/// A set under a map that is not rigid means the image of the set: a sphere becomes an ellipsoid.
+/// Here a sphere and a cylinder are stretched along z, above a plate.
 TEST(ConvexContact, AnyAffineMap) {
   const ConvexPart plate = placed(Box{Vec3(4, 4, 1)}, {});
   Transform X;

@@ -37,9 +37,9 @@ double allowedAt(double distance, double size) {
   return 1e-12 * distance + 4 * kUnit * size;
 }
 
-/// Checks all that holds whatever the true distance is:
+/// Checks the properties that do not depend on the true distance:
 /// * the witness points are on the sets, and `distance` apart;
-/// * `distance` and `lower` are as close as guaranteed, and the range contains the distance;
+/// * `distance` and `lower` differ by no more than guaranteed, and the range contains the distance;
 /// * the distance is 0 if and only if the sets touch;
 /// * swapping the sets gives the same distance.
 ///
@@ -54,7 +54,8 @@ double checked(const PosedPart& a, const PosedPart& b, const std::string& what) 
   EXPECT_LE(d.lower, d.distance) << what;
   EXPECT_LE(range.lower, d.distance) << what;
   EXPECT_GE(range.upper, d.lower) << what;
-  // In the band of contact, a witness point may be as far from a set as the sets are apart.
+  // In the band, contact may be reported for sets that are apart. A witness point may then be as
+  // far from one set as the sets are apart.
   const double surface = (touch ? 0x1p-44 : 16 * kUnit) * size;
   EXPECT_LE(test::outside(a.part, a.X, d.p_WA),
             touch && a.part.points.size() > 3 ? HUGE_VAL : surface)
@@ -109,7 +110,7 @@ TEST(ConvexDistance, KnownGaps) {
           EXPECT_LE(gap, 0x1p-44 * sizeOf(a, b)) << what;
           continue;
         }
-        // The constructed positions are rounded, too: as much again.
+        // The rounding of the constructed positions doubles the error.
         const double allowed = allowedAt(gap, sizeOf(a, b)) + 4 * kUnit * sizeOf(a, b);
         EXPECT_LE(std::abs(d - gap), allowed) << what << " gap " << gap;
         worst = std::max(worst, std::abs(d - gap) / allowed);
@@ -121,9 +122,10 @@ TEST(ConvexDistance, KnownGaps) {
     }
 }
 
-/// Random poses: the gap along `normal_W`, computed in long double, proves that the distance is not
-/// too large; the witness points prove that it is not too small.
-TEST(ConvexDistance, AnywhereByAPlaneBetween) {
+/// Random poses. The gap along `normal_W`, computed in long double, is a lower bound of the true
+/// distance. The distance of the witness points is an upper bound. The reported distance must agree
+/// with both.
+TEST(ConvexDistance, RandomPosesAgainstASeparatingPlane) {
   Touching make(test::testSeed(32));
   int apart = 0, touching = 0;
   for (int n = 0; n < 12'000 / test::kSlowdown; ++n) {
@@ -164,7 +166,7 @@ TEST(ConvexDistance, AnywhereByAPlaneBetween) {
 }
 
 /// Compares polytopes with brute force over all triangles of their corners, with a hundred digits.
-TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
+TEST(ConvexDistance, PolytopesAgainstAllTheirTriangles) {
   Touching make(test::testSeed(33));
   int apart = 0;
   for (int n = 0; n < 60 / test::kSlowdown + 1; ++n) {
@@ -196,8 +198,8 @@ TEST(ConvexDistance, PolytopesByAllTheirTriangles) {
   EXPECT_GT(apart, 20 / test::kSlowdown);
 }
 
-/// `lower` does not exceed the exact distance by a digit, even for parallel faces whose corners
-/// doubles cannot distinguish along the normal.
+/// `lower` does not exceed the exact distance even in the last digit. Some faces are so nearly
+/// parallel that, in doubles, all their corners are at the same height along the normal.
 TEST(ConvexDistance, LowerThanTheExactDistance) {
   Touching make(test::testSeed(36));
   int exact = 0;
@@ -326,8 +328,8 @@ TEST(ConvexDistance, AnyAffineMap) {
   }
 }
 
-/// A singular map flattens a sphere, which then has no extent in that direction; a division by its
-/// length would fail.
+/// A singular map flattens a sphere, so its extent in one direction is 0. A division by this extent
+/// would fail.
 TEST(ConvexDistance, BallsFlattenedByTheirMap) {
   const ConvexPart plate = placed(Box{Vec3(20, 20, 1)}, {});
   for (const Primitive& p : {Primitive(Sphere{1}), Primitive(Capsule{1, 2})})
@@ -343,9 +345,9 @@ TEST(ConvexDistance, BallsFlattenedByTheirMap) {
     }
 }
 
-/// The witness point belongs to both sets even if the cores barely overlap, where the four corners
-/// around the origin are nearly in one plane.
-TEST(ConvexDistance, APointOfBothWhereTheyBarelyOverlap) {
+/// If the cores barely overlap, the four corners around the origin are nearly in one plane. Even
+/// then the witness point must belong to both sets.
+TEST(ConvexDistance, WitnessPointOfBarelyOverlappingSets) {
   Touching make(test::testSeed(35));
   int touching = 0;
   for (int n = 0; n < 4'000 / test::kSlowdown; ++n) {
@@ -382,7 +384,8 @@ TEST(ConvexDistance, AsCloseAsRequested) {
     EXPECT_LE(d.distance, exact.distance + allowed) << n;
     EXPECT_LE(d.lower, exact.distance);
     EXPECT_LE(d.distance - d.lower, allowed) << n;
-    // The search of the range may stop early, but only with the bound that was requested.
+    // The search of the range may stop early, but only if the lower bound exceeds the requested
+    // one.
     EXPECT_GT(convexDistanceRange(a.set(), b.set(), gap / 2, 0).lower, gap / 2);
     EXPECT_LE(convexDistanceRange(a.set(), b.set(), HUGE_VAL, 2 * gap).upper, 2 * gap);
     EXPECT_FALSE(d.exact);

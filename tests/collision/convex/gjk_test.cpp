@@ -15,9 +15,9 @@ using test::Feature;
 using test::Shape;
 using test::Touching;
 
-/// Characterisation: prints and bounds the number of rounds of a search. Does the same for the
-/// difference between the upper and the lower bound of the cores' distance at its end, relative to
-/// the size.
+/// Characterisation: prints and limits the number of rounds of a search. It does the same for the
+/// difference between the upper and the lower bound of the cores' distance at the end of the
+/// search, relative to the size.
 TEST(Gjk, WorstErrors) {
   Touching make(test::testSeed(24));
   const char* names[] = {"box", "sphere", "capsule", "cylinder", "convex", "triangle"};
@@ -44,7 +44,7 @@ TEST(Gjk, WorstErrors) {
         plain = std::max(plain, error(d));
         plainRounds = std::max(plainRounds, d.rounds);
         if (dd.overlap || dd.upper <= near) continue;
-        // Relative to the difference that is allowed: 2^-36 of the distance, or 2^-50 of the size.
+        // The difference that is allowed is 2^-36 of the distance, or 2^-50 of the size.
         fine = std::max(fine, (dd.upper - dd.lower) / std::max(size, 0x1p14 * dd.upper));
         fineRounds = std::max(fineRounds, dd.rounds);
       }

@@ -32,8 +32,8 @@ inline long double toTriangle(const Vec3L& p, const Vec3L& a, const Vec3L& b, co
 }
 
 /// Returns the distance of a point from a convex part, in the part's frame; 0 inside. For a hull of
-/// four points or more: the distance from the nearest triangle of its points. This is 0 on the
-/// surface, and at some places inside.
+/// four points or more: the distance from the nearest triangle of its points. Inside the hull this
+/// is the distance from some triangle, so it may be above 0.
 inline long double outside(const ConvexPart& part, const Vec3L& q) {
   const auto at = [&](std::size_t i) -> Vec3L { return part.points[i].cast<long double>(); };
   const std::size_t n = part.points.size();
@@ -52,8 +52,8 @@ inline long double outside(const ConvexPart& part, const Vec3L& q) {
   return std::max(0.0L, core - part.radius);
 }
 
-/// Returns the same for a point in the world frame and a part under a map that is rigid up to
-/// rounding.
+/// Returns the distance of a point of the world from a part under a map that is rigid up to
+/// rounding; 0 inside.
 inline long double outside(const ConvexPart& part, const Transform& X, const Vec3& p_W) {
   return outside(part, X.m.cast<long double>().transpose() *
                            (p_W.cast<long double>() - X.t.cast<long double>()));

@@ -11,8 +11,8 @@
 
 namespace corridor::test {
 
-/// A solid or a triangle with a point x on its surface and an outward normal m there, all in its
-/// own frame. −m leads into the shape, except for the face of a triangle.
+/// A solid or a triangle with a point x on its surface and an outward normal m at x, all in the
+/// frame of the shape. −m points into the shape, except at the face of a triangle.
 struct Feature {
   ConvexPart part;  ///< a triangle is the hull of its corners
   bool isTriangle = false, flat = false;
@@ -116,7 +116,7 @@ class Touching {
     return f;
   }
 
-  /// Returns a rotation that takes m to n, with a random rotation about n. Some are signed
+  /// Returns a rotation that maps m to n, with a random rotation about n. Some of them are signed
   /// permutations.
   Mat3 turning(const Vec3& m, const Vec3& n) {
     const auto frame = [](const Vec3& z) {
@@ -127,7 +127,7 @@ class Touching {
            frame(m).transpose();
   }
 
-  /// Returns the pose that takes the feature's point to `where` and its normal to n.
+  /// Returns a pose that maps the feature's point to `where`, and its normal to n.
   Transform pose(const Feature& f, const Vec3& where, const Vec3& n) {
     Transform X;
     X.m = turning(f.m, n);

@@ -14,7 +14,7 @@
 namespace corridor {
 namespace {
 
-TEST(FloatingPointTest, EverySettingIsSeen) {
+TEST(FloatingPointTest, EverySettingIsDetected) {
   for (const auto& setting : test::floatingPointSettings()) {
     FloatingPoint seen = FloatingPoint::standard, inThread = seen;
     {
@@ -31,9 +31,9 @@ TEST(FloatingPointTest, EverySettingIsSeen) {
   }
 }
 
-/// Bodies and trees hold bounds that proofs use, so they refuse to be built where rounding is not
-/// to nearest.
-TEST(FloatingPointTest, NothingIsBuiltInAnUnsoundArithmetic) {
+/// Bodies and trees store bounds that proofs use. So building them must fail in a floating-point
+/// mode that does not round to nearest.
+TEST(FloatingPointTest, NothingIsBuiltInOtherFloatingPointModes) {
   TriangleMesh mesh;
   test::add(mesh, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY());
   const ConvexPart part{{Vec3::Zero()}, 1, false};

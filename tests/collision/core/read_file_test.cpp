@@ -53,7 +53,7 @@ class ReadFile : public testing::Test {
   std::filesystem::path folder_ = newFolder();
 };
 
-TEST_F(ReadFile, WhatIsNoOrdinaryFile) {
+TEST_F(ReadFile, RefusesWhatIsNoOrdinaryFile) {
   expectRefused(folder_ / "missing", "no such file");
   expectRefused(folder_, "is a folder; a file is needed");
   for (const char* const device : {"/dev/zero", "/dev/null", "/dev/full"})
@@ -104,7 +104,8 @@ TEST_F(ReadFile, TextHasNoByte0) {
               blank.string() + ": is empty; a thing is needed");
 }
 
-/// `readTextStream` alone accepts a pipe, and must read it to its end, over many short reads.
+/// Only `readTextStream` accepts a pipe. It must read the pipe to its end, even if this needs many
+/// short reads.
 TEST_F(ReadFile, AStreamTakesAPipe) {
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -115,7 +116,7 @@ TEST_F(ReadFile, AStreamTakesAPipe) {
 }
 
 /// A stream that has a byte 0 is refused at once, since it may never end.
-TEST_F(ReadFile, AStreamOfZeros) {
+TEST_F(ReadFile, RefusesAStreamOfZerosAtOnce) {
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);
   const int before = ::dup(STDIN_FILENO);
@@ -129,7 +130,8 @@ TEST_F(ReadFile, AStreamOfZeros) {
   EXPECT_EQ(complaintOf([] { readTextStream("-", "a thing"); }),
             "-:2: is not text: it has a byte 0; UTF-8 is needed");
   ::dup2(before, STDIN_FILENO);
-  writer.join();  // the write end is still open: the reader did not wait for the stream's end
+  writer.join();  // joins although the write end is still open: the reader did not wait for the
+                  // stream's end
   for (const int end : {pipe[0], pipe[1], before}) ::close(end);
 }
 

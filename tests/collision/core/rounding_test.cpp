@@ -1,4 +1,4 @@
-// Properties of the compiler that every proof of rounding assumes, and the guarantees of
+// Tests of the compiler's properties that every bound on rounding assumes, and of the guarantees of
 // rounding.h.
 #include "collision/core/rounding.h"
 
@@ -65,7 +65,7 @@ TEST(Compiler, RoundsEveryProduct) {
   EXPECT_EQ(multiplyAdd(x, x, -(x * x)), 0);
 }
 
-TEST(Rounding, BoundsHoldWhatTheyBound) {
+TEST(Rounding, BoundsAreNeverExceeded) {
   std::mt19937_64 random(test::testSeed(3));
   for (int n = 0; n < 10'000; ++n) {
     const double x = std::exp2(std::uniform_real_distribution(-1074.0, 1023.0)(random));

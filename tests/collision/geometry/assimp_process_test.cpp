@@ -1,4 +1,4 @@
-// Whatever assimp does to its process, the caller gets a mesh or an InputError.
+// Tests that the caller gets a mesh or an InputError, however the process of assimp ends.
 #include "collision/geometry/assimp_process.h"
 
 #include <atomic>
@@ -118,16 +118,17 @@ TEST_F(AssimpProcess, MemoryEnds) {
             "no complaint");
 }
 
-/// The time limit of the parent ends the real helper, too; the helper's own limit of processor time
-/// is larger.
+/// The time limit of the parent also ends the real helper program. (The helper's own limit of
+/// processor time is larger.)
 TEST_F(AssimpProcess, TimeEnds) {
   write("a.dae", grid(400));
   EXPECT_EQ(complaint({1e-6, 1 << 30, AssimpLimits::assimpProgram()}),
             reads + "took more than 1e-06 s and was stopped" + instead);
 }
 
-/// A program may ignore SIGCHLD; then waiting for the helper fails, which must not matter.
-TEST_F(AssimpProcess, WhereChildrenAreIgnored) {
+/// If the calling program ignores SIGCHLD, waiting for the helper program fails. Reading must
+/// succeed nevertheless.
+TEST_F(AssimpProcess, WorksIfSigchldIsIgnored) {
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   const AssimpImport import = readWithAssimp(file_, AssimpRules::Stored);
   std::signal(SIGCHLD, before);
@@ -149,7 +150,7 @@ TEST_F(AssimpProcess, SeveralThreadsAtATime) {
   EXPECT_EQ(same, 4);
 }
 
-TEST_F(AssimpProcess, NamesThatAShellWouldTakeApart) {
+TEST_F(AssimpProcess, NamesWithShellCharacters) {
   std::filesystem::create_directories(folder_ / "$(exit 3) 'a b");
   const auto file = write("$(exit 3) 'a b/-c \"d\".dae", grid(1));
   EXPECT_EQ(readMeshFile(file).mesh.triangles.size(), 2u);
@@ -167,7 +168,7 @@ std::string gltf(const std::string& uri) {
 {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}]})";
 }
 
-TEST_F(AssimpProcess, FilesThatAFileNames) {
+TEST_F(AssimpProcess, FilesThatAMeshFileRefersTo) {
   std::string numbers;
   for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 2.f, 0.f}) numbers += bytesOf(x);
   for (std::uint16_t corner = 0; corner < 3; ++corner) numbers += bytesOf(corner);
@@ -176,7 +177,7 @@ TEST_F(AssimpProcess, FilesThatAFileNames) {
   EXPECT_EQ(file.format, "glTF2");
   ASSERT_EQ(file.mesh.vertices.size(), 3u);
   EXPECT_EQ(file.mesh.vertices[2], Vec3(10, 2, 0));
-  // A device would never end, and opening a pipe would wait: neither is opened.
+  // Reading a device would never end, and opening a pipe would block: neither may be opened.
   ASSERT_EQ(::mkfifo((folder_ / "pipe.bin").c_str(), 0600), 0);
   for (const char* const uri : {"/dev/zero", "pipe.bin", "missing.bin"})
     EXPECT_THAT(MeshFileTest::complaint("b.gltf", gltf(uri)),

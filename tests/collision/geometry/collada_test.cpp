@@ -42,7 +42,7 @@ class Collada : public MeshFileTest {
   }
 };
 
-TEST_F(Collada, NodesAndUnitCountTheUpAxisDoesNot) {
+TEST_F(Collada, NodesAndUnitApplyButNotTheUpAxis) {
   for (const char* const up : {"X_UP", "Y_UP", "Z_UP"}) {
     SCOPED_TRACE(up);
     const MeshFile file = read(
@@ -59,7 +59,7 @@ TEST_F(Collada, NodesAndUnitCountTheUpAxisDoesNot) {
   }
 }
 
-TEST_F(Collada, TheVerticesAreFloatsThatBecameDoubles) {
+TEST_F(Collada, VerticesAreRoundedToFloat) {
   const MeshFile file = read("a.dae", collada("<up_axis>Z_UP</up_axis>"));
   double least = 100;
   for (const Vec3& v : file.mesh.vertices) {
@@ -80,7 +80,7 @@ TEST_F(Collada, UnitAndUpAxisAsked) {
       "(ROS's rule)");
 }
 
-TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
+TEST_F(Collada, InvalidUnitsAndUpAxes) {
   for (const char* const unit : {"0", "-1", "abc", "", "inf", "1 m"})
     EXPECT_EQ(
         complaint("a.dae", collada("\n<unit name=\"x\" meter=\"" + std::string(unit) + "\"/>")),
@@ -97,7 +97,7 @@ TEST_F(Collada, UnitsAndUpAxesThatCannotBe) {
         "<comments><![CDATA[<unit meter=\"0\"/>]]></comments><up_axis >Z_UP</up_axis>"})
     EXPECT_EQ(complaint("a.dae", collada(sound)), "no complaint") << sound;
   EXPECT_THROW(readOmplAppMesh(write("z.dae", collada("<unit meter=\"0\"/>"))), InputError);
-  // Units that the check of the text misses show in the imported mesh.
+  // The check of the text misses these units. They are detected in the imported mesh.
   const std::string message = ": its <unit> is not above 0, or too small";
   for (const char* const hidden : {"<unit name=\"a>b\" meter=\"0\"/>", "<unit meter=\"1e-60\"/>"}) {
     EXPECT_THAT(complaint("a.dae", collada(hidden)), testing::EndsWith(message)) << hidden;

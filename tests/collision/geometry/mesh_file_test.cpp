@@ -33,7 +33,7 @@ TEST_F(ReadMeshFile, Obj) {
   EXPECT_EQ(file.upRule, "coordinates as stored, since no up-axis was requested");
 }
 
-TEST_F(ReadMeshFile, StlByItsSizeNotByTheWordSolid) {
+TEST_F(ReadMeshFile, BinaryStlIsDetectedByItsSize) {
   MeshFile file = read("a.stl", binaryStlTetrahedron());
   expectTetrahedron(file);
   EXPECT_EQ(file.format, "STL (binary)");
@@ -130,7 +130,7 @@ TEST_F(ReadMeshFile, TurnsAreProper) {
 
 class MeshFileComplaint : public MeshFileTest {};
 
-TEST_F(MeshFileComplaint, FilesThatAreNone) {
+TEST_F(MeshFileComplaint, FilesThatCannotBeRead) {
   EXPECT_EQ(complaint(folder_ / "none.obj"), "none.obj: no such file");
   EXPECT_EQ(complaint(folder_ / "none.dae"), "none.dae: no such file");
   std::filesystem::create_directory(folder_ / "folder.stl");
@@ -204,7 +204,7 @@ TEST_F(MeshFileComplaint, ObjFaces) {
             "a.obj:4: face corner \"2/x\" is not of the form 1, 1/2, 1/2/3 or 1//3");
 }
 
-TEST_F(MeshFileComplaint, AllFaultsAtOnceButTenAtMost) {
+TEST_F(MeshFileComplaint, AllFaultsAtOnceAtMostTen) {
   EXPECT_EQ(
       complaint("a.obj", "v 0 nan 0\nv 0 0\nv 1 1 1\nf 1 2 9\n"),
       "a.obj:1: coordinate \"nan\" is not finite\na.obj:2: a vertex has 3 coordinates, found 2\n"

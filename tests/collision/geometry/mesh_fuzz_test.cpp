@@ -1,5 +1,5 @@
-// Damaged files never crash or hang a reader. It returns a sound mesh, or throws an InputError
-// whose text has no control characters.
+// Damaged files must never crash or hang a reader. A reader returns a sound mesh, or throws an
+// InputError whose text has no control characters.
 #include <random>
 
 #include "collision/geometry/mesh_health.h"
@@ -111,8 +111,8 @@ TEST_F(MeshFuzz, Off) {
 }
 
 TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
-  // A file that is cut before the end of its last face is refused. OBJ is left out: it has no end
-  // mark, so it may lose whole lines unnoticed.
+  // A file that is cut before the end of its last face must be refused. OBJ is left out: the format
+  // has no end mark, so missing lines can't be detected.
   const auto noticed = [&](const std::string& name, const std::string& whole, std::size_t tail) {
     for (std::size_t size = 0; size + tail < whole.size(); ++size) {
       EXPECT_THROW(read(name, whole.substr(0, size)), InputError)
@@ -124,7 +124,7 @@ TEST_F(MeshFuzz, EveryTruncationIsNoticed) {
   noticed("a.ply", binaryPlyTetrahedron(true), 0);
   noticed("a.stl", asciiStlTetrahedron(), std::string(" a tetrahedron\n").size());
   noticed("a.ply", asciiPlyTetrahedron,
-          std::string("an\n").size());  // the last word, "nan", may be cut: no reader uses it
+          std::string("an\n").size());  // the last word, "nan", may be cut: readers do not use it
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(InspectMesh, OpenTurnedAndDoubledMeshes) {
       book.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
   EXPECT_EQ(inspectMesh(book).whyNotWatertight, "1 of its edges have three triangles or more");
-  // A collinear triangle closes an opening, so the opening is not given as the reason.
+  // A collinear triangle closes an opening, so the reason must not be the opening.
   TriangleMesh filled = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
                          {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 1}}};
   EXPECT_TRUE(inspectMesh(filled).watertight);

@@ -1,5 +1,5 @@
-// Mesh files that claim or need too much are refused, without memory beyond what their size
-// justifies.
+// Mesh files that claim or need too much are refused. Readers must not allocate more memory than
+// the size of the file justifies.
 #include <gmock/gmock.h>
 
 #include "planner/benchmark/child_process.h"
@@ -13,7 +13,7 @@ class MeshLimits : public MeshFileTest {
   /// Returns the message of reading a file in a process that may allocate 64 MB.
   std::string complaintInLittleMemory(const std::string& name, const std::string& bytes) const {
 #ifdef __SANITIZE_ADDRESS__
-    const std::size_t memory = 0;  // no limit: the sanitizer would end the process at it
+    const std::size_t memory = 0;  // no limit: the sanitizer would end the process
 #else
     const std::size_t memory = 64 << 20;
 #endif
@@ -53,7 +53,7 @@ TEST_F(MeshLimits, PlyCounts) {
           ": the header promises 90000000 of element \"vertex\", at least " +
               std::string(format[0] == 'a' ? "6" : "3") + " bytes each, but 10" +
               (format[0] == 'a' ? "1" : "0") + " bytes are left: the file is cut short");
-    // An element without properties takes no bytes, so its count is no fault.
+    // An element without properties takes no bytes, so a large count of it is no fault.
     fault("element dust 9000000000000000000\nelement vertex 9\n" + xyz + "element face 99\n" +
               corners,
           format[0] == 'a' ? ":11: vertex 1 of 9: the file ends here: it is cut short"
@@ -76,7 +76,7 @@ TEST_F(MeshLimits, PlyLists) {
          ":13: face 1 of 1: the file ends here: it is cut short");
 }
 
-/// Headers are limited, since every name is compared with all others.
+/// The size of headers is limited, since every name is compared with all others.
 TEST_F(MeshLimits, PlyHeaders) {
   std::string elements, properties = "element vertex 1\n";
   for (int i = 0; i < 100'000; ++i) {
@@ -140,11 +140,11 @@ TEST_F(MeshLimits, SizesOfFiles) {
                   ": has 1073741825 bytes, more than 1073741824, the limit for a mesh file");
 }
 
-TEST_F(MeshLimits, OnlyTheFormatsThatAreWrittenDown) {
+TEST_F(MeshLimits, OnlySupportedExtensions) {
   const std::string formats =
       " is not supported; save the mesh as .obj, .stl, .ply, .off, .dae, "
       ".gltf, .glb, .fbx, .3ds, .x3d, .3mf or .amf";
-  // The content is OFF, which assimp would recognise whatever the extension.
+  // The content is OFF. assimp would recognise it, whatever the extension.
   const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const char* const extension : {".blend", ".md2", ".unknown"}) {
     EXPECT_EQ(complaint("a" + std::string(extension), off),

@@ -1,5 +1,5 @@
-// Compares inspectMesh with tables of mesh figures in the READMEs of the shared data, which other
-// programs computed.
+// Compares inspectMesh with tables in the READMEs of the shared data. Other programs computed these
+// tables.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -48,7 +48,7 @@ std::vector<Row> rowsOf(const std::filesystem::path& guide) {
   return rows;
 }
 
-/// Expects a row of a table, which has five digits.
+/// Expects the figures of a row, to the five digits of the table.
 void expectRow(const MeshHealth& health, const Row& row) {
   SCOPED_TRACE(row.file);
   EXPECT_EQ(health.triangles, row.triangles);

@@ -45,7 +45,8 @@ TEST_F(Off, Faults) {
   fault("OFF\n3\n          ", "3: the number of faces is \"\"; a whole number is needed");
   fault("OFF\n99999 1 0\n", "2: 99999 vertices are more than the file has bytes for");
   fault("OFF\n3 1\n          ", "2: the number of edges is missing; any number will do");
-  // Otherwise the first vertex would be taken for the count, and one face too many would hide it.
+  // If this were accepted, a number of the first vertex would be read as the count, and the
+  // additional face would hide the error.
   fault("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n",
         "2: the number of edges is missing; any number will do");
   fault("OFF 3 1 0 0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n",
@@ -66,8 +67,8 @@ TEST_F(Off, Faults) {
             "not read");
 }
 
-/// A failed assertion of assimp, which reads OFF by OMPL.app's rules, is reported as a fault of the
-/// file.
+/// By OMPL.app's rules, assimp reads OFF files. If an assertion of assimp fails, the file is
+/// reported as faulty.
 TEST_F(Off, AssimpsAssertionsAreFaults) {
   const auto file = write("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   try {

@@ -43,9 +43,9 @@ class Obb4TreePoses : public test::EveryTarget {
 INSTANTIATE_TEST_SUITE_P(Targets, Obb4TreePoses, testing::ValuesIn(test::simdTargets()),
                          test::targetName);
 
-/// A corner of one box is at a known gap from another's face. The tree's boxes are tight there, so
-/// a margin that is too small or too large shows. Maps that are no rotations, and meshes far from
-/// their frames' origins, are included.
+/// A corner of one box is at a known gap from a face of another box. The tree's boxes are tight
+/// there, so a margin that is too small or too large makes the test fail. Some maps are no
+/// rotations, and some meshes are far from their frames' origins.
 TEST_P(Obb4TreePoses, CornersAtFaces) {
   int apartPairs = 0;
   for (int n = 0; n < 3000; ++n) {
@@ -86,8 +86,9 @@ TEST_P(Obb4TreePoses, CornersAtFaces) {
     if (d == 0) {
       ASSERT_FALSE(apart(mesh[a], X[a], mesh[b], X[b], 0)) << n;
     }
-    // For rotations, margins take 180 unit roundoffs of the sizes and of the centres' distance. A
-    // gap beyond four times that must be found, and found to be larger than half of it.
+    // For rotations, margins are 180 unit roundoffs of the sizes and of the centres' distance. A
+    // gap of more than eight times that must be detected, and its lower bound must exceed half of
+    // it.
     if (noise == 0 && d > 8 * 180 * 0x1p-24 * size) {
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], d / 2)) << n << ": " << d;
       ASSERT_TRUE(apart(mesh[a], X[a], mesh[b], X[b], 0)) << n << ": " << d;
@@ -115,8 +116,8 @@ TEST_P(Obb4TreePoses, Soups) {
   EXPECT_GT(apartAtAll, 200);
 }
 
-/// Maps that are far from rigid, or not finite, prove nothing.
-TEST_P(Obb4TreePoses, NothingIsDecidedForOtherMaps) {
+/// Under maps that are far from rigid, or not finite, nothing may be separated.
+TEST_P(Obb4TreePoses, NothingIsSeparatedUnderOtherMaps) {
   const TriangleMesh cube = test::box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   const Transform far{Mat3::Identity(), Vec3(10, 0, 0)};
   ASSERT_TRUE(apart(cube, {}, cube, far, 0));

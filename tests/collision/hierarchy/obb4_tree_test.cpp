@@ -35,9 +35,9 @@ TEST(Obb4Tree, ContainsItsTrianglesInRationals) {
 }
 
 #ifdef __SSE2__
-/// Builds where the processor flushes underflow to zero, and reads denormals as zero. Boxes must
-/// contain the triangles nevertheless.
-TEST(Obb4Tree, ContainsWhatIsFlushed) {
+/// Builds trees while the processor flushes underflow to zero, and reads denormals as zero. Boxes
+/// must contain the triangles nevertheless.
+TEST(Obb4Tree, ContainsTrianglesUnderFlushToZero) {
   std::mt19937_64 random(test::testSeed(23));
   for (const int exponent : {-1005, -1015, -1030}) {
     TriangleMesh mesh = test::soup(random, 100, 0.3);
@@ -72,7 +72,7 @@ TEST(Obb4Tree, HoldsASolidInRationals) {
       ASSERT_EQ(tree.check(), std::nullopt) << nameOf(primitive) << ' ' << n;
       ASSERT_NE(tree.part(), nullptr);
       for (const Vec3& p : tree.part()->points) {
-        // A disc's rim is farther from the origin than its axis, but not by all of its radius.
+        // A disc's rim is farther from the origin than its axis, but by less than its radius.
         const double ball = tree.part()->flatEnds ? 0 : tree.part()->radius;
         ASSERT_LE((p - tree.origin()).norm() + ball, tree.radius() * (1 + 1e-15));
         ASSERT_LE(p.norm() + ball, tree.reach() * (1 + 1e-15));
@@ -108,8 +108,8 @@ TEST(Obb4Tree, FewAndDegenerateTriangles) {
   }
 }
 
-/// Triangles of size 2^-i around a point make a very deep tree; ten thousand equal triangles can't
-/// be separated.
+/// Triangles of size 2^-i around a point make a very deep tree. Ten thousand equal triangles can't
+/// be divided between two nodes.
 TEST(Obb4Tree, DeepAndIndivisible) {
   TriangleMesh deep, same;
   for (int i = 0; i < 1'000; ++i) {
@@ -138,14 +138,15 @@ TriangleMesh sheet(std::uint32_t n) {
   return mesh;
 }
 
-/// The memory bound that MEASURED.md of collision/hierarchy derives for a mesh of shared vertices.
+/// Tests the bound of the memory that collision/hierarchy/MEASURED.md derives for meshes with
+/// shared vertices.
 TEST(Obb4Tree, SmoothMeshesTakeEightyBytesATriangle) {
   const TriangleMesh mesh = sheet(120);
   const Obb4Tree tree(mesh);
   EXPECT_LE(tree.bytes(), 80 * mesh.triangles.size());
 }
 
-/// Expects two trees to be the same bit for bit.
+/// Expects that two trees are the same bit for bit.
 void expectSame(const Obb4Tree& a, const Obb4Tree& b) {
   ASSERT_EQ(a.nodes().size(), b.nodes().size());
   ASSERT_EQ(a.triangleCount(), b.triangleCount());
@@ -161,8 +162,8 @@ void expectSame(const Obb4Tree& a, const Obb4Tree& b) {
   EXPECT_EQ(a.reach(), b.reach());
 }
 
-/// Returns meshes that are built in many pieces. The triangles of the second one have no order that
-/// a build could rely on.
+/// Returns meshes that are so large that threads build parts of their trees. The triangles of the
+/// second mesh are in random order.
 std::vector<TriangleMesh> largeMeshes() {
   std::mt19937_64 random(test::testSeed(22));
   return {sheet(100), test::soup(random, 20'000, 0.1)};
@@ -200,7 +201,7 @@ TEST(Obb4Tree, NeedsATriangle) {
 }
 
 TEST(Obb4Tree, CheckFindsWhatIsWrong) {
-  // A box smaller than its content can't be made from outside, so the test changes the tree's
+  // No public function makes a box that is smaller than its content, so the test changes the tree's
   // memory.
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));

@@ -134,8 +134,8 @@ TEST(ObbTree, OfAConvexPart) {
   }
 }
 
-/// A box is fitted to the shape, not to its tessellation. Refining one face of a cube a
-/// thousandfold changes the moments of neither the surface nor the hull.
+/// These fits of a box depend on the shape, not on its tessellation. If one face of a cube is
+/// refined a thousandfold, the moments of the surface and of the hull do not change.
 TEST(ObbFrame, MomentsIgnoreTessellation) {
   const Vec3 size(4, 2, 1);
   const auto cube = [&](int n) {  // the face x = 4 has n × n cells, the others have one
@@ -157,13 +157,13 @@ TEST(ObbFrame, MomentsIgnoreTessellation) {
       EXPECT_GT(std::abs(coarse.axes.col(k).dot(fine.axes.col(k))), 1 - 1e-13);
     EXPECT_GT(std::abs(fine.axes(0, 0)), 1 - 1e-13) << "longest axis first";
   }
-  // The vertex fit has the opposite property: it is pulled towards the fine face.
+  // The vertex fit does depend on the tessellation: the fine face dominates it.
   EXPECT_GT(
       (fitFrame(cube(1), ObbFit::vertices).mean - fitFrame(cube(32), ObbFit::vertices).mean).norm(),
       1.0);
 }
 
-/// Inner geometry changes the moments of the triangles, not those of the hull.
+/// Triangles inside the hull change the moments of the triangles, but not those of the hull.
 TEST(ObbFrame, HullIgnoresInnerGeometry) {
   std::mt19937_64 random(test::testSeed(2));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

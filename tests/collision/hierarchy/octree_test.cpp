@@ -15,7 +15,7 @@
 namespace corridor {
 namespace {
 
-TEST(Octree, ListsEveryTriangleAndStopsWhereDividingBringsNothing) {
+TEST(Octree, ListsEveryTriangleAndStopsUselessDivision) {
   std::mt19937_64 random(test::testSeed(31));
   const TriangleMesh mesh = test::soup(random, 500, 0.05);
   const Octree tree(mesh);

@@ -19,7 +19,7 @@ std::string complaint(const TreeNames& words) {
   return wrong ? wrong->key + ": " + wrong->text : "";
 }
 
-TEST(TreeKinds, EveryNameHasAKindOfItsOwn) {
+TEST(TreeKinds, EveryNameHasItsOwnKind) {
   std::set<TreeKind> kinds;
   for (const VolumeKind& volume : volumeKinds())
     for (const std::string& overlap : volume.overlaps)
@@ -90,7 +90,7 @@ TEST(TreeKinds, WrongNamesAreReportedWithTheValidOnes) {
 }
 
 /// A body's trees are built at first need, each exactly once, whichever thread comes first.
-TEST(TreeKinds, BodiesBuildTheTreesThatAreChosen) {
+TEST(TreeKinds, BodiesBuildTheChosenTrees) {
   std::mt19937_64 random(test::testSeed(51));
   const Body mesh("mesh", test::soup(random, 500, 0.2)), part("part", placed(Sphere{1}, {}));
   EXPECT_FALSE(mesh.treeBuilt() || part.treeBuilt());

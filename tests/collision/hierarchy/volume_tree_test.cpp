@@ -76,7 +76,8 @@ TYPED_TEST(VolumeTrees, IdenticalTriangles) {
   }
 }
 
-/// Triangles of size 2^-i around a point: every split at the mean takes off one.
+/// Triangles of size 2^-i around a point: every split at the mean separates only one triangle from
+/// the others.
 TYPED_TEST(VolumeTrees, DeepTreesNeedNoCallStack) {
   TriangleMesh mesh;
   for (int i = 0; i < 300; ++i) {
@@ -116,7 +117,7 @@ TYPED_TEST(VolumeTrees, MedianSplitsAreBalanced) {
             std::ceil(std::log2(static_cast<double>(mesh.triangles.size()))) + 1);
 }
 
-TYPED_TEST(VolumeTrees, RefitContainsWhatMoved) {
+TYPED_TEST(VolumeTrees, RefitContainsTheMovedTriangles) {
   std::mt19937_64 random(test::testSeed(5));
   std::normal_distribution<double> normal;
   for (const TreeParams& params : kParams) {
@@ -131,7 +132,8 @@ TYPED_TEST(VolumeTrees, RefitContainsWhatMoved) {
       EXPECT_EQ(interference(Posed(tree), Posed(b), context).has_value(),
                 interference(Posed(VolumeTree<TypeParam>(mesh)), Posed(b), context).has_value());
     }
-    // Refitted to the mesh that it was built from, a tree has volumes as good as new.
+    // If a tree is refitted to the mesh from which it was built, its volumes are as good as those
+    // of a new tree.
     const VolumeTree<TypeParam> fresh(mesh, params);
     VolumeTree<TypeParam> again(mesh, params);
     again.refit(mesh);

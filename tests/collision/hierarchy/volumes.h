@@ -49,9 +49,10 @@ inline std::string str(const TreeParams& p) {
          (p.building == TreeBuilding::topDown ? ", top-down" : ", bottom-up");
 }
 
-/// Returns the poses of a workload to test with the `fit`-th fit. The default fit gets every
-/// step-th pose. The other fits share poses in turn; they are left out where there are too few
-/// poses to build a tree for, unless CORRIDOR_STRESS is set.
+/// Returns the numbers of the poses of a workload on which the `fit`-th fit is tested. The default
+/// fit gets every step-th pose. The other fits take turns. Unless CORRIDOR_STRESS is set, they get
+/// no poses if the workload has few, because building their trees would take longer than the
+/// queries.
 inline std::vector<std::size_t> posesOfFit(const Workload& w, std::size_t step, std::size_t fit,
                                            std::size_t turn) {
   if (fit > 0 && w.poses.size() < 100 && !stressAsked()) return {};

@@ -42,8 +42,8 @@ inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMo
   return proof(edge, {&pair, 1}, options, context);
 }
 
-/// The parameters of a suite that every way to prove motions must pass: all methods, and the
-/// default method on trees of every kind.
+/// The parameters of the suite that every way to prove motions must pass: all methods, and for the
+/// default method all kinds of trees.
 inline auto everyProof() {
   using enum EdgeMethod;
   return testing::Values(Proof(directional), Proof(adaptive), Proof(advancement),

@@ -23,7 +23,8 @@ using test::randomEdge;
 using test::turned;
 using Kind = CertificateFault::Kind;
 
-/// A motion, its answer with a certificate, and the result of the check.
+/// A motion, the answer to its query with a certificate, and the result of checking the
+/// certificate.
 struct Case {
   const Body &fixed, &moving;
   RigidMotion motion;
@@ -75,7 +76,7 @@ TEST_P(Certificate, ASlideHasTheClearanceOfItsGap) {
   }
 }
 
-TEST_P(Certificate, KeepsTheInputs) {
+TEST_P(Certificate, IncludesMarginSlackAndTube) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   Case slide(wall, cube,
@@ -86,13 +87,14 @@ TEST_P(Certificate, KeepsTheInputs) {
   slide.run();
   ASSERT_EQ(slide.result.verdict, MotionVerdict::free);
   EXPECT_GE(slide.leastClearance(), 0.07 * (1 - 1e-12)) << "margin and clearance slack";
-  // The tube may add 0.01 along each coordinate: as a length √3 of that, as far as the proof knows.
-  EXPECT_LE(slide.leastClearance(), 0.09 * (1 + 1e-12)) << "the tube takes its own";
+  // The tube may add 0.01 along each coordinate. The proof bounds this by a displacement of √3·0.01
+  // in any direction.
+  EXPECT_LE(slide.leastClearance(), 0.09 * (1 + 1e-12)) << "the tube reduces the clearance";
   EXPECT_FALSE(slide.check());
 }
 
 TEST_P(Certificate, TamperedWithItFails) {
-  // The bar's corner comes as near as 0.03 at the end of its turn.
+  // At the end of its rotation the bar's corner is 0.03 from the wall.
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              bar = bodyOf(box(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1)));
   Case swing(wall, bar,
@@ -117,25 +119,25 @@ TEST_P(Certificate, TamperedWithItFails) {
   auto least = std::min_element(
       swing.certificate.free.begin(), swing.certificate.free.end(),
       [](const FreeInterval& x, const FreeInterval& y) { return x.clearance < y.clearance; });
-  least->clearance = 1;  // the bar comes nearer than half of that
+  least->clearance = 1;  // too much: the bar comes closer than half of that
   EXPECT_EQ(fault(), Kind::refuted);
   swing.certificate.free[0].pair = 1;
   EXPECT_EQ(fault(), Kind::malformed);
   swing.certificate.free[0].clearance = std::nan("");
   EXPECT_EQ(fault(), Kind::malformed);
   swing.certificate.free[0].clearance = 0;
-  EXPECT_EQ(fault(), Kind::malformed) << "claims nothing";
+  EXPECT_EQ(fault(), Kind::malformed) << "a clearance of 0";
   swing.certificate.free[0].t1 = 0.1;
-  EXPECT_EQ(fault(), Kind::malformed) << "on no grid";
+  EXPECT_EQ(fault(), Kind::malformed) << "t1 is not on the grid";
   swing.certificate.free[0].t1 = 1.5;
   EXPECT_EQ(fault(), Kind::malformed);
   swing.certificate.free[0].t1 = swing.certificate.free[0].t0;
   EXPECT_EQ(fault(), Kind::malformed);
   swing.options.margin = 1;
-  EXPECT_EQ(fault(), Kind::malformed) << "less than what was asked for";
+  EXPECT_EQ(fault(), Kind::malformed) << "less than the required clearance";
 }
 
-/// A claim that leaves less than the margin is not accepted, however small the shortfall.
+/// If the distance is below the margin, however little, no claim is accepted.
 TEST_P(Certificate, AMarginIsProvedInFull) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -148,7 +150,7 @@ TEST_P(Certificate, AMarginIsProvedInFull) {
     slide.result.certifiedUntil = 1;
     slide.certificate.free = {{0, 0, 1, 0.1}};
     EXPECT_EQ(slide.check().has_value(), gap <= 0.1) << gap;
-    // The tube is proved in full, too: two millimetres along y.
+    // The tube must also be proved in full: two millimetres along y.
     slide.motion = RigidMotion::spatial(at(Vec3(-5, 0.5 - gap, 0)), at(Vec3(5, 0.5 - gap, 0)),
                                         {.position = 0.002, .rotation = 0});
     EXPECT_EQ(slide.check().has_value(), gap <= 0.102) << gap << " with a tube";
@@ -221,9 +223,9 @@ TEST_P(Certificate, TheWorkLimitEndsTheCheck) {
   EXPECT_EQ(slide.check()->kind, Kind::workLimit);
 }
 
-/// Claims as large as possible, true or not: what is accepted holds at samples, margin and tube
-/// included.
-TEST_P(Certificate, WhatIsAcceptedHolds) {
+/// Certificates claim as much as possible, true or not. If one is accepted, its claim must hold at
+/// samples, margin and tube included.
+TEST_P(Certificate, AcceptedClaimsHold) {
   std::mt19937_64 random(test::testSeed(43));
   int accepted = 0, refused = 0;
   for (int n = 0; n < 400; ++n) {
@@ -255,16 +257,16 @@ TEST_P(Certificate, WhatIsAcceptedHolds) {
     }
     ++accepted;
     ASSERT_GT(leastInTube, c.options.margin) << n;
-    // Whatever the direction, the tube can move the body by its position towards the other.
+    // Whatever the direction, the tube can move the body by `tube.position` towards the other body.
     ASSERT_GT(least, c.options.margin + tube.position) << n;
   }
   EXPECT_GT(accepted, 20);
   EXPECT_GT(refused, 20);
 }
 
-/// The check assumes the tube's effect on the farthest point for the whole body. It may therefore
-/// fail to prove a true claim, but must not call it false.
-TEST_P(Certificate, WhatATubeTakesIsNotRefuted) {
+/// The check uses the tube's effect on the farthest point for the whole body. So it may fail to
+/// prove a true claim, but it must not report that the claim is false.
+TEST_P(Certificate, TubesRefuteNoTrueClaim) {
   TriangleMesh two;
   add(two, Vec3::Zero(), Vec3(0.01, 0, 0), Vec3(0, 0, 0.01));
   add(two, Vec3(10, 5, 0), Vec3(10.01, 5, 0), Vec3(10, 5, 0.01));
@@ -280,8 +282,8 @@ TEST_P(Certificate, WhatATubeTakesIsNotRefuted) {
   }
 }
 
-/// Two bodies pass through each other. No claim, however small, may be accepted. Lengths whose
-/// products overflow must not change that, nor make the check run for ever.
+/// Two bodies pass through each other. No claim, however small, may be accepted, even if products
+/// of lengths overflow. The check must also end in these cases.
 TEST_P(Certificate, FalseClaimsAreNotBelieved) {
   for (const double size : {1.0, 1e160}) {
     const Body fixed = bodyOf(box(-size * Vec3::Ones(), size * Vec3::Ones())),
@@ -299,8 +301,8 @@ TEST_P(Certificate, FalseClaimsAreNotBelieved) {
   }
 }
 
-/// All certificates of random motions hold: for the check, and against distances at samples, which
-/// are computed independently.
+/// All certificates of random motions must be accepted by the check, and must agree with distances
+/// at samples, which are computed independently.
 TEST_P(Certificate, RandomMotions) {
   std::mt19937_64 random(test::testSeed(41));
   int free = 0, contact = 0;

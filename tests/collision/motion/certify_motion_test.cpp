@@ -36,14 +36,14 @@ TEST(CertifyMotion, BoxPastAWall) {
     EXPECT_EQ(r.verdict, gap > 0 ? MotionVerdict::free : MotionVerdict::contact) << gap;
     if (gap > 0) {
       EXPECT_LE(context.counters.poses, 64U)
-          << "sliding at gap " << gap << " costs tens of windows";
+          << "sliding at gap " << gap << " must need few intervals";
     }
   }
 }
 
-/// 10 m along a wall, at 1e-10 m or less from it: along an edge of the cube, diagonally, and with
-/// everything rotated, so that no coordinate is exact (off by 1e-15 m). The cost is counted, not
-/// timed.
+/// A cube moves 10 m along a wall, at a distance of 1e-10 m or less: along an edge of the cube,
+/// diagonally, and with everything rotated, so that no coordinate is exact (off by 1e-15 m). The
+/// cost is measured by counters, not by time.
 TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const Mat3& R : {Mat3(Mat3::Identity()), turn}) {
@@ -68,7 +68,8 @@ TEST(CertifyMotion, BoxPastAWallAlmostTouching) {
   }
 }
 
-/// A needle through a hole: free while its radius is below that of the hole.
+/// A needle moves through a hole. The motion is free if the needle's radius is below that of the
+/// hole.
 TEST(CertifyMotion, NeedleThroughAHole) {
   const double hole = 0.1, thick = 0.05;
   TriangleMesh plate;
@@ -105,9 +106,9 @@ TEST(CertifyMotion, NeedleThroughAHole) {
 
 // ---- random edges ----
 
-/// Metamorphic: `earliest`, the reversed motion and margins must agree with the verdict. What is
-/// called free is also sampled: the exact interference test at rounded poses of the curve, all
-/// inside the default tube.
+/// Queries with `earliest`, with the reversed motion and with margins must agree with the verdict.
+/// Motions with the verdict `free` are also sampled by the exact interference test, at rounded
+/// poses of the curve, which are inside the default tube.
 TEST(CertifyMotion, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
   const int count = (test::stressAsked() ? 450'000 : 25'000) / test::kSlowdown;
@@ -159,8 +160,8 @@ TEST(CertifyMotion, RandomEdges) {
 
 // ---- faults found in reviews ----
 
-/// Closest points 1e-163 apart: their squared distance underflows, which once made the direction
-/// infinite.
+/// The closest points are 1e-163 apart, so their squared distance underflows. This once made the
+/// direction infinite.
 TEST(CertifyMotion, GapWhoseSquareUnderflows) {
   const double e = 1e-163;
   TriangleMesh a, b;
@@ -175,9 +176,9 @@ TEST(CertifyMotion, GapWhoseSquareUnderflows) {
   EXPECT_NE(certify(moving, fixed, through, options, context).verdict, MotionVerdict::free);
 }
 
-/// Between large yaws the body rotates as in real arithmetic. A remainder by 2π in double would
-/// give the longer way here: 2π in double is off by 2.4e-16, which after 10^8 revolutions is enough
-/// to change which of the two ways is shorter.
+/// Between large yaws the body must take the way round that is shorter in real arithmetic. A
+/// remainder by 2π in double would give the longer way here: 2π in double is off by 2.4e-16, and
+/// after 10^8 revolutions this error decides which way is shorter.
 TEST(CertifyMotion, LargeYawsTakeTheShorterWay) {
   const double yaw = 628318558.99229252;  // 3.141592647 and whole turns
   const RigidMotion turn = RigidMotion::planar(Vec3::Zero(), Vec3(0, 0, yaw), {});
@@ -213,8 +214,8 @@ TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
     }
 }
 
-/// Tests in leaves, and tests for contact at single poses, count as work, too. The largest limit
-/// means no limit.
+/// Tests of leaf pairs, and tests for contact at single poses, must count as work, too. The largest
+/// value of the limit means no limit.
 TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   TriangleMesh many;
   for (int i = 0; i < 300; ++i) add(many, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
@@ -235,8 +236,8 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
       EXPECT_LE(context.counters.work(), limit + 16 + 256);
       EXPECT_EQ(r.reason, UndecidedReason::workLimit);
     }
-  // A motion of zero length is not sampled: here the walk itself has to end. A small star is in the
-  // corner of a large one; each has 300 triangles about one centroid.
+  // A motion of zero length is not sampled, so the walk of the trees must end by itself. A small
+  // star is in the corner of a large one; each has 300 triangles about one centroid.
   TriangleMesh star, small;
   for (int i = 0; i < 150; ++i)
     for (const auto& [mesh, s] : {std::pair{&star, 1.0}, std::pair{&small, 0.0625}}) {
@@ -260,9 +261,10 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   EXPECT_NE(certify(moving, fixed, motion, options, used).reason, UndecidedReason::workLimit);
 }
 
-/// A wall is hit at t = 0.29, and at t = 3/4 a tip is within the tube. The second half is left
-/// undecided before the first half is refined: nothing may be claimed about the first half.
-TEST(CertifyMotion, NothingIsClaimedOfWindowsThatWereNotRefined) {
+/// The body hits a wall at t = 0.29, and at t = 3/4 a tip is within the tube. The second half
+/// becomes undecided before the first half is divided. Then the query must not claim anything about
+/// the first half.
+TEST(CertifyMotion, NothingIsClaimedOfUndividedIntervals) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
   add(tip, Vec3(0.75, 0, -1e-9), Vec3(0.75, -1, -1), Vec3(0.75, 1, -1));
@@ -281,9 +283,9 @@ TEST(CertifyMotion, NothingIsClaimedOfWindowsThatWereNotRefined) {
   }
 }
 
-/// A contact begins at a time where intervals begin and end: an interval that ends there is never
-/// proved.
-TEST(CertifyMotion, ContactsThatBeginWithAWindow) {
+/// The contact begins at a time at which intervals end and begin. An interval that ends at this
+/// time can never be proved.
+TEST(CertifyMotion, ContactsThatBeginWithAnInterval) {
   const Body a = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones())),
              b = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
   for (const EdgeMethod method :
@@ -310,8 +312,8 @@ TEST(CertifyMotion, ContactsThatBeginWithAWindow) {
         }
 }
 
-/// Many bodies that the whole motion cannot separate, and others that are far away. The far ones
-/// get no tree, neither from a walk nor from a sample.
+/// Many bodies are not separated in the interval of the whole motion; others are far away. For the
+/// far bodies no tree may be built, neither by walks nor by samples.
 TEST(CertifyMotion, FarBodiesGetNoTree) {
   const Body mover = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
   std::vector<Body> near, far;

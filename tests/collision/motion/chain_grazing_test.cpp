@@ -15,9 +15,9 @@ using test::add;
 using test::ChainMotion;
 using Vec3L = ChainMotion::Vec3L;
 
-/// b is carried by two joints (two revolute ones, or a revolute and a prismatic one). At t = 1 it
-/// touches a plane from above, up to `gap`, where a is below the plane; before t = 1 it is higher.
-/// The verdict is known without an oracle.
+/// Two joints move b: two revolute ones, or a revolute and a prismatic one. At t = 1 the height of
+/// b above a plane is `gap`, at a place where a touches the plane from below. Before t = 1 b is
+/// higher. So the verdict is known without an oracle.
 struct ChainGrazing {
   TriangleMesh a, b;
   std::vector<ChainMotion::Joint> joints;
@@ -112,7 +112,7 @@ TEST(CertifyMotion, ChainsThatGrazeByConstruction) {
   std::cout << context.counters.boxTests / (apart + together) << " box tests an edge\n";
 }
 
-/// Random chains over their whole motion: what is called free has no contact at any sampled pose.
+/// Random chains: if a motion is called free, no sampled pose may have a contact.
 TEST(CertifyMotion, RandomChainsAgainstSamples) {
   std::mt19937_64 random(test::testSeed(24));
   const auto real = [&](double low = -1, double high = 1) {

@@ -1,5 +1,6 @@
-// One suite for all methods that prove motions, on trees of every kind: closed forms, motions that
-// graze by construction, and random motions against static samples and against each other.
+// One suite for all methods that prove motions, on trees of every kind. It tests closed forms,
+// motions that graze by construction, and random motions, for which the methods are compared with
+// static samples and with each other.
 #include <array>
 #include <numbers>
 #include <random>
@@ -34,7 +35,7 @@ class EdgeMethods : public testing::TestWithParam<Proof> {
   MotionResult ask(const Body& moving, const Body& fixed, const RigidMotion& motion) {
     return test::certify(moving, fixed, motion, options_, context_, GetParam());
   }
-  /// Reports contact at a static pose.
+  /// Returns whether the bodies touch at a static pose.
   bool touch(const Body& moving, const Body& fixed, const Transform& X) {
     return interference(Posed(fixed.binaryTree()), Posed(moving.binaryTree(), X), context_)
         .has_value();
@@ -57,17 +58,17 @@ TEST_P(EdgeMethods, SlideBesideAWall) {
               gap > 0 ? MotionVerdict::free : MotionVerdict::contact)
         << gap;
     EXPECT_EQ(context_.counters.edges, 1u);
-    EXPECT_EQ(context_.counters.states, 0u) << "what an edge measures is no state";
+    EXPECT_EQ(context_.counters.states, 0u) << "queries within an edge must not count as states";
     if (gap > 0) {
-      // The intervals are no longer than twice the gap, halved at most once too often.
+      // Intervals move the body by at most twice the gap, and are halved at most once too often.
       // `advancement` computes up to three motion bounds per step.
       EXPECT_LE(static_cast<double>(context_.counters.poses), 64 + 4 * 10 / gap) << gap;
     }
   }
 }
 
-/// A displacement that overflows is neither a contact nor free.
-TEST_P(EdgeMethods, WaysThatOverflowAreUndecided) {
+/// If a displacement overflows, the verdict must be neither `contact` nor `free`.
+TEST_P(EdgeMethods, DisplacementsThatOverflowAreUndecided) {
   const Body cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5))),
              aside = bodyOf(box(Vec3(-1, 5, -1), Vec3(1, 6, 1)));
   for (const double far : {1e308, 9e307}) {
@@ -77,7 +78,7 @@ TEST_P(EdgeMethods, WaysThatOverflowAreUndecided) {
   }
 }
 
-/// With other rounding modes no bound holds: the query must report that, and give no other answer.
+/// With other rounding modes no bound holds. The query must report this, and give no other answer.
 TEST_P(EdgeMethods, OtherArithmeticIsRefused) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -124,9 +125,9 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
   }
 }
 
-/// A blade of length 1 rotates about z; a point is at the distance 1 + gap from the axis. The point
-/// has no interior, so no sampled time ever shows contact when the edge sweeps over it: contact
-/// appears as a clearance below the tolerance. The verdict must not be `free`.
+/// A blade of length 1 rotates about z; a point is at the distance 1 + gap from the axis. A point
+/// has no interior. So no sampled time shows a contact when the blade's edge sweeps over it, only a
+/// clearance below the tolerance. If the gap is negative, the verdict must not be `free`.
 TEST_P(EdgeMethods, BladeAgainstAPoint) {
   TriangleMesh blade;
   add(blade, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.2, 0, 0.1));
@@ -172,8 +173,8 @@ TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
 TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
-  // The clearance is 0.1. The other methods get a shorter way, since they take small steps when the
-  // margin is nearly that.
+  // The clearance is 0.1. The other methods get a shorter way, since they take small steps if the
+  // margin is nearly the clearance.
   const double way = GetParam().method == EdgeMethod::directional ? 5 : 0.01;
   const RigidPose a = at(Vec3(-way, 0.4, 0)), b = at(Vec3(way, 0.4, 0));
   Tube tube;
@@ -194,13 +195,13 @@ TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   EXPECT_EQ(r.verdict, MotionVerdict::undecided);
   EXPECT_EQ(r.reason, UndecidedReason::clearance);
   EXPECT_NEAR(r.gap, 0.1, 1e-9);
-  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance) << "nothing moves but in the tube";
+  EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance) << "only the tube moves the body";
   tube = {};
   options_.clearanceSlack = 0.0999;
   EXPECT_EQ(verdict(a, b).verdict, MotionVerdict::free);
   options_.clearanceSlack = 0.1001;
   EXPECT_EQ(verdict(a, b).reason, UndecidedReason::clearance)
-      << "too near to be called free, but no contact";
+      << "too close to be free, but no contact";
   EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance);
   options_.clearanceSlack = 0;
   EXPECT_EQ(context_.counters.undecided, 4u);
@@ -234,8 +235,8 @@ TEST_P(EdgeMethods, FarBodiesGetNoTree) {
   EXPECT_FALSE(far.treeBuilt());
 }
 
-/// Triangles about one centroid, which no split separates: a leaf with many triangles on either
-/// side.
+/// All triangles of a body have the same centroid, so no split divides them: both bodies have a
+/// leaf with many triangles.
 TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   TriangleMesh nested, needle;
   for (const double s : {1.0, 2.0, 4.0, 8.0})
@@ -258,8 +259,8 @@ TEST_P(EdgeMethods, LeavesOfManyTriangles) {
   }
 }
 
-/// A triangle that is a point, beside the middle of an edge: neither a corner nor the face is
-/// closest.
+/// A triangle that is a single point is beside the middle of an edge. So the closest feature is
+/// neither a corner nor the face.
 TEST_P(EdgeMethods, PointBesideAnEdge) {
   TriangleMesh large, point;
   add(large, Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0));
@@ -277,8 +278,8 @@ TEST_P(EdgeMethods, PointBesideAnEdge) {
     }
 }
 
-/// Points have no size to compare a motion bound with: intervals must end at 2^-48 of the motion,
-/// not in a stack overflow.
+/// The size of points is 0, so no motion bound is small compared with it. Halving must end at
+/// intervals of 2^-48 of the motion, not with a stack overflow.
 TEST_P(EdgeMethods, PointThroughAPointEnds) {
   TriangleMesh mesh;
   add(mesh, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
@@ -297,8 +298,9 @@ TEST_P(EdgeMethods, PointThroughAPointEnds) {
   }
 }
 
-/// A tip is within the tube at t = 1/4, and a wall is hit at t = 1/2: nothing grazes in between.
-TEST_P(EdgeMethods, GrazingIsSaidOnlyOfNarrowGaps) {
+/// At t = 1/4 a tip is within the tube, and at t = 1/2 the body hits a wall. Between these times
+/// nothing grazes.
+TEST_P(EdgeMethods, GrazingIsReportedOnlyForNarrowGaps) {
   TriangleMesh robot, tip, wall;
   add(robot, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0));
   add(tip, Vec3(0.25, 0, -1e-9), Vec3(0.25, -1, -1), Vec3(0.25, 1, -1));
@@ -318,7 +320,8 @@ TEST_P(EdgeMethods, GrazingIsSaidOnlyOfNarrowGaps) {
   }
 }
 
-/// The motion is so slow that it stays below twice the tolerance for the whole way to the contact.
+/// The motion is so short that the clearance is below twice the tolerance on the whole way to the
+/// contact.
 TEST_P(EdgeMethods, SlowContactGrazes) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
@@ -332,8 +335,8 @@ TEST_P(EdgeMethods, SlowContactGrazes) {
   EXPECT_TRUE(r.grazing || r.contactTime - r.certifiedUntil <= options_.timeTolerance);
 }
 
-/// Never a false `free` or `contact`; and `free` whenever the clearance is above twice the
-/// tolerance and the work limit is not reached.
+/// `free` and `contact` must never be false. The verdict must be `free` if the clearance is above
+/// twice the tolerance and the work limit is not reached.
 TEST_P(EdgeMethods, GrazingByConstruction) {
   std::mt19937_64 random(test::testSeed(8));
   const int count = (test::stressAsked() ? 10'000 : 1'000) / test::kSlowdown;
@@ -354,8 +357,8 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
     const bool limit = r.reason == UndecidedReason::workLimit;
     tooMuch += limit;
     if (!options_.earliest && r.verdict != MotionVerdict::free) {
-      ASSERT_EQ(r.certifiedUntil, 0) << "it was not asked for";
-      ASSERT_FALSE(r.grazing) << "nor was this";
+      ASSERT_EQ(r.certifiedUntil, 0) << "the time was not requested";
+      ASSERT_FALSE(r.grazing) << "grazing is reported only with `earliest`";
     }
     if (gap < 0) {
       ASSERT_NE(r.verdict, MotionVerdict::free) << n;
@@ -383,8 +386,8 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
   }
 }
 
-/// What is called free has no contact at any sampled pose, and what is called contact has one. No
-/// method contradicts the default one, on any trees.
+/// If the verdict is `free`, no sampled pose may have a contact. If it is `contact`, the pose at
+/// its time must have one. No method, on any kind of trees, may contradict the default one.
 TEST_P(EdgeMethods, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
   const int count = test::stressAsked() ? 5'000 : 400;
@@ -451,7 +454,7 @@ TEST_P(EdgeMethods, BallAroundARod) {
   EXPECT_LE(r.contactTime - r.certifiedUntil, options_.timeTolerance);
 }
 
-/// Kinematic chains, whose relative motions are computed in another way.
+/// Kinematic chains: the relative motions come from another motion source, `ChainMotion`.
 TEST_P(EdgeMethods, RandomChainsAgainstSamples) {
   std::mt19937_64 random(test::testSeed(24));
   const auto real = [&](double low = -1, double high = 1) {

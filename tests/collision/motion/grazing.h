@@ -10,13 +10,14 @@
 namespace corridor::test {
 
 /// A fixed mesh below the plane through x with normal n, and a moving mesh above it, at height
-/// `gap` at t = 1 (or throughout). The verdict is known by construction: with a negative gap the
-/// features interpenetrate in their interior, with a positive one the meshes are that far apart.
+/// `gap` at t = 1 (or throughout). The verdict is known by construction. If the gap is negative,
+/// the features penetrate each other in their interior; if it is positive, it is the distance of
+/// the meshes.
 struct Grazing {
   enum Feature { cornerOnFace, faceOnCorner, edgeOnEdge, features };
   TriangleMesh fixed, moving;
   RigidPose from, to;
-  bool known = false;  ///< no corner gets below its height at contact: the verdict is known
+  bool known = false;  ///< no corner gets below its height at the end, so the verdict is known
 
   Grazing(std::mt19937_64& random, Feature feature, bool slides, double gap, double size) {
     const auto real = [&](double low = -1, double high = 1) {

@@ -1,5 +1,5 @@
-// Queries of several motions at once, in which bodies are separated by their swept spheres as seen
-// from the world.
+// Queries of several motions at once. Swept spheres, as seen from the world, separate some of the
+// bodies.
 #include <cmath>
 #include <vector>
 
@@ -39,8 +39,8 @@ ChainMotion::Joint slide(const Vec3& axis, double from, double to) {
 }
 
 /// Two cubes move along side by side. Their spheres are closer than the margin, but their faces are
-/// not. The pair before them has a body that rotates far and is separated all the same: this must
-/// not affect the second pair.
+/// not. The first pair has a body with a large rotation, and is separated nevertheless. This must
+/// not affect the pair of cubes.
 TEST(ManyMotions, CertificateChangesNoVerdict) {
   const Body obstacle = cube(1, Vec3(100, 0, 0)), tip = cube(0.05, Vec3(1, 0, 0)), left = cube(0.5),
              right = cube(0.5);
@@ -66,9 +66,9 @@ TEST(ManyMotions, CertificateChangesNoVerdict) {
   }
 }
 
-/// A joint may make any number of turns. Intervals that are too wide to be tested must count as
-/// work, or the query would hardly end.
-TEST(ManyMotions, WhatTurnsOftenEndsAtTheWorkLimit) {
+/// A joint may make any number of revolutions. Intervals that are too wide to be tested must count
+/// as work. Otherwise the query would take nearly forever.
+TEST(ManyMotions, ManyRevolutionsEndAtTheWorkLimit) {
   const Body hub = cube(0.1), tip = cube(0.05, Vec3(1, 0, 0));
   Motions motions({ChainMotion({{.from = 0, .to = 1e6}})});
   const MotionPair pair = {.a = &hub, .b = &tip, .worldB = 0};
@@ -85,9 +85,9 @@ TEST(ManyMotions, WhatTurnsOftenEndsAtTheWorkLimit) {
   }
 }
 
-/// Indices of bodies may be arbitrarily large: no memory is used for bodies without a sphere in the
-/// world.
-TEST(ManyMotions, IndicesOfBodiesMayBeAnything) {
+/// Indices of bodies may be arbitrarily large, because bodies without a sphere in the world need no
+/// memory.
+TEST(ManyMotions, IndicesOfBodiesMayBeLarge) {
   const Body a = cube(1), b = cube(1, Vec3(10, 0, 0));
   Motions motions({ChainMotion({slide(Vec3::UnitX(), 0, -9)})});
   const std::size_t last = static_cast<std::size_t>(-1);

@@ -17,8 +17,9 @@ using test::at;
 using test::bodyOf;
 using test::box;
 
-/// A sphere reaches 0.3e-162 into a body. The square of the gap to its centre, 1.6e-162, is
-/// subnormal: it was rounded to the square of 2.2e-162, and the bodies were separated.
+/// A sphere reaches 0.3e-162 into a body. The gap to its centre is 1.6e-162, and the square of this
+/// gap is subnormal. The code once rounded it to the square of 2.2e-162, and so reported the bodies
+/// as separated.
 TEST(MayMeet, GapWhoseSquareIsSubnormal) {
   const double e = 1.6e-162, r = 1.9e-162;
   TriangleMesh a, b;
@@ -29,8 +30,8 @@ TEST(MayMeet, GapWhoseSquareIsSubnormal) {
   EXPECT_TRUE(mayMeet(bodyOf(a), sweptSphere(bodyOf(b), still), 0));
 }
 
-/// A motion along a wall, ten times as long as the gap is wide: only its component across the gap
-/// may count.
+/// A motion along a wall that is ten times as long as the gap is wide. Only its component across
+/// the gap may count.
 TEST(MayMeet, ASlideKeepsItsGap) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
@@ -97,8 +98,8 @@ TEST(MayMeet, RandomMotions) {
   std::cout << proved << " proved, " << sideways << " of them by the direction\n";
 }
 
-/// Both bodies move far and nearly alike: their common motion must not count.
-TEST(MayMeet, WhatGoesAlongKeepsItsGap) {
+/// Both bodies move far, and nearly in the same way. Their common motion must not count.
+TEST(MayMeet, CommonMotionKeepsTheGap) {
   const Body bar = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)));
   std::array<ScrewMotion, 2> screwsA, screwsB;
   for (const double nearer : {0.0, 0.1}) {
@@ -114,7 +115,7 @@ TEST(MayMeet, WhatGoesAlongKeepsItsGap) {
   }
 }
 
-/// The same for two bodies that both move.
+/// The bound never exceeds the distance at any sampled time, here for two bodies that both move.
 TEST(MayMeet, RandomMotionsOfBoth) {
   std::mt19937_64 random(test::testSeed(67));
   const auto real = [&](double low = -1, double high = 1) {

@@ -82,9 +82,9 @@ long double lowest(const Feature& b, const LineAndTurn& motion, long double t, c
   return origin.dot(nL) + least - set.ball * m.norm() - set.disc * m.cross(axis).norm();
 }
 
-/// Grazing by construction. a is below a plane and touches it in one place. b is above the plane,
-/// and its lowest place is above that very place, at a distance `gap`. This holds at the end of the
-/// motion, or throughout, if b slides on the plane and rotates about its normal.
+/// Grazing by construction. a is below a plane and touches it at one place. b is above the plane,
+/// and its lowest place is exactly above the place of a, at a distance `gap`. This holds at the end
+/// of the motion. It holds throughout if b slides along the plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = (test::stressAsked() ? 100'000 : 20'000) / test::kSlowdown;
@@ -138,7 +138,7 @@ TEST(MovingParts, GrazingByConstruction) {
   EXPECT_EQ(notFound, 0);
   EXPECT_GT(apart, count / 4);
   EXPECT_GT(together, count / 10);
-  std::cout << apart << " apart, " << together << " together; windows a slide "
+  std::cout << apart << " apart, " << together << " together; intervals per slide "
             << double(slideWindows) / double(slides) << "\n";
 }
 
@@ -151,7 +151,7 @@ TEST(MovingParts, SlidesOnceAndKeepsMargins) {
   motion.angle = 1.5;  // about its own axis
   std::uint64_t decided = 0;
   EXPECT_EQ(certify(table, can, motion, 0.5, 0.5, 1e-7, 0, decided), Verdict::free);
-  EXPECT_EQ(decided, 1U) << "the disc turns in itself, the slide is along the table";
+  EXPECT_EQ(decided, 1U) << "the disc rotates about its axis, and slides along the table";
   EXPECT_EQ(certify(table, can, motion, 0.5, 0.5, 1e-7, 0.0099, decided), Verdict::free);
   const MovingTrianglesAnswer close =
       decideMovingParts(table.part, can.part, motion.relativeMotion(0.5, 0.25), 0.0101);
@@ -159,7 +159,7 @@ TEST(MovingParts, SlidesOnceAndKeepsMargins) {
   EXPECT_FALSE(close.separated);
 }
 
-TEST(MovingParts, StuckWhereTheTubeAloneForbidsAProof) {
+TEST(MovingParts, UndecidedIfTheTubeExceedsTheGap) {
   const ConvexPart a{{Vec3(0, 0, 0)}, 1, false}, b{{Vec3(0, 0, 0)}, 0.5, false};
   LineAndTurn motion;
   motion.start.t = Vec3(1.51, 0, 0);

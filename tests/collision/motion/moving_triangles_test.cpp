@@ -1,5 +1,5 @@
-// One triangle at rest, and one that a kinematic chain moves: whether they are apart in a whole
-// time interval.
+// Tests whether two triangles are separated during a whole time interval. One of them is at rest; a
+// kinematic chain moves the other.
 #include "collision/motion/moving_triangles.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ MovingTrianglesAnswer decide(const Triangle& a, const Triangle& b, ChainMotion& 
   return decideMovingTriangles(a, b, motion.relativeMotion(0, 0.5, 0.5), 0);
 }
 
-/// A slide that a joint turns: to first order b's top corner moves along x, parallel to a. By the
-/// ends of the interval it has risen by 0.2·sin(0.1), through a.
+/// A revolute joint rotates the direction of a prismatic one. To first order b's top corner moves
+/// along x, parallel to a. At the ends of the interval it has risen by 0.2·sin(0.1), through a.
 TEST(MovingTriangles, ASlideThatIsTurnedRises) {
   ChainMotion motion({{false, Vec3::UnitZ(), Vec3::Zero(), -0.1, 0.1},
                       {true, Vec3::UnitX(), Vec3::Zero(), -0.2, 0.2}});
@@ -35,9 +35,9 @@ TEST(MovingTriangles, ASlideThatIsTurnedRises) {
   EXPECT_TRUE(separated(0.022));
 }
 
-/// a is a large triangle across the way of b: less far from b than b comes to move, along the
-/// normal of a. So they meet, and must not be called separated.
-TEST(MovingTriangles, WhatAChainBringsTogetherIsNotSeparated) {
+/// a is a large triangle across the way of b. Along the normal of a, b moves farther than its
+/// distance from a. So they meet, and must not be called separated.
+TEST(MovingTriangles, TrianglesThatMeetAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(26));
   const auto real = [&](double low = -1, double high = 1) {
     return std::uniform_real_distribution(low, high)(random);

@@ -19,7 +19,7 @@ struct RationalScene {
     coplanar,  ///< both triangles and the motion are in one plane
     /// Features meet exactly at some time, with one triangle on either side of a plane.
     meeting,
-    tangential,  ///< like `meeting`, and at that time the motion is along the plane
+    tangential,  ///< like `meeting`, and at that time the velocity is along the plane
     kinds
   };
   Triangle fixed, moving;
@@ -80,8 +80,8 @@ struct RationalScene {
     return (t[1] - t[0]).cross(t[2] - t[0]).isZero(0);
   }
 
-  /// Places the fixed triangle so that it meets a feature of b, on the other side of a plane as far
-  /// as possible (a plane along `velocity`, if that is not zero). Then pushes it.
+  /// Places the fixed triangle so that it meets a feature of b, if possible on the other side of a
+  /// plane than b. If `velocity` is not zero, it is along the plane. Then pushes the triangle.
   void meet(const Triangle& b, const Vec3& velocity) {
     Vec3 n = nonZero(3);
     const int feature = whole(0, 4);

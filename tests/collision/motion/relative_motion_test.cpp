@@ -24,8 +24,8 @@ Vec3 vector(Random& random) {
   return Vec3(real(random), real(random), real(random));
 }
 
-/// Everything that a motion bound depends on, at the middle of an interval, and one point, place
-/// and direction to evaluate it at.
+/// All data on which a motion bound depends, at the middle of an interval. Also the point, place
+/// and direction at which the bound is evaluated.
 struct Trial {
   struct Joint {
     ScrewMotion::Kind kind;
@@ -60,7 +60,7 @@ Ratios ratios(const Trial& trial) {
   w.screws = screws;
   w.speed = roundedUp(w.linear.norm());
   w.angle = roundedUp(w.angular.norm());
-  w.fixedError = w.reachError = 0x1p-48;  // the doubles above against the long doubles below
+  w.fixedError = w.reachError = 0x1p-48;  // differences between doubles and long doubles
 
   const Vec3 x = trial.center + trial.radius * trial.offset;
   const auto place = [&](long double s, long double share) {
@@ -153,8 +153,8 @@ Trial perturbed(Random& random, Trial trial, double step) {
   return trial;
 }
 
-/// Adversarial search: climbs towards the largest share of each bound that any chain attains. It
-/// must never exceed 1, and must come close to 1 somewhere.
+/// Adversarial search: hill climbing for the chain that attains the largest share of each bound.
+/// The share must never exceed 1, and must come close to 1 somewhere.
 TEST(MotionBounds, IsNeverExceededAndAttained) {
   Random random(test::testSeed(21));
   const int starts = test::stressAsked() ? 5000 : 300;
@@ -182,7 +182,8 @@ TEST(MotionBounds, IsNeverExceededAndAttained) {
   for (const double share : best) EXPECT_GT(share, 0.995);
 }
 
-/// The same for random chains of many joints. Prints how tight the bounds are in the median.
+/// Tests that random chains of many joints do not exceed the bounds. Prints the median of the share
+/// that they attain.
 TEST(MotionBounds, RandomChains) {
   Random random(test::testSeed(22));
   const int count = test::stressAsked() ? 10'000'000 : 50'000;
@@ -227,9 +228,9 @@ TEST(MotionBounds, OneTurn) {
   }
 }
 
-/// `angular` is computed, and may be shorter than the real rotation vector by its stated error
-/// (`reachError`, here). The bound must still cover the second-order term of the real rotation.
-TEST(MotionBounds, OneTurnWhoseRateIsOff) {
+/// `angular` is rounded, so it may be shorter than the real rotation vector by its stated error
+/// (here `reachError`). The bound must still cover the second-order term of the real rotation.
+TEST(MotionBounds, OneRotationWithARoundedRate) {
   for (const double amount : {0.02, 0.1, 0.4})
     for (const double error : {1e-2 * amount, 1e-3 * amount}) {
       const ScrewMotion screw{ScrewMotion::Kind::revolute, Vec3::UnitZ(), Vec3::Zero(), amount, 0};
@@ -239,7 +240,7 @@ TEST(MotionBounds, OneTurnWhoseRateIsOff) {
       w.angle = w.angular.norm();
       w.reachError = error;
       const MotionBound bound = motionBound(w, Vec3::UnitX(), 0);
-      // Towards the axis the point moves by 1 − cos, which is not in the first order at all.
+      // Towards the axis the point moves by 1 − cos, of which the first-order term is 0.
       const Vec3 n = Vec3::UnitX();
       EXPECT_GE(bound.secondOrderAcross * n.cross(w.angular).norm() + bound.secondOrder,
                 1 - std::cos(amount))
@@ -247,8 +248,8 @@ TEST(MotionBounds, OneTurnWhoseRateIsOff) {
     }
 }
 
-/// A translation after a rotation is rotated with it: a second-order term, although neither joint
-/// has one of its own at a point on the axis.
+/// A translation that follows a rotation is rotated, too. This gives a second-order term, although
+/// at a point on the axis neither joint alone has one.
 TEST(MotionBounds, SlideAfterATurn) {
   using Kind = ScrewMotion::Kind;
   const ScrewMotion screws[] = {{Kind::revolute, Vec3::UnitZ(), Vec3::Zero(), 0.1, 0},
@@ -260,7 +261,7 @@ TEST(MotionBounds, SlideAfterATurn) {
   EXPECT_NEAR(bound.isotropic, 0.2, 1e-14);
 }
 
-/// The part of a tube that grows with the interval is not in `pad`.
+/// `pad` does not contain the part of a tube that grows with the interval.
 TEST(MotionBounds, Tubes) {
   using Kind = ScrewMotion::Kind;
   const ScrewMotion screws[] = {{Kind::spherical, Vec3::Zero(), Vec3(0, 0, 3), 0, 0.01},

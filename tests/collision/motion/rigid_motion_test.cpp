@@ -42,8 +42,8 @@ class Cases {
   int n_ = 0;
 };
 
-/// The promise of the header: the pose, and every point of the interval, is within fixedError +
-/// reachError·|y|, with a tube of zero.
+/// As the header promises: with a tube of zero, the error of the pose, at every point, is within
+/// fixedError + reachError·|y|.
 TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   Cases cases(test::testSeed(1));
   double worst = 0;  // error as a share of its bound
@@ -64,9 +64,9 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
   EXPECT_GT(worst, 1e-4) << "a bound that no case comes near is not measured by this test";
 }
 
-/// The bound is never below the displacement, at random places of random intervals and along random
-/// directions, and is attained somewhere.
-TEST(RigidMotion, WindowsBoundTheTravel) {
+/// For random points, times and directions in random intervals, the bound is never below the
+/// displacement. Somewhere it is attained.
+TEST(RigidMotion, IntervalsBoundTheDisplacement) {
   Cases cases(test::testSeed(2));
   double tightest = 0, tightestDirectional = 0;
   const int count = test::stressAsked() ? 2'000'000 : 100'000;
@@ -132,7 +132,8 @@ TEST(RigidMotion, PlanarPosesAreWithinTheirStatedError) {
   }
 }
 
-/// Every curve in the tube is within the errors of the nominal one. Some curve comes near to them.
+/// No curve in the tube deviates from the nominal motion by more than the stated errors. Some curve
+/// comes close to them.
 TEST(RigidMotion, TubesAreWithinTheStatedError) {
   Cases cases(test::testSeed(5));
   for (const bool planar : {false, true}) {

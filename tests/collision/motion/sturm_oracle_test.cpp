@@ -1,5 +1,6 @@
-// Tests of the oracle of motions itself: known roots, first contacts in closed form, static samples
-// by rational linear programming, and equivalent descriptions of the same motion.
+// Tests of the oracle for motions itself (tests/support/sturm_contact.h): known roots, first
+// contacts in closed form, static samples by rational linear programming, and equivalent
+// descriptions of the same motion.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -74,7 +75,8 @@ RationalScene sceneNumber(int n, std::mt19937_64& random) {
                        n % 5 != 0);
 }
 
-/// The motion of the oracle is that of the edge, by its definition in long double.
+/// The oracle's motion must be that of the edge, which the test computes from its definition in
+/// long double.
 TEST(SturmContact, MotionIsTheEdges) {
   std::mt19937_64 random(testSeed(43));
   for (int n = 0; n < 300; ++n) {
@@ -107,8 +109,8 @@ TEST(SturmContact, ClosedForms) {
   }
 }
 
-/// No sample touches before the first contact, or at all if there is none. At the first contact the
-/// distance is zero up to rounding.
+/// No sample before the first contact touches; if there is no contact, no sample touches at all. At
+/// the first contact the distance is zero up to rounding.
 TEST(SturmContact, Samples) {
   std::mt19937_64 random(testSeed(44));
   const int count = (stressAsked() ? 8'000 : 400) / kSlowdown;
@@ -146,13 +148,13 @@ TEST(SturmContact, Samples) {
             << " of them, and missed " << missed << "\n";
   EXPECT_GT(contacts, count / 3);
   EXPECT_GT(count - contacts, count / 5);
-  if (count >= 400) {  // fewer, under sanitizers, may have none
-    EXPECT_GT(missed, count / 200) << "some contacts are for the oracle only";
+  if (count >= 400) {  // the fewer cases under sanitizers may have none
+    EXPECT_GT(missed, count / 200) << "samples must miss some contacts";
   }
 }
 
 /// The reversed motion touches, too. As seen from the other triangle, the motion touches at the
-/// very same time.
+/// same time.
 TEST(SturmContact, InvariantUnderOtherDescriptions) {
   std::mt19937_64 random(testSeed(45));
   const int count = (stressAsked() ? 10'000 : 500) / kSlowdown;

@@ -1,5 +1,5 @@
-// Certified motions of a triangle against an exact oracle (tests/support/sturm_contact.h), whose
-// motion is exactly that of the edge: what is proved must hold to the last digit.
+// Compares certified motions of a triangle with an exact oracle (tests/support/sturm_contact.h),
+// whose motion is exactly that of the edge. So every proof must hold to the last digit.
 #include <array>
 #include <random>
 
@@ -24,8 +24,9 @@ using test::RationalMotion;
 using test::RationalScene;
 using test::ReferenceMotion;
 
-/// A query and its tolerances. A first contact is bracketed to `timeTolerance` if the motion covers
-/// more than the tolerance in that time; else the answer may be `undecided`.
+/// A query and its tolerances. The bracket of a first contact must be at most `timeTolerance` wide
+/// if the body moves by more than the tolerance in that time. Otherwise the answer may be
+/// `undecided`.
 struct Question {
   bool earliest;
   double tolerance, timeTolerance;
@@ -36,9 +37,9 @@ constexpr std::array<Question, 3> kQuestions = {
 /// The error of RationalMotion::time, doubled.
 constexpr long double kTimeError = 0x1p-59L;
 
-/// Returns how far, in metres, a corner at a rounded pose may be from the motion: the bounds of
-/// rigid_motion.cpp for the rotation's error, 2^-43 of the lever, and for the position's, 16u of
-/// the largest coordinate.
+/// Returns how far, in metres, a corner at a rounded pose may be from its exact position. This is
+/// the sum of two bounds of rigid_motion.cpp: 2^-43 of the lever for the rotation, and 16u of the
+/// largest coordinate for the position.
 double poseError(const Triangle& moving, const RigidPose& from, const RigidPose& to) {
   double lever = 0;
   for (const Vec3& p : moving) lever = std::max(lever, p.norm());
@@ -86,8 +87,8 @@ class Sturm : public testing::TestWithParam<Proof> {
         for (const Vec3& p : moving)
           ASSERT_LE((real.point(r.contactTime, p) - (X.m * p + X.t).cast<long double>()).norm(),
                     poseError(moving, from, to) + 0x1p-50 * p.norm() + 0x1p-50 * X.t.norm());
-        // So by then the motion itself comes within the rounding of the pose. It also touches,
-        // unless the contact exists only within that rounding.
+        // So the motion itself comes as close as the rounding of the pose, at the latest at this
+        // time. It also touches, unless the contact exists only within that rounding.
         counts_.onlyRounded += !known.contact || r.contactTime < path.time(known.low) - kTimeError;
         if (!earliest) break;
         if (!r.grazing) {
@@ -133,8 +134,8 @@ TEST_P(Sturm, ClosedForms) {
     }
 }
 
-/// The random scenes are hard on purpose. But near misses that were not constructed as such are
-/// decided.
+/// The random scenes are hard on purpose. But scenes that were not constructed as near misses must
+/// be decided.
 TEST_P(Sturm, Motions) {
   std::mt19937_64 random(test::testSeed(41));
   const int count = (test::stressAsked() ? 40'000 : 2'000) / test::kSlowdown;

@@ -38,8 +38,8 @@ int rationalSign(const std::array<MappedPoint, 4>& points) {
   return det.sign();
 }
 
-/// The sign is right where rounded images would give a wrong one: four nearly coplanar points, each
-/// under one of two maps, far from the origin.
+/// Four nearly coplanar points, each under one of two maps, far from the origin. The sign must be
+/// right, although the rounded images would give a wrong one.
 TEST(OrientationSign, NearlyCoplanarPointsUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(20261124));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
@@ -72,7 +72,7 @@ TEST(OrientationSign, NearlyCoplanarPointsUnderTwoMaps) {
   EXPECT_GT(roundedWrongly, 250) << "the cases must be hard";
 }
 
-/// A point is not taken to be in the plane if it is off by the least positive double.
+/// A point that is off the plane by the least positive double must not count as in the plane.
 TEST(OrientationSign, OneSubnormalOffThePlane) {
   const Transform X;
   const MappedPoint o{X, Vec3::Zero()}, x{X, Vec3::UnitX()}, y{X, Vec3::UnitY()};

@@ -21,8 +21,7 @@ std::int64_t any(std::mt19937_64& random, unsigned most) {
 }
 
 /// Compares orientations dot(a, cross(b, c)) with Boost's integers. The entries have up to 62 bits,
-/// as differences of coordinates below 2^61 have, so every product and sum reaches its largest
-/// width.
+/// like differences of coordinates below 2^61. So every product and sum reaches its largest width.
 TEST(SmallInt, OrientationsAgreeWithBoost) {
   std::mt19937_64 random(test::testSeed(61));
   int zeros = 0;

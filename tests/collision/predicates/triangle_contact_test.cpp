@@ -74,7 +74,7 @@ TEST_P(Random, AgreesWithRationals) {
       X_WA = {rotation() * (1 + 1e-9 * real()), {real(), real(), real()}};
       X_WB = {Mat3(rotation() + 1e-9 * Mat3::Random()), {real(), real(), real()}};
     } else if (kind == "grazing, mapped far out") {
-      // b's lowest corner is above or below a's face by less than mapped corners round.
+      // b's lowest corner is above or below a's face by less than the rounding of mapped corners.
       X_WA = {rotation(), Vec3(real(), real(), real()) * 1e6};
       X_WB = {rotation(), X_WA.t};
       const Vec3 normal = (a[1] - a[0]).cross(a[2] - a[0]).normalized();
@@ -134,9 +134,9 @@ TEST(TriangleContact, DegenerateTrianglesAreTheirPointSets) {
 }
 
 #ifdef __SSE2__
-/// A corner touches a face, or is off it by a subnormal in the corner, in the map's matrix or in
-/// its translation. The verdict must be right although the processor reads subnormals as zero,
-/// which a linked library may have set.
+/// A corner touches a face, or is off it by a subnormal number in the corner, in the map's matrix
+/// or in its translation. The verdict must be right although the processor reads subnormals as
+/// zero: a linked library may have set this mode.
 TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
   const Triangle face = {Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)};
   const Triangle tip = {Vec3(1, 2, 0), Vec3(1, 2, 4), Vec3(2, 2, 4)};
@@ -157,8 +157,8 @@ TEST(TriangleContact, SubnormalsThatAreReadAsZero) {
 }
 #endif
 
-/// Corners are off the other triangle's plane by the least that a grid allows, for grids of 4 to
-/// 200 bits. Each kind of integer thus is used up to its last bit, and overflow would show.
+/// Corners are off the other triangle's plane by the smallest step of a grid, for grids of 4 to 200
+/// bits. So each integer type is used up to its last bit, and an overflow would be detected.
 TEST(TriangleContact, GridsOfAnyNumberOfBits) {
   std::mt19937_64 random(test::testSeed(53));
   int touching = 0, cases = 0;

@@ -30,9 +30,9 @@ long double distanceToSegment(const Long3& x, const Long3& p, const Long3& q) {
   return (p + t * (q - p) - x).norm();
 }
 
-/// Returns the distance from a point to a closed triangle under its map, in long double, less the
-/// value that rounding may give instead of 0. The normal of a sliver is known to 2^-60 of its
-/// longest edge squared over its length.
+/// Returns the distance from a point to a closed triangle under its map, in long double, minus the
+/// rounding error that this distance may have. The normal n of a sliver has a relative error of
+/// 2^-60·L²/|n|, where L is its longest edge.
 long double distanceToTriangle(const Vec3& point, const Triangle& triangle, const Transform& X) {
   Long3 t[3];
   for (std::size_t i = 0; i < 3; ++i)
@@ -51,13 +51,13 @@ long double distanceToTriangle(const Vec3& point, const Triangle& triangle, cons
   return std::min(best, std::max(0.0L, std::abs(n.dot(x - t[0])) / n.norm() - rounding));
 }
 
-/// Expects both ends on both triangles, and the fast path within the error that
-/// triangle_intersection.h guarantees from the exact one.
+/// Expects that both ends are on both triangles, and that the fast path differs from the exact one
+/// by no more than triangle_intersection.h guarantees.
 void expectSound(const Segment& s, const Triangle& a, const Transform& X_WA, const Triangle& b,
                  const Transform& X_WB) {
   const double scale = errorScale(a, X_WA, b, X_WB);
   for (const Vec3& end : {s.p, s.q}) {
-    // √3·2^-50, and as much again for long double's own rounding on badly shaped triangles.
+    // √3·2^-50, doubled for the rounding of long double on badly shaped triangles.
     EXPECT_LE(distanceToTriangle(end, a, X_WA), 4 * 0x1p-50 * scale);
     EXPECT_LE(distanceToTriangle(end, b, X_WB), 4 * 0x1p-50 * scale);
   }
@@ -103,7 +103,7 @@ TEST(Contacts, SharedWorkloadsAgainstBruteForce) {
   EXPECT_GT(found, 3'000u / test::kSlowdown);
 }
 
-/// Expects these two ends, in any order, also with the triangles swapped.
+/// Expects the ends p and q, in any order, also if the triangles are swapped.
 void expectEnds(const Triangle& a, const Triangle& b, const Vec3& p, const Vec3& q) {
   for (const bool swapped : {false, true}) {
     const Segment s =
@@ -136,8 +136,8 @@ TEST(TriangleIntersection, ClosedForms) {
              {Vec3(3, 0, 0), Vec3(6, 0, 0), Vec3(9, 0, 0)}, {3, 0, 0}, {4, 0, 0});
 }
 
-/// Triangles that cross at a flat angle, far from the origin, and of sizes down to 2^-1000: there
-/// the fast path loses the most digits.
+/// Triangles that cross at a flat angle, far from the origin, and of sizes down to 2^-1000. In
+/// these cases the fast path loses the most digits.
 TEST(TriangleIntersection, IsRightToTheLastBitsAtAnyAngle) {
   std::mt19937_64 random(test::testSeed(7));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

@@ -169,8 +169,8 @@ TEST(Containment, RaysLeaveAndEnterAgain) {
   }
 }
 
-/// At coordinates of 2^51 doubles are half integers. So the ends of rays are, too, and many rays
-/// meet an edge or a vertex of the mesh, or lie in the plane of a triangle.
+/// At coordinates of 2^51 all doubles are multiples of ½, and so are the coordinates of the ends of
+/// rays. So many rays meet an edge or a vertex of the mesh, or lie in the plane of a triangle.
 TEST(Containment, RaysThroughEdgesAndVertices) {
   for (int axis = 0; axis < 3; ++axis) {
     TriangleMesh mesh = comb(axis, 2, 4);
@@ -187,8 +187,8 @@ TEST(Containment, RaysThroughEdgesAndVertices) {
   }
 }
 
-/// Points below the apex of a fan of thousands of needles, where the first ray may meet edges.
-/// Compared with the closed form, under two rotations and far away.
+/// Points below the apex of a fan of thousands of needle-shaped triangles, where the first ray may
+/// meet edges. The answers are compared with the closed form, under two rotations and far away.
 TEST(Containment, FineMeshesUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(31));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

@@ -45,9 +45,9 @@ template <class Volume>
 class PartsDistance : public testing::Test {};
 TYPED_TEST_SUITE(PartsDistance, test::Volumes, test::VolumeNames);
 
-/// Compares every answer on two trees with all pairs of their leaf primitives, one by one: the
-/// distance and its points, the leaf primitives reported, both orders, contact, tolerance, and the
-/// error that the options allow.
+/// Compares every query on two trees with brute force over all pairs of their leaf primitives: the
+/// distance and its witness points, the leaf primitives reported, both orders, contact, the
+/// tolerance query, and the error that the options allow.
 template <class Tree>
 Distance checked(const Tree& a, const Items& itemsA, const Transform& X_WA, const Tree& b,
                  const Items& itemsB, const Transform& X_WB) {
@@ -125,8 +125,8 @@ TriangleMesh boxMesh(const Vec3& size) {
   return mesh;
 }
 
-/// Boxes as convex parts and as meshes of twelve triangles, whose distance is computed by other
-/// code, at gaps from large to the last digits.
+/// Compares boxes as convex parts with boxes as meshes of twelve triangles, whose distances are
+/// computed by other code. Gaps range from large ones to the last digits.
 TEST(DistanceOfParts, BoxesAsMeshes) {
   std::mt19937_64 random(test::testSeed(42));
   std::uniform_real_distribution<double> real(0.05, 1);
@@ -141,7 +141,7 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
     if (n % 2) X_WB.m = X_WA.m;
     QueryContext context;
     Distance truth = distance(Posed(meshA, X_WA), Posed(meshB, X_WB), {}, context);
-    // A box inside a box is a contact of solids, but not of surfaces.
+    // A box inside another box touches it if both are solids, but not if they are surfaces.
     if (truth.distance == 0 || interference(Posed(a, X_WA), Posed(b, X_WB), context)) continue;
     for (int round = 0; round < 2; ++round) {
       for (const auto& [s, t] : {std::pair(&a, &b), std::pair(&a, &meshB), std::pair(&meshA, &b)}) {
@@ -160,8 +160,8 @@ TEST(DistanceOfParts, BoxesAsMeshes) {
   EXPECT_GT(apart, 1'000);
 }
 
-/// A mesh of many triangles against one convex part: the tree has to prune.
-TEST(DistanceOfParts, LooksAtFewTriangles) {
+/// A mesh of many triangles against one convex part: the query must prune most of the tree.
+TEST(DistanceOfParts, TestsFewTriangles) {
   std::mt19937_64 random(test::testSeed(43));
   const TriangleMesh mesh = test::soup(random, 3'000, 0.02);
   const ObbTree a(mesh);
@@ -175,7 +175,7 @@ TEST(DistanceOfParts, LooksAtFewTriangles) {
     queries += 2;
   }
   std::cout << context.counters.triangleTests / queries << " of " << mesh.triangles.size()
-            << " triangles looked at a query\n";
+            << " triangles tested per query\n";
   EXPECT_LT(context.counters.triangleTests / queries, mesh.triangles.size() / 10);
 }
 

@@ -74,8 +74,9 @@ TEST(ClosestPoints, WithinTheirErrorOfTheExactDistance) {
 }
 
 /// Two triangles in one plane. One is a segment, except for a corner that is 2^-1074 off it. A
-/// hundred digits can't separate its sides: an oracle of that precision returned a distance of 0.
-TEST(ClosestPoints, AndTheirOracleOfATriangleOneSubnormalWide) {
+/// hundred digits can't distinguish its two long sides: an oracle of that precision returned a
+/// distance of 0.
+TEST(ClosestPoints, TriangleOneSubnormalWide) {
   const Triangle a = {Vec3(-6, -5, 14), Vec3(-4, -4, std::nextafter(13.0, 0.0)),
                       Vec3(std::nextafter(2.0, 0.0), 2, 1)},
                  b = {Vec3(0, 1, 2), Vec3(-0x1p-1074, 1, 2), Vec3(-4, -3, 10)};

@@ -42,8 +42,8 @@ TEST_P(Fits, SharedWorkloads) {
             << context.counters.exactTests << "\n";
 }
 
-/// Maps that are not quite rigid, and the rounding of the relative pose, against the double loop
-/// over exact triangle tests.
+/// Maps are not quite rigid, and the relative pose is rounded. The verdicts are compared with brute
+/// force by exact triangle tests.
 TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(5));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
@@ -76,8 +76,8 @@ TEST_P(Fits, AgreesWithBruteForceUnderTwoMaps) {
   EXPECT_LT(touching, cases - 10);
 }
 
-/// A corner that both bodies share exactly, under equal maps that are only near-rigid. A tree that
-/// pruned by the rounded relative pose without a margin would lose it.
+/// Both bodies share a corner exactly, under equal maps that are only nearly rigid. A tree that
+/// pruned by the rounded relative pose without a margin would lose this contact.
 TEST_P(Fits, ExactMapDecidesDeepInATree) {
   std::mt19937_64 random(test::testSeed(11));
   const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };

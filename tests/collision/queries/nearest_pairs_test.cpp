@@ -1,5 +1,5 @@
-// Tests how a distance query chooses among its last pairs. Ranges and measured distances are made
-// up, and as far off as those of triangles and convex parts may be.
+// Tests how a distance query chooses among its last pairs. The test makes up ranges and measured
+// distances, with errors as large as those of triangles and convex parts may be.
 #include "collision/queries/nearest_pairs.h"
 
 #include <random>
@@ -30,9 +30,9 @@ class MadeUp : public NearestPairs {
   }
 };
 
-/// Distances that nearly tie, at the limits of what the options allow, in any order: the result
-/// exceeds the least distance by no more than distance.h allows.
-TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
+/// Distances are nearly equal, or exceed the least one by as much as the options allow, and come in
+/// any order. The result must exceed the least distance by no more than distance.h allows.
+TEST(NearestPairs, TiesStayWithinTheAllowedError) {
   std::mt19937_64 random(test::testSeed(53));
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution(low, high)(random);
@@ -51,8 +51,8 @@ TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
     for (std::uint32_t i = 0; i < 5; ++i) {
       const double base = i == 0 ? least : n % 2 && i == 1 ? least : allowed;
       const double d = i == 0 ? least : base * (1 + real(0, 1.3e-12));
-      // A measured distance is at most 2^-41 too large. A range is as wide as the rounding of far
-      // bodies makes it.
+      // A measured distance is too large by at most a factor of 1 + 2^-41. A range is as wide as
+      // rounding makes it for bodies far away.
       measures.push_back(d * (1 + real(0, 0x1p-41)));
       const double loose = i % 2 ? 0 : real(0, 2e-12);
       if (i == 0) continue;
@@ -68,9 +68,9 @@ TEST(NearestPairs, TiesStayWithinWhatIsGranted) {
   RecordProperty("worst", std::to_string(worst));
 }
 
-/// A pair that may touch is measured even where the options allow to skip it, and a NaN rules out
-/// no pair.
-TEST(NearestPairs, WhatMayTouchIsMeasured) {
+/// A pair that may touch is measured even if the options allow the query to skip it. A NaN must not
+/// exclude any pair.
+TEST(NearestPairs, PairsThatMayTouchAreMeasured) {
   QueryContext context;
   const DistanceOptions options{.relative = 1, .absolute = 1};
   MadeUp pairs(options, context);

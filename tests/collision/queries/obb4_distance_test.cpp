@@ -45,8 +45,8 @@ TEST(Obb4Distance, SharedWorkloads) {
   EXPECT_GT(checked, 1'000 / test::kSlowdown);
 }
 
-/// Distances whose squares exceed floats: bodies of 1 mm up to a light second apart, a light year,
-/// and more.
+/// Distances whose squares exceed the range of floats: bodies of 1 mm that are a light second, a
+/// light year, and more apart.
 TEST(Obb4Distance, FarApart) {
   std::mt19937_64 random(test::testSeed(23));
   for (const double away : {1e3, 3e8, 1e16, 1e25}) {
@@ -115,8 +115,8 @@ Mat3 turned(int n) {
   return Eigen::AngleAxisd(n, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 }
 
-/// A triangle over its copy: feet lie on edges. Plain doubles place them inside the face, finer
-/// numbers outside.
+/// A triangle lies over its copy, so the feet of its corners are on edges. In doubles they seem to
+/// be inside the face, in more precise numbers outside.
 TEST(Obb4Distance, FeetOnEdges) {
   TriangleMesh low, high;
   const Vec3 up(0, 0, 0.1);
@@ -148,7 +148,7 @@ TEST(Obb4Distance, NearTies) {
     const Distance d = distance(Posed(a), Posed(b), {}, context);
     EXPECT_EQ(d.a, 0U) << n;
     EXPECT_EQ(d.b, 0U) << n;
-    EXPECT_NEAR(d.distance, 0.001, 8 * kUnit) << n;  // 2 of them for the corners' own rounding
+    EXPECT_NEAR(d.distance, 0.001, 8 * kUnit) << n;  // 2 of the 8: rounding of the corners
   }
 }
 

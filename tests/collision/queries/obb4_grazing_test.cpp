@@ -1,7 +1,7 @@
-// Bodies that just meet, or are a known distance apart. They are boxes made of triangles and equal
-// to their oriented bounding boxes, so no bounding box is wider than it must be. These cases need
-// all that the trees' margins cover, also for maps far from rigid: without it, a proof of
-// separation is wrong.
+// Bodies that just meet, or are a known distance apart. They are boxes made of triangles, which
+// equal their oriented bounding boxes: no bounding box has room to spare. So if any term were
+// missing in the trees' margins, some proof of separation would be wrong, also for maps far from
+// rigid.
 #include <cmath>
 #include <random>
 
@@ -31,7 +31,7 @@ Vec3 anyVector(Random& random, double size) {
   return size * Vec3(x, y, z);
 }
 
-/// A few boxes; `apartBy` places the first of them (12 triangles, 8 vertices).
+/// Returns a mesh of a few boxes. `apartBy` places the first of them (12 triangles, 8 vertices).
 TriangleMesh boxes(Random& random, double size, const Vec3& place) {
   TriangleMesh mesh;
   for (auto more = random() % 3; mesh.triangles.empty() || more-- > 0;) {
@@ -62,9 +62,9 @@ struct Placed {
   double size = 0;  ///< S of distance.h
 };
 
-/// Places two bodies so that the corner of a that is nearest to a face of b is `gap` off a point of
-/// it, and all else is farther; or so that an edge is `gap` off an edge. `deeper` moves them
-/// together by this multiple of u·S.
+/// Places two bodies so that a corner of a is `gap` away from a face of b, or an edge of a is `gap`
+/// away from an edge of b. All other points are farther apart. `deeper` moves the bodies together
+/// by this multiple of u·S.
 Placed apartBy(Random& random, int n, double gap, double deeper = 0) {
   constexpr double kDefects[] = {0, 1e-12, 1e-7, 1e-5, 1e-3, 0.015};
   Placed p;
@@ -77,7 +77,7 @@ Placed apartBy(Random& random, int n, double gap, double deeper = 0) {
   p.X_WA.t = anyVector(random, place);
   const auto cornerA = [&](int i) { return Vec3(p.X_WA.m * p.a.vertices[i] + p.X_WA.t); };
   const auto cornerB = [&](int i) { return Vec3(p.X_WB.m * p.b.vertices[i]); };
-  // Edges of either, along the box's axes: vertices i and i ^ bit.
+  // The edges of both boxes, along their axes: from vertex i to vertex i ^ bit.
   const auto edgeA = [&](int i, int bit) { return Vec3(cornerA(i ^ bit) - cornerA(i)); };
   const auto edgeB = [&](int i, int bit) { return Vec3(cornerB(i ^ bit) - cornerB(i)); };
   const auto outward = [](const Vec3& v, const Vec3& inner) {
@@ -121,7 +121,7 @@ class Obb4Grazing : public test::EveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Simd, Obb4Grazing, testing::ValuesIn(test::simdTargets()),
                          &test::targetName);
 
-TEST_P(Obb4Grazing, ThoseThatJustMeetTouch) {
+TEST_P(Obb4Grazing, BodiesThatJustMeetTouch) {
   Random random(test::testSeed(71));
   int touching = 0;
   for (int n = 0; n < 1'000 / test::kSlowdown; ++n) {
@@ -139,7 +139,7 @@ TEST_P(Obb4Grazing, ThoseThatJustMeetTouch) {
   EXPECT_GT(touching, 500 / test::kSlowdown);
 }
 
-TEST_P(Obb4Grazing, ThoseThatAreAKnownDistanceApartAreNotFarther) {
+TEST_P(Obb4Grazing, KnownDistancesAreNotExceeded) {
   Random random(test::testSeed(72));
   for (int n = 0; n < 1'000 / test::kSlowdown; ++n) {
     const double gap = std::pow(10.0, real(random, -6, 2));

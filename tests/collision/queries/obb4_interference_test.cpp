@@ -50,7 +50,8 @@ TEST_P(Obb4Interference, SharedWorkloads) {
   }
 }
 
-/// Maps that are not quite rigid, near and far from the origin, against the double loop.
+/// Maps that are not quite rigid, near and far from the origin. The verdicts are compared with
+/// brute force.
 TEST_P(Obb4Interference, AgreesWithBruteForceUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(5));
   int touching = 0, cases = 0;
@@ -83,8 +84,8 @@ TEST_P(Obb4Interference, AgreesWithBruteForceUnderTwoMaps) {
   EXPECT_LT(touching, cases - 50);
 }
 
-/// Two meshes of sizes 2^i and 2^k, around one point, and with a vertex of each at the same point
-/// up to rounding.
+/// Two meshes of sizes 2^i and 2^k, once both around one point, and once with a vertex of each at
+/// the same point up to rounding.
 TEST_P(Obb4Interference, ExtremeSizesAndRatios) {
   std::mt19937_64 random(test::testSeed(3));
   for (const int i : {-1020, -500, -100, -30, 0, 30, 100, 500, 950})
@@ -133,8 +134,8 @@ TEST_P(Obb4Interference, ExactTouch) {
 INSTANTIATE_TEST_SUITE_P(Simd, Obb4Interference, testing::ValuesIn(test::simdTargets()),
                          &test::targetName);
 
-/// All targets with fused multiply-add round alike, and so do all others: within each group the
-/// same boxes and triangles are tested.
+/// All SIMD targets with fused multiply-add round alike, and so do all targets without it. So
+/// within each of the two groups the same boxes and triangles are tested.
 TEST(Obb4InterferenceOf, TargetsCountAlike) {
   std::mt19937_64 random(test::testSeed(8));
   for (int n = 0; n < 50; ++n) {
@@ -155,7 +156,7 @@ TEST(Obb4InterferenceOf, TargetsCountAlike) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
-/// No verdict depends on what a context held before.
+/// No verdict may depend on the earlier queries of a context.
 TEST(Obb4InterferenceOf, ContextsAreReused) {
   std::mt19937_64 random(test::testSeed(13));
   QueryContext used;

@@ -1,6 +1,6 @@
-// Queries on 4-wide OBB trees start from a `LastPair`, the pair of triangles that answered last.
-// Answers don't depend on it: queries that start from the pair of other poses, trees and orders
-// answer as those that know none.
+// Queries on 4-wide OBB trees start from a `LastPair`, the pair of triangles that decided the last
+// query. The answers must not depend on this pair: a query that starts from the pair of another
+// pose, tree or order must answer like a query that starts from no pair.
 #include <cmath>
 #include <deque>
 #include <random>
@@ -32,8 +32,8 @@ struct Body {
   Obb4Tree tree;
 };
 
-/// Runs every query on two bodies, starting from `last` and from no pair, and compares the answers;
-/// returns whether the bodies touch.
+/// Runs every query on two bodies, once starting from `last` and once from no pair, and compares
+/// the answers. Returns whether the bodies touch.
 bool expectSame(const Body& a, const Transform& X_WA, const Body& b, const Transform& X_WB,
                 QueryContext& context, LastPair& last, const std::string& where) {
   SCOPED_TRACE(where);
@@ -65,7 +65,7 @@ bool expectSame(const Body& a, const Transform& X_WA, const Body& b, const Trans
   return hit.has_value();
 }
 
-/// Bodies move in small steps, in and out of contact. Every pair of them is tested in both orders
+/// Bodies move in small steps, in and out of contact. Every pair of bodies is tested in both orders
 /// with one context.
 TEST(Obb4LastPair, MotionsOfManyBodies) {
   std::mt19937_64 random(test::testSeed(41));
@@ -110,8 +110,9 @@ TriangleMesh slats(int count) {
   return mesh;
 }
 
-/// The pair that answered before is tested first: the next query tests no box, or far fewer.
-TEST(Obb4LastPair, AnswersTheNextOne) {
+/// The pair that decided the last query is tested first. So the next query tests no box, or far
+/// fewer boxes.
+TEST(Obb4LastPair, DecidesTheNextQuery) {
   std::mt19937_64 random(test::testSeed(42));
   const Body a(slats(40)), b(soup(random, 100, 0.1));
   Transform X;
@@ -133,7 +134,7 @@ TEST(Obb4LastPair, AnswersTheNextOne) {
     EXPECT_GT(distance(Posed(a.tree), Posed(b.tree, X), {}, context, &last).distance, 0);
   };
   EXPECT_GT(boxTests(touch), 0U);
-  EXPECT_GT(boxTests(touch), 0U) << "a pair that was found once is not trusted yet";
+  EXPECT_GT(boxTests(touch), 0U) << "a pair that decided one query is not used yet";
   EXPECT_EQ(boxTests(touch), 0U);
   EXPECT_EQ(boxTests(close), 0U);
   EXPECT_EQ(boxTests([&] { (void)distance(Posed(a.tree), Posed(b.tree, X), {}, context, &last); }),
@@ -143,9 +144,8 @@ TEST(Obb4LastPair, AnswersTheNextOne) {
   EXPECT_LT(boxTests(far), cold);
 }
 
-/// Unrelated queries cost at most a thousandth more triangle tests than without the remembered
-/// pair.
-TEST(Obb4LastPair, CostsNothingWhereItHelpsNothing) {
+/// For unrelated queries, the stored pair may cost at most a thousandth of the triangle tests.
+TEST(Obb4LastPair, CostsLittleForUnrelatedQueries) {
   std::mt19937_64 random(test::testSeed(43));
   const Body a(soup(random, 300, 0.1)), b(soup(random, 300, 0.1));
   QueryContext used, fresh;
@@ -163,8 +163,8 @@ TEST(Obb4LastPair, CostsNothingWhereItHelpsNothing) {
   EXPECT_LE(1000 * more, all);
 }
 
-/// The pair may be of other trees: smaller, elsewhere, touching or not. It is then only a bad
-/// guess.
+/// The stored pair may belong to other trees: smaller, elsewhere, touching or not. Then it must
+/// only cost time.
 TEST(Obb4LastPair, OfOtherTrees) {
   std::mt19937_64 random(test::testSeed(44));
   TriangleMesh far = slats(1);
@@ -180,7 +180,7 @@ TEST(Obb4LastPair, OfOtherTrees) {
     X.t.z() += n % 2 ? 3 : 0;
     const bool touch = test::bruteForceTouch(bodyA.mesh, {}, bodyB.mesh, X),
                close = test::bruteForceDistance(bodyA.mesh, {}, bodyB.mesh, X) <= 1e-3;
-    for (int i = 0; i < 3; ++i) {  // so that the pair is trusted
+    for (int i = 0; i < 3; ++i) {  // repeated, so that the query uses the stored pair
       EXPECT_EQ(interference(Posed(a), Posed(b, X), context, &last).has_value(), touch) << n;
       EXPECT_EQ(closerThan(Posed(a), Posed(b, X), 1e-3, context, &last), close) << n;
       const Distance d = distance(Posed(a), Posed(b, X), {}, context, &last);

@@ -1,5 +1,5 @@
-// Contacts that 4-wide OBB trees lost because a margin lacked a term, and a distance that was
-// wrong. Each of these tests fails without its fix.
+// Regression tests: contacts that 4-wide OBB trees missed because a margin lacked a term, and a
+// distance that was wrong. Each of these tests fails without its fix.
 #include <cmath>
 #include <random>
 
@@ -27,10 +27,11 @@ class Obb4Margins : public test::EveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Simd, Obb4Margins, testing::ValuesIn(test::simdTargets()),
                          &test::targetName);
 
-/// A leaf of small triangles in a long flat row holds floats that are off by 2^-24 of the row, not
-/// of a triangle. Each triangle of the row in turn is touched in one corner by a triangle in the
-/// plane x + z = const, all else of which is farther out. That corner is not the one that the other
-/// triangle's floats are relative to, because those two would round alike.
+/// A leaf has small triangles in a long flat row. Its floats are off by 2^-24 of the length of the
+/// row, not of the size of a triangle. Each triangle of the row in turn is touched in one corner by
+/// a triangle in the plane x + z = const, whose other points are farther out. The floats of the
+/// other triangle are relative to another corner than the touching one, because at the same corner
+/// both would round alike.
 TEST_P(Obb4Margins, SmallTrianglesInARow) {
   QueryContext context;
   const double s = 1e-4;  // not a multiple of those floats' spacing
@@ -52,8 +53,8 @@ TEST_P(Obb4Margins, SmallTrianglesInARow) {
   }
 }
 
-/// Two meshes of up to 2^1023 m. A small triangle of one is touched in one corner by a triangle of
-/// the other, with no rotation, with any rotation, or with an angle of at most 2^-23.
+/// Two meshes of up to 2^1023 m. A triangle of one mesh touches one corner of a small triangle of
+/// the other. The relative pose has no rotation, any rotation, or a rotation by at most 2^-23.
 struct FarCorner {
   TriangleMesh a, b;
   Transform X;
@@ -91,7 +92,7 @@ struct FarCorner {
   }
 };
 
-/// From 2^1000 m on, coordinates in the tree's unit are no longer below 1.
+/// For meshes of 2^1000 m and more, coordinates in the tree's unit are not below 1.
 TEST_P(Obb4Margins, LargestMeshes) {
   std::mt19937_64 random(test::testSeed(61));
   int touching = 0;
@@ -110,8 +111,8 @@ TEST_P(Obb4Margins, LargestMeshes) {
 }
 
 #ifdef __SSE2__
-/// Makes the processor flush results that underflow to zero, and read subnormals as zero: a linked
-/// library may have done so.
+/// Makes the processor flush results that underflow to zero, and read subnormals as zero. A linked
+/// library may have set this mode.
 class Flushing {
  public:
   Flushing() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }
@@ -123,8 +124,8 @@ class Flushing {
   unsigned before_;
 };
 
-/// The square of the small mesh's radius is flushed to 0, but the radius itself matters beside a
-/// mesh of 2^-476 m.
+/// The square of the small mesh's radius is flushed to 0, but the radius itself is not negligible
+/// beside a mesh of 2^-476 m.
 TEST_P(Obb4Margins, RadiusWhoseSquareIsFlushed) {
   TriangleMesh small, large;
   const double r = 0.9 * 0x1p-511, R = 0x1p-476;
@@ -140,7 +141,8 @@ TEST_P(Obb4Margins, RadiusWhoseSquareIsFlushed) {
   EXPECT_TRUE(interference(Posed(b, X), Posed(a), context));
 }
 
-/// Small entries of a rotation that are flushed are multiplied by the unit of a large mesh.
+/// Small entries of a rotation are flushed to 0, although they are multiplied by the unit of a
+/// large mesh.
 TEST_P(Obb4Margins, EntriesThatAreFlushed) {
   std::mt19937_64 random(test::testSeed(62));
   int touching = 0;
@@ -195,8 +197,8 @@ TEST_P(Obb4Margins, DifferencesThatAreFlushed) {
   EXPECT_GT(touching, 5'000 / test::kSlowdown);
 }
 
-/// Edges of 2^-124 of the mesh against edges of 2^14. Products of floats that underflow are
-/// flushed, others are not, and what is left is multiplied by the large edge.
+/// Edges of 2^-124 of the mesh against edges of 2^14. Some products of floats underflow and are
+/// flushed, others are not. The sum of those that are left is multiplied by the large edge.
 TEST_P(Obb4Margins, ProductsThatAreFlushed) {
   std::mt19937_64 random(test::testSeed(19));
   const auto sparse = [&](int exponent) {  // floats of very different sizes
@@ -230,10 +232,10 @@ TEST_P(Obb4Margins, ProductsThatAreFlushed) {
 }
 #endif
 
-/// Edges that are parallel up to the last bits. Their closest points once came from a difference
-/// that was all rounding: distances were off by 2.5 to 4.9 u·S, and "not closer" was wrong. Two
-/// edges cross far from their ends, with the triangles on either side. The true distances are
-/// computed in quadruple precision.
+/// Edges that are parallel up to the last bits. Their closest points were once computed from a
+/// difference that consisted only of rounding errors: distances were off by 2.5 to 4.9 u·S, and
+/// `closerThan` was wrong. Two edges cross far from their ends, with the triangles on either side.
+/// The true distances are computed in quadruple precision.
 TEST_P(Obb4Margins, NearlyParallelEdges) {
   struct Case {
     Triangle a, b;
@@ -255,7 +257,7 @@ TEST_P(Obb4Margins, NearlyParallelEdges) {
               Vec3(0x1.e7386756524e6p-1, 0x1.d4a7100552fa2p-1, 0x1.ebba409c77c6fp-1),
               Vec3(-0x1.7667d41796f0fp-1, 0x1.7be31884105e8p-2, 0x1.7be31884105e8p-2)},
              0x1.85cbe53e2ca88p-60}}) {
-    for (int i = 0; i < 9; ++i) {  // whichever corners come first
+    for (int i = 0; i < 9; ++i) {  // with all orders of the corners
       TriangleMesh meshA, meshB;
       add(meshA, s[i % 3], s[(i + 1) % 3], s[(i + 2) % 3]);
       add(meshB, t[i / 3], t[(i / 3 + 1) % 3], t[(i / 3 + 2) % 3]);

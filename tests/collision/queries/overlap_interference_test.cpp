@@ -27,8 +27,8 @@ struct OverlapNames {
 };
 TYPED_TEST_SUITE(OverlapInterference, Overlaps, OverlapNames);
 
-/// The counts show that every test prunes as the separating-axis test does, except for boxes that
-/// are apart by some 10^-15, as in e_touching_boxes.
+/// The counters must show that every overlap test prunes as well as the separating-axis test,
+/// except for boxes that are apart by some 10^-15, as in e_touching_boxes.
 TYPED_TEST(OverlapInterference, SharedWorkloads) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";

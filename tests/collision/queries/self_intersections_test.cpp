@@ -48,7 +48,7 @@ TEST(SelfIntersections, OfTwoPartsThatCross) {
   EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
 }
 
-TEST(SelfIntersections, ACornerOnAnEdgeThatHasNoCornerThere) {
+TEST(SelfIntersections, ACornerInTheMiddleOfAnEdge) {
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(2, 0, 0), Vec3(4, -1, 0), Vec3(0, -1, 0));
@@ -96,7 +96,7 @@ TEST(SelfIntersections, SmallBesideALargeMesh) {
   EXPECT_EQ(found(mesh), Pairs({{0, 1}}));
 }
 
-TEST(SelfIntersections, TrianglesOnALineAreLeftAside) {
+TEST(SelfIntersections, CollinearTrianglesAreIgnored) {
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   add(mesh, Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 0, 0));
@@ -104,8 +104,9 @@ TEST(SelfIntersections, TrianglesOnALineAreLeftAside) {
   EXPECT_EQ(found(mesh), Pairs());
 }
 
-/// Returns what is left of a triangle after a shared corner or edge is cut off, at 2^-12 of the way
-/// to the other corners: two triangles for a shared corner, one for a shared edge.
+/// Returns a triangle without the part near its shared corner or edge, which is cut off at 2^-12 of
+/// the way to the other corners. The rest is two triangles for a shared corner, and one triangle
+/// for a shared edge.
 std::vector<Triangle> without(const Triangle& t, const std::vector<int>& shared) {
   const auto toward = [](const Vec3& from, const Vec3& to) {
     return Vec3(from + 0x1p-12 * (to - from));
@@ -122,7 +123,7 @@ std::vector<Triangle> without(const Triangle& t, const std::vector<int>& shared)
 }
 
 /// Corners lie on a small grid, so every common point of two triangles that is not shared is far
-/// from the shared ones. On a grid of 5, a cut of 2^-12 removes nothing else of an intersection.
+/// from the shared ones. On a grid of 5, a cut of 2^-12 removes no other point of an intersection.
 TEST(SelfIntersections, RandomMeshesAgainstRationals) {
   std::mt19937_64 random(test::testSeed(64));
   std::array<int, 3> crossing = {}, clear = {};

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kShrink = 1e-4;
 
-/// Triangles around a speck at the origin. Their distances from it differ by less than the
-/// shrinkage.
+/// Triangles around a tiny mesh at the origin. Their distances from it differ by less than the map
+/// shrinks lengths.
 struct Shell {
   TriangleMesh around, speck;
   Transform X_WA, X_WB;
@@ -74,7 +74,7 @@ template <class Volume>
 class ShrinkingMaps : public testing::Test {};
 TYPED_TEST_SUITE(ShrinkingMaps, test::Volumes, test::VolumeNames);
 
-TYPED_TEST(ShrinkingMaps, DistancesAreTheWorlds) {
+TYPED_TEST(ShrinkingMaps, DistancesAreThoseInTheWorld) {
   std::mt19937_64 random(test::testSeed(20261125));
   for (int n = 0; n < 20; ++n) {
     const Shell shell(random);

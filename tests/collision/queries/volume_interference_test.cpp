@@ -30,8 +30,8 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
   std::size_t turn = 0;
   for (const std::string& name : test::workloadNames(*data / "collision")) {
     const test::Workload w = test::loadWorkload(*data / "collision", name);
-    // Looser volumes cost thousands of times more on nearly parallel surfaces, so fewer poses of
-    // these are tested.
+    // On nearly parallel surfaces, looser volumes cost thousands of times more, so fewer poses of
+    // these workloads are tested.
     const std::size_t step = name[0] == 'a' ? 10 : 5;
     ++turn;
     for (std::size_t v = 0; v < std::size(kParams); ++v) {
@@ -54,7 +54,8 @@ TYPED_TEST(VolumeInterference, SharedWorkloads) {
             << "\n";
 }
 
-/// Maps that are not quite rigid, near and far from the origin, against the double loop.
+/// Maps that are not quite rigid, near and far from the origin. The verdicts are compared with
+/// brute force.
 TYPED_TEST(VolumeInterference, AgreesWithBruteForceUnderTwoMaps) {
   std::mt19937_64 random(test::testSeed(5));
   int touching = 0, cases = 0;
@@ -116,7 +117,7 @@ TYPED_TEST(VolumeInterference, ManyConvexParts) {
     const auto found = interference(Posed(a, X_WA), Posed(b, X_WB), context);
     EXPECT_EQ(found.has_value(), parts) << n;
     EXPECT_EQ(interference(Posed(mesh, X_WB), Posed(a, X_WA), context).has_value(), soupHit) << n;
-    if (found) {  // the numbers reported are those of the list
+    if (found) {  // the reported numbers must be those of the list
       bool same = false;
       for (std::size_t i = 0; i < a.parts().size(); ++i)
         same = same || (a.meshTriangle(static_cast<std::uint32_t>(i)) == found->a &&

@@ -1,6 +1,6 @@
 // Tests the kernel of moving boxes against its contract (obb4.h). Boxes that just meet within the
-// interval must stay open, along whichever axis they meet. Boxes that stay a little apart must be
-// separated.
+// interval must not be separated, whatever the axis along which they meet. Boxes that stay a little
+// apart must be separated.
 #include <cmath>
 #include <random>
 
@@ -59,9 +59,9 @@ double sign(double x) {
 
 enum class By { directions, isotropic };
 
-/// Four pairs of boxes, the i-th of a's with the i-th of b's. At an end of the interval each pair
-/// comes within `gap` (relative to its sizes), along one of the 15 axes. The displacement towards
-/// each other is the largest that the contract allows.
+/// Four pairs of boxes: the i-th box of a with the i-th box of b. At one end of the interval the
+/// gap of each pair, along one of the 15 axes, is `gap` times its sizes. The boxes move towards
+/// each other as far as the contract allows.
 struct Pairs {
   Obb4 a = {}, b = {};
   Obb4Pose pose = {};
@@ -70,8 +70,8 @@ struct Pairs {
 
   Pairs(Random& random, int n, By by, double gap, bool beyond, double most = 2) {
     const auto f = [](double x) { return static_cast<float>(x); };
-    // The displacement of each corner is bounded separately: for large rotations the bound exceeds
-    // what any single corner does.
+    // The displacement of each corner is bounded separately. For large rotations the bound exceeds
+    // the displacement of every single corner.
     const double spin = std::pow(10.0, real(random, -3, most));
     const Mat3 M = rotation(random);
     const Vec3 angular = (spin * vector(random)).cast<float>().cast<double>();
@@ -128,8 +128,8 @@ struct Pairs {
         const Vec3 across = normal - angular * (angular.dot(normal) / angular.squaredNorm());
         if (across.norm() > 1e-6) goes -= secondOrderAcross * angular.norm() * across.normalized();
       }
-      // The lowest point of the moved b and the highest of a: a corner each, or any point where an
-      // edge or a face is level.
+      // The lowest point of the moved b and the highest point of a: a corner of each, or any point
+      // of an edge or face that is level.
       const auto corner = [&](const Mat3& axes, const Vec3& towards) {
         Vec3 p = Vec3::Zero();
         for (int j = 0; j < 3; ++j) {
@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Simd, MovingBoxesKernel, testing::ValuesIn(test::simdTa
 
 constexpr unsigned kDiagonal = 0x8421;
 
-TEST_P(MovingBoxesKernel, BoxesThatMeetAreOpen) {
+TEST_P(MovingBoxesKernel, BoxesThatMeetAreNotSeparated) {
   Random random(test::testSeed(61));
   for (int n = 0; n < 40'000 / test::kSlowdown; ++n) {
     const By by = n % 5 ? By::directions : By::isotropic;
@@ -176,9 +176,10 @@ TEST_P(MovingBoxesKernel, BoxesThatMeetAreOpen) {
   }
 }
 
-/// Pairs of boxes that stay apart are separated. With first-order terms only, or with the isotropic
-/// bound only, the test is tight up to rounding.
-TEST_P(MovingBoxesKernel, BoxesThatStayApartAreNot) {
+/// Nearly all pairs of boxes that stay apart must be separated. Here the motion bounds have only
+/// first-order terms, or only the isotropic bound. For these the kernel's test is tight up to
+/// rounding.
+TEST_P(MovingBoxesKernel, BoxesThatStayApartAreSeparated) {
   Random random(test::testSeed(62));
   int asked = 0, open = 0;
   for (int n = 0; n < 40'000 / test::kSlowdown; ++n) {

@@ -47,8 +47,8 @@ class NearBoxes : public test::EveryTarget {
     return std::uniform_real_distribution(low, high)(random_);
   }
 
-  /// Returns four boxes of very different sizes about the frame's origin; or all upright, about the
-  /// z-axis.
+  /// Returns four boxes of very different sizes, about the frame's origin, or if `upright` upright
+  /// ones about the z-axis.
   Obb4 boxes(bool upright) {
     Obb4 four = {};
     for (int l = 0; l < 4; ++l) {
@@ -85,19 +85,20 @@ class NearBoxes : public test::EveryTarget {
 INSTANTIATE_TEST_SUITE_P(Targets, NearBoxes, testing::ValuesIn(test::simdTargets()),
                          test::targetName);
 
-/// The bound is never above the distance, and no pair within the limit is separated. Nor is it
-/// below the gap along the line between the centres. The points farthest along that line differ by
-/// this gap along it and by at most both radii r across it, so gap² ≥ d² − r².
+/// The bound must never be above the distance d, and no pair within the limit may be separated. The
+/// bound must also not be below the gap along the line between the centres. The points of both
+/// boxes that are farthest along that line differ by this gap along the line, and by at most the
+/// sum r of both radii across it, so gap² ≥ d² − r².
 TEST_P(NearBoxes, BoundTheirDistances) {
   QueryContext context;
   int apart = 0, within = 0;
   for (int n = 0; n < 300; ++n) {
-    // For upright boxes above each other the line between the centres gives the exact distance, so
-    // any rounding that is not covered shows.
+    // For upright boxes above each other, the gap along the line between the centres is the exact
+    // distance. So any rounding that the margin does not cover makes the test fail.
     const bool upright = n % 3 == 0;
     const Obb4 a = boxes(upright), b = boxes(upright);
     Transform X = test::anyPose(random_, std::pow(10.0, real(-1, 1.5)));
-    // Some poses are so far off, and some boxes of b so large, that squares of squared lengths
+    // Some poses are so far away, and some boxes of b so large, that squares of squared lengths
     // overflow.
     const double unit = n % 3 == 1 && n % 5 == 0 ? 0x1p45 : 1;
     const double scale = unit * std::ldexp(1.0, n % 7 - 3);

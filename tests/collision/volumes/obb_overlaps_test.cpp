@@ -1,5 +1,5 @@
-// Tests the overlap tests of boxes against rationals: boxes that touch are never reported as
-// separated, and boxes that are clearly apart always are.
+// Compares the overlap tests of boxes with rationals: boxes that touch must never be separated, and
+// boxes that are clearly apart must always be separated.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -20,10 +20,9 @@ using exact::dot;
 using exact::Rational;
 using exact::Row;
 
-/// The exact answer, in rationals, for two boxes as the sets that their doubles define. Two
-/// parallelepipeds that are apart are so along a face normal or a common normal of two edges. A
-/// flat one is the limit of thicker ones with the same axes, so none of the 15 axes may be left
-/// out.
+/// The exact answer, in rationals, for two boxes as the sets that their doubles define. If two
+/// parallelepipeds are apart, a face normal or a common normal of two edges separates them. A flat
+/// one is the limit of thicker ones with the same axes, so none of the 15 axes may be left out.
 struct Truth {
   bool touch = true;
   double widest = -HUGE_VAL;  ///< largest gap, metres
@@ -65,7 +64,7 @@ struct Boxes {
   Obb a, b;
   Transform X_AB;
   double scale = 1;  ///< metres: the order of sizes and coordinates
-  /// Metres: how far apart the features are that meet; negative: one is inside the other.
+  /// The distance of the two supporting features, metres; negative if one is inside the other box.
   double step = 0;
 };
 
@@ -158,9 +157,9 @@ struct OverlapNames {
 };
 TYPED_TEST_SUITE(ObbOverlaps, Overlaps, OverlapNames);
 
-/// Covers many more pairs than rationals could: a pair that the separating-axis theorem separates
-/// by several times its rounding margin must be separated by every test.
-TYPED_TEST(ObbOverlaps, TellWhatIsClearlyApart) {
+/// Without rationals, so that many more pairs can be tested. If the separating-axis theorem
+/// separates a pair by several times its rounding margin, every test must separate it.
+TYPED_TEST(ObbOverlaps, SeparateBoxesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(64));
   const int rounds = (test::stressAsked() ? 10'000'000 : 100'000) / test::kSlowdown;
   int clear = 0, missed = 0;
@@ -193,7 +192,7 @@ TYPED_TEST(ObbOverlaps, APadIsADistance) {
   EXPECT_GT(separatedPairs, 1000);
 }
 
-/// Faces, edges and corners that meet exactly, in numbers without rounding.
+/// Faces, edges and corners that meet exactly; no number is rounded.
 TYPED_TEST(ObbOverlaps, ExactlyTouching) {
   Boxes x;
   x.a.half = x.b.half = Vec3(1, 2, 3);
@@ -215,7 +214,7 @@ TYPED_TEST(ObbOverlaps, ExactlyTouching) {
   EXPECT_FALSE(TestFixture::of(x).separated(x.a, x.b, 0)) << "one point";
 }
 
-TYPED_TEST(ObbOverlaps, NothingIsDecidedForWhatIsNotFinite) {
+TYPED_TEST(ObbOverlaps, NonFiniteBoxesAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(63));
   const double nan = std::nan("");
   for (int n = 1; n < 200; ++n) {
@@ -229,7 +228,7 @@ TYPED_TEST(ObbOverlaps, NothingIsDecidedForWhatIsNotFinite) {
         spoil(spoilt);
         EXPECT_FALSE(TestFixture::of(spoilt).separated(spoilt.a, spoilt.b, 0))
             << what << " " << bad;
-        // The same with bounds computed without the NaN or infinity.
+        // The same test with bounds that were computed without the NaN or infinity.
         EXPECT_FALSE(TestFixture::of(x).separated(spoilt.a, spoilt.b, 0)) << what << " " << bad;
       };
       blind([&](Boxes& y) { y.a.center[axis] = bad; }, "centre of a");
@@ -249,7 +248,7 @@ TYPED_TEST(ObbOverlaps, NothingIsDecidedForWhatIsNotFinite) {
 }
 
 /// All tests in one loop, since rationals are slow.
-TEST(ObbOverlapsAgainstRationals, NeverApartWhatTouchesNorClearlyApartOverlapping) {
+TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
   std::mt19937_64 random(test::testSeed(61));
   const int rounds = (test::stressAsked() ? 100'000 : 2'000) / test::kSlowdown;
   const char* const names[] = {"separating axes", "GJK", "linear program", "edges and faces"};

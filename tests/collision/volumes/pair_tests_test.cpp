@@ -13,16 +13,18 @@
 namespace corridor {
 namespace {
 
-/// Two point clouds on either side of a plane that meet in one point, or are g apart there.
+/// Two point clouds on opposite sides of a plane. They meet in one point of the plane, or are g
+/// apart there.
 struct Meeting {
   std::vector<Triangle> a, b;
   Transform X_AB;
-  /// The distance of the two points that meet, rounded up. The clouds are no farther apart.
+  /// The distance of the two points at that place, rounded up. The distance of the clouds is not
+  /// larger.
   double distance = 0;
 };
 
-/// Returns the plane's normal: one for which a face of some volume lies in the plane, so that a
-/// margin that is too small becomes visible, or a random one.
+/// Returns a random normal of the plane, or one for which a face of some volume lies in the plane,
+/// so that a margin that is too small makes the test fail.
 Vec3 normalOf(std::mt19937_64& random, int n) {
   if (n % 3 == 0) return test::anyPose(random, 1).m.col(0);
   Vec3 v(n % 5 - 2, n % 7 - 3, n / 7 % 3 - 1);
@@ -108,9 +110,9 @@ TYPED_TEST(PairTests, NeverFartherThanTwoPointsThatMeet) {
   EXPECT_GT(positiveBounds, 100) << "no bound was positive: the test tested nothing";
 }
 
-/// Maps that are far from rigid: scaled, sheared, mirrored, nearly flat. Still no bound may exceed
-/// the distance of two points of the contents.
-TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
+/// Maps that are far from rigid: they scale, shear, mirror, or flatten nearly to a plane. No bound
+/// may exceed the distance of two points of the contents.
+TYPED_TEST(PairTests, NoFalseSeparationUnderMapsFarFromRigid) {
   std::mt19937_64 random(test::testSeed(44));
   for (int n = 0; n < 20'000; ++n) {
     const double defect = std::pow(10.0, std::uniform_real_distribution(-3.0, 1.0)(random));
@@ -136,9 +138,9 @@ TYPED_TEST(PairTests, NothingIsApartUnderMapsFarFromRigid) {
   }
 }
 
-/// A shear keeps the lengths of all three axes; only the angles between them show it. b is a needle
-/// that the shear tilts. Its end touches a, although its box has no width along the normal of the
-/// face that the shear tilts, too.
+/// This shear keeps the lengths of all three axes, and only changes the angles between them. It
+/// tilts b, which is a needle. The needle's end touches a. The needle's box has no width along the
+/// normal of a face that the shear also tilts.
 TYPED_TEST(PairTests, ShearsAreNoRotations) {
   std::mt19937_64 random(test::testSeed(45));
   for (int n = 0; n < 2'000; ++n) {
@@ -158,8 +160,8 @@ TYPED_TEST(PairTests, ShearsAreNoRotations) {
   }
 }
 
-/// Volumes that are far apart are separated, and the bound is about their distance.
-TYPED_TEST(PairTests, TellClearDistances) {
+/// Volumes that are far apart must be separated, and the bound must be close to their distance.
+TYPED_TEST(PairTests, SeparateVolumesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(42));
   for (int n = 0; n < 1'000; ++n) {
     const Meeting m = meeting(random, n, 100, 1);
@@ -176,7 +178,7 @@ TYPED_TEST(PairTests, TellClearDistances) {
   }
 }
 
-TYPED_TEST(PairTests, NothingIsDecidedForWhatIsNotFinite) {
+TYPED_TEST(PairTests, NonFiniteVolumesAreNotSeparated) {
   std::mt19937_64 random(test::testSeed(43));
   const Meeting m = meeting(random, 1, 10, 1);
   const Fitted<TypeParam> a(m.a), b(m.b);

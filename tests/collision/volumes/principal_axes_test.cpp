@@ -23,7 +23,8 @@ Mat3 randomRotation(std::mt19937_64& random) {
       .toRotationMatrix();
 }
 
-/// Compared with Eigen's eigenvalues: the spread along each axis is one of them, largest first.
+/// Compares with Eigen's eigenvalues: the spreads along the axes must be the eigenvalues, largest
+/// first.
 TEST_P(PrincipalAxes, DiagonaliseAndAreOrthonormal) {
   std::mt19937_64 random(test::testSeed(31));
   std::uniform_real_distribution<double> exponent(-20, 0), scale(-900, 900);
@@ -42,8 +43,8 @@ TEST_P(PrincipalAxes, DiagonaliseAndAreOrthonormal) {
   }
 }
 
-/// Where spreads are equal, noise must not rotate the axes: a cube's box is the cube.
-TEST_P(PrincipalAxes, AreTheCoordinatesWhereSpreadsAreAlike) {
+/// If spreads are equal, noise must not rotate the axes: a cube's box must be the cube.
+TEST_P(PrincipalAxes, AreTheCoordinateAxesIfSpreadsAreEqual) {
   std::mt19937_64 random(test::testSeed(32));
   std::uniform_real_distribution<double> noise(-1e-7, 1e-7);
   for (int i = 0; i < 300; ++i) {
@@ -58,7 +59,7 @@ TEST_P(PrincipalAxes, AreTheCoordinatesWhereSpreadsAreAlike) {
   }
 }
 
-TEST_P(PrincipalAxes, AreTheIdentityWhereThereAreNone) {
+TEST_P(PrincipalAxes, AreTheIdentityWithoutASpread) {
   constexpr double inf = std::numeric_limits<double>::infinity(),
                    nan = std::numeric_limits<double>::quiet_NaN();
   for (const double x : {0.0, 1.0, 1e-310, 1e308, inf, nan}) {

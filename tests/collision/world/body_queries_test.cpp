@@ -71,7 +71,7 @@ TEST(BodyQueries, InsideASolidMesh) {
   }
 }
 
-TEST(BodyQueries, PrimitivesContainWhatIsInThem) {
+TEST(BodyQueries, BodiesInsidePrimitivesTouchThem) {
   const Body box("box", placed(Box{Vec3(2, 2, 2)}, {})), mesh("mesh", cube(true));
   const Transform larger{2 * Mat3::Identity(), Vec3::Zero()};
   QueryContext context;
@@ -86,8 +86,7 @@ TEST(BodyQueries, Hollow) {
   EXPECT_EQ(distance(Posed(shell), Posed(ball), {}, context).distance, 0);
 }
 
-/// All pairs of kinds at a known gap: the highest and lowest places of all bodies along z are
-/// known.
+/// All pairs of kinds of bodies, at known gaps: the highest and lowest z of every body are known.
 TEST(BodyQueries, AllPairs) {
   std::vector<Body> bodies;
   std::vector<double> low, high;
@@ -117,7 +116,7 @@ TEST(BodyQueries, AllPairs) {
       }
 }
 
-TEST(BodyQueries, RejectsPrimitivesThatAreNone) {
+TEST(BodyQueries, RejectsInvalidPrimitives) {
   const auto message = [](const Primitive& primitive) -> std::string {
     try {
       Body("x", placed(primitive, {}));
@@ -139,8 +138,8 @@ TEST(BodyQueries, RejectsPrimitivesThatAreNone) {
   EXPECT_EQ(message(Sphere{0}), "");
 }
 
-/// A cylinder so short that rounding leaves it no axis. Its bounds must contain every disc that it
-/// may be, because motion queries test the bounds first.
+/// A cylinder is so short that after rounding its axis has no direction. Its bounds must contain
+/// the disc for every possible axis, because motion queries test the bounds first.
 TEST(BodyQueries, CylinderWithoutAnAxisKeepsItsBounds) {
   const Transform X{Mat3::Identity(), Vec3(0.7, 0.2, 0.1)};
   const ConvexPart disc = placed(Cylinder{0.3, 1e-20}, X);
@@ -163,7 +162,7 @@ TEST(BodyQueries, CylinderWithoutAnAxisKeepsItsBounds) {
   EXPECT_EQ(scene.certifyState(touching, options, context).verdict, MotionVerdict::contact);
 }
 
-TEST(BodyQueries, RejectsWhatIsNotFinite) {
+TEST(BodyQueries, RejectsNonFiniteInput) {
   const Body a("a", cube()), b("b", placed(Sphere{0.1}, {}));
   QueryContext context;
   Transform bad;

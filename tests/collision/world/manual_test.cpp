@@ -1,5 +1,5 @@
-// Every query of collision/collision.h, called as its manual shows, on bodies whose answers are
-// known.
+// Calls every query of collision/collision.h as its manual shows, on bodies for which the answers
+// are known.
 #include <gtest/gtest.h>
 
 #include "collision/collision.h"

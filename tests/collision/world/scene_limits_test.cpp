@@ -27,7 +27,8 @@ TEST(SceneLimits, HugeBodiesAreNotSkipped) {
   EXPECT_TRUE(s.interference({}, context));
 }
 
-/// A map far from a rotation, under which the image of the centre is all rounding error.
+/// A map far from a rotation, under which the computed image of the centre consists only of
+/// rounding errors.
 TEST(SceneLimits, CancellingMapsAreNotSkipped) {
   QueryContext context;
   for (int i = 1; i <= 100; ++i) {
@@ -46,7 +47,8 @@ TEST(SceneLimits, CancellingMapsAreNotSkipped) {
   }
 }
 
-/// Maps that stretch: the body reaches farther than its bounding sphere, by less than a thousandth.
+/// Maps that stretch: the mapped body reaches beyond its bounding sphere, by less than a
+/// thousandth.
 TEST(SceneLimits, StretchingMapsAreNotSkipped) {
   QueryContext context;
   for (const double stretch : {1 + 0x1p-12, 1 + 0x1p-20, 1 + 0x1p-30}) {
@@ -58,8 +60,8 @@ TEST(SceneLimits, StretchingMapsAreNotSkipped) {
   }
 }
 
-/// A map that shrinks: lengths in a frame differ from those in the world. The second pair is the
-/// closer one, by less than the effect of the map.
+/// A map that shrinks: lengths in the body's frame differ from those in the world. The second pair
+/// is closer than the first one, by less than the map shrinks lengths.
 TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {
   const auto box = [](const Vec3& low, const Vec3& high) { return Body("", test::box(low, high)); };
   std::vector<Scene::Placed> bodies;
@@ -74,7 +76,7 @@ TEST(SceneLimits, ClearanceUnderMapsThatAreNotRigid) {
   EXPECT_NEAR(both.clearance(X_WF, context), 999 * (1 - 0x1p-12) - 0.01, 1e-9);
 }
 
-TEST(SceneLimits, RefusesWhatIsOutOfRange) {
+TEST(SceneLimits, RefusesOptionsOutOfRange) {
   const RigidScene s = scene({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
                              {Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)});
   QueryContext context;

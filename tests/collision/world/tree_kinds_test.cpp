@@ -24,7 +24,8 @@ std::vector<TreeKind> everyKind() {
   return kinds;
 }
 
-/// Surfaces, solid meshes and convex parts on either side, so that all pairs of these occur.
+/// A random scene. Both the moving and the fixed bodies are surfaces, solid meshes and convex
+/// parts, so that all pairs of these occur.
 struct RandomScene {
   explicit RandomScene(std::mt19937_64& random)
       : scene(bodies(random, 2, 0.5), bodies(random, 6, 2)) {}
@@ -100,8 +101,8 @@ TEST(EveryTreeKind, StatesAndClearances) {
   EXPECT_NE(counters[TreeKind::kdop14].boxTests, counters[TreeKind::kdop26].boxTests);
 }
 
-/// The verdict is `free`, or `contact` at a pose that touches. Hardly any edge is `undecided`, in
-/// scenes that leave room.
+/// The verdict must be `free`, or `contact` at a pose that touches. The scenes have room between
+/// bodies, so hardly any edge may be `undecided`.
 TEST(EveryTreeKind, Edges) {
   std::mt19937_64 random(test::testSeed(62));
   const int count = (test::stressAsked() ? 20'000 : 1'000) / test::kSlowdown;
@@ -151,7 +152,8 @@ TEST(EveryTreeKind, Edges) {
   EXPECT_LE(verdicts[2], 1 + count / 1000);
 }
 
-/// The bounds of bodies are tested before any tree, for every kind: far bodies get no tree.
+/// For every kind of trees, the bounds of bodies are tested first: for bodies that are far away no
+/// tree is built.
 TEST(EveryTreeKind, FarBodiesGetNoTree) {
   std::vector<Body> fixed, moving;
   fixed.push_back(test::bodyOf(test::box(Vec3(1, -1, -1), Vec3(2, 1, 1))));
@@ -172,7 +174,8 @@ TEST(EveryTreeKind, FarBodiesGetNoTree) {
   EXPECT_FALSE(rigid.fixed()[1].body.treeBuilt());
 }
 
-/// The certificate of a proof on any trees is checked by another method on other trees.
+/// Certificates that were made with any kind of trees are checked by another method, with other
+/// trees.
 TEST(EveryTreeKind, CertificateHolds) {
   std::mt19937_64 random(test::testSeed(63));
   const int count = (test::stressAsked() ? 400 : 40) / test::kSlowdown + 1;

@@ -1,5 +1,5 @@
-// Tests of `corridor benchmark` from outside: table, JSON, files, and bad input, which runs
-// nothing.
+// Tests of the program `corridor benchmark`: table, JSON, files, and bad input, after which it must
+// not run anything.
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -103,7 +103,7 @@ TEST_F(BenchmarkCommand, JsonAgreesWithItself) {
   }
   EXPECT_EQ(json["results"][0]["proved"], 2);
   EXPECT_EQ(json["results"][0]["rows"][0]["failure"], nullptr);
-  // `solve` with the same seed does the same work.
+  // `solve` with the same seed must have the same counters.
   const auto solved = nlohmann::json::parse(run("solve hall.yaml --seed 2 --json").out);
   const auto& row = json["results"][0]["rows"][1];
   EXPECT_EQ(row["triangle_tests"], solved["problems"][0]["triangle_tests"]);
@@ -155,7 +155,7 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   refuse("hall.yaml touching.yaml", "touching.yaml:5: start is in contact");
 }
 
-TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
+TEST_F(BenchmarkCommand, RefusesFoldersThatCannotBeWritten) {
   const auto refuse = [&](const std::string& folder, const std::string& message) {
     expectFault("benchmark hall.yaml --runs 1 -o " + folder, message);
   };
@@ -166,8 +166,9 @@ TEST_F(BenchmarkCommand, FoldersThatCannotBe) {
   EXPECT_THAT(run("benchmark hall.yaml -o /proc").err, StartsWith("/proc: can't be written to: "));
 }
 
-/// Obstacles to the output files are reported before the first run, and stay as they are.
-TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsReportedAtOnce) {
+/// Files or folders that prevent writing the output are reported before the first run, and are not
+/// changed.
+TEST_F(BenchmarkCommand, ReportsObstaclesToOutputFilesBeforeTheFirstRun) {
   const auto inTheWay = [&](const char* name) {
     return "results/" + std::string(name) + ": is a folder; a file is to be written here\n";
   };
@@ -200,7 +201,7 @@ TEST_F(BenchmarkCommand, WhatIsInTheWayOfTheFilesIsReportedAtOnce) {
               "results/plots: is a file; a folder is needed");
 }
 
-TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
+TEST_F(BenchmarkCommand, KeepsOtherFilesOfAnExistingFolder) {
   std::filesystem::create_directory(folder_ / "results");
   write("results/notes.txt", "mine");
   write("results/runs.csv", "old");
@@ -212,7 +213,7 @@ TEST_F(BenchmarkCommand, AFolderThatIsThereKeepsWhatElseIsInIt) {
                                    "report.html", "plots", "hall.discrete-0.05.log"));
 }
 
-TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
+TEST_F(BenchmarkCommand, AnInterruptKeepsFinishedRuns) {
   const std::string command = "cd '" + folder_.string() +
                               "' && timeout -s INT --preserve-status 5 '" CORRIDOR_PROGRAM
                               "' benchmark hall.yaml --runs 500000 -o results >out.txt 2>err.txt";
@@ -229,7 +230,7 @@ TEST_F(BenchmarkCommand, AnInterruptLeavesWhatIsDone) {
 }
 
 /// Results of long runs must reach stdout even if the folder can't be written.
-TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
+TEST_F(BenchmarkCommand, PrintsTheTableIfFilesCannotBeWritten) {
   // A folder named like one of the files appears while the runs are under way.
   const Result result =
       run("benchmark hall.yaml --variants discrete:0.05 --runs 40 -o results",
@@ -242,8 +243,9 @@ TEST_F(BenchmarkCommand, TheTableComesThoughTheFilesCannotBeWritten) {
   EXPECT_THAT(files("results"), UnorderedElementsAre("campaign.db", "runs.csv"));
 }
 
-/// No empty files, no logs without planners, and no empty table are left.
-TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
+/// An interrupt before any run has finished must not leave empty files, logs without planners, or
+/// an empty table.
+TEST_F(BenchmarkCommand, AnInterruptDuringTheFirstRunLeavesNoFiles) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
         "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");
@@ -268,7 +270,7 @@ TEST_F(BenchmarkCommand, AnInterruptBeforeTheFirstRunIsDoneLeavesNothing) {
   EXPECT_EQ(read("mine/runs.csv"), "old");
 }
 
-TEST_F(BenchmarkCommand, ARunWithoutMemoryHasFailed) {
+TEST_F(BenchmarkCommand, ARunOutOfMemoryCountsAsFailed) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "AddressSanitizer ends the process where memory ends";
 #endif
@@ -282,7 +284,7 @@ TEST_F(BenchmarkCommand, ARunWithoutMemoryHasFailed) {
   EXPECT_FALSE(cell["rows"][0]["failure"].get<std::string>().empty());
 }
 
-TEST_F(BenchmarkCommand, AProblemThatIsNotSolvedIsNoError) {
+TEST_F(BenchmarkCommand, AnUnsolvedProblemIsNoError) {
   write("hall.yaml",
         "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.01, 10, 1]}\n"
         "start: {at: [-2, 0]}\ngoal: {at: [2, 0]}\nbounds: {at: [[-4, -4], [4, 4]]}\n");

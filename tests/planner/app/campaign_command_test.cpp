@@ -1,5 +1,5 @@
-// Tests of `corridor benchmark CAMPAIGN` from outside: killed at any moment, it resumes and ends
-// with the same rows; it reports what it can't resume.
+// Tests of the program `corridor benchmark CAMPAIGN`: if it was killed at any moment, it resumes
+// and ends with the same rows; it reports why a campaign can't be resumed.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <csignal>
@@ -54,7 +54,7 @@ class CampaignCommand : public corridor::test::ProgramTest {
 };
 
 /// Sends SIGKILL ten times, at random moments, and resumes.
-TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
+TEST_F(CampaignCommand, ResumesAfterBeingKilled) {
   ASSERT_EQ(run("benchmark campaign.yaml -o whole").status, 0);
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -93,7 +93,7 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(repeatable("killed"), repeatable("whole"));
   EXPECT_EQ(repeatable("killed").size(), 1u + 2 * 3 * 12);
-  // At least one session added runs before it was killed, else nothing was tested.
+  // At least one session must have added runs before it was killed. Otherwise nothing was tested.
   EXPECT_GT(grown, 0u);
   SQLite::Database base((folder_ / "killed/campaign.db").string());
   EXPECT_EQ(base.execAndGet("SELECT count(*) FROM runs").getInt(), 2 * 3 * 12);
@@ -104,9 +104,10 @@ TEST_F(CampaignCommand, KilledAtAnyMomentItGoesOn) {
   EXPECT_GT(base.execAndGet("SELECT count(*) FROM corridor_sessions").getInt(), 1);
 }
 
-/// A limit on files' sizes acts like a full disk: it is reported, and earlier runs are kept.
-TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
-  // 300 blocks of 512 bytes: more than the empty tables take, less than all runs need.
+/// A limit on the size of files acts like a full disk: the fault is reported, and earlier runs are
+/// kept.
+TEST_F(CampaignCommand, ReportsAFullDiskAndResumesLater) {
+  // 300 blocks of 512 bytes: enough for the empty tables, too little for all runs.
   const Result stopped = run("benchmark campaign.yaml -o results", "ulimit -f 300 && ");
   EXPECT_EQ(stopped.status, 2);
   EXPECT_EQ(stopped.out, "");
@@ -126,7 +127,7 @@ TEST_F(CampaignCommand, WhereFilesMayNotGrowItSaysSoAndGoesOnLater) {
   EXPECT_EQ(runs(), 2 * 3 * 12);
 }
 
-TEST_F(CampaignCommand, ItsReportTellsTheSessions) {
+TEST_F(CampaignCommand, ReportListsTheSessions) {
   ASSERT_EQ(run("benchmark campaign.yaml --runs 1 -o results").status, 0);
   ASSERT_EQ(run("benchmark campaign.yaml --runs 2 --jobs 2 --resume -o results").status, 0);
   const std::string page = read("results/report.html");
@@ -135,7 +136,7 @@ TEST_F(CampaignCommand, ItsReportTellsTheSessions) {
 }
 
 /// Names of variants may be long, and folders' names may hold bytes that are not UTF-8.
-TEST_F(CampaignCommand, AnyNames) {
+TEST_F(CampaignCommand, AcceptsAnyNames) {
   const std::string name = "a\xff b\x1b[31m " + std::string(200, 'n');
   std::filesystem::create_directory(folder_ / name);
   std::filesystem::copy_file(folder_ / "robot.yaml", folder_ / name / "robot.yaml");
@@ -154,7 +155,7 @@ TEST_F(CampaignCommand, AnyNames) {
   EXPECT_EQ(read("problem/runs.csv").find('\x1b'), std::string::npos);
 }
 
-TEST_F(CampaignCommand, OptionsSayMoreThanTheFile) {
+TEST_F(CampaignCommand, OptionsOverrideTheFile) {
   const Result result =
       run("benchmark campaign.yaml --runs 2 --seed 5 --time 30 --memory 2000 --jobs 2 --json");
   ASSERT_EQ(result.status, 0) << result.err;

@@ -1,4 +1,4 @@
-// Tests of `corridor check` from outside: start and goals, and files of states.
+// Tests of the program `corridor check`: start and goals, and files of states.
 #include <cmath>
 #include <string>
 
@@ -88,7 +88,7 @@ TEST_F(CheckCommand, CheckQuotesNamesWithCommas) {
             "state,valid,pairs\n0,0,\"lower~post \"\"a\"\", b\"\n");
 }
 
-TEST_F(CheckCommand, CheckFaultsStatesByLine) {
+TEST_F(CheckCommand, ReportsFaultyStatesByLine) {
   write("states.txt", "0 0 0\n0 0\n0 x\n");
   const Result checked = run("check arm.yaml --states states.txt");
   EXPECT_EQ(checked.status, 2);

@@ -1,5 +1,5 @@
-// Tests of the program from outside, of what all commands share: usage faults, help, results on
-// stdout, exit statuses.
+// Tests of what all commands of the program share: usage faults, help, results on stdout, exit
+// statuses.
 #include <filesystem>
 #include <string>
 
@@ -15,8 +15,9 @@ using testing::HasSubstr;
 
 using CommandLine = corridor::test::CubeTest;
 
-/// `check` and `solve` must report it, too, if an angle was wrapped: not only `inspect`.
-TEST_F(CommandLine, WhatWasReadDifferentlyIsReported) {
+/// If the reader has wrapped an angle, not only `inspect`, but also `check` and `solve` must report
+/// it.
+TEST_F(CommandLine, ReportsWrappedAngles) {
   write("arm.urdf",
         "<robot name='arm'><link name='a'/><link name='b'><collision><geometry><box size='1 1 1'/>"
         "</geometry></collision></link><joint name='pan' type='continuous'><parent link='a'/>"
@@ -78,8 +79,8 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   EXPECT_EQ(run("solve problem.yaml --seed 0").status, 0);
 }
 
-/// CLI11's own messages name the option last, or not at all.
-TEST_F(CommandLine, WordsThatNoCommandTakesAreReported) {
+/// CLI11's own messages would name the option at the end, or not at all.
+TEST_F(CommandLine, ReportsUnknownWordsAndOptions) {
   const auto fault = [&](const std::string& arguments, const std::string& message) {
     expectFault(arguments,
                 message + "; see corridor " + arguments.substr(0, arguments.find(' ')) + " --help");
@@ -103,8 +104,8 @@ TEST_F(CommandLine, WordsThatNoCommandTakesAreReported) {
   EXPECT_EQ(run("solve problem.yaml --quiet --quiet").status, 0);
 }
 
-/// Results lost on a full disk must not end with exit status 0.
-TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsReported) {
+/// If results are lost on a full disk, the exit status must not be 0.
+TEST_F(CommandLine, ReportsLostOutput) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   write("poses.txt", "1 0 0 0 1 0 0 0 1 0 0 0\n");
   for (const char* command : {"solve problem.yaml", "check problem.yaml --json", "inspect cube.obj",
@@ -119,7 +120,7 @@ TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsReported) {
   EXPECT_EQ(run("solve problem.yaml --quiet >/dev/full; exit $?;").status, 0);
 }
 
-TEST_F(CommandLine, HelpTellsExamplesAndExitStatus) {
+TEST_F(CommandLine, HelpHasExamplesAndExitStatus) {
   for (const char* command : {"solve", "verify", "check", "inspect", "query", "benchmark"}) {
     const Result help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);

@@ -1,5 +1,5 @@
-// Tests of `corridor inspect` from outside: its reports on meshes, robots and problems, and which
-// file it finds in a folder.
+// Tests of the program `corridor inspect`: its reports on meshes, robots and problems, and the file
+// that it selects in a folder.
 #include <filesystem>
 #include <string>
 
@@ -19,7 +19,7 @@ using InspectProblem = corridor::test::ArmTest;
 using InspectCube = corridor::test::CubeTest;
 
 /// The range of a joint that mimics another follows from that joint, even beyond its own limits.
-TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
+TEST_F(InspectCommand, ReportsTheReachWithMimicJoints) {
   const auto joint = [](const std::string& name, const std::string& parent,
                         const std::string& more) {
     return "<link name='" + name + "'/><joint name='" + name + "' type='prismatic'><parent link='" +
@@ -48,7 +48,7 @@ TEST_F(InspectCommand, TellsTheReachOfJointsThatMimic) {
   EXPECT_EQ(links[5]["reach_m"], links[4]["reach_m"]);
 }
 
-TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
+TEST_F(InspectCommand, SelectsTheFileOfAFolder) {
   const std::string arm6 = CORRIDOR_SOURCE_DIR "/robots/arm6";
   const Result named = run("inspect " + arm6 + "/robot.yaml"), found = run("inspect " + arm6);
   EXPECT_EQ(named.status, 0) << named.err;
@@ -56,7 +56,7 @@ TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
   EXPECT_EQ(found.out, named.out);
   expectFault("inspect " + arm6 + " --pairs",
               "--pairs: needs a problem, and " + arm6 + "/robot.yaml is a robot");
-  // In a folder with both, the problem is inspected, as other commands take it.
+  // If a folder has both a problem and a robot, the problem is inspected, as by other commands.
   write("robot.yaml",
         "format: corridor-robot-1\nname: cube\nrigid: SE2\nshapes: [{box: [0.2, 0.2, 0.2]}]\n");
   write("problem.yaml",
@@ -79,8 +79,9 @@ TEST_F(InspectCommand, FindsTheRobotOfAFolder) {
   expectFault("inspect none", "none: no problem.yaml, robot.yaml or URDF in this folder");
 }
 
-TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
-  // A tetrahedron with one triangle turned; its corner is the upper end of the bounds (and -0).
+TEST_F(InspectCommand, ReportsWhyAMeshIsNotWatertight) {
+  // A tetrahedron with one triangle of the wrong orientation. One corner is the upper end of the
+  // bounds, and has coordinates of -0.
   write("turned.obj",
         "v -0 -0 -0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const Result text = run("inspect turned.obj");
@@ -110,7 +111,7 @@ TEST_F(InspectCommand, TellsWhyAMeshIsNotWatertight) {
   EXPECT_FALSE(closed.contains("why_not_watertight"));
 }
 
-TEST_F(InspectProblem, InspectTellsPairsAndRobots) {
+TEST_F(InspectProblem, ReportsPairsAndRobots) {
   const Result problem = run("inspect arm.yaml --pairs");
   EXPECT_EQ(problem.status, 0) << problem.err;
   EXPECT_THAT(problem.out, HasSubstr("joint: \"elbow\": -2 to 2 rad\n"));

@@ -62,7 +62,8 @@ TEST_F(InspectCost, JsonHasTheCountsOfQueries) {
   EXPECT_GE(json["rejected_by_root"], 1);
   EXPECT_GT(json["hits"], 1);
   ASSERT_EQ(json["volumes"].size(), std::size(kVolumes));
-  // The expected counts: those of `corridor query`, over the poses where the root OBBs overlap.
+  // The expected counts are those of `corridor query`, for the poses at which the root OBBs
+  // overlap.
   const auto counts = [&](const std::string& volume) {
     std::istringstream csv(run("query a.obj b.obj --poses poses.txt --volume " + volume).out);
     std::vector<std::pair<double, double>> all;
@@ -100,7 +101,7 @@ TEST_F(InspectCost, JsonHasTheCountsOfQueries) {
   }
 }
 
-TEST_F(InspectCost, ATableForPeopleOverAGridWhereNoPosesAreGiven) {
+TEST_F(InspectCost, PrintsATableOverAGridWithoutPoses) {
   const Result result = run("inspect a.obj --against b.obj");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("meshes: a.obj, 288 triangles; b.obj, 162 triangles\n"));

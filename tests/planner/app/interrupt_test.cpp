@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kWentOn = 7, kNotReported = 8;
 
-/// Returns how a process ends that gets a signal, and the same signal again some milliseconds
-/// later.
+/// Sends a signal to a process, and the same signal again after some milliseconds. Returns how the
+/// process ends.
 int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT) {
   const pid_t id = ::fork();
   if (id == 0) {
-    ::signal(SIGHUP, SIG_DFL);  // also where this test runs under nohup
+    ::signal(SIGHUP, SIG_DFL);  // the default, even if this test runs under nohup
     const std::atomic<bool>& interrupted = listenForInterrupts(second);
     std::raise(signal);
     if (!interrupted || interruptedStatus() != 128 + signal) ::_exit(kNotReported);
@@ -32,7 +32,7 @@ int statusAfterTwo(SecondInterrupt second, int milliseconds, int signal = SIGINT
   return status;
 }
 
-TEST(Interrupt, ASecondEndsOrIsIgnored) {
+TEST(Interrupt, ASecondSignalEndsOrIsIgnored) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const int ended = statusAfterTwo(SecondInterrupt::ends, 600, signal);
     EXPECT_TRUE(WIFSIGNALED(ended));
@@ -43,8 +43,8 @@ TEST(Interrupt, ASecondEndsOrIsIgnored) {
   }
 }
 
-/// A program under nohup(1) goes on after its terminal is closed.
-TEST(Interrupt, UnderNohupHangingUpIsNothing) {
+/// A program that nohup(1) started must continue after its terminal is closed.
+TEST(Interrupt, NohupKeepsSighupIgnored) {
   const pid_t id = ::fork();
   if (id == 0) {
     ::signal(SIGHUP, SIG_IGN);
@@ -59,14 +59,14 @@ TEST(Interrupt, UnderNohupHangingUpIsNothing) {
 }
 
 /// timeout(1) sends its signal to the program, and then to its process group: both count as one.
-TEST(Interrupt, OneThatComesTwiceIsOne) {
+TEST(Interrupt, TwoSignalsAtOnceCountAsOne) {
   const int status = statusAfterTwo(SecondInterrupt::ends, 0);
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), kWentOn);
 }
 
 /// A signal must not make a pending read fail with EINTR.
-TEST(Interrupt, ReadsGoOn) {
+TEST(Interrupt, ReadsContinueAfterASignal) {
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);
   const pid_t id = ::fork();

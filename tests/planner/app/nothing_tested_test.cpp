@@ -1,5 +1,5 @@
-// Tests of problems in which no pair of bodies is tested. Their proofs would mislead, so each
-// command warns of them before any other output.
+// Tests of problems in which no pair of bodies is tested. Proofs of such a problem would mislead,
+// so each command warns before any other output.
 #include <map>
 #include <string>
 
@@ -37,8 +37,8 @@ class NothingTested : public corridor::test::HallTest {
   }
 };
 
-/// Covers all commands of --help: a new command that takes a problem fails here until it is added.
-TEST_F(NothingTested, EveryCommandSaysFirstThatNothingIsTested) {
+/// Covers all commands that --help lists: the test fails for a new command until it is added here.
+TEST_F(NothingTested, EveryCommandWarnsFirst) {
   const std::map<std::string, std::vector<std::string>> uses = {
       {"solve", {"solve alone.yaml", "solve alone.yaml --json"}},
       {"verify", {"verify alone.yaml turn.yaml", "verify alone.yaml turn.yaml --json"}},
@@ -54,7 +54,8 @@ TEST_F(NothingTested, EveryCommandSaysFirstThatNothingIsTested) {
   for (const auto& [command, all] : uses)
     for (const std::string& arguments : all) {
       // stdout is buffered, so one file for both streams would not show which output came first.
-      // The test reads the first line of stderr and, with --json, the first of the notes on stdout.
+      // The test reads the first line of stderr and, with --json, the first entry of `notes` on
+      // stdout.
       const Result result = run(arguments);
       EXPECT_EQ(result.status, 0) << arguments << ": " << result.err;
       const std::string name = command == "benchmark" ? "alone" : "alone.yaml";
@@ -69,7 +70,7 @@ TEST_F(NothingTested, EveryCommandSaysFirstThatNothingIsTested) {
   EXPECT_THAT(read("page.html"), HasSubstr("\"notes\":[\"" + kNothing));
 }
 
-TEST_F(NothingTested, AClearanceOfNothingIsNoNumber) {
+TEST_F(NothingTested, ClearanceIsNotPrintedAsANumber) {
   const Result text = run("verify alone.yaml turn.yaml");
   EXPECT_THAT(text.out, HasSubstr("clearance: none: no pair is tested\n"));
   EXPECT_THAT(text.out, HasSubstr("note: " + kNothing));
@@ -81,8 +82,8 @@ TEST_F(NothingTested, AClearanceOfNothingIsNoNumber) {
   EXPECT_EQ(campaign["results"][0]["rows"][0]["proven_clearance_m"], nullptr);
 }
 
-/// The reason does not matter: here an `allow` excludes the only pair.
-TEST_F(NothingTested, AllPairsAllowedIsNothingTested) {
+/// It does not matter why no pair is tested: here an `allow` excludes the only pair.
+TEST_F(NothingTested, WarnsIfAllPairsAreAllowed) {
   const Result result = run("verify allowed.yaml through.yaml");
   EXPECT_EQ(result.err, "corridor: warning: allowed.yaml: " + kNothing + "\n");
   EXPECT_EQ(run("verify hall.yaml through.yaml").err, "");

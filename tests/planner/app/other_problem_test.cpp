@@ -1,5 +1,5 @@
-// Tests of solutions that were made for another problem, or for files that have changed since:
-// their digests differ, and they are not verified.
+// Tests of solutions that were made for another problem, or whose problem's files have changed
+// since: the digests differ, so the solutions are not verified.
 #include <map>
 #include <string>
 
@@ -59,7 +59,7 @@ TEST_F(OtherProblem, IsNotProved) {
   EXPECT_EQ(ignoredReport["digest"], "differs");
 }
 
-TEST_F(OtherProblem, SameAndNoDigestAreVerified) {
+TEST_F(OtherProblem, SameDigestOrNoDigestIsVerified) {
   for (const auto& [file, digest] : std::map<std::string, std::string>{
            {"own.yaml", "same"}, {"by_hand.yaml", "none"}, {"states.path", "none"}}) {
     const Result result = run("verify hall.yaml " + file + " --json");
@@ -72,7 +72,7 @@ TEST_F(OtherProblem, SameAndNoDigestAreVerified) {
 }
 
 /// A solution of `solve` verifies until one of the problem's files changes.
-TEST_F(OtherProblem, IsAProblemWhoseFilesHaveChanged) {
+TEST_F(OtherProblem, ChangedFilesMakeAnotherProblem) {
   ASSERT_EQ(run("solve hall.yaml -o path.yaml").status, 0);
   EXPECT_EQ(run("verify hall.yaml path.yaml").status, 0);
   write("robot.yaml",

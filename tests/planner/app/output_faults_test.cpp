@@ -42,7 +42,8 @@ TEST_P(OutputFaults, AFullDiskBehindStdout) {
   expectAll();
 }
 
-/// Without openStandardStreams the next file opened would get stdout's number, and the results.
+/// If stdout is closed, the next file that is opened would get the number of stdout, and the
+/// results would be written into it. openStandardStreams prevents this.
 TEST_P(OutputFaults, AClosedStdout) {
   const End end = this->end(GetParam().arguments, [] { ::close(STDOUT_FILENO); });
   EXPECT_EQ(end.status, 2);
@@ -96,8 +97,8 @@ class FileFaults : public OutputFaults {
   }
 };
 
-/// With a limit on files' sizes (`ulimit -f`) of half the file, the file that was there before must
-/// stay.
+/// With a limit on the size of files (`ulimit -f`) of half the file, the file that existed before
+/// must stay unchanged.
 TEST_P(FileFaults, FilesThatMayNotGrow) {
   for (const std::string& file : GetParam().files) {
     if (isFolder() && file != GetParam().files[0]) break;  // the database fails first
@@ -156,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(Uses, FileFaults, testing::ValuesIn(usesWithFiles()),
 
 class Uses : public ProgramTest {};
 
-/// Fails when a new command, output option or query has no entry in `uses()`.
+/// Fails if a command, an output option or a query has no entry in `uses()`.
 TEST_F(Uses, HaveEveryCommandAndOutput) {
   std::set<std::string> used;
   for (const Use& use : uses()) used.insert(use.arguments.substr(0, use.arguments.find(' ')));

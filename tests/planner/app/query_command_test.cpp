@@ -61,7 +61,7 @@ TEST_F(QueryCommand, InterferenceIsOneLineAPose) {
   EXPECT_FALSE(figures.at("simd").empty());
 }
 
-TEST_F(QueryCommand, VariantsAndRepeatsAnswerAlike) {
+TEST_F(QueryCommand, VariantsAndRepeatsGiveTheSameAnswers) {
   const std::string expected = query("--poses poses.txt").out;
   for (const char* more : {"--repeat 7", "--fit vertices", "--fit hull --volume obb",
                            "--overlap sat --query interference"})
@@ -69,7 +69,7 @@ TEST_F(QueryCommand, VariantsAndRepeatsAnswerAlike) {
   EXPECT_EQ(run("query a.obj b.obj --poses -", "cat poses.txt | ").out, expected);
 }
 
-TEST_F(QueryCommand, ContactsTellTrianglesAndSegments) {
+TEST_F(QueryCommand, ContactsListTrianglesAndSegments) {
   write("a.obj", "v 9 9 9\nv 9 9 8\nv 9 8 9\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nf 4 5 6\n");
   const Result result = query("--poses poses.txt --query contacts");
   EXPECT_EQ(result.status, 0) << result.err;
@@ -92,7 +92,7 @@ TEST_F(QueryCommand, DistanceAndTolerance) {
   EXPECT_EQ(query(tolerance + "1").out, "pose,closer\n0,1\n1,1\n");
 }
 
-TEST_F(QueryCommand, AllVolumesAnswerAlike) {
+TEST_F(QueryCommand, AllVolumesGiveTheSameAnswers) {
   for (const char* asked : {"", " --query distance", " --query tolerance --tolerance 0.1"}) {
     const auto hits = summary(query(std::string("--poses poses.txt") + asked)).at("hits");
     for (const char* volume : {"aabb", "sphere", "rss", "kdop14", "kdop18", "kdop26"})
@@ -101,11 +101,11 @@ TEST_F(QueryCommand, AllVolumesAnswerAlike) {
           hits)
           << volume << asked;
   }
-  // An axis-aligned box of b is oriented as seen from a, so 15 separating axes are tested.
+  // An axis-aligned box of b is not axis-aligned in a's frame, so 15 separating axes are tested.
   EXPECT_EQ(summary(query("--poses poses.txt --volume aabb")).at("overlap"), "sat");
 }
 
-TEST_F(QueryCommand, AllOverlapTestsAnswerAlike) {
+TEST_F(QueryCommand, AllOverlapTestsGiveTheSameAnswers) {
   for (const char* asked : {"", " --query contacts"}) {
     const std::string binary = std::string("--poses poses.txt --volume obb-binary") + asked;
     const Result expected = query(binary);
@@ -133,7 +133,8 @@ TEST_F(QueryCommand, GridsAreLatticesAndRepeat) {
   EXPECT_THAT(poses[7], testing::Not(HasSubstr(kStill)));
   EXPECT_EQ(query("--poses saved.txt").out, result.out);
   EXPECT_EQ(query(grid).out, result.out);
-  // By default a's bounds, grown by half of b's diagonal, √8/2: nothing touches at the corners.
+  // By default the grid spans a's bounds, grown by half of b's diagonal, √8/2. So nothing touches
+  // at the grid's corners.
   EXPECT_EQ(query("--grid 2x2x2 --save-poses saved.txt").status, 0);
   EXPECT_THAT(lines(read("saved.txt"))[1], HasSubstr(kStill + "-3.41421356"));
   EXPECT_EQ(summary(query("--grid 2x2x2")).at("hits"), "0");
@@ -183,7 +184,8 @@ TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
   fault("1 0.001 0 0 1 0 0 0 1 0 0 0",
         "the matrix is not a rotation: RᵀR differs from the identity by 0.001; at most 0.0002 "
         "counts as rounding");
-  // A matrix with large or overflowing entries is reported as no rotation, not as singular.
+  // For a matrix with large or overflowing entries the fault must be that it is no rotation, not
+  // that it is singular.
   fault("1e9 0 0 0 1 0 0 0 1 0 0 0",
         "the matrix is not a rotation: RᵀR differs from the identity by 1e+18; at most 0.0002 "
         "counts as rounding");
@@ -195,7 +197,7 @@ TEST_F(QueryCommand, BadPosesAreOneLineAndExit2) {
   EXPECT_EQ(query("--poses fine.txt").status, 0);
 }
 
-TEST_F(QueryCommand, AllFaultsOfAFileAreReportedButNotThousands) {
+TEST_F(QueryCommand, ReportsAllFaultsOfAFileUpToALimit) {
   write("bad.txt", "1\n" + kStill + "0 0 0\n1 x\n");
   EXPECT_EQ(query("--poses bad.txt").err,
             "bad.txt:1: a pose has 12 numbers (r00 r01 r02 r10 r11 r12 r20 r21 r22 tx ty tz), not "

@@ -142,11 +142,12 @@ TEST_F(QueryMotions, EveryVolumeFindsTheFirstContact) {
     EXPECT_EQ(rows[1].at("verdict"), "free");
     tests.insert(result.out);
   }
-  EXPECT_GT(tests.size(), 4u) << "they walk trees of their own, and make other tests";
+  EXPECT_GT(tests.size(), 4u) << "the volumes must differ in their tests";
 }
 
-/// A half turn has no shorter way round, so it is undecided, without time, gap or triangles.
-TEST_F(QueryMotions, HalfATurnIsUndecided) {
+/// For a half turn no way round is shorter. So the verdict is undecided, without time, gap or
+/// triangles.
+TEST_F(QueryMotions, HalfTurnsAreUndecided) {
   for (const std::string edges : {"certified", "adaptive", "advancement"}) {
     const Result result = query(kStill + "0 0 1 -1 0 0 0 -1 0 0 0 1 0 0 1\n", "--edges " + edges);
     EXPECT_EQ(result.status, 0) << result.err;
@@ -154,8 +155,8 @@ TEST_F(QueryMotions, HalfATurnIsUndecided) {
   }
 }
 
-/// Matrices with few digits are not quite rotations. A motion that is free must touch at neither of
-/// its two poses, taken exactly as they are in the file.
+/// Matrices with few digits are not quite rotations. If a motion is free, the meshes must touch at
+/// neither of its two poses, with exactly the numbers of the file.
 TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
   // The needle's tip is 7 m from B's origin, so that an error of the matrix moves the tip.
   write("b.obj", "v 7 0 0\nv 7.1 0 1\nv 6.9 0 1\nf 1 2 3\n");
@@ -216,7 +217,7 @@ TEST_F(QueryMotions, FreeHoldsForBothMapsOfTheFile) {
   }
 }
 
-TEST_F(QueryMotions, BelowTheToleranceItIsUndecided) {
+TEST_F(QueryMotions, ClearanceBelowTheToleranceIsUndecided) {
   const std::string along = kStill + "-1 0 1e-3 " + kStill + "1 0 1e-3\n";
   const auto verdict = [&](const std::string& more) {
     return rowsOf(query(along, more).out).at(0).at("verdict");
@@ -246,7 +247,7 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
   };
   option("--grid 2x2x2", "--grid: applies to poses, not to --motions; leave it out");
   option("--query distance", "--query: applies to poses, not to --motions; leave it out");
-  // Motions refuse the default query of poses, too.
+  // --motions also refuses the query that is the default for poses.
   option("--query interference", "--query: applies to poses, not to --motions; leave it out");
   option("--volume aabb --overlap gjk",
          "--overlap: \"gjk\" is for volume obb-binary; volume aabb has: sat");
@@ -273,9 +274,9 @@ TEST_F(QueryMotions, BadInputIsOneLineAndExit2) {
 /// Compares motions of the shared data with their known times of first contact.
 class SharedMotions : public QueryMotions {
  protected:
-  /// Expects, for the first `most` motions of each set, that no contact is missed, none is
-  /// invented, and every bracket [t0, t1] contains the true time. @returns how many motions are
-  /// undecided.
+  /// Tests the first `most` motions of each set. Expects that each contact is found, that no free
+  /// motion is called contact, and that every bracket [t0, t1] contains the true time. @returns how
+  /// many motions are undecided.
   std::size_t expectTruth(const std::string& edges, std::size_t most) {
     const auto folder = *corridor::test::dataFolder() / "collision";
     std::size_t undecided = 0;
@@ -323,13 +324,13 @@ class SharedMotions : public QueryMotions {
   }
 };
 
-TEST_F(SharedMotions, FirstContactsAreTheTruth) {
+TEST_F(SharedMotions, FirstContactsAgreeWithTheTruth) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   EXPECT_EQ(expectTruth("certified", 1'000'000), 0u);
 }
 
-TEST_F(SharedMotions, OtherVolumesFindThemToo) {
+TEST_F(SharedMotions, FirstContactsWithOtherVolumes) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   for (const std::string volume :
@@ -337,7 +338,7 @@ TEST_F(SharedMotions, OtherVolumesFindThemToo) {
     EXPECT_EQ(expectTruth("certified --volume " + volume, 60), 0u);
 }
 
-TEST_F(SharedMotions, MethodsByDistancesFindThemToo) {
+TEST_F(SharedMotions, FirstContactsByDistanceMethods) {
   if (!corridor::test::dataFolder())
     GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   for (const char* edges : {"adaptive", "advancement"}) EXPECT_LE(expectTruth(edges, 60), 2u);

@@ -5,7 +5,7 @@
 namespace corridor::app {
 namespace {
 
-/// Runs `count` additions, each of which needs the sum before it.
+/// Runs `count` additions, each of which needs the result of the one before.
 double work(int count) {
   volatile double x = 0;
   for (int i = 0; i < count; ++i) x = x + 1;

@@ -31,8 +31,8 @@ class Signals : public UseTest {
     for (int i = 0; i < 6000 && !fs::exists(folder_ / sign); ++i) pause(10);
     EXPECT_TRUE(fs::exists(folder_ / sign)) << read("err.txt");
   }
-  /// Starts the use's `longer` run, and after some milliseconds sends a signal, to the program's
-  /// process group or to the program alone. @returns how it ended.
+  /// Starts the use's `longer` run, and after some milliseconds sends a signal to the program's
+  /// process group or to the program alone. @returns how the program ended.
   End endBy(int signal, bool group, int milliseconds) {
     fs::remove_all(folder_ / "out");
     fs::create_directory(folder_ / "out");
@@ -45,12 +45,12 @@ class Signals : public UseTest {
   }
 };
 
-TEST_P(Signals, EndItCleanly) {
+TEST_P(Signals, EndTheProgramCleanly) {
   const Use& use = GetParam();
   learnWhole(use);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     for (const int delay : {5, 120}) {
-      const bool group = delay == 5;  // as a terminal does; else to the program alone
+      const bool group = delay == 5;  // as a terminal does; otherwise to the program alone
       SCOPED_TRACE(std::string(::strsignal(signal)) + " after " + std::to_string(delay) + " ms");
       End end;
       // A fast machine may finish before the signal: then the signal is sent earlier.

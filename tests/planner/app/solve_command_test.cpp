@@ -1,4 +1,4 @@
-// Tests of `corridor solve` from outside.
+// Tests of the program `corridor solve`.
 #include <filesystem>
 #include <string>
 
@@ -98,7 +98,7 @@ TEST_F(SolveCommand, NothingFoundIsExit1AndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
 }
 
-TEST_F(SolveCommand, ManyProblemsExitWithTheWorst) {
+TEST_F(SolveCommand, ManyProblemsExitWithTheWorstStatus) {
   EXPECT_EQ(run("solve problem.yaml problem.yaml --quiet").status, 0);
   const Result result = run("solve problem.yaml none.yaml problem.yaml");
   EXPECT_EQ(result.status, 2);
@@ -116,8 +116,8 @@ TEST_F(SolveCommand, InterruptedIsExit130) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));
 }
 
-/// A limit on files' sizes acts like a full disk; SIGXFSZ must not end the program.
-TEST_F(SolveCommand, AFileThatMayNotGrowIsReportedAndNotLeftInHalf) {
+/// A limit on the size of files acts like a full disk; SIGXFSZ must not end the program.
+TEST_F(SolveCommand, ReportsAFullDiskAndLeavesNoPartialFile) {
   const Result whole = run("solve problem.yaml --seed 1 --picture p.svg");
   ASSERT_EQ(whole.status, 0) << whole.err;
   ASSERT_GT(std::filesystem::file_size(folder_ / "p.svg"), 1024u);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A problem: a hall whose wall leaves a way round it, or not.
+/// Returns a problem: a hall with a wall. If `open`, there is a way round the wall.
 std::string hall(bool open) {
   return std::string(
              "format: corridor-problem-1\nrobot: robot.yaml\nworld:\n  wall: {box: [0.1, ") +
@@ -27,8 +27,8 @@ std::string solution(int times) {
   return text + "- [2, 3, 0]\n- [2, 0, 0]\n";
 }
 
-/// A landscape of 2·(count − 1)² triangles. With 500, reading it and each query take a second or
-/// so.
+/// Returns an OBJ file of a landscape of 2·(count − 1)² triangles. If count is 500, reading the
+/// file and each query take about a second.
 std::string landscape(int count) {
   std::string text;
   for (int i = 0; i < count; ++i)
@@ -45,8 +45,8 @@ std::string landscape(int count) {
   return text;
 }
 
-/// Stands in for Chromium. Draws at once. For a page with the landscape it starts a child process,
-/// and never ends.
+/// A script that stands in for Chromium. It writes the picture at once. But for a page with the
+/// landscape it starts a child process, and never ends.
 constexpr const char* kBrowser = R"(#!/bin/sh
 for word in "$@"; do case "$word" in --screenshot=*) file="${word#*=}";; esac; done
 if grep -q '"name":"vast"' "${file%/*}/page.html"; then
@@ -262,7 +262,7 @@ void UseTest::learnWhole(const Use& use) {
 }
 
 void UseTest::expectWholeOrNothing(const Use& use) const {
-  const bool folder = use.arguments.starts_with("benchmark");  // files with times differ
+  const bool folder = use.arguments.starts_with("benchmark");  // files that contain times differ
   for (const std::string& file : written()) {
     EXPECT_EQ(file.find(".tmp"), file.npos) << file;
     if (folder) continue;

@@ -11,7 +11,7 @@
 namespace corridor::test {
 
 /// One use of a command, on which the tests of faults and signals run. Every command, output option
-/// and query must have one (`Uses.HaveEveryCommand…` tests that). All files are written to the
+/// and query must have a use (`Uses.HaveEveryCommand…` tests this). All files are written to the
 /// folder `out`.
 struct Use {
   std::string name;       ///< part of its tests' names
@@ -19,7 +19,7 @@ struct Use {
   std::vector<std::string> files;  ///< written to `out`, the same bytes each time
   std::string longer = {};         ///< the same command, too long to end before a signal
   std::string sign = {};           ///< a file that exists once `longer` is well under way
-  bool keeps = false;              ///< on a signal it writes complete files of what it has
+  bool keeps = false;  ///< after a signal it writes complete files of the results so far
 };
 
 const std::vector<Use>& uses();
@@ -39,7 +39,7 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   struct End {
     int status = -1;  ///< as shells report it: 128 + N after signal N
     std::string err;
-    bool alone = true;  ///< it left no process behind
+    bool alone = true;  ///< no child process is left
   };
   /// Runs in the child before the program begins.
   using Setup = std::function<void()>;
@@ -47,7 +47,8 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   /// Starts the program in a process group of its own. Unless `setup` redirects them, stdin is a
   /// pipe that stays empty, and stdout and stderr are files. @returns its process id.
   pid_t start(const std::string& arguments, const Setup& setup = {});
-  /// The same, started by another program: `wrapper` are its words, before the program's own.
+  /// Does the same, but another program starts the program: `wrapper` is that program with its
+  /// arguments.
   pid_t startBy(const std::vector<std::string>& wrapper, const std::string& arguments,
                 const Setup& setup = {});
   End wait(pid_t id);
@@ -58,10 +59,10 @@ class UseTest : public ProgramTest, public testing::WithParamInterface<Use> {
   std::vector<std::string> written() const;
   /// Expects that `out` holds only files of the use, each complete, and that TMPDIR is empty.
   void expectWholeOrNothing(const Use& use) const;
-  /// Runs the use without faults and keeps what it writes in `whole_`.
+  /// Runs the use without faults, and stores the files that it writes in `whole_`.
   void learnWhole(const Use& use);
-  /// Returns the words that run a shell script which may mount file systems; empty where that is
-  /// not allowed. The program's words follow as the script's arguments.
+  /// Returns a command that runs a shell script which may mount file systems; empty if that is not
+  /// allowed. The program and its arguments follow as the script's arguments.
   static std::vector<std::string> mounting(const std::string& script);
 
   std::map<std::string, std::string> whole_;

@@ -1,4 +1,5 @@
-// Tests of `corridor verify` from outside. Solutions of other problems: other_problem_test.cpp.
+// Tests of the program `corridor verify`. Solutions of other problems are tested in
+// other_problem_test.cpp.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Tests of `corridor view` from outside: a page or a picture, complete or absent, and one line per
+// Tests of the program `corridor view`: a page or a picture, complete or absent, and one line per
 // fault.
 #include <chrono>
 #include <csignal>
@@ -53,7 +53,7 @@ TEST_F(ViewCommand, NamesThePageByTheProblem) {
   EXPECT_EQ(read("quiet.html"), read("thin_plate.html"));
 }
 
-TEST_F(ViewCommand, APathOfOtherFilesIsReportedOnThePage) {
+TEST_F(ViewCommand, ReportsAPathOfChangedFilesOnThePage) {
   write("path.yaml", "format: corridor-solution-1\nspace: SE3\ndigest: " + std::string(64, 'a') +
                          "\npath:\n  - [-3, -2, 0, 0, 0, 0, 1]\n  - [3, -2, 0, 0, 0, 0, 1]\n");
   const Result result = run("view " + plate + " path.yaml -o page.html");
@@ -121,7 +121,7 @@ TEST_F(ViewCommand, WithoutChromiumThereIsNoPicture) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }
 
-/// A browser that draws nothing must leave the file that was there before.
+/// If the browser draws nothing, the file that existed before must stay.
 TEST_F(ViewCommand, ABrowserThatFailsIsReported) {
   write("chromium", "#!/bin/sh\nexit 1\n");
   std::filesystem::permissions(folder_ / "chromium", std::filesystem::perms::owner_all);
@@ -136,9 +136,9 @@ TEST_F(ViewCommand, ABrowserThatFailsIsReported) {
 
 /// An interrupt ends the browser and removes its folder, even if a second interrupt comes during
 /// the removal.
-TEST_F(ViewCommand, TwoInterruptsLeaveNothing) {
-  // Stands in for Chromium: leaves a file, writes its process id, and goes on. (interrupt_test
-  // tests that the second interrupt is ignored.)
+TEST_F(ViewCommand, TwoInterruptsLeaveNoFilesOrProcesses) {
+  // A script that stands in for Chromium: it writes a file that it does not remove, writes its
+  // process id, and then waits. (interrupt_test tests that the second interrupt is ignored.)
   write("chromium",
         "#!/bin/sh\nfor word in \"$@\"; do case \"$word\" in --user-data-dir=*) "
         "folder=\"${word#*=}\";; esac; done\nmkdir -p \"$folder\" && cd \"$folder\"\n"

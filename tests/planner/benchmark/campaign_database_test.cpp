@@ -1,5 +1,5 @@
-// The database of a campaign: it returns the runs that were stored, equals what OMPL's own script
-// makes of OMPL's logs, and reports what it can't accept.
+// Tests of a campaign's database: it returns the runs that were stored, equals the database that
+// OMPL's own script makes from OMPL's logs, and reports campaigns and files that it can't accept.
 #include "planner/benchmark/campaign_database.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -80,8 +80,8 @@ std::vector<std::string> rowsOf(const std::filesystem::path& file, const std::st
   return rows;
 }
 
-/// OMPL's readers turn "one pct" and "one_pct" into the same name, but they are two variants.
-TEST_F(Database, VariantsOfOneWordAreTwoExperiments) {
+/// OMPL's readers turn "one pct" and "one_pct" into the same name. But these are two variants.
+TEST_F(Database, VariantsWithSimilarNamesStayApart) {
   Campaign campaign = hallCampaign({"discrete:0.1", "certified"});
   campaign.variants[0].name = "one pct";
   campaign.variants[1].name = "one_pct";
@@ -95,7 +95,7 @@ TEST_F(Database, VariantsOfOneWordAreTwoExperiments) {
               ElementsAre("2"));
 }
 
-TEST_F(Database, DamagedRecordsAreSaid) {
+TEST_F(Database, DamagedRecordsAreReported) {
   const Campaign campaign = hallCampaign({"certified"});
   runInto(campaign);
   for (const char* damage : {"UPDATE corridor_runs SET record = '{\"seed\":1}' WHERE seed = 1",
@@ -118,7 +118,7 @@ TEST_F(Database, WithoutRunsACampaignMayChange) {
               HasSubstr("was measured with other settings: time was "));
 }
 
-TEST_F(Database, TellsTheSessionsOfItsRuns) {
+TEST_F(Database, StoresTheSessionsOfItsRuns) {
   Campaign campaign = hallCampaign({"certified"});
   campaign.runs = 1;
   runInto(campaign);
@@ -147,7 +147,7 @@ TEST_F(Database, TellsTheSessionsOfItsRuns) {
   EXPECT_EQ(sessions[1].runs, 2u);
 }
 
-TEST_F(Database, WhatWentInComesBack) {
+TEST_F(Database, StoredRunsReadBackUnchanged) {
   const Campaign campaign = hallCampaign({"certified", "discrete:0.2"});
   const CampaignResult result = runInto(campaign);
   std::vector<CampaignCell> cells = cellsOf(campaign);
@@ -158,7 +158,7 @@ TEST_F(Database, WhatWentInComesBack) {
 }
 
 /// The tables and rows must be equal, except for times and dates of whole experiments.
-TEST_F(Database, IsWhatOmplsScriptMakesOfTheLogs) {
+TEST_F(Database, EqualsTheDatabaseOfOmplsScript) {
   if (std::system("command -v ompl_benchmark_statistics >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "ompl_benchmark_statistics is needed (Debian's ompl-demos)";
   Campaign campaign = hallCampaign({"certified", "discrete:0.2"});
@@ -198,7 +198,7 @@ TEST_F(Database, IsWhatOmplsScriptMakesOfTheLogs) {
              "JOIN progress g ON g.runid = r.id ORDER BY 1, 2, 3, 4");
 }
 
-TEST_F(Database, GoesOnWithMoreRunsAndMoreVariants) {
+TEST_F(Database, CanBeExtendedByRunsAndVariants) {
   Campaign campaign = hallCampaign({"discrete:0.2"});
   runInto(campaign);
   campaign.runs = 3;
@@ -213,7 +213,7 @@ TEST_F(Database, GoesOnWithMoreRunsAndMoreVariants) {
   EXPECT_THAT(rowsOf(file_, "SELECT count(*) FROM corridor_sessions"), ElementsAre("2"));
 }
 
-TEST_F(Database, WhatItRefuses) {
+TEST_F(Database, RefusesExistingRunsAndOtherCampaigns) {
   const Campaign campaign = hallCampaign({"discrete:0.2"});
   runInto(campaign);
   EXPECT_EQ(complaint(Mode::fresh, campaign),

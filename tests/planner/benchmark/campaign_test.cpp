@@ -1,5 +1,6 @@
-// Campaigns as a whole: a run has the figures of `solve`, seeds repeat, a crash costs only its run,
-// logs are readable by OMPL's rules, and the verifier refutes sampled paths through the thin plate.
+// Tests of whole campaigns: a run has the same figures as `solve`, seeds repeat, only the run that
+// crashes is lost, logs are readable by OMPL's rules, and the verifier refutes sampled paths
+// through the thin plate.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -71,7 +72,7 @@ std::vector<Row> repeatable(const Campaign& campaign, const CampaignResult& resu
   return rows;
 }
 
-TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
+TEST(Campaign, OnlySampledPathsPassThroughTheThinPlate) {
   Campaign campaign = campaignOf({"certified", "discrete:0.01"}, 3);
   campaign.problems = {
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems" / "thin_plate")};
@@ -98,7 +99,7 @@ TEST(Campaign, SamplesFlyThroughTheThinPlateAndProofsDoNot) {
 }
 
 /// A run must equal `solve` with that seed, down to the number of box tests.
-TEST(Campaign, ARunIsASolve) {
+TEST(Campaign, ARunEqualsASolve) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 2);
   campaign.planners = named({"RRTConnect", "KPIECE1"});
   campaign.seed = 5;
@@ -147,7 +148,7 @@ TEST(Campaign, TheSameSeedsGiveTheSameRows) {
   EXPECT_GT(countOf(first.cells[1], "refuted"), 0);
 }
 
-TEST(Campaign, ACrashCostsItsRunOnly) {
+TEST(Campaign, ACrashLosesOnlyItsRun) {
   const BenchmarkCompetitor exact{"exact", [](const auto& si, const Checker& checker) {
                                     return std::make_shared<ExactStateValidityChecker>(si, checker);
                                   }};
@@ -168,7 +169,8 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
   EXPECT_EQ(runs[1].result, "failed");
   EXPECT_EQ(runs[1].failure, "killed by signal 9 (Killed)");
   EXPECT_EQ(runs[2].failure, "out of memory");
-  // The competitor runs the same test as `discrete`, whose runs must not be affected.
+  // The competitor runs the same test as `discrete`. The crashes must not affect the runs of
+  // `discrete`.
   for (const BenchmarkRun& run : result.cells[1].runs) EXPECT_TRUE(run.solved) << run.failure;
   EXPECT_EQ(runs[3].states, result.cells[1].runs[3].states);
   EXPECT_EQ(runs[3].edges, result.cells[1].runs[3].edges);
@@ -184,8 +186,9 @@ TEST(Campaign, ACrashCostsItsRunOnly) {
   EXPECT_EQ(log.parameters.at("edges TEXT"), "shaky");
 }
 
-/// OMPL's Benchmark would continue after an exception in a planner, as if the run had ended well.
-TEST(Campaign, AThrowWithinAPlannerIsReported) {
+/// After an exception in a planner, OMPL's Benchmark would continue as if the run had ended
+/// normally.
+TEST(Campaign, AnExceptionInAPlannerIsReported) {
   class Thrower : public ExactStateValidityChecker {
    public:
     using ExactStateValidityChecker::ExactStateValidityChecker;
@@ -246,7 +249,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
         EXPECT_EQ(row.at("proved"), run.verdict == "proved" ? "1" : "0");
         EXPECT_EQ(row.at("refuted"), run.verdict == "refuted" ? "1" : "0");
         EXPECT_EQ(row.at("box_tests"), std::to_string(run.counters.boxTests));
-        // OMPL's clock measures all except set-up, and is written with six digits.
+        // OMPL's time excludes only the set-up, and is written with six digits.
         EXPECT_GE(std::stod(row.at("time")), 0.999 * (run.time - run.setUpTime));
         if (p == 1) {
           EXPECT_GT(log.planners[1].progressSamples.at(i), 0u);
@@ -256,7 +259,7 @@ TEST(Campaign, OmplsLogHasOmplsColumnsAndOurs) {
   }
 }
 
-TEST(Campaign, InterruptedItKeepsWhatIsDone) {
+TEST(Campaign, AnInterruptKeepsFinishedRuns) {
   Campaign campaign = campaignOf({"certified", "discrete:0.02"}, 50);
   std::atomic<bool> interrupted = false;
   CampaignOptions options;
@@ -276,7 +279,7 @@ TEST(Campaign, InterruptedItKeepsWhatIsDone) {
   EXPECT_EQ(OmplLogReader::read(omplLog(campaign, result, 0, 1)).planners.at(0).runs.size(), 1u);
 }
 
-TEST(Campaign, AllThatIsWrongIsReportedBeforeAnythingRuns) {
+TEST(Campaign, ReportsAllFaultsBeforeTheFirstRun) {
   EXPECT_EQ(complaintOf(campaignOf({"certified", "discrete:0.1"}, 1)), "");
   EXPECT_EQ(complaintOf(campaignOf({"certified", "certified"}, 0)),
             "--variants: \"certified\" is named twice\n--runs: 1 or more are needed, not 0");
@@ -298,7 +301,7 @@ TEST(Campaign, AllThatIsWrongIsReportedBeforeAnythingRuns) {
   EXPECT_EQ(complaintOf(campaign), "");
 }
 
-TEST(Campaign, ProblemsOfOneNameAreToldApart) {
+TEST(Campaign, ProblemsWithTheSameNameGetDifferentNames) {
   Campaign campaign = campaignOf({"discrete:0.02"}, 1);
   campaign.problems.push_back(campaign.problems[0]);
   campaign.problems.push_back(campaign.problems[0]);
@@ -306,8 +309,7 @@ TEST(Campaign, ProblemsOfOneNameAreToldApart) {
   EXPECT_THAT(campaign.problemNames, ElementsAre("hall", "hall-2", "hall-3"));
 }
 
-/// The same planner with another label and parameters of its own is compared as a planner of its
-/// own.
+/// A planner that occurs twice, with different labels and parameters, counts as two planners.
 TEST(Campaign, PlannersHaveLabelsAndParameters) {
   Campaign campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].settings.planner.params = {{"range", "0.5"}};
@@ -333,7 +335,7 @@ TEST(Campaign, PlannersHaveLabelsAndParameters) {
 }
 
 /// Several runs at a time must give the same rows in the same order.
-TEST(Campaign, JobsChangeNothingButTimes) {
+TEST(Campaign, ParallelJobsGiveTheSameRows) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 5);
   campaign.time = 20.0 * test::kSlowdown;
   CampaignOptions options;
@@ -350,7 +352,7 @@ TEST(Campaign, JobsChangeNothingButTimes) {
   EXPECT_EQ(csvOf(repeatable(campaign, many)), csvOf(repeatable(campaign, runCampaign(campaign))));
 }
 
-TEST(Campaign, WhatIsThereIsNotRunAgain) {
+TEST(Campaign, StoredRunsAreNotRepeated) {
   Campaign campaign = campaignOf({"certified", "discrete:0.2"}, 3);
   campaign.time = 20.0 * test::kSlowdown;
   std::vector<CampaignCell> cells = cellsOf(campaign);
@@ -370,7 +372,7 @@ TEST(Campaign, WhatIsThereIsNotRunAgain) {
   EXPECT_EQ(result.cells[1].runs[1].why, "it was there");
 }
 
-TEST(Campaign, WithoutAJudgeNobodySaysWhatCollides) {
+TEST(Campaign, WithoutVerifierNoVerdicts) {
   Campaign campaign = campaignOf({"discrete:0.2"}, 2);
   campaign.verify = false;
   const CampaignResult result = runCampaign(campaign);

@@ -107,7 +107,7 @@ TEST_F(CampaignYaml, EveryKey) {
   EXPECT_EQ(planned.settings.seed, 9u);
 }
 
-/// A short file with many lists could ask for more variants than memory or time allow.
+/// A short file with many lists could describe more variants than memory or time allow.
 TEST_F(CampaignYaml, CombinationsHaveALimit) {
   const auto list = [](int count) {
     std::string text = "[";
@@ -132,7 +132,7 @@ TEST_F(CampaignYaml, CombinationsHaveALimit) {
   EXPECT_THROW(read(many + "peer: fcl}}\n"), InputError);
 }
 
-TEST_F(CampaignYaml, NamesAreOfOneLine) {
+TEST_F(CampaignYaml, NamesMustBeOneLine) {
   for (const char* wrong : {"checkers: {\"a\\nb\": {}}\n", "checkers: {\"\": {}}\n",
                             "checkers: {a: {}}\nplanners: [{name: RRT, label: \"x\\ty\"}]\n"})
     EXPECT_THROW(read(kStart + std::string(wrong)), InputError) << wrong;
@@ -174,7 +174,7 @@ TEST_F(CampaignYaml, Defaults) {
   EXPECT_EQ(cellsOf(c)[0].planner.name, "RRTConnect");
 }
 
-/// FCL is used if it is installed, and else left out with a note.
+/// FCL is used if it is installed. Otherwise it is left out, with a note.
 TEST_F(CampaignYaml, Peers) {
   const Campaign c = read(std::string(kStart) +
                           "checkers: {fcl: {peer: fcl, edges: discrete, resolution: [0.1, 0.2]}, "
@@ -235,7 +235,7 @@ TEST_F(CampaignYaml, AllFaultsAtOnceWithTheirLines) {
                           "problem uses its own"));
 }
 
-/// A list under a key without effect would give the same variant several times.
+/// If a key has no effect, a list of its values would give the same variant several times.
 TEST_F(CampaignYaml, VariantsDiffer) {
   const auto of = [&](const char* checker) {
     return faults(std::string(kStart) + "checkers:\n  a: " + checker + "\n");
@@ -289,7 +289,7 @@ TEST_F(CampaignYaml, FaultsOfProblemsAreReported) {
               testing::Contains(HasSubstr("hall.yaml:2: unknown key \"robbot\"")));
 }
 
-TEST_F(CampaignYaml, WhatIsACampaign) {
+TEST_F(CampaignYaml, RecognisesCampaignFiles) {
   write("c.yaml", kStart);
   write("newer.yaml", "format: corridor-campaign-2\n");
   write("broken.yaml", "format: [corridor-campaign-1\n");

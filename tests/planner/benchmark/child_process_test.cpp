@@ -1,4 +1,5 @@
-// Work in a process of its own: its messages arrive, and every way of ending is reported.
+// Tests of work in a child process: its messages arrive, and every way in which the process may end
+// is reported.
 #include "planner/benchmark/child_process.h"
 
 #include <chrono>
@@ -20,7 +21,7 @@ using Send = std::function<void(const std::string&)>;
 
 constexpr double kLong = 600;
 
-TEST(InChild, AllMessagesComeLongOnesToo) {
+TEST(InChild, AllMessagesArriveLongOnesToo) {
   const std::string text(3'000'000, 'x');  // more than a pipe holds
   int here = 0;
   const ChildEnd end = inChild(
@@ -37,7 +38,7 @@ TEST(InChild, AllMessagesComeLongOnesToo) {
   EXPECT_EQ(here, 0);  // the work ran in another process
 }
 
-TEST(InChild, ASignalCostsNoMessageThatWasSent) {
+TEST(InChild, SentMessagesArriveDespiteASignal) {
   const ChildEnd end = inChild(
       [](const Send& send) {
         send("first");
@@ -59,7 +60,7 @@ TEST(InChild, OtherEnds) {
   EXPECT_EQ(failure([] { throw std::bad_alloc(); }), "out of memory");
 }
 
-TEST(InChild, PatienceIsForEachMessage) {
+TEST(InChild, TimeLimitHoldsForEachMessage) {
   const auto start = std::chrono::steady_clock::now();
   const ChildEnd end = inChild(
       [](const Send& send) {

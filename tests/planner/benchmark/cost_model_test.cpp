@@ -19,9 +19,9 @@ TEST(CostModel, FindsTheCostsOfQueriesThatFollowIt) {
   }
 }
 
-/// With two queries of different cost per test, neither the longest nor the shortest may decide
-/// alone.
-TEST(CostModel, LongQueriesCountAsTheirTimeDoes) {
+/// If the cost per test differs between two queries, the fit must not follow the longest or the
+/// shortest query alone.
+TEST(CostModel, QueriesAreWeightedByTheirTime) {
   const CostModel model = fittedCosts({{1, 0, 10}, {1000, 0, 20'000}});
   EXPECT_NEAR(model.box, 1001 / (0.1 + 50), 1e-9);
 }
@@ -37,13 +37,13 @@ TEST(CostModel, CostsAreNeverNegative) {
   EXPECT_EQ(none.box, 0);
 }
 
-/// Proportional counts determine only one cost; box tests get all of it.
-TEST(CostModel, CostsThatCannotBeDistinguishedAreOne) {
+/// If both counts are proportional, only one cost can be determined; it is attributed to box tests.
+TEST(CostModel, ProportionalCountsGiveOneCost) {
   const CostModel model = fittedCosts({{10, 5, 100}, {20, 10, 200}, {40, 20, 400}});
   EXPECT_NEAR(model.box, 10, 1e-9);
   EXPECT_EQ(model.triangle, 0);
   EXPECT_NEAR(fittedCosts({{10, 5, 90}, {10, 5, 110}}).box, 10, 0.2);
-  for (int k = 1; k < 100; ++k) {  // must hold for every rounding of the sums
+  for (int k = 1; k < 100; ++k) {  // with sums that round differently
     const double t = 3, v = 7;
     EXPECT_EQ(fittedCosts({{v, v * k, t}, {2 * v + 1, (2 * v + 1) * k, 5 * t}}).triangle, 0) << k;
   }

@@ -12,7 +12,7 @@
 namespace corridor::test {
 
 /// A log of OMPL's Benchmark, read by the grammar of `ompl_benchmark_statistics` (OMPL 1.5), but
-/// more strictly: what that program would skip, or store as something else, throws.
+/// more strictly: it throws for text that that program would skip, or store as another value.
 struct OmplLog {
   struct Planner {
     std::string name;

@@ -1,5 +1,5 @@
-// Replays of recorded answers: the second run repeats the first without its tests, and any
-// difference between them is reported.
+// Tests of replays of recorded answers: the second run repeats the first one without its tests, and
+// any difference between the two runs is reported.
 #include "tests/benchmark/replay.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ CampaignResult resultOf(const std::string& planner, const std::vector<std::strin
   return runCampaign(campaign);
 }
 
-TEST(Replay, IsTheSameRunWithoutItsTests) {
+TEST(Replay, RepeatsTheRunWithoutItsTests) {
   for (const char* planner : {"RRTConnect", "KPIECE1", "SBL"}) {  // KPIECE1 also queries lastValid
     const CampaignResult result = resultOf(planner, {"certified", "replay"});
     for (std::size_t i = 0; i < 2; ++i) {
@@ -51,7 +51,7 @@ TEST(Replay, RefusesWhatDoesNotRepeat) {
   EXPECT_EQ(result.cells[0].runs[0].failure, "replay: CForest doesn't repeat");
 }
 
-TEST(Replay, TellsAnotherQuestion) {
+TEST(Replay, ReportsADifferentQuery) {
   const Problem problem = test::hallProblem(test::Rigid::SE3);
   const auto space = std::make_shared<ProblemStateSpace>(problem.model.space);
   const auto si = std::make_shared<ompl::base::SpaceInformation>(space);
@@ -73,7 +73,7 @@ TEST(Replay, TellsAnotherQuestion) {
     replay.question(kind, *si, state.get());
     EXPECT_TRUE(replay.answer<bool>([] { return false; }));  // the recorded answer, not the new one
     EXPECT_TRUE(replay.done());
-    replay.question(kind, *si, state.get());  // one question more than recorded
+    replay.question(kind, *si, state.get());  // one query more than recorded
   };
   const auto summaryOf = [&](Transcript::Ask kind, const ompl::base::ScopedState<>& state) {
     try {

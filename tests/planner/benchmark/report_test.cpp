@@ -1,4 +1,4 @@
-// The report of a campaign: its ranking, its plots and their data, and names that contain HTML.
+// Tests of a campaign's report: its ranking, its plots and their data, and names that contain HTML.
 #include "planner/benchmark/report.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A campaign of two problems, three variants, one planner and ten runs, with computed figures
+/// A campaign of two problems, three variants, one planner and ten runs, with figures by formulas
 /// instead of real runs.
 class Report : public testing::Test {
  protected:
@@ -105,7 +105,7 @@ TEST_F(Report, AVariantThatSolvesNothingIsLast) {
 }
 
 /// Times are multiples of those of the first variant that solved anything.
-TEST_F(Report, AFirstVariantThatSolvesNothingIsNoMeasure) {
+TEST_F(Report, TimesAreRelativeToTheFirstVariantThatSolves) {
   for (CampaignCell& cell : cells_)
     if (cell.variant == 0)
       for (BenchmarkRun& run : cell.runs) run.solved = false, run.verdict.clear();
@@ -124,7 +124,7 @@ TEST_F(Report, AFirstVariantThatSolvesNothingIsNoMeasure) {
   EXPECT_EQ(referenceVariant(cells_), 0u);
 }
 
-TEST_F(Report, WhatNobodyJudgedIsNotPlotted) {
+TEST_F(Report, UnverifiedPathsAreNotPlotted) {
   campaign_.verify = false;
   for (CampaignCell& cell : cells_)
     for (BenchmarkRun& run : cell.runs) run.verdict.clear(), run.leastDistance = -1;
@@ -168,7 +168,7 @@ TEST_F(Report, PlotsHaveTheirData) {
   const Plot clear = clearances(campaign_, cells_, 0);
   ASSERT_EQ(clear.series.size(), 3u);
   EXPECT_DOUBLE_EQ(clear.rangeX->first, 0.01);
-  // Half of the paths have the distance 0, so the line begins at a half.
+  // Half of the paths have the distance 0, so the line begins at 0.5.
   double first = 0;
   for (const PlotPoint& p : clear.series[1].points)
     if (p.x <= clear.rangeX->first) first = p.y;
@@ -196,10 +196,10 @@ TEST_F(Report, PlotsOfAllProblems) {
     EXPECT_LT(error.rangeX->first, p.x);
     EXPECT_GT(error.rangeX->second, p.x);
   }
-  // Per problem with ten seeds: discrete:0.1 has five paths that are not refuted, and is the
-  // quickest with them. For these five certified takes twice as long; for the others it is the
-  // quickest. discrete:0.01 takes 20 or 10 times as long as the quickest, and one of its paths is
-  // refuted.
+  // Each problem has ten seeds. With five of them the path of discrete:0.1 is not refuted. With
+  // these five, discrete:0.1 is the quickest, and certified takes twice as long. With the other
+  // five, certified is the quickest. discrete:0.01 takes 20 or 10 times as long as the quickest,
+  // and one of its paths is refuted.
   const Plot profile = profileOfAll(campaign_, cells_);
   ASSERT_EQ(profile.series.size(), 3u);
   const auto at = [&](std::size_t variant, double x) {
@@ -220,8 +220,8 @@ TEST_F(Report, PlotsOfAllProblems) {
   EXPECT_THAT(profile.title, HasSubstr("the 20 runs that every variant has made"));
 }
 
-/// A variant must not count as the quickest in runs that no other variant has made.
-TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
+/// A variant must not count as the quickest in runs that other variants have not made.
+TEST_F(Report, TheProfileUsesRunsOfAllVariants) {
   const auto shareAtOnce = [&](std::size_t variant) {
     const Plot profile = profileOfAll(campaign_, cells_);
     double share = 0;
@@ -244,7 +244,7 @@ TEST_F(Report, AProfileIsOfWhatAllHaveRun) {
   EXPECT_THAT(page(), HasSubstr("All problems"));
 }
 
-/// Every point is drawn once, whatever its shape, and has its text.
+/// Every point is drawn once, whatever its shape, and has a text.
 TEST_F(Report, PointsAreDrawnOnce) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   std::vector<CampaignCell> two = cells_;
@@ -262,7 +262,7 @@ TEST_F(Report, PointsAreDrawnOnce) {
   EXPECT_EQ(count("paths refuted"), 6u + count(">share of paths refuted<"));
 }
 
-TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
+TEST_F(Report, ManyNamesDoNotShrinkThePlot) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   const auto height = [&] {
     page();
@@ -280,7 +280,7 @@ TEST_F(Report, ManyNamesTakeNoRoomOfThePlot) {
   EXPECT_THAT(svg, HasSubstr(">" + std::string(58, 'x') + "…<"));
 }
 
-TEST_F(Report, TablesHaveEachUnderItsHead) {
+TEST_F(Report, TableCellsMatchTheirHeads) {
   for (CampaignCell& cell : cells_)
     for (BenchmarkRun& run : cell.runs) run.states = 1234, run.edges = 77;
   const std::string table = cellTable(campaign_, cells_, 0);
@@ -289,7 +289,7 @@ TEST_F(Report, TablesHaveEachUnderItsHead) {
                                "<td>4</td><td>3</td>"));
 }
 
-TEST_F(Report, TimesEndWhereTheLimitIs) {
+TEST_F(Report, TimeAxisEndsAtTheLimit) {
   campaign_.time = 20;
   EXPECT_DOUBLE_EQ(solvedOverTime(campaign_, cells_, 0).rangeX->second,
                    10);  // all runs are quicker than the limit
@@ -300,7 +300,7 @@ TEST_F(Report, TimesEndWhereTheLimitIs) {
 }
 
 /// The plots of ten problems are in the page, but folded.
-TEST_F(Report, OfManyProblems) {
+TEST_F(Report, FoldsThePlotsOfManyProblems) {
   EXPECT_THAT(page(), Not(HasSubstr("<details>")));
   campaign_.problems.resize(10, campaign_.problems[0]);
   identifyProblems(campaign_);
@@ -309,7 +309,7 @@ TEST_F(Report, OfManyProblems) {
   EXPECT_THAT(page(), HasSubstr("<summary>Plots of all 10 problems</summary>"));
 }
 
-TEST_F(Report, SaysHowItWasMeasured) {
+TEST_F(Report, DescribesTheMeasurement) {
   campaign_.planners = {{"short", "RRT", {{{"range", "0.2"}}}}, {"KPIECE1", "KPIECE1", {}}};
   campaign_.simplify = false;
   writeReport(campaign_, cells_, folder_, {{"2026-05-04 03:02:01", "abc", 2, 60}});
@@ -352,7 +352,7 @@ TEST_F(Report, ThePageAndItsFiles) {
   EXPECT_THAT(page(), HasSubstr("53 runs of 60 (not finished)"));
 }
 
-/// Names are the users' own: none may act as HTML or as gnuplot's syntax.
+/// Users choose the names: no name may act as HTML or as gnuplot's syntax.
 TEST_F(Report, HostileNames) {
   const std::string evil = "<script>alert('1')</script> \"x\" `id` $0 {/x} \\n & %s";
   campaign_.name = evil;
@@ -374,7 +374,7 @@ TEST_F(Report, HostileNames) {
 }
 
 /// All clearances are equal: the plot's range must still span a decade.
-TEST_F(Report, OneValueOnADecade) {
+TEST_F(Report, EqualValuesSpanADecade) {
   for (CampaignCell& cell : cells_)
     for (BenchmarkRun& run : cell.runs) run.leastDistance = run.processorTime = 1;
   for (const Plot& plot :
@@ -388,7 +388,7 @@ TEST_F(Report, OneValueOnADecade) {
   }
 }
 
-TEST_F(Report, NamesThatAreOneAsFiles) {
+TEST_F(Report, NamesThatGiveTheSameFileName) {
   campaign_.problemNames = {"a b", "a-b"};
   const auto files = writeReport(campaign_, cells_, folder_);
   EXPECT_EQ(std::set(files.begin(), files.end()).size(), files.size());
@@ -429,7 +429,7 @@ TEST_F(Report, WithoutPictures) {
 }
 
 /// A user's own gnuplot settings must not change the plots.
-TEST_F(Report, WithoutSettingsOfOnesOwn) {
+TEST_F(Report, IgnoresTheUsersGnuplotSettings) {
   if (!canPlot()) GTEST_SKIP() << "no gnuplot";
   const Plot plot = timeAgainstError(campaign_, cells_, 0);
   const std::string usual = svgOf(plot);
@@ -445,7 +445,7 @@ TEST_F(Report, WithoutSettingsOfOnesOwn) {
     ::unsetenv("HOME");
 }
 
-TEST_F(Report, OfNothing) {
+TEST_F(Report, WithoutAnyRun) {
   for (CampaignCell& cell : cells_) cell.runs.clear();
   EXPECT_THAT(page(), HasSubstr("0 runs of 60 (not finished)"));
 }

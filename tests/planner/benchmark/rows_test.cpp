@@ -1,4 +1,4 @@
-// Figures of several runs, and how they are written.
+// Tests of the figures of several runs, and of how they are written.
 #include "planner/benchmark/rows.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ TEST(Rows, CsvHasAllDigitsAndQuotesWhatNeedsIt) {
   EXPECT_EQ(csvOf({}), "");
 }
 
-TEST(Rows, TableLinesUpAndLeavesOutWhatSaysNothing) {
+TEST(Rows, TableIsAlignedAndOmitsZeroFailures) {
   const std::vector<Row> rows{{{"name", std::string("naïve")},
                                {"time_s", 0.123456},
                                {"failed", std::uint64_t{0}},

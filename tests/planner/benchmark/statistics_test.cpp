@@ -1,5 +1,5 @@
-// Confidence intervals of medians and shares, tested against enumeration, simulation and
-// published values.
+// Tests of confidence intervals of medians and shares against enumeration, simulation and published
+// values.
 #include "planner/benchmark/statistics.h"
 
 #include <cmath>
@@ -28,7 +28,7 @@ double missed(unsigned n, unsigned k) {
   return ways / std::pow(2.0, n);
 }
 
-TEST(Statistics, MediansIntervalIsTheNarrowestThatIsSureEnough) {
+TEST(Statistics, MedianIntervalIsTheNarrowestWithItsConfidence) {
   for (unsigned n = 1; n <= 20; ++n) {
     const Interval i = medianInterval(upTo(n));
     if (std::isinf(i.from)) {
@@ -48,7 +48,7 @@ TEST(Statistics, MediansIntervalIsTheNarrowestThatIsSureEnough) {
   EXPECT_TRUE(std::isinf(medianInterval({}).to));
 }
 
-TEST(Statistics, MediansIntervalCoversAsOftenAsItSays) {
+TEST(Statistics, MedianIntervalHasItsCoverage) {
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
   std::lognormal_distribution<double> draw(0, 2);  // the median is 1
@@ -65,7 +65,7 @@ TEST(Statistics, MediansIntervalCoversAsOftenAsItSays) {
   EXPECT_NEAR(covered / double{kTrials}, 0.9648, 0.018) << "seed " << seed;
 }
 
-TEST(Statistics, SharesIntervalIsWilsons) {
+TEST(Statistics, ShareIntervalIsWilsons) {
   // Newcombe 1998, table I: 81 of 263, 15 of 148, 0 of 20, 1 of 29.
   const auto near = [](std::size_t hits, std::size_t of, double from, double to) {
     const Interval i = shareInterval(hits, of);

@@ -1,4 +1,4 @@
-// What `--variants` accepts.
+// Tests of the values of `--variants`.
 #include "planner/benchmark/variant.h"
 
 #include <gmock/gmock.h>
@@ -40,7 +40,7 @@ TEST(Variant, SetsTheKnobOfItsKind) {
   EXPECT_EQ(checker.tolerance, 1e-6);
 }
 
-TEST(Variant, WithoutAKnobTheProblemsOwnStays) {
+TEST(Variant, WithoutAKnobTheProblemsValueStays) {
   CheckerSettings checker;
   checker.resolution = 0.02;
   checker.tolerance = 1e-5;
@@ -52,7 +52,7 @@ TEST(Variant, WithoutAKnobTheProblemsOwnStays) {
   }
 }
 
-TEST(Variant, EveryEdgesOfAProblemIsOne) {
+TEST(Variant, EveryEdgeMethodIsAVariant) {
   for (const std::string& edges : problemChoices().at("checker.edges")) {
     EXPECT_EQ(wordOf(specOf(readVariant(edges)).edges), edges);
     const CheckerSettings checker = specOf(readVariant(edges + ":0.001"));
@@ -60,7 +60,7 @@ TEST(Variant, EveryEdgesOfAProblemIsOne) {
   }
 }
 
-TEST(Variant, APeerSamples) {
+TEST(Variant, CompetitorsSampleEdges) {
   const std::vector<BenchmarkCompetitor> peers{{"other", {}}};
   const Variant variant = readVariant("other:0.1", peers);
   EXPECT_EQ(specOf(variant).edges, EdgeCheck::discrete);

@@ -1,4 +1,4 @@
-// In a floating-point mode in which no bound holds, the checker answers only that.
+// In a floating-point mode in which no bound holds, the checker must refuse every query.
 #include <stdexcept>
 #include <thread>
 
@@ -13,7 +13,7 @@
 namespace corridor {
 namespace {
 
-TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
+TEST(CheckerArithmetic, OtherFloatingPointModesAreRefusedInEveryThread) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
   const Checker checker(problem);
@@ -32,7 +32,7 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
         throws = true;
       }
     };
-    query();  // in a thread that has a workspace already; below, in new ones
+    query();  // in a thread that already has a workspace; below, in new threads
     for (int n = 0; n < 2; ++n, std::thread(query).join()) {
       EXPECT_EQ(throws, !setting.standard()) << setting.name;
       for (const MotionResult& result : {state, edge}) {
@@ -47,8 +47,9 @@ TEST(CheckerArithmetic, OtherArithmeticIsRefusedInEveryThread) {
   }
 }
 
-/// A motion that was set in another floating-point mode stays invalid afterwards.
-TEST(CheckerArithmetic, MotionsMadeElsewhereAreRefused) {
+/// If a motion was set in a floating-point mode in which no bound holds, queries refuse it even
+/// after the mode was restored.
+TEST(CheckerArithmetic, MotionsSetInOtherModesAreRefused) {
   const Problem problem =
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
   const Scene scene = makeScene(problem.model);

@@ -1,5 +1,5 @@
-// The clearance for OMPL's samplers and objectives agrees with closed forms and with the states'
-// validity.
+// Tests the clearance for OMPL's samplers and objectives against closed forms and against the
+// validity of states.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -62,13 +62,13 @@ TEST(Clearance, InASolidIsContact) {
   EXPECT_EQ(clearanceOf(problem, poseOf(Rigid::SE3, 0.25, 0)), -0.5);
 }
 
-TEST(Clearance, WithoutTestedPairsThereIsNoEndOfIt) {
+TEST(Clearance, WithoutTestedPairsItIsInfinite) {
   Problem problem = hallProblem(Rigid::SE2);
   problem.model.filter.skip(0, 1, "allow");
   EXPECT_EQ(clearanceOf(problem, poseOf(Rigid::SE2, 0, 0)), kInfinity);
 }
 
-TEST(Clearance, BothCheckersOfOmplTellIt) {
+TEST(Clearance, BothValidityCheckersReturnIt) {
   Hall hall(Rigid::SE3);
   const CertifiedStateValidityChecker certified(hall.si, hall.checker);
   const ExactStateValidityChecker exact(hall.si, hall.checker);
@@ -91,9 +91,9 @@ TEST(Clearance, BothCheckersOfOmplTellIt) {
   EXPECT_EQ(hall.checker.counters().states, before + 1) << "a state, of however many pairs";
 }
 
-/// The clearance of a valid state is positive. A state is valid if its clearance exceeds what the
-/// proof needs.
-TEST(Clearance, IsInStepWithWhatIsValid) {
+/// The clearance of a valid state is positive. If the clearance of a state exceeds what its proof
+/// needs, the state is valid.
+TEST(Clearance, AgreesWithValidity) {
   std::mt19937_64 random(test::testSeed(3));
   std::uniform_real_distribution<double> u(-1, 1);
   for (const double margin : {0.0, 0.2}) {

@@ -19,7 +19,8 @@ namespace {
 
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 
-/// A floor of one triangle at height 0 of its own frame. A tetrahedron stands on its tip above it.
+/// Returns a floor of one triangle at height 0 of its own frame. In the tests the tip of a
+/// tetrahedron is just above this floor.
 TriangleMesh floorOf(double size) {
   TriangleMesh mesh;
   test::add(mesh, Vec3(-9 * size, -9 * size, 0), Vec3(9 * size, -9 * size, 0),
@@ -35,7 +36,8 @@ TriangleMesh topOf(double size) {
   return mesh;
 }
 
-/// Heights of the tip above the floor are exact, because position and gap are multiples of 2^-80.
+/// Rounds to a multiple of 2^-80. Positions and gaps are such multiples, so the tip's heights above
+/// the floor are exact.
 double onGrid(double x) {
   return std::ldexp(std::round(std::ldexp(x, 42)), -42);
 }
@@ -206,7 +208,7 @@ TEST(DefaultTolerance, BranchesFarFromTheOrigin) {
   }
 }
 
-/// A joint limit that no robot reaches must not cause a tolerance of metres.
+/// A joint limit that is far larger than any robot must not cause a tolerance of metres.
 TEST(DefaultTolerance, IsNeverMoreThanAThousandTimesTheUsualOne) {
   Problem problem;
   Coordinate c;

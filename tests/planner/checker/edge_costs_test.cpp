@@ -1,4 +1,4 @@
-// Counts and shares of edge costs add up, and the sampling ends in time.
+// Tests that counts and shares of edge costs add up, and that the sampling of edges ends in time.
 #include "planner/checker/edge_costs.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(EdgeCosts, CountsAndSharesAddUp) {
   EXPECT_NEAR(sum, 1, 1e-12);
 }
 
-TEST(EdgeCosts, OneEdgeAtLeastAndNoneMorePastTheTime) {
+TEST(EdgeCosts, TestsOneEdgeAtLeastAndStopsInTime) {
   const Problem problem = test::hallProblem(test::Rigid::SE3);
   const Checker checker(problem);
   EXPECT_EQ(sampleEdgeCosts(checker, 1'000'000, 0, 1).edges, 1u);

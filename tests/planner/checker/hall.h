@@ -34,7 +34,8 @@ inline PlacedShape partShape(const std::string& name, const Primitive& primitive
   return shapeOf(name, primitive, {at, Eigen::Quaterniond::Identity()});
 }
 
-/// 2^-40 of each range, the default tube for lines of one range and for angles.
+/// Returns a tube of 2^-40 of each range. This equals the default tube if all lines have the same
+/// range.
 inline Configuration roundingTube(const ConfigurationSpace& space) {
   Configuration tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
   for (const Coordinate& c : space.coordinates())

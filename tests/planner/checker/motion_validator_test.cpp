@@ -26,8 +26,8 @@ struct Kind {
   bool proves() const { return edges != "discrete"; }
 };
 
-/// Every name that a problem may give: all methods in both spaces, and all volumes with alternating
-/// methods.
+/// All names that a problem may use: every method, in both spaces, and every volume, with
+/// alternating methods.
 std::vector<Kind> kinds() {
   const auto& methods = problemChoices().at("checker.edges");
   const auto& volumes = problemChoices().at("checker.volume");
@@ -71,7 +71,7 @@ class MotionValidators : public testing::TestWithParam<Kind> {
   }
   std::vector<double> bits(const ob::ScopedState<>& s) const { return s.reals(); }
 
-  /// Tests the state that a failed check leaves. `last` and `s1` may be the same state.
+  /// Tests the state that a failed check stores in `last`, which may be the same object as `s1`.
   void expectValid(const Configuration& s1, const ob::State* last, double t) const {
     const auto from = hall_.scoped(s1);
     EXPECT_TRUE(hall_.si->isValid(last));
@@ -157,7 +157,7 @@ TEST_P(MotionValidators, LastValidMayBeTheGoalOrTheStart) {
   EXPECT_EQ(bits(s1), bits(expected));
 }
 
-TEST_P(MotionValidators, AtOnceBlockedGivesTheStart) {
+TEST_P(MotionValidators, BlockedAtTheStartGivesTheStart) {
   auto last = state(1, 1);
   std::pair<ob::State*, double> lastValid{last.get(), -1};
   EXPECT_FALSE(validator().checkMotion(state(-0.5006, 0).get(), state(3, 0).get(), lastValid));

@@ -1,5 +1,5 @@
-// A problem's space as an OMPL space: it follows Corridor's edges, meets every planner's needs, and
-// samples as OMPL does.
+// Tests a problem's space as an OMPL space: it interpolates along Corridor's edges, has everything
+// that planners need, and samples as OMPL does.
 #include <cmath>
 #include <numbers>
 
@@ -119,8 +119,8 @@ TEST(StateSpace, TinyDifferencesAreDifferent) {
   }
 }
 
-/// With one seed a rigid body's samples, near and uniform, are those of OMPL's own space. So
-/// planning for it behaves as with SE3StateSpace.
+/// With the same seed, a rigid body's samples, near and uniform, equal those of OMPL's own space.
+/// So planning behaves as with SE3StateSpace.
 TEST(StateSpace, RigidBodiesAreSampledAsByOmpl) {
   const ConfigurationSpace configurations = test::rigidProblem(Rigid::SE3, 0.7).model.space;
   const auto ours = std::make_shared<ProblemStateSpace>(configurations);

@@ -1,5 +1,5 @@
-// Random edges of real arms in real scenes. The verifier proves every edge that the checker calls
-// free, and no sample of it touches. Every edge that the checker calls a contact does touch.
+// Random edges of real arms in real scenes. If the checker calls an edge free, the verifier must
+// prove it, and no sample may touch. If the checker reports a contact, the edge must touch.
 #include <iostream>
 #include <random>
 

@@ -1,4 +1,4 @@
-// Bodies never leave their boxes in random configurations.
+// In no random configuration may a body leave its computed box of reach.
 #include "planner/checker/reach.h"
 
 #include <gtest/gtest.h>

@@ -51,7 +51,7 @@ TEST(SharedStates, LinksThatTouchEachOther) {
     auto model = readUrdf(robots / file, {{"example-robot-data", robots / "example-robot-data"}},
                           faults, files);
     ASSERT_TRUE(model) << InputError(faults).what();
-    // The reference skips only the SRDF's pairs, so adjacent links must be tested, too.
+    // The reference excludes only the SRDF's pairs, so here adjacent links must be tested, too.
     model->allowed.clear();
     if (!srdf.empty()) readSrdf(robots / srdf, *model, faults);
     ASSERT_TRUE(faults.empty()) << InputError(faults).what();

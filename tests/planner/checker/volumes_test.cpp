@@ -1,5 +1,5 @@
-// A problem's checker gives the same answers with the trees of every volume, and refuses words that
-// don't go together.
+// A problem's checker gives the same answers with the trees of every volume, and refuses names of
+// volume, fit and overlap test that can't be combined.
 #include <map>
 #include <random>
 #include <stdexcept>
@@ -31,7 +31,8 @@ Problem with(Problem problem, const TreeNames& words) {
   return problem;
 }
 
-/// Meshes, and primitives on a chain; states and edges; certified and exact.
+/// Compares states and edges of meshes, and of primitives on a chain, by certified and by exact
+/// tests.
 TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
   std::mt19937_64 random(test::testSeed(71));
   const auto real = [&](double low, double high) {
@@ -70,7 +71,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
     }
     EXPECT_GT(std::count(usual.begin(), usual.end(), 1), count / 4);
     EXPECT_GT(std::count(usual.begin(), usual.end(), 0), count / 4);
-    EXPECT_GT(tests.size(), 6u) << "all walked other trees";
+    EXPECT_GT(tests.size(), 6u) << "each must walk trees of its own kind";
   }
 }
 

@@ -34,7 +34,7 @@ Pairs testedPairs(const Model& model) {
   return pairs;
 }
 
-/// The reader of problem files makes the same model.
+/// A `ModelBuilder` must make the same model as the reader of problem files.
 TEST(ModelBuilder, MakesWhatTheReaderMakes) {
   const Model model =
       ModelBuilder()
@@ -72,7 +72,8 @@ TEST(ModelBuilder, MakesWhatTheReaderMakes) {
     EXPECT_EQ(model.bodies[i].frame, read.bodies[i].frame);
   }
   EXPECT_EQ(testedPairs(model), testedPairs(read));
-  // Every pair in ascending order, except for those of two obstacles; and none twice.
+  // The tested pairs must be all pairs except those of two obstacles, in ascending order, and none
+  // twice.
   Pairs all, expected;
   forEachPair(model, [&](std::size_t a, std::size_t b, std::string_view why) {
     all.emplace_back(a, b);

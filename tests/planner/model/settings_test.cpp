@@ -5,7 +5,7 @@
 namespace corridor {
 namespace {
 
-/// A method that has a name, but no value in `EdgeCheck`, would otherwise be taken for `discrete`.
+/// If a method had a name but no value in `EdgeCheck`, it would be taken for `discrete`.
 TEST(Settings, EdgesAreCheckedByEveryMethodOrBySamples) {
   EXPECT_EQ(wordOf(EdgeCheck::discrete), "discrete");
   EXPECT_EQ(wordsFor<EdgeCheck>().size(), edgeMethodNames().size() + 1);

@@ -120,7 +120,7 @@ TEST_F(ArmProblem, AllMovingJointsWithoutAGroup) {
   EXPECT_EQ(p.model.space.coordinates()[0].weight, 1);
   EXPECT_FALSE(p.model.space.coordinates()[2].angular);
   EXPECT_EQ(p.task.tube, numbers({0.001, 0.001, 0.001}));
-  EXPECT_EQ(skipped(p, "finger", "thumb"), "") << "one follows the other the other way";
+  EXPECT_EQ(skipped(p, "finger", "thumb"), "") << "thumb mimics slide in the opposite direction";
   EXPECT_EQ(skipped(p, "base", "lower"), "") << "no SRDF";
 }
 
@@ -137,12 +137,12 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
               Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
 }
 
-TEST_F(ArmProblem, ABareUrdfWillDo) {
+TEST_F(ArmProblem, AUrdfAloneIsARobot) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.urdf\nstart: {pan: 0, lift: 0, slide: 0.02}\n"
       "goal: {pan: 1, lift: 0, slide: 0.02}\n");
   EXPECT_EQ(p.model.robots.at(0).model.name, "armbot");
-  EXPECT_EQ(p.model.bodies.size(), 5u) << "and no world";
+  EXPECT_EQ(p.model.bodies.size(), 5u) << "there are no bodies of a world";
 }
 
 TEST_F(ArmProblem, ValuesARoundingBeyondTheirLimitAreClampedAndReported) {
@@ -280,7 +280,7 @@ TEST_F(ArmProblem, APlanarJointMovesInThePlaneOfItsAxis) {
   EXPECT_LT((X.m * Vec3::UnitX() - Vec3::UnitZ()).norm(), 1e-15) << "90 degrees about -y";
 }
 
-TEST_F(ArmProblem, AProblemWithoutPairsSaysSo) {
+TEST_F(ArmProblem, NotesThatNoPairIsTested) {
   const Problem p = read(
       "format: corridor-problem-1\nrobot: arm.yaml\nstart: ready\ngoal: ready\nallow: [[base, "
       "finger], [base, thumb], [upper, finger], [upper, thumb]]\n");

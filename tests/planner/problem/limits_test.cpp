@@ -1,5 +1,5 @@
-// A document that is nested too deeply, too large, or expands without bound is an error at once; it
-// must not take all memory, time or stack.
+// A document that is nested too deeply, is too large, or expands without bound must be refused at
+// once, and must not use up memory, time or stack.
 #include "planner/problem/yaml_reader.h"
 #include "tests/planner/problem/problem_fixture.h"
 

@@ -73,7 +73,7 @@ TEST_F(OmplAppCfg, SpatialProblemWithEverything) {
                    testing::Eq("planners that OMPL does not have are skipped: aps")}));
 }
 
-TEST_F(OmplAppCfg, PlannersAreChosenOnlyWhereThereIsOne) {
+TEST_F(OmplAppCfg, DefaultPlannerIfTheFileListsSeveral) {
   const Problem p =
       readProblem(cfg(meshes + planar + "[planner]\nprm=\nrrt=\nrrt=\nrrt.range=3\n"));
   EXPECT_EQ(p.settings.planner.name, "RRTConnect");
@@ -301,8 +301,8 @@ TEST(OmplAppProblems, AgreeWithTheReference) {
   EXPECT_EQ(readProblem(*folder / "3D/cubicles_opt.cfg").settings.planner.time, 300);
 }
 
-/// Reads the poses of one of OMPL.app's sample solutions. Its checker found them free; with a wrong
-/// placement of the meshes some of them would be in contact.
+/// Reads the poses of one of OMPL.app's sample solutions. OMPL.app's checker found them free. If
+/// the reader placed the meshes wrongly, some of them would be in contact.
 std::vector<Transform> posesOf(const std::filesystem::path& file, bool spatial) {
   std::vector<Transform> poses;
   std::ifstream stream(file);
@@ -361,7 +361,7 @@ TEST(OmplAppProblems, SampleSolutionsAreFreeWhereTheyShouldBe) {
   }
 }
 
-TEST(OmplAppProblems, EveryOtherOneIsReadOrSaysWhyNot) {
+TEST(OmplAppProblems, EveryOtherProblemIsReadOrRefused) {
   const auto folder = omplAppFolder();
   if (!folder) GTEST_SKIP() << "set CORRIDOR_OMPLAPP to OMPL.app's folder resources";
   int read = 0, dynamic = 0;

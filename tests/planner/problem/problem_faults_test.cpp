@@ -151,8 +151,8 @@ TEST_F(ProblemFaults, WrongTypes) {
             "problem.yaml:6: goal.at: a number is needed, not \"x\"");
 }
 
-/// Each word is known, but they do not belong together.
-TEST_F(ProblemFaults, VolumesAndWhatTheyHave) {
+/// Each name is known, but the names can't be combined.
+TEST_F(ProblemFaults, VolumesThatCannotBeCombined) {
   EXPECT_EQ(
       with("checker:\n  volume: sphere\n  overlap: gjk\n"),
       "problem.yaml:10: checker.overlap: \"gjk\" is for volume obb-binary; volume sphere has: "
@@ -272,7 +272,7 @@ TEST_F(ProblemFaults, Bounds) {
             "so bounds: {at: [[x, y, z], [x, y, z]]} is needed");
 }
 
-TEST_F(ProblemFaults, WhatIsNotSupportedYetSaysWhatIs) {
+TEST_F(ProblemFaults, UnsupportedKeysAreReported) {
   EXPECT_EQ(with("checker: {peer: fcl}\n"),
             "problem.yaml:8: \"peer\" in checker is not supported yet; Corridor's own checker is "
             "used; leave it out");
@@ -339,7 +339,7 @@ TEST_F(ProblemFaults, Robots) {
   EXPECT_EQ(complaintOfRobot("rigid: {\n"), "robot.yaml:2: is not YAML: end of map flow not found");
 }
 
-TEST_F(ProblemFaults, AllOfAFileAndOfItsRobotAtOnce) {
+TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {
   write("robot.yaml",
         "format: corridor-robot-1\nrigid: SE3\nshapes: [{mesh: gone.stl, unti: mm}]\n");
   EXPECT_EQ(
@@ -360,7 +360,7 @@ TEST_F(ProblemFaults, AllOfAFileAndOfItsRobotAtOnce) {
 }
 
 /// Files with random damage are read or refused by an InputError; nothing else may happen.
-TEST_F(ProblemFaults, DamagedFilesAreRefusedInWords) {
+TEST_F(ProblemFaults, DamagedFilesAreReadOrRefused) {
   const std::string whole =
       head + poses +
       "margin: 0.005\ntube: {position: 1e-3, rotation_deg: 1}\nplanner: {name: "

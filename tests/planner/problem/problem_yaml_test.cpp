@@ -92,7 +92,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
     }
 }
 
-TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
+TEST_F(ProblemYaml, Defaults) {
   const Problem p = read(head + "start: {at: [5, 0, 0]}\ngoal: {at: [0, 5, 0]}\n");
   EXPECT_EQ(p.source.name, folder_.filename());
   EXPECT_EQ(p.settings.planner.name, "RRTConnect");
@@ -118,7 +118,7 @@ TEST_F(ProblemYaml, DefaultsWhereNothingIsSaid) {
       << "the folder stands for its problem.yaml";
 }
 
-TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
+TEST_F(ProblemYaml, LinesAreKeptForLaterFaults) {
   const Problem p = read(everything);
   EXPECT_EQ(p.source.lines.at("planner.name"), 12);
   EXPECT_EQ(p.source.lines.at("planner.params.range"), 16);
@@ -132,8 +132,8 @@ TEST_F(ProblemYaml, LinesAreKnownForLaterFaults) {
 TEST_F(ProblemYaml, MeshesArePlacedOnceInDouble) {
   const Problem p = read(everything);
   const auto& rock = meshOf(p, "rock").vertices;
-  // (0, 2, 0) in cm with y up is (0, 0, 0.02). The rotation by 90° about z leaves it, and the
-  // translation is added.
+  // (0, 2, 0) in cm with y up is (0, 0, 0.02). The rotation by 90° about z does not change this
+  // point, and the translation is added.
   EXPECT_EQ(rock[2], Vec3(1, 2, 3 + 0.01 * 2));
   // (1, 0, 0) in cm: the rotation by 90° takes x to y exactly.
   EXPECT_EQ(rock[1], Vec3(1, 2 + 0.01, 3));
@@ -176,7 +176,8 @@ weights: {rotation: 3}
   ASSERT_EQ(shapes.size(), 3u);
   EXPECT_EQ(shapes[0].name, "twins/left");
   EXPECT_EQ(shapes[1].name, "twins/2");
-  // The average of the eight distinct vertices: the repeated shape does not count twice.
+  // The centroid is the average of the eight distinct vertices: the repeated shape does not count
+  // twice.
   const Vec3 centroid(2.25, 0.5, 0.75);
   EXPECT_EQ(meshOf(p, "twins", 0).vertices[3], Vec3(0, 0, 3) - centroid);
   EXPECT_EQ(meshOf(p, "twins", 2).vertices[0], Vec3(4, 0, 0) - centroid);

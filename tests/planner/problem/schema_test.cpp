@@ -67,7 +67,7 @@ void expectInStep(const std::string& file, const std::map<std::string, MapKeys>&
     EXPECT_EQ(properties, std::set<std::string>(map.legal.begin(), map.legal.end()))
         << file << ": " << path;
   }
-  EXPECT_EQ(maps, known) << "the schema has maps that the reader does not know";
+  EXPECT_EQ(maps, known) << "the schema has maps that the reader does not accept";
   for (const auto& [path, words] : choices)
     EXPECT_EQ(schemaOf(root, path).at("enum").get<std::vector<std::string>>(), words) << path;
 }

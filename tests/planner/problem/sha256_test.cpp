@@ -5,7 +5,8 @@
 namespace corridor::test {
 namespace {
 
-// The examples of FIPS 180-4 and of NIST's CAVP (SHA256ShortMsg; SHA256LongMsg's million letters).
+// The examples of FIPS 180-4 and of NIST's CAVP (SHA256ShortMsg, and the million letters of
+// SHA256LongMsg).
 TEST(Sha256, VectorsOfNist) {
   EXPECT_EQ(sha256Hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256Hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

@@ -1,5 +1,5 @@
-// The motion bounds that `motionBound` derives from EdgeMotion's screws are never exceeded, and
-// they are attained.
+// Tests that no motion exceeds the bounds that `motionBound` derives from EdgeMotion's screws, and
+// that some motions attain them.
 #include <functional>
 #include <iostream>
 #include <numbers>
@@ -19,7 +19,7 @@ using test::Real;
 using test::ReferenceKinematics;
 using test::Vec3L;
 
-/// Moves both ends so that the whole edge stays within the tube of the nominal one.
+/// Moves both ends of an edge such that the whole edge stays within the tube of the original one.
 void stray(RandomTrees& random, const Configuration& tube, Configuration& from, Configuration& to) {
   for (const Coordinate& c : random.space.coordinates()) {
     const auto i = static_cast<Eigen::Index>(c.first);
@@ -181,7 +181,7 @@ TEST(ChainBound, IsAttained) {
     for (std::size_t i = 0; i < chain.variables; ++i) space.add({});
     const auto count = static_cast<Eigen::Index>(chain.variables);
     EdgeMotion motion(tree, space, pair, Configuration::Zero(count));
-    // v: the configuration at the middle, the half steps (up to more than π), and the point.
+    // v has the configuration at the middle, the half steps (up to more than π), and the point.
     const auto share = [&](const Eigen::VectorXd& v) {
       const Configuration from = v.head(count) - v.segment(count, count),
                           to = v.head(count) + v.segment(count, count);
@@ -206,7 +206,7 @@ TEST(ChainBound, IsAttained) {
         const double size = std::pow(10.0, random.real(-4, 0));
         for (double& number : next)
           if (random.oneIn(2)) number += size * random.real();
-        // Exclude tiny steps, which attain the bound trivially, to first order.
+        // Excludes tiny steps: these attain the bound trivially, by its first-order term.
         for (Eigen::Index k = 0; k < count; ++k) next[count + k] = std::max(0.3, next[count + k]);
         if (const double s = share(next); s > best) {
           best = s;

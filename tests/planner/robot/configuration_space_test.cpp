@@ -1,5 +1,5 @@
-// Edges and distances: every angle, half turns, the seam of a circle, and ends that are equal bit
-// for bit.
+// Tests of edges and distances: angles of every size, half turns, the seam of a circle, and ends
+// that are equal bit for bit.
 #include "planner/robot/configuration_space.h"
 
 #include <cmath>
@@ -70,7 +70,7 @@ Configuration turned(double angle, const Vec3& axis = Vec3(1, 2, 3).normalized()
 
 TEST(ConfigurationSpace, SmallAndLargeRotationsAreFollowed) {
   const ConfigurationSpace space = single(Kind::rotation);
-  // OMPL 1.5.2 returns `from` for angles below 9e-5.
+  // For angles below 9e-5, OMPL 1.5.2 would return `from`.
   for (const double angle :
        {1e-300, 1e-12, 1e-9, 5e-5, 8.9e-5, 9e-5, 9.1e-5, 0.1, 1.0, 3.0, pi - 1e-6}) {
     const Configuration from = turned(0), to = turned(angle);
@@ -103,7 +103,7 @@ TEST(ConfigurationSpace, HalfTurnsAreAmbiguousAndNearlyHalfTurnsAreNot) {
   EXPECT_TRUE(circle.ambiguous(values({-pi / 2}), values({pi / 2})));
   EXPECT_FALSE(circle.ambiguous(values({-pi / 2}), values({pi / 2 - 2e-9})));
   EXPECT_FALSE(single(Kind::line).ambiguous(values({-pi / 2}), values({pi / 2})));
-  // Close to a half turn, on either side, the edge goes the shorter way.
+  // Close to a half turn, whether below or above it, the edge goes the shorter way.
   for (const double angle : {pi - 1e-8, pi + 1e-8}) {
     const Configuration middle = rotation.interpolate(turned(0), turned(angle), 0.5);
     const double expected = angle < pi ? angle / 2 : (angle - 2 * pi) / 2;

@@ -29,7 +29,7 @@ std::pair<double, double> interval(RandomTrees& random) {
   return {h + 2 * h * std::floor(random.real(0, 0.5 / h)), h};
 }
 
-/// Rounding of the reference: some 100 roundings of 2^-64.
+/// Returns the rounding error of the reference: some 100 roundings of 2^-64.
 double noise(const MovingPose& real, double reach) {
   return 1e-17 * (1 + reach + static_cast<double>(real.t.norm()));
 }
@@ -109,8 +109,8 @@ struct LongChain {
   }
 };
 
-/// In a long chain the errors of the rotations reach along all that follows, and are those of the
-/// axes of its joints, too.
+/// In a long chain an error of a rotation displaces all following frames, and also tilts the axes
+/// of the following joints.
 TEST(EdgeMotion, LongChainsAreWithinTheirStatedError) {
   RandomTrees random(test::testSeed(5));
   double worst = 0, worstTwist = 0;
@@ -133,7 +133,8 @@ TEST(EdgeMotion, LongChainsAreWithinTheirStatedError) {
       const test::Vec3L step = w.linear.cast<Real>() +
                                w.angular.cast<Real>().cross(w.X_AB.m.cast<Real>() * p.cast<Real>());
       const auto offTwist = static_cast<double>((step - h * real.velocity(p)).norm());
-      // The last joint turns by 1,000 rad in half of the interval: so the noise is larger, too.
+      // The last joint rotates by 1,000 rad in half of the interval, which enlarges the reference's
+      // own rounding.
       ASSERT_LE(offTwist, bound + 1000 * noise(real, p.norm())) << n << ", h = " << h;
       worst = std::max(worst, off / bound), worstTwist = std::max(worstTwist, offTwist / bound);
     }
@@ -141,7 +142,7 @@ TEST(EdgeMotion, LongChainsAreWithinTheirStatedError) {
   std::cout << "error as a share of its bound: " << worst << "; twist: " << worstTwist << '\n';
 }
 
-TEST(EdgeMotion, FarFromTheOriginNothingIsLostBetweenLinks) {
+TEST(EdgeMotion, ErrorsBetweenLinksAreSmallFarFromTheOrigin) {
   KinematicTree tree;
   ConfigurationSpace space;
   for (const char* name : {"x", "y", "z", "shoulder", "elbow"}) {
@@ -170,8 +171,8 @@ TEST(EdgeMotion, FarFromTheOriginNothingIsLostBetweenLinks) {
   EXPECT_GT(motion.relativeMotion(1, 0.5, 0.5).fixedError, 1e-10);
 }
 
-/// The product of the `screws`, each applied by its amount about the axes at the middle, leads to
-/// the end of the interval.
+/// If each of the `screws` is applied by its amount, about its axis at the middle, their product is
+/// the motion to the end of the interval.
 TEST(EdgeMotion, ScrewsAreTheMotion) {
   RandomTrees random(test::testSeed(2));
   for (int n = 0; n < 20'000; ++n) {
@@ -213,7 +214,7 @@ TEST(EdgeMotion, ScrewsAreTheMotion) {
   }
 }
 
-TEST(EdgeMotion, ManyPairsShareWhatTheyHaveInCommon) {
+TEST(EdgeMotion, ManyPairsShareOneMotion) {
   RandomTrees random(test::testSeed(3));
   for (int n = 0; n < 500; ++n) {
     random.makeTree(8);
@@ -304,7 +305,7 @@ TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
   EXPECT_FALSE(circle.motion(pi / 2, -pi / 2 + 1e-8)->ambiguous());
   EXPECT_FALSE(circle.motion(pi, -pi)->ambiguous());
   EXPECT_FALSE(line.motion(0, pi)->ambiguous());
-  // A joint that follows a circle by a half would jump at the seam.
+  // A joint that mimics a circle with the multiplier ½ would jump at the seam.
   EXPECT_TRUE(OneTurn(Coordinate::Kind::circle, 0.5).motion(3, -3)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, 0.5).motion(1, -1)->ambiguous());
   EXPECT_FALSE(OneTurn(Coordinate::Kind::circle, -2).motion(3, -3)->ambiguous());
@@ -312,7 +313,7 @@ TEST(EdgeMotion, HalfTurnsAreAmbiguous) {
 
 TEST(EdgeMotion, TubesFollowTheMultiplierAndStayWhereNothingMoves) {
   const OneTurn follower(Coordinate::Kind::line, -2);
-  const auto motion = follower.motion(0, 1, 0.01);  // its memory holds the intervals' screws
+  const auto motion = follower.motion(0, 1, 0.01);  // owns the screws of the intervals
   const RelativeMotion moving = motion->relativeMotion(0, 0.5, 0.5);
   ASSERT_EQ(moving.screws.size(), 1u);
   EXPECT_NEAR(moving.screws[0].amount, 1, 1e-14);
@@ -325,7 +326,8 @@ TEST(EdgeMotion, TubesFollowTheMultiplierAndStayWhereNothingMoves) {
   EXPECT_TRUE(nothing->relativeMotion(0, 0.5, 0.5).screws.empty());
 }
 
-/// A floating joint: the position moves on a straight line, the orientation about one axis.
+/// A floating joint: the position moves on a straight line, and the orientation rotates about one
+/// axis.
 struct Floating {
   KinematicTree tree;
   ConfigurationSpace space;

@@ -1,4 +1,4 @@
-// Robots that are too large, or made to use all memory, are refused quickly.
+// Robots that are too large, or that were made to exhaust memory, are refused quickly.
 #include "tests/planner/robot/urdf_fixture.h"
 
 namespace corridor::test {
@@ -44,7 +44,7 @@ TEST_F(RobotLimits, Shapes) {
             "r.urdf:1: the robot has 100001 <collision>; at most 100000 are read");
 }
 
-/// Each shape has a copy of its mesh, so their sum is limited.
+/// Each shape has a copy of its mesh, so the sum of all triangles is limited.
 TEST_F(RobotLimits, Triangles) {
   std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
   for (int i = 0; i < 20'000; ++i) fan += " 1 2 3";

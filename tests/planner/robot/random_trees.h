@@ -10,8 +10,8 @@
 namespace corridor::test {
 
 /// Random robots and edges with everything that a tree may contain: all kinds of joints, branches,
-/// fixed frames, held joints, joints that follow another (with negative multipliers, or on other
-/// branches), parallel and intersecting axes, and quaternions and axes of any length.
+/// fixed frames, held joints, joints that mimic another one (with negative multipliers, or on
+/// another branch), parallel and intersecting axes, and quaternions and axes of any length.
 class RandomTrees {
  public:
   explicit RandomTrees(std::uint64_t seed) : random_(seed) {}
@@ -128,7 +128,7 @@ class RandomTrees {
     tree.add(frame);
   }
 
-  /// Sometimes returns the number of another single joint, which the new joint then follows.
+  /// Sometimes returns the number of an existing single joint, which the new joint then mimics.
   std::size_t followed() {
     if (!oneIn(4)) return Frame::noVariable;
     const Frame& other = tree.frames[index(tree.frames.size())];

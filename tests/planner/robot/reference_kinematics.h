@@ -44,8 +44,8 @@ inline Vec3L exactly(const Transform& X, const Vec3& p) {
 }
 
 /// An independent implementation of the edge and of forward kinematics, in long double. Its
-/// formulas differ from the tested code: quaternions joint by joint, slerp by the two sine weights,
-/// derivatives by the product rule.
+/// formulas differ from those of the tested code: quaternions joint by joint, slerp as a sum
+/// weighted by sines, derivatives by the product rule.
 class ReferenceKinematics {
  public:
   ReferenceKinematics(const KinematicTree& tree, const ConfigurationSpace& space,
@@ -57,8 +57,8 @@ class ReferenceKinematics {
     for (std::size_t f = 1; f < all.size(); ++f) all[f] = all[tree_.frames[f].parent] * place(f, t);
     return all;
   }
-  /// The motion of b as seen from a. The common part of both chains is left out, so its rounding
-  /// is, too.
+  /// The motion of b as seen from a. The common part of both chains is left out, so it adds no
+  /// rounding.
   MovingPose relative(std::size_t a, std::size_t b, Real t) const {
     MovingPose ofA, ofB;
     while (a != b) {

@@ -1,5 +1,5 @@
-// Scenes of many moving frames: leaving out far pairs doesn't change the verdict of testing every
-// pair alone.
+// Tests of scenes of many moving frames: although a scene leaves out far pairs, its verdict must be
+// the same as if every pair is tested alone.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -20,7 +20,8 @@ namespace {
 
 using test::RandomTrees;
 
-/// One body on every frame that moves, and some on the world; all pairs except those of one frame.
+/// Returns a scene with one body on every frame that moves, and some bodies fixed in the world. Its
+/// pairs are all pairs of bodies on different frames.
 Scene randomScene(RandomTrees& random) {
   std::vector<Scene::Placed> bodies;
   const auto box = [&](double size) {
@@ -54,7 +55,7 @@ std::optional<Contact> firstTouching(const Scene& scene, std::span<const Transfo
   return std::nullopt;
 }
 
-/// The scene's pairs without what the scene knows about the motion of bodies in the world.
+/// Returns the scene's pairs without the scene's data about the motion of bodies in the world.
 std::vector<MotionPair> pairsAlone(const Scene& scene) {
   std::vector<MotionPair> pairs;
   const std::vector<Scene::FramePair>& frames = scene.framePairs();
@@ -114,7 +115,7 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
     }
   }
   std::cout << "free " << free << ", contact " << contact << ", undecided " << undecided
-            << "; windows of motions " << poses << ", asked pair by pair " << posesAlone << "\n";
+            << "; time intervals " << poses << ", if tested pair by pair " << posesAlone << "\n";
   EXPECT_GT(free, count / 10);
   EXPECT_GT(contact, count / 10);
   EXPECT_LE(undecided, 1 + count / 100);
@@ -200,8 +201,8 @@ TEST(SceneMotion, StatesOfRandomTrees) {
     }
     const double clearance = scene.clearance(X_WF, context);
     if (least < HUGE_VAL) {
-      // Each of the two is within the 1e-12·d + 4·2^-53·S that queries/distance.h promises; S <
-      // 100.
+      // Each of the two distances is within the error that queries/distance.h promises: 1e-12·d +
+      // 4·2^-53·S. Here S < 100.
       EXPECT_NEAR(clearance, least, 2e-12 * least + 1e-13) << n;
     } else {
       EXPECT_EQ(clearance, least);

@@ -123,7 +123,7 @@ TEST_F(SharedRobots, ColladaMeshesAreReadByRossRule) {
 TEST_F(SharedRobots, SrdfPairsGroupsAndStates) {
   SKIP_WITHOUT_DATA();
   const auto disabled = [](const RobotModel& model) {
-    // Links joined by a joint keep their first reason, "adjacent".
+    // If two links are joined by a joint, the reason why they are allowed stays "adjacent".
     return std::count_if(model.allowed.begin(), model.allowed.end(),
                          [](const AllowedPair& pair) { return pair.reason.starts_with("SRDF: "); });
   };

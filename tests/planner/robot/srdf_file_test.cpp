@@ -100,7 +100,7 @@ TEST_F(SrdfFile, OfAnotherRobotIsReported) {
                                                  ":1: is for robot \"q\", and is used for \"r\""));
 }
 
-TEST_F(SrdfFile, WhatIsUnknown) {
+TEST_F(SrdfFile, UnknownElementsAndNames) {
   EXPECT_EQ(
       complaintOfSrdf(R"(<disable_collision link1="l1" link2="r1"/>
 <group name="a"><jont name="left1"/></group>
@@ -115,7 +115,7 @@ r.srdf:4: robot "r": <groups> is not known (did you mean <group>?))");
 }
 
 /// Each of forty groups contains the next one three times, so there are 3^40 paths through them.
-TEST_F(SrdfFile, GroupsInGroupsTakeNoTime) {
+TEST_F(SrdfFile, NestedGroupsTakeNoExponentialTime) {
   std::string text;
   for (int i = 0; i < 40; ++i) {
     const std::string inner = "<group name=\"g" + std::to_string(i + 1) + "\"/>";

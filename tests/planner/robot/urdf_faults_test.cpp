@@ -7,11 +7,11 @@ namespace {
 
 class UrdfFaults : public UrdfTest {
  protected:
-  /// The faults of two links and a joint on line 4.
+  /// Returns the faults of two links and a joint on line 4.
   std::string complaintOfJoint(const std::string& type, const std::string& content) {
     return complaintOfParts(link("a") + link("b") + joint("j", type, "a", "b", content));
   }
-  /// The faults of a collision element on line 2.
+  /// Returns the faults of a collision element on line 2.
   std::string complaintOfCollision(const std::string& content) {
     return complaintOfParts(link("a", "<collision>" + content + "</collision>"));
   }
@@ -81,7 +81,7 @@ TEST_F(UrdfFaults, Trees) {
       complaintOfParts(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "c")),
       "r.urdf:3: link \"b\" is not a child of any joint, and neither is \"a\" on line 2; a robot "
       "has one root");
-  // A circle beside the root, which urdfdom accepts; then a circle without any root.
+  // First a cycle of links beside the root, which urdfdom accepts; then a cycle without any root.
   EXPECT_EQ(complaintOfParts(link("a") + link("b") + link("c") + link("d") +
                              joint("i", "fixed", "c", "d") + joint("j", "fixed", "b", "c") +
                              joint("k", "fixed", "c", "b")),
@@ -91,7 +91,7 @@ TEST_F(UrdfFaults, Trees) {
             "r.urdf:4: the links a, b, a are joined in a circle; a tree is needed");
 }
 
-TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
+TEST_F(UrdfFaults, HintsOnlyForTheFirstHundredFaults) {
   std::string parts = link("base");
   for (int i = 0; i < 101; ++i) parts += joint("j" + std::to_string(i), "fixed", "bse", "base");
   const std::string text = complaintOfParts(parts);
@@ -100,7 +100,7 @@ TEST_F(UrdfFaults, HintsAreOfTheFirstHundred) {
   EXPECT_THAT(text, testing::EndsWith("joint \"j100\": " + line));
 }
 
-TEST_F(UrdfFaults, LongCirclesAreReportedByTheirFirst) {
+TEST_F(UrdfFaults, LongCyclesListTheirFirstJoints) {
   std::string parts = link("l0");
   for (int i = 0; i < 40; ++i) {
     parts += link("l" + std::to_string(i + 1));
@@ -252,7 +252,7 @@ TEST_F(UrdfFaults, Geometry) {
             "r.urdf:2: shape \"a\": its origin, size or scale is out of the range of doubles");
 }
 
-TEST_F(UrdfFaults, WhatWouldBeLost) {
+TEST_F(UrdfFaults, ElementsThatWouldBeIgnored) {
   const std::string of = "r.urdf:2: link \"a\": ";
   EXPECT_EQ(complaintOfParts(link("a", "<colision/>") + "<lnk name=\"b\"/>"),
             of + "<colision> is not known (did you mean <collision>?)\n"
@@ -300,7 +300,7 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("package://hand/a.stl"),
             of + "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
                  "folder; add robot.yaml: packages: {hand: FOLDER}");
-  // An unreadable mesh is reported where the URDF names it first, once per file.
+  // An unreadable mesh file is reported once, at the place where the URDF names it first.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +
                                            collision("<mesh filename=\"bad.obj\"/>")) +
@@ -316,7 +316,7 @@ TEST_F(UrdfFaults, MeshFiles) {
             of + "\"folder.stl\": folder.stl: is a folder; a file is needed");
 }
 
-TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
+TEST_F(UrdfFaults, UrdfdomsErrorsAreFaults) {
   class Other final : public console_bridge::OutputHandler {
     void log(const std::string&, console_bridge::LogLevel, const char*, int) override { ++lines; }
 
@@ -342,7 +342,7 @@ TEST_F(UrdfFaults, WhatUrdfdomPrintsIsFatalAndItsOutputIsLeftAlone) {
   console_bridge::restorePreviousOutputHandler();
 }
 
-TEST_F(UrdfFaults, OfAllKindsAtOnceInOrder) {
+TEST_F(UrdfFaults, AllKindsAreReportedAtOnceInOrder) {
   write("bad.obj", "f 1 2 3\n");
   const std::string text = complaintOfParts(
       link("a", collision("<mesh filename=\"bad.obj\"/>")) + link("b", collision("<torus/>")) +

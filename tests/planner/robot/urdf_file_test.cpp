@@ -176,7 +176,7 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
-TEST_F(UrdfFile, WhatIsUnknownAndHasNoGeometryIsIgnoredAndReported) {
+TEST_F(UrdfFile, ReportsIgnoredElements) {
   const RobotModel model = modelOf(
       "<gazebo reference=\"a\"><x/></gazebo>\n<transmission name=\"t\"/>\n" +
       link("a",
@@ -199,7 +199,7 @@ TEST_F(UrdfFile, WhatIsUnknownAndHasNoGeometryIsIgnoredAndReported) {
                          "and the joint cannot move"));
 }
 
-TEST_F(UrdfFile, OddNamesGoThrough) {
+TEST_F(UrdfFile, AcceptsUnusualNames) {
   const RobotModel model = modelOf(link("100%s &lt;a&gt;") + link("b c") +
                                    joint("50%n", "revolute", "100%s &lt;a&gt;", "b c", limit));
   EXPECT_EQ(model.links[0].name, "100%s <a>");

@@ -32,7 +32,7 @@ class UrdfTest : public testing::Test {
     return folder_ / name;
   }
 
-  /// The faults, one per line, without the folder's name.
+  /// Returns the faults, one per line, without the folder's name.
   std::string textOf(const std::vector<Fault>& faults) const {
     if (faults.empty()) return "no complaint";
     std::string text = InputError(faults).what();
@@ -48,8 +48,8 @@ class UrdfTest : public testing::Test {
     EXPECT_EQ(model.has_value(), faults.empty());
     return textOf(faults);
   }
-  /// The faults of elements in a <robot> that begins on line 1; the elements follow from line 2,
-  /// one per line.
+  /// Returns the faults of elements in a <robot> that begins on line 1. The elements are on lines
+  /// 2, 3 …, one per line.
   std::string complaintOfParts(const std::string& parts) {
     return complaintOf("<robot name=\"r\">\n" + parts + "\n</robot>\n");
   }
@@ -67,7 +67,7 @@ class UrdfTest : public testing::Test {
   std::vector<std::filesystem::path> files_;
 };
 
-/// Elements of one line each.
+/// Return URDF elements, each on one line.
 inline std::string link(const std::string& name, const std::string& content = "") {
   return "<link name=\"" + name + "\">" + content + "</link>\n";
 }

@@ -1,4 +1,4 @@
-// Tests of the words for a start or a goal that is not free.
+// Tests of the messages about a start or a goal that is not free.
 #include "planner/solve/endpoint_help.h"
 
 #include <gmock/gmock.h>

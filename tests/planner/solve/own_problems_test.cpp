@@ -44,7 +44,7 @@ TEST(OwnProblems, AllAreListedHere) {
   EXPECT_EQ(folders, 12);
 }
 
-/// Without the pairs between the arms, some states must become free.
+/// Some states must be free if the pairs between the two arms are not tested.
 TEST(TwoArms, AreTestedAgainstEachOther) {
   Problem problem = ownProblem("two_arms");
   const auto between = [&](std::size_t i, std::size_t j) {
@@ -75,8 +75,8 @@ TEST(TwoArms, AreTestedAgainstEachOther) {
   EXPECT_GT(differ, 0);
 }
 
-/// A paper plane of 1 mm and a plate of 0.1 mm: steps of 1 % jump over the plate. Sampled edges
-/// give paths straight through it, certified edges never do.
+/// A paper plane 1 mm thick and a plate 0.1 mm thick: steps of 1 % jump over the plate. Sampled
+/// edges give paths straight through the plate, certified edges never do.
 TEST(ThinPlate, DiscreteGoesThroughAndCertifiedNeverDoes) {
   Problem problem = ownProblem("thin_plate");
   const auto verdict = [&](std::uint64_t seed) {

@@ -1,4 +1,5 @@
-// Solution files: bit-for-bit round trips, strict reading, OMPL.app's .path files.
+// Tests of solution files: they read back bit for bit, reading is strict, and OMPL.app's .path
+// files are supported.
 #include "planner/solve/solution.h"
 
 #include <filesystem>
@@ -94,13 +95,13 @@ TEST_F(SolutionFile, RoundTripIsBitForBit) {
   }
 }
 
-TEST_F(SolutionFile, WhatMovesAsAWholeHasASpace) {
+TEST_F(SolutionFile, RigidBodiesNameTheirSpace) {
   EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE2).model.space), "SE2");
   EXPECT_EQ(rigidSpaceOf(test::rigidProblem(Rigid::SE3).model.space), "SE3");
   EXPECT_EQ(rigidSpaceOf(test::armProblem().model.space), "");
 }
 
-TEST_F(SolutionFile, NothingIsLeftWhereItCantBeWritten) {
+TEST_F(SolutionFile, LeavesNoFileIfItCannotBeWritten) {
   EXPECT_THROW(writeSolution(example(test::rigidProblem(Rigid::SE3).model.space),
                              folder_ / "nowhere" / "s.yaml"),
                InputError);

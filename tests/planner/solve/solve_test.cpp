@@ -88,10 +88,10 @@ TEST_P(Spaces, GoalRegion) {
   }
 }
 
-TEST_P(Spaces, AThresholdOfZeroCanBeReached) {
+TEST_P(Spaces, AGoalThresholdOfZeroCanBeReached) {
   Problem problem = hallProblem(GetParam());
   problem.task.goalThreshold = 0;
-  problem.settings.planner.name = "RRT";  // ends by the goal's own test
+  problem.settings.planner.name = "RRT";  // uses the goal's own test to end
   const SolveReport report = solveProblem(problem);
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   EXPECT_EQ(report.path.back().head(2), problem.task.goals[0].head(2));
@@ -146,9 +146,9 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
       hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
 }
 
-/// Solves with the leak sanitizer off for the planners of OMPL 1.5.2 that leak. Each of them, run
-/// alone, leaves states that it allocated or cloned: LazyPRM 944 in three seconds, SST 14,636. The
-/// other planners leak none, and stay under the sanitizer.
+/// Solves. For those planners of OMPL 1.5.2 that leak, the leak sanitizer is off. Each of these,
+/// run alone, does not free states that it allocated or cloned: LazyPRM 944 in three seconds, SST
+/// 14,636. The other planners don't leak, and run under the sanitizer.
 SolveReport solveWithOmplsLeaks(const Problem& problem) {
 #ifdef __SANITIZE_ADDRESS__
   const std::string& name = problem.settings.planner.name;
@@ -177,7 +177,7 @@ TEST(Solve, EveryPlannerSolves) {
   }
 }
 
-TEST(Solve, BadNamesListWhatThereIs) {
+TEST(Solve, UnknownNamesListTheKnownOnes) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.settings.planner.name = "RRTConect";
   EXPECT_THAT(complaintOf(problem),
@@ -196,8 +196,8 @@ TEST(Solve, BadNamesListWhatThereIs) {
   problem.settings.planner.name = "RRT";
   problem.settings.planner.params = {{"goal_bias", "7"}};
   EXPECT_THAT(complaintOf(problem), HasSubstr("RRT's parameter goal_bias: \"7\" is above 1"));
-  // Without Corridor's own test OMPL accepts each of these values and then ends the program, or
-  // throws.
+  // Corridor must refuse each of these values. OMPL would accept it, and then end the program or
+  // throw.
   const char* const refused[][4] = {
       {"SST", "range", "-1", "below 0"},
       {"RRTstar", "rewire_factor", "-1", "below 0"},
@@ -328,9 +328,9 @@ TEST(Solve, AdviceForAStartBetweenPlatesHolds) {
   EXPECT_TRUE(Checker(problem).certifiedState(problem.task.start)) << complaint;
 }
 
-/// The validator here accepts every edge that is longer than the planner's, so that simplified
-/// versions go through the wall. The result must be a version that does not.
-TEST(Solve, TheLastVersionThatHoldsIsReturned) {
+/// The validator of this test accepts every edge that is longer than the planner's edges, so
+/// simplified versions of the path go through the wall. The result must be a version that does not.
+TEST(Solve, ReturnsTheLastCertifiedVersion) {
   class Believes final : public ompl::base::MotionValidator {
    public:
     explicit Believes(const ompl::base::SpaceInformationPtr& si)
@@ -410,7 +410,7 @@ TEST(Arm, EveryKindOfPlannerSolvesCertifiedAndVerified) {
   }
 }
 
-TEST(Arm, TreesGrowByAShareOfATurnUnlessTheProblemSaysOtherwise) {
+TEST(Arm, DefaultRangeIsAShareOfARevolution) {
   Problem problem = armProblem();
   problem.settings.simplify = false;
   problem.settings.planner.stopAtFirst = true;
@@ -459,7 +459,7 @@ TEST(Arm, StartInSelfContactNamesTheLinks) {
   EXPECT_EQ(complaintOf(armAt(0, 3, 0)), "arm.yaml:4: start: elbow = 3 is not in [-2.5, 2.5]");
 }
 
-TEST(Solve, TimeIsStrictAndNothingIsSaidToBeFound) {
+TEST(Solve, KeepsTheTimeLimitAndReportsNothingFound) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.model.bodies[1].shapes[0].mesh->mesh =
       test::boxMesh({0.001, 20, 20});  // a wall without gap

@@ -1,4 +1,4 @@
-// Solving with trees of any bounding volume gives the same paths, at another cost.
+// With trees of any bounding volume, solving must give the same paths, at another cost.
 #include <gtest/gtest.h>
 
 #include "planner/solve/solution.h"

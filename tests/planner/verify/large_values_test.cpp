@@ -1,5 +1,6 @@
-// Angles of any size on circles: the edge is the shorter way between the stored doubles in real
-// arithmetic. What rounding can't decide is undecided, never wrongly proved or refuted.
+// Tests of angles of any size on circles: the edge is the shorter way between the stored doubles in
+// real arithmetic. If rounding hides which way is shorter, the verdict must be undecided, never
+// wrongly proved or refuted.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -41,7 +42,7 @@ double large(std::mt19937_64& random, int n) {
   return (n % 2 ? -1 : 1) * size * std::uniform_real_distribution(1.0, 3.0)(random);
 }
 
-/// The ends of an edge: both are large, or one of them.
+/// The ends of an edge: one of them or both are large.
 struct Ends {
   double from, to;
   Ends(std::mt19937_64& random, int n) {
@@ -139,7 +140,8 @@ TEST(LargeValues, TheWayRoundACircleIsExact) {
   }
 }
 
-/// The error that CircleTurn states holds for angles of every size, small ones included.
+/// The error that CircleTurn reports is an upper bound for angles of every size, small ones
+/// included.
 TEST(LargeValues, TheErrorOfAWayIsAsStated) {
   std::mt19937_64 random(test::testSeed(6));
   double worst = 0;  // error as a share of its bound
@@ -156,8 +158,9 @@ TEST(LargeValues, TheErrorOfAWayIsAsStated) {
   EXPECT_GT(worst, 0.1) << "a bound that no case comes near is not measured by this test";
 }
 
-/// A post in the middle of the true way is met; one at a half turn from there is not.
-TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
+/// The rod meets a post in the middle of the true way, and does not meet one a half turn away from
+/// there.
+TEST(LargeValues, OnlyThePostOnTheShorterWayIsMet) {
   std::mt19937_64 random(test::testSeed(4));
   int refuted = 0, proved = 0, contact = 0, free = 0;
   for (int n = 0; n < 2'000; ++n) {
@@ -208,7 +211,7 @@ TEST(LargeValues, OnlyTheTrueWayMeetsAPost) {
 }
 
 /// States are not brought into [−π, π]: the verdict is that of the angle as it is.
-TEST(LargeValues, StatesAreTakenAsTheyAre) {
+TEST(LargeValues, StatesAreNotWrapped) {
   std::mt19937_64 random(test::testSeed(5));
   for (int n = 0; n < 1'000; ++n) {
     const double angle = large(random, n);
@@ -223,7 +226,7 @@ TEST(LargeValues, StatesAreTakenAsTheyAre) {
   }
 }
 
-/// A joint that mimics a circle by a fraction would jump at ±180°.
+/// A joint that mimics a circle with a multiplier that is not whole would jump at ±180°.
 TEST(LargeValues, FractionsOfACircleDoNotPassItsSeam) {
   for (const double multiplier : {0.5, -1.5, 2.0}) {
     const Sweep sweep(pi() / 2, multiplier, false);

@@ -1,4 +1,4 @@
-// The slab between two moving bodies is compared with the motion and perturbations that it bounds.
+// Compares the slab between two moving bodies with the motions and perturbations that it bounds.
 #include "planner/verify/moved_slab.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Real gapAlong(const ConvexSet& a, const ConvexSet& b, const RealVec& n) {
   return n.dot(b.farthest(-n)) - b.ball() - n.dot(a.farthest(n)) - a.ball();
 }
 
-/// Distance of the farthest point from the origin, including its sphere or disc.
+/// Returns the largest distance of a point of the set from the origin, its sphere or disc included.
 Real radiusOf(const ConvexSet& set) {
   Real radius = 0;
   for (const RealVec& x : set.points) radius = std::max(radius, x.norm());
@@ -90,17 +90,17 @@ struct Case {
   Real firstOrder() const { return MovedSlab(motion.a, motion.b, half, n).width(a, placedB()); }
   Real still() const { return gapAlong(a, placedB(), n); }
 
-  /// The width along n at the time middle + s, of a perturbed curve. `share` ∈ [−1, 1] is its
-  /// perturbation as a share of the tube in each number. `turn` rotates it after its free rotation
-  /// (in the base's coordinates; base 0 only).
+  /// Returns the width along n, at the time middle + s, of a perturbed curve. `share`, in [−1, 1]
+  /// for each number, is the perturbation as a share of the tube. `turn` is a rotation that is
+  /// applied after the free rotation (in the base's coordinates; base 0 only).
   Real widthAt(Real s, const Configuration& share, const RealVec& turn) const {
     Configuration q = curve->configuration(middle + s);
     const Eigen::Quaterniond rotation(q[6], q[3], q[4], q[5]);
     q += share.cwiseProduct(tube);
     q.segment<4>(3) = rotation.coeffs();
     if (turn.norm() > 0) {
-      // From the base's coordinates into the joint's. Before the joint are the frame of a
-      // translation and its own fixed frame.
+      // `turn` is converted from the base's coordinates to the joint's. The translation's frame and
+      // the joint's own fixed frame come before the joint.
       const RealMat before = curve->at(chainOf(arm.tree, 0, 1), middle).at.rotation *
                              placementOf(arm.tree.frames[2].fixed).rotation;
       const Eigen::Vector3d w = (before.transpose() * turn).cast<double>();
@@ -112,8 +112,9 @@ struct Case {
     return gapAlong(moved(a, stray.at(chainA, 0).at), moved(b, stray.at(chainB, 0).at), along);
   }
 
-  /// The least width found over curves in the tube: all corners of the tube's box at both ends of
-  /// the interval, rotations about the worst axis for each corner of b, and some curves inside.
+  /// Returns the least width over many curves in the tube: all corners of the tube's box at both
+  /// ends of the interval, rotations about the worst axis for each corner of b, and some curves
+  /// inside the tube.
   Real leastWidth(std::mt19937_64& random) const {
     const Eigen::Index numbers[] = {0, 1, 2, 7, 8, 9};
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -137,7 +138,7 @@ struct Case {
   }
 };
 
-TEST(MovedSlab, NoCurveOfTheTubeGetsBelowIt) {
+TEST(MovedSlab, BoundsAllCurvesOfTheTube) {
   std::mt19937_64 random(test::testSeed(8));
   const int cases = test::stressAsked() ? 3000 : 200;
   Real fullest = 0;
@@ -152,7 +153,7 @@ TEST(MovedSlab, NoCurveOfTheTubeGetsBelowIt) {
   EXPECT_GT(fullest, 0.999L);
 }
 
-// With small motion and tube the first order dominates, and some curve attains it.
+// If motion and tube are small, the first-order term dominates, and some curve attains the bound.
 TEST(MovedSlab, IsAttained) {
   std::mt19937_64 random(test::testSeed(9));
   Real worst = kInfinity, gained = 0;
@@ -172,8 +173,9 @@ TEST(MovedSlab, IsAttained) {
 }
 
 // A point that rotates about z approaches an obstacle between it and the axis in second order only,
-// by 1 − cos(h|Δ| + τ). Motion and perturbation count together, not each alone.
-TEST(MovedSlab, SecondOrderIsOfMotionAndStrayTogether) {
+// by 1 − cos(h|Δ| + τ). The second-order term is that of the sum of motion and perturbation, not of
+// each alone.
+TEST(MovedSlab, SecondOrderIsThatOfMotionPlusPerturbation) {
   KinematicTree tree;
   ConfigurationSpace space;
   Frame turn;

@@ -1,5 +1,5 @@
-// The verifier's components: rational contacts, bounds of distances, the search in two trees, and
-// the curve of an edge.
+// Tests of the verifier's components: rational contacts, bounds of distances, the search in two
+// trees, and the curve of an edge.
 #include <fstream>
 #include <sstream>
 
@@ -66,8 +66,8 @@ TEST(ExactContact, DegenerateTriangles) {
 }
 
 TEST(ExactContact, QuaternionIsNormalisedExactly) {
-  // 3² + 4² = 5², so the rotation is by rational numbers for any norm. (5, 0, 0) goes to (-1.4,
-  // 4.8, 0), whose coordinates are not exactly doubles.
+  // 3² + 4² = 5², so the rotation matrix is rational for any norm. (5, 0, 0) goes to (-1.4, 4.8,
+  // 0), whose coordinates are not exactly doubles.
   RigidPose pose;
   pose.q = Eigen::Quaterniond(3, 0, 0, 4);
   const Corners needle = {Vec3(25, 0, 0), Vec3(26, 0, 0), Vec3(26, 1, 0)};
@@ -241,7 +241,7 @@ TEST(EdgeCurve, PointsStayWithinTheirReach) {
       }
     }
   }
-  EXPECT_GT(fullestSpeed, 0.5);  // the bound is not absurdly large
+  EXPECT_GT(fullestSpeed, 0.5);  // some point attains half of the bound
   EXPECT_GT(fullestBend, 0.2);
 }
 

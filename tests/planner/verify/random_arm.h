@@ -9,7 +9,7 @@ inline verify::Placement placementOf(const RigidPose& pose) {
   return {pose.q.normalized().toRotationMatrix().cast<verify::Real>(), pose.p.cast<verify::Real>()};
 }
 
-/// A tree with a joint of each kind; one joint follows another.
+/// A tree with a joint of each kind; one joint mimics another.
 struct Arm {
   KinematicTree tree;
   ConfigurationSpace space;

@@ -80,8 +80,8 @@ TEST(VerifyChain, StretchedArmPastAPoint) {
   }
 }
 
-// A pair may name the moving body first. Then, and also if both bodies move on branches of their
-// own, the motion of the first one counts.
+// The first body of a pair may be the one that moves, and both bodies may move, on branches of
+// their own. In both cases the motion of the first body must count.
 TEST(VerifyChain, EitherBodyOfAPairMayMove) {
   const ConvexPart post{{Vec3(0.7 * std::cos(0.4), 0.7 * std::sin(0.4), 0)}, 0.01, false};
   for (const bool movingFirst : {true, false}) {
@@ -101,8 +101,8 @@ TEST(VerifyChain, EitherBodyOfAPairMayMove) {
   }
 }
 
-// A thin disc turns about one of its diameters, and its rim meets a ball. All of its core is at the
-// axis; only its radius reaches the ball.
+// A thin disc turns about one of its diameters, and its rim meets a ball. All points of its core
+// are on the axis; only its radius reaches the ball.
 TEST(VerifyChain, TheRimOfADiscMoves) {
   const ConvexPart disc{{Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0)}, 1, true};
   for (const double angle : {0.2, 0.5, 1.1}) {
@@ -142,7 +142,7 @@ TEST(VerifyChain, LinksAgainstEachOtherWhileAllMoves) {
 }
 
 // The obstacle is beside the tip of a stretched arm. Perturbations of both joints move the tip
-// towards it.
+// towards the obstacle.
 TEST(VerifyChain, TubesOfJointsCount) {
   Chain chain(2, {{Vec3(1.9, 0.05 + 0.01, 0)}, 0, false});
   const std::vector<Configuration> path = {joints({0, 0}), joints({0, 0})};
@@ -158,7 +158,7 @@ TEST(VerifyChain, TubesOfJointsCount) {
   EXPECT_EQ(verifyPath(chain.problem, {joints({0.00358, 0.00358})}).verdict, PathVerdict::refuted);
 }
 
-TEST(VerifyChain, WhatATubeDoesAcrossTheDirectionTakesNothing) {
+TEST(VerifyChain, TubesAcrossTheDirectionTakeNoClearance) {
   // The obstacle is in front of a stretched arm. Rotations within the tube move the arm sideways.
   Chain chain(2, boxPart(Vec3(1.952, -0.2, -0.2), Vec3(2.2, 0.2, 0.2)));
   chain.problem.tube = joints({0.001, 0.001});
@@ -189,9 +189,10 @@ TEST(VerifyChain, AnArmSlidesOverATableWithATube) {
   EXPECT_EQ(verifyPath(beside.problem, along).verdict, PathVerdict::proved);
 }
 
-// One joint undoes the rotation of the joint before it. The hand keeps its direction, and
-// perturbations displace all of the hand, up to its far end, sideways only.
-TEST(VerifyChain, JointsThatFollowOneVariableStrayAsOne) {
+// One joint reverses the rotation of the joint before it, so the hand keeps its direction.
+// Perturbations displace all points of the hand, up to its far end, in the same way, and only
+// sideways.
+TEST(VerifyChain, JointsOfOneVariableHaveOnePerturbation) {
   Chain chain(2, boxPart(Vec3(-2, -0.2, -0.2), Vec3(2, 0.948, 0.2)));
   chain.tree.frames[2].variable = 0;
   chain.tree.frames[2].multiplier = -1;
@@ -273,8 +274,8 @@ TEST(VerifyChain, SolidsHoldWhatIsInside) {
   EXPECT_EQ(still(large, true, small, false), PathVerdict::refuted);
   EXPECT_EQ(still(small, false, large, true), PathVerdict::refuted);
   EXPECT_EQ(still(far, true, small, true), PathVerdict::proved);
-  // One component is inside, the other is not. A cavity is solid, too, because any closed component
-  // is.
+  // One component is inside, the other is not. A cavity counts as solid, too, because any closed
+  // component does.
   EXPECT_EQ(still(large, true, both(far, small), false), PathVerdict::refuted);
   EXPECT_EQ(still(both(far, large), true, small, false), PathVerdict::refuted);
   TriangleMesh mirrored = large;
@@ -287,7 +288,7 @@ TEST(VerifyChain, ShellsThatMeetInACornerAreSolidsOfTheirOwn) {
   TriangleMesh inward = small;
   for (auto& t : inward.triangles) std::swap(t[0], t[1]);
   const auto crumb = [](double x) { return boxMesh(Vec3::Constant(x), Vec3::Constant(x + 0.1)); };
-  // Together both shells wind twice, or not at all, round the points inside both.
+  // The winding numbers of both shells around the points inside both add up to 2 or to 0.
   for (const TriangleMesh& inner : {small, inward}) {
     EXPECT_EQ(still(both(large, inner), true, crumb(1), false), PathVerdict::refuted);
     EXPECT_EQ(still(both(large, inner), true, crumb(3), false), PathVerdict::refuted);

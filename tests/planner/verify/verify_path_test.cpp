@@ -1,4 +1,4 @@
-// Paths with a clearance known in closed form, and random paths against dense sampling.
+// Tests of paths with a clearance known in closed form, and of random paths against dense sampling.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,7 +65,8 @@ TEST(VerifyPath, BoxPastAWall) {
   }
 }
 
-/// In a floating-point mode in which no bound holds, every edge is undecided, for that reason.
+/// In a floating-point mode in which no bound holds, every edge must be undecided, and the report
+/// must give this reason.
 TEST(VerifyPath, OtherArithmeticIsRefused) {
   World world(boxMesh(Vec3(-1, -1, -1), Vec3(1, 1, 1)), boxMesh(Vec3(-9, 2, -9), Vec3(9, 3, 9)));
   const Poses path = {poseOf(Vec3(-5, 0, 0)), poseOf(Vec3(0, 0, 0)), poseOf(Vec3(5, 0, 0))};
@@ -133,7 +134,7 @@ TEST(VerifyPath, OneStateIsCheckedAsItIs) {
 }
 
 // A blade of length 1 rotates past a point at radius 1 + gap. The closest pose is at a t that
-// bisection doesn't hit. The middle pose is far from the point: a verifier that took only half of
+// bisection doesn't hit. The middle pose is far from the point: a verifier that used only half of
 // the reach weight R_j would wrongly prove paths with a negative gap at once.
 TEST(VerifyPath, BladePastAPoint) {
   for (const double angle : {0.31, 0.77, 1.9}) {
@@ -182,7 +183,7 @@ TEST(VerifyPath, ThinPlateIsNotJumped) {
 }
 
 // The blade rotates past a point 1e-12 beyond its tip, which cannot be decided, and then through a
-// box. The box refutes the edge, in whatever order the two obstacles come.
+// box. The box must refute the edge, whatever the order of the two obstacles.
 TEST(VerifyPath, AnUndecidedPairHidesNoContact) {
   const Vec3 tip = (1 + 1e-12) * Vec3(std::cos(0.77), std::sin(0.77), 0);
   const TriangleMesh post = oneTriangle(tip, tip + Vec3(0, 0, 1), tip + Vec3(0, 0, -1));
@@ -204,8 +205,8 @@ TEST(VerifyPath, AnUndecidedPairHidesNoContact) {
   }
 }
 
-// At the start rotations within the tube may carry the blade to the post, so that pair is undecided
-// before anything else is tested. Later the blade goes through a box, which refutes the edge.
+// At the start, rotations within the tube may move the blade to the post. So this pair is undecided
+// before any other is tested. Later the blade goes through a box, which refutes the edge.
 TEST(VerifyPath, APairThatIsUndecidedAtTheStartHidesNoContact) {
   const TriangleMesh post = oneTriangle({0.9, 0.002, 0}, {0.9, 0.002, 1}, {0.9, 0.002, -1}),
                      plate = boxMesh({0.43, -0.62, -1}, {0.53, -0.52, 1});
@@ -319,7 +320,7 @@ TEST(VerifyPath, PlanarGoesTheShorterWayRound) {
   EXPECT_EQ(front.verify(Planar{{0, 0, 3 + 20 * kPi}, {0, 0, -3 - 8 * kPi}}).verdict,
             PathVerdict::proved);
   EXPECT_EQ(front.verify(Planar{{0, 0, 3}, {0, 0, 1}, {0, 0, -1}}).verdict, PathVerdict::refuted);
-  // z is 0, and the tube has no z.
+  // A planar body stays at z = 0, and its tube does not displace it along z.
   World above(kCube, boxMesh(Vec3(-3, -3, 0.6), Vec3(3, 3, 1)));
   above.problem.tube.position = 0.099 / std::sqrt(2);
   EXPECT_EQ(above.verify(Planar{{-1, 0, 0}, {1, 0, 1}}).verdict, PathVerdict::proved);
@@ -350,7 +351,7 @@ TEST(VerifyPath, HalfTurnsAreAmbiguous) {
   EXPECT_EQ(world.verify(Poses{poseOf({0, 0, 0}), negative}).verdict, PathVerdict::proved);
 }
 
-TEST(VerifyPath, SlidingAlongAWallTakesNoMoreThanTheStates) {
+TEST(VerifyPath, SlidingAlongAWallNeedsFewQueries) {
   // The gap of 1e-9 is a hundredth of the tolerance, but nothing moves towards the wall.
   World world(kCube, boxMesh(Vec3(-3, 0.5 + 1e-9, -1), Vec3(3, 2, 1)));
   const PathReport report = world.verify(Poses{poseOf({-5, 0, 0}), poseOf({5, 0, 0})});

@@ -1,4 +1,4 @@
-// Text functions of pages: nothing in a name or a mesh can end a script, an attribute or a
+// Tests of the text functions of pages: no name and no mesh can end a script, an attribute or a
 // template.
 #include "planner/view/page_text.h"
 

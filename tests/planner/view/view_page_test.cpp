@@ -1,5 +1,5 @@
-// A page shows the problem as it is: meshes, poses on Corridor's own edges, distances, boxes and
-// findings, whatever names it contains.
+// Tests that a page shows the problem correctly: meshes, poses on Corridor's own edges, distances,
+// boxes and findings, whatever names occur.
 #include "planner/view/view_page.h"
 
 #include <cmath>
@@ -95,7 +95,7 @@ TEST(ViewPage, MeshesAreThoseOfTheProblem) {
 }
 
 /// Floats are coarse far from the origin, so positions must be relative to a point near by.
-TEST(ViewPage, WhatIsFarAwayIsAsFine) {
+TEST(ViewPage, FarFromTheOriginNoPrecisionIsLost) {
   Problem problem = ownProblem("piano");
   const Vec3 far(3e6, -2e6, 1e5);
   for (ModelBody& body : problem.model.bodies)
@@ -159,7 +159,7 @@ TEST(ViewPage, PosesAreThoseOfCorridorsEdges) {
   }
 }
 
-TEST(ViewPage, BetweenSamplesAStraightLineWillDo) {
+TEST(ViewPage, SamplesAreDenseEnoughForStraightLines) {
   for (const char* name : {"two_arms", "piano", "snake_posts"}) {
     SCOPED_TRACE(name);
     const Problem problem = ownProblem(name);
@@ -175,7 +175,7 @@ TEST(ViewPage, BetweenSamplesAStraightLineWillDo) {
   }
 }
 
-TEST(ViewPage, DistancesAreTheCheckers) {
+TEST(ViewPage, DistancesAreThoseOfTheChecker) {
   for (const char* name : {"two_arms", "cubicles"}) {
     SCOPED_TRACE(name);
     const Problem problem = ownProblem(name);
@@ -240,7 +240,8 @@ TEST(ViewPage, FindingsHaveTheirPlaces) {
   }
 }
 
-/// On each level every vertex of the mesh must be in one of its boxes, or in a leaf above.
+/// On each level of the tree, every vertex of the mesh must be in a box of this level, or in a leaf
+/// of a higher level.
 TEST(ViewPage, BoxesHoldTheirMeshOnEveryLevel) {
   const Problem problem = ownProblem("piano");
   const PageReader page(viewPage(problem, std::nullopt));
@@ -274,7 +275,7 @@ TEST(ViewPage, BoxesHoldTheirMeshOnEveryLevel) {
   EXPECT_GE(levels, 4U);
 }
 
-TEST(ViewPage, WhatIsSkippedIsReported) {
+TEST(ViewPage, ExcludedPairsAreReported) {
   const Problem problem = ownProblem("arm_at_shelf");
   const PageReader page(viewPage(problem, std::nullopt));
   std::size_t skipped = 0, tested = 0;
@@ -295,7 +296,7 @@ TEST(ViewPage, WhatIsSkippedIsReported) {
   EXPECT_EQ(skipped, 0U);
 }
 
-TEST(ViewPage, WhatStaysLevelIsSeenFromAbove) {
+TEST(ViewPage, PlanarMotionIsSeenFromAbove) {
   for (const auto& [name, planar] :
        std::initializer_list<std::pair<const char*, bool>>{{"hook_maze", true},
                                                            {"snake_posts", true},
@@ -306,7 +307,7 @@ TEST(ViewPage, WhatStaysLevelIsSeenFromAbove) {
     EXPECT_EQ(PageReader(viewPage(ownProblem(name), std::nullopt)).json["planar"], planar) << name;
 }
 
-TEST(ViewPage, TheSameBytesAgain) {
+TEST(ViewPage, SameInputGivesTheSameBytes) {
   const Problem problem = ownProblem("two_arms");
   const ViewedPath path = viewed(problem, straight(problem));
   EXPECT_TRUE(viewPage(problem, path) == viewPage(problem, path));
@@ -320,7 +321,7 @@ TEST(ViewPage, OneStateIsAPath) {
 
 using HostileNames = test::ProblemTest;
 
-TEST_F(HostileNames, StayText) {
+TEST_F(HostileNames, AreShownAsText) {
   const std::string name = "</script><img src=x onerror=alert(1)>\\\"'&{{data}}";
   Problem problem = read(head + poses);
   problem.source.name = name;

@@ -22,10 +22,10 @@ constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::directio
                                    EdgeMethod::advancement};
 constexpr int kGaps = 6;
 
-/// Chooses method, trees, tolerance and work limit of a case; returns its gap, metres, with this
-/// sign. The work grows as 1/√tolerance where bodies pass along each other, and faster for methods
-/// by distances: these get larger tolerances. Other cases may have a gap and a tolerance so small
-/// that only rounding separates free from contact.
+/// Chooses method, trees, tolerance and work limit of a case. Returns the gap of the case in
+/// metres, with the given sign. If bodies pass along each other, the work grows as 1/√tolerance.
+/// For the methods that use distances it grows faster, so these get larger tolerances. In some
+/// cases gap and tolerance are so small that only rounding decides between free and contact.
 double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, Question& question) {
   MotionOptions& o = question.options;
   const double size = graze.size();
@@ -122,13 +122,14 @@ void Audit::make(long number) {
     EXPECT_FALSE(truth.violates && truth.apart > keep) << "the audit contradicts itself: " << name;
     const Case c{edge, graze, rest, truth, question, name};
     ask(c, row);
-    // The verifier has no `clearanceSlack`: with one, its true verdict would be another.
+    // The verifier has no `clearanceSlack`. With a slack, the true verdict of the case would not be
+    // the verifier's.
     if (o.clearanceSlack == 0 && dice.oneIn(plan_.verify)) verify(c, row);
   }
 }
 
-/// Sets the tube's half width of each coordinate: one size for all lengths, one for all angles,
-/// some 0; half of the time all are 0 except one.
+/// Sets the tube's half width of each coordinate. All lengths get the same value, and all angles
+/// get the same value. Some are then set to 0; in half of the cases all except one.
 void Audit::setTube(Dice& dice, Edge& edge, double size, bool rigid) const {
   const double position = size * dice.power(-9, -1), rotation = dice.power(-9, -1.5);
   const auto& coordinates = edge.space.coordinates();

@@ -15,8 +15,8 @@ class Audit {
   struct Plan {
     bool states = false;     ///< make states: edges of zero length
     bool fine = false;       ///< only gaps and tolerances of the size of rounding errors
-    std::size_t verify = 6;  ///< the verifier gets one of this many cases; the checker all
-    std::optional<Family> family = {};  ///< make only this one; unset: all in turn
+    std::size_t verify = 6;  ///< one of this many cases is verified; the checker runs on all
+    std::optional<Family> family = {};  ///< only this family; unset: all in turn
     Mode mode = Mode::usual;            ///< floating-point mode while a query runs
   };
   Audit(std::uint64_t seed, const Plan& plan);
@@ -26,8 +26,9 @@ class Audit {
   void run(long count);
   /// Prints the tables. Fails the test if an answer was wrong.
   void report(const std::string& title) const;
-  /// Fails the test if the true verdict is known for too few cases, or if too few cases are
-  /// decided: an audit in which everything is undecided would find nothing.
+  /// Fails the test if the true verdict is known for too few cases, if too few cases are decided,
+  /// or if too many reach the work limit: an audit in which everything is undecided would find
+  /// nothing.
   void expectDecided() const;
 
  private:
@@ -45,11 +46,13 @@ class Audit {
   int complaints_ = 0;
 };
 
-/// Returns the random numbers of one construction: each has its own, so it can be repeated alone.
+/// Returns the random numbers of one construction. Each construction has its own, so it can be
+/// repeated alone.
 Dice diceOf(std::uint64_t seed, long number);
 
 /// Returns the number of cases of a test: `normally`, or `stress` if CORRIDOR_STRESS is set,
-/// divided by the slowdown of sanitizers. CORRIDOR_AUDIT_COUNT replaces it, for all tests.
+/// divided by the slowdown of sanitizers. If CORRIDOR_AUDIT_COUNT is set, returns that number
+/// instead.
 long countOf(long normally, long stress);
 
 }  // namespace corridor::audit

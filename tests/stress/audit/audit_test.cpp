@@ -31,8 +31,8 @@ TEST(Audit, DepthsOfRounding) {
   }
 }
 
-/// Angles of continuous joints up to 10^25 rad, as `from`, as `to`, as both. Where rounding decides
-/// which way round is the shorter one, only `undecided` is right.
+/// Angles of continuous joints up to 10^25 rad, in `from`, in `to`, or in both. If rounding decides
+/// which way round is the shorter one, the only right answer is `undecided`.
 TEST(Audit, LargeValuesOfCircles) {
   for (const bool states : {false, true}) {
     Audit audit(3, {.states = states, .verify = 1, .family = Family::largeCircles});
@@ -41,8 +41,8 @@ TEST(Audit, LargeValuesOfCircles) {
   }
 }
 
-/// Queries run in another floating-point mode: each answer must be right or a refusal.
-/// Flush-to-zero is no reason to refuse.
+/// Queries run in another floating-point mode: each answer must be right or a refusal. Under
+/// flush-to-zero they must not refuse.
 class Modes : public testing::TestWithParam<Mode> {};
 
 TEST_P(Modes, RightOrRefused) {

@@ -19,9 +19,9 @@ using std::numbers::pi;
 constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::adaptive,
                                    EdgeMethod::advancement};
 
-/// A certificate is refused wherever the bodies are closer than the margin, whatever clearance it
-/// claims. (`checkCertificate` proves the margin plus half of the claim beyond it.) At least nine
-/// in ten certificates of free edges, as the query returns them, are accepted.
+/// If the bodies come closer than the margin, a certificate must be refused, whatever clearance it
+/// claims. (`checkCertificate` proves the margin plus half of the claim beyond it.) Of the
+/// certificates that the query returns for free edges, at least nine in ten must be accepted.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   const std::uint64_t seed = test::testSeed(5);
   const long count = countOf(500, 50'000);
@@ -74,9 +74,10 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   EXPECT_GE(static_cast<double>(accepted), 0.9 * static_cast<double>(honest));
 }
 
-/// A rotation within 1e-9 rad of a half turn has no defined direction: neither checker nor verifier
-/// may decide it, even if all bodies are far apart.
-TEST(Certificates, HalfTurnsAreNoEdges) {
+/// A rotation within 1e-9 rad of a half turn has no defined direction. Even if all bodies are far
+/// apart, the checker must report it as ambiguous, the verifier must not prove it, and no
+/// certificate may be accepted.
+TEST(Certificates, HalfTurnsAreNotProved) {
   const std::uint64_t seed = test::testSeed(6);
   const long count = countOf(1'000, 50'000);
   int free = 0, proved = 0, accepted = 0;
@@ -126,11 +127,11 @@ TEST(Certificates, HalfTurnsAreNoEdges) {
   }
   EXPECT_EQ(free, 0) << "half turns that the checker decides";
   EXPECT_EQ(proved, 0) << "half turns that the verifier proves";
-  EXPECT_EQ(accepted, 0) << "half turns for which certificate is accepted";
+  EXPECT_EQ(accepted, 0) << "half turns for which a certificate is accepted";
 }
 
-/// A small body stays inside a solid box along the edge. The surfaces stay apart, but it is not
-/// free.
+/// A small body stays inside a solid box along the edge. The surfaces stay apart, but the edge is
+/// not free.
 TEST(Certificates, NothingIsFreeInsideASolid) {
   Dice dice = diceOf(test::testSeed(7), 0);
   int free = 0, accepted = 0;
@@ -175,9 +176,9 @@ TEST(Certificates, NothingIsFreeInsideASolid) {
   EXPECT_EQ(accepted, 0) << "certificate accepted inside a solid";
 }
 
-/// A joint that mimics a circle by a fraction does not return with it. If the circle passes its
-/// seam, no motion ends in the edge's last state, in which the bodies touch: so the edge must not
-/// be free. An edge that does not pass the seam is decided as usual.
+/// A joint mimics a circle with a multiplier that is not whole. When the circle passes its seam, at
+/// ±π, the joint's value jumps. So no motion ends in the edge's last state, in which the bodies
+/// touch, and the edge must not be free. An edge that does not pass the seam is decided as usual.
 TEST(Certificates, MimicsOverTheSeamOfACircle) {
   const std::uint64_t seed = test::testSeed(8);
   const long count = countOf(1'000, 50'000);

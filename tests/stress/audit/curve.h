@@ -16,8 +16,8 @@ struct Edge {
   std::size_t first = 0, second = 0;  ///< frames
 };
 
-/// A perturbation of a curve: what is added to each number of its configurations. For a rotation
-/// the first three numbers are a rotation vector, applied after it.
+/// A perturbation of a curve: the amount that is added to each number of its configurations. For a
+/// rotation the first three numbers are a rotation vector, which is applied after the rotation.
 using Stray = std::vector<Quad>;
 
 /// The motion of one frame as seen from another along an edge. It follows the definition of an
@@ -46,7 +46,7 @@ class Curve {
   double turned() const { return turned_; }    ///< Ω, rad
   double length() const { return length_; }    ///< m; bounds the chain's length at every t
   double largest() const { return largest_; }  ///< the largest stored value of a joint, rad or m
-  /// Returns whether a single joint rotates: then all accelerations are orthogonal to its axis.
+  /// Returns whether only one joint rotates. Then all accelerations are orthogonal to its axis.
   bool oneTurn() const { return turning_ == 1; }
   /// Returns the unit axis of the first joint that rotates, at t, in the watcher's frame.
   Vec<S> axisAt(S t) const;

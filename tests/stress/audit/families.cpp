@@ -73,7 +73,7 @@ struct Maker {
       f.joint = Frame::Joint::revolute;
       f.variable = circles && dice.oneIn(3) ? circle() : line(valueAt, step);
     }
-    if (dice.oneIn(10)) {  // held at a constant value
+    if (dice.oneIn(10)) {  // constant along the edge
       f.offset = dice.real(-3, 3) * (f.joint == Frame::Joint::prismatic ? scale : 1);
       f.variable = Frame::noVariable;
     }
@@ -98,7 +98,8 @@ struct Maker {
     for (; count > 0; --count) parent = single(parent);
     return parent;
   }
-  /// Adds a joint that mimics another joint: a line with any multiplier, a circle with a whole one.
+  /// Adds a joint that mimics another joint: with any multiplier for a line, with a whole one for a
+  /// circle.
   std::size_t follower(std::size_t parent) {
     Frame f = place(parent, 0.7 * scale);
     f.axis = dice.vector();

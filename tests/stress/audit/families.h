@@ -22,7 +22,8 @@ enum class Family {
   scales,        ///< all lengths times 10^-6 to 10^6
   offsets,       ///< up to 10^6 m from the world's origin
   tinyBodies,    ///< bodies of 2e-5 m, 40 to 330 m from the origin
-  reachingArm,   ///< only a prismatic joint at the end moves: tube grows with reach
+  reachingArm,   ///< only a prismatic joint at the end moves: the effect of a tube grows with the
+                 ///< reach
   largeCircles,  ///< angles of continuous joints of 10^4 to 10^25 rad
 };
 inline constexpr Family kFamilies[] = {

@@ -6,8 +6,9 @@
 namespace corridor::audit {
 namespace {
 
-/// The maximum number of poses that are evaluated, in long double and in 128 bits, before a case is
-/// given up. Most cases need about a hundred in long double, and about fifty in 128 bits.
+/// The maximum numbers of poses that are evaluated in long double and in 128 bits. A case that
+/// needs more is given up. Most cases need about a hundred in long double, and about fifty in 128
+/// bits.
 constexpr int kLooks = 4000, kQuadLooks = 250;
 /// Intervals shorter than this are evaluated in 128 bits.
 constexpr long double kShort = 0x1p-14L;
@@ -119,7 +120,7 @@ void Graze::proveHeights() {
     lowest_ = static_cast<double>(std::max(first.flat, first.along)) - 1e-30 * scale;
     return;
   }
-  // First in long double: intervals whose height is above the plane by more than its rounding.
+  // First prove, in long double, the intervals in which the bodies are apart by more than rounding.
   const Curve<long double> rough(*curve_);
   const long double error = 0x1p-57L * scale * static_cast<long double>(rough.joints() + 2);
   using Rough = Look<long double>;
@@ -189,7 +190,7 @@ void Graze::proveHeights() {
 }
 
 /// Chooses the plane's normal at the meeting point, in the rest's frame, so that the tip meets the
-/// plane as `meeting` says. Returns false if the edge can't meet it so.
+/// plane as `meeting` says. Returns false if no normal makes this edge do so.
 bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
   const Vec<Quad> x(touch_);
   const Quad e = Quad(1e-9) / std::max(1.0, curve_->turned());
@@ -260,14 +261,15 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Meeting meetings[] = {Meeting::along, Meeting::along, Meeting::along,
                               Meeting::start, Meeting::end,   Meeting::slide};
   Meeting meeting = meetings[dice.index(6)];
-  // The effect of a tube may grow along the edge: so tubes often meet at an end.
+  // The effect of a tube may grow along the edge. So in half of the cases with a tube the bodies
+  // meet at an end.
   if (inTube_ && dice.oneIn(2)) meeting = dice.oneIn(2) ? Meeting::start : Meeting::end;
   const double depth = std::exp2(1 + static_cast<double>(dice.index(10)));
   time_ = dice.oneIn(2) ? std::floor(dice.real(0, depth)) / depth : dice.real(0, 1);
   passesAlong_ = curve_->speed(1) > 0 && (meeting == Meeting::along || meeting == Meeting::slide);
   if (meeting == Meeting::start) time_ = 0;
   if (meeting == Meeting::end) time_ = 1;
-  // A tip on the first frame, which often stands still, is put where the rest's frame is at
+  // The first frame often stands still. A tip on that frame is placed where the rest's frame is at
   // `time_`.
   const double away = swapped ? curve_->length() : 0;
   touch_ = Vec<Quad>(Vec3(size_ * dice.real(0, 2) * dice.vector()));
@@ -305,7 +307,8 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
   const Vec<Quad> other = along * std::cos(turn) + cross(normal_, along) * std::sin(turn);
   Plan tip = randomPlan(dice, tips[which], p, normal_, along, size_);
   const bool round = tip.radius > 0 && !tip.flatEnds;
-  // Against an edge or a corner a tip's corner must be round: else the depth is not known.
+  // If the rest's feature is an edge or a corner, the tip's corner must be round. Otherwise the
+  // depth would not be known.
   Feature restFeature = rests[which];
   if (restFeature == Feature::corner && dice.oneIn(2)) restFeature = Feature::edge;
   if (restFeature != Feature::face && tips[which] == Feature::corner && !round)

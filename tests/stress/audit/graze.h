@@ -7,7 +7,7 @@
 
 namespace corridor::audit {
 
-/// The facts from which the true verdict of a case follows. Computed from the stored doubles in 128
+/// The facts from which the true verdict of a case follows, computed from the stored doubles in 128
 /// bits.
 struct Truth {
   double t = 0;              ///< where the two bodies come closest, by construction
@@ -17,14 +17,15 @@ struct Truth {
 
 /// Two bodies that just meet, by construction.
 ///
-/// At a time t one body, the tip, ends with a feature in a plane, and lies above it. At t the tip
-/// moves along the plane, or leaves it at the start, or reaches it at the end. The other body lies
-/// below the plane, at a distance: `rest(gap)` returns it. From this the true verdict follows.
+/// At a time t one body, the tip, touches a plane with a feature, and lies above the plane. At t
+/// the tip moves along the plane, or leaves the plane at the start, or reaches it at the end. The
+/// other body, the rest, lies below the plane, at a known distance; `rest(gap)` returns this body.
+/// From this the true verdict follows.
 ///
-/// The plane is fixed in the frame of this other body, which is either of the edge's two frames.
-/// The height of the tip above the plane is bounded from below over the whole edge, by intervals:
-/// between two times that differ by w, the height is at least the smaller of its two values minus
-/// bend·w²/8. This is computed in long double far from the plane, in 128 bits close to it.
+/// The plane is fixed in the frame of the rest, which is one of the edge's two frames. The height
+/// of the tip above the plane is bounded from below over the whole edge, by intervals: between two
+/// times that differ by w, the height is at least the smaller of its two values minus bend·w²/8.
+/// This is computed in long double far from the plane, in 128 bits close to it.
 class Graze {
  public:
   enum class Meeting { along, start, end, slide };
@@ -36,7 +37,7 @@ class Graze {
   };
   Graze(Dice& dice, const Edge& edge, const Wish& wish);
 
-  /// Returns whether the construction succeeded; if not, it must be dropped.
+  /// Returns whether the construction succeeded. If not, the object must not be used.
   bool usable() const { return usable_; }
 
   double size() const { return size_; }

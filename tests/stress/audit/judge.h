@@ -21,7 +21,7 @@ struct Question {
   MotionOptions options;
   EdgeMethod method = EdgeMethod::directional;
   bool rigidMotion = false;  ///< use `RigidMotion` instead of `EdgeMotion`
-  bool inTube = false;       ///< the true verdict is that of one curve in the tube
+  bool inTube = false;  ///< the facts are about one curve in the tube, not about the edge itself
   Mode mode = Mode::usual;
 };
 
@@ -37,8 +37,9 @@ struct Case {
   Body body(bool tip) const;
   Scene scene() const;
   PathProblem problem() const;
-  /// Returns the clearance, beyond margin and `clearanceSlack`, above which an answer must be
-  /// decided: twice the tolerance, or twice what doubles resolve if that is more.
+  /// Returns the clearance, beyond margin and `clearanceSlack`, above which the answer must not be
+  /// `undecided`: twice the tolerance, or twice the clearance that doubles resolve, if that is
+  /// larger.
   double undecidedBelow() const;
 };
 
@@ -56,8 +57,8 @@ Certificate askForEvidence(const Case& c);
 /// the whole edge, in this many intervals.
 bool acceptsForged(const Case& c, double clearance, int intervals);
 
-/// Returns π minus the largest rotation of a circle or an orientation along the edge, minus the
-/// rounding of large values; radians.
+/// Returns how far the edge is from a half turn, in radians: π minus the largest rotation of a
+/// circle or an orientation along the edge, minus the rounding of large values.
 double leftToHalfTurn(const Edge& edge);
 
 /// Return what is wrong with an answer, or "".

@@ -8,9 +8,9 @@
 
 #include "collision/core/transform.h"
 
-/// Vectors, matrices and angles in 128 bits, written for the audit alone: it shares no arithmetic
-/// with Corridor. All are templates, because the same formulas also run in long double where many
-/// samples and few digits are needed.
+/// Vectors, matrices and angles in 128 bits, for the audit alone, which shares no arithmetic with
+/// Corridor. All are templates, because the same formulas also run in long double, where many
+/// samples are needed but few digits.
 namespace corridor::audit {
 
 __extension__ typedef __float128 Quad;

@@ -5,10 +5,10 @@
 namespace corridor::audit {
 namespace {
 
-/// Less than 1 by more than the rounding of 128 bits in any formula of this file.
+/// A factor that is less than 1, by more than the rounding of 128 bits in any formula of this file.
 const Quad kInside = 1 - Quad(0x1p-90);
 
-/// Adds triangles above the feature, so that trees have depth.
+/// Adds triangles above the feature, so that trees have several levels.
 void addCompany(Dice& dice, Plan& plan, const Vec<Quad>& q, const Vec<Quad>& up,
                 const Vec<Quad>& along, double size) {
   const Vec<Quad> across = cross(up, along);

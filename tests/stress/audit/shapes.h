@@ -10,7 +10,7 @@
 
 namespace corridor::audit {
 
-/// The random numbers of one construction.
+/// A generator of the random numbers of one construction.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : random_(seed) {}
@@ -41,13 +41,13 @@ class Dice {
 /// capsule its axis), or a face.
 enum class Feature { corner, edge, face };
 
-/// A convex or nearly convex body before it is rounded to doubles, in any frame. It lies above its
-/// feature.
+/// A convex or nearly convex body before it is rounded to doubles, in any frame. It lies above a
+/// plane that it touches with its feature (`randomPlan`).
 struct Plan {
   Feature feature = Feature::corner;
   bool mesh = false, flatEnds = false;
   double radius = 0;
-  std::vector<Vec<Quad>> points;  ///< for a mesh its vertices
+  std::vector<Vec<Quad>> points;  ///< for a mesh: its vertices
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

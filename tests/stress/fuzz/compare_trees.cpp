@@ -85,8 +85,8 @@ void compare(const Case& c, double asked) {
   const double S = std::max(reachOf(c.a, c.X_WA), reachOf(c.b, c.X_WB));
   if (!std::isfinite(S)) return;
   const bool meshes = !c.a.part() && !c.b.part();
-  // Contact of primitives is exact only outside a band of 2^-44 of the largest coordinate; 2^-42
-  // leaves room.
+  // With primitives, contact is exact only outside a band of 2^-44 of the largest coordinate. The
+  // comparison allows 2^-42.
   const double band = meshes ? 0 : 0x1p-42 * S;
   const auto error = [&](double d) { return 1e-12 * d + 4 * 0x1p-53 * S + band + 0x1p-998; };
 
@@ -95,7 +95,7 @@ void compare(const Case& c, double asked) {
     double distance;
   };
   std::vector<TouchAndDistance> byKind;
-  QueryContext context;  // one for all queries: what it remembers must not change an answer
+  QueryContext context;  // one for all queries: its stored pairs must not change an answer
   for (const Kind& kind : everyKind()) {
     const bool touch =
         interference(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), context, kind.trees).has_value();

@@ -213,7 +213,7 @@ void compare(const Robot& robot, Decoder& in) {
     fail(who + "contact at t = " + number(checked.contactTime) +
          ", but proved with a clearance of " + number(verified.provenClearance));
 
-  // The two states by themselves, without margin and tube.
+  // Tests the two states of the edge, without margin and tube.
   problem.margin = 0;
   problem.tube.setZero();
   for (const Configuration& q : {robot.from, robot.to}) {

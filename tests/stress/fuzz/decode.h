@@ -18,8 +18,8 @@
 
 namespace corridor::fuzz {
 
-/// Makes small scenes from the bytes of an input. Any bytes make a scene; after their end zeros
-/// follow.
+/// Makes small scenes from the bytes of an input. Any bytes make a scene; after the last byte it
+/// reads zeros.
 ///
 /// Most numbers are from coarse grids, or repeat an earlier number, or differ from an earlier
 /// number in a few last digits. So coplanar, touching and grazing features are as likely as others.
@@ -85,7 +85,7 @@ class Decoder {
     const RigidPose rigid = pose();
     return {rigid.q.normalized().toRotationMatrix(), rigid.p};
   }
-  /// Returns a map that scales, shears, mirrors or flattens, or any other.
+  /// Returns a map that is not rigid: it scales, shears, mirrors or flattens, or is arbitrary.
   Transform anyMap() {
     Transform X = map();
     const double s = real();
@@ -218,8 +218,8 @@ class Decoder {
     }
   }
   double earlier() { return earlier_.empty() ? 1 : earlier_[below(earlier_.size())]; }
-  /// Returns the value in the range of `limit`. A number out of range keeps its digits, with
-  /// another power of two.
+  /// Returns the value, brought into the range of `limit`: a number out of range keeps its digits
+  /// and gets another power of two.
   double bounded(double value) const {
     if (std::isnan(value)) return 1;
     if (std::isinf(value)) return std::copysign(largest_, value);

@@ -29,8 +29,8 @@ inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A folder under TMPDIR for the files of one process. It is removed when the process ends
-/// regularly.
+/// A folder under TMPDIR for the files of one process. The folder is removed when the process ends
+/// normally.
 class Folder {
  public:
   Folder()
@@ -57,13 +57,13 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// An input of targets that read several formats. Its first line is the extension of the file's
+/// An input of a target that reads several formats. Its first line is the extension of the file's
 /// name.
 struct NamedInput {
   std::string ending;
   std::string_view bytes;
 };
-/// Splits an input. Returns nullopt if the first line is no extension, of 1 to 12 letters and
+/// Splits an input. Returns nullopt if the first line is not an extension of 1 to 12 letters and
 /// digits.
 inline std::optional<NamedInput> namedInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = textOf(data, size);

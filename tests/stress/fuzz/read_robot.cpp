@@ -1,4 +1,5 @@
-// Fuzz target: robot files (corridor-robot-1), beside the project's own and their URDFs.
+// Fuzz target: robot files (corridor-robot-1), in a folder with the project's own robot files and
+// their URDFs.
 #include "planner/problem/robot_file.h"
 #include "tests/stress/fuzz/small_world.h"
 

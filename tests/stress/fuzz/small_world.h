@@ -27,9 +27,9 @@ inline std::string tetrahedron(const std::string& ending) {
   return text + "endsolid t\n";
 }
 
-/// Copies the project's problems/ and robots/ into a folder, with a tetrahedron for every mesh. So
-/// inputs that name robots and meshes find them, and reading them is fast. All meshes are in
-/// problems/p/, too, because the inputs are written there.
+/// Copies the project's problems/ and robots/ into a folder, and replaces every mesh by a
+/// tetrahedron. So robots and meshes that inputs name exist, and reading them is fast. All meshes
+/// are also copied into problems/p/, because the inputs are written there.
 inline void writeSmallWorld(const Folder& folder) {
   const std::filesystem::path source = CORRIDOR_SOURCE_DIR;
   for (const char* part : {"problems", "robots"})

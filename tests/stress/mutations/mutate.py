@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Seeds faults into the numerics, one at a time, and reports which test catches each (README.md beside this file).
+"""Seeds faults into the numerics, one at a time, and reports which test catches each (see README.md beside this file).
 
-Works on a copy of HEAD in build/mutations/; the tree of the user is never written to. Every result is stored at once,
-so that an interrupted run goes on where it stopped.
+Works on a copy of HEAD in build/mutations/, and never writes to the user's tree. Every result is stored at once, so
+that an interrupted run can be resumed.
 """
 
 import argparse
@@ -40,7 +40,7 @@ class Mutation:
     file: str
     old: str
     new: str
-    tests: tuple[str, ...]     # "program filter", likely catchers first
+    tests: tuple[str, ...]     # "program filter", those that are likely to fail first
     programs: tuple[str, ...]  # run as a whole if none of `tests` fails
 
     def key(self, text):
@@ -131,7 +131,7 @@ def run(program, testFilter, limit):
 
 
 def checkTestsPass(mutations, ninja, results):
-    """Requires that every named test exists and passes on the unchanged tree: otherwise it can catch nothing."""
+    """Requires that every named test exists and passes on the unchanged tree. Otherwise it could not catch a mutation."""
     tree = git("rev-parse", "HEAD^{tree}").decode().strip()
     passed = results.setdefault("passed", {})
     if passed.get("tree") != tree:
@@ -155,7 +155,7 @@ def checkTestsPass(mutations, ninja, results):
 
 
 def catch(mutation, ninja, quick):
-    """Builds and runs the tests of a seeded mutation. Returns (outcome, by which test)."""
+    """Builds and runs the tests of a seeded mutation. Returns (outcome, the test that caught it)."""
     tried = set()
     tests = [(*t.split(), NAMED_LIMIT) for t in mutation.tests]
     if not quick:
@@ -205,10 +205,10 @@ def table(mutations, results):
 def main():
     parser = argparse.ArgumentParser(description="Seed faults into the numerics and report which test catches each.")
     parser.add_argument("--list", action="store_true", help="print the mutations and their results, run none")
-    parser.add_argument("--only", metavar="PATTERN", default="*", help="run only those whose name or file matches; * and ? are wildcards")
-    parser.add_argument("--again", metavar="NAME", action="append", default=[], help="run this one again (repeatable)")
+    parser.add_argument("--only", metavar="PATTERN", default="*", help="run only the mutations whose name or file matches; * and ? are wildcards")
+    parser.add_argument("--again", metavar="NAME", action="append", default=[], help="run this mutation again; may be repeated")
     parser.add_argument("--fresh", action="store_true", help="discard all results; otherwise a run resumes")
-    parser.add_argument("--quick", action="store_true", help="run only the named tests, no whole programs; mutations that these miss stay open")
+    parser.add_argument("--quick", action="store_true", help="run only the named tests, no whole programs; a mutation that they don't catch stays open")
     parser.add_argument("--count", metavar="N", type=int, help="stop after N mutations")
     parser.add_argument("--ninja", default="ninja", help="the build command, which may have arguments (default: ninja)")
     options = parser.parse_args()
