@@ -52,7 +52,9 @@ struct KinematicTree {
   }
 };
 
-/// Returns the pose of every frame in the world, rounded to double.
+/// Returns the pose of every frame in the world, computed in double. Each angle is off by 2^-51 of
+/// |multiplier·q| + |offset|, which matters where a mimic multiplies a large value; certified
+/// queries (edge_motion.h) use more digits.
 std::vector<Transform> framePoses(const KinematicTree& tree, const Configuration& q);
 
 }  // namespace corridor

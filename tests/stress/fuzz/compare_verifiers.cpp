@@ -24,7 +24,8 @@ struct Robot {
   ConfigurationSpace space;
   Configuration from, to, tube;
   std::vector<Shape> shapes;
-  double size = 0;  ///< sum of all lengths, metres: the scale of rounding
+  double size = 0;   ///< sum of all lengths, metres: the scale of rounding
+  double angle = 0;  ///< sum of all angles of mimics, radians: `framePoses` rounds them to double
 
   std::size_t variable(Coordinate::Kind kind) {
     Coordinate c;
@@ -132,6 +133,12 @@ std::optional<Robot> decodeRobot(Decoder& in) {
   }
   for (const Frame& frame : robot.tree.frames) {
     robot.size += length(frame.fixed.p);
+    if (frame.joint == Frame::Joint::revolute && frame.variable != Frame::noVariable) {
+      const auto i = static_cast<Eigen::Index>(frame.variable);
+      robot.angle +=
+          std::abs(frame.offset) +
+          std::abs(frame.multiplier) * std::max(std::abs(robot.from[i]), std::abs(robot.to[i]));
+    }
     if (frame.joint == Frame::Joint::prismatic || frame.joint == Frame::Joint::translation) {
       double most = std::abs(frame.offset);
       if (frame.variable != Frame::noVariable)
@@ -182,7 +189,8 @@ void compare(const Robot& robot, Decoder& in) {
   const Scene scene(std::move(bodies), std::move(pairs));
 
   MotionOptions options;
-  const double rounding = 0x1p-40 * robot.size;
+  // A mimic's angle, multiplier·q + offset, is off by 2^-53 of both terms and of the sum.
+  const double rounding = (0x1p-40 + 0x1p-51 * robot.angle) * robot.size;
   options.tolerance = std::max(scene.defaultTolerance(), 4 * rounding);
   options.clearanceSlack = options.tolerance;
   options.margin = in.oneIn(3) ? std::min(std::abs(in.real()), 0.1) : 0;
