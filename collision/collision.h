@@ -68,7 +68,7 @@
 ///    question. It requires that the surfaces do not touch. "No" is a proof. "Yes" is exact, except
 ///    that a point counts as inside if none of 64 rays can decide.
 ///
-///        if (insideEachOther(a, b, context)) …
+///        if (findOneInsideOther(a, b, context)) …
 ///
 /// 6. Do they touch along a motion, and when first? `free` is never wrong: it is proved for every t
 ///    in [0, 1], rounding included. `contact`: at the rounded pose at `contactTime` the bodies

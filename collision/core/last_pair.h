@@ -23,9 +23,9 @@ class LastPair {
   bool isIn(std::size_t countA, std::size_t countB) const { return a < countA && b < countB; }
   bool trusted() const { return trust_ > 0; }
   /// Records the result of testing the guess: whether this pair decided the query.
-  void tested(bool answers) { trust_ = answers ? kTrust : trust_ - 1; }
+  void recordTest(bool answers) { trust_ = answers ? kTrust : trust_ - 1; }
   /// Records the pair that a search has found.
-  void found(std::uint32_t s, std::uint32_t t) {
+  void recordFound(std::uint32_t s, std::uint32_t t) {
     if (s == a && t == b) trust_ = kTrust;
     a = s;
     b = t;

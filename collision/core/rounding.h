@@ -28,7 +28,7 @@ inline double roundedDown(double bound) {
 
 /// Returns the root of a computed sum of squares: a lower bound, except for relative rounding
 /// errors. Returns 0 if the sum is so small that rounding to subnormals may have made it too large.
-inline double rootFromBelow(double square) {
+inline double rootOrZero(double square) {
   return square > 0x1p-960 ? std::sqrt(square) : 0;
 }
 

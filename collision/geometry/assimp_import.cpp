@@ -126,7 +126,7 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
 };
 
 /// Returns whether an importer reads one of the formats of `kAssimpFormats` or `kOwnFormats`.
-bool isLetThrough(const aiImporterDesc& description) {
+bool readsAllowedFormat(const aiImporterDesc& description) {
   std::string_view rest = description.mFileExtensions;  // "dae zae"
   while (!rest.empty()) {
     const std::string extension = "." + std::string(rest.substr(0, rest.find(' ')));
@@ -145,7 +145,7 @@ void removeOtherFormats(Assimp::Importer& importer) {
   std::vector<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)
     if (const aiImporterDesc* const description = importer.GetImporterInfo(i);
-        !description || !isLetThrough(*description))
+        !description || !readsAllowedFormat(*description))
       others.push_back(importer.GetImporter(i));
   for (Assimp::BaseImporter* const other : others) {
     importer.UnregisterLoader(other);

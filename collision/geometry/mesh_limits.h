@@ -6,6 +6,6 @@ namespace corridor {
 
 /// The maximum number of vertices, and of triangles, that are read from one file. A mesh of that
 /// size takes 4 GB, and its tree some 8 GB.
-constexpr std::size_t kMostOfAMesh = 100'000'000;
+constexpr std::size_t kMaxMeshElements = 100'000'000;
 
 }  // namespace corridor

@@ -30,7 +30,7 @@ void MeshFaults::fail(int line, std::string text) {
 
 void MeshFaults::failCount(std::uint64_t count, std::string_view what, int line) {
   fail(line, "has " + std::to_string(count) + " " + std::string(what) + " or more; at most " +
-                 std::to_string(kMostOfAMesh) + " are read: use a coarser mesh, or split it");
+                 std::to_string(kMaxMeshElements) + " are read: use a coarser mesh, or split it");
 }
 
 std::optional<std::string> parseCoordinate(std::string_view word, double& value) {

@@ -28,9 +28,9 @@ class MeshFaults {
   /// Adds a fault after which the reader cannot go on, and throws all faults.
   [[noreturn]] void fail(int line, std::string text);
   void throwIfAny() const { faults_.throwIfAny(); }
-  /// Fails if `count` of `what` (vertices or triangles) exceeds `kMostOfAMesh`.
+  /// Fails if `count` of `what` (vertices or triangles) exceeds `kMaxMeshElements`.
   void requireFew(std::uint64_t count, std::string_view what, int line) {
-    if (count > kMostOfAMesh) failCount(count, what, line);
+    if (count > kMaxMeshElements) failCount(count, what, line);
   }
   void requireFew(const TriangleMesh& mesh, int line) {
     requireFew(mesh.vertices.size(), "vertices", line);

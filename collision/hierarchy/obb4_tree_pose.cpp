@@ -189,7 +189,7 @@ void relate(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const T
   t.store(pose.columns[3]);
   t.demote(pose.floats.offset);
   if (pad < HUGE_VAL)
-    pose.apart = facesSeparate(a.root(), b.root(), pose.floats, pad > 0 ? pose.limitOf(pad) : 0);
+    pose.apart = facesSeparate(a.root(), b.root(), pose.floats, pad > 0 ? pose.inUnitsOfA(pad) : 0);
 }
 
 }  // namespace corridor::HWY_NAMESPACE
@@ -206,7 +206,7 @@ Obb4TreePose::Obb4TreePose(const Obb4Tree& a, const Transform& X_WA, const Obb4T
   HWY_DYNAMIC_DISPATCH(relate)(a, X_WA, b, X_WB, pad, *this);
 }
 
-float Obb4TreePose::limitOf(double metres) const {
+float Obb4TreePose::inUnitsOfA(double metres) const {
   if (!(shrink > 0)) return HUGE_VALF;
   return static_cast<float>(metres / shrink * unitA * (1 + 0x1p-20));
 }

@@ -27,7 +27,7 @@ struct Obb4TreePose {
 
   /// Returns `metres` in the world as a float in a's unit, rounded up. If a distance in a's frame
   /// exceeds the result, the distance in the world exceeds `metres`.
-  float limitOf(double metres) const;
+  float inUnitsOfA(double metres) const;
 
   /// @param pad metres, for `apart`. If `pad` is infinite, `apart` is false.
   Obb4TreePose(const Obb4Tree& a, const Transform& X_WA, const Obb4Tree& b, const Transform& X_WB,

@@ -16,7 +16,7 @@ struct NodePair {
 using NodePairs = std::vector<NodePair>;
 
 /// Replaces the stack's contents by the node pairs `start`, the last one on top.
-inline void startFrom(std::span<const NodePair4> start, NodePairs& stack) {
+inline void fillStack(std::span<const NodePair4> start, NodePairs& stack) {
   stack.clear();
   for (const NodePair4& pair : start) stack.push_back({pair.a, pair.b});
 }

@@ -60,7 +60,7 @@ const std::vector<VolumeKind>& volumeKinds() {
   return kinds;
 }
 
-bool hasFirstOverlap(TreeKind trees) {
+bool hasDefaultOverlap(TreeKind trees) {
   const auto& kinds = volumeKinds();
   return std::any_of(kinds.begin(), kinds.end(),
                      [&](const VolumeKind& kind) { return kind.trees == trees; });

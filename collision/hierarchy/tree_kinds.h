@@ -36,7 +36,7 @@ struct VolumeKind {
 const std::vector<VolumeKind>& volumeKinds();
 
 /// Reports whether a kind has its volume's first overlap test. Distance queries require this.
-bool hasFirstOverlap(TreeKind trees);
+bool hasDefaultOverlap(TreeKind trees);
 
 /// The words by which users choose trees. An empty word stands for the default.
 struct TreeNames {

@@ -13,7 +13,7 @@ namespace {
 
 /// Intervals with this half width are not halved. The middles of much shorter intervals would not
 /// be exact.
-constexpr double kShortest = 0x1p-48;
+constexpr double kLeastHalfWidth = 0x1p-48;
 
 /// A time interval of a pair that is not proved yet.
 struct Interval {
@@ -73,7 +73,7 @@ class Bisection {
     // With half of the tolerance, a clearance of two tolerances suffices even if the clearance
     // slack takes one tolerance.
     const bool narrow = measured.bound.bound <= steps_.options().tolerance / 2,
-               last = h <= kShortest;
+               last = h <= kLeastHalfWidth;
     if (measured.contact && (!earliest_ || last)) return steps_.contact(w.pair, w.t0, t, measured);
     if (!measured.contact && (narrow || last || (measured.hopeless && !earliest_))) {
       if (!narrow || !block_ || !block_->measured.contact || block_->time != w.t1)
@@ -112,8 +112,8 @@ class Bisection {
 
 }  // namespace
 
-MotionResult certifyByBisection(MotionSource& motion, std::span<const MotionPair> pairs,
-                                const MotionOptions& options, QueryContext& context) {
+MotionResult certifyAdaptively(MotionSource& motion, std::span<const MotionPair> pairs,
+                               const MotionOptions& options, QueryContext& context) {
   return answered(motion, options.earliest, [&] {
     DistanceSteps steps(motion, pairs, options, context);
     return Bisection(steps).run(pairs.size());

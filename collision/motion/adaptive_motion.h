@@ -13,7 +13,7 @@ namespace corridor {
 /// default method has directional motion bounds and needs only a few. Therefore a motion that
 /// passes an obstacle closely for a long way may be `undecided` here, because it reaches the work
 /// limit.
-MotionResult certifyByBisection(MotionSource& motion, std::span<const MotionPair> pairs,
-                                const MotionOptions& options, QueryContext& context);
+MotionResult certifyAdaptively(MotionSource& motion, std::span<const MotionPair> pairs,
+                               const MotionOptions& options, QueryContext& context);
 
 }  // namespace corridor

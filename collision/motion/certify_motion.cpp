@@ -126,7 +126,7 @@ class Certifier {
       // If no tree of the pair has been walked yet, the bounds may be separated at t. Then no tree
       // is needed.
       const bool best = query_.certificate != nullptr;
-      if (list_.isWhole(group) && motions_.separation(pair, 0, best).clearance > 0) continue;
+      if (list_.isPoseJoint(group) && motions_.separation(pair, 0, best).clearance > 0) continue;
       if (touches(group.bodies, motions_.relative(pair.motion).X_AB, t, list_.nodePairsOf(group)))
         return true;
     }
@@ -135,7 +135,7 @@ class Certifier {
 
   bool touches(std::uint32_t bodies, const Transform& X_AB, double t,
                std::span<const NodePair4> start) {
-    const auto hit = touchBelow(query_, bodies, X_AB, start);
+    const auto hit = contactBelow(query_, bodies, X_AB, start);
     if (!hit) return false;
     const MotionPair& pair = query_.pairs[bodies];
     known_ = {t, {pair.bodyA, pair.bodyB, hit->a, hit->b}};

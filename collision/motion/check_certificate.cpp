@@ -52,7 +52,7 @@ class CertificateCheck {
     if (needed < HUGE_VAL && !closer(needed)) {
       // No surfaces touch in this interval, so b cannot enter or leave a. For an interval from t =
       // 0, the middle therefore decides containment at t = 0. Later intervals need no such test.
-      if (i.t0 > 0 || !insideEachOther(Posed(*pair.a), Posed(*pair.b, relative.X_AB), context_))
+      if (i.t0 > 0 || !findOneInsideOther(Posed(*pair.a), Posed(*pair.b, relative.X_AB), context_))
         return std::nullopt;
       return CertificateFault{Kind::refuted, i.pair, 0};
     }

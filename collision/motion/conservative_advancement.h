@@ -13,7 +13,7 @@ namespace corridor {
 /// The pair that is proved up to the earliest time makes the next step (Mirtich's queue). Therefore
 /// the first contact is found first, whether it is requested or not. Close to a contact, each step
 /// is shorter than the one before by the same factor. A body that passes an obstacle, or slides
-/// along it, at a distance d needs steps of the order of d, as in `certifyByBisection`.
+/// along it, at a distance d needs steps of the order of d, as in `certifyAdaptively`.
 MotionResult certifyByAdvancement(MotionSource& motion, std::span<const MotionPair> pairs,
                                   const MotionOptions& options, QueryContext& context);
 

@@ -51,7 +51,7 @@ class Moving {
       result_.kind = Descent::Kind::workLimit;
       return true;
     }
-    if (left_ < options_.mostLeft) return false;
+    if (left_ < options_.leaveAllAfter) return false;
     later_.push_back(item);
     return true;
   }
@@ -83,7 +83,7 @@ class Moving {
     left_ += static_cast<unsigned>(std::popcount(pairs));
   }
   bool full(unsigned open) const {
-    return left_ + static_cast<unsigned>(std::popcount(open)) >= options_.mostLeft;
+    return left_ + static_cast<unsigned>(std::popcount(open)) >= options_.leaveAllAfter;
   }
 
   float* clearances() { return options_.clearance ? clearances_ : nullptr; }
@@ -97,20 +97,21 @@ class Moving {
   }
 
   bool solids(const Node& na, const Node& nb, unsigned pairs, unsigned& open) {
-    return forEachItem(na, nb, pairs, [&](unsigned leaves, std::uint32_t s, std::uint32_t t) {
-      if (open & leaves || full(open)) {
-        open |= leaves;
-        return false;
-      }
-      const double margin = options_.margin;
-      const ConvexPart *pa = a_.part(), *pb = b_.part();
-      const MovingTrianglesAnswer answer =
-          !pa  ? decideMovingParts(a_.triangle(s), *pb, relative_, margin)
-          : pb ? decideMovingParts(*pa, *pb, relative_, margin)
-               : decideMovingParts(*pa, b_.triangle(t), relative_, margin);
-      counters_.addTest(answer.exact);
-      return take(answer, s, t, leaves, open);
-    });
+    return forEachLeafPrimitivePair(
+        na, nb, pairs, [&](unsigned leaves, std::uint32_t s, std::uint32_t t) {
+          if (open & leaves || full(open)) {
+            open |= leaves;
+            return false;
+          }
+          const double margin = options_.margin;
+          const ConvexPart *pa = a_.part(), *pb = b_.part();
+          const MovingPairAnswer answer =
+              !pa  ? decideMovingParts(a_.triangle(s), *pb, relative_, margin)
+              : pb ? decideMovingParts(*pa, *pb, relative_, margin)
+                   : decideMovingParts(*pa, b_.triangle(t), relative_, margin);
+          counters_.addTest(answer.exact);
+          return take(answer, s, t, leaves, open);
+        });
   }
 
   bool triangles(const Node& na, const Node& nb, unsigned leaves, unsigned& open) {
@@ -139,7 +140,7 @@ class Moving {
               continue;
             }
             const auto [s, t] = pairs.triangles(first + bit);
-            const MovingTrianglesAnswer answer =
+            const MovingPairAnswer answer =
                 decideMovingTriangles(a_.triangle(s), b_.triangle(t), relative_, options_.margin);
             counters_.exactTests += answer.exact;  // the filter has already counted this test
             if (take(answer, s, t, pair, open)) return true;
@@ -149,7 +150,7 @@ class Moving {
   }
 
   /// Adds the result for two leaf primitives. Returns true if the walk has to end.
-  bool take(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t, unsigned leaves,
+  bool take(const MovingPairAnswer& answer, std::uint32_t s, std::uint32_t t, unsigned leaves,
             unsigned& open) {
     const LeafOutcome pair =
         outcomeOf(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
@@ -165,7 +166,7 @@ class Moving {
   Counters& counters_;
   MotionBound4 bound_;
   Obb4Leaves leaves_;
-  unsigned left_ = 0;  // number of pairs of boxes left by tests, for `mostLeft`
+  unsigned left_ = 0;  // number of pairs of boxes left by tests, for `leaveAllAfter`
   alignas(64) float clearances_[16];
   Descent result_;
 };

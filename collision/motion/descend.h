@@ -39,7 +39,8 @@ struct DescentOptions {
   double margin = 0, tolerance = 0;  ///< metres
   bool shortest = false;             ///< the interval must not be halved
   std::uint64_t workEnd = 0;         ///< `Counters::work` at which the walk stops
-  unsigned mostLeft = 0;   ///< once this many pairs of boxes are left to the halves, all others are
+  unsigned leaveAllAfter =
+      0;                   ///< once this many pairs of boxes are left to the halves, all others are
   bool clearance = false;  ///< whether `Descent::clearance` is requested, which costs time
 };
 
@@ -49,7 +50,7 @@ enum class LeafOutcome { apart, left, last };
 
 /// Adds the result for two leaf primitives to the result of the interval. `s` and `t` are their
 /// numbers in their meshes.
-inline LeafOutcome outcomeOf(const MovingTrianglesAnswer& answer, std::uint32_t s, std::uint32_t t,
+inline LeafOutcome outcomeOf(const MovingPairAnswer& answer, std::uint32_t s, std::uint32_t t,
                              const DescentOptions& options, Descent& descent) {
   if (answer.separated) {
     descent.clearance = std::min(descent.clearance, answer.clearance);

@@ -48,7 +48,7 @@ class MovingVolumes {
   bool enter(const Item& item, const Node& na, const Node& nb) {
     item_ = item;
     if (outOfWork()) return false;
-    if (left_ >= options_.mostLeft) return leave();
+    if (left_ >= options_.leaveAllAfter) return leave();
     ++counters_.boxTests;
     const Travel bound = motionBoundOfVolume(item.b, nb);
     if (apart(na.box, nb.box, bound.pad)) return false;
@@ -61,7 +61,7 @@ class MovingVolumes {
     for (std::uint32_t s = na.first; s < na.first + na.count; ++s)
       for (std::uint32_t t = nb.first; t < nb.first + nb.count; ++t) {
         if (outOfWork()) return true;
-        const MovingTrianglesAnswer answer = decide(s, t);
+        const MovingPairAnswer answer = decide(s, t);
         counters_.addTest(answer.exact);
         const LeafOutcome pair =
             outcomeOf(answer, a_.meshTriangle(s), b_.meshTriangle(t), options_, result_);
@@ -116,7 +116,7 @@ class MovingVolumes {
     return true;
   }
 
-  MovingTrianglesAnswer decide(std::uint32_t s, std::uint32_t t) {
+  MovingPairAnswer decide(std::uint32_t s, std::uint32_t t) {
     const ConvexPart *pa = a_.part(s), *pb = b_.part(t);
     const double margin = options_.margin;
     if (pa && pb) return decideMovingParts(*pa, *pb, relative_, margin);
@@ -153,7 +153,7 @@ Descent descend(std::span<const NodePair4> start, const VolumeTree<Volume>& a,
                 QueryContext& context) {
   MovingVolumes<Volume, Overlap> query(a, b, relative, options, later, context.counters);
   auto& stack = context.scratch.of<NodePairs>();
-  startFrom(start, stack);
+  fillStack(start, stack);
   traverseFrom(a, b, stack, query);
   if (query.result().kind == Descent::Kind::contact) {
     query.leave();

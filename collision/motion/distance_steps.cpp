@@ -35,7 +35,7 @@ DistanceSteps::DistanceSteps(MotionSource& motion, std::span<const MotionPair> p
 }
 
 std::uint64_t DistanceSteps::work() const {
-  return context_.counters.work() + kLookWork * looks_;
+  return context_.counters.work() + kMeasurementWork * measurements_;
 }
 
 bool DistanceSteps::outOfWork() const {
@@ -68,7 +68,7 @@ bool DistanceSteps::staysAway(std::uint32_t pair, double t, double h) {
 
 DistanceSteps::Measurement DistanceSteps::measureAt(std::uint32_t pair, double t, double h,
                                                     bool exact) {
-  ++looks_;
+  ++measurements_;
   const Body &a = *pairs_[pair].a, &b = *pairs_[pair].b;
   const RelativeMotion w = relativeMotion(pair, t, h);
   Measurement measured;
@@ -86,10 +86,10 @@ DistanceSteps::Measurement DistanceSteps::measureAt(std::uint32_t pair, double t
   // If the pose overflows, a distance of 0 only means that nothing is known.
   measured.contact =
       w.X_AB.isFinite() &&
-      (found.distance == 0 || distanceFromAbove(posedA, posedB, found) <= options_.margin);
+      (found.distance == 0 || distanceUpperBound(posedA, posedB, found) <= options_.margin);
   measured.hopeless = !(found.distance > needed - bound);
   if (found.distance > needed)
-    measured.lower = provedDistance(posedA, posedB, found, measure, context_, options_.trees);
+    measured.lower = distanceLowerBound(posedA, posedB, found, measure, context_, options_.trees);
   return measured;
 }
 

@@ -45,8 +45,8 @@ class DistanceSteps {
   /// t + h]. `true` is a proof. Measures no distance and builds no tree.
   bool staysAway(std::uint32_t pair, double t, double h);
 
-  /// Reports whether `MotionOptions::workLimit` is reached. Each measurement counts as `kLookWork`
-  /// tests, in addition to the tests that it makes.
+  /// Reports whether `MotionOptions::workLimit` is reached. Each measurement counts as
+  /// `kMeasurementWork` tests, in addition to the tests that it makes.
   bool outOfWork() const;
 
   const MotionOptions& options() const { return options_; }
@@ -63,7 +63,7 @@ class DistanceSteps {
   MotionResult close(std::uint32_t pair, double t0, double time, double clearance);
 
  private:
-  static constexpr std::uint64_t kLookWork = 256;
+  static constexpr std::uint64_t kMeasurementWork = 256;
 
   RelativeMotion relativeMotion(std::uint32_t pair, double t, double h);
   Bound boundOf(std::uint32_t pair, const RelativeMotion& relative) const;
@@ -73,7 +73,7 @@ class DistanceSteps {
   std::span<const MotionPair> pairs_;
   const MotionOptions& options_;
   QueryContext& context_;
-  std::uint64_t looks_ = 0, workEnd_ = 0;
+  std::uint64_t measurements_ = 0, workEnd_ = 0;
 };
 
 }  // namespace corridor

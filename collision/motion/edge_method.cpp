@@ -35,7 +35,7 @@ MotionResult runEdgeMethod(EdgeMethod method, MotionSource& motion,
     case EdgeMethod::directional:
       break;
     case EdgeMethod::adaptive:
-      return certifyByBisection(motion, pairs, options, context);
+      return certifyAdaptively(motion, pairs, options, context);
     case EdgeMethod::advancement:
       return certifyByAdvancement(motion, pairs, options, context);
   }

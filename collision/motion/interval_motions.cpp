@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/motion/may_meet.h"
 #include "collision/motion/split_rules.h"
 
 namespace corridor {
@@ -26,17 +25,10 @@ void IntervalMotions::select(double t, double h) {
   spheres_.forget();
 }
 
-const RelativeMotion& IntervalMotions::relative(std::size_t motion) {
-  if (motion == posed_) return relative_;
+void IntervalMotions::compute(std::size_t motion) {
   posed_ = motion;
   relative_ = source_.relativeMotion(motion, t_, h_);
   ++counters_.poses;
-  return relative_;
-}
-
-const SweptSphere& IntervalMotions::worldSphere(std::size_t motion, const Body& body,
-                                                std::size_t index) {
-  return spheres_.of(index, [&] { return sweptSphere(body, relative(motion)); });
 }
 
 IntervalMotions::Separation IntervalMotions::separation(const MotionPair& pair, double asked,

@@ -4,6 +4,7 @@
 
 #include "collision/core/query_context.h"
 #include "collision/motion/certify_motion.h"
+#include "collision/motion/may_meet.h"
 #include "collision/motion/swept_spheres.h"
 
 namespace corridor {
@@ -18,7 +19,10 @@ class IntervalMotions {
   void select(double t, double h);
   /// Returns motion number `motion` in the selected interval. The reference is valid until the next
   /// call of any member.
-  const RelativeMotion& relative(std::size_t motion);
+  const RelativeMotion& relative(std::size_t motion) {
+    if (motion != posed_) compute(motion);
+    return relative_;
+  }
 
   struct Separation {
     double clearance = 0;  ///< proved lower bound of the bodies' distance in the interval, metres
@@ -33,7 +37,10 @@ class IntervalMotions {
   Separation separation(const MotionPair& pair, double asked, bool best);
 
  private:
-  const SweptSphere& worldSphere(std::size_t motion, const Body& body, std::size_t index);
+  void compute(std::size_t motion);
+  const SweptSphere& worldSphere(std::size_t motion, const Body& body, std::size_t index) {
+    return spheres_.of(index, [&] { return sweptSphere(body, relative(motion)); });
+  }
 
   MotionSource& source_;
   SweptSpheres& spheres_;

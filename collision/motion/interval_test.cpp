@@ -14,7 +14,7 @@ namespace corridor {
 namespace {
 
 /// Returns the distance, metres, that two bodies must exceed to be proved free.
-double askedOf(const MotionQuery& query) {
+double requiredDistance(const MotionQuery& query) {
   return roundedUp(query.options.margin + query.options.clearanceSlack);
 }
 
@@ -36,7 +36,7 @@ struct BodiesAnswer {
 };
 BodiesAnswer testBounds(const MotionQuery& query, double t0, double t1,
                         const WorkList::Group& group, IntervalMotions& motions) {
-  const double asked = askedOf(query);
+  const double asked = requiredDistance(query);
   const auto [clearance, far] =
       motions.separation(query.pairs[group.bodies], asked, query.certificate != nullptr);
   if (!(clearance > asked)) return {false, far};
@@ -67,17 +67,17 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
   for (std::size_t g = interval.begin; g < interval.end; ++g) {
     WorkList::Group group = list.groups[g];
     bool tooFar = false;
-    if (!interval.bodiesAreTested && list.isWhole(group)) {
+    if (!interval.boundsAreTested && list.isPoseJoint(group)) {
       const BodiesAnswer bodies = testBounds(query, interval.t0, interval.t1, group, motions);
       if (bodies.separated) continue;
-      tooFar = bodies.far && h >= Rules::kShortestFar;
+      tooFar = bodies.far && h >= Rules::kLeastHalfWidthFar;
     }
     const std::size_t motion = query.pairs[group.bodies].motion;
     const bool first = h == 0.5 && motions.relative(motion).angle > Rules::kTurns;
     const SplitThresholds thresholds = first ? Rules::kFirst : Rules::kLater;
-    const bool tooMuch = left >= thresholds.pairsOfBodies && 4 * left > 3 * tested;
+    const bool tooMuch = left >= thresholds.bodyPairsLeft && 4 * left > 3 * tested;
     ++tested;
-    if (h > Rules::kShortest && (tooMuch || tooFar)) {
+    if (h > Rules::kLeastHalfWidth && (tooMuch || tooFar)) {
       list.groups.push_back(group);
       ++left;
       continue;
@@ -85,9 +85,9 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
     RelativeMotion relative = motions.relative(motion);
     relative.fixedError += query.options.clearanceSlack;  // required for a proof, not for a contact
     const std::size_t later = list.nodePairs.size();
-    const DescentOptions asked = {query.options.margin,    query.options.tolerance,
-                                  h <= Rules::kShortest,   query.workEnd,
-                                  thresholds.pairsOfNodes, query.certificate != nullptr};
+    const DescentOptions asked = {query.options.margin,        query.options.tolerance,
+                                  h <= Rules::kLeastHalfWidth, query.workEnd,
+                                  thresholds.boxPairsLeft,     query.certificate != nullptr};
     const Descent found = walkTrees(query, group, relative, asked, list);
     group.clearance = std::min(group.clearance, found.clearance);
     if (list.nodePairs.size() > later) {
@@ -114,11 +114,11 @@ Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList
     list.groups.push_back(group);
     far = far || bodies.far;
   }
-  return {.t0 = 0, .t1 = 1, .begin = count, .end = list.groups.size(), .bodiesAreTested = true};
+  return {.t0 = 0, .t1 = 1, .begin = count, .end = list.groups.size(), .boundsAreTested = true};
 }
 
-std::optional<TrianglePair> touchBelow(const MotionQuery& query, std::uint32_t bodies,
-                                       const Transform& X_AB, std::span<const NodePair4> start) {
+std::optional<PrimitivePair> contactBelow(const MotionQuery& query, std::uint32_t bodies,
+                                          const Transform& X_AB, std::span<const NodePair4> start) {
   if (!X_AB.isFinite()) return std::nullopt;  // boxes would overlap, but no contact is proved
   const MotionPair& pair = query.pairs[bodies];
   return withTrees(

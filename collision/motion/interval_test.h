@@ -20,7 +20,7 @@ struct Interval {
   double t0, t1;
   std::size_t begin, end;
   WorkList::Mark mark = {};      ///< the work list is cut here before the interval is tested
-  bool bodiesAreTested = false;  ///< the bounds of whole bodies have been tested in this interval
+  bool boundsAreTested = false;  ///< the bounds of whole bodies have been tested in this interval
 
   double half() const { return (t1 - t0) / 2; }
   double middle() const { return t0 + half(); }  // dyadic: exact
@@ -56,7 +56,7 @@ Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList
 /// Returns two triangles that touch at the pose X_AB, by their numbers in the meshes, or nothing.
 /// Tests the node pairs `start` of pair number `bodies`, and its last pair (`LastPair`). Gives up
 /// at the work limit. For a pose that overflows, returns nothing.
-std::optional<TrianglePair> touchBelow(const MotionQuery& query, std::uint32_t bodies,
-                                       const Transform& X_AB, std::span<const NodePair4> start);
+std::optional<PrimitivePair> contactBelow(const MotionQuery& query, std::uint32_t bodies,
+                                          const Transform& X_AB, std::span<const NodePair4> start);
 
 }  // namespace corridor

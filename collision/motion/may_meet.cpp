@@ -64,10 +64,10 @@ double clearanceBound(const Body& a, const SweptSphere& sphere, double enough) {
   const Vec3& c = sphere.center;
   const Vec3 zero = Vec3::Zero();
   const Vec3 outside = (c - a.upper()).cwiseMax(zero) - (a.lower() - c).cwiseMax(zero);
-  // `rootFromBelow` returns 0 if squares underflow; such a gap proves nothing. The differences are
+  // `rootOrZero` returns 0 if squares underflow; such a gap proves nothing. The differences are
   // off by u of both terms, as a length √3 times that. Along n the centre is `gap` beyond the
   // farthest point of the box.
-  return remaining(outside, rootFromBelow(outside.squaredNorm()), sphere.radius, sphere.isotropic,
+  return remaining(outside, rootOrZero(outside.squaredNorm()), sphere.radius, sphere.isotropic,
                    4 * kUnit * (c.cwiseAbs().sum() + a.boundTerms()), enough,
                    [&](const Vec3& n) { return std::abs(n.dot(sphere.first)) + bent(sphere, n); });
 }
@@ -79,7 +79,7 @@ double clearanceBound(const Body& a, const SweptSphere& sphere, double enough) {
 double clearanceBound(const SweptSphere& a, const SweptSphere& b, double enough) {
   const Vec3 apart = b.center - a.center;
   return remaining(
-      apart, rootFromBelow(apart.squaredNorm()), a.radius + b.radius, a.isotropic + b.isotropic,
+      apart, rootOrZero(apart.squaredNorm()), a.radius + b.radius, a.isotropic + b.isotropic,
       4 * kUnit * (a.center.cwiseAbs().sum() + b.center.cwiseAbs().sum()), enough,
       [&](const Vec3& n) { return std::abs(n.dot(b.first - a.first)) + bent(a, n) + bent(b, n); });
 }

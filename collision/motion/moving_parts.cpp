@@ -101,14 +101,14 @@ class MovingPair {
   double size_ = 0, slack_ = 0, movingSlack_ = 0;
 };
 
-MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const RelativeMotion& relative,
-                             double margin) {
+MovingPairAnswer decide(const ConvexSet& a, const ConvexSet& b, const RelativeMotion& relative,
+                        double margin) {
   const MovingPair pair(a, b, relative);
   // Since |n| ≤ 1 + 4u, gaps along n may be too large by this factor. The last term covers this.
   const double needed = margin + pair.slack() + 8 * kUnit * (margin + pair.radii());
   const double near = pair.radii() + 0x1p-49 * pair.size();  // within the band of `convexSetsTouch`
 
-  MovingTrianglesAnswer answer;
+  MovingPairAnswer answer;
   const double none = -std::numeric_limits<double>::infinity();
   Gaps best{none, none, none};
   const auto attempt = [&](const Vec3& n, double coreGap) {
@@ -119,7 +119,7 @@ MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const Relat
     return gaps.moving > needed;
   };
   const auto apart = [&] {
-    return MovingTrianglesAnswer{
+    return MovingPairAnswer{
         .separated = true, .clearance = roundedDown(best.moving - needed), .exact = answer.exact};
   };
   gjk::Answer found = gjk::search<double>(pair.a(), pair.b(), pair.size(), near, attempt);
@@ -144,18 +144,18 @@ MovingTrianglesAnswer decide(const ConvexSet& a, const ConvexSet& b, const Relat
 
 }  // namespace
 
-MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin) {
+MovingPairAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
+                                   const RelativeMotion& relative, double margin) {
   return decide(a, b, relative, margin);
 }
 
-MovingTrianglesAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin) {
+MovingPairAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
+                                   const RelativeMotion& relative, double margin) {
   return decide(a, b, relative, margin);
 }
 
-MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,
-                                        const RelativeMotion& relative, double margin) {
+MovingPairAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,
+                                   const RelativeMotion& relative, double margin) {
   return decide(a, b, relative, margin);
 }
 

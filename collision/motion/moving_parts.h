@@ -11,13 +11,13 @@ namespace corridor {
 /// is at rest; b moves by the relative motion `relative`. `contact` means that, at the rounded pose
 /// at the middle, the parts are closer than 2^-44 of the largest coordinate, or are proved to be
 /// within the margin.
-MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin);
+MovingPairAnswer decideMovingParts(const ConvexPart& a, const ConvexPart& b,
+                                   const RelativeMotion& relative, double margin);
 /// The same for a triangle and a convex part. The triangle is a closed patch of surface, not a
 /// solid.
-MovingTrianglesAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
-                                        const RelativeMotion& relative, double margin);
-MovingTrianglesAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,
-                                        const RelativeMotion& relative, double margin);
+MovingPairAnswer decideMovingParts(const Triangle& a, const ConvexPart& b,
+                                   const RelativeMotion& relative, double margin);
+MovingPairAnswer decideMovingParts(const ConvexPart& a, const Triangle& b,
+                                   const RelativeMotion& relative, double margin);
 
 }  // namespace corridor

@@ -116,14 +116,14 @@ void offerFeatureDirections(const Triangle& a, const Triangle& b, const Vec3& n,
     for (const Vec3& f : edgesB) offer(e.cross(f));
 }
 
-MovingTrianglesAnswer apart(double moving, double needed) {
+MovingPairAnswer apart(double moving, double needed) {
   return {.separated = true, .clearance = roundedDown(moving - needed)};
 }
 
 }  // namespace
 
-MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
-                                            const RelativeMotion& relative, double margin) {
+MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
+                                       const RelativeMotion& relative, double margin) {
   const MovingCorners corners(b, relative);
   const Triangle& posed = corners.posed;
   double largest = 0;
@@ -143,7 +143,7 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
   const double distance = std::sqrt(closest.squaredDistance);
   const Vec3 n = unit(closest.b - closest.a);  // NaN if the triangles meet; it separates nothing
 
-  MovingTrianglesAnswer answer;
+  MovingPairAnswer answer;
   Gaps gaps = gapsAlong(n, a, corners);
   if (gaps.moving > needed) return apart(gaps.moving, needed);
   answer.bound = std::max(
@@ -166,7 +166,7 @@ MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b
       if (other.still > gaps.still) gaps.still = other.still;
     });
     if (gaps.moving > needed) {
-      MovingTrianglesAnswer proved = apart(gaps.moving, needed);
+      MovingPairAnswer proved = apart(gaps.moving, needed);
       proved.exact = answer.exact;
       return proved;
     }

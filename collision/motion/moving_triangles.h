@@ -6,7 +6,7 @@
 namespace corridor {
 
 /// The result of one time interval for a triangle a at rest and a triangle b that moves.
-struct MovingTrianglesAnswer {
+struct MovingPairAnswer {
   bool separated = false;  ///< proved farther apart than the margin, throughout
   double clearance = 0;    ///< `separated`: proved distance beyond the margin, metres
   /// At the rounded pose at the middle the triangles touch (decided exactly), or are proved to be
@@ -27,7 +27,7 @@ struct MovingTrianglesAnswer {
 /// Each corner of b has its own directional motion bound. Any direction is valid: its rounding may
 /// prevent a proof, but never makes one wrong. If the triangles are not separated, contact at the
 /// middle is decided exactly.
-MovingTrianglesAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
-                                            const RelativeMotion& relative, double margin);
+MovingPairAnswer decideMovingTriangles(const Triangle& a, const Triangle& b,
+                                       const RelativeMotion& relative, double margin);
 
 }  // namespace corridor

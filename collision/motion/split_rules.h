@@ -9,16 +9,16 @@ namespace corridor {
 struct SplitThresholds {
   /// Once this many pairs of boxes of two bodies are left to the halves, all other pairs of boxes
   /// of these bodies are left, too.
-  unsigned pairsOfNodes;
+  unsigned boxPairsLeft;
   /// Once this many pairs of bodies have left node pairs, and these are more than three quarters of
   /// the pairs of bodies counted so far, the other pairs of bodies are left untested. Pairs that
   /// their bounds separate are neither counted nor left.
-  std::size_t pairsOfBodies;
+  std::size_t bodyPairsLeft;
 };
 
 /// The constants that decide when a query halves an interval. No value can make `free` or `contact`
 /// wrong. Other values change the cost of a query, and therefore which motions are undecided at the
-/// work limit. `kShortest` also limits which motions can be decided at all.
+/// work limit. `kLeastHalfWidth` also limits which motions can be decided at all.
 struct SplitRules {
   /// `kFirst` holds in the whole motion if b rotates, since that interval is usually too wide.
   /// `kLater` holds in all other cases. A translation is described exactly to first order in any
@@ -32,7 +32,7 @@ struct SplitRules {
   /// untested to the halves of the interval. In shorter intervals every body is tested. This is
   /// necessary because pairs that are left untested count no work. A joint may make any number of
   /// turns, so without this limit the query might never reach its work limit.
-  static constexpr double kShortestFar = 0x1p-8;
+  static constexpr double kLeastHalfWidthFar = 0x1p-8;
   /// If only the verdict is requested, this many levels of halving are walked level by level. A
   /// contact anywhere is then found early.
   static constexpr int kFirstLevels = 4;
@@ -42,7 +42,7 @@ struct SplitRules {
   static constexpr int kSampledLevels = 2;
   /// Intervals with this half width are not halved. The middles of much shorter intervals would not
   /// be exact.
-  static constexpr double kShortest = 0x1p-48;
+  static constexpr double kLeastHalfWidth = 0x1p-48;
 };
 
 }  // namespace corridor

@@ -106,19 +106,19 @@ Corners mapped(const Triangle& t, const Transform& X, double unit) {
   return corners;
 }
 
-/// Distances below kLost units count as 0. The unit is at most S, the largest Σ|m||v| + |t| of the
-/// mapped corners.
-constexpr double kLost = 0x1p-56;
+/// Distances below kZeroDistance units count as 0. The unit is at most S, the largest Σ|m||v| + |t|
+/// of the mapped corners.
+constexpr double kZeroDistance = 0x1p-56;
 
-bool isNothing(const Best& best) {
-  return best.square < Real(kLost * kLost);
+bool countsAsZero(const Best& best) {
+  return best.square < Real(kZeroDistance * kZeroDistance);
 }
 
 /// Finds the two closest features in plain doubles, relative to one of the corners, and offers the
 /// closest points of these features. Returns true if these points are proved to be the closest of
 /// the triangles: the projections of both triangles onto the line through them are as far apart as
-/// the points, up to kLost.
-bool offerByProof(Best& best, const Corners& s, const Corners& t) {
+/// the points, up to kZeroDistance.
+bool offerClosestFeatures(Best& best, const Corners& s, const Corners& t) {
   Triangle a, b;
   for (int i = 0; i < 3; ++i) {
     const Point p = s[i] - s[0], q = t[i] - s[0];
@@ -135,9 +135,10 @@ bool offerByProof(Best& best, const Corners& s, const Corners& t) {
     offerFoot(best, s[feature - 12], t, false);
   }
   if (!(best.square.hi < HUGE_VAL)) return false;  // in double-double, the foot is not in the face
-  if (isNothing(best)) return true;
+  if (countsAsZero(best)) return true;
   const Point n = best.b - best.a;
-  const Real most = sqrt(best.square) * Real(kLost / 2);  // tolerance on each side, times |n|
+  const Real most =
+      sqrt(best.square) * Real(kZeroDistance / 2);  // tolerance on each side, times |n|
   for (int i = 0; i < 3; ++i)
     if (!(dot(n, s[i] - best.a) < most) || !(-most < dot(n, t[i] - best.b))) return false;
   return true;
@@ -162,12 +163,12 @@ WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Tria
   const double unit = powerOfTwo(std::max(largestTerms(a, X_WA), largestTerms(b, X_WB)));
   const Corners s = mapped(a, X_WA, unit), t = mapped(b, X_WB, unit);
   Best best;
-  const bool proved = offerByProof(best, s, t);
+  const bool proved = offerClosestFeatures(best, s, t);
   if (!proved) {
     offerCrossings(best, s, t, false);
     offerCrossings(best, t, s, true);
   }
-  if (!proved && !isNothing(best)) {
+  if (!proved && !countsAsZero(best)) {
     for (int i = 0; i < 3; ++i) {
       offerFoot(best, t[i], s, true);
       offerFoot(best, s[i], t, false);
@@ -178,7 +179,7 @@ WitnessPoints witnessPoints(const Triangle& a, const Transform& X_WA, const Tria
   // unit), and the final rounding.
   const double distance = unit * sqrt(best.square).hi;
   return {rounded(best.a, unit), rounded(best.b, unit), distance,
-          roundedUp(2 * kLost * unit + 2 * kUnit * distance)};
+          roundedUp(2 * kZeroDistance * unit + 2 * kUnit * distance)};
 }
 
 // A mapped corner takes at most 7 roundings, the division by `unit` included, of terms below S =

@@ -57,9 +57,9 @@ Crossing crossing(const MappedPoint& q, const MappedPoint& end, const Triangle& 
 
 /// Returns how often the segment crosses component `k`, or nullopt if it meets an edge or lies in a
 /// triangle's plane. `q_S` is the segment's start in the solid's frame, off by at most `error`.
-std::optional<int> crossings(const MeshBody& solid, std::uint32_t k, const Transform& X_WS,
-                             const MappedPoint& q, const Vec3& q_S, double error, const Vec3& end_S,
-                             QueryContext& context) {
+std::optional<int> crossings(const MeshWithComponents& solid, std::uint32_t k,
+                             const Transform& X_WS, const MappedPoint& q, const Vec3& q_S,
+                             double error, const Vec3& end_S, QueryContext& context) {
   const ObbTree& tree = solid.tree;
   const Vec3 x = (end_S - q_S).normalized(), y = x.unitOrthogonal();
   Mat3 axes;
@@ -97,9 +97,9 @@ std::optional<int> crossings(const MeshBody& solid, std::uint32_t k, const Trans
 
 }  // namespace
 
-std::optional<std::uint32_t> containing(const Posed<MeshBody>& posed, const Vec3& p,
+std::optional<std::uint32_t> containing(const Posed<MeshWithComponents>& posed, const Vec3& p,
                                         const Transform& X_WP, QueryContext& context) {
-  const MeshBody& solid = posed.shape;
+  const MeshWithComponents& solid = posed.shape;
   const Transform& X_WS = posed.X_W;
   assert(standardFloatingPoint());
   const Transform X_SP = rigidInverse(X_WS) * X_WP;
@@ -126,40 +126,42 @@ std::optional<std::uint32_t> containing(const Posed<MeshBody>& posed, const Vec3
   return std::nullopt;
 }
 
-std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<MeshBody>& inner,
-                                     QueryContext& context) {
+std::optional<PrimitivePair> findEnclosed(const Posed<MeshWithComponents>& solid,
+                                          const Posed<MeshWithComponents>& inner,
+                                          QueryContext& context) {
   for (const Component& component : inner.shape.components.components)
     if (const auto triangle = containing(solid, component.corner, inner.X_W, context))
-      return TrianglePair{*triangle, component.triangle};
+      return PrimitivePair{*triangle, component.triangle};
   return std::nullopt;
 }
 
-std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<ConvexPart>& inner,
-                                     QueryContext& context) {
+std::optional<PrimitivePair> findEnclosed(const Posed<MeshWithComponents>& solid,
+                                          const Posed<ConvexPart>& inner, QueryContext& context) {
   if (const auto triangle = containing(solid, inner.shape.points[0], inner.X_W, context))
-    return TrianglePair{*triangle, 0};
+    return PrimitivePair{*triangle, 0};
   return std::nullopt;
 }
 
-std::optional<TrianglePair> enclosed(const Posed<Body>& solid, const Posed<Body>& inner,
-                                     QueryContext& context) {
+std::optional<PrimitivePair> findEnclosed(const Posed<Body>& solid, const Posed<Body>& inner,
+                                          QueryContext& context) {
   if (!solid.shape.solid() || solid.shape.part()) return std::nullopt;
   const auto meshOf = [](const Body& body) {
-    return MeshBody{body.binaryTree(), body.components()};
+    return MeshWithComponents{body.binaryTree(), body.components()};
   };
-  const MeshBody around = meshOf(solid.shape);
+  const MeshWithComponents around = meshOf(solid.shape);
   const Posed posed(around, solid.X_W);
-  if (inner.shape.part()) return enclosed(posed, Posed(*inner.shape.part(), inner.X_W), context);
-  const MeshBody within = meshOf(inner.shape);
-  return enclosed(posed, Posed(within, inner.X_W), context);
+  if (inner.shape.part())
+    return findEnclosed(posed, Posed(*inner.shape.part(), inner.X_W), context);
+  const MeshWithComponents within = meshOf(inner.shape);
+  return findEnclosed(posed, Posed(within, inner.X_W), context);
 }
 
-std::optional<TrianglePair> insideEachOther(const Posed<Body>& a, const Posed<Body>& b,
-                                            QueryContext& context) {
+std::optional<PrimitivePair> findOneInsideOther(const Posed<Body>& a, const Posed<Body>& b,
+                                                QueryContext& context) {
   if (!a.X_W.isFinite() || !b.X_W.isFinite())
     throw std::invalid_argument("the pose of a body must be finite");
-  if (const auto hit = enclosed(a, b, context)) return hit;
-  if (const auto hit = enclosed(b, a, context)) return TrianglePair{hit->b, hit->a};
+  if (const auto hit = findEnclosed(a, b, context)) return hit;
+  if (const auto hit = findEnclosed(b, a, context)) return PrimitivePair{hit->b, hit->a};
   return std::nullopt;
 }
 

@@ -12,7 +12,7 @@
 namespace corridor {
 
 /// A mesh in a containment query: the solid, or the mesh that may be inside it.
-struct MeshBody {
+struct MeshWithComponents {
   const ObbTree& tree;
   const MeshComponents& components;  ///< components of the tree's mesh
 };
@@ -27,27 +27,28 @@ struct MeshBody {
 /// or not. If all of 64 rays meet an edge or lie in the plane of a triangle, the point counts as
 /// inside.
 /// @pre The maps are finite, and standardFloatingPoint() holds (asserted in debug builds).
-std::optional<std::uint32_t> containing(const Posed<MeshBody>& solid, const Vec3& p,
+std::optional<std::uint32_t> containing(const Posed<MeshWithComponents>& solid, const Vec3& p,
                                         const Transform& X_WP, QueryContext& context);
 
 /// Returns a pair of triangles if a component of `inner` is inside `solid`, else nullopt. Triangle
 /// `a` belongs to the component of `solid`, `b` to the component inside it.
 /// @pre The surfaces don't touch (`interference`): then one point of a component decides for the
 /// whole component.
-std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<MeshBody>& inner,
-                                     QueryContext& context);
+std::optional<PrimitivePair> findEnclosed(const Posed<MeshWithComponents>& solid,
+                                          const Posed<MeshWithComponents>& inner,
+                                          QueryContext& context);
 /// The same for a convex part as `inner`; `b` is 0. Same precondition.
-std::optional<TrianglePair> enclosed(const Posed<MeshBody>& solid, const Posed<ConvexPart>& inner,
-                                     QueryContext& context);
+std::optional<PrimitivePair> findEnclosed(const Posed<MeshWithComponents>& solid,
+                                          const Posed<ConvexPart>& inner, QueryContext& context);
 /// The same for two bodies. Returns nullopt unless `solid` is a solid mesh: a body inside a convex
 /// part touches it, so `interference` reports it. Same precondition.
-std::optional<TrianglePair> enclosed(const Posed<Body>& solid, const Posed<Body>& inner,
-                                     QueryContext& context);
+std::optional<PrimitivePair> findEnclosed(const Posed<Body>& solid, const Posed<Body>& inner,
+                                          QueryContext& context);
 /// Returns a pair if a component of one body is inside the other body, else nullopt. The first
 /// number belongs to `a`, the second to `b`.
 /// @pre The surfaces don't touch.
 /// @throws std::invalid_argument for a pose that is not finite.
-std::optional<TrianglePair> insideEachOther(const Posed<Body>& a, const Posed<Body>& b,
-                                            QueryContext& context);
+std::optional<PrimitivePair> findOneInsideOther(const Posed<Body>& a, const Posed<Body>& b,
+                                                QueryContext& context);
 
 }  // namespace corridor

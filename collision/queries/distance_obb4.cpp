@@ -77,14 +77,14 @@ class Nearest {
 
   /// Starts from a pair of triangles, numbered in leaf order and at most `upper` metres apart.
   void start(std::uint32_t s, std::uint32_t t, double upper) {
-    const float limit = pose_.limitOf(upper);
+    const float limit = pose_.inUnitsOfA(upper);
     if (!(limit < HUGE_VALF)) return;
     least_ = limit;
     closest_ = {s, t};
     lowerLimit(upper);
   }
   /// Returns the pair with the least upper bound, for the next query to start from.
-  std::optional<TrianglePair> closest() const {
+  std::optional<PrimitivePair> closest() const {
     return least_ < HUGE_VALF ? std::optional(closest_) : std::nullopt;
   }
 
@@ -142,7 +142,7 @@ class Nearest {
   /// more than the options allow are skipped.
   void lowerLimit(double metres) {
     const double most = (metres - options_.absolute) / (1 + options_.relative);
-    limit_ = std::min(limit_, pose_.limitOf(std::max(0.0, most)));
+    limit_ = std::min(limit_, pose_.inUnitsOfA(std::max(0.0, most)));
   }
 
   const Obb4Tree &a_, &b_;
@@ -154,7 +154,7 @@ class Nearest {
   std::vector<BoundedPair>& candidates_;
   NearestTriangles nearest_;
   float least_ = HUGE_VALF;  // least upper bound so far, in a's unit
-  TrianglePair closest_;     // the pair with that bound, in leaf order
+  PrimitivePair closest_;    // the pair with that bound, in leaf order
   float limit_ = HUGE_VALF;  // in a's unit: pairs that are farther apart are skipped
 };
 
@@ -169,7 +169,8 @@ Distance obb4Distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const 
   }
   walkObb4(treeA, treeB, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
            context.counters, query);
-  if (const auto closest = query.closest(); closest && last) last->found(closest->a, closest->b);
+  if (const auto closest = query.closest(); closest && last)
+    last->recordFound(closest->a, closest->b);
   return query.result();
 }
 
@@ -183,7 +184,7 @@ class Closer {
         counters_(counters),
         leaves_(a_, b_, pose, counters),
         closer_(a.X_W, a_.reach(), b.X_W, b_.reach(), d),
-        limit_(pose.limitOf(d)) {}
+        limit_(pose.inUnitsOfA(d)) {}
 
   static constexpr bool kSorted = true;
   static bool skip(const NodePair4&) { return false; }
@@ -205,7 +206,9 @@ class Closer {
     return found_;
   }
 
-  std::optional<TrianglePair> found() const { return found_ ? std::optional(pair_) : std::nullopt; }
+  std::optional<PrimitivePair> found() const {
+    return found_ ? std::optional(pair_) : std::nullopt;
+  }
 
  private:
   const Obb4Tree &a_, &b_;
@@ -215,12 +218,12 @@ class Closer {
   CloserTriangles closer_;
   float limit_;
   bool found_ = false;
-  TrianglePair pair_;
+  PrimitivePair pair_;
 };
 
-std::optional<TrianglePair> obb4CloserThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                           const Obb4TreePose& pose, double d,
-                                           QueryContext& context) {
+std::optional<PrimitivePair> obb4CloserThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                            const Obb4TreePose& pose, double d,
+                                            QueryContext& context) {
   Closer query(a, b, pose, d, context.counters);
   walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, context.scratch.of<Obb4Stack>(),
            context.counters, query);
@@ -280,11 +283,11 @@ bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, Qu
     const bool closer =
         provedCloser(treeA.triangle(last->a), a.X_W, treeB.triangle(last->b), b.X_W,
                      {a.X_W, treeA.reach(), b.X_W, treeB.reach()}, d, context.counters);
-    last->tested(closer);
+    last->recordTest(closer);
     if (closer) return true;
   }
   const auto pair = HWY_DYNAMIC_DISPATCH(obb4CloserThan)(a, b, pose, d, context);
-  if (pair && last) last->found(pair->a, pair->b);
+  if (pair && last) last->recordFound(pair->a, pair->b);
   return pair.has_value();
 }
 

@@ -29,24 +29,24 @@ namespace corridor {
 /// @tparam Overlap  the overlap test of the boxes (overlap_obb_obb_variants.h), for example
 /// `interference<Gjk>(a, …)` on ObbTrees. It changes only the time.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>
-std::optional<TrianglePair> interference(const Posed<VolumeTree<Volume>>& a,
-                                         const Posed<VolumeTree<Volume>>& b, QueryContext& context,
-                                         LastPair* last = nullptr);
+std::optional<PrimitivePair> interference(const Posed<VolumeTree<Volume>>& a,
+                                          const Posed<VolumeTree<Volume>>& b, QueryContext& context,
+                                          LastPair* last = nullptr);
 
 /// The same test, restricted to the subtrees of the node pairs `start`, and to the pair `last`.
 /// Gives up and returns nullopt soon after the counted box and triangle tests reach `workEnd`.
 template <class Overlap = StandardOverlap, BoundingVolume Volume>
-std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
-                                              const Posed<VolumeTree<Volume>>& a,
-                                              const Posed<VolumeTree<Volume>>& b,
-                                              QueryContext& context, LastPair* last = nullptr,
-                                              std::uint64_t workEnd = kNoWorkLimit);
+std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
+                                               const Posed<VolumeTree<Volume>>& a,
+                                               const Posed<VolumeTree<Volume>>& b,
+                                               QueryContext& context, LastPair* last = nullptr,
+                                               std::uint64_t workEnd = kNoWorkLimit);
 
 /// The same test for two octrees (trees over space), and for an octree and a tree of AABBs (a tree
 /// over triangles).
-std::optional<TrianglePair> interference(const Posed<Octree>& a, const Posed<Octree>& b,
-                                         QueryContext& context);
-std::optional<TrianglePair> interference(const Posed<Octree>& a, const Posed<VolumeTree<Aabb>>& b,
-                                         QueryContext& context);
+std::optional<PrimitivePair> interference(const Posed<Octree>& a, const Posed<Octree>& b,
+                                          QueryContext& context);
+std::optional<PrimitivePair> interference(const Posed<Octree>& a, const Posed<VolumeTree<Aabb>>& b,
+                                          QueryContext& context);
 
 }  // namespace corridor

@@ -60,12 +60,13 @@ class Touching {
   bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
               const float*) {
     if (a_.part() || b_.part())
-      return forEachItem(na, nb, pairs, [&](unsigned, std::uint32_t s, std::uint32_t t) {
-        const ItemSet setA(a_, s), setB(b_, t);
-        const PredicateResult touch = convexSetsTouch({setA.set, X_WA_}, {setB.set, X_WB_});
-        counters_.addTest(touch.exact);
-        return touch && found_(s, t);
-      });
+      return forEachLeafPrimitivePair(
+          na, nb, pairs, [&](unsigned, std::uint32_t s, std::uint32_t t) {
+            const ItemSet setA(a_, s), setB(b_, t);
+            const PredicateResult touch = convexSetsTouch({setA.set, X_WA_}, {setB.set, X_WB_});
+            counters_.addTest(touch.exact);
+            return touch && found_(s, t);
+          });
     return leaves_.forEachNear(
         na, nb, pairs, [] { return 0.0F; },
         [&](std::uint32_t s, std::uint32_t t) {
@@ -86,13 +87,13 @@ class Touching {
   std::uint64_t workEnd_;
 };
 
-std::optional<TrianglePair> firstTouching(std::span<const NodePair4> start,
-                                          const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                          const Obb4TreePose& pose, QueryContext& context,
-                                          std::uint64_t workEnd) {
-  std::optional<TrianglePair> hit;
+std::optional<PrimitivePair> firstTouching(std::span<const NodePair4> start,
+                                           const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                           const Obb4TreePose& pose, QueryContext& context,
+                                           std::uint64_t workEnd) {
+  std::optional<PrimitivePair> hit;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
-    hit = TrianglePair{s, t};
+    hit = PrimitivePair{s, t};
     return true;
   };
   Touching query(a, b, pose, context.counters, found, workEnd);
@@ -101,9 +102,9 @@ std::optional<TrianglePair> firstTouching(std::span<const NodePair4> start,
   return hit;
 }
 
-std::vector<TrianglePair> allTouching(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                      const Obb4TreePose& pose, QueryContext& context) {
-  std::vector<TrianglePair> all;
+std::vector<PrimitivePair> allTouching(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                       const Obb4TreePose& pose, QueryContext& context) {
+  std::vector<PrimitivePair> all;
   const auto found = [&](std::uint32_t s, std::uint32_t t) {
     all.push_back({s, t});
     return false;
@@ -123,34 +124,34 @@ namespace corridor {
 HWY_EXPORT(firstTouching);
 HWY_EXPORT(allTouching);
 
-std::optional<TrianglePair> touchingLeafTriangles(std::span<const NodePair4> start,
-                                                  const Posed<Obb4Tree>& a,
-                                                  const Posed<Obb4Tree>& b,
-                                                  const Obb4TreePose& pose, QueryContext& context,
-                                                  LastPair* last, std::uint64_t workEnd) {
+std::optional<PrimitivePair> touchingLeafTriangles(std::span<const NodePair4> start,
+                                                   const Posed<Obb4Tree>& a,
+                                                   const Posed<Obb4Tree>& b,
+                                                   const Obb4TreePose& pose, QueryContext& context,
+                                                   LastPair* last, std::uint64_t workEnd) {
   const Obb4Tree &treeA = a.shape, &treeB = b.shape;
   if (last && last->trusted() && last->isIn(treeA.triangleCount(), treeB.triangleCount())) {
     const PredicateResult touch =
         trianglesTouch(treeA.triangle(last->a), a.X_W, treeB.triangle(last->b), b.X_W);
     context.counters.addTest(touch.exact);
-    last->tested(touch);
-    if (touch) return TrianglePair{last->a, last->b};
+    last->recordTest(touch);
+    if (touch) return PrimitivePair{last->a, last->b};
   }
   const auto hit = HWY_DYNAMIC_DISPATCH(firstTouching)(start, a, b, pose, context, workEnd);
-  if (hit && last) last->found(hit->a, hit->b);
+  if (hit && last) last->recordFound(hit->a, hit->b);
   return hit;
 }
 
-std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                         QueryContext& context, LastPair* last,
-                                         std::uint64_t workEnd) {
+std::optional<PrimitivePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                          QueryContext& context, LastPair* last,
+                                          std::uint64_t workEnd) {
   return interferenceBelow(kWholeTrees, a, b, context, last, workEnd);
 }
 
-std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
-                                              const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                              QueryContext& context, LastPair* last,
-                                              std::uint64_t workEnd) {
+std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
+                                               const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                               QueryContext& context, LastPair* last,
+                                               std::uint64_t workEnd) {
   const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, 0);
   if (pose.apart) {
     ++context.counters.boxTests;
@@ -158,7 +159,7 @@ std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
   }
   const auto hit = touchingLeafTriangles(start, a, b, pose, context, last, workEnd);
   if (!hit) return hit;
-  return TrianglePair{a.shape.meshTriangle(hit->a), b.shape.meshTriangle(hit->b)};
+  return PrimitivePair{a.shape.meshTriangle(hit->a), b.shape.meshTriangle(hit->b)};
 }
 
 std::vector<TriangleContact> contacts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,

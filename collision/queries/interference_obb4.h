@@ -31,39 +31,39 @@ namespace corridor {
 /// @param last  if not null, the pair of the last query of these trees: it is tested first, and the
 /// pair found is stored there. It may change which touching pair is reported, and the counts, but
 /// never the verdict.
-std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                         QueryContext& context, LastPair* last = nullptr,
-                                         std::uint64_t workEnd = kNoWorkLimit);
+std::optional<PrimitivePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                          QueryContext& context, LastPair* last = nullptr,
+                                          std::uint64_t workEnd = kNoWorkLimit);
 
 /// The same test, restricted to the subtrees of the node pairs `start`, and to the pair `last`.
-std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
-                                              const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                              QueryContext& context, LastPair* last = nullptr,
-                                              std::uint64_t workEnd = kNoWorkLimit);
+std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
+                                               const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                               QueryContext& context, LastPair* last = nullptr,
+                                               std::uint64_t workEnd = kNoWorkLimit);
 
 /// The same two functions with the template argument `Overlap`, for code that works on any kind of
 /// trees (`withTrees`). 4-wide trees have only one overlap test.
 template <std::same_as<StandardOverlap> Overlap>
-std::optional<TrianglePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                         QueryContext& context, LastPair* last = nullptr) {
+std::optional<PrimitivePair> interference(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                          QueryContext& context, LastPair* last = nullptr) {
   return interference(a, b, context, last);
 }
 template <std::same_as<StandardOverlap> Overlap>
-std::optional<TrianglePair> interferenceBelow(std::span<const NodePair4> start,
-                                              const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
-                                              QueryContext& context, LastPair* last,
-                                              std::uint64_t workEnd) {
+std::optional<PrimitivePair> interferenceBelow(std::span<const NodePair4> start,
+                                               const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
+                                               QueryContext& context, LastPair* last,
+                                               std::uint64_t workEnd) {
   return interferenceBelow(start, a, b, context, last, workEnd);
 }
 
 /// The same test for queries that have already computed the pose. The result numbers triangles in
 /// leaf order. @pre `!pose.apart`.
-std::optional<TrianglePair> touchingLeafTriangles(std::span<const NodePair4> start,
-                                                  const Posed<Obb4Tree>& a,
-                                                  const Posed<Obb4Tree>& b,
-                                                  const Obb4TreePose& pose, QueryContext& context,
-                                                  LastPair* last,
-                                                  std::uint64_t workEnd = kNoWorkLimit);
+std::optional<PrimitivePair> touchingLeafTriangles(std::span<const NodePair4> start,
+                                                   const Posed<Obb4Tree>& a,
+                                                   const Posed<Obb4Tree>& b,
+                                                   const Obb4TreePose& pose, QueryContext& context,
+                                                   LastPair* last,
+                                                   std::uint64_t workEnd = kNoWorkLimit);
 
 /// `contacts` (contacts.h, with the same guarantees) for 4-wide OBB trees.
 std::vector<TriangleContact> contacts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,

@@ -25,7 +25,7 @@ class NearestPairs {
  public:
   NearestPairs(const DistanceOptions& options, QueryContext& context)
       : options_(options),
-        relative_(options.relative + kGiven),
+        relative_(options.relative + kTieShare),
         candidates_(context.scratch.of<Candidates>().pairs) {
     candidates_.clear();
   }
@@ -67,7 +67,7 @@ class NearestPairs {
       return x.bound < y.bound || (x.bound == y.bound && (x.a < y.a || (x.a == y.a && x.b < y.b)));
     });
     for (const auto& [s, t, bound] : candidates_) {
-      if (bound * (1 + kGiven) >= best.distance) break;
+      if (bound * (1 + kTieShare) >= best.distance) break;
       const auto w = measure(s, t);
       if (!(w.distance < best.distance)) continue;
       best = {w.distance, w.p_WA, w.p_WB, a.meshTriangle(s), b.meshTriangle(t)};
@@ -86,7 +86,7 @@ class NearestPairs {
   /// corner. The part may be used twice, because the pair that ruled out another may be left
   /// unmeasured itself. If it is measured, `convexDistance` uses 2^-41·d instead. In both cases the
   /// sum is below 1e-12·d and leaves room for rounding.
-  static constexpr double kGiven = 0.49e-12;
+  static constexpr double kTieShare = 0.49e-12;
 
   const DistanceOptions& options_;
   double relative_;

@@ -46,8 +46,8 @@ alignas(16) inline constexpr PairPatterns kFirst = pairPatterns(false), kSecond 
 /// bits (4·i + j for lanes i and j); s and t are numbered in leaf order. Used if at least one of
 /// the two trees has a convex part.
 template <class Found>
-bool forEachItem(const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned leaves,
-                 Found&& found) {
+bool forEachLeafPrimitivePair(const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned leaves,
+                              Found&& found) {
   for (; leaves; leaves &= leaves - 1) {
     const auto pair = static_cast<unsigned>(std::countr_zero(leaves));
     const std::uint32_t a = na.child[pair / 4], b = nb.child[pair % 4];
@@ -94,7 +94,7 @@ class NodeLeafPairs {
   /// Returns the leaf pair of the k-th pair: the bit 4·i + j for lanes i and j.
   unsigned leavesOf(unsigned k) const { return 1U << (a_[k] / 4 * 4 + b_[k] / 4); }
   /// Returns the k-th pair's triangles, numbered in the trees' leaf order.
-  TrianglePair triangles(unsigned k) const { return {triangle(na_, a_[k]), triangle(nb_, b_[k])}; }
+  PrimitivePair triangles(unsigned k) const { return {triangle(na_, a_[k]), triangle(nb_, b_[k])}; }
 
  private:
   static std::uint32_t triangle(const Obb4Tree::Node& node, unsigned number) {

@@ -99,7 +99,7 @@ class SelfPairs {
   void push(std::vector<Item>& stack, std::uint32_t i, std::uint32_t k) { stack.push_back({i, k}); }
   void opened(std::vector<Item>&, std::size_t) {}
 
-  std::vector<TrianglePair> found() && { return std::move(found_); }
+  std::vector<PrimitivePair> found() && { return std::move(found_); }
 
  private:
   bool intersect(std::uint32_t s, std::uint32_t t) {
@@ -109,7 +109,7 @@ class SelfPairs {
     if (a.shared == 3) return false;
     return a.shared == 0 ? touch(a.t, b.t, counters_) : meetBeyond(a, b, counters_);
   }
-  TrianglePair numbered(std::uint32_t s, std::uint32_t t) const {
+  PrimitivePair numbered(std::uint32_t s, std::uint32_t t) const {
     const auto [low, high] = std::minmax({tree_.meshTriangle(s), tree_.meshTriangle(t)});
     return {low, high};
   }
@@ -118,19 +118,19 @@ class SelfPairs {
   PairTest<Aabb, StandardOverlap> test_;
   Counters& counters_;
   std::vector<bool> onALine_;  // indexed by a triangle's number in the tree
-  std::vector<TrianglePair> found_;
+  std::vector<PrimitivePair> found_;
 };
 
 }  // namespace
 
-std::vector<TrianglePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context) {
+std::vector<PrimitivePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context) {
   if (mesh.triangles.empty()) return {};
   const std::vector<TriangleQuality> qualities = triangleQualities(mesh);
   const VolumeTree<Aabb> tree(mesh);
   SelfPairs query(tree, qualities, context.counters);
   traverse(tree, tree, NodePair{0, 0}, context.scratch.of<NodePairs>(), query);
-  std::vector<TrianglePair> found = std::move(query).found();
-  std::sort(found.begin(), found.end(), [](const TrianglePair& x, const TrianglePair& y) {
+  std::vector<PrimitivePair> found = std::move(query).found();
+  std::sort(found.begin(), found.end(), [](const PrimitivePair& x, const PrimitivePair& y) {
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   });
   return found;

@@ -17,6 +17,6 @@ namespace corridor {
 /// `inspectMesh` counts these as degenerate and as repeated. Cost: about a microsecond for each of
 /// the roughly twelve neighbours of a triangle.
 /// @pre `checkMesh` finds no fault.
-std::vector<TrianglePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context);
+std::vector<PrimitivePair> selfIntersections(const TriangleMesh& mesh, QueryContext& context);
 
 }  // namespace corridor

@@ -54,8 +54,8 @@ bool surfacesCloserThan(const Posed<Body>& a, const Posed<Body>& b, double d, Qu
   });
 }
 
-double provedDistance(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured,
-                      const DistanceOptions& options, QueryContext& context, TreeKind trees) {
+double distanceLowerBound(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured,
+                          const DistanceOptions& options, QueryContext& context, TreeKind trees) {
   if (!(measured.distance < HUGE_VAL)) return 0;  // an overflow or a NaN proves nothing
   const double above = measured.distance - options.absolute - errorOf(a, b);
   const double lower = roundedDown(above / (1 + options.relative + kShare));
@@ -64,7 +64,7 @@ double provedDistance(const Posed<Body>& a, const Posed<Body>& b, const Distance
   return convex && surfacesCloserThan(a, b, lower, context, trees) ? 0 : lower;
 }
 
-double distanceFromAbove(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured) {
+double distanceUpperBound(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured) {
   return roundedUp(measured.distance * (1 + kShare) + errorOf(a, b));
 }
 

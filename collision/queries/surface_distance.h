@@ -29,11 +29,12 @@ bool surfacesCloserThan(const Posed<Body>& a, const Posed<Body>& b, double d, Qu
 /// @param measured  the result of `surfaceDistance` for the same bodies and maps, with these
 /// options.
 /// @pre The maps are within 2^-20 of rotations.
-double provedDistance(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured,
-                      const DistanceOptions& options, QueryContext& context,
-                      TreeKind trees = TreeKind::obb4);
+double distanceLowerBound(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured,
+                          const DistanceOptions& options, QueryContext& context,
+                          TreeKind trees = TreeKind::obb4);
 
-/// Returns an upper bound of the surfaces' distance, metres. `measured` is as for `provedDistance`.
-double distanceFromAbove(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured);
+/// Returns an upper bound of the surfaces' distance, metres. `measured` is as for
+/// `distanceLowerBound`.
+double distanceUpperBound(const Posed<Body>& a, const Posed<Body>& b, const Distance& measured);
 
 }  // namespace corridor

@@ -146,7 +146,7 @@ double boxDistanceBound(const Pair& pair, const Vec3& a, const Vec3& b,
       edge = std::max(edge, gap / l);
     }
   }
-  const double bound = std::max(edge, rootFromBelow(std::max(squareA, squareB)));
+  const double bound = std::max(edge, rootOrZero(std::max(squareA, squareB)));
   return bound < HUGE_VAL ? std::max(0.0, roundedDown(bound * (1 - margins.relative))) : 0;
 }
 

@@ -65,7 +65,7 @@ class PairTest<Rss> {
       const Vec3 y = pair.R.transpose() * (p - pair.T);
       q = pair.T + pair.R * y.cwiseMax(-b).cwiseMin(b);
       const Vec3 n = q - p;
-      const double length = rootFromBelow(n.squaredNorm());
+      const double length = rootOrZero(n.squaredNorm());
       if (!(length > radii + pad)) break;
       const double gap = (n.dot(pair.T) - n.cwiseAbs().dot(a) -
                           (pair.R.transpose() * n).cwiseAbs().dot(b) - kTiny) /

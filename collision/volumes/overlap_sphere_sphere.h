@@ -28,7 +28,7 @@ class PairTest<BoundingSphere> {
   }
   double distanceBound(const BoundingSphere& a, const BoundingSphere& b) const {
     const Vec3 centers = (X_AB_.m * b.center + X_AB_.t) - a.center;
-    const double d = rootFromBelow(centers.squaredNorm()), radii = a.size + b.size;
+    const double d = rootOrZero(centers.squaredNorm()), radii = a.size + b.size;
     const double gap = d - radii - margins_.relative * (d + radii) - margins_.absolute - kTiny;
     return gap > 0 && gap < HUGE_VAL ? roundedDown(gap) : 0;
   }

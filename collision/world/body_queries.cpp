@@ -22,7 +22,7 @@ void require(double x, const char* what) {
     throw std::invalid_argument(std::string(what) + " must be finite and not negative");
 }
 
-/// Returns a point of the component or convex part of `inner` that `enclosed` found.
+/// Returns a point of the component or convex part of `inner` that `findEnclosed` found.
 Vec3 pointOf(const Posed<Body>& inner, std::uint32_t number) {
   const Body& body = inner.shape;
   return inner.X_W * (body.part() ? body.part()->points[0] : body.mesh().corner(number, 0));
@@ -30,15 +30,15 @@ Vec3 pointOf(const Posed<Body>& inner, std::uint32_t number) {
 
 }  // namespace
 
-std::optional<TrianglePair> interference(const Posed<Body>& a, const Posed<Body>& b,
-                                         QueryContext& context, TreeKind trees, LastPair* last) {
+std::optional<PrimitivePair> interference(const Posed<Body>& a, const Posed<Body>& b,
+                                          QueryContext& context, TreeKind trees, LastPair* last) {
   require(a, b);
   const auto hit =
       withTrees(trees, a.shape, b.shape, [&](auto overlap, const auto& ta, const auto& tb) {
         return interference<decltype(overlap)>(Posed(ta, a.X_W), Posed(tb, b.X_W), context, last);
       });
   if (hit) return hit;
-  return insideEachOther(a, b, context);
+  return findOneInsideOther(a, b, context);
 }
 
 std::vector<TriangleContact> contacts(const Posed<Body>& a, const Posed<Body>& b,
@@ -58,10 +58,10 @@ Distance distance(const Posed<Body>& a, const Posed<Body>& b, const DistanceOpti
   require(options.absolute, "a distance's absolute error");
   Distance d = surfaceDistance(a, b, options, context, trees, last);
   if (d.distance == 0) return d;
-  if (const auto hit = enclosed(a, b, context)) {
+  if (const auto hit = findEnclosed(a, b, context)) {
     const Vec3 p_W = pointOf(b, hit->b);
     d = {0, p_W, p_W, hit->a, hit->b};
-  } else if (const auto other = enclosed(b, a, context)) {
+  } else if (const auto other = findEnclosed(b, a, context)) {
     const Vec3 p_W = pointOf(a, other->b);
     d = {0, p_W, p_W, other->b, other->a};
   }
@@ -73,7 +73,7 @@ bool closerThan(const Posed<Body>& a, const Posed<Body>& b, double d, QueryConte
   require(a, b);
   require(d, "a tolerance");
   return surfacesCloserThan(a, b, d, context, trees, last) ||
-         insideEachOther(a, b, context).has_value();
+         findOneInsideOther(a, b, context).has_value();
 }
 
 }  // namespace corridor

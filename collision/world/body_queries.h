@@ -33,9 +33,9 @@ namespace corridor {
 /// with a triangle or convex part of the body inside it. Returns nullopt if the bodies are
 /// separated. Exact for meshes; with a convex part, in the band of `convexSetsTouch` the answer may
 /// be contact.
-std::optional<TrianglePair> interference(const Posed<Body>& a, const Posed<Body>& b,
-                                         QueryContext& context, TreeKind trees = TreeKind::obb4,
-                                         LastPair* last = nullptr);
+std::optional<PrimitivePair> interference(const Posed<Body>& a, const Posed<Body>& b,
+                                          QueryContext& context, TreeKind trees = TreeKind::obb4,
+                                          LastPair* last = nullptr);
 
 /// Returns all pairs of triangles of two meshes that touch, each with the segment that they share
 /// (queries/contacts.h).

@@ -223,7 +223,7 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
       continue;
     const auto X_AB = poseApart(pair, motion, until, context);
     const auto hit =
-        X_AB ? insideEachOther(Posed(*pair.a), Posed(*pair.b, *X_AB), context) : std::nullopt;
+        X_AB ? findOneInsideOther(Posed(*pair.a), Posed(*pair.b, *X_AB), context) : std::nullopt;
     if (X_AB && !hit) continue;
     if (certificate) *certificate = {};
     result = {};

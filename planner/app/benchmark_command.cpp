@@ -77,11 +77,13 @@ std::vector<BenchmarkCompetitor> peersOf(const std::vector<std::string>& variant
   for (const std::string& word : variants) {
     const std::string name = word.substr(0, word.find(':'));
     needed = needed || std::find(edges.begin(), edges.end(), name) == edges.end();
-    if (std::find(peerNames().begin(), peerNames().end(), name) == peerNames().end()) continue;
-    if (const std::string why = whyNoPeer(name); !why.empty())
+    if (std::find(competitorNames().begin(), competitorNames().end(), name) ==
+        competitorNames().end())
+      continue;
+    if (const std::string why = whyUnavailable(name); !why.empty())
       refuse("--variants", name + " can't take part: " + why);
   }
-  return needed ? peersHere() : std::vector<BenchmarkCompetitor>();
+  return needed ? availableCompetitors() : std::vector<BenchmarkCompetitor>();
 }
 
 /// Makes a campaign of problems and options. @throws InputError with all faults.

@@ -52,8 +52,8 @@ std::string marginNote(const Campaign& campaign) {
   const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
                                   [](const Problem& p) { return p.task.margin > 0; });
   for (const Variant& variant : campaign.variants)
-    if (margin && variant.peer)
-      return variant.peer->name +
+    if (margin && variant.competitor)
+      return variant.competitor->name +
              " tests for contact without the margin, so its paths may be refuted for the margin "
              "alone; least_distance_m in runs.csv shows which of them collide";
   return "";

@@ -16,9 +16,9 @@
 #include "planner/checker/problem_goal.h"
 #include "planner/problem/bounds.h"
 #include "planner/problem/state_yaml.h"
-#include "planner/solve/endpoint_help.h"
 #include "planner/solve/solve.h"
 #include "planner/solve/state_rows.h"
+#include "planner/solve/why_not_free.h"
 
 namespace corridor::app {
 namespace {
@@ -122,7 +122,7 @@ int checkStates(const Problem& problem, const CheckArguments& a) {
                               {"states", states}}
                      .dump(2)
               << '\n';
-  return all ? kDone : kNo;
+  return all ? kDone : kNegativeResult;
 }
 
 int checkEnds(const Problem& problem, const CheckArguments& a) {
@@ -150,7 +150,7 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
                               {"notes", problem.source.notes}}
                      .dump(2)
               << '\n';
-  return all ? kDone : kNo;
+  return all ? kDone : kNegativeResult;
 }
 
 int checkCommand(const CheckArguments& a) {

@@ -10,7 +10,7 @@ namespace corridor::app {
 
 /// Exit statuses of all commands, documented by --help and in the README. A command that a signal N
 /// stopped ends with 128 + N instead (`interruptedStatus`).
-enum Exit { kDone = 0, kNo = 1, kBadInput = 2, kInternal = 3 };
+enum Exit { kDone = 0, kNegativeResult = 1, kBadInput = 2, kInternal = 3 };
 
 /// Adds a command to the program. If it is on the command line, `program.parse` runs it and sets
 /// `status` to its exit status, and throws InputError for bad input or a result that can't be

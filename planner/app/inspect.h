@@ -26,7 +26,7 @@ int inspectRobot(const InspectArguments& arguments);  ///< a URDF or a robot.yam
 int inspectCost(const InspectArguments& arguments);   ///< two meshes (--against)
 
 /// Reads a mesh file with the unit and the up-axis that the arguments name.
-MeshFile meshFileAsked(const std::string& file, const InspectArguments& arguments);
+MeshFile readMeshAs(const std::string& file, const InspectArguments& arguments);
 nlohmann::ordered_json meshJson(const MeshFile& file);
 nlohmann::ordered_json shapeJson(const PlacedShape& shape);
 /// Returns a shape in words: "36 triangles, piano.obj"; "box".

@@ -27,7 +27,7 @@ namespace corridor::app {
 
 using nlohmann::ordered_json;
 
-MeshFile meshFileAsked(const std::string& file, const InspectArguments& a) {
+MeshFile readMeshAs(const std::string& file, const InspectArguments& a) {
   MeshFileOptions options;
   if (a.unit)
     options.metresPerUnit = *a.unit == "m"    ? 1
@@ -77,13 +77,13 @@ std::optional<TreeFigures> treeOf(const TriangleMesh& mesh) {
   return TreeFigures{tree.nodes().size(), tree.bytes(), ObbTree(mesh).depth(), took.count()};
 }
 
-std::vector<TrianglePair> selfIntersectionsOf(const MeshFile& file) {
+std::vector<PrimitivePair> selfIntersectionsOf(const MeshFile& file) {
   QueryContext context;
   return selfIntersections(file.mesh, context);
 }
 
 int inspectMeshFile(const InspectArguments& a) {
-  const MeshFile file = meshFileAsked(a.file, a);
+  const MeshFile file = readMeshAs(a.file, a);
   if (a.json) {
     ordered_json j = {{"format", "corridor-inspect-mesh-2"}, {"file", a.file}};
     j["unit"] = a.unit ? ordered_json(*a.unit) : ordered_json();
@@ -96,7 +96,7 @@ int inspectMeshFile(const InspectArguments& a) {
                    {"binary_depth", tree->depth}};
     if (a.selfIntersections) {
       ordered_json& all = j["mesh"]["self_intersections"] = ordered_json::array();
-      for (const TrianglePair& pair : selfIntersectionsOf(file)) all.push_back({pair.a, pair.b});
+      for (const PrimitivePair& pair : selfIntersectionsOf(file)) all.push_back({pair.a, pair.b});
     }
     std::cout << j.dump(2) << '\n';
     return kDone;
@@ -129,7 +129,7 @@ int inspectMeshFile(const InspectArguments& a) {
                  " bytes per triangle, built in " + rounded(tree->buildMs) +
                  " ms; a binary tree has depth " + grouped(tree->depth));
   if (a.selfIntersections) {
-    const std::vector<TrianglePair> pairs = selfIntersectionsOf(file);
+    const std::vector<PrimitivePair> pairs = selfIntersectionsOf(file);
     std::string text = grouped(pairs.size());
     if (!pairs.empty())
       text += ", the first between triangles " + std::to_string(pairs[0].a) + " and " +

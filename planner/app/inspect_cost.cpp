@@ -135,7 +135,7 @@ ordered_json rowJson(const CostRow& r) {
 }  // namespace
 
 int inspectCost(const InspectArguments& a) {
-  const MeshFile meshA = meshFileAsked(a.file, a), meshB = meshFileAsked(*a.against, a);
+  const MeshFile meshA = readMeshAs(a.file, a), meshB = readMeshAs(*a.against, a);
   const std::vector<Transform> poses =
       a.poses ? readPoses(*a.poses) : gridPoses({{6, 6, 6}, 4, 1, {}, {}}, meshA.mesh, meshB.mesh);
   const std::vector<Transform> asked = withFarPoses(poses, meshA.mesh, meshB.mesh);

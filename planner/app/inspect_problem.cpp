@@ -9,8 +9,8 @@
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/reach.h"
 #include "planner/problem/digest.h"
-#include "planner/solve/endpoint_help.h"
 #include "planner/solve/state_rows.h"
+#include "planner/solve/why_not_free.h"
 
 namespace corridor::app {
 namespace {
@@ -40,7 +40,7 @@ class ProblemReport {
     reportTrees();
     reportCosts();
     if (a_.json) std::cout << json_.dump(2) << '\n';
-    return free ? kDone : kNo;
+    return free ? kDone : kNegativeResult;
   }
 
  private:

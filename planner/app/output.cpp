@@ -105,11 +105,11 @@ Problem readProblemOf(const std::string& file) {
   return problem;
 }
 
-VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
-                         const std::string& problemFile, const std::string& solutionFile,
-                         bool ignoreDigest) {
-  VerifyReport report =
-      verifySolution(problem, solution, ignoreDigest ? OtherDigest::ignored : OtherDigest::refused);
+VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
+                               const std::string& problemFile, const std::string& solutionFile,
+                               bool ignoreDigest) {
+  VerifyReport report = verifySolution(
+      problem, solution, ignoreDigest ? DigestMismatch::ignored : DigestMismatch::refused);
   if (report.digest == DigestState::differs)
     warn(solutionFile + ": made for other files than those of " + problemFile +
          " (the digests differ)" +
@@ -117,7 +117,7 @@ VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
   return report;
 }
 
-void requireFolderFor(const std::optional<std::string>& file, const char* option) {
+void requireWritable(const std::optional<std::string>& file, const char* option) {
   if (!file) return;
   const std::filesystem::path path(*file);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -136,8 +136,8 @@ void requireFolderFor(const std::optional<std::string>& file, const char* option
                                std::generic_category().message(errno) + "; name another folder"});
 }
 
-void requireNotRead(const std::optional<std::string>& file, const char* option,
-                    const std::vector<std::filesystem::path>& read, const std::string& what) {
+void requireNotAnInput(const std::optional<std::string>& file, const char* option,
+                       const std::vector<std::filesystem::path>& read, const std::string& what) {
   std::error_code none;
   for (const std::filesystem::path& other : read)
     if (file && std::filesystem::equivalent(*file, other, none))

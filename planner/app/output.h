@@ -37,20 +37,20 @@ Problem readProblemOf(const std::string& file);
 
 /// Verifies a solution. If its digest differs from the problem's, prints a warning, and verifies
 /// nothing unless `ignoreDigest` is set.
-VerifyReport verifyAloud(const Problem& problem, const Solution& solution,
-                         const std::string& problemFile, const std::string& solutionFile,
-                         bool ignoreDigest);
+VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
+                               const std::string& problemFile, const std::string& solutionFile,
+                               bool ignoreDigest);
 
 /// Tests that a file can be written: its folder exists, and files can be made in it. Commands call
 /// this before they spend time on the file's contents.
 /// @throws InputError that names the option, if it can't be written.
-void requireFolderFor(const std::optional<std::string>& file, const char* option);
+void requireWritable(const std::optional<std::string>& file, const char* option);
 
 /// Tests that writing a file does not overwrite one of the files `read`.
 /// @param what the owner of these files, for the message: "the problem".
 /// @throws InputError that names the option, if it would be overwritten.
-void requireNotRead(const std::optional<std::string>& file, const char* option,
-                    const std::vector<std::filesystem::path>& read, const std::string& what);
+void requireNotAnInput(const std::optional<std::string>& file, const char* option,
+                       const std::vector<std::filesystem::path>& read, const std::string& what);
 
 /// Returns four significant digits, for people to read.
 std::string rounded(double value);

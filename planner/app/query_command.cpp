@@ -54,7 +54,7 @@ const QueryKind& queryNamed(const std::optional<std::string>& name) {
 
 /// Returns the volume, fit and overlap test that the arguments name, defaults filled in.
 /// @throws InputError for an unknown name; it lists the names.
-TreeNames treesAsked(const QueryArguments& a) {
+TreeNames chosenTrees(const QueryArguments& a) {
   const TreeNames words{a.volume.value_or(""), a.fit.value_or(""), a.overlap.value_or("")};
   if (const auto wrong = invalidNameIn(words))
     throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
@@ -64,7 +64,8 @@ TreeNames treesAsked(const QueryArguments& a) {
 /// Refuses an --overlap other than the volume's default, for a query that computes distances
 /// between volumes and so runs no overlap test. @throws InputError
 /// @param of the options with which overlap tests are run. @param asked the name of the query.
-void requireUsualOverlap(const TreeNames& trees, const std::string& of, const std::string& asked) {
+void requireDefaultOverlap(const TreeNames& trees, const std::string& of,
+                           const std::string& asked) {
   if (trees.overlap == withDefaults({trees.volume, "", ""}).overlap) return;
   throw InputError(Fault{"--overlap", 0,
                          quotedWord(trees.overlap) + " needs " + of + "; " + asked +
@@ -131,8 +132,8 @@ EdgeMethod methodNamed(const std::string& name) {
 int queryMotions(const QueryArguments& a) {
   const std::string edges = a.edges.value_or(edgeMethodNames().front());
   const EdgeMethod method = methodNamed(edges);
-  const TreeNames trees = treesAsked(a);
-  if (method != EdgeMethod::directional) requireUsualOverlap(trees, "--edges certified", edges);
+  const TreeNames trees = chosenTrees(a);
+  if (method != EdgeMethod::directional) requireDefaultOverlap(trees, "--edges certified", edges);
   MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<PoseMotion> motions = readMotions(*a.motions);
   checkRepeats(a, motions.size(), "motion");
@@ -156,21 +157,21 @@ int queryMotions(const QueryArguments& a) {
 
 int queryCommand(const QueryArguments& a) {
   checkOptions(a);
-  requireFolderFor(a.savePoses, "--save-poses");
+  requireWritable(a.savePoses, "--save-poses");
   if (a.motions) return queryMotions(a);
   const QueryKind& query = queryNamed(a.query);
-  const TreeNames trees = treesAsked(a);
+  const TreeNames trees = chosenTrees(a);
   if (query.asked == Asked::tolerance && !a.tolerance)
     throw InputError(
         Fault{"--tolerance", 0, "is needed with --query tolerance: a distance in metres"});
   if (query.asked != Asked::tolerance && a.tolerance)
     throw InputError(Fault{"--tolerance", 0, "needs --query tolerance or --motions"});
   if (!testsOverlap(query.asked))
-    requireUsualOverlap(trees, "--query interference or contacts", query.name);
+    requireDefaultOverlap(trees, "--query interference or contacts", query.name);
   const MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
   const std::vector<Transform> poses = posesOf(a, meshA.mesh, meshB.mesh);
   checkRepeats(a, poses.size(), "pose");
-  requireNotRead(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
+  requireNotAnInput(a.savePoses, "--save-poses", {a.meshA, a.meshB}, "the query");
   if (a.savePoses) writePoses(*a.savePoses, poses);
   const BatchResult result =
       runPoses({meshA.mesh, meshB.mesh, poses, query.asked, treesNamed(trees),

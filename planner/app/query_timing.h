@@ -8,17 +8,17 @@ namespace corridor::app {
 
 /// Returns the nanoseconds that one call takes.
 ///
-/// Reading the clock costs some 30 ns. A call shorter than `kLongEnough` nanoseconds is therefore
-/// repeated between two readings, as often as the first call would fit into `kLongEnough`. The mean
-/// of the repeats is returned; the clock's share of it is about 1 %. A longer call runs once.
-/// During a call of `kMaybeParted` nanoseconds or more, the system may have run another program.
+/// Reading the clock costs some 30 ns. A call shorter than `kRepeatBelow` nanoseconds is therefore
+/// repeated between two readings, as often as the first call would fit into `kRepeatBelow`. The
+/// mean of the repeats is returned; the clock's share of it is about 1 %. A longer call runs once.
+/// During a call of `kMaybePreempted` nanoseconds or more, the system may have run another program.
 /// The result is then the smaller of the elapsed time and the thread's own processor time. (For
 /// shorter calls, reading the clock of processor time takes too long.)
 ///
 /// @param ask makes the first call.
 /// @param again makes a repeated call. It must do the same work as the first, so it must clear what
 /// an earlier call left in a cache.
-inline constexpr double kLongEnough = 5'000, kMaybeParted = 100'000;
+inline constexpr double kRepeatBelow = 5'000, kMaybePreempted = 100'000;
 template <class Ask, class Again>
 double nanosecondsOf(Ask&& ask, Again&& again) {
   using Clock = std::chrono::steady_clock;
@@ -34,9 +34,9 @@ double nanosecondsOf(Ask&& ask, Again&& again) {
   const Clock::time_point start = Clock::now();
   ask();
   const double once = since(start);
-  if (once >= kMaybeParted) return std::min(once, ownTime() - own);
-  if (once >= kLongEnough) return once;
-  const int times = static_cast<int>(kLongEnough / std::max(once, kLongEnough / 200)) + 1;
+  if (once >= kMaybePreempted) return std::min(once, ownTime() - own);
+  if (once >= kRepeatBelow) return once;
+  const int times = static_cast<int>(kRepeatBelow / std::max(once, kRepeatBelow / 200)) + 1;
   const Clock::time_point batch = Clock::now();
   for (int i = 0; i < times; ++i) again();
   return since(batch) / times;

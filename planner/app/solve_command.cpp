@@ -170,10 +170,10 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   Problem problem = readProblemOf(file);
   // Computed before planning, because the files may change while the planner runs.
   const std::string digest = a.output ? digestOf(problem) : "";
-  requireNotRead(a.output, "--output", problem.source.files, "the problem");
-  requireNotRead(a.picture, "--picture", problem.source.files, "the problem");
+  requireNotAnInput(a.output, "--output", problem.source.files, "the problem");
+  requireNotAnInput(a.picture, "--picture", problem.source.files, "the problem");
   SolveOptions options;
-  options.setElsewhere = applyArguments(a, problem);
+  options.valueOrigins = applyArguments(a, problem);
   options.interrupted = &interrupted;
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
   if (show) {
@@ -198,8 +198,8 @@ int solveCommand(const SolveArguments& a) {
     throw InputError(
         Fault{a.output ? "--output" : "--picture", 0,
               "names one file, but there are " + counted(a.problems.size(), "problem")});
-  requireFolderFor(a.output, "--output");
-  requireFolderFor(a.picture, "--picture");
+  requireWritable(a.output, "--output");
+  requireWritable(a.picture, "--picture");
   const std::atomic<bool>& interrupted = listenForInterrupts();
   int status = kDone;
   ordered_json results = ordered_json::array();
@@ -212,7 +212,7 @@ int solveCommand(const SolveArguments& a) {
         if (&file != &a.problems.front()) Lines(a.quiet).blank();
         print(report, problem, file, a);
       }
-      if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNo});
+      if (report.outcome != SolveOutcome::solved) status = std::max(status, int{kNegativeResult});
     } catch (const InputError& error) {
       if (a.problems.size() == 1) throw;
       std::cerr << error.what() << '\n';  // the other problems are still solved

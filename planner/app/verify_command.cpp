@@ -102,13 +102,14 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
 int verifyCommand(const VerifyArguments& a) {
   const Problem problem = readProblemOf(a.problem);
   const Solution solution = readSolution(a.solution, problem.model.space);
-  const VerifyReport report = verifyAloud(problem, solution, a.problem, a.solution, a.ignoreDigest);
+  const VerifyReport report =
+      verifyWithWarning(problem, solution, a.problem, a.solution, a.ignoreDigest);
   if (!a.json) {
     print(report, problem, a);
   } else if (!a.quiet) {
     std::cout << jsonOf(report, problem, a).dump(2) << '\n';
   }
-  return report.verdict == PathVerdict::proved ? kDone : kNo;
+  return report.verdict == PathVerdict::proved ? kDone : kNegativeResult;
 }
 
 }  // namespace

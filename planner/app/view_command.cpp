@@ -52,8 +52,8 @@ void requireExtension(const std::optional<std::string>& file, const char* option
 }
 
 int viewCommand(const ViewArguments& a) {
-  requireFolderFor(a.output, "--output");
-  requireFolderFor(a.image, "--image");
+  requireWritable(a.output, "--output");
+  requireWritable(a.image, "--image");
   requireExtension(a.output, "--output", "pages are HTML", {".html", ".htm"});
   requireExtension(a.image, "--image", "pictures are PNG", {".png"});
   if (a.size && !a.image) throw InputError(Fault{"--size", 0, "needs --image, which is not given"});
@@ -65,17 +65,18 @@ int viewCommand(const ViewArguments& a) {
   std::optional<std::string> pageFile = a.output;
   if (!a.output && !a.image) {
     pageFile = pageName(problem);
-    requireFolderFor(pageFile, "--output");
+    requireWritable(pageFile, "--output");
   }
   for (const auto& [file, option] : {std::pair(pageFile, "--output"), {a.image, "--image"}}) {
-    requireNotRead(file, option, problem.source.files, "the problem");
-    if (a.solution) requireNotRead(file, option, {*a.solution}, "the solution");
+    requireNotAnInput(file, option, problem.source.files, "the problem");
+    if (a.solution) requireNotAnInput(file, option, {*a.solution}, "the solution");
   }
   std::optional<ViewedPath> path;
   if (a.solution) {
     path.emplace();
     path->solution = readSolution(*a.solution, problem.model.space);
-    path->report = verifyAloud(problem, path->solution, a.problem, *a.solution, a.ignoreDigest);
+    path->report =
+        verifyWithWarning(problem, path->solution, a.problem, *a.solution, a.ignoreDigest);
   }
   const std::string page = viewPage(problem, path);
   const Lines out(a.quiet);

@@ -166,22 +166,23 @@ BenchmarkRun readRun(const std::string& text) {
   return nlohmann::json::parse(text).get<BenchmarkRun>();
 }
 
-void checkRun(const Problem& planned, const std::map<std::string, std::string>& setElsewhere) {
+void checkRun(const Problem& planned, const std::map<std::string, std::string>& valueOrigins) {
   SolveOptions options;
-  options.setElsewhere = setElsewhere;
+  options.valueOrigins = valueOrigins;
   Solve solve(planned, options);
   solve.setUp();
   solve.setUpEnds();
 }
 
 BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
-                          const std::optional<BenchmarkCompetitor>& peer, double memory,
+                          const std::optional<BenchmarkCompetitor>& competitor, double memory,
                           Path& path) {
   CheckingTally checking;
   SolveOptions options;
   options.adaptChecking = [&](const ob::SpaceInformationPtr& si, const Checker& checker) {
-    if (peer && peer->states) si->setStateValidityChecker(peer->states(si, checker));
-    if (peer && peer->motions) si->setMotionValidator(peer->motions(si, checker));
+    if (competitor && competitor->states)
+      si->setStateValidityChecker(competitor->states(si, checker));
+    if (competitor && competitor->motions) si->setMotionValidator(competitor->motions(si, checker));
     tallyChecks(si, checking);
   };
   Solve solve(planned, options);
@@ -231,15 +232,15 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
 }
 
 RunProcess::RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
-                       const std::optional<BenchmarkCompetitor>& peer,
+                       const std::optional<BenchmarkCompetitor>& competitor,
                        const BenchmarkLimits& limits)
     : seed_(planned.settings.seed),
       process_(
           [&](const auto& send) {
             Path path;
-            BenchmarkRun run = peer && peer->run
-                                   ? peer->run(planned, limits.memory, path)
-                                   : runUnderOmpl(planned, digest, peer, limits.memory, path);
+            BenchmarkRun run = competitor && competitor->run
+                                   ? competitor->run(planned, limits.memory, path)
+                                   : runUnderOmpl(planned, digest, competitor, limits.memory, path);
             send(text(run));
             if (run.solved && problem) verifyRun(*problem, path, run);
             send(text(run));

@@ -73,8 +73,8 @@ std::string text(const BenchmarkRun& run);
 BenchmarkRun readRun(const std::string& text);
 
 /// Sets up a run, without planning, to find its faults. @throws InputError as solveProblem.
-/// @param setElsewhere as SolveOptions::setElsewhere.
-void checkRun(const Problem& planned, const std::map<std::string, std::string>& setElsewhere);
+/// @param valueOrigins as SolveOptions::valueOrigins.
+void checkRun(const Problem& planned, const std::map<std::string, std::string>& valueOrigins);
 
 /// Runs a planner once under OMPL's Benchmark, in this process: sets up, plans, simplifies and
 /// certifies as solveProblem does, with the same random numbers.
@@ -84,7 +84,7 @@ void checkRun(const Problem& planned, const std::map<std::string, std::string>& 
 /// @param path receives the path if the run is solved.
 /// @throws InputError as solveProblem.
 BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
-                          const std::optional<BenchmarkCompetitor>& peer, double memory,
+                          const std::optional<BenchmarkCompetitor>& competitor, double memory,
                           Path& path);
 
 /// Verifies a run's path with the independent verifier: sets verdict, finding, verificationTime,
@@ -101,7 +101,7 @@ class RunProcess {
   /// Starts the process. @param problem the problem as its file has it, for verifying the path;
   /// null: the path is not verified.
   RunProcess(const Problem* problem, const Problem& planned, const std::string& digest,
-             const std::optional<BenchmarkCompetitor>& peer, const BenchmarkLimits& limits);
+             const std::optional<BenchmarkCompetitor>& competitor, const BenchmarkLimits& limits);
   ChildProcess& process() { return process_; }
   /// @pre the process is over.
   BenchmarkRun run() const;

@@ -55,7 +55,7 @@ struct ColumnName {
   }
 };
 
-bool isNothing(const std::string& value) {
+bool countsAsZero(const std::string& value) {
   return value.empty() || value == "nan" || value == "inf" || value == "-nan" || value == "-inf";
 }
 
@@ -361,7 +361,7 @@ class CampaignDatabase::Tables {
     for (const auto& [name, id] : ids) row.bind(++at, id);
     for (const auto& [words, value] : properties) {
       ++at;
-      if (!isNothing(value)) row.bind(at, value);  // SQLite converts it to the column's type
+      if (!countsAsZero(value)) row.bind(at, value);  // SQLite converts it to the column's type
     }
     row.exec();
     return base_->getLastInsertRowid();
@@ -403,8 +403,8 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
   nlohmann::ordered_json checker = nlohmann::ordered_json::object();
   for (const YamlValue::Entry& entry : campaign.variants[cell.variant].checker.entries)
     checker[entry.key] = entry.value.text;
-  if (campaign.variants[cell.variant].peer)
-    checker["peer"] = campaign.variants[cell.variant].peer->name;
+  if (campaign.variants[cell.variant].competitor)
+    checker["peer"] = campaign.variants[cell.variant].competitor->name;
   return nlohmann::ordered_json{
       {"problem", campaign.digests[cell.problem]}, {"checker", checker},
       {"planner", planned.settings.planner.name},  {"params", planned.settings.planner.params},

@@ -87,7 +87,7 @@ std::string effectOf(const YamlValue& checker) {
 }
 
 /// Returns the map without `peer`, which problem files don't have.
-YamlValue withoutPeer(YamlValue map) {
+YamlValue withoutCompetitor(YamlValue map) {
   std::erase_if(map.entries, [](const YamlValue::Entry& entry) { return entry.key == "peer"; });
   return map;
 }
@@ -231,11 +231,11 @@ class CampaignReader {
       FaultList faults;
       YamlSource source{path_.string(), faults, {}};
       const YamlMap map(one.map, path, &keys, source);
-      Variant variant{entry.key + one.suffix, withoutPeer(one.map), {}};
+      Variant variant{entry.key + one.suffix, withoutCompetitor(one.map), {}};
       CheckerSettings checker;
       readCheckerKeys(map, checker);
       const auto peer = map.text("peer");
-      const bool part = !peer || takesPart(*peer, variant, map, checker);
+      const bool part = !peer || resolveCompetitor(*peer, variant, map, checker);
       if (faults.size() == 0) {
         const auto [other, unlike] = same.insert({effectOf(one.map), one.suffix});
         if (!unlike) {
@@ -262,23 +262,24 @@ class CampaignReader {
                        [](const YamlValue& item) { return item.kind == YamlValue::Kind::Scalar; });
   }
 
-  bool takesPart(const std::string& name, Variant& variant, const YamlMap& map,
-                 const CheckerSettings& checker) {
-    if (std::find(peerNames().begin(), peerNames().end(), name) == peerNames().end()) {
-      map.fault("peer", "unknown peer " + quotedWord(name) + didYouMean(name, peerNames()) +
-                            "; there are: " + joined(peerNames()));
+  bool resolveCompetitor(const std::string& name, Variant& variant, const YamlMap& map,
+                         const CheckerSettings& checker) {
+    if (std::find(competitorNames().begin(), competitorNames().end(), name) ==
+        competitorNames().end()) {
+      map.fault("peer", "unknown peer " + quotedWord(name) + didYouMean(name, competitorNames()) +
+                            "; there are: " + joined(competitorNames()));
       return false;
     }
     if (checker.edges != EdgeCheck::discrete) {
       map.fault("peer", name + " tests states only; set edges: discrete");
       return false;
     }
-    if (const std::string why = whyNoPeer(name); !why.empty()) {
+    if (const std::string why = whyUnavailable(name); !why.empty()) {
       campaign_.notes.push_back(variant.name + " is left out: " + name +
                                 " is not available: " + why);
       return false;
     }
-    variant.peer = peerNamed(name);
+    variant.competitor = competitorNamed(name);
     return true;
   }
 

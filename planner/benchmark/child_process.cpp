@@ -25,7 +25,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 /// Milliseconds between the parent's tests of `interrupted`.
-constexpr int kLookMs = 200;
+constexpr int kPollMs = 200;
 // The first byte of each line that the child sends.
 constexpr char kMessage = 'm', kFailure = 'f';
 
@@ -173,7 +173,7 @@ ChildEnd inChild(const ChildProcess::Work& work, const ChildLimits& limits,
     if (interrupted && interrupted->load())
       child.stop("interrupted");
     else
-      ChildProcess::waitForAny({&child}, kLookMs);
+      ChildProcess::waitForAny({&child}, kPollMs);
   }
   return child.end();
 }

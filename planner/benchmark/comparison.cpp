@@ -90,7 +90,7 @@ std::vector<VariantScore> scoresOf(const Campaign& campaign,
         score.proved += run.verdict == "proved";
         score.refuted += run.verdict == "refuted";
         score.undecided += run.verdict == "undecided";
-        if (const auto cost = checkingCost(run); cost && !campaign.variants[v].peer)
+        if (const auto cost = checkingCost(run); cost && !campaign.variants[v].competitor)
           costs.push_back(*cost);
         if (!run.solved) continue;
         shares.push_back(run.checkingTime / run.time);

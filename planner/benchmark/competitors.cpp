@@ -66,30 +66,31 @@ class CompetitorStates final : public ompl::base::StateValidityChecker {
 
 }  // namespace
 
-const std::vector<std::string>& peerNames() {
+const std::vector<std::string>& competitorNames() {
   static const std::vector<std::string> names{"fcl"};
   return names;
 }
 
-std::string whyNoPeer(const std::string&) {
+std::string whyUnavailable(const std::string&) {
   return fclModule().why;
 }
 
-BenchmarkCompetitor peerNamed(const std::string& name) {
+BenchmarkCompetitor competitorNamed(const std::string& name) {
   const auto makeScene = fclModule().scene;
   if (!makeScene) throw std::logic_error(name + " is not available: " + fclModule().why);
-  BenchmarkCompetitor peer{name, [makeScene](const auto& si, const Checker& checker) {
-                             return std::make_shared<CompetitorStates>(
-                                 si, checker, std::unique_ptr<CompetitorScene>(makeScene(checker)));
-                           }};
-  peer.version = fclModule().version;
-  return peer;
+  BenchmarkCompetitor competitor{name, [makeScene](const auto& si, const Checker& checker) {
+                                   return std::make_shared<CompetitorStates>(
+                                       si, checker,
+                                       std::unique_ptr<CompetitorScene>(makeScene(checker)));
+                                 }};
+  competitor.version = fclModule().version;
+  return competitor;
 }
 
-std::vector<BenchmarkCompetitor> peersHere() {
+std::vector<BenchmarkCompetitor> availableCompetitors() {
   std::vector<BenchmarkCompetitor> peers;
-  for (const std::string& name : peerNames())
-    if (whyNoPeer(name).empty()) peers.push_back(peerNamed(name));
+  for (const std::string& name : competitorNames())
+    if (whyUnavailable(name).empty()) peers.push_back(competitorNamed(name));
   return peers;
 }
 

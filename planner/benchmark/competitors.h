@@ -33,14 +33,14 @@ const char* corridorFclVersion();  ///< "FCL 0.7.0"
 }
 
 /// Returns the names of all competitors, available or not.
-const std::vector<std::string>& peerNames();
+const std::vector<std::string>& competitorNames();
 /// Returns why a competitor is not available here; "" if it is. @pre the name is one of
-/// `peerNames`.
-std::string whyNoPeer(const std::string& name);
+/// `competitorNames`.
+std::string whyUnavailable(const std::string& name);
 /// Returns the competitor `fcl`: FCL tests the states (fcl_scene.h: meshes as surfaces, no margin),
 /// and edges are sampled by OMPL's rule. @pre it is available here.
-BenchmarkCompetitor peerNamed(const std::string& name);
+BenchmarkCompetitor competitorNamed(const std::string& name);
 /// Returns all competitors that are available here.
-std::vector<BenchmarkCompetitor> peersHere();
+std::vector<BenchmarkCompetitor> availableCompetitors();
 
 }  // namespace corridor

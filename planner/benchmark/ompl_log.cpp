@@ -101,7 +101,7 @@ std::map<std::string, std::string> omplParameters(const Campaign& campaign,
   CheckerSettings checker = campaign.problems[cell.problem].settings.checker;
   variant.apply(checker);
   std::map<std::string, std::string> parameters;
-  parameters["edges TEXT"] = variant.peer ? variant.peer->name : wordOf(checker.edges);
+  parameters["edges TEXT"] = variant.competitor ? variant.competitor->name : wordOf(checker.edges);
   if (checker.edges == EdgeCheck::discrete)
     parameters["resolution REAL"] = shortest(checker.resolution);
   else if (checker.tolerance)

@@ -86,7 +86,7 @@ std::vector<std::string> cellRow(const Campaign& campaign, const CampaignCell& c
     raw.push_back(metres ? run.rawLength.metres : run.rawLength.radians);
     length.push_back(metres ? run.length.metres : run.length.radians);
   }
-  const bool peer = campaign.variants[cell.variant].peer.has_value();
+  const bool competes = campaign.variants[cell.variant].competitor.has_value();
   const auto median = [](const std::vector<double>& of) { return digits(medianOf(of)); };
   return {escapedHtml(cell.planner.label),
           variantHtml(campaign, cell.variant),
@@ -95,8 +95,8 @@ std::vector<std::string> cellRow(const Campaign& campaign, const CampaignCell& c
           refuted(refutedPaths, judged),
           median(states),
           median(edges),
-          peer ? "–" : median(boxes),
-          peer ? "–" : median(triangles),
+          competes ? "–" : median(boxes),
+          competes ? "–" : median(triangles),
           median(raw),
           median(length)};
 }
@@ -105,7 +105,7 @@ std::string checkerText(const Variant& variant) {
   std::string text;
   for (const YamlValue::Entry& entry : variant.checker.entries)
     text += (text.empty() ? "" : ", ") + entry.key + ": " + entry.value.text;
-  if (variant.peer) text += ", peer: " + variant.peer->name;
+  if (variant.competitor) text += ", peer: " + variant.competitor->name;
   return text.empty() ? "each problem’s own" : text;
 }
 /// Returns the "Model name:" of the output of `lscpu`, or its first line.
@@ -126,9 +126,9 @@ std::string plannerText(const CampaignPlanner& planner) {
 std::string peerVersions(const Campaign& campaign) {
   std::string text;
   for (const Variant& variant : campaign.variants)
-    if (variant.peer && !variant.peer->version.empty() &&
-        text.find(variant.peer->version) == std::string::npos)
-      text += "; " + variant.peer->version;
+    if (variant.competitor && !variant.competitor->version.empty() &&
+        text.find(variant.competitor->version) == std::string::npos)
+      text += "; " + variant.competitor->version;
   return text;
 }
 

@@ -90,7 +90,7 @@ Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRu
   ofPath("verification_s", run.verdict.empty() ? RowValue{} : RowValue{run.verificationTime});
   count("states", run.states);
   count("edges", run.edges);
-  const bool counts = !campaign.variants[cell.variant].peer;
+  const bool counts = !campaign.variants[cell.variant].competitor;
   count("edges_undecided", counts ? RowValue{run.counters.undecided} : RowValue{});
   count("box_tests", counts ? RowValue{run.counters.boxTests} : RowValue{});
   count("triangle_tests", counts ? RowValue{run.counters.triangleTests} : RowValue{});
@@ -144,7 +144,7 @@ Row summaryRow(const Campaign& campaign, const CampaignCell& cell) {
   median("edges", [](const Run& r) { return static_cast<double>(r.edges); });
   std::uint64_t edgesUndecided = 0;
   for (const Run& run : cell.runs) edgesUndecided += run.counters.undecided;
-  const bool counts = !campaign.variants[cell.variant].peer;
+  const bool counts = !campaign.variants[cell.variant].competitor;
   const double none = std::numeric_limits<double>::quiet_NaN();
   row.emplace_back("edges_undecided", counts ? RowValue{edgesUndecided} : RowValue{});
   median("box_tests",

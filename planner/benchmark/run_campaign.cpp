@@ -10,7 +10,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Milliseconds between the parent's tests of `interrupted`.
-constexpr int kLookMs = 200;
+constexpr int kPollMs = 200;
 
 struct QueuedRun {
   std::size_t cell = 0;
@@ -92,7 +92,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
         {task, Clock::now(),
          RunProcess(campaign.verify ? &campaign.problems[cell.problem] : nullptr,
                     plannedProblem(campaign, cell, task.seed), campaign.digests[cell.problem],
-                    campaign.variants[cell.variant].peer, campaign.limits)});
+                    campaign.variants[cell.variant].competitor, campaign.limits)});
   };
   const auto end = [&](Running& one) {
     durations.add(one.task.cell, std::chrono::duration<double>(Clock::now() - one.since).count());
@@ -110,7 +110,7 @@ CampaignResult runCampaign(const Campaign& campaign, const CampaignOptions& opti
     if (interrupted()) break;  // destroying `running` kills its runs
     std::vector<ChildProcess*> children;
     for (Running& one : running) children.push_back(&one.run.process());
-    ChildProcess::waitForAny(children, kLookMs);
+    ChildProcess::waitForAny(children, kPollMs);
     std::erase_if(running, [&](Running& one) {
       const bool over = one.run.process().advance();
       if (over) end(one);

@@ -45,7 +45,7 @@ Variant readVariant(const std::string& text, const std::vector<BenchmarkCompetit
     if (peer.name != name) continue;
     known = true;
     edges = peer.edges;
-    variant.peer = peer;
+    variant.competitor = peer;
   }
   if (!known)
     refuse("unknown variant " + quotedWord(name) + didYouMean(name, names) +

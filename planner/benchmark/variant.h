@@ -46,7 +46,7 @@ struct Variant {
   /// The keys that the variant sets in a problem's `checker:`. `readCheckerKeys` reads this map
   /// without a fault.
   YamlValue checker;
-  std::optional<BenchmarkCompetitor> peer;
+  std::optional<BenchmarkCompetitor> competitor;
 
   /// Applies the variant to a problem's checker: keys that the variant doesn't set keep the
   /// problem's values.

@@ -43,7 +43,7 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
       options.tube.size() == 0 || (options.tube.size() == static_cast<Eigen::Index>(space.size()) &&
                                    (options.tube.array() >= 0).all()),
       "tube must have a number of 0 or more for each number of a configuration");
-  require(options.method == EdgeMethod::directional || hasFirstOverlap(options.trees.trees),
+  require(options.method == EdgeMethod::directional || hasDefaultOverlap(options.trees.trees),
           "adaptive and advancement measure distances; they need the volume's first overlap test");
 }
 
@@ -86,7 +86,7 @@ struct Checker::Workspace {
 /// One workspace per thread, created by the thread's first query.
 class Checker::Pool {
  public:
-  Workspace& mine(const Checker& checker) {
+  Workspace& workspaceOfThread(const Checker& checker) {
     const std::lock_guard lock(mutex_);
     std::unique_ptr<Workspace>& workspace = workspaces_[std::this_thread::get_id()];
     if (!workspace) {
@@ -129,8 +129,8 @@ Checker::Checker(const Problem& problem)
 
 Checker::~Checker() = default;
 
-Checker::Workspace& Checker::mine() const {
-  return pool_->mine(*this);
+Checker::Workspace& Checker::workspaceOfThread() const {
+  return pool_->workspaceOfThread(*this);
 }
 
 Counters Checker::counters() const {
@@ -141,22 +141,22 @@ bool Checker::inBounds(const Configuration& q) const {
   return space().isFinite(q) && space().inBounds(q);
 }
 
-MotionResult Checker::state(const Configuration& q) const {
+MotionResult Checker::certifyState(const Configuration& q) const {
   if (!standardFloatingPoint()) return refused();
-  Workspace& workspace = mine();
+  Workspace& workspace = workspaceOfThread();
   workspace.motion.set(q, q);
   return scene_.certify(workspace.motion, options_, workspace.context);
 }
 
-MotionResult Checker::edge(const Configuration& from, const Configuration& to,
-                           bool earliest) const {
-  return edge(from, to, earliest, method_);
+MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
+                                  bool earliest) const {
+  return certifyEdge(from, to, earliest, method_);
 }
 
-MotionResult Checker::edge(const Configuration& from, const Configuration& to, bool earliest,
-                           EdgeMethod method) const {
+MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
+                                  EdgeMethod method) const {
   if (!standardFloatingPoint()) return refused();
-  Workspace& workspace = mine();
+  Workspace& workspace = workspaceOfThread();
   MotionOptions options = options_;
   options.earliest = earliest;
   workspace.motion.set(from, to);
@@ -165,18 +165,19 @@ MotionResult Checker::edge(const Configuration& from, const Configuration& to, b
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
   requireStandardFloatingPoint();
-  return scene_.interference(framePoses(model_.tree, q), mine().context, options_.trees);
+  return scene_.interference(framePoses(model_.tree, q), workspaceOfThread().context,
+                             options_.trees);
 }
 
 double Checker::clearance(const Configuration& q) const {
   requireStandardFloatingPoint();
-  return scene_.clearance(framePoses(model_.tree, q), mine().context, options_.trees) -
+  return scene_.clearance(framePoses(model_.tree, q), workspaceOfThread().context, options_.trees) -
          options_.margin;
 }
 
 std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) const {
   requireStandardFloatingPoint();
-  Workspace& workspace = mine();
+  Workspace& workspace = workspaceOfThread();
   workspace.motion.set(q, q);
   const std::vector<MotionResult> results =
       scene_.certifyEachPair(workspace.motion, options_, workspace.context);
@@ -196,12 +197,12 @@ std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) 
 }
 
 bool Checker::certifiedState(const Configuration& q) const {
-  return inBounds(q) && state(q).verdict == MotionVerdict::free;
+  return inBounds(q) && certifyState(q).verdict == MotionVerdict::free;
 }
 
 bool Checker::certifiedEdge(const Configuration& from, const Configuration& to) const {
   return inBounds(from) && inBounds(to) &&
-         edge(from, to, false, EdgeMethod::directional).verdict == MotionVerdict::free;
+         certifyEdge(from, to, false, EdgeMethod::directional).verdict == MotionVerdict::free;
 }
 
 }  // namespace corridor

@@ -67,29 +67,30 @@ class Checker {
   bool inBounds(const Configuration& q) const;
   /// Decides whether a state is free, as an edge of zero length by the default method. Doesn't test
   /// the bounds. @pre finite.
-  MotionResult state(const Configuration& q) const;
+  MotionResult certifyState(const Configuration& q) const;
   /// Decides whether an edge is free, by the method of the options. Doesn't test the bounds. @pre
   /// finite.
-  MotionResult edge(const Configuration& from, const Configuration& to, bool earliest) const;
+  MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest) const;
   /// Tests the rounded poses of the frames for contact, exactly. Margin, tolerance and tube are
   /// ignored. @pre finite.
   /// @throws std::runtime_error if the processor's floating-point mode makes the bounds invalid
   /// (collision/core/floating_point.h). So do `clearance` and `pairsNotFree`.
   std::optional<Contact> interference(const Configuration& q) const;
   /// Returns the smallest distance of the tested pairs minus the margin, metres. If the result is 0
-  /// or less, `state` is not `free`. If it is below twice the tolerance plus the displacement that
-  /// the tube allows, `state` may be `undecided`. If a pair touches, the result is 0 − margin,
-  /// since no penetration depth is computed. It is infinite if no pair is tested. @pre finite.
+  /// or less, `certifyState` is not `free`. If it is below twice the tolerance plus the
+  /// displacement that the tube allows, `certifyState` may be `undecided`. If a pair touches, the
+  /// result is 0 − margin, since no penetration depth is computed. It is infinite if no pair is
+  /// tested. @pre finite.
   double clearance(const Configuration& q) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
     std::size_t a = 0, b = 0;
     bool tooLarge = false;  ///< undecided, because the rounding of a large value may exceed the gap
   };
-  /// Returns all pairs of bodies for which `state` is not free, each once. @pre finite.
+  /// Returns all pairs of bodies for which `certifyState` is not free, each once. @pre finite.
   std::vector<PairNotFree> pairsNotFree(const Configuration& q) const;
 
-  /// Returns whether q is in bounds and `state` is `free`.
+  /// Returns whether q is in bounds and `certifyState` is `free`.
   bool certifiedState(const Configuration& q) const;
   /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free.
   /// Uses the default method, not that of the options.
@@ -101,9 +102,9 @@ class Checker {
  private:
   struct Workspace;
   class Pool;
-  Workspace& mine() const;
-  MotionResult edge(const Configuration& from, const Configuration& to, bool earliest,
-                    EdgeMethod method) const;
+  Workspace& workspaceOfThread() const;
+  MotionResult certifyEdge(const Configuration& from, const Configuration& to, bool earliest,
+                           EdgeMethod method) const;
 
   const Model& model_;
   Scene scene_;

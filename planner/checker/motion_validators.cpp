@@ -51,13 +51,14 @@ bool CountingMotionValidator::checkMotion(const ob::State* s1, const ob::State* 
 }
 
 bool CertifiedMotionValidator::isFree(const Configuration& from, const Configuration& to) const {
-  return checker_.inBounds(to) && checker_.edge(from, to, false).verdict == MotionVerdict::free;
+  return checker_.inBounds(to) &&
+         checker_.certifyEdge(from, to, false).verdict == MotionVerdict::free;
 }
 
 std::optional<CountingMotionValidator::Progress> CertifiedMotionValidator::lastFree(
     const Configuration& from, const Configuration& to) const {
   if (!checker_.inBounds(to)) return Progress{};
-  const MotionResult result = checker_.edge(from, to, true);
+  const MotionResult result = checker_.certifyEdge(from, to, true);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   // The tube covers the rounding of a state on the edge, so the first try nearly always succeeds.
   // But the clearance with which [0, t0] was proved may be too small for a second proof, since

@@ -79,8 +79,8 @@ bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, con
   });
 }
 
-double outsideGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
-                         const Configuration& q) {
+double distanceToGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
+                            const Configuration& q) {
   double least = std::numeric_limits<double>::infinity();
   for (const Configuration& goal : goals) least = std::min(least, outside(problem, goal, q));
   return least;

@@ -20,7 +20,7 @@ bool inGoal(const Problem& problem, const std::vector<Configuration>& goals, con
 /// over single joints, positions and rotation angles: the part of each difference that is beyond
 /// the region, in metres or radians, times the weight of the coordinate.
 /// @pre the task has a goal region.
-double outsideGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
-                         const Configuration& q);
+double distanceToGoalRegion(const Problem& problem, const std::vector<Configuration>& goals,
+                            const Configuration& q);
 
 }  // namespace corridor

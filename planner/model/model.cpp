@@ -33,7 +33,7 @@ std::vector<std::size_t> moversOf(const KinematicTree& tree) {
   return mover;
 }
 
-bool hasWholes(const ConfigurationSpace& space) {
+bool hasPoseJoints(const ConfigurationSpace& space) {
   const auto& groups = space.groups();
   return std::any_of(groups.begin(), groups.end(), [](const CoordinateGroup& group) {
     return group.kind != CoordinateGroup::Kind::joints;

@@ -14,7 +14,7 @@
 namespace corridor {
 
 /// A joint that is planned for, or the pose of a rigid robot.
-struct DegreeOfFreedom {
+struct PlannedJoint {
   std::string name;  ///< name of the joint; "" for a rigid robot
   JointType type = JointType::revolute;
   std::size_t coordinate = 0;  ///< index of its (first) coordinate in Model::space
@@ -29,15 +29,15 @@ struct ModelRobot {
   RobotModel model;
   RigidPose base;  ///< X_WB
 
-  std::vector<std::size_t> active;             ///< joints that are planned for, in order
+  std::vector<std::size_t> planned;            ///< joints that are planned for, in order
   std::map<std::size_t, double> held;          ///< values of the other single joints, rad or m
   std::map<std::size_t, RigidPose> heldPoses;  ///< poses of the other planar and floating joints
   std::map<std::string, double> jointWeights;  ///< joints that are not listed have weight 1
   double rotationWeight = 0.5;  ///< metres per radian of rotation; OMPL's default for SE2 and SE3
 
   // Set by ModelBuilder:
-  std::vector<std::size_t> linkFrames;    ///< for each link of `model`, its frame in Model::tree
-  std::vector<DegreeOfFreedom> freedoms;  ///< in the order of `active`
+  std::vector<std::size_t> linkFrames;      ///< for each link of `model`, its frame in Model::tree
+  std::vector<PlannedJoint> plannedJoints;  ///< in the order of `planned`
 
   bool isRigid() const { return model.mount != JointType::fixed; }
 };
@@ -122,7 +122,7 @@ double pairCount(const Model& model);
 std::vector<std::size_t> moversOf(const KinematicTree& tree);
 
 /// Returns whether the model has a planar or floating joint, or a rigid robot.
-bool hasWholes(const ConfigurationSpace& space);
+bool hasPoseJoints(const ConfigurationSpace& space);
 /// Returns whether the model has a single joint (revolute, continuous or prismatic).
 bool hasJoints(const ConfigurationSpace& space);
 

@@ -46,7 +46,7 @@ void skipLinks(Model& model, std::size_t robot) {
   for (std::size_t link = 0; link < description.links.size(); ++link) {
     int moving = 0;
     for (const JointModel* joint = above[link]; joint; joint = above[joint->parent]) {
-      if (joint->type != JointType::fixed) moving += isWhole(joint->type) ? 2 : 1;
+      if (joint->type != JointType::fixed) moving += isPoseJoint(joint->type) ? 2 : 1;
       if (moving > 1) break;
       const auto other = bodyOf(joint->parent);
       if (!other) continue;
@@ -179,7 +179,7 @@ std::vector<std::array<std::size_t, 2>> ModelBuilder::allowedBodies() {
   return allowed;
 }
 
-Model ModelBuilder::buildUnbounded() {
+Model ModelBuilder::buildForReader() {
   if (!faults_.empty()) throw InputError(std::move(faults_));
   if (!joints_.coordinates.empty()) model_.space.addGroup(std::move(joints_));
   for (std::size_t r = 0; r < model_.robots.size(); ++r) skipLinks(model_, r);
@@ -196,7 +196,7 @@ Model ModelBuilder::build() {
   applyBounds();
   const auto allowed = allowedBodies();
   if (faults_.empty()) requireFewPairs(model_, kPlace);
-  Model model = buildUnbounded();
+  Model model = buildForReader();
   for (const auto& [a, b] : allowed) model.filter.skip(a, b, "allow");
   return model;
 }

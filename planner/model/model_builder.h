@@ -58,7 +58,7 @@ class ModelBuilder {
   Model build();
   /// Returns the model for readers, which set bounds and allowed pairs afterwards. It ignores
   /// `bound` and `allow`: all bounds of positions are NaN. The number of pairs is not limited.
-  Model buildUnbounded();
+  Model buildForReader();
 
  private:
   void fault(std::string text);

@@ -22,7 +22,7 @@ std::vector<std::size_t> allMoving(const ModelRobot& robot) {
 }
 
 void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active) {
-  robot.active = active;
+  robot.planned = active;
   RobotModel& model = robot.model;
   std::string held;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -30,7 +30,7 @@ void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active) {
     if (!movesItself(joint) || robot.held.contains(j) || robot.heldPoses.contains(j) ||
         std::find(active.begin(), active.end(), j) != active.end())
       continue;
-    if (isWhole(joint.type)) {
+    if (isPoseJoint(joint.type)) {
       robot.heldPoses[j] = {};
       held += (held.empty() ? "" : ", ") + joint.name + " not moved";
     } else {

@@ -37,8 +37,8 @@ class RobotAssembly {
         model_(model) {}
 
   void run() {
-    if (robot_.isRigid()) addWhole("", description_.mount);
-    for (const std::size_t j : robot_.active) addJoint(j);
+    if (robot_.isRigid()) addPoseJoint("", description_.mount);
+    for (const std::size_t j : robot_.planned) addJoint(j);
     robot_.linkFrames.assign(description_.links.size(), 0);
     addRoot();
     for (std::size_t j = 0; j < description_.joints.size(); ++j) addFrames(j);
@@ -54,7 +54,7 @@ class RobotAssembly {
   }
 
   /// Adds the coordinates of a planar or floating joint, or of a rigid robot (`joint` is empty).
-  void addWhole(const std::string& joint, JointType type) {
+  void addPoseJoint(const std::string& joint, JointType type) {
     const std::string in = prefix_ + (joint.empty() ? "" : joint + "/");
     const bool planar = type == JointType::planar;
     const double weight = weightOf(joint);
@@ -70,13 +70,13 @@ class RobotAssembly {
         planar ? Coordinate{Kind::circle, in + "yaw", 0, -pi, pi, true, robot_.rotationWeight}
                : Coordinate{Kind::rotation, in + "rotation", 0, 0, 0, true,
                             2 * robot_.rotationWeight}));
-    robot_.freedoms.push_back({joint, type, group.coordinates.front()});
+    robot_.plannedJoints.push_back({joint, type, group.coordinates.front()});
     model_.space.addGroup(std::move(group));
   }
 
   void addJoint(std::size_t j) {
     const JointModel& joint = description_.joints[j];
-    if (isWhole(joint.type)) return addWhole(joint.name, joint.type);
+    if (isPoseJoint(joint.type)) return addPoseJoint(joint.name, joint.type);
     Coordinate coordinate{
         Kind::line,          prefix_ + joint.name, 0,
         joint.lower,         joint.upper,          joint.type != JointType::prismatic,
@@ -86,15 +86,15 @@ class RobotAssembly {
       coordinate.lower = -pi;
       coordinate.upper = pi;
     }
-    robot_.freedoms.push_back({joint.name, joint.type, model_.space.add(coordinate)});
-    jointCoordinates.push_back(robot_.freedoms.back().coordinate);
+    robot_.plannedJoints.push_back({joint.name, joint.type, model_.space.add(coordinate)});
+    jointCoordinates.push_back(robot_.plannedJoints.back().coordinate);
   }
 
-  const DegreeOfFreedom* freedomOf(const std::string& joint) const {
+  const PlannedJoint* plannedJointOf(const std::string& joint) const {
     const auto found =
-        std::find_if(robot_.freedoms.begin(), robot_.freedoms.end(),
-                     [&](const DegreeOfFreedom& freedom) { return freedom.name == joint; });
-    return found == robot_.freedoms.end() ? nullptr : &*found;
+        std::find_if(robot_.plannedJoints.begin(), robot_.plannedJoints.end(),
+                     [&](const PlannedJoint& planned) { return planned.name == joint; });
+    return found == robot_.plannedJoints.end() ? nullptr : &*found;
   }
   std::size_t variableOf(std::size_t coordinate) const {
     return model_.space.coordinates()[coordinate].first;
@@ -112,13 +112,13 @@ class RobotAssembly {
 
   /// Adds the frames of a planar or floating joint: a translation, then a rotation.
   /// @returns the frame of the link that the joint moves.
-  std::size_t addWholeFrames(const std::string& name, const DegreeOfFreedom& freedom,
-                             std::size_t parent, const RigidPose& X_PJ, const Vec3& axis) {
-    const bool planar = freedom.type == JointType::planar;
+  std::size_t addPoseFrames(const std::string& name, const PlannedJoint& planned,
+                            std::size_t parent, const RigidPose& X_PJ, const Vec3& axis) {
+    const bool planar = planned.type == JointType::planar;
     const Eigen::Quaterniond plane = planar ? fromZ(axis) : Eigen::Quaterniond::Identity();
-    const std::size_t first = variableOf(freedom.coordinate);
+    const std::size_t first = variableOf(planned.coordinate);
     const std::size_t shift =
-        addFrame(prefix_ + (freedom.name.empty() ? "position" : freedom.name), parent,
+        addFrame(prefix_ + (planned.name.empty() ? "position" : planned.name), parent,
                  X_PJ * RigidPose{Vec3::Zero(), plane}, Frame::Joint::translation);
     model_.tree.frames[shift].variable = first;
     model_.tree.frames[shift].count = planar ? 2 : 3;
@@ -141,9 +141,10 @@ class RobotAssembly {
   void addRoot() {
     const std::string name = prefix_ + description_.links[description_.root].name;
     robot_.linkFrames[description_.root] =
-        robot_.isRigid() ? addWholeFrames(alone_ ? description_.name : robot_.name,
-                                          robot_.freedoms.front(), 0, robot_.base, Vec3::UnitZ())
-                         : addFrame(name, 0, robot_.base);
+        robot_.isRigid()
+            ? addPoseFrames(alone_ ? description_.name : robot_.name, robot_.plannedJoints.front(),
+                            0, robot_.base, Vec3::UnitZ())
+            : addFrame(name, 0, robot_.base);
   }
 
   void addFrames(std::size_t j) {
@@ -153,9 +154,9 @@ class RobotAssembly {
     std::size_t& child = robot_.linkFrames[joint.child];
     if (joint.type == JointType::fixed) {
       child = addFrame(name, parent, joint.X_PJ);
-    } else if (isWhole(joint.type)) {
-      const DegreeOfFreedom* freedom = freedomOf(joint.name);
-      child = freedom ? addWholeFrames(name, *freedom, parent, joint.X_PJ, joint.axis)
+    } else if (isPoseJoint(joint.type)) {
+      const PlannedJoint* planned = plannedJointOf(joint.name);
+      child = planned ? addPoseFrames(name, *planned, parent, joint.X_PJ, joint.axis)
                       : addFrame(name, parent, heldAt(joint, robot_.heldPoses.at(j)));
     } else {
       child = addFrame(
@@ -171,11 +172,11 @@ class RobotAssembly {
     const std::size_t source = joint.mimic ? joint.mimic->joint : j;
     const double multiplier = joint.mimic ? joint.mimic->multiplier : 1;
     frame.offset = joint.mimic ? joint.mimic->offset : 0;
-    const DegreeOfFreedom* freedom = freedomOf(description_.joints[source].name);
-    if (freedom && multiplier != 0) {
-      frame.variable = variableOf(freedom->coordinate);
+    const PlannedJoint* planned = plannedJointOf(description_.joints[source].name);
+    if (planned && multiplier != 0) {
+      frame.variable = variableOf(planned->coordinate);
       frame.multiplier = multiplier;
-    } else if (!freedom) {
+    } else if (!planned) {
       const double held = robot_.held.at(source);
       frame.offset = joint.mimic ? multiplier * held + frame.offset : held;
     }

@@ -12,9 +12,9 @@
 namespace corridor {
 namespace {
 
-const CoordinateGroup& groupOf(const ConfigurationSpace& space, const DegreeOfFreedom& freedom) {
+const CoordinateGroup& groupOf(const ConfigurationSpace& space, const PlannedJoint& planned) {
   std::size_t g = 0;
-  while (space.groups()[g].coordinates.front() != freedom.coordinate) ++g;
+  while (space.groups()[g].coordinates.front() != planned.coordinate) ++g;
   return space.groups()[g];
 }
 
@@ -48,13 +48,13 @@ void readCorners(const YamlValue& value, const std::string& path, const Coordina
 }
 
 /// Narrows a single joint's limits to the [lower, upper] that is given for `key`.
-void narrow(const YamlMap& map, const std::string& key, bool degrees,
-            const DegreeOfFreedom& freedom, Problem& problem) {
+void narrow(const YamlMap& map, const std::string& key, bool degrees, const PlannedJoint& planned,
+            Problem& problem) {
   const auto given = map.numbers(key, 2);
   if (!given) return;
   const double unit = degrees ? std::numbers::pi / 180 : 1;
   const double lower = (*given)[0] * unit, upper = (*given)[1] * unit;
-  Coordinate& c = problem.model.space.coordinates()[freedom.coordinate];
+  Coordinate& c = problem.model.space.coordinates()[planned.coordinate];
   if (!(lower < upper) || !std::isfinite(upper - lower))
     return map.fault(key, "the lower bound first, then the upper one: " + shortest((*given)[0]) +
                               " is not below " + shortest((*given)[1]));
@@ -77,13 +77,13 @@ void readOfJoints(const YamlValue& value, const std::string& path, const ModelRo
   const RobotModel& model = robot.model;
   const YamlMap map(value, path, nullptr, source);
   readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
-    for (const DegreeOfFreedom& freedom : robot.freedoms) {
-      if (freedom.name != model.joints[j].name) continue;
-      if (isWhole(freedom.type))
-        readCorners(entry.value, map.pathOf(entry.key), groupOf(problem.model.space, freedom),
+    for (const PlannedJoint& planned : robot.plannedJoints) {
+      if (planned.name != model.joints[j].name) continue;
+      if (isPoseJoint(planned.type))
+        readCorners(entry.value, map.pathOf(entry.key), groupOf(problem.model.space, planned),
                     problem, source);
       else
-        narrow(map, entry.key, degrees, freedom, problem);
+        narrow(map, entry.key, degrees, planned, problem);
       return;
     }
     map.fault(entry.key, "is not planned for; remove its bounds");
@@ -94,11 +94,11 @@ void readOfJoints(const YamlValue& value, const std::string& path, const ModelRo
 void requireBounds(const YamlMap& file, const Model& model) {
   for (const ModelRobot& robot : model.robots) {
     if (robot.isRigid()) continue;
-    for (const DegreeOfFreedom& freedom : robot.freedoms) {
-      if (!isWhole(freedom.type)) continue;
-      const CoordinateGroup& group = groupOf(model.space, freedom);
+    for (const PlannedJoint& planned : robot.plannedJoints) {
+      if (!isPoseJoint(planned.type)) continue;
+      const CoordinateGroup& group = groupOf(model.space, planned);
       if (!std::isnan(boundsOf(model.space, group).lower.x())) continue;
-      const std::string own = freedom.name + ": {" + form(dimensionsOf(group)) + "}";
+      const std::string own = planned.name + ": {" + form(dimensionsOf(group)) + "}";
       file.source().fault(0, "missing bounds of the joint " + group.name + ": bounds: {" +
                                  (robot.name.empty() ? own : robot.name + ": {" + own + "}") +
                                  "} is needed, since it has no limits");
@@ -115,7 +115,7 @@ void readBounds(const YamlMap& file, Problem& problem) {
   const auto ofRobot = [&](const ModelRobot& robot, const YamlValue& value,
                            const std::string& path) {
     if (robot.isRigid())
-      readCorners(value, path, groupOf(problem.model.space, robot.freedoms.front()), problem,
+      readCorners(value, path, groupOf(problem.model.space, robot.plannedJoints.front()), problem,
                   source);
     else
       readOfJoints(value, path, robot, problem, source);

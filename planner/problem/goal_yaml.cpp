@@ -24,11 +24,11 @@ std::string example(const std::string& what, const Problem& problem) {
   } else if (first.model.mount == JointType::planar) {
     state = "{at: [0, 0], yaw_deg: 90}";
   } else {
-    const DegreeOfFreedom& freedom = first.freedoms.front();
+    const PlannedJoint& planned = first.plannedJoints.front();
     state = first.model.states.empty()
-                ? "{" + freedom.name +
-                      (freedom.type == JointType::planar     ? ": {at: [0, 0]}, …}"
-                       : freedom.type == JointType::floating ? ": {at: [0, 0, 1]}, …}"
+                ? "{" + planned.name +
+                      (planned.type == JointType::planar     ? ": {at: [0, 0]}, …}"
+                       : planned.type == JointType::floating ? ": {at: [0, 0, 1]}, …}"
                                                              : ": 0.5, …}")
                 : first.model.states.begin()->first;
   }
@@ -40,7 +40,7 @@ std::string example(const std::string& what, const Problem& problem) {
 
 void readWithin(const YamlValue& value, Problem& problem, YamlSource& source) {
   const YamlMap map(value, "goal.within", &problemKeys().at("goal.within"), source);
-  const bool joints = hasJoints(problem.model.space), wholes = hasWholes(problem.model.space);
+  const bool joints = hasJoints(problem.model.space), wholes = hasPoseJoints(problem.model.space);
   for (const char* key : {"at", "angle", "angle_deg"})
     if (!wholes && map.find(key))
       map.fault(key,

@@ -43,7 +43,7 @@ class MbmReader {
     readRobot(set);
     for (const Json& object : list(problem, "objects")) readObject(object);
     faults_.throwIfAny();
-    problem_.model = builder_.buildUnbounded();
+    problem_.model = builder_.buildForReader();
     problem_.task.start = state(set, field(problem, "start"), "start");
     const Json& goals = list(problem, "goals");
     for (std::size_t i = 0; i < goals.size(); ++i)
@@ -171,7 +171,7 @@ class MbmReader {
         fault("joint_names: " + noSuchJoint(text, setup.robot.model));
       else if (const std::string why = whyNotActive(setup.robot.model, *j); !why.empty())
         fault("joint_names: " + text + " " + why);
-      else if (isWhole(setup.robot.model.joints[*j].type))
+      else if (isPoseJoint(setup.robot.model.joints[*j].type))
         fault("joint_names: " + text + " has more than one value");
       else
         active.push_back(*j);
@@ -205,11 +205,12 @@ class MbmReader {
 
   Configuration state(const Json& set, const Json& values, const std::string& what) {
     Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem_.model.space.size()));
-    const auto given = numbers(values, problem_.model.robots.front().freedoms.size(), what);
+    const auto given = numbers(values, problem_.model.robots.front().plannedJoints.size(), what);
     const Json& names = set["joint_names"];
     for (std::size_t i = 0; i < given.size(); ++i) {
       const Coordinate& c =
-          problem_.model.space.coordinates()[problem_.model.robots.front().freedoms[i].coordinate];
+          problem_.model.space
+              .coordinates()[problem_.model.robots.front().plannedJoints[i].coordinate];
       std::string why;
       const auto value = coordinateValue(c, given[i], what + "." + names[i].get<std::string>(),
                                          problem_.source.notes, why);

@@ -275,7 +275,7 @@ Problem readOmplAppCfg(const std::filesystem::path& file) {
     ModelBuilder builder;
     addRobots(std::move(robots), builder, problem.source);
     if (world) builder.addObstacle(world->shape.name, {std::move(world->shape)});
-    problem.model = builder.buildUnbounded();
+    problem.model = builder.buildForReader();
     problem.task.start = readPose(ini, "start", problem);
     problem.task.goals = {readPose(ini, "goal", problem)};
     if (world) readVolume(ini, problem);

@@ -109,7 +109,7 @@ TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool kno
                 "there are no revolute or prismatic joints here; use position (m) and rotation or "
                 "rotation_deg");
   for (const char* key : {"position", "rotation", "rotation_deg"})
-    if (map.find(key) && !hasWholes(space))
+    if (map.find(key) && !hasPoseJoints(space))
       map.fault(key,
                 "there is no rigid body and no planar or floating joint here; use joints (rad, or "
                 "m for prismatic joints)");
@@ -158,7 +158,7 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   ModelBuilder builder;
   addRobots(std::move(robots), builder, problem.source);
   readWorld(map, worldNeeded, builder, problem.source);
-  problem.model = builder.buildUnbounded();
+  problem.model = builder.buildForReader();
   AllowedBodies allowed;
   if (known && faults.size() == 0) allowed = readAllow(map, problem.model);
   problem.task.margin = map.number("margin", Range::NotNegative).value_or(problem.task.margin);

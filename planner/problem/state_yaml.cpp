@@ -98,14 +98,14 @@ bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std
                 &problemKeys().at(others.contains("within") ? "goal" : "start")};
   const auto pose = readPose(value, path, form, source_, problem_.source.notes);
   if (!pose) return false;
-  const DegreeOfFreedom& freedom = robots()[robot].freedoms.front();
+  const PlannedJoint& planned = robots()[robot].plannedJoints.front();
   const auto first =
-      static_cast<Eigen::Index>(problem_.model.space.coordinates()[freedom.coordinate].first);
+      static_cast<Eigen::Index>(problem_.model.space.coordinates()[planned.coordinate].first);
   if (spatial)
     q.segment<7>(first) << pose->pose.p, pose->pose.q.coeffs();
   else
     q.segment<3>(first) << pose->pose.p.head<2>(), pose->yaw;
-  return isInBounds(freedom, q, value.line, path);
+  return isInBounds(planned, q, value.line, path);
 }
 
 bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line,
@@ -152,7 +152,7 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
         if (setup.heldPoses.contains(j))
           return map.fault(entry.key,
                            "is held, and not planned for; robot.yaml chooses the joints");
-        if (isWhole(joint.type)) {
+        if (isPoseJoint(joint.type)) {
           const auto pose = readJointPose(entry.value, path, joint, source_, problem_.source.notes);
           if (!pose) return;
           for (const auto& [number, value] : numbersOf(joint, *pose))
@@ -187,27 +187,27 @@ bool StateReader::apply(std::size_t robot, const Given& given, int line, const s
     missing.push_back(name);
     return nullptr;
   };
-  for (const DegreeOfFreedom& freedom : robots()[robot].freedoms) {
-    if (!isWhole(freedom.type)) {
-      if (const auto* number = find(freedom.name))
-        sound &= setSingle(freedom, number->value, number->line, number->path, q);
+  for (const PlannedJoint& planned : robots()[robot].plannedJoints) {
+    if (!isPoseJoint(planned.type)) {
+      if (const auto* number = find(planned.name))
+        sound &= setSingle(planned, number->value, number->line, number->path, q);
       continue;
     }
-    const bool planar = freedom.type == JointType::planar;
+    const bool planar = planned.type == JointType::planar;
     auto index =
-        static_cast<Eigen::Index>(problem_.model.space.coordinates()[freedom.coordinate].first);
+        static_cast<Eigen::Index>(problem_.model.space.coordinates()[planned.coordinate].first);
     const std::size_t before = missing.size();
     int at = line;
     for (const char* part : planar ? std::vector{"/x", "/y", "/yaw"}
                                    : std::vector{"/x", "/y", "/z", "/qx", "/qy", "/qz", "/qw"})
-      if (const auto* number = find(freedom.name + part)) {
+      if (const auto* number = find(planned.name + part)) {
         q[index++] = number->value;
         at = number->line;
       }
     if (missing.size() == before)
-      sound &= isInBounds(freedom, q, at, path + "." + freedom.name);
+      sound &= isInBounds(planned, q, at, path + "." + planned.name);
     else
-      missing.resize(before), missing.push_back(freedom.name);
+      missing.resize(before), missing.push_back(planned.name);
   }
   if (missing.empty()) return sound;
   source_.fault(line, path + ": has no value for " + joined(missing) +
@@ -215,9 +215,9 @@ bool StateReader::apply(std::size_t robot, const Given& given, int line, const s
   return false;
 }
 
-bool StateReader::setSingle(const DegreeOfFreedom& freedom, double value, int line,
+bool StateReader::setSingle(const PlannedJoint& planned, double value, int line,
                             const std::string& path, Configuration& q) {
-  const Coordinate& coordinate = problem_.model.space.coordinates()[freedom.coordinate];
+  const Coordinate& coordinate = problem_.model.space.coordinates()[planned.coordinate];
   std::string why;
   const auto stored = coordinateValue(coordinate, value, path, problem_.source.notes, why);
   if (stored)
@@ -227,10 +227,10 @@ bool StateReader::setSingle(const DegreeOfFreedom& freedom, double value, int li
   return stored.has_value();
 }
 
-bool StateReader::isInBounds(const DegreeOfFreedom& freedom, const Configuration& q, int line,
+bool StateReader::isInBounds(const PlannedJoint& planned, const Configuration& q, int line,
                              const std::string& path) const {
   for (const CoordinateGroup& group : problem_.model.space.groups()) {
-    if (group.coordinates.front() != freedom.coordinate) continue;
+    if (group.coordinates.front() != planned.coordinate) continue;
     const std::string why = whyOutside(problem_.model.space, group, q);
     if (why.empty()) continue;
     source_.fault(line, path + ": " + why);

@@ -40,9 +40,9 @@ class StateReader {
                   const std::set<std::string>& others);
   bool apply(std::size_t robot, const Given& given, int line, const std::string& path,
              Configuration& q);
-  bool setSingle(const DegreeOfFreedom& freedom, double value, int line, const std::string& path,
+  bool setSingle(const PlannedJoint& planned, double value, int line, const std::string& path,
                  Configuration& q);
-  bool isInBounds(const DegreeOfFreedom& freedom, const Configuration& q, int line,
+  bool isInBounds(const PlannedJoint& planned, const Configuration& q, int line,
                   const std::string& path) const;
 
   Problem& problem_;

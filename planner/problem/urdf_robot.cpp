@@ -117,7 +117,7 @@ void readHold(const YamlMap& file, RobotSetup& setup) {
     const JointModel& joint = model.joints[j];
     if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
     const std::string path = map.pathOf(entry.key);
-    if (isWhole(joint.type)) {
+    if (isPoseJoint(joint.type)) {
       if (const auto pose =
               readJointPose(entry.value, path, joint, file.source(), setup.robot.model.notes))
         setup.robot.heldPoses[j] = pose->pose;
@@ -147,7 +147,7 @@ void readStates(const YamlMap& file, RobotModel& model) {
     readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
       const JointModel& joint = model.joints[j];
       if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
-      if (isWhole(joint.type)) {
+      if (isPoseJoint(joint.type)) {
         if (const auto pose = readJointPose(entry.value, map.pathOf(entry.key), joint,
                                             file.source(), model.notes))
           for (const auto& [number, x] : numbersOf(joint, *pose)) state[number] = x;

@@ -64,7 +64,7 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
     }
     if (keys && std::find(keys->legal.begin(), keys->legal.end(), entry.key) == keys->legal.end()) {
       const auto later = std::find_if(keys->later.begin(), keys->later.end(),
-                                      [&](const LaterKey& l) { return l.key == entry.key; });
+                                      [&](const UnsupportedKey& l) { return l.key == entry.key; });
       if (later != keys->later.end()) {
         source.fault(entry.line,
                      quotedWord(entry.key) + in + " is not supported yet; " + later->instead);

@@ -20,7 +20,7 @@
 namespace corridor {
 
 /// A key that is not supported.
-struct LaterKey {
+struct UnsupportedKey {
   std::string key;
   std::string instead;  ///< what to do instead: the end of the message
 };
@@ -28,7 +28,7 @@ struct LaterKey {
 /// The keys of a map: the legal ones, and unsupported ones, whose fault says what to do instead.
 struct MapKeys {
   std::vector<std::string> legal;
-  std::vector<LaterKey> later;
+  std::vector<UnsupportedKey> later;
 };
 
 /// A file while it is read: the list of its faults, and the lines of its keys.

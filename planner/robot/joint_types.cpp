@@ -38,7 +38,7 @@ std::vector<std::string> jointTypeNames() {
   return names;
 }
 
-bool isWhole(JointType type) {
+bool isPoseJoint(JointType type) {
   return type == JointType::planar || type == JointType::floating;
 }
 

@@ -17,7 +17,7 @@ std::vector<std::string> jointTypeNames();
 
 /// Returns whether the joint is planar or floating. Such a joint has a pose in place of a single
 /// value.
-bool isWhole(JointType type);
+bool isPoseJoint(JointType type);
 /// Returns whether the joint has a value of its own: it is neither fixed nor a mimic.
 bool movesItself(const JointModel& joint);
 

@@ -282,10 +282,10 @@ void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile
     for (const UrdfCollision& collision : link.collisions) {
       if (collision.mesh.empty()) continue;
       triangles += meshes.get(collision.mesh).mesh.triangles.size();
-      if (triangles > kMostOfAMesh)
+      if (triangles > kMaxMeshElements)
         return file.fault(collision.line, owned("link", link.name) +
                                               ": the shapes up to this one have more than " +
-                                              std::to_string(kMostOfAMesh) +
+                                              std::to_string(kMaxMeshElements) +
                                               " triangles in all; use coarser meshes");
     }
 }

@@ -163,10 +163,10 @@ class Tree {
     const std::string owner = owned("joint", joint.name);
     const UrdfMimic& mimic = *joint.mimic;
     if (!joint.type || joint.type == JointType::fixed) return;
-    const auto isWhole = [](JointType type) {
+    const auto isPoseJoint = [](JointType type) {
       return type == JointType::planar || type == JointType::floating;
     };
-    if (isWhole(*joint.type))
+    if (isPoseJoint(*joint.type))
       return file_.fault(mimic.line, owner + " is " + nameOf(*joint.type) +
                                          ", and only a joint of one variable can mimic another");
 
@@ -184,7 +184,7 @@ class Tree {
     }
     const UrdfJoint* const leader = &joints_[last];
     if (!leader->type) return;
-    if (leader->type == JointType::fixed || isWhole(*leader->type))
+    if (leader->type == JointType::fixed || isPoseJoint(*leader->type))
       return file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) + ", which is " +
                                          nameOf(*leader->type) +
                                          "; a joint of one variable is needed");

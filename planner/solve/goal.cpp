@@ -10,7 +10,7 @@
 
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/problem_state_space.h"
-#include "planner/solve/endpoint_help.h"
+#include "planner/solve/why_not_free.h"
 
 namespace corridor {
 
@@ -88,7 +88,7 @@ double ProblemGoal::distanceGoal(const ob::State* state) const {
   if (problem_.task.goalRegion) {
     if (inGoal(problem_, goals_, q, -kShrink)) return 0;
     // A state outside has at least twice the threshold, so that OMPL does not count it as inside.
-    return std::max(outsideGoalRegion(problem_, goals_, q), 2 * threshold_);
+    return std::max(distanceToGoalRegion(problem_, goals_, q), 2 * threshold_);
   }
   double least = std::numeric_limits<double>::infinity();
   for (const Configuration& goal : goals_)

@@ -101,7 +101,7 @@ void readStates(const YamlValue& list, const ConfigurationSpace& space, Solution
   for (const YamlValue& item : list.items) {
     const auto values = readNumbers(item, space.size(), "path", source);
     if (!values) continue;
-    if (const auto wrong = checkRow(*values, space))
+    if (const auto wrong = rowFault(*values, space))
       source.fault(item.line, "path: " + *wrong);
     else
       solution.path.push_back(fromRow(*values));

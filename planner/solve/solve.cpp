@@ -20,9 +20,9 @@
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/endpoint_help.h"
 #include "planner/solve/goal.h"
 #include "planner/solve/solve_steps.h"
+#include "planner/solve/why_not_free.h"
 
 namespace corridor {
 
@@ -56,7 +56,7 @@ class PathLengthObjective : public ob::PathLengthOptimizationObjective {
 /// OMPL's default is then used, 20 % of the space's extent. For arms OMPL's default is 3 to 6 rad,
 /// and nearly every edge of that length hits something. Measured on problems of two arms: with
 /// OMPL's default, planners that grow trees take 2 to 15 times as long.
-std::optional<double> rangeOfTurns(const ConfigurationSpace& space) {
+std::optional<double> defaultRangeForAngles(const ConfigurationSpace& space) {
   double weight = 0;
   for (const Coordinate& c : space.coordinates()) {
     if (c.kind == Coordinate::Kind::rotation || (c.kind == Coordinate::Kind::line && !c.angular))
@@ -95,8 +95,8 @@ Solve::Solve(const Problem& problem, const SolveOptions& options)
 
 PlannerParameter Solve::parameterAt(const std::string& place, const std::string& key,
                                     const std::string& value) const {
-  const auto elsewhere = options_.setElsewhere.find(place);
-  if (elsewhere != options_.setElsewhere.end()) return {key, value, elsewhere->second, 0};
+  const auto elsewhere = options_.valueOrigins.find(place);
+  if (elsewhere != options_.valueOrigins.end()) return {key, value, elsewhere->second, 0};
   const Fault at = problem_.source.faultAt(place, "");
   return {key, value, at.file, at.line};
 }
@@ -140,7 +140,7 @@ void Solve::setUpPlanner() {
       makePlanner(si_, problem_.settings.planner.name, parameters, parameterAt("planner.name"));
   const bool given = std::any_of(parameters.begin(), parameters.end(),
                                  [](const PlannerParameter& p) { return p.key == "range"; });
-  if (const auto range = rangeOfTurns(problem_.model.space);
+  if (const auto range = defaultRangeForAngles(problem_.model.space);
       range && !given && planner_->params().hasParam("range"))
     planner_->params().setParam("range", shortest(*range));
   for (const PlannerInfo& info : knownPlanners())
@@ -177,7 +177,7 @@ void Solve::setUpObjective() {
   ob::OptimizationObjectivePtr objective;
   if (wanted == Objective::mechanicalWork) {
     objective = std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
-  } else if (keepsClear()) {
+  } else if (maximisesClearance()) {
     objective = std::make_shared<ob::MaximizeMinClearanceObjective>(si_);
   } else if (wanted == Objective::length || (planner_ && planner_->getSpecs().optimizingPaths)) {
     objective = std::make_shared<PathLengthObjective>(si_);
@@ -189,7 +189,7 @@ void Solve::setUpObjective() {
   const bool first = problem_.settings.planner.stopAtFirst.value_or(!wanted && !optimises_);
   // Every free path has a clearance of at least 0: with a threshold of 0, planning would stop at
   // the first path.
-  const double threshold = keepsClear() && !(problem_.settings.objectiveThreshold > 0)
+  const double threshold = maximisesClearance() && !(problem_.settings.objectiveThreshold > 0)
                                ? std::numeric_limits<double>::infinity()
                                : problem_.settings.objectiveThreshold;
   objective->setCostThreshold(first ? objective->infiniteCost() : ob::Cost(threshold));
@@ -287,7 +287,8 @@ void Solve::finish() {
   report_.rawStates = path.getStateCount();
   report_.rawLength = lengthOf(problem_.model.space, readPath(path));
   std::vector<Path> versions;
-  if (problem_.settings.simplify && !keepsClear()) {  // shortcuts would reduce the clearance
+  if (problem_.settings.simplify &&
+      !maximisesClearance()) {  // shortcuts would reduce the clearance
     const double until =
         std::max(problem_.settings.planner.time,
                  clock_.seconds() + kSimplifyShare * problem_.settings.planner.time);

@@ -27,7 +27,7 @@ struct SolveOptions {
   const std::atomic<bool>* interrupted = nullptr;
   /// For messages: the origins of values that were not read from the problem's file, by key, such
   /// as "planner.name" → "--planner".
-  std::map<std::string, std::string> setElsewhere;
+  std::map<std::string, std::string> valueOrigins;
   /// Called once before planning, after the checkers of states and motions were set. It may replace
   /// them: planner/benchmark does so to measure times, and to use competitors. Tests of start and
   /// goals, and the final certification, always use the `Checker`.

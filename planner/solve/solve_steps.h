@@ -74,7 +74,9 @@ class Solve {
 
  private:
   bool discrete() const { return problem_.settings.checker.edges == EdgeCheck::discrete; }
-  bool keepsClear() const { return problem_.settings.objective == Objective::maxMinClearance; }
+  bool maximisesClearance() const {
+    return problem_.settings.objective == Objective::maxMinClearance;
+  }
   PlannerParameter parameterAt(const std::string& place, const std::string& key = "",
                                const std::string& value = "") const;
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }

@@ -21,7 +21,7 @@ std::string rigidSpaceOf(const ConfigurationSpace& space) {
   return "";
 }
 
-std::optional<std::string> checkRow(const std::vector<double>& row,
+std::optional<std::string> rowFault(const std::vector<double>& row,
                                     const ConfigurationSpace& space) {
   if (row.size() != space.size()) {
     const std::vector<std::string> names = space.numberNames();
@@ -56,7 +56,7 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
       values.push_back(value);
     }
     if (values.empty()) continue;
-    if (complaint.empty()) complaint = checkRow(values, space).value_or("");
+    if (complaint.empty()) complaint = rowFault(values, space).value_or("");
     if (complaint.empty())
       rows.push_back(
           {number, Eigen::Map<const Configuration>(values.data(), Eigen::Index(values.size()))});

@@ -17,7 +17,7 @@ namespace corridor {
 std::string rigidSpaceOf(const ConfigurationSpace& space);
 
 /// Returns what is wrong with a row (its length, or a quaternion of zeros), or nullopt.
-std::optional<std::string> checkRow(const std::vector<double>& row,
+std::optional<std::string> rowFault(const std::vector<double>& row,
                                     const ConfigurationSpace& space);
 
 /// A state and its line in the file.

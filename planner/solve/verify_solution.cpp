@@ -41,7 +41,7 @@ Real awayIn(const Coordinate& c, const Configuration& a, const Configuration& b)
     case Coordinate::Kind::line:
       return std::abs(Real(b[i]) - Real(a[i]));
     case Coordinate::Kind::circle:
-      return std::abs(verify::circleWay(a[i], b[i]));
+      return std::abs(verify::circleDifference(a[i], b[i]));
     case Coordinate::Kind::rotation:
       return 2 * quaternionAngle(a, b, c.first);
   }
@@ -222,12 +222,13 @@ const char* verdictName(const VerifyReport& report) {
   return report.otherProblem ? "other problem" : nameOf(report.verdict);
 }
 
-VerifyReport verifySolution(const Problem& problem, const Solution& solution, OtherDigest other) {
+VerifyReport verifySolution(const Problem& problem, const Solution& solution,
+                            DigestMismatch other) {
   VerifyReport report;
   report.margin = problem.task.margin;
   report.tube = problem.task.tube;
   report.digest = digestState(problem, solution);
-  report.otherProblem = report.digest == DigestState::differs && other == OtherDigest::refused;
+  report.otherProblem = report.digest == DigestState::differs && other == DigestMismatch::refused;
   if (report.otherProblem) {
     report.verdict = report.motion.verdict = PathVerdict::undecided;
     report.motion.edges = static_cast<int>(solution.path.size()) - 1;

@@ -17,7 +17,7 @@ enum class DigestState {
 const char* nameOf(DigestState state);
 
 /// What to do with a solution whose digest differs from the problem's.
-enum class OtherDigest {
+enum class DigestMismatch {
   refused,  ///< it is not verified: a proof would be for another problem than the solution's
   ignored   ///< it is verified for this problem
 };
@@ -55,6 +55,6 @@ PathProblem plainProblem(const Problem& problem);
 /// has a digest, it is first compared with that of the problem's files, which are read again.
 /// @throws InputError if one of these files can't be read.
 VerifyReport verifySolution(const Problem& problem, const Solution& solution,
-                            OtherDigest other = OtherDigest::refused);
+                            DigestMismatch other = DigestMismatch::refused);
 
 }  // namespace corridor

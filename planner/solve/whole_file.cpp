@@ -12,17 +12,17 @@ namespace corridor {
 namespace {
 
 /// While it exists, this thread blocks the signals by which users end programs.
-class SignalsWait {
+class SignalBlocker {
  public:
-  SignalsWait() {
+  SignalBlocker() {
     sigset_t signals;
     sigemptyset(&signals);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&signals, signal);
     ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
   }
-  SignalsWait(const SignalsWait&) = delete;
-  SignalsWait& operator=(const SignalsWait&) = delete;
-  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalBlocker(const SignalBlocker&) = delete;
+  SignalBlocker& operator=(const SignalBlocker&) = delete;
+  ~SignalBlocker() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
  private:
   sigset_t before_{};
@@ -86,7 +86,7 @@ void writeWhole(const std::filesystem::path& file,
   if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
     failure = written(file, write);
   } else {
-    const SignalsWait wait;
+    const SignalBlocker wait;
     Draft draft(file.string() + ".tmp" + std::to_string(::getpid()));
     failure = written(draft.path(), write);
     if (failure == 0) failure = draft.rename(file);

@@ -40,10 +40,10 @@ bool leavesCircle(const Frame& frame, const Coordinate& circle) {
 }  // namespace
 
 KinematicChain chainOf(const KinematicTree& tree, std::size_t base, std::size_t frame) {
-  KinematicChain limb{base, frame, {}};
-  for (std::size_t f = frame; f != base; f = tree.frames[f].parent) limb.path.push_back(f);
-  std::reverse(limb.path.begin(), limb.path.end());
-  return limb;
+  KinematicChain chain{base, frame, {}};
+  for (std::size_t f = frame; f != base; f = tree.frames[f].parent) chain.path.push_back(f);
+  std::reverse(chain.path.begin(), chain.path.end());
+  return chain;
 }
 
 std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t b) {
@@ -54,7 +54,7 @@ std::size_t commonAncestor(const KinematicTree& tree, std::size_t a, std::size_t
   return a;
 }
 
-Real circleWay(double from, double to) {
+Real circleDifference(double from, double to) {
   const Real way = Real(to) - Real(from);
   if (std::abs(way) <= kPi) return way;
   const Real s0 = std::sin(Real(from)), c0 = std::cos(Real(from));
@@ -72,7 +72,7 @@ EdgeCurve::EdgeCurve(const KinematicTree& tree, const std::vector<Coordinate>& c
     const auto i = static_cast<Eigen::Index>(c.first);
     if (c.kind != Coordinate::Kind::rotation) {
       const bool circle = c.kind == Coordinate::Kind::circle;
-      const Real way = circle ? circleWay(from[i], to[i]) : Real(to[i]) - Real(from[i]);
+      const Real way = circle ? circleDifference(from[i], to[i]) : Real(to[i]) - Real(from[i]);
       // `way` is off by u·|way|, or by 32u for a circle; each product and each sum is off by u of
       // its value.
       lines_[c.first] = {Real(from[i]), way,
@@ -120,9 +120,9 @@ EdgeCurve::Line EdgeCurve::valueOf(const Frame& frame) const {
 }
 
 template <class See>
-Placement EdgeCurve::walk(const KinematicChain& limb, Real t, const See& see) const {
+Placement EdgeCurve::walk(const KinematicChain& chain, Real t, const See& see) const {
   Placement at;
-  for (const std::size_t f : limb.path) {
+  for (const std::size_t f : chain.path) {
     const Frame& frame = tree_.frames[f];
     at.position += at.rotation * frame.fixed.p.cast<Real>();
     at.rotation = at.rotation * rotationOf(frame.fixed.q.coeffs().cast<Real>());
@@ -157,13 +157,13 @@ Placement EdgeCurve::walk(const KinematicChain& limb, Real t, const See& see) co
   return at;
 }
 
-FrameState EdgeCurve::at(const KinematicChain& limb, Real t) const {
+FrameState EdgeCurve::at(const KinematicChain& chain, Real t) const {
   FrameState state;
   const auto turns = [&](const RealVec& vector, const Placement& at) {
     state.angular += vector;
     state.linear -= vector.cross(at.position);
   };
-  state.at = walk(limb, t, [&](const Frame& frame, const Placement& at) {
+  state.at = walk(chain, t, [&](const Frame& frame, const Placement& at) {
     switch (frame.joint) {
       case Frame::Joint::none:
         break;
@@ -186,7 +186,7 @@ FrameState EdgeCurve::at(const KinematicChain& limb, Real t) const {
   return state;
 }
 
-Perturbation EdgeCurve::perturbationAt(const KinematicChain& limb, Real t,
+Perturbation EdgeCurve::perturbationAt(const KinematicChain& chain, Real t,
                                        const Configuration& tube) const {
   Perturbation strays;
   const auto twist = [&](std::size_t number, const RealVec& linear, const RealVec& angular) {
@@ -199,7 +199,7 @@ Perturbation EdgeCurve::perturbationAt(const KinematicChain& limb, Real t,
     at->linear += stray * linear;
     at->angular += stray * angular;
   };
-  walk(limb, t, [&](const Frame& frame, const Placement& at) {
+  walk(chain, t, [&](const Frame& frame, const Placement& at) {
     if (frame.variable == Frame::noVariable) return;
     switch (frame.joint) {
       case Frame::Joint::none:
@@ -242,7 +242,7 @@ Configuration EdgeCurve::configuration(Real t) const {
   return q;
 }
 
-Reach EdgeCurve::reach(const KinematicChain& limb, Real radius, const Configuration& tube) const {
+Reach EdgeCurve::reach(const KinematicChain& chain, Real radius, const Configuration& tube) const {
   Reach reach;
   // The loop goes from the frame back to the base. `length` is the length of the chain after the
   // current joint. Each revolute joint i adds its share of `bend` with all joints after it: 2 |Δ_i|
@@ -264,8 +264,8 @@ Reach EdgeCurve::reach(const KinematicChain& limb, Real radius, const Configurat
   const auto strayOf = [&](std::size_t number) {
     return Real(tube[static_cast<Eigen::Index>(number)]);
   };
-  for (std::size_t k = limb.path.size(); k-- > 0;) {
-    const Frame& frame = tree_.frames[limb.path[k]];
+  for (std::size_t k = chain.path.size(); k-- > 0;) {
+    const Frame& frame = tree_.frames[chain.path[k]];
     const Line value =
         frame.joint == Frame::Joint::revolute || frame.joint == Frame::Joint::prismatic
             ? valueOf(frame)
@@ -301,7 +301,7 @@ Reach EdgeCurve::reach(const KinematicChain& limb, Real radius, const Configurat
     }
     length += frame.fixed.p.cast<Real>().norm();
   }
-  const Real frames = std::max<Real>(1, Real(limb.path.size()) / 54);
+  const Real frames = std::max<Real>(1, Real(chain.path.size()) / 54);
   reach.lengths = (length + reach.speed + reach.tube) * frames * kUp;
   reach.size = reach.lengths * manyTurns * kUp;
   reach.speed *= kUp;

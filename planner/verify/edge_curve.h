@@ -85,7 +85,7 @@ struct Reach {
 /// angles are off by at most 2u, because the C library reduces its arguments with enough digits of
 /// π. Sine and cosine of the difference are off by at most 11u, and their arc tangent by at most
 /// 11√2·u + 2πu.
-Real circleWay(double from, double to);
+Real circleDifference(double from, double to);
 
 /// The curve of an edge, as ConfigurationSpace defines it, in the verifier's own arithmetic. Lines
 /// are linear in t. Circles go the shorter way round. Rotations are the slerp of the quaternions,
@@ -115,10 +115,10 @@ class EdgeCurve {
   /// it has another pose after a full turn. Such a joint is prismatic, or revolute with a
   /// multiplier that is no whole number. Then the edge defines no curve.
   bool jumps() const { return jumps_; }
-  FrameState at(const KinematicChain& limb, Real t) const;
-  Perturbation perturbationAt(const KinematicChain& limb, Real t, const Configuration& tube) const;
+  FrameState at(const KinematicChain& chain, Real t) const;
+  Perturbation perturbationAt(const KinematicChain& chain, Real t, const Configuration& tube) const;
   Configuration configuration(Real t) const;  ///< rounded
-  Reach reach(const KinematicChain& limb, Real radius, const Configuration& tube) const;
+  Reach reach(const KinematicChain& chain, Real radius, const Configuration& tube) const;
 
  private:
   /// The value of a number of the configuration along the edge: from + t·way.
@@ -134,7 +134,7 @@ class EdgeCurve {
   /// Computes the placement of the chain's last frame at t. Calls see(frame, X) for every joint,
   /// with X the placement before the joint.
   template <class See>
-  Placement walk(const KinematicChain& limb, Real t, const See& see) const;
+  Placement walk(const KinematicChain& chain, Real t, const See& see) const;
   const Arc& arcOf(const Frame& frame) const;
   RealMat arcAt(const Arc& arc, Real t) const;
   Line valueOf(const Frame& frame) const;

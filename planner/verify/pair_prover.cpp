@@ -45,7 +45,7 @@ PairProver::PairProver(const PathProblem& problem, const std::vector<Configurati
   for (const VerifyPair& pair : problem.pairs) {
     const std::size_t fa = problem.bodies[pair.a].frame, fb = problem.bodies[pair.b].frame;
     const std::size_t base = commonAncestor(*problem.tree, fa, fb);
-    pairs_.push_back({pair.a, pair.b, limb(base, fa), limb(base, fb)});
+    pairs_.push_back({pair.a, pair.b, chainIndex(base, fa), chainIndex(base, fb)});
   }
   frameStates_.resize(chains_.size());
   const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
@@ -86,7 +86,7 @@ bool PairProver::isState(const Configuration& state) const {
   return true;
 }
 
-std::size_t PairProver::limb(std::size_t base, std::size_t frame) {
+std::size_t PairProver::chainIndex(std::size_t base, std::size_t frame) {
   for (std::size_t i = 0; i < chains_.size(); ++i)
     if (chains_[i].base == base && chains_[i].frame == frame) return i;
   chains_.push_back(chainOf(*problem_.tree, base, frame));
@@ -97,8 +97,9 @@ PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair) co
   const Pair& p = pairs_[pair];
   PairReach reach;
   Reach& sum = reach.sum;
-  for (const auto& [limb, body] : {std::pair{p.chainA, p.a}, std::pair{p.chainB, p.b}}) {
-    const Reach one = curves_[edge].reach(chains_[limb], trees_[body].radius(), problem_.tube);
+  for (const auto& [chainIndex, body] : {std::pair{p.chainA, p.a}, std::pair{p.chainB, p.b}}) {
+    const Reach one =
+        curves_[edge].reach(chains_[chainIndex], trees_[body].radius(), problem_.tube);
     sum.speed += one.speed;
     sum.bend += one.bend;
     sum.tube += one.tube;
@@ -114,14 +115,14 @@ PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair) co
   return reach;
 }
 
-const FrameState& PairProver::stateOf(std::size_t edge, std::size_t limb, Real t) {
+const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, Real t) {
   if (edgeAt_ != edge) {
     for (auto& [time, unused] : frameStates_) time = -1;
     edgeAt_ = edge;
   }
-  auto& [time, state] = frameStates_[limb];
+  auto& [time, state] = frameStates_[chainIndex];
   if (time != t) {
-    state = curves_[edge].at(chains_[limb], t);
+    state = curves_[edge].at(chains_[chainIndex], t);
     time = t;
   }
   return state;
@@ -133,9 +134,9 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t limb, Real t
 /// direction (of the plane, for a planar translation) by the smallest number of its tube.
 Real PairProver::leastInTube(std::size_t pair, const Measured& m) const {
   const RealVec between = m.gap.onB - m.gap.onA;
-  const KinematicChain& limb = chains_[pairs_[pair].chainB];
-  if (limb.path.empty() || !chains_[pairs_[pair].chainA].path.empty()) return m.gap.upper;
-  const Frame& frame = problem_.tree->frames[limb.path.front()];
+  const KinematicChain& chain = chains_[pairs_[pair].chainB];
+  if (chain.path.empty() || !chains_[pairs_[pair].chainA].path.empty()) return m.gap.upper;
+  const Frame& frame = problem_.tree->frames[chain.path.front()];
   if (frame.joint != Frame::Joint::translation) return m.gap.upper;
   const auto first = static_cast<Eigen::Index>(frame.variable);
   const Real stray =
@@ -196,11 +197,11 @@ PairProver::Measured PairProver::measure(const TimeInterval& interval, std::size
 }
 
 PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open,
-                              Real interesting) {
+                              Real usefulBound) {
   const PairReach& reach = reaches_[interval.edge][open.pair];
   const Real travel = reach.sum.speed * interval.half, pad = reach.sum.tube + reach.rounding;
   const Real margin = problem_.margin;
-  const Real stop = std::max<Real>(margin, interesting) + travel + pad;
+  const Real stop = std::max<Real>(margin, usefulBound) + travel + pad;
   const Measured m = measure(interval, open.pair, open.guess, stop);
   PairAnswer answer;
   answer.closest = m.gap.pair;
@@ -213,7 +214,7 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
   }
   answer.bound = std::max(open.bound, m.gap.lower - travel - pad);
   if (answer.bound <= margin && (interval.half > 0 || tubeMatters(reach)))
-    answer.bound = std::max(answer.bound, boundPiecewise(interval, open.pair, m, interesting));
+    answer.bound = std::max(answer.bound, boundPiecewise(interval, open.pair, m, usefulBound));
   if (answer.bound > margin) {
     answer.verdict = PathVerdict::proved;
   } else {
@@ -224,7 +225,7 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
 }
 
 Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
-                                Real interesting) {
+                                Real usefulBound) {
   const PairReach& reach = reaches_[interval.edge][pair];
   const Real half = interval.half;
   PairMotion motion;
@@ -246,7 +247,7 @@ Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, 
   motion.b = motionSeenFrom(m.a.at, m.b, std::move(b));
   const Real little = problem_.margin + problem_.tolerance;
   return boundBySlabs(distance_, m.gap, motion,
-                      {problem_.margin, little, std::max(little, interesting)}, near_);
+                      {problem_.margin, little, std::max(little, usefulBound)}, near_);
 }
 
 std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other,

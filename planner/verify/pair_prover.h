@@ -59,9 +59,9 @@ class PairProver {
   /// is ambiguous, or a joint jumps. Such an edge must not be passed to the functions below.
   const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
 
-  /// Decides a pair of bodies in an interval. @param interesting a bound of the clearance above
+  /// Decides a pair of bodies in an interval. @param usefulBound a bound of the clearance above
   /// this value is of no use.
-  PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real interesting);
+  PairAnswer decide(const TimeInterval& interval, const OpenPair& open, Real usefulBound);
 
   /// Refutes a pair if, at t = 0 of the first edge, one body has a point inside the other body, a
   /// solid mesh. Returns nullopt otherwise. @pre the bodies do not touch there.
@@ -92,13 +92,13 @@ class PairProver {
 
   bool isState(const Configuration& state) const;
   void addEdge(const Configuration& from, const Configuration& to);
-  std::size_t limb(std::size_t base, std::size_t frame);
+  std::size_t chainIndex(std::size_t base, std::size_t frame);
   PairReach reachOf(std::size_t edge, std::size_t pair) const;
-  const FrameState& stateOf(std::size_t edge, std::size_t limb, Real t);
+  const FrameState& stateOf(std::size_t edge, std::size_t chainIndex, Real t);
   Measured measure(const TimeInterval& interval, std::size_t pair, PiecePair guess, Real stop);
   /// Returns a lower bound of the clearance by boundBySlabs().
   Real boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
-                      Real interesting);
+                      Real usefulBound);
   Real leastInTube(std::size_t pair, const Measured& m) const;
   const char* whyRefuted(const PairReach& reach, std::size_t pair, const Measured& m) const;
   const char* whyStuck(const PairReach& reach, const Measured& m) const;

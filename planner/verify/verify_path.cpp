@@ -88,7 +88,7 @@ class Verifier {
            (found->second.verdict == PathVerdict::refuted || outOfWork());
   }
   /// A larger bound than this would not change the reported clearance.
-  Real interesting() const { return kRefined * smallest_; }
+  Real usefulBound() const { return kRefined * smallest_; }
 
   const PathProblem& problem_;
   PairProver prover_;
@@ -115,7 +115,7 @@ Interval Verifier::intervalOf(const TimeInterval& time) const {
 }
 
 bool Verifier::test(const Interval& interval, OpenPair& open) {
-  PairAnswer answer = prover_.decide(interval.time, open, interesting());
+  PairAnswer answer = prover_.decide(interval.time, open, usefulBound());
   ++queries_;
   open.guess = answer.closest;
   open.bound = answer.bound;
@@ -147,7 +147,7 @@ void Verifier::testAll(Interval& interval) {
       continue;
     } else if (interval.time.half == 0) {
       leastAtStates_ = std::min(leastAtStates_, open.bound);
-    } else if (open.bound < interesting()) {
+    } else if (open.bound < usefulBound()) {
       proved_.push({interval.time, interval.depth, {open}, open.bound});
     }
   }
@@ -156,7 +156,7 @@ void Verifier::testAll(Interval& interval) {
 
 /// Tests the states before the edges, for two reasons. Bisection comes close to the states, but
 /// never tests them. And the smallest distance at the states is an upper bound of the clearance,
-/// which `interesting()` uses.
+/// which `usefulBound()` uses.
 void Verifier::proveStates() {
   for (std::size_t edge = 0; edge < prover_.edges(); ++edge)
     for (const Real t : {0, 1}) {
@@ -228,9 +228,9 @@ PathReport Verifier::report() const {
   report.edges = static_cast<int>(prover_.edges());
   report.edgesProved = report.edges - static_cast<int>(findings_.size());
   if (findings_.empty()) {
-    // Every proved pair that isn't in `proved_` had a bound of at least `interesting()`, which
+    // Every proved pair that isn't in `proved_` had a bound of at least `usefulBound()`, which
     // never increases.
-    Real least = single_ ? leastAtStates_ : interesting();
+    Real least = single_ ? leastAtStates_ : usefulBound();
     if (!proved_.empty()) least = std::min(least, proved_.top().bound);
     least = std::max<Real>(least, problem_.margin);
     report.provenClearance = static_cast<double>(least);

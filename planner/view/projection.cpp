@@ -35,10 +35,10 @@ Vec3 Camera::project(const Vec3& p) const {
   return {scale_ * p.dot(right_) - left_, -scale_ * p.dot(up_) - top_, scale_ * p.dot(toViewer_)};
 }
 
-DepthBuffer::DepthBuffer(double width, double height, double pixelsAPixel)
-    : scale_(pixelsAPixel),
-      columns_(static_cast<int>(width * pixelsAPixel) + 1),
-      rows_(static_cast<int>(height * pixelsAPixel) + 1),
+DepthBuffer::DepthBuffer(double width, double height, double bufferPixelsPerPixel)
+    : scale_(bufferPixelsPerPixel),
+      columns_(static_cast<int>(width * bufferPixelsPerPixel) + 1),
+      rows_(static_cast<int>(height * bufferPixelsPerPixel) + 1),
       depth_(static_cast<std::size_t>(columns_) * rows_, -std::numeric_limits<double>::infinity()),
       owner_(depth_.size(), -1) {}
 

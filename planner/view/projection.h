@@ -36,9 +36,9 @@ using Corners = std::array<Vec3, 3>;  ///< projected
 /// A depth buffer that also stores the owner of the nearest surface of each pixel.
 class DepthBuffer {
  public:
-  /// @param width, height of the picture, pixels. @param pixelsAPixel pixels of the buffer along
-  /// one pixel of the picture.
-  DepthBuffer(double width, double height, double pixelsAPixel);
+  /// @param width, height of the picture, pixels. @param bufferPixelsPerPixel pixels of the buffer
+  /// along one pixel of the picture.
+  DepthBuffer(double width, double height, double bufferPixelsPerPixel);
 
   /// Calls visit(pixel, depth) for each pixel whose centre the triangle covers.
   void cover(const Corners& corners, const std::function<void(std::size_t, double)>& visit) const;

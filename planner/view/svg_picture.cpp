@@ -76,7 +76,7 @@ struct Moving {
 /// Returns all moving bodies, with at most `kMostTriangles` triangles if the largest cells allow
 /// that.
 /// @param size the scene's diagonal, metres.
-Moving whatMoves(const Problem& problem, double size) {
+Moving movingBodies(const Problem& problem, double size) {
   for (double cell = kCell * size;; cell *= 1.25) {
     Moving moving;
     for (const ModelBody& body : problem.model.bodies) {
@@ -297,7 +297,7 @@ std::string svgPicture(const Problem& problem, const Path& path) {
       world.insert(world.end(), triangles.begin(), triangles.end());
       worldBodies.insert(worldBodies.end(), triangles.size(), b);
     }
-  const Moving robot = whatMoves(problem, sceneSize(problem, path.front()));
+  const Moving robot = movingBodies(problem, sceneSize(problem, path.front()));
   // About half of a robot's triangles are visible, at about 28 bytes each: 14 bytes per triangle.
   const int ghostCount =
       static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.triangles.size() + 1),

@@ -154,7 +154,7 @@ inline EdgeSet sceneEdges(const std::string& file, int count, std::uint64_t seed
                                    : std::vector{0.1, 0.3, 1.0, 3.0}[n % 4]);
     if (!checker->inBounds(e.to) || checker->interference(e.from)) continue;
     // This verdict only serves to get as many free edges as others.
-    const bool maybeFree = checker->edge(e.from, e.to, false).verdict == MotionVerdict::free;
+    const bool maybeFree = checker->certifyEdge(e.from, e.to, false).verdict == MotionVerdict::free;
     if ((maybeFree ? free : touching) >= count / 2) continue;
     const PathVerdict truth = verifyPath(plain, {e.from, e.to}).verdict;
     if (truth == PathVerdict::undecided) {

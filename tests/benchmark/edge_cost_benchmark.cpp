@@ -50,7 +50,7 @@ double seconds(const std::function<void()>& work) {
 void run(const std::string& file, int count) {
   const Problem problem = readProblem(file);
   const Checker checker(problem);
-  const auto certify = [&](const Edge& e) { return checker.edge(e.from, e.to, false); };
+  const auto certify = [&](const Edge& e) { return checker.certifyEdge(e.from, e.to, false); };
 #ifdef CORRIDOR_WITH_FCL
   bench::FclScene fclScene(checker);
 #endif

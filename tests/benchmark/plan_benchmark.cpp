@@ -28,7 +28,7 @@ namespace corridor::bench {
 namespace {
 
 std::vector<BenchmarkCompetitor> peers() {
-  std::vector<BenchmarkCompetitor> peers = peersHere();
+  std::vector<BenchmarkCompetitor> peers = availableCompetitors();
   peers.insert(peers.begin(), replayPeer());
   return peers;
 }
@@ -43,7 +43,7 @@ void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
   const auto is = [&](const CampaignCell& cell, EdgeCheck edges, bool replay) {
     const Variant& variant = campaign.variants[cell.variant];
     return specOf(cell).edges == edges &&
-           (variant.peer && variant.peer->name == "replay") == replay;
+           (variant.competitor && variant.competitor->name == "replay") == replay;
   };
   for (const CampaignCell& real : result.cells)
     for (const CampaignCell& replay : result.cells) {

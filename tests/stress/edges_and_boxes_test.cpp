@@ -142,7 +142,7 @@ struct Robot {
 
 TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
   Random random(test::testSeed(20));
-  const int edges = test::stressAsked() ? 5000 : 500;  // per scene
+  const int edges = test::isStressRun() ? 5000 : 500;  // per scene
   int undecided = 0, all = 0;
   for (const Case& c : cases(random)) {
     const Robot robot(c);
@@ -239,7 +239,7 @@ bool boxesTouch(const ExactBox& a, const ExactBox& b) {
 
 TEST(Stress, BoxOverlapAgainstRationals) {
   Random random(test::testSeed(21));
-  const int rounds = test::stressAsked() ? 50'000 : 5'000;
+  const int rounds = test::isStressRun() ? 50'000 : 5'000;
   int touching = 0, apart = 0, proved = 0, clear = 0;
   for (int i = 0; i < rounds; ++i) {
     Obb a, b;

@@ -173,7 +173,7 @@ class SoupQueries : public testing::Test {
 
 TEST_F(SoupQueries, AgainstBruteForce) {
   Random random(test::testSeed(91));
-  const int cases = (test::stressAsked() ? 20'000 : 1'000) / test::kSlowdown;
+  const int cases = (test::isStressRun() ? 20'000 : 1'000) / test::kSlowdown;
   int touching = 0, nearer = 0;
   std::size_t pairs = 0;
   for (int n = 0; n < cases; ++n) {
@@ -223,7 +223,7 @@ void expectRationals(Random& random, const Soups& s, const TrianglePairs& found,
   const auto contact = [&](std::uint32_t i, std::uint32_t k) {
     return test::rationalContact(test::corners(s.a, i), s.X_WA, test::corners(s.b, k), s.X_WB);
   };
-  const std::size_t asked = test::stressAsked() ? 300 : 50, step = found.size() / asked + 1;
+  const std::size_t asked = test::isStressRun() ? 300 : 50, step = found.size() / asked + 1;
   std::size_t n = random() % step;
   for (const auto& [i, k] : found)
     if (n++ % step == 0) {
@@ -253,7 +253,7 @@ void expectRationals(Random& random, const Soups& s, const TrianglePairs& found,
 /// Large meshes: compares the two kinds of trees, which share only the predicate, and rationals.
 TEST_F(SoupQueries, HugeSoups) {
   Random random(test::testSeed(92));
-  const int count = (test::stressAsked() ? 50'000 : 4'000) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 50'000 : 4'000) / test::kSlowdown;
   int touching = 0, apart = 0;
   for (int n = 0; n < 4; ++n) {
     const Soups s = anySoups(random, count);

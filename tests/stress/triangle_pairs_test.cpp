@@ -175,7 +175,7 @@ TEST_P(Pairs, AgainstRationals) {
   const test::PairFamily& family = GetParam();
   Random random(test::testSeed(81));
   const auto placings = test::pairPlacings();
-  const int cases = (test::stressAsked() ? 10'000'000 : 100'000) / test::kSlowdown /
+  const int cases = (test::isStressRun() ? 10'000'000 : 100'000) / test::kSlowdown /
                     static_cast<int>(test::pairFamilies().size());
   std::vector<int> touching(placings.size()), all(placings.size());
   for (int n = 0; n < cases; ++n) {

@@ -31,7 +31,7 @@ std::optional<std::filesystem::path> omplAppFolder() {
   return folderFrom("CORRIDOR_OMPLAPP");
 }
 
-bool stressAsked() {
+bool isStressRun() {
   return std::getenv("CORRIDOR_STRESS") != nullptr;
 }
 

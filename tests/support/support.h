@@ -18,11 +18,14 @@ std::optional<std::filesystem::path> omplAppFolder();
 
 /// Returns whether the long versions of stress tests are requested (`./corridor test --all` sets
 /// CORRIDOR_STRESS).
-bool stressAsked();
+bool isStressRun();
 
 /// The factor by which this build is slower than a release build, roughly. Tests multiply time
 /// limits by it, and divide large numbers of cases by it.
-#ifdef __SANITIZE_ADDRESS__
+#ifndef __has_feature  // clang's; g++ 12 has the macros instead
+#define __has_feature(name) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
 constexpr int kSlowdown = 20;
 #else
 constexpr int kSlowdown = 1;

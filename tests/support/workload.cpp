@@ -84,7 +84,7 @@ bool Workload::hasDistances() const {
 
 std::vector<std::size_t> posesInTurn(const Workload& w, std::size_t step, std::size_t way,
                                      std::size_t ways) {
-  if (stressAsked()) step = ways = 1;
+  if (isStressRun()) step = ways = 1;
   way %= ways;
   if (w.poses.size() < 100) {
     if (way > 0) return {};

@@ -57,7 +57,7 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
   std::mt19937_64 random(62);
   QueryContext context;
   Answers answers;
-  const auto addPair = [&](const std::optional<TrianglePair>& pair) {
+  const auto addPair = [&](const std::optional<PrimitivePair>& pair) {
     answers.addVerdict(pair.has_value());
     if (!pair) return;
     answers.add(pair->a);
@@ -75,7 +75,7 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
       answers.add(d.b);
       for (const double tolerance : {0.0, 0.01, 0.3})
         answers.addVerdict(closerThan(Posed(a, X_WA), Posed(b, X_WB), tolerance, context, trees));
-      addPair(insideEachOther(Posed(a, X_WA), Posed(b, X_WB), context));
+      addPair(findOneInsideOther(Posed(a, X_WA), Posed(b, X_WB), context));
       if (a.part() || b.part()) continue;
       for (const TriangleContact& contact :
            contacts(Posed(a, X_WA), Posed(b, X_WB), context, trees)) {
@@ -87,7 +87,7 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
     }
   for (const Body& body : bodies)
     if (!body.part())
-      for (const TrianglePair& pair : selfIntersections(body.mesh(), context)) {
+      for (const PrimitivePair& pair : selfIntersections(body.mesh(), context)) {
         answers.add(pair.a);
         answers.add(pair.b);
       }

@@ -29,7 +29,7 @@ namespace {
 
 namespace ob = ompl::base;
 using test::Answers;
-using test::expectOneAnswer;
+using test::expectSameAnswersInAllThreads;
 using test::inThreads;
 using test::kThreads;
 using test::ownProblem;
@@ -60,9 +60,9 @@ std::vector<Edge> someEdges(const Problem& problem, std::size_t count) {
 
 /// Adds a checker's answers for one edge and for the states at its ends.
 void ask(const Checker& checker, const Edge& edge, Answers& answers) {
-  answers.add(checker.state(edge.from));
-  answers.add(checker.edge(edge.from, edge.to, false));
-  answers.add(checker.edge(edge.from, edge.to, true));
+  answers.add(checker.certifyState(edge.from));
+  answers.add(checker.certifyEdge(edge.from, edge.to, false));
+  answers.add(checker.certifyEdge(edge.from, edge.to, true));
   answers.addVerdict(checker.certifiedEdge(edge.from, edge.to));
   answers.addVerdict(checker.interference(edge.to).has_value());
   answers.add(checker.clearance(edge.from));
@@ -83,7 +83,7 @@ TEST_P(Threads, CheckerInOneOrder) {
     problem.settings.checker.trees.volume = volume;
     const std::vector<Edge> edges = someEdges(problem, 10);
     const Checker shared(problem);
-    expectOneAnswer([&] {
+    expectSameAnswersInAllThreads([&] {
       Answers answers;
       for (const Edge& edge : edges) ask(shared, edge, answers);
       return answers;
@@ -102,16 +102,16 @@ TEST_P(Threads, CheckerInAnotherOrder) {
   const Checker alone(problem), shared(problem);
   std::vector<MotionVerdict> states, motions;
   for (const Edge& edge : edges) {
-    states.push_back(alone.state(edge.to).verdict);
-    motions.push_back(alone.edge(edge.from, edge.to, false).verdict);
+    states.push_back(alone.certifyState(edge.to).verdict);
+    motions.push_back(alone.certifyEdge(edge.from, edge.to, false).verdict);
   }
   for (const MotionVerdict verdict : {MotionVerdict::free, MotionVerdict::contact})
     EXPECT_GT(std::count(motions.begin(), motions.end(), verdict), 3);
   inThreads([&](int k) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const std::size_t e = (i * 7 + static_cast<std::size_t>(k) * 31) % edges.size();
-      ASSERT_EQ(shared.edge(edges[e].from, edges[e].to, false).verdict, motions[e]) << e;
-      ASSERT_EQ(shared.state(edges[e].to).verdict, states[e]) << e;
+      ASSERT_EQ(shared.certifyEdge(edges[e].from, edges[e].to, false).verdict, motions[e]) << e;
+      ASSERT_EQ(shared.certifyState(edges[e].to).verdict, states[e]) << e;
     }
   });
 }
@@ -123,7 +123,7 @@ TEST_P(Threads, SceneAndEdgeMotions) {
   MotionOptions options;
   options.tolerance = 1e-5;
   const Scene scene = makeScene(problem.model);
-  const Answers answers = expectOneAnswer([&] {
+  const Answers answers = expectSameAnswersInAllThreads([&] {
     Answers mine;
     QueryContext context;
     EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(),
@@ -163,7 +163,7 @@ TEST_P(Threads, Validators) {
     CheckingTally tally;
     tallyChecks(si, tally);
     si->setup();
-    const Answers answers = expectOneAnswer([&] {
+    const Answers answers = expectSameAnswersInAllThreads([&] {
       Answers mine;
       ob::ScopedState<> from(si), to(si), last(si);
       for (const Edge& edge : edges) {
@@ -196,7 +196,7 @@ TEST_P(Threads, Verifier) {
   const Problem problem = ownProblem(GetParam());
   const PathProblem plain = plainProblem(problem);
   const std::vector<Edge> edges = someEdges(problem, 6);
-  expectOneAnswer([&] {
+  expectSameAnswersInAllThreads([&] {
     Answers answers;
     for (const Edge& edge : edges) {
       const PathReport report = verifyPath(plain, {edge.from, edge.to});

@@ -84,7 +84,7 @@ class Answers {
 /// Calls `ask()` in all threads at once, and then in one more thread. Expects the same bits from
 /// all of them. All threads are new. @returns the answers of the last thread.
 template <class Ask>
-Answers expectOneAnswer(const Ask& ask) {
+Answers expectSameAnswersInAllThreads(const Ask& ask) {
   std::array<Answers, kThreads> answers;
   inThreads([&](int k) { answers[static_cast<std::size_t>(k)] = ask(); });
   Answers alone;

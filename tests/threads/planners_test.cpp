@@ -118,8 +118,8 @@ class RecordedMotions final : public ob::MotionValidator {
 
 struct Case {
   std::string planner, problem;
-  bool threadsAsk = true;  ///< false: one thread queries, another waits for a path
-  bool finds = true;       ///< false: finding a path takes too long; some queries are enough
+  bool severalThreadsQuery = true;  ///< false: one thread queries, another waits for a path
+  bool finds = true;  ///< false: finding a path takes too long; some queries are enough
 };
 std::ostream& operator<<(std::ostream& out, const Case& one) {
   return out << one.planner << " on " << one.problem;
@@ -162,8 +162,9 @@ std::size_t expectTheSameOfOneThread(const Problem& problem, const Recorder& rec
     for (const AskedState& state : log->states)
       wrong += checker.certifiedState(state.q) != state.valid;
     for (const AskedMotion& motion : log->motions) {
-      const bool valid = checker.inBounds(motion.to) &&
-                         checker.edge(motion.from, motion.to, false).verdict == MotionVerdict::free;
+      const bool valid =
+          checker.inBounds(motion.to) &&
+          checker.certifyEdge(motion.from, motion.to, false).verdict == MotionVerdict::free;
       wrong += valid != motion.valid;
     }
     asked += log->motions.size();
@@ -194,7 +195,7 @@ TEST_P(PlannersWithThreads, VerdictsAreThoseOfOneThread) {
   } else {
     EXPECT_FALSE(GetParam().finds) << run->report.why;
   }
-  if (GetParam().threadsAsk) {
+  if (GetParam().severalThreadsQuery) {
     EXPECT_GT(run->recorder.logs().size(), 1u) << "only one thread made queries";
   }
   const std::size_t asked = expectTheSameOfOneThread(problem, run->recorder);

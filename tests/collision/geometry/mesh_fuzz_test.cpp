@@ -64,7 +64,7 @@ std::string damaged(std::string bytes, Random& random) {
 class MeshFuzz : public MeshFileTest {
  protected:
   void attack(const std::string& name, const std::string& whole) {
-    const int mutations = stressAsked() ? 100000 : 2000;
+    const int mutations = isStressRun() ? 100000 : 2000;
     Random random(testSeed(7));
     int sound = 0, refused = 0;
     for (int i = 0; i < mutations; ++i) {

@@ -111,7 +111,7 @@ TEST_F(MeshLimits, StlOffAndObj) {
 /// The count of triangles is limited even if the file really has them: one face of more than 10^8
 /// corners.
 TEST_F(MeshLimits, PolygonsOfTooManyTriangles) {
-  if (!stressAsked()) GTEST_SKIP() << "2 GB of memory: set CORRIDOR_STRESS";
+  if (!isStressRun()) GTEST_SKIP() << "2 GB of memory: set CORRIDOR_STRESS";
   std::string face = "v 0 0 0\nf";
   for (int i = 0; i < 100'000'004; ++i) face += " 1";
   EXPECT_EQ(complaint("a.obj", face), std::string("a.obj:2: has 100000001 triangles") + coarser);

@@ -61,7 +61,7 @@ TEST(Octree, SharedWorkloads) {
     const Octree a(w.a), b(w.b);
     const VolumeTree<Aabb> objects(w.b);
     int wrong = 0;
-    const std::size_t step = test::stressAsked() ? 1 : name[0] == 'a' ? 20 : 25;
+    const std::size_t step = test::isStressRun() ? 1 : name[0] == 'a' ? 20 : 25;
     for (std::size_t i = 0; i < w.poses.size(); i += step * test::kSlowdown) {
       wrong += interference(Posed(a), Posed(b, w.poses[i]), context).has_value() != (w.hit[i] == 1);
       wrong += interference(Posed(a), Posed(objects, w.poses[i]), context).has_value() !=

@@ -52,13 +52,13 @@ TEST(TreeKinds, EveryNameHasItsOwnKind) {
   EXPECT_EQ(treesNamed({"aabb", "plain", ""}).fit, ObbFit::triangles);
 }
 
-TEST(TreeKinds, HasFirstOverlap) {
+TEST(TreeKinds, HasDefaultOverlap) {
   for (const VolumeKind& volume : volumeKinds())
     for (const std::string& overlap : volume.overlaps)
-      EXPECT_EQ(hasFirstOverlap(treesNamed({volume.name, "", overlap}).trees),
+      EXPECT_EQ(hasDefaultOverlap(treesNamed({volume.name, "", overlap}).trees),
                 overlap == volume.overlaps.front())
           << volume.name << " " << overlap;
-  EXPECT_FALSE(hasFirstOverlap(TreeKind::obbGjk));
+  EXPECT_FALSE(hasDefaultOverlap(TreeKind::obbGjk));
 }
 
 TEST(TreeKinds, WithDefaults) {

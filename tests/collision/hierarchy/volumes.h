@@ -55,7 +55,7 @@ inline std::string str(const TreeParams& p) {
 /// queries.
 inline std::vector<std::size_t> posesOfFit(const Workload& w, std::size_t step, std::size_t fit,
                                            std::size_t turn) {
-  if (fit > 0 && w.poses.size() < 100 && !stressAsked()) return {};
+  if (fit > 0 && w.poses.size() < 100 && !isStressRun()) return {};
   return fit == 0 ? posesInTurn(w, step, 0, 1) : posesInTurn(w, 2 * step, fit + turn, 2);
 }
 

@@ -339,7 +339,7 @@ TEST_P(EdgeMethods, SlowContactGrazes) {
 /// twice the tolerance and the work limit is not reached.
 TEST_P(EdgeMethods, GrazingByConstruction) {
   std::mt19937_64 random(test::testSeed(8));
-  const int count = (test::stressAsked() ? 10'000 : 1'000) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 10'000 : 1'000) / test::kSlowdown;
   int apart = 0, together = 0, free = 0, contact = 0, tooMuch = 0;
   for (int n = 0; apart + together < count; ++n) {
     const double size = std::pow(10.0, n % 5 - 2);
@@ -390,7 +390,7 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
 /// its time must have one. No method, on any kind of trees, may contradict the default one.
 TEST_P(EdgeMethods, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
-  const int count = test::stressAsked() ? 5'000 : 400;
+  const int count = test::isStressRun() ? 5'000 : 400;
   std::array<int, 3> verdicts = {};
   for (int n = 0; n < count; ++n) {
     const Body fixed = bodyOf(blob(random, 60, 2, 0.3)),
@@ -462,7 +462,7 @@ TEST_P(EdgeMethods, RandomChainsAgainstSamples) {
   };
   const auto vector = [&] { return Vec3(real(), real(), real()); };
   std::array<int, 3> verdicts = {};
-  const int count = test::stressAsked() ? 2'000 : 150;
+  const int count = test::isStressRun() ? 2'000 : 150;
   for (int n = 0; n < count; ++n) {
     const Body a = bodyOf(blob(random, 40, 3, 0.4)), b = bodyOf(blob(random, 40, 0.4, 0.3));
     std::vector<ChainMotion::Joint> joints;

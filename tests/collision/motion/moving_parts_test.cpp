@@ -41,8 +41,8 @@ struct LineAndTurn {
   }
 };
 
-MovingTrianglesAnswer decide(const Feature& a, const Feature& b, const RelativeMotion& relative,
-                             double margin) {
+MovingPairAnswer decide(const Feature& a, const Feature& b, const RelativeMotion& relative,
+                        double margin) {
   const auto triangle = [](const Feature& f) {
     return Triangle{f.part.points[0], f.part.points[1], f.part.points[2]};
   };
@@ -56,7 +56,7 @@ enum class Verdict { free, contact, undecided };
 Verdict certify(const Feature& a, const Feature& b, const LineAndTurn& motion, double t, double h,
                 double tolerance, double margin, std::uint64_t& decided) {
   ++decided;
-  const MovingTrianglesAnswer answer = decide(a, b, motion.relativeMotion(t, h), margin);
+  const MovingPairAnswer answer = decide(a, b, motion.relativeMotion(t, h), margin);
   if (answer.separated) return Verdict::free;
   if (answer.contact) return Verdict::contact;
   if (answer.stuck || answer.bound < tolerance) return Verdict::undecided;
@@ -87,9 +87,9 @@ long double lowest(const Feature& b, const LineAndTurn& motion, long double t, c
 /// of the motion. It holds throughout if b slides along the plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
-  const int count = (test::stressAsked() ? 100'000 : 20'000) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 100'000 : 20'000) / test::kSlowdown;
   int falseFree = 0, falseContact = 0, notFree = 0, notFound = 0, apart = 0, together = 0;
-  std::uint64_t slideWindows = 0, slides = 0;
+  std::uint64_t slideIntervals = 0, slides = 0;
   for (int n = 0; apart + together < count; ++n) {
     const Shape sa = test::kShapes[make.pick(6)], sb = test::kShapes[make.pick(6)];
     if (sa == Shape::triangle && sb == Shape::triangle) continue;
@@ -129,7 +129,7 @@ TEST(MovingParts, GrazingByConstruction) {
     } else {
       falseContact += verdict == Verdict::contact && amount > 0x1p-44 * 8;
       notFree += verdict != Verdict::free && amount > 2e-7;
-      if (slide && amount > 1e-3) slideWindows += decided, ++slides;
+      if (slide && amount > 1e-3) slideIntervals += decided, ++slides;
     }
   }
   EXPECT_EQ(falseFree, 0);
@@ -139,7 +139,7 @@ TEST(MovingParts, GrazingByConstruction) {
   EXPECT_GT(apart, count / 4);
   EXPECT_GT(together, count / 10);
   std::cout << apart << " apart, " << together << " together; intervals per slide "
-            << double(slideWindows) / double(slides) << "\n";
+            << double(slideIntervals) / double(slides) << "\n";
 }
 
 TEST(MovingParts, SlidesOnceAndKeepsMargins) {
@@ -153,7 +153,7 @@ TEST(MovingParts, SlidesOnceAndKeepsMargins) {
   EXPECT_EQ(certify(table, can, motion, 0.5, 0.5, 1e-7, 0, decided), Verdict::free);
   EXPECT_EQ(decided, 1U) << "the disc rotates about its axis, and slides along the table";
   EXPECT_EQ(certify(table, can, motion, 0.5, 0.5, 1e-7, 0.0099, decided), Verdict::free);
-  const MovingTrianglesAnswer close =
+  const MovingPairAnswer close =
       decideMovingParts(table.part, can.part, motion.relativeMotion(0.5, 0.25), 0.0101);
   EXPECT_TRUE(close.contact);
   EXPECT_FALSE(close.separated);
@@ -167,7 +167,7 @@ TEST(MovingParts, UndecidedIfTheTubeExceedsTheGap) {
   RelativeMotion relative = motion.relativeMotion(0.5, 0.5);
   EXPECT_TRUE(decideMovingParts(a, b, relative, 0).separated);
   relative.fixedError = 0.02;
-  const MovingTrianglesAnswer answer = decideMovingParts(a, b, relative, 0);
+  const MovingPairAnswer answer = decideMovingParts(a, b, relative, 0);
   EXPECT_TRUE(answer.stuck);
   EXPECT_FALSE(answer.contact);
   EXPECT_NEAR(answer.gap, std::hypot(1.51, 0.05) - 1.5, 1e-12);

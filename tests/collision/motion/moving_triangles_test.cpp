@@ -16,7 +16,7 @@ namespace {
 
 using test::ChainMotion;
 
-MovingTrianglesAnswer decide(const Triangle& a, const Triangle& b, ChainMotion& motion) {
+MovingPairAnswer decide(const Triangle& a, const Triangle& b, ChainMotion& motion) {
   return decideMovingTriangles(a, b, motion.relativeMotion(0, 0.5, 0.5), 0);
 }
 

@@ -157,7 +157,7 @@ Trial perturbed(Random& random, Trial trial, double step) {
 /// The share must never exceed 1, and must come close to 1 somewhere.
 TEST(MotionBounds, IsNeverExceededAndAttained) {
   Random random(test::testSeed(21));
-  const int starts = test::stressAsked() ? 5000 : 300;
+  const int starts = test::isStressRun() ? 5000 : 300;
   double Ratios::*const goals[] = {&Ratios::isotropic, &Ratios::beyond, &Ratios::pad, &Ratios::all};
   double best[4] = {};
   long evaluations = 0;
@@ -186,7 +186,7 @@ TEST(MotionBounds, IsNeverExceededAndAttained) {
 /// that they attain.
 TEST(MotionBounds, RandomChains) {
   Random random(test::testSeed(22));
-  const int count = test::stressAsked() ? 10'000'000 : 50'000;
+  const int count = test::isStressRun() ? 10'000'000 : 50'000;
   std::vector<double> shares;  // ratios for the first chains
   for (int n = 0; n < count; ++n) {
     Trial trial = start(random, n);

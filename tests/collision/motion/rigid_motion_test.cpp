@@ -69,7 +69,7 @@ TEST(RigidMotion, PosesAreWithinTheirStatedError) {
 TEST(RigidMotion, IntervalsBoundTheDisplacement) {
   Cases cases(test::testSeed(2));
   double tightest = 0, tightestDirectional = 0;
-  const int count = test::stressAsked() ? 2'000'000 : 100'000;
+  const int count = test::isStressRun() ? 2'000'000 : 100'000;
   for (int n = 0; n < count; ++n) {
     const auto [a, b] = cases.edge();
     const RigidMotion motion = RigidMotion::spatial(a, b, {});

@@ -113,7 +113,7 @@ TEST(SturmContact, ClosedForms) {
 /// the first contact the distance is zero up to rounding.
 TEST(SturmContact, Samples) {
   std::mt19937_64 random(testSeed(44));
-  const int count = (stressAsked() ? 8'000 : 400) / kSlowdown;
+  const int count = (isStressRun() ? 8'000 : 400) / kSlowdown;
   int contacts = 0, missed = 0, sampled = 0;
   for (int n = 0; n < count; ++n) {
     const RationalScene scene = sceneNumber(n, random);
@@ -157,7 +157,7 @@ TEST(SturmContact, Samples) {
 /// same time.
 TEST(SturmContact, InvariantUnderOtherDescriptions) {
   std::mt19937_64 random(testSeed(45));
-  const int count = (stressAsked() ? 10'000 : 500) / kSlowdown;
+  const int count = (isStressRun() ? 10'000 : 500) / kSlowdown;
   int swapped = 0;
   for (int n = 0; n < count; ++n) {
     const RationalScene scene = sceneNumber(n, random);

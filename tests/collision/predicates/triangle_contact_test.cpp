@@ -58,7 +58,7 @@ TEST_P(Random, AgreesWithRationals) {
   const auto rotation = [&] {
     return Mat3(Eigen::Quaterniond(real(), real(), real(), real()).normalized().toRotationMatrix());
   };
-  const int cases = test::stressAsked() ? 200'000 : 1'000;
+  const int cases = test::isStressRun() ? 200'000 : 1'000;
   int touching = 0;
   for (int n = 0; n < cases; ++n) {
     Triangle a, b;

@@ -20,14 +20,14 @@ TriangleMesh cube(const Vec3& center, double half) {
 
 struct Solid {
   explicit Solid(const TriangleMesh& mesh) : tree(mesh), components(findComponents(mesh)) {}
-  operator MeshBody() const { return {tree, components}; }  // NOLINT
+  operator MeshWithComponents() const { return {tree, components}; }  // NOLINT
   ObbTree tree;
   MeshComponents components;
 };
 
 bool holds(const Solid& solid, const Vec3& p) {
   QueryContext context;
-  return containing(Posed<MeshBody>(solid), p, {}, context).has_value();
+  return containing(Posed<MeshWithComponents>(solid), p, {}, context).has_value();
 }
 
 TEST(MeshComponents, SharedEdgesConnectSharedCornersDoNot) {
@@ -83,8 +83,10 @@ TEST(Containment, AHollowShellIsFilled) {
   QueryContext context;
   const Solid obstacle(cube(Vec3(0.1, 0.2, 0.3), 0.1));
   EXPECT_FALSE(interference(Posed(robot.tree), Posed(obstacle.tree), context));
-  EXPECT_TRUE(enclosed(Posed<MeshBody>(robot), Posed<MeshBody>(obstacle), context));
-  EXPECT_FALSE(enclosed(Posed<MeshBody>(obstacle), Posed<MeshBody>(robot), context));
+  EXPECT_TRUE(
+      findEnclosed(Posed<MeshWithComponents>(robot), Posed<MeshWithComponents>(obstacle), context));
+  EXPECT_FALSE(
+      findEnclosed(Posed<MeshWithComponents>(obstacle), Posed<MeshWithComponents>(robot), context));
 }
 
 TEST(Containment, OneComponentInsideAnotherOutside) {
@@ -93,21 +95,23 @@ TEST(Containment, OneComponentInsideAnotherOutside) {
   test::addBox(mesh, Vec3(0.2, 0, 0.1), Vec3(0.4, 0.2, 0.3));
   const Solid inner(mesh);
   QueryContext context;
-  const auto hit = enclosed(Posed<MeshBody>(solid), Posed<MeshBody>(inner), context);
+  const auto hit =
+      findEnclosed(Posed<MeshWithComponents>(solid), Posed<MeshWithComponents>(inner), context);
   ASSERT_TRUE(hit);
   EXPECT_LT(hit->a, 12U);
   EXPECT_GE(hit->b, 12U) << "a triangle of the component inside";
   const Transform away{Mat3::Identity(), Vec3(0, 4, 0)};
-  EXPECT_FALSE(enclosed(Posed<MeshBody>(solid, away), Posed<MeshBody>(inner), context));
+  EXPECT_FALSE(findEnclosed(Posed<MeshWithComponents>(solid, away),
+                            Posed<MeshWithComponents>(inner), context));
 }
 
 TEST(Containment, PrimitivesInSolidMeshes) {
   const Solid solid(cube(Vec3(0, 0, 0), 1));
   QueryContext context;
   const ConvexPart ball{{Vec3(0.2, 0.1, 0)}, 0.1, false};
-  EXPECT_TRUE(enclosed(Posed<MeshBody>(solid), Posed(ball), context));
-  EXPECT_FALSE(
-      enclosed(Posed<MeshBody>(solid), Posed(ball, {Mat3::Identity(), Vec3(3, 0, 0)}), context));
+  EXPECT_TRUE(findEnclosed(Posed<MeshWithComponents>(solid), Posed(ball), context));
+  EXPECT_FALSE(findEnclosed(Posed<MeshWithComponents>(solid),
+                            Posed(ball, {Mat3::Identity(), Vec3(3, 0, 0)}), context));
   // A convex part is solid by itself: a mesh inside it is reported by `interference`.
   const ObbTree big(ConvexPart{{Vec3(0, 0, 0)}, 5, false});
   EXPECT_TRUE(interference(Posed(big), Posed(solid.tree), context));
@@ -219,7 +223,8 @@ TEST(Containment, FineMeshesUnderTwoMaps) {
     const Transform X_SP{turn(), Vec3(real(), real(), real())};
     const Transform X_WP = X_WS * X_SP;
     const Vec3 local = X_SP.m.transpose() * (p - X_SP.t);
-    EXPECT_EQ(containing(Posed<MeshBody>(solid, X_WS), local, X_WP, context).has_value(), depth > 0)
+    EXPECT_EQ(containing(Posed<MeshWithComponents>(solid, X_WS), local, X_WP, context).has_value(),
+              depth > 0)
         << k;
     inside += depth > 0;
   }

@@ -20,7 +20,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 Pairs found(const TriangleMesh& mesh) {
   QueryContext context;
   Pairs pairs;
-  for (const TrianglePair& p : selfIntersections(mesh, context)) pairs.emplace_back(p.a, p.b);
+  for (const PrimitivePair& p : selfIntersections(mesh, context)) pairs.emplace_back(p.a, p.b);
   return pairs;
 }
 

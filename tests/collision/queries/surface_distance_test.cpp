@@ -28,7 +28,7 @@ TEST(SurfaceDistance, WhatIsProvedIsNotAboveTheTrueDistance) {
         const Distance measured =
             surfaceDistance(Posed(a), Posed(b, X_WB), options, context, trees);
         const double proved =
-            provedDistance(Posed(a), Posed(b, X_WB), measured, options, context, trees);
+            distanceLowerBound(Posed(a), Posed(b, X_WB), measured, options, context, trees);
         ASSERT_LE(proved, truth * (1 + 1e-12)) << n;
         loose += measured.distance > 1.02 * truth;
         if (truth > 1 && options.relative == 0 && options.absolute == 0) {

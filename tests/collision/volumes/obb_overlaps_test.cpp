@@ -161,7 +161,7 @@ TYPED_TEST_SUITE(ObbOverlaps, Overlaps, OverlapNames);
 /// separates a pair by several times its rounding margin, every test must separate it.
 TYPED_TEST(ObbOverlaps, SeparateBoxesThatAreClearlyApart) {
   std::mt19937_64 random(test::testSeed(64));
-  const int rounds = (test::stressAsked() ? 10'000'000 : 100'000) / test::kSlowdown;
+  const int rounds = (test::isStressRun() ? 10'000'000 : 100'000) / test::kSlowdown;
   int clear = 0, missed = 0;
   for (int n = 0; n < rounds; ++n) {
     const Boxes x = nearTouching(random, n);
@@ -250,7 +250,7 @@ TYPED_TEST(ObbOverlaps, NonFiniteBoxesAreNotSeparated) {
 /// All tests in one loop, since rationals are slow.
 TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
   std::mt19937_64 random(test::testSeed(61));
-  const int rounds = (test::stressAsked() ? 100'000 : 2'000) / test::kSlowdown;
+  const int rounds = (test::isStressRun() ? 100'000 : 2'000) / test::kSlowdown;
   const char* const names[] = {"separating axes", "GJK", "linear program", "edges and faces"};
   int touching = 0, apart = 0, clear[4] = {}, separatedPairs[4] = {};
   for (int n = 0; n < rounds; ++n) {

@@ -183,9 +183,9 @@ TEST(BodyQueries, RejectsNonFiniteInput) {
             "the pose of a body must be finite");
   const Body solid("solid", cube(), true);
   for (const Body* other : {&a, &b, &solid}) {
-    EXPECT_EQ(message([&] { insideEachOther(Posed(solid), Posed(*other, bad), context); }),
+    EXPECT_EQ(message([&] { findOneInsideOther(Posed(solid), Posed(*other, bad), context); }),
               "the pose of a body must be finite");
-    EXPECT_EQ(message([&] { insideEachOther(Posed(*other, bad), Posed(solid), context); }),
+    EXPECT_EQ(message([&] { findOneInsideOther(Posed(*other, bad), Posed(solid), context); }),
               "the pose of a body must be finite");
   }
   EXPECT_EQ(message([&] {

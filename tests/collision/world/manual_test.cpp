@@ -63,9 +63,9 @@ TEST(Manual, AtMostThatFarApart) {
 TEST(Manual, IsOneInsideTheOther) {
   Cubes c;
   const Body small("small", test::box(Vec3::Constant(-0.1), Vec3::Constant(0.1)));
-  EXPECT_TRUE(insideEachOther({small, at(0.2)}, {c.mesh}, c.context));
+  EXPECT_TRUE(findOneInsideOther({small, at(0.2)}, {c.mesh}, c.context));
   EXPECT_TRUE(interference({small, at(0.2)}, {c.mesh}, c.context)) << "the mesh is solid";
-  EXPECT_FALSE(insideEachOther({small, at(2)}, {c.mesh}, c.context));
+  EXPECT_FALSE(findOneInsideOther({small, at(2)}, {c.mesh}, c.context));
 }
 
 TEST(Manual, FirstContactAlongAMotion) {

@@ -63,7 +63,7 @@ struct RandomScene {
 
 TEST(EveryTreeKind, StatesAndClearances) {
   std::mt19937_64 random(test::testSeed(61));
-  const int count = (test::stressAsked() ? 10'000 : 500) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 10'000 : 500) / test::kSlowdown;
   int contacts = 0, asked = 0;
   std::map<TreeKind, Counters> counters;
   for (int n = 0; n < count; ++n) {
@@ -105,7 +105,7 @@ TEST(EveryTreeKind, StatesAndClearances) {
 /// bodies, so hardly any edge may be `undecided`.
 TEST(EveryTreeKind, Edges) {
   std::mt19937_64 random(test::testSeed(62));
-  const int count = (test::stressAsked() ? 20'000 : 1'000) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 20'000 : 1'000) / test::kSlowdown;
   std::array<int, 3> verdicts = {};
   for (int n = 0; n < count; ++n) {
     const RandomScene scenes(random);
@@ -178,7 +178,7 @@ TEST(EveryTreeKind, FarBodiesGetNoTree) {
 /// trees.
 TEST(EveryTreeKind, CertificateHolds) {
   std::mt19937_64 random(test::testSeed(63));
-  const int count = (test::stressAsked() ? 400 : 40) / test::kSlowdown + 1;
+  const int count = (test::isStressRun() ? 400 : 40) / test::kSlowdown + 1;
   int free = 0;
   for (int n = 0; n < count; ++n) {
     const Body fixed = test::bodyOf(test::blob(random, 60, 2, 0.3)),

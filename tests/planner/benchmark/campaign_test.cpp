@@ -196,10 +196,10 @@ TEST(Campaign, AnExceptionInAPlannerIsReported) {
       throw std::runtime_error("the sky is falling");
     }
   };
-  BenchmarkCompetitor peer{"thrower", [](const auto& si, const Checker& checker) {
-                             return std::make_shared<Thrower>(si, checker);
-                           }};
-  const Campaign campaign = campaignOf({"thrower"}, 1, {peer});
+  BenchmarkCompetitor competitor{"thrower", [](const auto& si, const Checker& checker) {
+                                   return std::make_shared<Thrower>(si, checker);
+                                 }};
+  const Campaign campaign = campaignOf({"thrower"}, 1, {competitor});
   const CampaignResult result = runCampaign(campaign);
   EXPECT_EQ(result.cells[0].runs.at(0).result, "failed");
   EXPECT_EQ(result.cells[0].runs.at(0).failure, "the sky is falling");

@@ -179,9 +179,9 @@ TEST_F(CampaignYaml, Peers) {
   const Campaign c = read(std::string(kStart) +
                           "checkers: {fcl: {peer: fcl, edges: discrete, resolution: [0.1, 0.2]}, "
                           "ours: {edges: discrete}}\n");
-  if (whyNoPeer("fcl").empty()) {
+  if (whyUnavailable("fcl").empty()) {
     EXPECT_THAT(variants(c), ElementsAre("fcl 0.1", "fcl 0.2", "ours"));
-    EXPECT_TRUE(c.variants[0].peer.has_value());
+    EXPECT_TRUE(c.variants[0].competitor.has_value());
     EXPECT_THAT(c.notes, IsEmpty());
   } else {
     EXPECT_THAT(variants(c), ElementsAre("ours"));

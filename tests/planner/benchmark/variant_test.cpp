@@ -65,9 +65,9 @@ TEST(Variant, CompetitorsSampleEdges) {
   const Variant variant = readVariant("other:0.1", peers);
   EXPECT_EQ(specOf(variant).edges, EdgeCheck::discrete);
   EXPECT_EQ(specOf(variant).resolution, 0.1);
-  ASSERT_TRUE(variant.peer);
-  EXPECT_EQ(variant.peer->name, "other");
-  EXPECT_FALSE(readVariant("discrete:0.1", peers).peer);
+  ASSERT_TRUE(variant.competitor);
+  EXPECT_EQ(variant.competitor->name, "other");
+  EXPECT_FALSE(readVariant("discrete:0.1", peers).competitor);
 }
 
 TEST(Variant, BadOnesAreReportedInOneLine) {

@@ -18,14 +18,14 @@ TEST(CheckerArithmetic, OtherFloatingPointModesAreRefusedInEveryThread) {
       readProblem(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "problems/arm_at_shelf");
   const Checker checker(problem);
   const Configuration start = startOf(problem);
-  ASSERT_EQ(checker.state(start).verdict, MotionVerdict::free);
+  ASSERT_EQ(checker.certifyState(start).verdict, MotionVerdict::free);
   for (const auto& setting : test::floatingPointSettings()) {
     MotionResult state, edge;
     bool throws = false;
     const auto query = [&] {
       const test::WithFloatingPoint set(setting);
-      state = checker.state(start);
-      edge = checker.edge(start, start, true);
+      state = checker.certifyState(start);
+      edge = checker.certifyEdge(start, start, true);
       try {
         checker.interference(start);
       } catch (const std::runtime_error&) {

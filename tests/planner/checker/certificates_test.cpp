@@ -43,7 +43,7 @@ TEST_P(Certificates, AreAccepted) {
   EdgeMotion motion(problem.model.tree, problem.model.space, scene.framePairs(), problem.task.tube);
   QueryContext context;
   std::mt19937_64 random(test::testSeed(11));
-  const int wanted = test::stressAsked() ? 1'000 : 60;
+  const int wanted = test::isStressRun() ? 1'000 : 60;
   int free = 0, accepted = 0;
   for (int n = 0; n < 100 * wanted && free < wanted; ++n) {
     const Configuration from = randomState(problem.model.space, random);

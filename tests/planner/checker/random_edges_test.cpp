@@ -38,7 +38,7 @@ struct Tally {
 
 void checkEdge(const Problem& problem, const Checker& checker, const Configuration& from,
                const Configuration& to, Tally& tally) {
-  const MotionResult result = checker.edge(from, to, false);
+  const MotionResult result = checker.certifyEdge(from, to, false);
   ++tally.edges;
   if (result.verdict == MotionVerdict::free) {
     ++tally.free;
@@ -74,7 +74,7 @@ TEST_P(RandomEdges, FreeOnesAreProved) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   Random random(test::testSeed(6));
-  const int perScene = (test::stressAsked() ? 200 : 20) / test::kSlowdown + 1;
+  const int perScene = (test::isStressRun() ? 200 : 20) / test::kSlowdown + 1;
   Tally tally;
   for (const char* scene : {"bookshelf_thin", "box", "cage", "table_pick", "table_under_pick"}) {
     const int index = std::uniform_int_distribution(1, 50)(random);

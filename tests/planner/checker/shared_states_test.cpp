@@ -62,7 +62,7 @@ TEST(SharedStates, LinksThatTouchEachOther) {
       if (movesItself(model->joints[j])) moving.push_back(j);
     chooseJoints(arm, moving);
     Problem problem;
-    problem.model = ModelBuilder().addRobot(arm).buildUnbounded();
+    problem.model = ModelBuilder().addRobot(arm).buildForReader();
     problem.model.filter = PairFilter();
     problem.task.tube = tubeOf(problem.model.space);
     Names disabled;

@@ -38,7 +38,7 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution(low, high)(random);
   };
-  const int count = (test::stressAsked() ? 2'000 : 150) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 2'000 : 150) / test::kSlowdown;
   for (const Problem& problem : {test::hallProblem(Rigid::SE3), test::armProblem()}) {
     const bool rigid = problem.model.space.size() == 7;
     const auto anywhere = [&] {
@@ -58,10 +58,10 @@ TEST(CheckerVolumes, AgreeOnStatesAndEdges) {
       const Checker checker(asked);
       std::vector<int> verdicts;
       for (std::size_t n = 0; n < from.size(); ++n) {
-        verdicts.push_back(static_cast<int>(checker.state(from[n]).verdict));
+        verdicts.push_back(static_cast<int>(checker.certifyState(from[n]).verdict));
         verdicts.push_back(checker.interference(from[n]).has_value());
         verdicts.push_back(checker.clearance(from[n]) > 0);
-        verdicts.push_back(static_cast<int>(checker.edge(from[n], to[n], n % 2).verdict));
+        verdicts.push_back(static_cast<int>(checker.certifyEdge(from[n], to[n], n % 2).verdict));
         verdicts.push_back(checker.certifiedEdge(from[n], to[n]));
       }
       if (usual.empty()) usual = verdicts;

@@ -47,7 +47,7 @@ TEST(ModelBuilder, MakesWhatTheReaderMakes) {
   std::string state = "{";
   for (const ModelRobot& robot : model.robots) {
     state += robot.name + ": {";
-    for (const DegreeOfFreedom& freedom : robot.freedoms) state += freedom.name + ": 0, ";
+    for (const PlannedJoint& planned : robot.plannedJoints) state += planned.name + ": 0, ";
     state += "}, ";
   }
   state += "}\n";

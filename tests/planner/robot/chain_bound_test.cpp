@@ -41,7 +41,7 @@ void stray(RandomTrees& random, const Configuration& tube, Configuration& from, 
 /// included.
 TEST(ChainBound, IsNeverExceeded) {
   RandomTrees random(test::testSeed(1));
-  const int count = test::stressAsked() ? 2'000'000 : 150'000;
+  const int count = test::isStressRun() ? 2'000'000 : 150'000;
   double tightest = 0, tightestAlong = 0, tightestStray = 0;
   for (int n = 0; n < count; ++n) {
     if (n % 5 == 0) random.makeTree(1 + random.index(8));

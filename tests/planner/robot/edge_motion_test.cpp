@@ -40,7 +40,7 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
   RandomTrees random(test::testSeed(1));
   double worst = 0, worstTwist = 0;  // largest error, as a share of its bound
   std::vector<double> shares;
-  const int count = test::stressAsked() ? 1'000'000 : 100'000;
+  const int count = test::isStressRun() ? 1'000'000 : 100'000;
   for (int n = 0; n < count; ++n) {
     if (n % 5 == 0) random.makeTree(1 + random.index(12), n % 7 ? 1 : 1000);
     random.makeEdge(n % 3 ? 2 : 20, n % 11 ? 3 : 100);

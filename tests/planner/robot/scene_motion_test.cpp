@@ -75,7 +75,7 @@ TEST(SceneMotion, EdgesOfRandomTrees) {
   QueryContext context, other;
   int free = 0, contact = 0, undecided = 0;
   std::uint64_t poses = 0, posesAlone = 0;
-  const int count = (test::stressAsked() ? 30'000 : 3'000) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 30'000 : 3'000) / test::kSlowdown;
   for (int n = 0; n < count; ++n) {
     random.makeTree(2 + random.index(7));
     const Scene scene = randomScene(random);
@@ -129,7 +129,7 @@ TEST(SceneMotion, CertificateHolds) {
   QueryContext context;
   int free = 0, contact = 0, unproved = 0;
   std::size_t intervals = 0;
-  const int count = (test::stressAsked() ? 3'000 : 300) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 3'000 : 300) / test::kSlowdown;
   for (int n = 0; n < count; ++n) {
     random.makeTree(2 + random.index(5));
     const Scene scene = randomScene(random);
@@ -177,7 +177,7 @@ TEST(SceneMotion, StatesOfRandomTrees) {
   RandomTrees random(test::testSeed(82));
   QueryContext context;
   int touching = 0, apart = 0;
-  const int count = (test::stressAsked() ? 30'000 : 3'000) / test::kSlowdown;
+  const int count = (test::isStressRun() ? 30'000 : 3'000) / test::kSlowdown;
   for (int n = 0; n < count; ++n) {
     random.makeTree(2 + random.index(7));
     const Scene scene = randomScene(random);

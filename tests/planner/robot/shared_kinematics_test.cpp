@@ -45,7 +45,7 @@ TEST(SharedKinematics, EveryLinkIsWhereTheReferenceHasIt) {
     for (std::size_t j = 0; j < model->joints.size(); ++j)
       if (movesItself(model->joints[j])) moving.push_back(j);
     chooseJoints(arm, moving);
-    const Model built = ModelBuilder().addRobot(arm).buildUnbounded();
+    const Model built = ModelBuilder().addRobot(arm).buildForReader();
     const auto& frames = built.robots.front().linkFrames;
     const std::size_t root = frames[model->root];
     std::vector<Scene::FramePair> pairs;

@@ -218,7 +218,7 @@ TEST(Solve, UnknownNamesListTheKnownOnes) {
             "hall.yaml:7: RRTConnect's parameter intermediate_states: \"maybe\" is neither true "
             "nor false");
   SolveOptions options;
-  options.setElsewhere["planner.params.intermediate_states"] = "--set";
+  options.valueOrigins["planner.params.intermediate_states"] = "--set";
   EXPECT_EQ(
       complaintOf(problem, options),
       "--set: RRTConnect's parameter intermediate_states: \"maybe\" is neither true nor false");

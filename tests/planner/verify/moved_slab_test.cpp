@@ -71,8 +71,8 @@ struct Case {
     motion.half = half;
     motion.a = motionSeenFrom(atA, stateA, curve->perturbationAt(chainA, middle, tube));
     motion.b = motionSeenFrom(atA, stateB, curve->perturbationAt(chainB, middle, tube));
-    for (const auto& [limb, set] : {std::pair{&chainA, &a}, std::pair{&chainB, &b}}) {
-      const Reach reach = curve->reach(*limb, radiusOf(*set), tube);
+    for (const auto& [chain, set] : {std::pair{&chainA, &a}, std::pair{&chainB, &b}}) {
+      const Reach reach = curve->reach(*chain, radiusOf(*set), tube);
       motion.travel += reach.speed * half;
       motion.tube += reach.tube;
       motion.secondOrder +=
@@ -140,7 +140,7 @@ struct Case {
 
 TEST(MovedSlab, BoundsAllCurvesOfTheTube) {
   std::mt19937_64 random(test::testSeed(8));
-  const int cases = test::stressAsked() ? 3000 : 200;
+  const int cases = test::isStressRun() ? 3000 : 200;
   Real fullest = 0;
   for (int i = 0; i < cases; ++i) {
     const Arm arm(random);
@@ -181,7 +181,7 @@ TEST(MovedSlab, SecondOrderIsThatOfMotionPlusPerturbation) {
   Frame turn;
   turn.joint = Frame::Joint::revolute;
   turn.variable = space.coordinates()[space.add(Coordinate{})].first;
-  const KinematicChain limb = chainOf(tree, 0, tree.add(turn));
+  const KinematicChain chain = chainOf(tree, 0, tree.add(turn));
   const ConvexSet a{{RealVec(0.5L, 0, 0)}, 0, false, RealVec::Zero()},
       b{{RealVec(1, 0, 0)}, 0, false, RealVec::Zero()};
   for (const double way : {0.0, 0.02, 0.05, 0.2})
@@ -190,8 +190,8 @@ TEST(MovedSlab, SecondOrderIsThatOfMotionPlusPerturbation) {
                           tube = Configuration::Constant(1, stray);
       const EdgeCurve curve(tree, space.coordinates(), from, to);
       const BodyMotion moving =
-          motionSeenFrom({}, curve.at(limb, 0.5L), curve.perturbationAt(limb, 0.5L, tube));
-      const Reach reach = curve.reach(limb, 1, tube);
+          motionSeenFrom({}, curve.at(chain, 0.5L), curve.perturbationAt(chain, 0.5L, tube));
+      const Reach reach = curve.reach(chain, 1, tube);
       const Real bound = MovedSlab({}, moving, 0.5L, RealVec::UnitX()).width(a, b) -
                          (0.25L * reach.bend + 0.5L * reach.bendCross + reach.bendTube) / 2;
       const Real all = way + stray, least = std::cos(all) - 0.5L;

@@ -217,17 +217,17 @@ TEST(EdgeCurve, PointsStayWithinTheirReach) {
     if (curve.ambiguous()) continue;
     const std::size_t frame = i % 2 ? arm.tip : arm.side;
     for (const std::size_t base : {std::size_t(0), std::size_t(3)}) {
-      const KinematicChain limb = chainOf(arm.tree, base, frame);
+      const KinematicChain chain = chainOf(arm.tree, base, frame);
       const Vec3 x = randomVec(random, 0.5);
-      const Reach reach = curve.reach(limb, x.norm(), Configuration::Zero(from.size()));
+      const Reach reach = curve.reach(chain, x.norm(), Configuration::Zero(from.size()));
       const auto image = [&](Real t) -> RealVec {
-        const Placement p = curve.at(limb, t).at;
+        const Placement p = curve.at(chain, t).at;
         return p.rotation * x.cast<Real>() + p.position;
       };
       const Real h = 1 / 128.0L;
       for (int k = 0; k < 64; ++k) {
         const Real t = (k + 0.5L) / 64;
-        const FrameState state = curve.at(limb, t);
+        const FrameState state = curve.at(chain, t);
         const RealVec middle = image(t);
         const RealVec velocity = state.linear + state.angular.cross(middle);
         for (const Real s : {-h, h}) {
@@ -253,8 +253,8 @@ TEST(EdgeCurve, EndsWhereItShould) {
     const EdgeCurve curve(arm.tree, arm.space.coordinates(), from, to);
     for (const auto& [t, q] : {std::pair{Real(0), from}, std::pair{Real(1), to}}) {
       const EdgeCurve still(arm.tree, arm.space.coordinates(), q, q);
-      const KinematicChain limb = chainOf(arm.tree, 0, arm.tip);
-      const Placement a = curve.at(limb, t).at, b = still.at(limb, 0.5L).at;
+      const KinematicChain chain = chainOf(arm.tree, 0, arm.tip);
+      const Placement a = curve.at(chain, t).at, b = still.at(chain, 0.5L).at;
       EXPECT_LE((a.rotation - b.rotation).norm(), 1e-17L);
       EXPECT_LE((a.position - b.position).norm(), 1e-17L);
       Configuration end = curve.configuration(t);

@@ -55,7 +55,7 @@ Dice diceOf(std::uint64_t seed, long number) {
 
 long countOf(long normally, long stress) {
   if (const char* other = std::getenv("CORRIDOR_AUDIT_COUNT")) return std::stol(other);
-  return (test::stressAsked() ? stress : normally) / test::kSlowdown;
+  return (test::isStressRun() ? stress : normally) / test::kSlowdown;
 }
 
 Audit::Audit(std::uint64_t seed, const Plan& plan) : seed_(test::testSeed(seed)), plan_(plan) {

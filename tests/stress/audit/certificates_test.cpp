@@ -49,7 +49,7 @@ TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
       const Shape rest = graze.rest(gap, truth);
       const Case c{edge,  graze,    rest,
                    truth, question, nameOf(family) + ", number " + std::to_string(number)};
-      const Certificate answer = askForEvidence(c);
+      const Certificate answer = certifiedAnswer(c);
       if (answer.result.verdict == MotionVerdict::free) {
         ++honest;
         accepted += answer.accepted;

@@ -27,12 +27,13 @@ const Coordinate& coordinateOf(const ConfigurationSpace& space, std::size_t numb
 
 }  // namespace
 
-Quad circleWay(double from, double to) {
+Quad circleDifference(double from, double to) {
   return withoutTurns(sum(to, -Quad(from)));
 }
 
 template <>
-void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted, const Stray& stray) {
+void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted,
+                      const Perturbation& stray) {
   const Frame& f = edge.tree.frames[index];
   Element e;
   e.inverted = inverted;
@@ -47,7 +48,7 @@ void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted, const 
   const auto wayOf = [&](std::size_t number) {
     const auto i = static_cast<Eigen::Index>(number);
     return coordinateOf(edge.space, number).kind == Coordinate::Kind::circle
-               ? circleWay(edge.from[i], edge.to[i])
+               ? circleDifference(edge.from[i], edge.to[i])
                : Quad(edge.to[i]) - Quad(edge.from[i]);
   };
   if (f.joint == Frame::Joint::revolute || f.joint == Frame::Joint::prismatic) {
@@ -104,7 +105,8 @@ void Curve<Quad>::add(const Edge& edge, std::size_t index, bool inverted, const 
 }
 
 template <>
-Curve<Quad>::Curve(const Edge& edge, std::size_t watcher, std::size_t watched, const Stray& stray) {
+Curve<Quad>::Curve(const Edge& edge, std::size_t watcher, std::size_t watched,
+                   const Perturbation& stray) {
   std::vector<std::size_t> up, down;
   for (std::size_t a = watcher, b = watched; a != b;) {  // parents come before their children
     if (a > b) {

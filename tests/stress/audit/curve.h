@@ -18,7 +18,7 @@ struct Edge {
 
 /// A perturbation of a curve: the amount that is added to each number of its configurations. For a
 /// rotation the first three numbers are a rotation vector, which is applied after the rotation.
-using Stray = std::vector<Quad>;
+using Perturbation = std::vector<Quad>;
 
 /// The motion of one frame as seen from another along an edge. It follows the definition of an
 /// edge:
@@ -30,7 +30,7 @@ template <class S>
 class Curve {
  public:
   /// @param stray  empty: none.
-  Curve(const Edge& edge, std::size_t watcher, std::size_t watched, const Stray& stray = {});
+  Curve(const Edge& edge, std::size_t watcher, std::size_t watched, const Perturbation& stray = {});
   /// Copies a curve into another number type, of fewer digits.
   template <class Other>
   explicit Curve(const Curve<Other>& other);
@@ -47,7 +47,7 @@ class Curve {
   double length() const { return length_; }    ///< m; bounds the chain's length at every t
   double largest() const { return largest_; }  ///< the largest stored value of a joint, rad or m
   /// Returns whether only one joint rotates. Then all accelerations are orthogonal to its axis.
-  bool oneTurn() const { return turning_ == 1; }
+  bool hasOneRotation() const { return turning_ == 1; }
   /// Returns the unit axis of the first joint that rotates, at t, in the watcher's frame.
   Vec<S> axisAt(S t) const;
 
@@ -69,7 +69,7 @@ class Curve {
     Mat<S> stray;  // perturbation of a rotation: multiplied from the left
   };
   Pose<S> poseOf(const Element& e, S t) const;
-  void add(const Edge& edge, std::size_t frame, bool inverted, const Stray& stray);
+  void add(const Edge& edge, std::size_t frame, bool inverted, const Perturbation& stray);
 
   std::vector<Element> elements_;  // from the frame `watcher` to the frame `watched`
   double turned_ = 0, slid_ = 0, length_ = 0, largest_ = 0;
@@ -77,7 +77,7 @@ class Curve {
 };
 
 /// Returns the change of a circle from one value to another, the shorter way round, to 33 digits.
-Quad circleWay(double from, double to);
+Quad circleDifference(double from, double to);
 
 template <class S>
 template <class Other>

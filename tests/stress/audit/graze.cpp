@@ -91,7 +91,7 @@ S Graze::boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) cons
   const double reach = std::max(tip_.reach, base_.reach);
   const S bend = curve.bend(reach);
   S flatBend = bend;
-  if (curve.oneTurn()) flatBend = bend * length(cross(Vec<S>(normal_), curve.axisAt(a.t)));
+  if (curve.hasOneRotation()) flatBend = bend * length(cross(Vec<S>(normal_), curve.axisAt(a.t)));
   S bound = std::min(a.flat, b.flat) - flatBend * w * w / 8;
   if (base_.feature == Feature::face) return bound;
   const S turned = curve.turned(), speed = curve.speed(reach);
@@ -217,7 +217,7 @@ bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
       if (dot(normal_, v) > 0) normal_ = -normal_;
       break;
     case Meeting::slide:
-      if (!curve_->oneTurn()) return false;
+      if (!curve_->hasOneRotation()) return false;
       normal_ = curve_->axisAt(t);
       if (dice.oneIn(2)) normal_ = -normal_;
       break;
@@ -227,12 +227,12 @@ bool Graze::chooseNormal(Dice& dice, Meeting meeting) {
 
 /// Replaces the curve by the one at the corner of the edge's tube where the tip is lowest at
 /// `time_`, to first order.
-void Graze::strayToWorst(const Edge& edge) {
+void Graze::perturbToWorstCorner(const Edge& edge) {
   const Quad e = 1e-12;
   const Vec<Quad> at = curve_->at(time_) * touch_;
-  Stray stray(static_cast<std::size_t>(edge.tube.size()), 0);
+  Perturbation stray(static_cast<std::size_t>(edge.tube.size()), 0);
   const auto rise = [&](std::size_t number) {
-    Stray one(stray.size(), 0);
+    Perturbation one(stray.size(), 0);
     one[number] = e;
     const Curve<Quad> moved(edge, restFrame_, tipFrame_, one);
     return dot(normal_, moved.at(time_) * touch_ - at);
@@ -284,13 +284,13 @@ Graze::Graze(Dice& dice, const Edge& edge, const Wish& wish)
       for (const Coordinate& c : edge.space.coordinates())
         if (edge.tube[static_cast<Eigen::Index>(c.first)] > 0) strays.push_back(c.first);
       if (strays.empty()) return;
-      Stray one(static_cast<std::size_t>(edge.tube.size()), 0);
+      Perturbation one(static_cast<std::size_t>(edge.tube.size()), 0);
       one[strays[dice.index(strays.size())]] = 1e-12;
       const Curve<Quad> moved(edge, restFrame_, tipFrame_, one);
       const Vec<Quad> way = moved.at(time_) * touch_ - curve_->at(time_) * touch_;
       if (dot(way, way) > 0) normal_ = unit(way);
     }
-    strayToWorst(edge);
+    perturbToWorstCorner(edge);
     if (meeting == Meeting::along) {  // the perturbed curve, too, must move along the plane
       const Quad e = 1e-12;
       const Vec<Quad> v = unit(curve_->at(time_ + e) * touch_ - curve_->at(time_) * touch_);

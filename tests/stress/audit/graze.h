@@ -77,7 +77,7 @@ class Graze {
   S boundOf(const Curve<S>& curve, const Look<S>& a, const Look<S>& b) const;
   bool chooseNormal(Dice& dice, Meeting meeting);
   void proveHeights();
-  void strayToWorst(const Edge& edge);
+  void perturbToWorstCorner(const Edge& edge);
   std::optional<Quad> distanceAtMost(const Shape& rest) const;
   bool crosses(const Shape& rest) const;
 

@@ -107,7 +107,7 @@ std::optional<PathReport> askVerifier(const Case& c) {
   }
 }
 
-Certificate askForEvidence(const Case& c) {
+Certificate certifiedAnswer(const Case& c) {
   const Scene scene = c.scene();
   EdgeMotion motion(c.edge.tree, c.edge.space, scene.framePairs(), c.edge.tube);
   motion.set(c.edge.from, c.edge.to);
@@ -138,7 +138,7 @@ double leftToHalfTurn(const Edge& edge) {
   for (const Coordinate& c : edge.space.coordinates()) {
     const auto i = static_cast<Eigen::Index>(c.first);
     if (c.kind == Coordinate::Kind::circle)
-      least = std::min(least, pi - magnitude(circleWay(edge.from[i], edge.to[i])) -
+      least = std::min(least, pi - magnitude(circleDifference(edge.from[i], edge.to[i])) -
                                   Quad(0x1p-49) * (std::abs(edge.from[i]) + std::abs(edge.to[i])));
     if (c.kind != Coordinate::Kind::rotation) continue;
     Quad product = 0, from = 0, to = 0;

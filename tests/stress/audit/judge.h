@@ -52,7 +52,7 @@ struct Certificate {
   MotionResult result;
   bool accepted = false;
 };
-Certificate askForEvidence(const Case& c);
+Certificate certifiedAnswer(const Case& c);
 /// Returns whether `checkCertificate` accepts a forged certificate: it claims this clearance along
 /// the whole edge, in this many intervals.
 bool acceptsForged(const Case& c, double clearance, int intervals);

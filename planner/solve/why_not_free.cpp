@@ -1,4 +1,4 @@
-#include "planner/solve/endpoint_help.h"
+#include "planner/solve/why_not_free.h"
 
 #include <algorithm>
 #include <cmath>
@@ -234,7 +234,7 @@ std::string whyUndecided(UndecidedReason reason) {
 std::optional<std::string> whyNotFree(const std::string& name, const Configuration& q,
                                       const Checker& checker) {
   if (!checker.inBounds(q)) return outOfBounds(name, q, checker.space());
-  const MotionResult result = checker.state(q);
+  const MotionResult result = checker.certifyState(q);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
 
   const std::string pair = result.pair ? described(checker, *result.pair) : "two bodies";

@@ -1,5 +1,5 @@
 // Tests of the messages about a start or a goal that is not free.
-#include "planner/solve/endpoint_help.h"
+#include "planner/solve/why_not_free.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
