@@ -69,8 +69,6 @@ CheckedState checkState(const Checker& checker, Configuration q, std::vector<std
     else
       checked.outOfBounds.push_back(c.name);
   }
-  for (const FollowerOutside& follower : followersOutside(checker.model(), q))
-    checked.outOfBounds.push_back(follower.name);
   const std::vector<ModelBody>& bodies = checker.model().bodies;
   for (const Checker::PairNotFree& pair : checker.pairsNotFree(q)) {
     checked.pairs.push_back(bodies[pair.a].name + "~" + bodies[pair.b].name);

@@ -81,24 +81,4 @@ std::optional<Corners> boundsOfWorld(const Model& model) {
   return box.lower.x() <= box.upper.x() ? std::optional(box) : std::nullopt;
 }
 
-std::vector<FollowerOutside> followersOutside(const Model& model, const Configuration& q) {
-  std::vector<FollowerOutside> outside;
-  for (const ModelRobot& robot : model.robots) {
-    const std::string prefix = robot.name.empty() ? "" : robot.name + "/";
-    for (const JointModel& joint : robot.model.joints) {
-      if (!joint.mimic || !(std::isfinite(joint.lower) || std::isfinite(joint.upper))) continue;
-      const std::string leader = prefix + robot.model.joints[joint.mimic->joint].name;
-      for (const Coordinate& c : model.space.coordinates()) {
-        if (c.kind != Coordinate::Kind::circle || c.name != leader) continue;
-        const double value =
-            joint.mimic->multiplier * q[static_cast<Eigen::Index>(c.first)] + joint.mimic->offset;
-        const double slack = 0x1p-40 * (std::abs(value) + std::abs(joint.mimic->offset));
-        if (!(value >= joint.lower - slack && value <= joint.upper + slack))
-          outside.push_back({prefix + joint.name, value, joint.lower, joint.upper});
-      }
-    }
-  }
-  return outside;
-}
-
 }  // namespace corridor

@@ -27,15 +27,4 @@ std::string whyBadBounds(const Corners& corners, std::size_t dimensions);
 /// Returns the bounding box of the obstacles, or nullopt if there are none.
 std::optional<Corners> boundsOfWorld(const Model& model);
 
-/// A joint that mimics a continuous joint and is outside of its own limits.
-struct FollowerOutside {
-  std::string name;  ///< "s", "left/s"
-  double value = 0, lower = 0, upper = 0;
-};
-/// Returns the joints that mimic a continuous joint and are outside of their own limits in `q`.
-/// Such a joint can be outside if an angle of `q` is outside of [−π, π], or if its URDF gives it
-/// neither lower nor upper (both limits are then 0). In all other cases the reader has narrowed the
-/// range of the mimicked joint. Limits are widened by rounding: 2^-40·(|value| + |offset|).
-std::vector<FollowerOutside> followersOutside(const Model& model, const Configuration& q);
-
 }  // namespace corridor

@@ -113,6 +113,11 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
   const RobotModel& model = robots()[robot].model;
   const auto state = model.states.find(name);
   if (state == model.states.end()) {
+    if (const auto why = model.unusable.states.find(name); why != model.unusable.states.end()) {
+      source_.fault(line,
+                    path + ": the state " + quotedWord(name) + " can't be used: " + why->second);
+      return false;
+    }
     std::vector<std::string> known;
     for (const auto& [key, values] : model.states) known.push_back(key);
     source_.fault(

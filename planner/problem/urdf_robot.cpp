@@ -64,7 +64,7 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Pac
 
 using Joints = std::vector<std::size_t>;
 
-Joints readGroup(const YamlMap& map, const RobotModel& model) {
+Joints readGroup(const YamlMap& map, RobotModel& model) {
   Joints active;
   const auto name = map.text("group");
   if (!name) return active;
@@ -73,6 +73,9 @@ Joints readGroup(const YamlMap& map, const RobotModel& model) {
   for (const auto& [key, value] : model.groups) known.push_back(key);
   if (!map.find("srdf")) {
     map.fault("group", "a group needs an SRDF; add srdf: FILE, or use joints: [NAME, …]");
+  } else if (const auto why = model.unusable.groups.find(*name);
+             why != model.unusable.groups.end()) {
+    map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + why->second);
   } else if (group == model.groups.end()) {
     map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
                            didYouMean(*name, known) + knownWords(known));
@@ -80,6 +83,10 @@ Joints readGroup(const YamlMap& map, const RobotModel& model) {
     for (const std::string& joint : group->second)
       if (const auto j = findJoint(model, joint); j && canMove(model.joints[*j]))
         active.push_back(*j);
+    if (const auto missing = model.missingMembers.find(*name);
+        missing != model.missingMembers.end())
+      model.notes.push_back("the group " + quotedWord(*name) + " is used without " +
+                            joinedFirst(missing->second) + ", which the URDF lacks");
     if (active.empty())
       map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");
   }

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "collision/core/spelling.h"
 #include "planner/robot/urdf_file.h"
@@ -13,8 +14,30 @@ namespace {
 
 using Element = XmlFile::Element;
 
-/// Reads groups and states as MoveIt does (srdfdom). Elements that srdfdom skips because they are
-/// wrong are faults.
+/// Names in one kind of element that the URDF lacks.
+struct UnknownNames {
+  int line = 0;                    ///< of the first such element
+  std::size_t count = 0;           ///< number of such elements, which the caller counts
+  std::vector<std::string> names;  ///< each once
+  std::unordered_set<std::string> seen;
+
+  void add(int at, const std::string& name) {
+    if (line == 0) line = at;
+    if (seen.insert(name).second) names.push_back(name);
+  }
+  void add(const UnknownNames& other) {
+    for (const std::string& name : other.names) add(other.line, name);
+    count += other.count;
+  }
+  /// Formats the names. Of more than three, it formats two and the number of the others.
+  std::string text() const {
+    if (names.size() <= 3) return joined(names);
+    return names[0] + ", " + names[1] + " and " + std::to_string(names.size() - 2) + " more";
+  }
+};
+
+/// Reads groups and states as MoveIt does (srdfdom). What it can't read is a note, because an SRDF
+/// only adds to what the URDF says: a group or state is needed only if the problem names it.
 class SrdfReader {
  public:
   SrdfReader(XmlFile& file, RobotModel& model) : file_(file), model_(model) {
@@ -27,6 +50,14 @@ class SrdfReader {
   void read() {
     Element& root = *file_.root();
     if (isTooLarge(root)) return;
+    const std::size_t before = model_.notes.size();
+    readAll(root);
+    noteUnknown(root, before);
+    for (const Fault& fault : file_.takeFaults()) model_.notes.push_back(fault.str());
+  }
+
+ private:
+  void readAll(Element& root) {
     const char* const name = root.Attribute("name");
     if (name && name != model_.name)
       note(root,
@@ -41,11 +72,13 @@ class SrdfReader {
     });
     readGroups(root);
     readStates(root);
-    forEach(root, "passive_joint", [&](Element& element) { findJoint(element, "name", ""); });
+    forEach(root, "passive_joint", [&](Element& element) {
+      const bool known = findJoint(element, "name", "", unknownPassive_).has_value();
+      unknownPassive_.count += !known && !isVirtual(element.Attribute("name"));
+    });
     readPairs(root);
   }
 
- private:
   static constexpr std::size_t none = SIZE_MAX;
 
   /// Unique names with their indices.
@@ -114,32 +147,64 @@ class SrdfReader {
     model_.notes.push_back(file_.at(element.GetLineNum(), text));
   }
 
-  /// Returns the index, in `known`, of the name that an attribute contains. nullopt: a fault was
-  /// reported.
+  /// Adds a note for each kind of element with unknown names. @param first index of the first note
+  /// of this file
+  void noteUnknown(const Element& root, std::size_t first) {
+    const bool foreign = !unknownNames_.empty() && 2 * unknownNames_.size() >= usedNames_.size();
+    std::vector<std::string> known = links_.all();
+    known.insert(known.end(), joints_.all().begin(), joints_.all().end());
+    const auto add = [&](const UnknownNames& unknown, const std::string& one,
+                         const std::string& many, const std::string& rest) {
+      if (unknown.names.empty()) return;
+      std::string text =
+          (unknown.count == 1 ? "1 " + one : std::to_string(unknown.count) + " " + many) + rest +
+          unknown.text();
+      if (unknown.names.size() == 1 && !foreign) text += didYouMean(unknown.names[0], known);
+      model_.notes.push_back(file_.at(unknown.line, text));
+    };
+    add(unknownMembers_, "member of a group is", "members of groups are",
+        " left out, because the URDF lacks ");
+    add(unknownValues_, "value of a state is", "values of states are",
+        " left out, because the URDF lacks ");
+    add(unknownPassive_, "passive joint is", "passive joints are", " not in the URDF: ");
+    add(unknownPairs_, "pair names", "pairs name", " links that the URDF lacks: ");
+    if (foreign)
+      model_.notes.insert(
+          model_.notes.begin() + static_cast<std::ptrdiff_t>(first),
+          file_.at(root.GetLineNum(), std::to_string(unknownNames_.size()) + " of the " +
+                                          std::to_string(usedNames_.size()) +
+                                          " links and joints that it names are not in the URDF; "
+                                          "it seems to be the SRDF of another robot"));
+  }
+
+  /// Returns the index, in `known`, of the name that an attribute contains. nullopt: the attribute
+  /// is missing, or the name was added to `unknown`.
   std::optional<std::size_t> find(const Element& element, const char* attribute,
-                                  const std::string& owner, const char* kind, const Names& known) {
+                                  const std::string& owner, const Names& known,
+                                  UnknownNames& unknown) {
     const auto name = file_.text(element, attribute, owner);
     if (!name) return std::nullopt;
-    if (const auto found = known.find(*name)) return found;
-    file_.fault(element.FindAttribute(attribute)->GetLineNum(),
-                (owner.empty() ? "" : owner + ": ") + "the robot has no " + owned(kind, *name) +
-                    hint(*name, known));
+    usedNames_.insert(*name);
+    const auto found = known.find(*name);
+    if (found) return found;
+    unknownNames_.insert(*name);
+    unknown.add(element.GetLineNum(), *name);
     return std::nullopt;
   }
   std::string hint(const std::string& name, const Names& known) const {
     return file_.hints() ? didYouMean(name, known.all()) : "";
   }
   std::optional<std::size_t> findLink(const Element& element, const char* attribute,
-                                      const std::string& owner) {
-    return find(element, attribute, owner, "link", links_);
+                                      const std::string& owner, UnknownNames& unknown) {
+    return find(element, attribute, owner, links_, unknown);
   }
-  /// Returns nullopt without a fault for virtual joints. They are ignored, because the problem file
-  /// places the robot in the world.
+  bool isVirtual(const char* joint) const { return joint && virtualJoints_.contains(joint); }
+  /// Virtual joints are not found, and are not unknown either. They are ignored, because the
+  /// problem file places the robot in the world.
   std::optional<std::size_t> findJoint(const Element& element, const char* attribute,
-                                       const std::string& owner) {
-    const char* const name = element.Attribute(attribute);
-    if (name && virtualJoints_.contains(name)) return std::nullopt;
-    return find(element, attribute, owner, "joint", joints_);
+                                       const std::string& owner, UnknownNames& unknown) {
+    if (isVirtual(element.Attribute(attribute))) return std::nullopt;
+    return find(element, attribute, owner, joints_, unknown);
   }
 
   Joints jointsAbove(std::size_t link) const {
@@ -149,53 +214,53 @@ class SrdfReader {
     return above;
   }
 
-  /// Adds the joints between two links: those above exactly one of the two.
-  void addChain(Element& element, const std::string& owner, Joints& joints) {
-    const auto base = findLink(element, "base_link", owner);
-    const auto tip = findLink(element, "tip_link", owner);
-    if (!base || !tip) return;
-    const Joints aboveBase = jointsAbove(*base), aboveTip = jointsAbove(*tip);
-    if (aboveTip.size() < aboveBase.size() &&
-        std::includes(aboveBase.begin(), aboveBase.end(), aboveTip.begin(), aboveTip.end()))
-      return file_.fault(element.GetLineNum(),
-                         owner + ": the chain is upside down: its base_link " +
-                             quotedWord(links_[*base]) + " hangs from its tip_link " +
-                             quotedWord(links_[*tip]) + "; swap them");
-    std::set_symmetric_difference(aboveBase.begin(), aboveBase.end(), aboveTip.begin(),
-                                  aboveTip.end(), std::inserter(joints, joints.end()));
-  }
-
   struct Group {
     std::string name;
     Element* element = nullptr;
     Joints joints;
     std::vector<std::size_t> subgroups;
+    UnknownNames missing;  ///< members that the URDF lacks
+    std::string unusable;  ///< the reason why the group can't be made, or ""
   };
+
+  /// Adds the joints between two links: those above exactly one of the two.
+  bool addChain(Element& element, const std::string& owner, Group& group) {
+    const auto base = findLink(element, "base_link", owner, group.missing);
+    const auto tip = findLink(element, "tip_link", owner, group.missing);
+    if (!base || !tip) return false;
+    const Joints aboveBase = jointsAbove(*base), aboveTip = jointsAbove(*tip);
+    std::set_symmetric_difference(aboveBase.begin(), aboveBase.end(), aboveTip.begin(),
+                                  aboveTip.end(), std::inserter(group.joints, group.joints.end()));
+    return true;
+  }
 
   void readGroups(Element& root) {
     forEach(root, "group", [&](Element& element) {
       const auto name = file_.text(element, "name", "");
       if (!name) return;
       if (const Group* first = findGroup(*name))
-        return file_.fault(element.GetLineNum(), owned("group", *name) +
-                                                     " is already defined on line " +
-                                                     std::to_string(first->element->GetLineNum()) +
-                                                     "; names must be unique");
-      groups_.push_back({*name, &element, {}, {}});
+        return note(element, owned("group", *name) + " is already defined on line " +
+                                 std::to_string(first->element->GetLineNum()) +
+                                 "; this definition is ignored");
+      groups_.push_back({*name, &element, {}, {}, {}, ""});
       groupNames_.add(*name);
     });
     for (Group& group : groups_) readGroup(group);
     for (std::size_t i = 0; i < groups_.size(); ++i) {
-      const Group& group = groups_[i];
-      const std::size_t before = file_.faultCount();
-      const Joints joints = collect(i);
-      if (joints.empty() && file_.faultCount() == before && !faulty_.contains(group.name))
-        file_.fault(group.element->GetLineNum(),
-                    owned("group", group.name) +
-                        " has no joint; it needs a <joint>, a <link>, a <chain> or a <group>");
+      Group& group = groups_[i];
+      const Members members = membersOf(i);
+      std::string unusable = members.unusable;
+      if (members.joints.empty() && unusable.empty())
+        unusable = "it has no joint that the URDF has";
+      if (!unusable.empty()) {
+        model_.unusable.groups[group.name] = file_.at(group.element->GetLineNum(), unusable);
+        continue;
+      }
       std::vector<std::string>& names = model_.groups[group.name];
-      for (const std::size_t j : joints) names.push_back(joints_[j]);
+      for (const std::size_t j : members.joints) names.push_back(joints_[j]);
+      if (!members.missing.empty()) model_.missingMembers[group.name] = members.missing;
     }
+    for (const Group& group : groups_) unknownMembers_.add(group.missing);
   }
 
   const Group* findGroup(const std::string& name) const {
@@ -205,117 +270,132 @@ class SrdfReader {
 
   void readGroup(Group& group) {
     const std::string owner = owned("group", group.name);
-    const std::size_t before = file_.faultCount();
     file_.checkChildren(*group.element, {"joint", "link", "chain", "group"}, {}, owner,
                         model_.notes);
     forEach(*group.element, "joint", [&](Element& element) {
-      if (const auto joint = findJoint(element, "name", owner)) group.joints.insert(*joint);
+      if (const auto joint = findJoint(element, "name", owner, group.missing))
+        group.joints.insert(*joint);
+      else if (!isVirtual(element.Attribute("name")))
+        ++group.missing.count;
     });
     forEach(*group.element, "link", [&](Element& element) {
-      const auto link = findLink(element, "name", owner);
+      const auto link = findLink(element, "name", owner, group.missing);
+      group.missing.count += !link;
       if (link && parentJoint_[*link] != none) group.joints.insert(parentJoint_[*link]);
     });
     forEach(*group.element, "chain",
-            [&](Element& element) { addChain(element, owner, group.joints); });
+            [&](Element& element) { group.missing.count += !addChain(element, owner, group); });
     forEach(*group.element, "group", [&](Element& element) {
       const auto name = file_.text(element, "name", owner);
       if (!name) return;
       if (const Group* inner = findGroup(*name))
         group.subgroups.push_back(static_cast<std::size_t>(inner - groups_.data()));
       else
-        file_.fault(element.GetLineNum(), owner + ": there is no " + owned("group", *name) +
-                                              " in this file" + hint(*name, groupNames_));
+        group.unusable =
+            "there is no " + owned("group", *name) + " in the SRDF" + hint(*name, groupNames_);
     });
-    if (file_.faultCount() != before) faulty_.insert(group.name);
   }
 
-  /// Returns the joints of a group and of all groups in it, at any depth. Reports a group that
-  /// contains itself.
-  Joints collect(std::size_t root) {
+  /// What a group contains, with all groups in it, at any depth.
+  struct Members {
     Joints joints;
+    std::vector<std::string> missing;  ///< names that the URDF lacks
+    std::string unusable;              ///< the reason why the group can't be made, or ""
+  };
+
+  Members membersOf(std::size_t root) const {
+    Members members;
     std::vector<std::size_t> above(groups_.size(), none), open{root};
     for (std::size_t k = 0; k < open.size(); ++k) {
       const Group& group = groups_[open[k]];
-      joints.insert(group.joints.begin(), group.joints.end());
+      members.joints.insert(group.joints.begin(), group.joints.end());
+      members.missing.insert(members.missing.end(), group.missing.names.begin(),
+                             group.missing.names.end());
+      if (members.unusable.empty()) members.unusable = group.unusable;
       for (const std::size_t inner : group.subgroups) {
         if (inner == root) {
-          faultCircle(root, open[k], above);
-          return joints;
+          members.unusable = circleText(root, open[k], above);
+          return members;
         }
         if (above[inner] != none) continue;
         above[inner] = open[k];
         open.push_back(inner);
       }
     }
-    return joints;
+    return members;
   }
 
-  void faultCircle(std::size_t root, std::size_t last, const std::vector<std::size_t>& above) {
+  std::string circleText(std::size_t root, std::size_t last,
+                         const std::vector<std::size_t>& above) const {
     std::vector<std::string> names{groupNames_[root]};
     for (std::size_t i = last; i != root; i = above[i]) names.push_back(groupNames_[i]);
-    // `collect` finds the circle from each of its groups. Only the group with the smallest name
-    // reports it.
-    if (*std::min_element(names.begin(), names.end()) != names.front()) return;
     names.push_back(names.front());
     std::reverse(names.begin(), names.end());
-    file_.fault(groups_[root].element->GetLineNum(),
-                "the groups " + joinedFirst(names) + " contain each other in a circle");
+    return "it contains itself: " + joinedFirst(names);
   }
 
   struct State {
     std::string name, group;  ///< group: empty if none is named
     int line = 0;
     std::map<std::string, double> values;
+    std::string unusable;  ///< the reason why the state can't be made, or ""
   };
 
   void readStates(Element& root) {
     std::vector<State> states;
-    std::map<std::pair<std::string, std::string>, int> lines;  // line of each name in each group
-    std::map<std::string, int> count;                          // number of states with each name
+    std::map<std::pair<std::string, std::string>, std::size_t> indices;  // by name and group
+    std::map<std::string, int> count;  // number of states with each name
     forEach(root, "group_state", [&](Element& element) {
       const auto name = file_.text(element, "name", "");
       if (!name) return;
-      State state{*name, "", element.GetLineNum(), {}};
+      State state{*name, "", element.GetLineNum(), {}, ""};
       const std::string owner = owned("state", *name);
       file_.checkChildren(element, {"joint"}, {}, owner, model_.notes);
-      if (const char* group = element.Attribute("group")) {
+      if (const char* group = element.Attribute("group"))
         state.group = group;
-        if (!findGroup(group))
-          file_.fault(element.FindAttribute("group")->GetLineNum(),
-                      owner + ": there is no " + owned("group", group) + " in this file" +
-                          hint(group, groupNames_));
-      } else {
+      else
         note(element, owner + " names no group; its values are taken as they are");
-      }
       std::vector<std::string> fixed;
-      forEach(element, "joint",
-              [&](Element& joint) { readValue(joint, owner, state.values, fixed); });
+      forEach(element, "joint", [&](Element& joint) { readValue(joint, owner, state, fixed); });
       if (!fixed.empty())
         note(element, owner +
                           ": the values of joints that do not move by themselves are ignored: " +
                           joined(fixed));
-      const auto [first, isNew] = lines.emplace(std::pair{state.name, state.group}, state.line);
-      if (!isNew)
-        return file_.fault(state.line, owner + " is already defined on line " +
-                                           std::to_string(first->second) +
-                                           "; names must be unique in a group");
-      ++count[state.name];
-      states.push_back(std::move(state));
+      if (state.values.empty() && fixed.empty() && state.unusable.empty())
+        state.unusable = "it has no value of a joint that the URDF has";
+      const auto [first, isNew] =
+          indices.emplace(std::pair{state.name, state.group}, states.size());
+      if (isNew) {
+        ++count[state.name];
+        states.push_back(std::move(state));
+        return;
+      }
+      State& before = states[first->second];  // as in MoveIt, the last one counts
+      note(element, owner + " is already defined on line " + std::to_string(before.line) +
+                        "; that definition is ignored");
+      before = std::move(state);
     });
     for (State& state : states) {
       const bool shared = count[state.name] > 1;
       // Two groups may both have a "home".
       const std::string name =
           shared && !state.group.empty() ? state.group + "/" + state.name : state.name;
+      if (!state.unusable.empty()) {
+        model_.unusable.states[name] = file_.at(state.line, state.unusable);
+        continue;
+      }
       model_.states[name] = state.values;
-      if (!state.group.empty()) model_.stateGroup[name] = state.group;
+      if (findGroup(state.group)) model_.stateGroup[name] = state.group;
     }
   }
 
-  void readValue(Element& element, const std::string& owner, std::map<std::string, double>& values,
+  void readValue(Element& element, const std::string& owner, State& state,
                  std::vector<std::string>& ignored) {
-    const auto index = findJoint(element, "name", owner);
-    if (!index) return;
+    const auto index = findJoint(element, "name", owner, unknownValues_);
+    if (!index) {
+      unknownValues_.count += !isVirtual(element.Attribute("name"));
+      return;
+    }
     const JointModel& joint = model_.joints[*index];
     const bool planar = joint.type == JointType::planar;
     const std::vector<const char*> parts =
@@ -323,16 +403,26 @@ class SrdfReader {
         : joint.type == JointType::floating
             ? std::vector{"/x", "/y", "/z", "/qx", "/qy", "/qz", "/qw"}
             : std::vector{""};
+    if (joint.type == JointType::fixed || joint.mimic) return ignored.push_back(joint.name);
     file_.require(element, "value", owner);
     const auto numbers =
         file_.numbers(element, "value", parts.size(), owner + ": " + owned("joint", joint.name));
-    if (joint.type == JointType::fixed || joint.mimic) return ignored.push_back(joint.name);
+    if (!numbers) state.unusable = "its value of " + owned("joint", joint.name) + " is not sound";
     for (std::size_t i = 0; numbers && i < parts.size(); ++i)
-      values[joint.name + parts[i]] = (*numbers)[i];
+      state.values[joint.name + parts[i]] = (*numbers)[i];
   }
 
   static std::pair<std::string, std::string> pairOf(const std::string& a, const std::string& b) {
     return std::minmax(a, b);
+  }
+
+  /// Returns the two links of a pair. nullopt: the URDF lacks one, or it isn't given.
+  std::optional<std::pair<std::size_t, std::size_t>> findPair(const Element& element) {
+    const auto a = findLink(element, "link1", "", unknownPairs_);
+    const auto b = findLink(element, "link2", "", unknownPairs_);
+    if (a && b) return std::pair{*a, *b};
+    ++unknownPairs_.count;
+    return std::nullopt;
   }
 
   void readPairs(Element& root) {
@@ -342,16 +432,19 @@ class SrdfReader {
       if (allowed.insert(pairOf(a, b)).second) model_.allowed.push_back({a, b, reason});
     };
     forEach(root, "disable_collisions", [&](Element& element) {
-      const auto a = findLink(element, "link1", ""), b = findLink(element, "link2", "");
+      const auto pair = findPair(element);
       const char* const reason = element.Attribute("reason");
-      if (a && b) allow(links_[*a], links_[*b], reason ? "SRDF: " + std::string(reason) : "SRDF");
+      if (pair)
+        allow(links_[pair->first], links_[pair->second],
+              reason ? "SRDF: " + std::string(reason) : "SRDF");
     });
     forEach(root, "enable_collisions", [&](Element& element) {
-      const auto a = findLink(element, "link1", ""), b = findLink(element, "link2", "");
-      if (a && b) enabled.insert(pairOf(links_[*a], links_[*b]));
+      if (const auto pair = findPair(element))
+        enabled.insert(pairOf(links_[pair->first], links_[pair->second]));
     });
     forEach(root, "disable_default_collisions", [&](Element& element) {
-      const auto link = findLink(element, "link", "");
+      const auto link = findLink(element, "link", "", unknownPairs_);
+      unknownPairs_.count += !link;
       if (!link) return;
       for (const std::string& other : links_.all())
         if (other != links_[*link] && !enabled.contains(pairOf(links_[*link], other)))
@@ -365,7 +458,8 @@ class SrdfReader {
   std::vector<std::size_t> parentJoint_;  // for each link
   std::set<std::string> virtualJoints_;
   std::vector<Group> groups_;
-  std::set<std::string> faulty_;  // groups with unknown names in them
+  UnknownNames unknownMembers_, unknownValues_, unknownPassive_, unknownPairs_;
+  std::set<std::string> usedNames_, unknownNames_;  // of links and joints
 };
 
 }  // namespace

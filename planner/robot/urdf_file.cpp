@@ -101,7 +101,7 @@ class UrdfBuilder {
                                            hasParent.begin());
     setMimics();
     for (std::size_t k = 0; k < order.size(); ++k)
-      narrowLeader(outline_.joints[order[k]], model_.joints[k]);
+      noteFollower(outline_.joints[order[k]], model_.joints[k]);
     return std::move(model_);
   }
 
@@ -189,38 +189,25 @@ class UrdfBuilder {
   }
   std::size_t leaderOf(std::size_t j) const { return jointIndex_.at(mimicOf(j)->joint_name); }
 
-  /// Restricts the range of a mimicked joint so that its follower stays within its own limits.
-  void narrowLeader(const UrdfJoint& outline, const JointModel& follower) {
+  /// Adds a note if a follower leaves its own limits while its leader stays within its own. Only
+  /// the leader's limits count, as for other users of URDF.
+  void noteFollower(const UrdfJoint& outline, const JointModel& follower) {
     const bool limited =
         follower.type == JointType::revolute || follower.type == JointType::prismatic;
     if (!follower.mimic || !limited || !outline.ranged) return;
     const auto [index, multiplier, offset] = *follower.mimic;
-    JointModel& leader = model_.joints[index];
-    const bool round = leader.type == JointType::continuous;
-    const Range before =
-        round ? Range{-std::numbers::pi, std::numbers::pi} : Range{leader.lower, leader.upper};
-    Range range = before;
-    if (multiplier != 0) {
-      const double a = (follower.lower - offset) / multiplier + 0.0;  // turns -0 into 0
-      const double b = (follower.upper - offset) / multiplier + 0.0;
-      range = {std::max(before.lower, std::min(a, b)), std::min(before.upper, std::max(a, b))};
-    }
+    const JointModel& leader = model_.joints[index];
     const Range own{follower.lower, follower.upper};
-    const bool stands = multiplier == 0 && (offset < own.lower || own.upper < offset);
-    if (stands || range.lower > range.upper)
-      return file_.fault(outline.mimic->line, owned("joint", follower.name) + ": its limits, " +
-                                                  own.text() +
-                                                  ", are out of reach while it mimics " +
-                                                  quotedWord(leader.name) + " in " + before.text());
-    if (range.lower == before.lower && range.upper == before.upper) return;
-    leader.type = round ? JointType::revolute : leader.type;
-    leader.lower = range.lower;
-    leader.upper = range.upper;
-    model_.notes.push_back(
-        file_.at(outline.mimic->line, owned("joint", leader.name) + ": its range is reduced from " +
-                                          before.text() + " to " + range.text() + ", because " +
-                                          quotedWord(follower.name) +
-                                          " mimics it and has the range " + own.text()));
+    const bool stands = multiplier == 0;  // 0·∞ is no number
+    const double a = stands ? offset : multiplier * leader.lower + offset;
+    const double b = stands ? offset : multiplier * leader.upper + offset;
+    const Range range{std::min(a, b), std::max(a, b)};
+    const double slack = 0x1p-50 * (std::abs(offset) + std::abs(own.lower) + std::abs(own.upper));
+    if (range.lower >= own.lower - slack && range.upper <= own.upper + slack) return;
+    model_.notes.push_back(file_.at(outline.mimic->line,
+                                    owned("joint", follower.name) + ": its limits, " + own.text() +
+                                        ", are ignored: it mimics " + quotedWord(leader.name) +
+                                        ", whose limits let it move in " + range.text()));
   }
 
   const UrdfOutline& outline_;

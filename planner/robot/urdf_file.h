@@ -27,8 +27,12 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Pack
                                    std::vector<std::filesystem::path>& files);
 
 /// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states, and
-/// disabled collisions with their reasons. A name that the model doesn't have is a fault. Virtual
-/// joints and end effectors are ignored. Passive joints are only checked for unknown names.
+/// disabled collisions with their reasons. Virtual joints and end effectors are ignored.
+///
+/// Only a file that can't be read at all is a fault. Names that the model lacks and elements that
+/// make no sense are notes, as for other readers of SRDF. A group without its unknown members is
+/// made from the others (`RobotModel::missingMembers`). What can't be made is listed in
+/// `RobotModel::unusable`; it is a fault only for a problem that names it.
 void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults);
 
 }  // namespace corridor

@@ -144,23 +144,37 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
 /// @returns whether the joint has a range: lower, upper, or both.
 bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
                 const std::string& owner, std::vector<std::string>& notes) {
-  Element* const limit = file.child(joint, "limit", owner);
+  Element* limit = file.child(joint, "limit", owner);
+  const bool mimics = joint.FirstChildElement("mimic");
   const bool needed = type == JointType::revolute || type == JointType::prismatic;
+  if (!limit && needed && mimics) {  // urdfdom needs the element; a mimic's limits are not used
+    limit = joint.InsertNewChildElement("limit");
+    limit->SetAttribute("effort", "0");
+    limit->SetAttribute("velocity", "0");
+    return false;
+  }
   if (!limit) {
     if (needed)
       file.fault(joint.GetLineNum(),
                  owner +
-                     ": <limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/> is missing" +
+                     ": <limit lower=\"…\" upper=\"…\"/> is missing" +
                      (type == JointType::revolute ? "; a joint without limits is of type continuous"
                                                   : ""));
     return false;
   }
   const Numbers lower = file.numbers(*limit, "lower", 1, owner);
   const Numbers upper = file.numbers(*limit, "upper", 1, owner);
+  std::vector<std::string> missing;
   for (const char* name : {"effort", "velocity"}) {
-    file.require(*limit, name, owner);
-    file.numbers(*limit, name, 1, owner);
+    if (limit->FindAttribute(name)) {
+      file.numbers(*limit, name, 1, owner);
+      continue;
+    }
+    missing.push_back(name);
+    limit->SetAttribute(name, "0");  // urdfdom needs it; nothing uses it
   }
+  if (!missing.empty())
+    notes.push_back(file.at(limit->GetLineNum(), owner + ": <limit> has no " + joined(missing)));
   if (!needed) return false;
   file.checkAttributes(
       *limit, {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
@@ -173,7 +187,7 @@ bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
     file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortest(least) +
                                         " is above the upper limit " + shortest(most));
   if (limit->FindAttribute("lower") || limit->FindAttribute("upper")) return true;
-  if (!joint.FirstChildElement("mimic"))
+  if (!mimics)
     notes.push_back(file.at(
         limit->GetLineNum(),
         owner + ": <limit> has neither lower nor upper, so both are 0, and the joint cannot move"));

@@ -139,7 +139,8 @@ std::vector<Fault> XmlFile::takeFaults() {
   if (faultCount_ > faults_.size())
     faults_.push_back({path_.string(), 0,
                        "and " + std::to_string(faultCount_ - faults_.size()) + " more faults"});
-  return std::move(faults_);
+  faultCount_ = 0;
+  return std::exchange(faults_, {});
 }
 
 void XmlFile::require(const Element& element, const char* attribute, const std::string& owner) {

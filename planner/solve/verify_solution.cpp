@@ -134,18 +134,14 @@ bool checkEnds(const Problem& problem, const Path& path, std::vector<std::string
 
 void checkBounds(const Problem& problem, const Path& path, std::vector<std::string>& violations) {
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const auto outside = [&](const std::string& name, double value, double lower, double upper) {
-      violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " + name +
-                           " = " + shortest(value) + " is not in [" + shortest(lower) + ", " +
-                           shortest(upper) + "]");
-    };
     for (const Coordinate& c : problem.model.space.coordinates()) {
       if (c.kind != Coordinate::Kind::line) continue;
       const double value = path[i][static_cast<Eigen::Index>(c.first)];
-      if (!(value >= c.lower && value <= c.upper)) outside(c.name, value, c.lower, c.upper);
+      if (value >= c.lower && value <= c.upper) continue;
+      violations.push_back("state " + std::to_string(i) + " is outside of the bounds: " + c.name +
+                           " = " + shortest(value) + " is not in [" + shortest(c.lower) + ", " +
+                           shortest(c.upper) + "]");
     }
-    for (const FollowerOutside& f : followersOutside(problem.model, path[i]))
-      outside(f.name, f.value, f.lower, f.upper);
   }
 }
 

@@ -111,10 +111,11 @@ TEST_F(RobotLimits, SrdfCounts) {
   EXPECT_EQ(complaintOfSrdf("<group name=\"g\">" +
                             many("<chain base_link=\"a\" tip_link=\"b\"/>", 1001) + "</group>"),
             "r.srdf:1: has 1001 <chain>; at most 1000 are read");
-  const std::string faults =
-      complaintOfSrdf(many("<disable_collisions link1=\"a\" link2=\"c\"/>\n", 100'000));
-  EXPECT_EQ(std::count(faults.begin(), faults.end(), '\n'), 1000);
-  EXPECT_THAT(faults, testing::EndsWith("and 99000 more faults"));
+  // Unknown names are counted in one note, however many they are.
+  std::string pairs;
+  for (int i = 0; i < 100'000; ++i)
+    pairs += "<disable_collisions link1=\"a\" link2=\"c" + std::to_string(i) + "\"/>\n";
+  EXPECT_EQ(complaintOfSrdf(pairs), "no complaint");
 }
 
 TEST_F(RobotLimits, DisableDefaults) {

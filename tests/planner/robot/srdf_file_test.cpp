@@ -23,6 +23,15 @@ class SrdfFile : public UrdfTest {
              faults);
     return textOf(faults);
   }
+  /// Returns the notes of an SRDF without faults, one a line, without the folder.
+  std::string notesOf(const std::string& parts, const std::string& name = "r") {
+    model_.notes.clear();
+    EXPECT_EQ(complaintOfSrdf(parts, name), "no complaint");
+    std::string text;
+    for (const std::string& note : model_.notes)
+      text += note.substr(folder_.string().size() + 1) + "\n";
+    return text;
+  }
   std::string group(const std::string& name) const {
     std::string text;
     for (const std::string& joint : model_.groups.at(name)) text += joint + " ";
@@ -100,18 +109,16 @@ TEST_F(SrdfFile, OfAnotherRobotIsReported) {
                                                  ":1: is for robot \"q\", and is used for \"r\""));
 }
 
-TEST_F(SrdfFile, UnknownElementsAndNames) {
-  EXPECT_EQ(
-      complaintOfSrdf(R"(<disable_collision link1="l1" link2="r1"/>
-<group name="a"><jont name="left1"/></group>
-<groups/>)"),
-      R"(r.srdf:2: robot "r": <disable_collision> is not known (did you mean <disable_collisions>?)
+TEST_F(SrdfFile, UnknownElements) {
+  EXPECT_EQ(notesOf(R"(<disable_collision link1="l1" link2="r1"/>
+<group name="a"><jont name="left1"/><joint name="left2"/></group>
+<link_sphere_approximation link="l1"/>
+<mask/>)"),
+            R"(r.srdf:5: robot "r": <mask> is not known, and is ignored
+r.srdf:2: robot "r": <disable_collision> is not known (did you mean <disable_collisions>?)
 r.srdf:3: group "a": <jont> is not known (did you mean <joint>?)
-r.srdf:4: robot "r": <groups> is not known (did you mean <group>?))");
-  EXPECT_EQ(complaintOfSrdf("<link_sphere_approximation link=\"l1\"/>\n<mask/>"), "no complaint");
-  EXPECT_THAT(model_.notes,
-              testing::Contains((folder_ / "r.srdf").string() +
-                                ":3: robot \"r\": <mask> is not known, and is ignored"));
+)");
+  EXPECT_EQ(group("a"), "left2 ");
 }
 
 /// Each of forty groups contains the next one three times, so there are 3^40 paths through them.
@@ -126,44 +133,95 @@ TEST_F(SrdfFile, NestedGroupsTakeNoExponentialTime) {
   EXPECT_EQ(group("g0"), "left1 ");
 }
 
-TEST_F(SrdfFile, Faults) {
-  EXPECT_EQ(complaintOfSrdf(R"(<group name="a"><joint name="left3"/><link name="trnk"/></group>
-<group name="b"><chain base_link="trunk" tip_link="nowhere"/><group name="aa"/></group>
+/// As in other readers, a name that the URDF lacks is left out.
+TEST_F(SrdfFile, UnknownNamesAreCountedInNotes) {
+  EXPECT_EQ(
+      notesOf(R"(<group name="a"><joint name="left1"/><joint name="left3"/><link name="l2"/></group>
+<group name="b"><chain base_link="trunk" tip_link="nowhere"/><group name="a"/></group>
+<group_state name="s" group="a"><joint name="left1" value="1"/><joint name="lft1" value="1"/></group_state>
+<disable_collisions link1="l1" link2="r1" reason="Never"/>
+<disable_collisions link1="l3" link2="r1"/>
+<disable_collisions link1="l4" link2="l5"/>
+<disable_collisions link1="l6" link2="l2"/>
+<passive_joint name="right1"/>
+<passive_joint name="right2"/>
+<disable_collisions link1="ground" link2="tool"/>
+<disable_collisions link1="r2" link2="tool"/>)"),
+      R"(r.srdf:2: 2 members of groups are left out, because the URDF lacks left3, nowhere
+r.srdf:4: 1 value of a state is left out, because the URDF lacks lft1 (did you mean "left1"?)
+r.srdf:6: 3 pairs name links that the URDF lacks: l3, l4 and 2 more
+)");
+  EXPECT_EQ(group("a"), "left1 left2 ");
+  EXPECT_EQ(group("b"), "left1 left2 ");
+  EXPECT_THAT(model_.missingMembers.at("b"), testing::ElementsAre("nowhere", "left3"));
+  EXPECT_EQ(model_.states.at("s"), (std::map<std::string, double>{{"left1", 1}}));
+  std::string allowed;
+  for (const AllowedPair& pair : model_.allowed) allowed += pair.a + "~" + pair.b + " ";
+  EXPECT_THAT(allowed, testing::EndsWith(" l1~r1 ground~tool r2~tool "));
+  EXPECT_TRUE(model_.unusable.groups.empty());
+}
+
+TEST_F(SrdfFile, AnSrdfOfAnotherRobotIsNotedFirst) {
+  EXPECT_EQ(
+      notesOf(R"(<group name="arm"><joint name="j1"/><joint name="left1"/></group>
+<passive_joint name="j2"/>)",
+              "q"),
+      R"(r.srdf:1: 2 of the 3 links and joints that it names are not in the URDF; it seems to be the SRDF of another robot
+r.srdf:1: is for robot "q", and is used for "r"
+r.srdf:2: 1 member of a group is left out, because the URDF lacks j1
+r.srdf:3: 1 passive joint is not in the URDF: j2
+)");
+}
+
+TEST_F(SrdfFile, GroupsAndStatesThatCannotBeMade) {
+  EXPECT_EQ(notesOf(R"(<group name="b"><group name="aa"/><joint name="left1"/></group>
 <group name="c"><link name="ground"/></group>
 <group name="d"/>
 <group/>
 <group name="e"><joint name="left1"/><group name="f"/></group>
 <group name="f"><group name="e"/></group>
+<group name="a"><joint name="left1"/><group name="b"/></group>
 <group name="f"/>
 <group_state name="s" group="g"><joint name="left1" value="x"/></group_state>
-<group_state name="t" group="e"><joint name="lft1" value="1"/><joint name="left1"/></group_state>
-<group_state name="t" group="e"><joint name="base" value="1"/></group_state>
-<disable_collisions link1="l3" link2="r1"/>
+<group_state name="t" group="e"><joint name="left2"/></group_state>
+<group_state name="u" group="e"><joint name="base" value="1"/></group_state>
+<group_state name="v" group="e"><joint name="left1" value="1"/></group_state>
+<group_state name="v" group="e"><joint name="left1" value="2"/></group_state>
+<group_state name="w" group="e"/>
 <disable_collisions link1="l2"/>
-<passive_joint name="p"/>
 <group name="up"><chain base_link="tool" tip_link="trunk"/></group>)"),
-            R"(r.srdf:2: group "a": the robot has no joint "left3" (did you mean "left1"?)
-r.srdf:2: group "a": the robot has no link "trnk" (did you mean "trunk"?)
-r.srdf:3: group "b": the robot has no link "nowhere"
-r.srdf:3: group "b": there is no group "aa" in this file (did you mean "a"?)
-r.srdf:4: group "c" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
-r.srdf:5: group "d" has no joint; it needs a <joint>, a <link>, a <chain> or a <group>
-r.srdf:6: <group> has no name
-r.srdf:7: the groups e, f, e contain each other in a circle
-r.srdf:9: group "f" is already defined on line 8; names must be unique
-r.srdf:10: state "s": there is no group "g" in this file
+            R"(r.srdf:9: group "f" is already defined on line 7; this definition is ignored
+r.srdf:14: state "v" is already defined on line 13; that definition is ignored
+r.srdf:5: <group> has no name
 r.srdf:10: state "s": joint "left1": joint value: a number is needed, not "x"
-r.srdf:11: state "t": the robot has no joint "lft1" (did you mean "left1"?)
 r.srdf:11: state "t": <joint> has no value
-r.srdf:12: state "t": joint "base": joint value: 3 numbers are needed, not "1"
-r.srdf:12: state "t" is already defined on line 11; names must be unique in a group
-r.srdf:13: the robot has no link "l3" (did you mean "l1"?)
-r.srdf:14: <disable_collisions> has no link2
-r.srdf:15: the robot has no joint "p"
-r.srdf:16: group "up": the chain is upside down: its base_link "tool" hangs from its tip_link "trunk"; swap them)");
+r.srdf:12: state "u": joint "base": joint value: 3 numbers are needed, not "1"
+r.srdf:16: <disable_collisions> has no link2
+)");
+  using Reasons = std::map<std::string, std::string>;
+  const std::string at = (folder_ / "r.srdf").string();
+  EXPECT_EQ(model_.unusable.groups,
+            (Reasons{{"a", at + ":8: there is no group \"aa\" in the SRDF (did you mean \"a\"?)"},
+                     {"b", at + ":2: there is no group \"aa\" in the SRDF (did you mean \"a\"?)"},
+                     {"c", at + ":3: it has no joint that the URDF has"},
+                     {"d", at + ":4: it has no joint that the URDF has"},
+                     {"e", at + ":6: it contains itself: e, f, e"},
+                     {"f", at + ":7: it contains itself: f, e, f"}}));
+  EXPECT_EQ(model_.unusable.states,
+            (Reasons{{"s", at + ":10: its value of joint \"left1\" is not sound"},
+                     {"t", at + ":11: its value of joint \"left2\" is not sound"},
+                     {"u", at + ":12: its value of joint \"base\" is not sound"},
+                     {"w", at + ":15: it has no value of a joint that the URDF has"}}));
+  EXPECT_EQ(group("up"), "left1 left2 weld ");
+  EXPECT_EQ(model_.states.at("v").at("left1"), 2) << "the last one counts, as in MoveIt";
+  EXPECT_FALSE(model_.stateGroup.contains("s"));
+}
+
+TEST_F(SrdfFile, AFileThatCannotBeReadIsAFault) {
   std::vector<Fault> faults;
   readSrdf(folder_ / "none.srdf", model_, faults);
   EXPECT_EQ(textOf(faults), "none.srdf: no such file");
+  EXPECT_THAT(complaintOfSrdf("<group"), testing::HasSubstr("r.srdf:"));
 }
 
 }  // namespace

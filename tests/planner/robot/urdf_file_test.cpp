@@ -70,7 +70,7 @@ TEST_F(UrdfFile, MimicsOfMimicsFollowTheOneThatMoves) {
   EXPECT_EQ(model.joints[1].mimic->multiplier, 2);
 }
 
-TEST_F(UrdfFile, AMimicsLimitsNarrowTheRangeOfTheJointThatItFollows) {
+TEST_F(UrdfFile, OnlyTheLeadersLimitsCountForAMimic) {
   const auto range = [&](const std::string& leader, const std::string& limits,
                          const std::string& mimic) {
     const RobotModel model =
@@ -79,26 +79,42 @@ TEST_F(UrdfFile, AMimicsLimitsNarrowTheRangeOfTheJointThatItFollows) {
                 joint("tilt", "revolute", "b", "c",
                       "<limit " + limits + " effort=\"0\" velocity=\"0\"/>\n<mimic joint=\"pan\" " +
                           mimic + "/>"));
-    EXPECT_TRUE(model.joints[0].type != JointType::continuous || model.notes.empty());
     std::string text =
         std::to_string(model.joints[0].lower) + " to " + std::to_string(model.joints[0].upper);
     for (const std::string& note : model.notes)
       text += "; " + note.substr(folder_.string().size() + 1);
     return text;
   };
-  const std::string message = "; r.urdf:7: joint \"pan\": its range is reduced from ";
-  const std::string why = ", because \"tilt\" mimics it and has the range ";
-  EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", ""), "-1.000000 to 2.000000");
+  const auto ignored = [](const std::string& own, const std::string& reach) {
+    return "; r.urdf:7: joint \"tilt\": its limits, " + own +
+           ", are ignored: it mimics \"pan\", whose limits let it move in " + reach;
+  };
+  const std::string same = "-1.000000 to 2.000000";
+  EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", ""), same) << "limits are inclusive";
   EXPECT_EQ(range("revolute", R"(lower="0" upper="3")", R"(multiplier="2" offset="1")"),
-            "-0.500000 to 1.000000" + message + "[-1, 2] to [-0.5, 1]" + why + "[0, 3]");
+            same + ignored("[0, 3]", "[-1, 5]"));
   EXPECT_EQ(range("revolute", R"(lower="0" upper="0.5")", R"(multiplier="-1")"),
-            "-0.500000 to 0.000000" + message + "[-1, 2] to [-0.5, 0]" + why + "[0, 0.5]");
+            same + ignored("[0, 0.5]", "[-2, 1]"));
+  EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", R"(offset="3.5")"),
+            same + ignored("[-1, 2]", "[2.5, 5.5]"));
+  EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", R"(multiplier="0" offset="-2")"),
+            same + ignored("[-1, 2]", "[-2, -2]"));
+  EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", R"(multiplier="0" offset="2")"), same);
   EXPECT_EQ(range("continuous", R"(lower="-2" upper="8")", R"(multiplier="2")"),
-            "-1.000000 to 3.141593" + message +
-                "[-3.141592653589793, 3.141592653589793] to [-1, 3.141592653589793]" + why +
-                "[-2, 8]");
-  EXPECT_EQ(range("continuous", R"(lower="-4" upper="4")", ""), "-inf to inf");
-  EXPECT_EQ(range("revolute", "", ""), "-1.000000 to 2.000000") << "no limits of its own";
+            "-inf to inf" + ignored("[-2, 8]", "[-inf, inf]"));
+  EXPECT_EQ(range("revolute", "", ""), same) << "no limits of its own";
+}
+
+TEST_F(UrdfFile, EffortAndVelocityMayBeMissing) {
+  const RobotModel model = modelOf(link("a") + link("b") + link("c") +
+                                   joint("j", "revolute", "a", "b", "<limit upper=\"2\"/>") +
+                                   joint("k", "revolute", "b", "c", "<mimic joint=\"j\"/>"));
+  EXPECT_EQ(model.joints[0].lower, 0);
+  EXPECT_EQ(model.joints[0].upper, 2);
+  EXPECT_TRUE(model.joints[1].mimic) << "a mimic needs no <limit>";
+  EXPECT_THAT(model.notes,
+              testing::ElementsAre((folder_ / "r.urdf").string() +
+                                   ":5: joint \"j\": <limit> has no effort, velocity"));
 }
 
 TEST_F(UrdfFile, FixedJointsMayMimicEachOther) {
