@@ -17,18 +17,18 @@ PredicateResult convexSetsTouch(const PosedSet& a, const PosedSet& b) {
   double near = radii + 0x1p-49 * size;
   gjk::Answer quick = gjk::search<double>(a, b, size, near, apart);
   if (quick.accepted) return {false, false};
-  const bool whole = !(a.keepsBall() && b.keepsBall());
+  const bool ballsInCores = !(a.keepsBall() && b.keepsBall());
   // The search above measures the distance of the cores, and assumes that the maps keep the radii
   // of the swept spheres. If a map makes an ellipsoid of a sphere, this search may report a contact
   // that does not exist. So the search is repeated with the ellipsoids as parts of the cores.
-  if (whole) {
+  if (ballsInCores) {
     radii = 0;
     near = 0x1p-49 * size;
-    quick = gjk::search<double>(a, b, size, near, apart, whole);
+    quick = gjk::search<double>(a, b, size, near, apart, ballsInCores);
     if (quick.accepted) return {false, false};
   }
   if (quick.overlap || quick.upper <= near) return {true, false};
-  return {!gjk::search<DoubleDouble>(a, b, size, near, apart, whole).accepted, true};
+  return {!gjk::search<DoubleDouble>(a, b, size, near, apart, ballsInCores).accepted, true};
 }
 
 }  // namespace corridor

@@ -137,9 +137,9 @@ class Pair {
   }
 
   /// Returns the result for sets that touch: a common point, up to rounding.
-  /// @param whole true if the spheres were parts of the cores in the search.
+  /// @param ballsInCores true if the spheres were parts of the cores in the search.
   template <class Real>
-  ConvexDistance contact(const gjk::Search<Real>& search, bool whole) const {
+  ConvexDistance contact(const gjk::Search<Real>& search, bool ballsInCores) const {
     ConvexDistance result;
     if (search.simplex.count == 0) {
       result.p_WA = result.p_WB =
@@ -147,17 +147,17 @@ class Pair {
       return result;
     }
     const Points<Real> points = closest(search.simplex);
-    const double share = whole || radii_ == 0 ? 0.5 : a_.set().ball / radii_;
+    const double share = ballsInCores || radii_ == 0 ? 0.5 : a_.set().ball / radii_;
     result.p_WA = result.p_WB = rounded(points.a + points.w * Real(share), search.unit);
     return result;
   }
 
-  /// Returns the result for sets that are apart. @param whole as for `contact`.
+  /// Returns the result for sets that are apart. @param ballsInCores as for `contact`.
   template <class Real>
-  ConvexDistance apart(const gjk::Search<Real>& search, bool whole) const {
+  ConvexDistance apart(const gjk::Search<Real>& search, bool ballsInCores) const {
     Points<Real> p = closest(search.simplex);
     Real lower = search.gap * Real(1 / search.unit);
-    if (!whole && radii_ > 0) {
+    if (!ballsInCores && radii_ > 0) {
       const Vector<Real> n = p.w * (Real(1) / gjk::length(p.w));
       const Real unit(1 / search.unit);
       if (a_.set().ball > 0) {
@@ -248,9 +248,9 @@ ConvexDistance convexDistance(const PosedSet& a, const PosedSet& b, double relat
   result = pair.apart(finer, false);
   result.exact = true;
   if (fine(result, 0) || pair.radii() == 0) return result;
-  gjk::Search<DoubleDouble> whole(a, b, pair.size(), true);
-  whole.run(finer.simplex, agreed(0, -1, 0), never);
-  ConvexDistance other = pair.apart(whole, true);
+  gjk::Search<DoubleDouble> withBalls(a, b, pair.size(), true);
+  withBalls.run(finer.simplex, agreed(0, -1, 0), never);
+  ConvexDistance other = pair.apart(withBalls, true);
   other.exact = true;
   return other.distance - other.lower < result.distance - result.lower ? other : result;
 }

@@ -34,7 +34,9 @@ struct ConvexSet {
 /// * The disc's share |Mᵀn × axis|: 3.1uF from Mᵀn. The axis is off by 1u (difference of the
 /// points) + 5u (norm and quotient): 6uF. Cross product and norm: 2√2·1.1uF + 4uF. Together < 17uF.
 ///
-/// Points and discs share ρ: the total is below u(20Fρ + 6|t|).
+/// Total: the share of the points is below 6.2uF|p|, that of the sphere below 7.1uF·ball, that of
+/// the disc below 17uF·disc. As |p| + ball + disc ≤ ρ, these three together are below 17uFρ. With
+/// the sum and n·t the total is below u(20Fρ + 6|t|).
 ///
 /// Sizes and coordinates should be 0 or within 2^±440 m. Beyond, squares overflow or vanish. Then
 /// contact queries may report a contact that does not exist, and distances may be too small. A

@@ -17,7 +17,8 @@
 /// (convex_distance.cpp, in double-double).
 namespace corridor::gjk {
 
-/// The result of a search: bounds of the distance of two cores, without rounding; metres.
+/// The result of a search: bounds of the distance of two cores, metres. The rounding errors of the
+/// bounds themselves are not included.
 struct Answer {
   bool overlap = false;           ///< the cores overlap by more than rounding can cause
   bool accepted = false;          ///< `accept` returned true and ended the search
@@ -39,7 +40,7 @@ struct Corner {
 /// The simplex whose closest points give `Answer::upper`. It has up to three corners, four corners
 /// if the cores overlap, and none if the search found contact before its first corner.
 template <class Real>
-struct Simplex {  // NOLINT(bugprone-reserved-identifier): a name that the compiler makes
+struct Simplex {  // NOLINT(bugprone-reserved-identifier): the implicit copy has a variable `__i0`
   Corner<Real> corner[4];
   int count = 0;
 };
@@ -50,11 +51,12 @@ template <class Real>
 class Search {
  public:
   /// @param size  metres: larger than every coordinate involved.
-  /// @param whole true: the mapped swept spheres are parts of the cores.
-  Search(const PosedSet& a, const PosedSet& b, double size, bool whole = false)
+  /// @param ballsInCores true: the mapped swept spheres count as parts of the cores. Needed for
+  /// maps that make them ellipsoids (`Support`).
+  Search(const PosedSet& a, const PosedSet& b, double size, bool ballsInCores = false)
       : unit(powerOfTwo(size)),
-        a_(a, 1 / unit, whole),
-        b_(b, 1 / unit, whole),
+        a_(a, 1 / unit, ballsInCores),
+        b_(b, 1 / unit, ballsInCores),
         noise_(256 * Effort<Real>::unit * size / unit),
         curved_(a_.curved() || b_.curved()) {}
 
@@ -70,7 +72,7 @@ class Search {
     answer.upper = HUGE_VAL;
     for (int i = 0; i < from.count && i < 3; ++i) {
       const Corner<Other>& c = from.corner[i];
-      known_.corner[known_.count++] = asked(c.pointA, c.pointB, Vector<Real>(c.n));
+      known_.corner[known_.count++] = cornerOf(c.pointA, c.pointB, Vector<Real>(c.n));
     }
     Nearest<Real> face;
     if (known_.count > 0) {
@@ -127,7 +129,7 @@ class Search {
 
   /// Returns the corner that consists of the two points with these numbers. A point on a disc or
   /// sphere is the extreme one in direction n.
-  Corner<Real> asked(std::uint32_t pointA, std::uint32_t pointB, const Vector<Real>& n) const {
+  Corner<Real> cornerOf(std::uint32_t pointA, std::uint32_t pointB, const Vector<Real>& n) const {
     const Vector<Real> a = a_.at(pointA, n);
     return {a, b_.at(pointB, -n) - a, pointA, pointB, rough(n)};
   }
@@ -167,22 +169,22 @@ class Search {
 
   /// Returns the known corners computed again for direction n. Corners that belong to the same two
   /// points become one corner.
-  Simplex<Real> sampled(const Vector<Real>& n) const {
-    Simplex<Real> samples;
+  Simplex<Real> cornersFor(const Vector<Real>& n) const {
+    Simplex<Real> corners;
     for (int i = 0; i < known_.count; ++i) {
       const Corner<Real>& c = known_.corner[i];
       bool seen = false;
       for (int k = 0; k < i; ++k)
         seen = seen || (known_.corner[k].pointA == c.pointA && known_.corner[k].pointB == c.pointB);
-      if (!seen) samples.corner[samples.count++] = asked(c.pointA, c.pointB, n);
+      if (!seen) corners.corner[corners.count++] = cornerOf(c.pointA, c.pointB, n);
     }
-    return samples;
+    return corners;
   }
 
   /// Takes a Newton step from n towards the direction of the widest gap, for curved surfaces. The
   /// face is computed again for the new direction, and replaced if the new face is closer. Returns
-  /// false if no step is defined. The step is only a proposal: the gap and the corner of any
-  /// direction are valid.
+  /// false if no step is defined. The step need not be accurate: for any direction, the gap
+  /// is a lower bound of the distance, and the corner consists of points of the cores.
   ///
   /// A corner, as a function of n for the same two points of the sets, is w_i(n). Then f_i = n·w_i
   /// has the gradient w_i and the Hessian −H, where H is the sum of the Hessians of both sets
@@ -190,9 +192,9 @@ class Search {
   /// δᵀ(H + f I)δ/2. At the widest gap all f_i are equal, which leaves δ two, one or no degrees of
   /// freedom. In the remaining degrees of freedom, (H + f I)δ = w.
   bool newton(Vector<Real>& n, Nearest<Real>& face, Answer& answer) {
-    const Simplex<Real> samples = sampled(n);
-    if (samples.count == 0) return false;
-    const Vector<Real>& w = samples.corner[0].w;
+    const Simplex<Real> corners = cornersFor(n);
+    if (corners.count == 0) return false;
+    const Vector<Real>& w = corners.corner[0].w;
     const Vec3 n0 = rough(n);
     Tangents tangents;
     tangents.col(0) = n0.unitOrthogonal();
@@ -204,17 +206,17 @@ class Search {
       return false;
     const Eigen::Vector2d pull = tangents.transpose() * rough(w - n * along);
     Eigen::Vector2d step;
-    if (samples.count == 1) {
+    if (corners.count == 1) {
       step = bend.inverse() * pull;
     } else {
       Eigen::Matrix2d rows = Eigen::Matrix2d::Zero();
       Eigen::Vector2d wanted = Eigen::Vector2d::Zero();
-      for (int i = 0; i + 1 < samples.count; ++i) {
-        const Vector<Real> d = samples.corner[i + 1].w - w;
+      for (int i = 0; i + 1 < corners.count; ++i) {
+        const Vector<Real> d = corners.corner[i + 1].w - w;
         rows.row(i) = rough(d).transpose() * tangents;
         wanted[i] = -static_cast<double>(dot(n, d));
       }
-      if (samples.count == 2) {
+      if (corners.count == 2) {
         const Eigen::Vector2d left(-rows(0, 1), rows(0, 0));
         rows.row(1) = left.transpose() * bend;
         wanted[1] = left.dot(pull);
@@ -226,7 +228,7 @@ class Search {
     n = n * (Real(1) / length(n));
 
     const Simplex<Real> before = known_;
-    known_ = sampled(n);
+    known_ = cornersFor(n);
     const Nearest<Real> found = nearestCorners();
     if (found.squared < face.squared)
       take(found, face, answer);
@@ -248,13 +250,13 @@ class Search {
 /// @param size, near  metres.
 template <class Real, class Accept>
 Answer search(const PosedSet& a, const PosedSet& b, double size, double near, Accept accept,
-              bool whole = false) {
+              bool ballsInCores = false) {
   const auto enough = [&](const Real& upper, const Real& lower) {
     return static_cast<double>(upper) <= near ||
            static_cast<double>(upper - lower) <=
                std::max(0x1p-50 * size, Effort<Real>::agreed * static_cast<double>(lower));
   };
-  return Search<Real>(a, b, size, whole).run(Simplex<Real>(), enough, accept);
+  return Search<Real>(a, b, size, ballsInCores).run(Simplex<Real>(), enough, accept);
 }
 
 }  // namespace corridor::gjk

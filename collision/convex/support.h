@@ -47,14 +47,14 @@ class Support {
   };
 
   /// @param scale  a power of two that all returned points are multiplied by.
-  /// @param whole true: the sphere is a part of the core. Needed for maps that make it an
+  /// @param ballInCore true: the sphere is a part of the core. Needed for maps that make it an
   /// ellipsoid.
-  Support(const PosedSet& set, double scale, bool whole = false)
+  Support(const PosedSet& set, double scale, bool ballInCore = false)
       : set_(set),
         scale_(scale),
         t_(Vec3(set.pose().t * scale)),
         disc_(set.set().disc * scale),
-        ball_(whole ? set.set().ball * scale : 0) {
+        ball_(ballInCore ? set.set().ball * scale : 0) {
     for (int i = 0; i < 3; ++i) row_[i] = Vector<Real>(Vec3(set.pose().m.row(i)));
     if (set.set().disc > 0) {
       const Vector<Real> d = Vector<Real>(set.set().points[1]) - Vector<Real>(set.set().points[0]);

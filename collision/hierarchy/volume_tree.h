@@ -24,7 +24,7 @@ namespace corridor {
 /// need not outlive it. The depth is not bounded: triangles of the sizes 2^-i around a point give a
 /// very deep tree. A traversal therefore needs a stack of its own, and must not be recursive.
 ///
-/// Instantiated for Obb, Aabb, BoundingSphere, Rss, Kdop<14>, Kdop<18>, Kdop<26>.
+/// Instantiated for all volumes of the list CORRIDOR_EACH_VOLUME (pair_tests.h).
 template <BoundingVolume Volume>
 class VolumeTree {
  public:

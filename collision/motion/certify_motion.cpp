@@ -126,7 +126,7 @@ class Certifier {
       // If no tree of the pair has been walked yet, the bounds may be separated at t. Then no tree
       // is needed.
       const bool best = query_.certificate != nullptr;
-      if (list_.isPoseJoint(group) && motions_.separation(pair, 0, best).clearance > 0) continue;
+      if (list_.isNotWalkedYet(group) && motions_.separation(pair, 0, best).clearance > 0) continue;
       if (touches(group.bodies, motions_.relative(pair.motion).X_AB, t, list_.nodePairsOf(group)))
         return true;
     }

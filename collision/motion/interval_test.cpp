@@ -67,7 +67,7 @@ IntervalAnswer testInterval(const MotionQuery& query, const Interval& interval,
   for (std::size_t g = interval.begin; g < interval.end; ++g) {
     WorkList::Group group = list.groups[g];
     bool tooFar = false;
-    if (!interval.boundsAreTested && list.isPoseJoint(group)) {
+    if (!interval.boundsAreTested && list.isNotWalkedYet(group)) {
       const BodiesAnswer bodies = testBounds(query, interval.t0, interval.t1, group, motions);
       if (bodies.separated) continue;
       tooFar = bodies.far && h >= Rules::kLeastHalfWidthFar;

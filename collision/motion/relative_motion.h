@@ -49,7 +49,7 @@ struct RelativeMotion {
   Transform X_AB;               ///< the map at the middle, rounded
   Vec3 linear = Vec3::Zero();   ///< half of the displacement of b's origin in the interval, metres
   Vec3 angular = Vec3::Zero();  ///< half of the interval's rotation vector, radians
-  double speed = 0;             ///< |linear|, rounded up
+  double speed = 0;             ///< |linear|, rounded up; metres, half a displacement
   double angle = 0;             ///< |angular|, rounded up
   std::span<const ScrewMotion> screws;  ///< the joints in order from a to b
   /// Bounds of the errors of all numbers above. At every s, each point of the real b is within
@@ -65,11 +65,14 @@ struct RelativeMotion {
 /// A motion bound for all points x of b within a radius of a given point. For every vector n and
 /// every s
 ///   |n·(x(s) − x(0) − s·(linear + angular × y))| ≤ secondOrderAcross·|n × angular| +
-///   secondOrder·|n|
-/// and |x(s) − x(0)| ≤ isotropic. Tube and rounding add `pad` to both bounds. `pad` includes the
-/// displacement that the tube causes at the middle. The growth of this displacement along the
-/// interval is in `isotropic` and `secondOrder`. All four numbers are rounded up. They are in
-/// metres, except `secondOrderAcross` (metres per radian of `angular`).
+///   secondOrder·|n| + pad·|n|
+/// and |x(s) − x(0)| ≤ isotropic + pad.
+/// * `pad` bounds the rounding errors, and the displacement by the tube at the middle.
+/// * `isotropic` and `secondOrder` include the tube's growth: how much more the tube can displace
+///   the points at other times of the interval.
+///
+/// All four numbers are rounded up. They are in metres, except `secondOrderAcross` (metres per
+/// radian of `angular`).
 struct MotionBound {
   double isotropic = 0, secondOrderAcross = 0, secondOrder = 0, pad = 0;
 };
@@ -77,8 +80,8 @@ struct MotionBound {
 /// Returns |v|, rounded up.
 /// * Below 2^-480 (metres or radians) squares underflow, and the result may be less than |v|. Every
 ///   relative motion includes an error that covers this (`kLeastError` in rigid_motion.cpp).
-/// * The result for a zero vector is exactly 0. The constant that `roundedUp` adds would be lost in
-///   every sum, and would make products subnormal, which is slow.
+/// * The result for a zero vector is exactly 0, not the tiny constant that `roundedUp` would add.
+///   The constant would not change any sum, and products with it would be subnormal, hence slow.
 /// * NaN stays NaN.
 inline double lengthFromAbove(const Vec3& v) {
   const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

@@ -49,7 +49,7 @@ struct WorkList {
   }
   /// Reports whether the group is the pair of both roots: the trees of these bodies are not walked
   /// yet.
-  bool isPoseJoint(const Group& group) const {
+  bool isNotWalkedYet(const Group& group) const {
     const NodePair4& pair = nodePairs[group.begin];
     return group.end - group.begin == 1 && pair.a == 0 && pair.b == 0 &&
            pair.pairs == kWholeTrees[0].pairs;

@@ -113,20 +113,21 @@ bool touch(const exact::MappedCorners& a, const exact::MappedCorners& b, const e
 /// Returns whether two arrays are equal up to signs. Compares bits, because == treats subnormals as
 /// zeros if the processor flushes them.
 template <class Array>
-bool sameSizes(const Array& x, const Array& y) {
+bool equalUpToSigns(const Array& x, const Array& y) {
   std::uint64_t different = 0;
   for (Eigen::Index i = 0; i < Array::SizeAtCompileTime; ++i)
     different |= std::bit_cast<std::uint64_t>(x(i)) ^ std::bit_cast<std::uint64_t>(y(i));
   return different << 1 == 0;
 }
 
-/// Tests triangles under signed permutations on a grid so coarse that doubles are exact; nullopt if
-/// they are not of this kind. Most triangles that touch by construction are of this kind.
+/// Tests two triangles in doubles, if these are exact: the entries of both maps' matrices are 0 or
+/// ±1, as for quarter turns, and all coordinates are on a coarse grid. Returns nullopt otherwise.
+/// Most triangles that touch by construction are of this kind.
 std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, const Triangle& b,
                                    const Transform& X_WB) {
   double size = 0;
   for (const Transform* X : {&X_WA, &X_WB}) {
-    if (!sameSizes<Mat3>(X->m.cwiseAbs2(), X->m)) return std::nullopt;
+    if (!equalUpToSigns<Mat3>(X->m.cwiseAbs2(), X->m)) return std::nullopt;
     size = std::max(size, X->t.cwiseAbs().maxCoeff());
   }
   for (const Triangle* t : {&a, &b})
@@ -139,7 +140,7 @@ std::optional<bool> touchInDoubles(const Triangle& a, const Transform& X_WA, con
   // Adding and subtracting 3·2^51 units rounds to whole units.
   const double rounder = std::ldexp(3.0, std::ilogb(size) - 12 + 51);
   const auto whole = [&](const Vec3& p) {
-    return sameSizes<Vec3>((p.array() + rounder) - rounder, p);
+    return equalUpToSigns<Vec3>((p.array() + rounder) - rounder, p);
   };
   const auto mapped = [&](const Triangle& t, const Transform& X) {
     Points<exact::Int53> points;

@@ -26,8 +26,9 @@ double roundedQuotient(Int numerator, Int denominator, int exponent) {
   const bool negative = (numerator.sign() < 0) != (denominator.sign() < 0);
   numerator = abs(numerator);
   denominator = abs(denominator);
-  // The quotient has 63 or 64 bits. Its last bit is also set if there is a remainder; that bit is
-  // below half an ulp of the 53 bits that remain after rounding.
+  // The quotient has 63 or 64 bits; 53 of them remain after rounding. If there is a remainder, the
+  // last bit is set as a sticky bit. It is below the bit that is half an ulp of the result, so it
+  // changes the rounding only where the quotient without its remainder would be a tie.
   const int shift = 63 - (static_cast<int>(msb(numerator)) - static_cast<int>(msb(denominator)));
   if (shift > 0)
     numerator <<= static_cast<unsigned>(shift);

@@ -10,8 +10,8 @@ namespace corridor {
 /// define in real arithmetic.
 ///
 /// Every volume is fitted in the frame of a box around the same content. The frame's axes are those
-/// of the content's moments if `kOriented`, else those of the mesh. `PairTest<Volume>`, declared
-/// beside each volume (`overlap_<volume>_<volume>.h`), tests two volumes against each other. A
+/// of the content's moments if `kOriented`, else those of the mesh. `PairTest<Volume>`, in the
+/// file `overlap_<volume>_<volume>.h`, tests two volumes against each other. A
 /// volume may also have `merged(a, b)`, if the result is as tight as a fit around the contents of
 /// both; then refitting uses it.
 template <class V>
@@ -28,7 +28,7 @@ concept BoundingVolume = requires(const V v, const Obb& box, const Content& cont
   /// Radius of a sphere about the centre that contains the volume, rounded up: a measure of its
   /// size.
   { v.radius() } -> std::same_as<double>;
-  /// The centre of that sphere, off by at most 2u of itself and of the radius.
+  /// The centre of that sphere, off by at most 2u(|centre| + radius).
   { v.ballCenter() } -> std::convertible_to<Vec3>;
 };
 

@@ -21,10 +21,12 @@
 namespace corridor {
 namespace {
 
-/// Relative motions of zero length for `sweptSphere`, under any maps. The first function describes
-/// a frame as seen from the world, the second a frame as seen from another frame.
+/// These two functions return a relative motion of zero length, for `sweptSphere`. The first
+/// describes a frame as seen from the world, the second a frame as seen from another frame. Both
+/// accept all affine maps, not only rigid ones.
 RelativeMotion atRest(const Transform& X_WB) {
-  // No matrix of doubles is exactly a rotation: |Mx| is between (1 − 3η)|x| and (1 + 3η)|x|.
+  // A matrix M of doubles is rarely an exact rotation. With its defect η, |Mx| is between
+  // (1 − 3η)|x| and (1 + 3η)|x|.
   const double defect = orthonormalityDefect(X_WB.m);
   RelativeMotion still;
   still.X_AB = X_WB;
@@ -38,9 +40,9 @@ RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
   const double defectA = orthonormalityDefect(X_WA.m), defectB = orthonormalityDefect(X_WB.m);
   RelativeMotion still;
   still.X_AB = rigidInverse(X_WA) * X_WB;
-  // The error of X_AB as M_A⁻¹(X_WB x − t_A). Write M_A⁻¹ = M_Aᵀ + (1 − M_AᵀM_A)M_A⁻¹: the second
-  // term is below 3η_A(1 + 4η_A) < 4η_A. Rounding adds less than 32u of all terms. The sphere's
-  // radius grows by 3η_B and by the defect of M_A.
+  // X_AB approximates the map x ↦ M_A⁻¹(X_WB x − t_A). To bound its error, write M_A⁻¹ = M_Aᵀ +
+  // (1 − M_AᵀM_A)M_A⁻¹: the second term is below 3η_A(1 + 4η_A) < 4η_A. Rounding adds less than
+  // 32u of all terms. The sphere's radius grows by 3η_B and by the defect of M_A.
   still.reachError = 5 * (defectA + defectB) + 32 * kUnit;
   still.fixedError =
       (4 * defectA + 32 * kUnit) * (X_WA.t.cwiseAbs().sum() + X_WB.t.cwiseAbs().sum());
@@ -109,19 +111,21 @@ double Scene::defaultTolerance(double farthest) const {
   struct Bounds {
     Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   };
-  std::map<std::size_t, Bounds> sides;
-  for (const Pair& pair : pairs_) sides[bodies_[pair.a].frame], sides[bodies_[pair.b].frame];
+  std::map<std::size_t, Bounds> boundsOfFrames;
+  for (const Pair& pair : pairs_)
+    boundsOfFrames[bodies_[pair.a].frame], boundsOfFrames[bodies_[pair.b].frame];
   for (const Placed& placed : bodies_)
-    if (const auto side = sides.find(placed.frame); side != sides.end()) {
-      side->second.lower = side->second.lower.cwiseMin(placed.body.lower());
-      side->second.upper = side->second.upper.cwiseMax(placed.body.upper());
+    if (const auto bounds = boundsOfFrames.find(placed.frame); bounds != boundsOfFrames.end()) {
+      bounds->second.lower = bounds->second.lower.cwiseMin(placed.body.lower());
+      bounds->second.upper = bounds->second.upper.cwiseMax(placed.body.upper());
     }
   double radius = std::numeric_limits<double>::infinity(), size = 0;
-  for (const auto& [frame, side] : sides) {
-    radius = std::min(radius, 0.5 * (side.upper - side.lower).norm());
-    size = std::max(size, farthest + side.lower.cwiseAbs().cwiseMax(side.upper.cwiseAbs()).norm());
+  for (const auto& [frame, bounds] : boundsOfFrames) {
+    radius = std::min(radius, 0.5 * (bounds.upper - bounds.lower).norm());
+    size =
+        std::max(size, farthest + bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).norm());
   }
-  if (sides.empty()) radius = 1;  // no query uses it
+  if (boundsOfFrames.empty()) radius = 1;  // no query uses it
   // A single point has no radius; any positive number will do.
   return std::max(1e-7 * std::max(radius, std::numeric_limits<double>::min() * 1e8),
                   RigidMotion::roundingTolerance(size));
@@ -264,13 +268,13 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   require(options);
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
-  MotionResult undecidedOne;  // counts as one query, which is undecided if any pair is
+  MotionResult counted;  // counts as one query, which is undecided if any pair is
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     MotionResult& result = results[order_[i]];
     result = certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::directional);
-    if (result.verdict == MotionVerdict::undecided) undecidedOne = result;
+    if (result.verdict == MotionVerdict::undecided) counted = result;
   }
-  count(motion, undecidedOne, context.counters);
+  count(motion, counted, context.counters);
   return results;
 }
 

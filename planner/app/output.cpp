@@ -63,7 +63,8 @@ Amounts largestParts(const ConfigurationSpace& space, const Configuration& tube)
   return parts;
 }
 
-/// Returns metres and radians, without the unit that no coordinate of the space has.
+/// Returns the amounts with their units, such as "0.1 m, 0.2 rad". If the space has no coordinate
+/// in metres, or none in radians, that amount is left out. `between` separates the two.
 std::string amountText(const ConfigurationSpace& space, const Amounts& amounts,
                        const char* between) {
   bool lengths = false, angles = false;
@@ -75,10 +76,10 @@ std::string amountText(const ConfigurationSpace& space, const Amounts& amounts,
 }  // namespace
 
 std::string lengthText(const ConfigurationSpace& space, double metres, double radians) {
-  const bool whole = std::any_of(
+  const bool hasPose = std::any_of(
       space.groups().begin(), space.groups().end(),
       [](const CoordinateGroup& group) { return group.kind != CoordinateGroup::Kind::joints; });
-  return amountText(space, {metres, radians}, whole ? ", turning " : ", ");
+  return amountText(space, {metres, radians}, hasPose ? ", turning " : ", ");
 }
 
 std::string tubeText(const ConfigurationSpace& space, const Configuration& tube) {

@@ -13,8 +13,8 @@ namespace corridor::app {
 void printCsv(const QueryKind& kind, const BatchResult& result);
 void printMotions(const BatchResult& result);
 
-/// Prints the summary: `words`, which describe the query and count its answers, then times, mean
-/// counts, and the trees' build times and sizes.
+/// Prints the summary, one entry `key=value` per line: first `words`, whose entries describe the
+/// query and count its answers; then times, mean counts, and the trees' build times and sizes.
 void printSummary(const BatchResult& result, const std::vector<std::string>& words);
 
 }  // namespace corridor::app

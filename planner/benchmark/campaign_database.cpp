@@ -55,7 +55,8 @@ struct ColumnName {
   }
 };
 
-bool countsAsZero(const std::string& value) {
+/// Reports whether OMPL's script stores a value as NULL.
+bool isNull(const std::string& value) {
   return value.empty() || value == "nan" || value == "inf" || value == "-nan" || value == "-inf";
 }
 
@@ -88,13 +89,13 @@ class CampaignDatabase::Tables {
   std::vector<CampaignSession> sessions() {
     std::vector<CampaignSession> all;
     withFileInErrors([&] {
-      SQLite::Statement of(*base_,
-                           "SELECT started, \"commit\", jobs, count(*) FROM corridor_sessions s "
-                           "JOIN corridor_runs ON sessionid = s.id GROUP BY s.id ORDER BY s.id");
-      while (of.executeStep())
-        all.push_back({of.getColumn(0).getString(), of.getColumn(1).getString(),
-                       static_cast<std::size_t>(of.getColumn(2).getInt64()),
-                       static_cast<std::size_t>(of.getColumn(3).getInt64())});
+      SQLite::Statement rows(*base_,
+                             "SELECT started, \"commit\", jobs, count(*) FROM corridor_sessions s "
+                             "JOIN corridor_runs ON sessionid = s.id GROUP BY s.id ORDER BY s.id");
+      while (rows.executeStep())
+        all.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(),
+                       static_cast<std::size_t>(rows.getColumn(2).getInt64()),
+                       static_cast<std::size_t>(rows.getColumn(3).getInt64())});
     });
     return all;
   }
@@ -103,17 +104,17 @@ class CampaignDatabase::Tables {
     withFileInErrors([&] {
       columns_.clear();  // a failed transaction may have removed columns again
       SQLite::Transaction transaction(*base_);
-      const CampaignCell& of = cells_[cell];
+      const CampaignCell& stored = cells_[cell];
       SQLite::Statement known(*base_,
                               "SELECT id, experimentid FROM corridor_cells WHERE problem = ? "
                               "AND variant = ? AND planner = ?");
-      bindNames(known, of);
+      bindNames(known, stored);
       known.executeStep();
       const std::int64_t cellId = known.getColumn(0).getInt64();
       const std::int64_t experiment =
-          known.getColumn(1).isNull() ? addExperiment(of, run) : known.getColumn(1).getInt64();
+          known.getColumn(1).isNull() ? addExperiment(stored, run) : known.getColumn(1).getInt64();
       known.reset();
-      const std::int64_t runId = addRun(of, run, experiment, plannerOf(of, run));
+      const std::int64_t runId = addRun(stored, run, experiment, plannerOf(stored, run));
       addProgress(run, runId);
       execute("UPDATE corridor_cells SET experimentid = ? WHERE id = ?", experiment, cellId);
       execute("UPDATE experiments SET totaltime = totaltime + ? WHERE id = ?",
@@ -361,16 +362,16 @@ class CampaignDatabase::Tables {
     for (const auto& [name, id] : ids) row.bind(++at, id);
     for (const auto& [words, value] : properties) {
       ++at;
-      if (!countsAsZero(value)) row.bind(at, value);  // SQLite converts it to the column's type
+      if (!isNull(value)) row.bind(at, value);  // SQLite converts it to the column's type
     }
     row.exec();
     return base_->getLastInsertRowid();
   }
   void addColumn(const std::string& table, const ColumnName& column) {
     if (columns_.empty())
-      for (const char* of : {"experiments", "runs", "progress"}) {
-        SQLite::Statement known(*base_, std::string("PRAGMA table_info(") + of + ")");
-        while (known.executeStep()) columns_.insert({of, known.getColumn(1).getString()});
+      for (const char* name : {"experiments", "runs", "progress"}) {
+        SQLite::Statement known(*base_, std::string("PRAGMA table_info(") + name + ")");
+        while (known.executeStep()) columns_.insert({name, known.getColumn(1).getString()});
       }
     if (!columns_.insert({table, column.name}).second) return;
     base_->exec("ALTER TABLE " + table + " ADD " + inDoubleQuotes(column.name) + " " + column.type);

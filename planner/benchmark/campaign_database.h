@@ -10,7 +10,7 @@
 
 namespace corridor {
 
-/// A call of the program that made runs of a campaign.
+/// One execution of a program, such as `corridor benchmark`, that added runs to a campaign.
 struct CampaignSession {
   std::string started;   ///< "2026-05-04 03:02:01", UTC
   std::string commit;    ///< the program's commit (`buildCommit`)

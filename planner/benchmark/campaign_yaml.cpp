@@ -172,9 +172,9 @@ class CampaignReader {
       if (!isName(planner.label)) map.fault("label", "must be one line of text, not empty");
       if (const YamlValue* params = map.find("params")) {
         planner.params.emplace();
-        const YamlMap of(*params, "planners[].params", nullptr, source_);
-        for (const YamlValue::Entry* entry : of.entries())
-          if (const auto text = of.text(entry->key)) (*planner.params)[entry->key] = *text;
+        const YamlMap values(*params, "planners[].params", nullptr, source_);
+        for (const YamlValue::Entry* entry : values.entries())
+          if (const auto text = values.text(entry->key)) (*planner.params)[entry->key] = *text;
       }
       addPlanner(std::move(planner), item.line);
     }
@@ -235,7 +235,7 @@ class CampaignReader {
       CheckerSettings checker;
       readCheckerKeys(map, checker);
       const auto peer = map.text("peer");
-      const bool part = !peer || resolveCompetitor(*peer, variant, map, checker);
+      const bool takesPart = !peer || resolveCompetitor(*peer, variant, map, checker);
       if (faults.size() == 0) {
         const auto [other, unlike] = same.insert({effectOf(one.map), one.suffix});
         if (!unlike) {
@@ -243,7 +243,7 @@ class CampaignReader {
                                         entry.key + one.suffix + "\" would be the same checker");
           return;
         }
-        if (part) campaign_.variants.push_back(std::move(variant));
+        if (takesPart) campaign_.variants.push_back(std::move(variant));
         continue;
       }
       try {

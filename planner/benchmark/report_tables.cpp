@@ -123,7 +123,7 @@ std::string plannerText(const CampaignPlanner& planner) {
   for (const auto& [key, value] : *planner.params) text += ", " + key + ": " + value;
   return planner.params->empty() ? text + ", with OMPL’s defaults" : text;
 }
-std::string peerVersions(const Campaign& campaign) {
+std::string competitorVersions(const Campaign& campaign) {
   std::string text;
   for (const Variant& variant : campaign.variants)
     if (variant.competitor && !variant.competitor->version.empty() &&
@@ -194,7 +194,7 @@ std::string measuredTable(const Campaign& campaign, const std::vector<CampaignCe
   for (const auto& [host, processor] : machines)
     table.row({"machine", escapedHtml(host + (processor.empty() ? "" : ", " + processor))});
   table.row({"programs", "Corridor, commit " + escapedHtml(buildCommit()) + "; OMPL " +
-                             versionOfOmpl() + peerVersions(campaign)});
+                             versionOfOmpl() + competitorVersions(campaign)});
   for (const CampaignSession& session : sessions)
     table.row({"session of " + escapedHtml(session.started) + " UTC",
                std::to_string(session.runs) + " runs, " + std::to_string(session.jobs) +

@@ -43,9 +43,9 @@ double rangeOf(const Coordinate& c) {
 }
 
 /// The projection onto some numbers of a configuration.
-class Numbers : public ob::ProjectionEvaluator {
+class NumberProjection : public ob::ProjectionEvaluator {
  public:
-  Numbers(const ProblemStateSpace& space, std::vector<const Coordinate*> coordinates)
+  NumberProjection(const ProblemStateSpace& space, std::vector<const Coordinate*> coordinates)
       : ProjectionEvaluator(&space), space_(space), coordinates_(std::move(coordinates)) {}
 
   unsigned getDimension() const override { return static_cast<unsigned>(coordinates_.size()); }
@@ -106,7 +106,7 @@ ProblemStateSpace::ProblemStateSpace(const ConfigurationSpace& space) : space_(s
     parts_.push_back({Kind::line, first.first, end - i});
     i = end;
   }
-  // OMPL's informed samplers accept these two types.
+  // OMPL's informed samplers accept no compound spaces except those of the types SE2 and SE3.
   const bool alone =
       space.groups().size() == 1 && parts_.size() == 2 && coordinates.front().weight == 1;
   if (alone && space.groups()[0].kind == Group::planar) type_ = ob::STATE_SPACE_SE2;
@@ -241,7 +241,7 @@ void ProblemStateSpace::registerProjections() {
   if (chosen.empty())
     for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 3); ++i)
       chosen.push_back(&all[i]);
-  registerDefaultProjection(std::make_shared<Numbers>(*this, std::move(chosen)));
+  registerDefaultProjection(std::make_shared<NumberProjection>(*this, std::move(chosen)));
 }
 
 Configuration configurationOf(const ob::SpaceInformation& si, const ob::State* state) {

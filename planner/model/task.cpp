@@ -15,12 +15,12 @@ Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked) {
       const Coordinate& c = space.coordinates()[i];
       if (c.kind == Kind::line) longest = std::max(longest, c.upper - c.lower);
     }
-    const bool whole = group.kind != CoordinateGroup::Kind::joints;
+    const bool isPose = group.kind != CoordinateGroup::Kind::joints;
     for (const std::size_t i : group.coordinates) {
       const Coordinate& c = space.coordinates()[i];
       const bool line = c.kind == Kind::line;
-      const double range = !line ? 2 * std::numbers::pi : whole ? longest : c.upper - c.lower;
-      const auto& wanted = !whole ? asked.joints : line ? asked.position : asked.rotation;
+      const double range = !line ? 2 * std::numbers::pi : isPose ? longest : c.upper - c.lower;
+      const auto& wanted = !isPose ? asked.joints : line ? asked.position : asked.rotation;
       tube[static_cast<Eigen::Index>(c.first)] = std::max(wanted.value_or(0), rounding * range);
     }
   }

@@ -90,7 +90,7 @@ MovingJoint::MovingJoint(const LongPose& fixed)
       // rotated, which costs less than 2^-5 of that.
       fixedShiftError_(2 * kUnit * fixed.length * (1 + 0x1p-5 * fixed.poses)),
       fixedLength_(fixed.length),
-      still_(fixed_),
+      matrixAtZero_(fixed_),
       from_(shift_),
       rotationError_(fixedError_),
       shiftError_(fixedShiftError_),
@@ -123,7 +123,7 @@ MovingJoint::MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::
 }
 
 Transform MovingJoint::at(double t) const {
-  Transform X{still_, from_};
+  Transform X{matrixAtZero_, from_};
   if (joint_ == Frame::Joint::revolute || joint_ == Frame::Joint::rotation) {
     const double phi = angle_ + t * rate_;
     // 1 − cos φ cancels for small φ, but only its absolute error matters.
@@ -214,7 +214,7 @@ void MovingJoint::setRotation(const Configuration& from, const Configuration& to
   Mat3 K;
   K << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
   const Mat3 KR0 = K * R0;
-  still_ = fixed_ * R0;
+  matrixAtZero_ = fixed_ * R0;
   sine_ = fixed_ * KR0;
   versine_ = fixed_ * (K * KR0);
   axis_ = R0.transpose() * axis;

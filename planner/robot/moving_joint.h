@@ -17,7 +17,7 @@ struct LongPose {
   Mat m = Mat::Identity();
   Vec t = Vec::Zero();
   double error = 0;   ///< bound of the error of m, as an operator norm
-  double length = 0;  ///< metres: sum of the lengths of their translations
+  double length = 0;  ///< metres: sum of the lengths of the translations of all poses so far
   int poses = 0;      ///< number of poses multiplied so far
 
   /// Returns this pose followed by the fixed pose of `frame` and, if its joint is held, by that
@@ -25,13 +25,14 @@ struct LongPose {
   LongPose then(const Frame& frame) const;
 };
 
-/// The pose X(t) = fixed · joint(t) of a frame in its nearest kept ancestor (EdgeMotion), along an
-/// edge. Everything that is constant on the edge is computed once per edge. One rounding bound
-/// holds for the whole edge.
+/// The pose X(t) = fixed · joint(t) of a frame along an edge, relative to the nearest ancestor that
+/// EdgeMotion keeps as a frame. (`fixed` includes the constant poses of all frames between.)
+/// Everything that is constant on the edge is computed once per edge. One rounding bound holds for
+/// the whole edge.
 class MovingJoint {
  public:
-  /// Makes the constant pose `fixed` followed by the frame's joint. `fixed` includes the frame's
-  /// own fixed pose.
+  /// Makes the pose `fixed`, followed by the joint of the frame. `fixed` is constant, and includes
+  /// the frame's own fixed pose.
   /// @param kind the kind of the coordinate that moves the joint.
   /// @param tube as in EdgeMotion, for all numbers of a Configuration.
   MovingJoint(const Frame& frame, const LongPose& fixed, Coordinate::Kind kind,
@@ -47,6 +48,8 @@ class MovingJoint {
   double tube() const { return tube_; }          ///< metres or radians
 
   // Properties of the current edge:
+  /// True if the edge defines no motion of the joint: a rotation by half a turn has no unique
+  /// direction, or a joint that mimics a circle would jump at ±π.
   bool ambiguous() const { return ambiguous_; }
   bool still() const { return rate_ == 0; }
   const Vec3& axis() const { return axis_; }  ///< unit vector, in the frame itself
@@ -77,8 +80,8 @@ class MovingJoint {
   double fixedError_ = 0, fixedShiftError_ = 0, fixedLength_ = 0;
   Vec3 slideAxis_ = Vec3::Zero();  // fixed·axis
 
-  // Set for each edge.
-  Mat3 still_, sine_ = Mat3::Zero(), versine_ = Mat3::Zero();
+  // Set for each edge. `matrixAtZero_` is the matrix of `at` for the angle φ = 0.
+  Mat3 matrixAtZero_, sine_ = Mat3::Zero(), versine_ = Mat3::Zero();
   double angle_ = 0;  // at t = 0
   Vec3 from_, delta_ = Vec3::Zero();
   Vec3 axis_ = Vec3::UnitX();

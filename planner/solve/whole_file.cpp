@@ -52,7 +52,7 @@ class Draft {
 };
 
 /// Writes the file. @returns 0, or the system's error number (-1 if it gives none).
-int written(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
+int writeFile(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);
   if (out) write(out);
@@ -84,11 +84,11 @@ void writeWhole(const std::filesystem::path& file,
   int failure = 0;
   // Renaming a file over a device or a pipe would replace it.
   if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
-    failure = written(file, write);
+    failure = writeFile(file, write);
   } else {
     const SignalBlocker wait;
     Draft draft(file.string() + ".tmp" + std::to_string(::getpid()));
-    failure = written(draft.path(), write);
+    failure = writeFile(draft.path(), write);
     if (failure == 0) failure = draft.rename(file);
   }
   if (failure != 0)

@@ -15,16 +15,16 @@ void keepCloser(TriangleGap& best, const RealVec& onA, const RealVec& onB) {
   if (square < best.upper) best = {0, square, onA, onB};  // `upper` holds squares until the end
 }
 
-/// Tries the closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9). If the
-/// segments are nearly parallel, the first guess of a parameter may be arbitrary: the best u for
-/// this guess is computed, then the best t for this u.
+/// Tries the closest points p + t·d1 and r + u·d2 of two segments (Ericson, Real-Time Collision
+/// Detection, 5.1.9). If the segments are nearly parallel, rounding may make the first value of t
+/// arbitrary. So the best u is computed for it, and then the best t for this u.
 void edgeEdge(TriangleGap& best, const RealVec& p, const RealVec& q, const RealVec& r,
               const RealVec& s) {
   const RealVec d1 = q - p, d2 = s - r, w = p - r;
   const Real a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(w), c = d1.dot(w);
   const Real b = d1.dot(d2), determinant = a * e - b * b;
-  const Real free = determinant > 0 ? clampToUnit((b * f - c * e) / determinant) : 0;
-  const Real u = e > 0 ? clampToUnit((b * free + f) / e) : 0;
+  const Real firstT = determinant > 0 ? clampToUnit((b * f - c * e) / determinant) : 0;
+  const Real u = e > 0 ? clampToUnit((b * firstT + f) / e) : 0;
   const Real t = a > 0 ? clampToUnit((b * u - c) / a) : 0;
   keepCloser(best, p + t * d1, r + u * d2);
 }

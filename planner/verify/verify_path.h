@@ -23,9 +23,10 @@ namespace corridor {
 /// after joint j, plus the radius of the body (1 for a prismatic joint).
 ///
 /// 1. If d > travel + margin + tube + rounding, the interval is proved for this pair.
-/// 2. Otherwise each near pair of leaf primitives is tested along the direction of a slab of its
-///    own. Three terms count in this direction: the velocity at the middle; the tube, if it exceeds
-///    the tolerance; and a second-order term, which is quadratic in h and the tube.
+/// 2. Otherwise each near pair of leaf primitives is tested along directions of its own, such as
+///    the one between its closest points. Three terms count in such a direction: the velocity at
+///    the middle; the tube, if it exceeds the tolerance; and a second-order term, which is
+///    quadratic in h and the tube.
 /// 3. Otherwise the interval is halved, until the motion bound is below the tolerance.
 ///
 /// Distances come from plain AABB trees in long double, each certified by a slab between the two
@@ -64,13 +65,13 @@ struct PathProblem {
 enum class PathVerdict {
   /// Every curve in the tube keeps more than the margin everywhere. Never wrong.
   proved,
-  /// At least one finding is a refutation: a contact, or a distance that margin or tube do not
-  /// allow, at a pose within rounding of the path (2^-48 of the lengths involved, or the
-  /// tolerance); an ambiguous half turn; a joint that would jump; or a state that is not valid
-  /// data.
+  /// At least one finding is a refutation: a contact; a distance that margin or tube do not allow;
+  /// an ambiguous half turn; a joint that would jump; or a state that is not valid data. A contact
+  /// or distance is found at a pose that is the path's up to rounding: up to 2^-48 of the lengths
+  /// involved, or up to the tolerance.
   refuted,
   /// Neither. Somewhere the clearance beyond the margin is below twice the tolerance, or below the
-  /// displacement by the tube (the first order in MovedSlab and the second in Reach); or the
+  /// tube's displacement (MovedSlab has its first-order term, Reach its second-order term); or the
   /// rounding of a large value may exceed the clearance; or the work limit was reached.
   undecided
 };

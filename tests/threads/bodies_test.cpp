@@ -32,10 +32,12 @@ using test::Answers;
 using test::inThreads;
 using test::kThreads;
 
-constexpr TreeKind kKinds[] = {
-    TreeKind::obb4,        TreeKind::obbBinary, TreeKind::obbGjk, TreeKind::obbLinearProgram,
-    TreeKind::obbEdgeFace, TreeKind::aabb,      TreeKind::sphere, TreeKind::rss,
-    TreeKind::kdop14,      TreeKind::kdop18,    TreeKind::kdop26};
+/// All kinds of trees.
+constexpr TreeKind kKinds[] = {TreeKind::obb4,
+#define CORRIDOR_KIND(kind, Volume, Overlap, volumeName, overlapName) TreeKind::kind,
+                               CORRIDOR_EACH_OVERLAP(CORRIDOR_KIND)
+#undef CORRIDOR_KIND
+};
 
 /// Returns bodies of every kind: soups, solid meshes, primitives. All calls return equal bodies.
 std::vector<Body> someBodies() {

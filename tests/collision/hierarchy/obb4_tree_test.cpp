@@ -52,7 +52,7 @@ TEST(Obb4Tree, ContainsTrianglesUnderFlushToZero) {
 }
 #endif
 
-TEST(Obb4Tree, HoldsASolidInRationals) {
+TEST(Obb4Tree, ContainsItsConvexPartInRationals) {
   std::mt19937_64 random(test::testSeed(24));
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution(low, high)(random);

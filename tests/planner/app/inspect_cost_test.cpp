@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "collision/hierarchy/tree_kinds.h"
 #include "tests/planner/app/program_test.h"
 
 namespace {
@@ -45,8 +46,12 @@ class InspectCost : public ProgramTest {
   }
 };
 
-const char* const kVolumes[] = {"obb", "obb-binary", "aabb",   "sphere",
-                                "rss", "kdop14",     "kdop18", "kdop26"};
+/// The names of all volumes.
+const std::vector<std::string> kVolumes = [] {
+  std::vector<std::string> names;
+  for (const corridor::VolumeKind& kind : corridor::volumeKinds()) names.push_back(kind.name);
+  return names;
+}();
 
 TEST_F(InspectCost, JsonHasTheCountsOfQueries) {
   const Result result = run("inspect a.obj --against b.obj --poses poses.txt --json");
@@ -113,7 +118,7 @@ TEST_F(InspectCost, PrintsATableOverAGridWithoutPoses) {
   for (const char* column :
        {"N_v", "N_p", "call", "C_v", "C_p", "predicted", "measured", "bytes", "build"})
     EXPECT_THAT(line, HasSubstr(column));
-  for (const char* volume : kVolumes) {
+  for (const std::string& volume : kVolumes) {
     ASSERT_TRUE(std::getline(lines, line));
     EXPECT_THAT(line, testing::StartsWith(volume));
     EXPECT_THAT(line, HasSubstr(" .. "));

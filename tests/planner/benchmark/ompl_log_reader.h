@@ -12,7 +12,8 @@
 namespace corridor::test {
 
 /// A log of OMPL's Benchmark, read by the grammar of `ompl_benchmark_statistics` (OMPL 1.5), but
-/// more strictly: it throws for text that that program would skip, or store as another value.
+/// more strictly: the reader throws for text that OMPL's program would skip, or store as another
+/// value.
 struct OmplLog {
   struct Planner {
     std::string name;
@@ -23,7 +24,8 @@ struct OmplLog {
     std::vector<std::size_t> progressSamples;  ///< number of samples of each run
   };
   std::string version, experiment, host, setup, cpu;
-  std::map<std::string, std::string> parameters;  ///< "resolution REAL"
+  /// Values by name and type, such as "resolution REAL".
+  std::map<std::string, std::string> parameters;
   std::string seed;
   double time = 0, memory = 0, seconds = 0;
   std::size_t runs = 0;

@@ -12,11 +12,16 @@
 namespace corridor::audit {
 namespace {
 
-constexpr TreeKind kTrees[] = {
-    TreeKind::obb4,        TreeKind::obb4,      TreeKind::obb4,   TreeKind::obb4,
-    TreeKind::obb4,        TreeKind::obbBinary, TreeKind::obbGjk, TreeKind::obbLinearProgram,
-    TreeKind::obbEdgeFace, TreeKind::aabb,      TreeKind::sphere, TreeKind::rss,
-    TreeKind::kdop14,      TreeKind::kdop18,    TreeKind::kdop26};
+/// The kinds of trees among which a case's are chosen: every kind, the default five times.
+constexpr TreeKind kTrees[] = {TreeKind::obb4,
+                               TreeKind::obb4,
+                               TreeKind::obb4,
+                               TreeKind::obb4,
+                               TreeKind::obb4,
+#define CORRIDOR_KIND(kind, Volume, Overlap, volumeName, overlapName) TreeKind::kind,
+                               CORRIDOR_EACH_OVERLAP(CORRIDOR_KIND)
+#undef CORRIDOR_KIND
+};
 constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::directional,
                                    EdgeMethod::directional, EdgeMethod::adaptive,
                                    EdgeMethod::advancement};
