@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision/core/error.h"
+#include "collision/core/shortest.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/problem/shape_yaml.h"
 
@@ -30,6 +32,31 @@ void addNotesOnPairs(Problem& problem) {
   if (nothingIsTested(problem)) notes.insert(notes.begin(), kNothingTested);
 }
 
+/// Lengths above this one, in metres, are refused: squares of sums of them must be finite.
+constexpr double kLargestLength = 1e100;
+
+void requireFiniteSizes(const Model& model, const std::string& file) {
+  std::vector<Fault> faults;
+  const auto require = [&](const std::string& name, double length) {
+    if (!(length <= kLargestLength) && faults.size() < 100)
+      faults.push_back({file, 0,
+                        name + ": a coordinate of " + shortest(length) +
+                            " m is too large; at most 1e+100 m is allowed"});
+  };
+  for (const ModelBody& body : model.bodies) {
+    double most = 0;
+    for (const PlacedShape& shape : body.shapes) {
+      for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
+        most = std::max(most, p.cwiseAbs().maxCoeff());
+      if (shape.part) most = std::max(most, shape.part->radius);
+    }
+    require(body.name, most);
+  }
+  for (const Frame& frame : model.tree.frames)
+    require(frame.name.empty() ? "a frame" : frame.name, frame.fixed.p.cwiseAbs().maxCoeff());
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
 }  // namespace
 
 void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& source) {
@@ -44,6 +71,7 @@ void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& so
 
 void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& problem) {
   requireFewPairs(problem.model, problem.source.file.string());
+  requireFiniteSizes(problem.model, problem.source.file.string());
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
   addNotesOnPairs(problem);
   problem.task.tube = tubeOf(problem.model.space, tube);

@@ -20,7 +20,7 @@ using AllowedBodies = std::vector<std::array<std::size_t, 2>>;
 /// sets the tube. Adds a note that lists pairs which are not tested because they never move against
 /// each other, if the two bodies belong to different robots, or to a robot and the world. Adds a
 /// note if no pair is tested.
-/// @throws InputError if the problem has more than 10^7 pairs.
+/// @throws InputError if the problem has more than 10^7 pairs, or a coordinate above 1e100 m.
 void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& problem);
 
 }  // namespace corridor

@@ -156,8 +156,7 @@ bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
   if (!limit) {
     if (needed)
       file.fault(joint.GetLineNum(),
-                 owner +
-                     ": <limit lower=\"…\" upper=\"…\"/> is missing" +
+                 owner + ": <limit lower=\"…\" upper=\"…\"/> is missing" +
                      (type == JointType::revolute ? "; a joint without limits is of type continuous"
                                                   : ""));
     return false;
@@ -183,6 +182,9 @@ bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
     return numbers ? numbers->front() : limit->FindAttribute(name) ? NAN : 0;
   };
   const double least = valueOf("lower", lower), most = valueOf("upper", upper);
+  if (std::isinf(most - least))
+    file.fault(limit->GetLineNum(), owner + ": the range from " + shortest(least) + " to " +
+                                        shortest(most) + " is larger than any double");
   if (least > most)
     file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortest(least) +
                                         " is above the upper limit " + shortest(most));

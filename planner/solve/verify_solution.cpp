@@ -234,7 +234,10 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   }
   report.reachesGoal = checkEnds(problem, solution.path, report.violations);
   checkBounds(problem, solution.path, report.violations);
-  report.motion = verifyPath(plainProblem(problem), solution.path);
+  PathProblem plain = plainProblem(problem);
+  // A path of many states, such as a trajectory's samples, needs some hundred queries an edge.
+  plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * solution.path.size());
+  report.motion = verifyPath(plain, solution.path);
   report.verdict = report.violations.empty() ? report.motion.verdict : PathVerdict::refuted;
   return report;
 }

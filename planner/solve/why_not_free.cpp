@@ -198,8 +198,8 @@ std::string describedFree(const std::optional<NearestFree>& free, const Configur
   for (std::size_t i = 0; i < names.size(); ++i)
     if (const auto k = static_cast<Eigen::Index>(i); free->q[k] != q[k])
       values += (values.empty() ? "" : ", ") + names[i] + ": " + number(free->q[k], free->digits);
-  return "the nearest free values found are at most " + number(free->away) + " away: {" + values +
-         "}";
+  return "the nearest free values found are at most " + number(free->away) + " rad or m away: {" +
+         values + "}";
 }
 
 std::string outOfBounds(const std::string& name, const Configuration& q,

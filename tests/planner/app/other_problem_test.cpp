@@ -59,6 +59,18 @@ TEST_F(OtherProblem, IsNotProved) {
   EXPECT_EQ(ignoredReport["digest"], "differs");
 }
 
+/// The proof is of the problem's margin and tube, whatever the solution claims.
+TEST_F(OtherProblem, LargerClaimsOfTheSolutionAreNoted) {
+  write("bold.yaml", solution("") + "margin: 0.5\ntube: {position: 0.5, rotation: 0.1}\n");
+  const Result bold = run("verify hall.yaml bold.yaml");
+  EXPECT_EQ(bold.status, 0);
+  EXPECT_EQ(bold.err,
+            "corridor: warning: bold.yaml: it claims a margin of 0.5 m; it is verified with the "
+            "problem's, 0 m\n"
+            "corridor: warning: bold.yaml: it claims a larger tube than the problem's, with which "
+            "it is verified\n");
+}
+
 TEST_F(OtherProblem, SameDigestOrNoDigestIsVerified) {
   for (const auto& [file, digest] : std::map<std::string, std::string>{
            {"own.yaml", "same"}, {"by_hand.yaml", "none"}, {"states.path", "none"}}) {

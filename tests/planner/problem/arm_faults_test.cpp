@@ -109,6 +109,35 @@ TEST_F(ArmFaults, AllowAndTube) {
             "here; use joints (rad, or m for prismatic joints)");
 }
 
+/// Only what the problem names must be there.
+TEST_F(ArmFaults, PartsOfAnSrdfThatCannotBeMade) {
+  std::string text = srdf;
+  text.insert(text.find("<disable_collisions"),
+              "<group name='torso'><joint name='waist'/></group>\n"
+              "<group name='most'><joint name='pan'/><joint name='waist'/></group>\n"
+              "<group_state name='odd' group='arm'><joint name='pan' value='x'/></group_state>\n");
+  write("arm.srdf", text);
+  EXPECT_EQ(start("ready"), "no complaint") << "the problem names none of them";
+  EXPECT_EQ(start("odd"),
+            "problem.yaml:5: start: the state \"odd\" can't be used: arm.srdf:7: its value of "
+            "joint \"pan\" is not sound");
+  EXPECT_EQ(robot("srdf: arm.srdf\ngroup: torso\n"),
+            "arm.yaml:4: group: the group \"torso\" can't be used: arm.srdf:5: it has no joint "
+            "that the URDF has");
+  EXPECT_THAT(robot("srdf: arm.srdf\ngroup: most\n"),
+              testing::HasSubstr("start.lift: is held at 0, and not planned for"))
+      << "the group is its joint pan alone";
+}
+
+TEST_F(ArmFaults, SizesBeyondAllArithmetic) {
+  const std::string problem =
+      "format: corridor-problem-1\nrobot: arm.yaml\nworld:\n  floor: {box: [1e200, 1, 1]}\n" +
+      armStates;
+  EXPECT_EQ(complaintOf(problem),
+            "problem.yaml: floor: a coordinate of 5e+199 m is too large; at most 1e+100 m is "
+            "allowed");
+}
+
 TEST_F(ArmFaults, RobotFiles) {
   EXPECT_EQ(robot("joints: [pan, lfit, wrist, follow, pan]\n"),
             "arm.yaml:3: joints: there is no joint \"lfit\" (did you mean \"lift\"?) (known: pan, "

@@ -306,7 +306,10 @@ TEST_F(ProblemFaults, Meshes) {
             "problem.yaml:4: world.rock.unit: one of m, cm, mm, in is needed, not \"0.001\"");
   EXPECT_EQ(rock("{mesh: wedge.obj, up: w}"),
             "problem.yaml:4: world.rock.up: one of x, y, z is needed, not \"w\"");
-  EXPECT_EQ(rock("{mesh: wedge.obj, at: [1e308, 0, 0]}"), "no complaint");
+  EXPECT_EQ(rock("{mesh: wedge.obj, at: [9e99, 0, 0]}"), "no complaint");
+  EXPECT_EQ(
+      rock("{mesh: wedge.obj, at: [1e308, 0, 0]}"),
+      "problem.yaml: rock: a coordinate of 1e+308 m is too large; at most 1e+100 m is allowed");
   write("bad.obj", "v 0 0 nan\nv 1 0 0\nf 1 2 9\n");
   EXPECT_THAT(rock("{mesh: bad.obj}"), testing::StartsWith("bad.obj:1: "))
       << "a mesh's faults name the mesh";

@@ -88,7 +88,10 @@ TEST_F(Shapes, Faults) {
   EXPECT_EQ(
       rock("{mesh: wedge.obj, shapes: [{sphere: 1}]}"),
       "problem.yaml:4: world.rock.mesh: belongs to one shape; put it into the items of shapes");
-  EXPECT_EQ(rock("{box: [1, 1, 1], at: [1e308, 0, 0], rpy_deg: [0, 0, 45]}"), "no complaint");
+  EXPECT_EQ(rock("{box: [1, 1, 1], at: [9e99, 0, 0], rpy_deg: [0, 0, 45]}"), "no complaint");
+  EXPECT_EQ(
+      rock("{box: [1, 1, 1], at: [1e308, 0, 0], rpy_deg: [0, 0, 45]}"),
+      "problem.yaml: rock: a coordinate of 1e+308 m is too large; at most 1e+100 m is allowed");
   EXPECT_EQ(rock("{box: [1e308, 1e308, 1], at: [1.7e308, 0, 0]}"),
             "problem.yaml:4: world.rock.at: moves the shape out of the range of doubles");
   write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

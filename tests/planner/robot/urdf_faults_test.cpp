@@ -129,6 +129,8 @@ TEST_F(UrdfFaults, Joints) {
             "r.urdf:4: joint \"j\": the lower limit 1 is above the upper limit -1");
   EXPECT_EQ(complaintOfJoint("revolute", R"(<limit lower="1" effort="0" velocity="0"/>)"),
             "r.urdf:4: joint \"j\": the lower limit 1 is above the upper limit 0");
+  EXPECT_EQ(complaintOfJoint("prismatic", R"(<limit lower="-1e308" upper="1e308"/>)"),
+            "r.urdf:4: joint \"j\": the range from -1e+308 to 1e+308 is larger than any double");
   EXPECT_EQ(complaintOfJoint("continuous", R"(<axis xyz="0 0 0"/>)"),
             "r.urdf:4: joint \"j\": the axis is zero; a direction is needed, such as xyz=\"0 0 "
             "1\"");
@@ -327,10 +329,11 @@ TEST_F(UrdfFaults, AllKindsAreReportedAtOnceInOrder) {
   write("bad.obj", "f 1 2 3\n");
   const std::string text = complaintOfParts(
       link("a", collision("<mesh filename=\"bad.obj\"/>")) + link("b", collision("<torus/>")) +
-      joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/><mimic joint=\"j\"/>"));
+      joint("j", "revolute", "a", "b",
+            "<axis xyz=\"0 0 0\"/><limit lower=\"2\" upper=\"1\"/><mimic joint=\"j\"/>"));
   EXPECT_THAT(text, testing::MatchesRegex(
                         "r.urdf:2: .*bad.obj:1: .*\nr.urdf:3: .*<torus>.*\nr.urdf:4: .*zero.*\n"
-                        "r.urdf:4: .*<limit.*\nr.urdf:4: .*mimics itself"));
+                        "r.urdf:4: .*lower limit.*\nr.urdf:4: .*mimics itself"));
 }
 
 }  // namespace
