@@ -102,6 +102,7 @@ class UrdfBuilder {
     setMimics();
     for (std::size_t k = 0; k < order.size(); ++k)
       noteFollower(outline_.joints[order[k]], model_.joints[k]);
+    noteLostLeaders();
     return std::move(model_);
   }
 
@@ -185,9 +186,24 @@ class UrdfBuilder {
   }
   std::shared_ptr<const urdf::JointMimic> mimicOf(std::size_t j) const {
     const auto source = urdf_.getJoint(urdfdomName(model_.joints[j].name));
-    return source && source->type != urdf::Joint::FIXED ? source->mimic : nullptr;
+    const bool follows = source && source->type != urdf::Joint::FIXED && source->mimic;
+    return follows && jointIndex_.contains(source->mimic->joint_name) ? source->mimic : nullptr;
   }
   std::size_t leaderOf(std::size_t j) const { return jointIndex_.at(mimicOf(j)->joint_name); }
+
+  /// Adds a note for each joint that mimics a joint which the file lacks.
+  void noteLostLeaders() {
+    std::vector<std::string> names;
+    for (const JointModel& joint : model_.joints) names.push_back(joint.name);
+    for (const UrdfJoint& joint : outline_.joints)
+      if (joint.mimic && joint.type != JointType::fixed &&
+          !jointIndex_.contains(urdfdomName(joint.mimic->joint)))
+        model_.notes.push_back(file_.at(
+            joint.mimic->line, owned("joint", joint.name) + " mimics " +
+                                   quotedWord(joint.mimic->joint) +
+                                   ", which is not a joint of this file; it moves by itself" +
+                                   didYouMean(joint.mimic->joint, names)));
+  }
 
   /// Adds a note if a follower leaves its own limits while its leader stays within its own. Only
   /// the leader's limits count, as for other users of URDF.

@@ -141,12 +141,9 @@ class Tree {
     const auto found = jointIndex_.find(mimic.joint);
     if (mimic.joint == joint.name)
       file_.fault(mimic.line, owner + " mimics itself");
-    else if (found == jointIndex_.end())
-      file_.fault(mimic.line, owner + " mimics " + quotedWord(mimic.joint) +
-                                  ", which is not a joint of this file" +
-                                  hint(mimic.joint, joints_));
-    else
+    else if (found != jointIndex_.end())
       leader_[j] = found->second;
+    // Otherwise the joint is independent, as for other readers; a note says so (urdf_file.cpp).
   }
 
   void faultMimicCircle(std::size_t j) {

@@ -43,11 +43,11 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
-bool holdsGeometry(const XmlFile::Element& element) {
-  if (std::string_view(element.Name()) == "geometry") return true;
+bool holdsCollision(const XmlFile::Element& element) {
+  if (std::string_view(element.Name()) == "collision") return true;
   for (const XmlFile::Element* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement())
-    if (holdsGeometry(*child)) return true;
+    if (holdsCollision(*child)) return true;
   return false;
 }
 
@@ -207,8 +207,8 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
     const std::string hint = near ? " (did you mean <" + *near + ">?)" : "";
     if (near && contains(read, *near))
       fault(element->GetLineNum(), unknown + hint);
-    else if (holdsGeometry(*element))
-      fault(element->GetLineNum(), unknown + ", and the <geometry> in it would be lost" + hint);
+    else if (holdsCollision(*element))
+      fault(element->GetLineNum(), unknown + ", and the <collision> in it would be lost" + hint);
     else if (name.find(':') == name.npos)
       notes.push_back(at(element->GetLineNum(), unknown + ", and is ignored" + hint));
   }

@@ -117,6 +117,17 @@ TEST_F(UrdfFile, EffortAndVelocityMayBeMissing) {
                                    ":5: joint \"j\": <limit> has no effort, velocity"));
 }
 
+TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
+  const RobotModel model = modelOf(
+      link("a") + link("b") + link("c") + joint("pan", "revolute", "a", "b", limit) +
+      joint("tilt", "revolute", "b", "c", limit + "<mimic joint=\"pam\" multiplier=\"2\"/>"));
+  EXPECT_FALSE(model.joints[1].mimic);
+  EXPECT_THAT(model.notes, testing::ElementsAre(
+                               (folder_ / "r.urdf").string() +
+                               ":6: joint \"tilt\" mimics \"pam\", which is not a joint of this "
+                               "file; it moves by itself (did you mean \"pan\"?)"));
+}
+
 TEST_F(UrdfFile, FixedJointsMayMimicEachOther) {
   const RobotModel model =
       modelOf(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "b") +
