@@ -88,7 +88,8 @@ class UrdfBuilder {
     }
     std::vector<bool> hasParent(model_.links.size(), false);
     for (const std::size_t j : order) {
-      jointIndex_[urdfdomName(outline_.joints[j].name)] = model_.joints.size();
+      jointIndex_[outline_.joints[j].name] = model_.joints.size();
+      leaders_.push_back(leaderIn(outline_.joints[j]));
       addJoint(outline_.joints[j]);
       const JointModel& joint = model_.joints.back();
       hasParent[joint.child] = true;
@@ -184,12 +185,16 @@ class UrdfBuilder {
       }
     }
   }
+  /// Returns the name in the file. Two names of the file can be the same in urdfdom's model.
+  static std::string leaderIn(const UrdfJoint& joint) {
+    return joint.mimic ? joint.mimic->joint : "";
+  }
   std::shared_ptr<const urdf::JointMimic> mimicOf(std::size_t j) const {
     const auto source = urdf_.getJoint(urdfdomName(model_.joints[j].name));
     const bool follows = source && source->type != urdf::Joint::FIXED && source->mimic;
-    return follows && jointIndex_.contains(source->mimic->joint_name) ? source->mimic : nullptr;
+    return follows && jointIndex_.contains(leaders_[j]) ? source->mimic : nullptr;
   }
-  std::size_t leaderOf(std::size_t j) const { return jointIndex_.at(mimicOf(j)->joint_name); }
+  std::size_t leaderOf(std::size_t j) const { return jointIndex_.at(leaders_[j]); }
 
   /// Adds a note for each joint that mimics a joint which the file lacks.
   void noteLostLeaders() {
@@ -197,7 +202,7 @@ class UrdfBuilder {
     for (const JointModel& joint : model_.joints) names.push_back(joint.name);
     for (const UrdfJoint& joint : outline_.joints)
       if (joint.mimic && joint.type != JointType::fixed &&
-          !jointIndex_.contains(urdfdomName(joint.mimic->joint)))
+          !jointIndex_.contains(joint.mimic->joint))
         model_.notes.push_back(file_.at(
             joint.mimic->line, owned("joint", joint.name) + " mimics " +
                                    quotedWord(joint.mimic->joint) +
@@ -232,7 +237,8 @@ class UrdfBuilder {
   XmlFile& file_;
   RobotModel model_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
-  std::unordered_map<std::string, std::size_t> jointIndex_;  // by urdfdom's name
+  std::unordered_map<std::string, std::size_t> jointIndex_;
+  std::vector<std::string> leaders_;  // for each joint, the name of the joint that it mimics, or ""
 };
 
 }  // namespace

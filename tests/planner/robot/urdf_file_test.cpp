@@ -128,6 +128,14 @@ TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
                                "file; it moves by itself (did you mean \"pan\"?)"));
 }
 
+/// urdfdom is given ? instead of %, so that both names below become one.
+TEST_F(UrdfFile, LeadersAreFoundByTheirNamesInTheFile) {
+  const RobotModel model = modelOf(
+      link("a") + link("b") + joint("j%", "revolute", "a", "b", limit + "<mimic joint=\"j?\"/>"));
+  EXPECT_FALSE(model.joints[0].mimic);
+  EXPECT_EQ(model.notes.size(), 1u);
+}
+
 TEST_F(UrdfFile, FixedJointsMayMimicEachOther) {
   const RobotModel model =
       modelOf(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "b") +
