@@ -175,8 +175,8 @@ PlacedPair byExactRotation(Random& random, const Triangle& a, const Triangle& b)
   return pair;
 }
 /// Rotated by a rational (Pythagorean) rotation times its denominator, which maps integers to
-/// integers. Doubles hold exactly only 24 of all rotation matrices, the signed permutations: if three
-/// squares sum up to a multiple of 4, all three numbers are even.
+/// integers. Doubles hold exactly only 24 of all rotation matrices, the signed permutations: if
+/// three squares sum up to a multiple of 4, all three numbers are even.
 PlacedPair byRationalRotation(Random& random, const Triangle& a, const Triangle& b) {
   const double w = integer(random, -5, 5), x = integer(random, -5, 5), y = integer(random, -5, 5),
                z = integer(random, 1, 5);
