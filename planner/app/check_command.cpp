@@ -129,8 +129,7 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   const Lines out(a.json);
   ordered_json ends;
   const auto checkEnd = [&](const std::string& name, const Configuration& q) {
-    auto why = whyNotFree(name, q, checker);
-    if (why && why->starts_with(name + ": ")) why->erase(0, name.size() + 2);  // printed before it
+    const auto why = whyNotFree(q, checker);
     ends[name] = why.value_or("free");
     out.line(name, why.value_or("free"), why ? Tone::bad : Tone::good);
     return !why;

@@ -138,7 +138,7 @@ class ProblemReport {
   }
 
   bool reportEnd(const std::string& name, const Configuration& q, ordered_json& json) {
-    const auto why = whyNotFree(name, q, checker_);
+    const auto why = whyNotFree(q, checker_);
     json = why.value_or("free");
     out_.line(name, why.value_or("free"), why ? Tone::bad : Tone::plain);
     return !why;

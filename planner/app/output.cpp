@@ -116,12 +116,14 @@ VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
     warn(solutionFile + ": made for other files than those of " + problemFile +
          " (the digests differ)" +
          (ignoreDigest ? "" : "; it is not verified: --ignore-digest verifies it anyway"));
+  if (report.otherProblem) return report;
   if (solution.margin > problem.task.margin)
     warn(solutionFile + ": it claims a margin of " + shortest(solution.margin) +
          " m; it is verified with the problem's, " + shortest(problem.task.margin) + " m");
   if (solution.tube.size() == problem.task.tube.size() &&
       (solution.tube.array() > problem.task.tube.array()).any())
-    warn(solutionFile + ": it claims a larger tube than the problem's, with which it is verified");
+    warn(solutionFile +
+         ": it claims a larger tube than the problem's; it is verified with the problem's");
   return report;
 }
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "collision/core/shortest.h"
-#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {

@@ -56,7 +56,7 @@ struct RobotModel {
   std::map<std::string, std::vector<std::string>> groups;  ///< SRDF groups: their joints' names
   std::map<std::string, std::map<std::string, double>> states;  ///< named states: joint values
   std::map<std::string, std::string> stateGroup;                ///< SRDF: the group of each state
-  /// SRDF groups from which members are left out: names that the URDF lacks.
+  /// SRDF groups from which members are left out: names that the URDF lacks, the first 31.
   std::map<std::string, std::vector<std::string>> missingMembers;
   /// SRDF groups and states that can't be made, with the reasons: "r.srdf:4: it has no joint …".
   struct {

@@ -191,9 +191,6 @@ class SrdfReader {
     unknown.add(element.GetLineNum(), *name);
     return std::nullopt;
   }
-  std::string hint(const std::string& name, const Names& known) const {
-    return file_.hints() ? didYouMean(name, known.all()) : "";
-  }
   std::optional<std::size_t> findLink(const Element& element, const char* attribute,
                                       const std::string& owner, UnknownNames& unknown) {
     return find(element, attribute, owner, links_, unknown);
@@ -290,9 +287,9 @@ class SrdfReader {
       if (!name) return;
       if (const Group* inner = findGroup(*name))
         group.subgroups.push_back(static_cast<std::size_t>(inner - groups_.data()));
-      else
-        group.unusable =
-            "there is no " + owned("group", *name) + " in the SRDF" + hint(*name, groupNames_);
+      else if (group.unusable.empty())
+        group.unusable = "there is no " + owned("group", *name) + " in the SRDF" +
+                         didYouMean(*name, groupNames_.all());
     });
   }
 
@@ -309,8 +306,10 @@ class SrdfReader {
     for (std::size_t k = 0; k < open.size(); ++k) {
       const Group& group = groups_[open[k]];
       members.joints.insert(group.joints.begin(), group.joints.end());
-      members.missing.insert(members.missing.end(), group.missing.names.begin(),
-                             group.missing.names.end());
+      for (const std::string& name : group.missing.names)  // messages name at most 30
+        if (members.missing.size() < 31 && std::find(members.missing.begin(), members.missing.end(),
+                                                     name) == members.missing.end())
+          members.missing.push_back(name);
       if (members.unusable.empty()) members.unusable = group.unusable;
       for (const std::size_t inner : group.subgroups) {
         if (inner == root) {

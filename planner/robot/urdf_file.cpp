@@ -200,6 +200,7 @@ class UrdfBuilder {
   void noteLostLeaders() {
     std::vector<std::string> names;
     for (const JointModel& joint : model_.joints) names.push_back(joint.name);
+    int hints = 10;  // the time of a search for similar names grows with their number
     for (const UrdfJoint& joint : outline_.joints)
       if (joint.mimic && joint.type != JointType::fixed &&
           !jointIndex_.contains(joint.mimic->joint))
@@ -207,7 +208,7 @@ class UrdfBuilder {
             joint.mimic->line, owned("joint", joint.name) + " mimics " +
                                    quotedWord(joint.mimic->joint) +
                                    ", which is not a joint of this file; it moves by itself" +
-                                   didYouMean(joint.mimic->joint, names)));
+                                   (hints-- > 0 ? didYouMean(joint.mimic->joint, names) : "")));
   }
 
   /// Adds a note if a follower leaves its own limits while its leader stays within its own. Only

@@ -108,8 +108,8 @@ std::vector<Configuration> sampleGoals(const Problem& problem, const Checker& ch
     const std::string name =
         goals.size() == 1 ? "goal"
                           : "goal " + std::to_string(i + 1) + " of " + std::to_string(goals.size());
-    if (auto why = whyNotFree(name, goals[i], checker))
-      whyNot.push_back(std::move(*why));
+    if (const auto why = whyNotFree(goals[i], checker))
+      whyNot.push_back(name + ": " + *why);
     else
       found.push_back(goals[i]);
   }

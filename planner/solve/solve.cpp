@@ -103,8 +103,8 @@ PlannerParameter Solve::parameterAt(const std::string& place, const std::string&
 
 void Solve::checkEnds() {
   std::vector<Fault> faults;
-  if (const auto why = whyNotFree("start", start_, checker_))
-    faults.push_back(problem_.source.faultAt("start", *why));
+  if (const auto why = whyNotFree(start_, checker_))
+    faults.push_back(problem_.source.faultAt("start", "start: " + *why));
   std::vector<std::string> whyNot;
   goalSamples_ = sampleGoals(problem_, checker_, kGoalSamples, whyNot);
   for (const std::string& why : whyNot) {

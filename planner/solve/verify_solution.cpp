@@ -5,7 +5,6 @@
 
 #include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
-#include "planner/model/bounds.h"
 #include "planner/problem/digest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/verify/edge_curve.h"

@@ -202,10 +202,9 @@ std::string describedFree(const std::optional<NearestFree>& free, const Configur
          values + "}";
 }
 
-std::string outOfBounds(const std::string& name, const Configuration& q,
-                        const ConfigurationSpace& space) {
+std::string outOfBounds(const Configuration& q, const ConfigurationSpace& space) {
   if (const CoordinateGroup* pose = onlyPose(space))
-    return name + ": " + position(q, *pose) + " is outside of the bounds";
+    return position(q, *pose) + " is outside of the bounds";
   std::string text;
   for (const Coordinate& c : space.coordinates()) {
     const double value = q[static_cast<Eigen::Index>(c.first)];
@@ -213,7 +212,7 @@ std::string outOfBounds(const std::string& name, const Configuration& q,
       text += (text.empty() ? "" : ", ") + c.name + " = " + number(value) + " is not in [" +
               number(c.lower) + ", " + number(c.upper) + "]";
   }
-  return name + ": " + text;
+  return text;
 }
 
 /// Explains the reasons that do not depend on the gap between two bodies.
@@ -231,9 +230,8 @@ std::string whyUndecided(UndecidedReason reason) {
 
 }  // namespace
 
-std::optional<std::string> whyNotFree(const std::string& name, const Configuration& q,
-                                      const Checker& checker) {
-  if (!checker.inBounds(q)) return outOfBounds(name, q, checker.space());
+std::optional<std::string> whyNotFree(const Configuration& q, const Checker& checker) {
+  if (!checker.inBounds(q)) return outOfBounds(q, checker.space());
   const MotionResult result = checker.certifyState(q);
   if (result.verdict == MotionVerdict::free) return std::nullopt;
 
@@ -243,21 +241,21 @@ std::optional<std::string> whyNotFree(const std::string& name, const Configurati
     // `needed` does not contain the clearance slack: the message on the tolerance covers that.
     const double needed = result.pair ? tubeOf(checker, q, *result.pair) : 0;
     if (result.gap <= needed) {
-      return name + ": the gap between " + pair + " is " + number(result.gap) +
-             " m, and the tube needs " + number(needed) + " m; move it away, or set a smaller tube";
+      return "the gap between " + pair + " is " + number(result.gap) + " m, and the tube needs " +
+             number(needed) + " m; move it away, or set a smaller tube";
     }
-    return name + ": the gap between " + pair + " is " + number(result.gap) + " m" +
+    return "the gap between " + pair + " is " + number(result.gap) + " m" +
            (options.margin > 0 ? " beyond the margin" : "") +
            ", too small to prove at a tolerance of " + number(options.tolerance) +
            " m; move it away, or set checker: {tolerance: " + number(result.gap / 4) + "}";
   }
   if (result.verdict == MotionVerdict::undecided && result.reason == UndecidedReason::rounding)
-    return name + ": a value is so large that the rounding of the pose exceeds the gap between " +
-           pair + ", or the tolerance of " + number(options.tolerance) +
+    return "a value is so large that the rounding of the pose exceeds the gap between " + pair +
+           ", or the tolerance of " + number(options.tolerance) +
            " m; reduce the value (an angle by whole turns), or set a larger checker: {tolerance: "
            "…}";
-  if (result.verdict == MotionVerdict::undecided) return name + ": " + whyUndecided(result.reason);
-  return name + " is in contact: " + pair +
+  if (result.verdict == MotionVerdict::undecided) return whyUndecided(result.reason);
+  return "in contact: " + pair +
          (checker.interference(q)
               ? " touch"
               : " are closer than the margin of " + number(options.margin) + " m") +

@@ -11,8 +11,6 @@ namespace corridor {
 /// can be used. For a contact, the line names the two bodies, their triangles, and the nearest free
 /// configuration that a search found. For two bodies that are too close, it names the gap, and what
 /// to set.
-/// @param name for the message: "start", "goal", "goal 1 of 2".
-std::optional<std::string> whyNotFree(const std::string& name, const Configuration& q,
-                                      const Checker& checker);
+std::optional<std::string> whyNotFree(const Configuration& q, const Checker& checker);
 
 }  // namespace corridor

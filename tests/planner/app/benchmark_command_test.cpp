@@ -152,7 +152,7 @@ TEST_F(BenchmarkCommand, BadInputIsOneLineAndRunsNothing) {
   EXPECT_THAT(both.err, HasSubstr("none.yaml: no such file"));
   EXPECT_THAT(both.err, HasSubstr("--planners: unknown planner \"RRTConect\""));
   write("touching.yaml", problem("0, 0"));
-  refuse("hall.yaml touching.yaml", "touching.yaml:5: start is in contact");
+  refuse("hall.yaml touching.yaml", "touching.yaml:5: start: in contact");
 }
 
 TEST_F(BenchmarkCommand, RefusesFoldersThatCannotBeWritten) {

@@ -108,7 +108,7 @@ TEST_F(CheckCommand, CheckOfStartAndGoal) {
         "start: {shoulder: 1.57, elbow: 0}\ngoal: {shoulder: 2.8, elbow: 0.5}\n");
   const Result touch = run("check touch.yaml");
   EXPECT_EQ(touch.status, 1);
-  EXPECT_THAT(touch.out, HasSubstr("start: start is in contact: \"lower\" and \"post\" touch; the "
+  EXPECT_THAT(touch.out, HasSubstr("start: in contact: \"lower\" and \"post\" touch; the "
                                    "nearest free values found are at most 0."));
   write("bad.yaml",
         "format: corridor-problem-1\nrobot: arm.urdf\nworld:\n  post: {sphere: 0.1, at: [0, 1.5, "

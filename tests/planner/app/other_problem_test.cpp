@@ -67,8 +67,8 @@ TEST_F(OtherProblem, LargerClaimsOfTheSolutionAreNoted) {
   EXPECT_EQ(bold.err,
             "corridor: warning: bold.yaml: it claims a margin of 0.5 m; it is verified with the "
             "problem's, 0 m\n"
-            "corridor: warning: bold.yaml: it claims a larger tube than the problem's, with which "
-            "it is verified\n");
+            "corridor: warning: bold.yaml: it claims a larger tube than the problem's; it is "
+            "verified with the problem's\n");
 }
 
 TEST_F(OtherProblem, SameDigestOrNoDigestIsVerified) {

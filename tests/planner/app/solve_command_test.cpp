@@ -160,7 +160,7 @@ TEST_F(SolveCommand, BadInputIsOneLineAndExit2) {
               "fine.yaml:8: checker.resolution: must be from 1e-9 to below 1, not 1e-300");
   write("problem.yaml", problem("0.05, 0, 0"));
   expectFaultThatBegins("solve problem.yaml -o s.yaml",
-                        "problem.yaml:5: start is in contact: \"cube\" (triangle ");
+                        "problem.yaml:5: start: in contact: \"cube\" (triangle ");
   write("problem.yaml", problem("9, 0, 0"));
   expectFaultThatBegins("solve problem.yaml -o s.yaml", "problem.yaml:5: start");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.yaml"));

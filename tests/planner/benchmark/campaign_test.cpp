@@ -293,7 +293,7 @@ TEST(Campaign, ReportsAllFaultsBeforeTheFirstRun) {
               testing::Not(HasSubstr("\n")));  // reported once, not for each variant
   campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].task.start.head(3) = Vec3(-0.4, -2, 0);
-  EXPECT_THAT(complaintOf(campaign), StartsWith("hall.yaml:4: start is in contact: \"bar\""));
+  EXPECT_THAT(complaintOf(campaign), StartsWith("hall.yaml:4: start: in contact: \"bar\""));
   campaign = campaignOf({"certified"}, 1);
   campaign.problems[0].settings.planner.params = {{"rnge", "1"}};
   EXPECT_THAT(complaintOf(campaign), HasSubstr("RRTConnect has no parameter \"rnge\""));

@@ -280,13 +280,13 @@ TEST(Solve, StartInContactSaysWhichPairAndWhereItIsFree) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.task.start.head(3) = Vec3(-0.4, -2, 0);
   const std::string complaint = complaintOf(problem);
-  EXPECT_THAT(complaint, StartsWith("hall.yaml:4: start is in contact: \"bar\" (triangle "));
+  EXPECT_THAT(complaint, StartsWith("hall.yaml:4: start: in contact: \"bar\" (triangle "));
   EXPECT_THAT(complaint, HasSubstr(" and \"wall\" (triangle "));
   // The bar's tip is 0.1005 m past the wall's near face.
   EXPECT_THAT(complaint, HasSubstr(" touch; the nearest free position found is 0.1"));
   problem.task.goals[0].head(3) = Vec3(0.3, -2, 0);
   EXPECT_THAT(complaintOf(problem),
-              HasSubstr("\nhall.yaml:5: goal is in contact"));  // both at once
+              HasSubstr("\nhall.yaml:5: goal: in contact"));  // both at once
 }
 
 /// The configuration in the message must be free with exactly the digits that are printed.
@@ -384,7 +384,7 @@ TEST(Solve, OutOfBoundsAndClosedGoalRegion) {
   problem.task.goals[0].head(3) = Vec3(0, -2, 0);
   problem.task.goalRegion = GoalRegion{0.01, 0.01, 0};
   EXPECT_THAT(complaintOf(problem), StartsWith("hall.yaml:5: no free state was found in the goal "
-                                               "region; at its middle: goal is in contact"));
+                                               "region; at its middle: goal: in contact"));
 }
 
 Problem armAt(double shoulder, double elbow, double wrist) {
@@ -434,13 +434,13 @@ TEST(Arm, OneFreeGoalOfSeveralIsEnoughAndTheOthersAreReported) {
   ASSERT_EQ(report.outcome, SolveOutcome::solved) << report.why;
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_THAT(report.warnings[0].str(),
-              StartsWith("arm.yaml:5: goal 1 of 3 is in contact: \"lower\" and \"post\" touch; the "
+              StartsWith("arm.yaml:5: goal 1 of 3: in contact: \"lower\" and \"post\" touch; the "
                          "nearest free values found are at most "));
   EXPECT_TRUE(report.path.back() == problem.task.goals[1] ||
               report.path.back() == problem.task.goals[2]);
   EXPECT_EQ(verifySolution(problem, makeSolution(problem, report)).verdict, PathVerdict::proved);
   problem.task.goals.resize(1);
-  EXPECT_THAT(complaintOf(problem), StartsWith("arm.yaml:5: goal is in contact: "));
+  EXPECT_THAT(complaintOf(problem), StartsWith("arm.yaml:5: goal: in contact: "));
 }
 
 TEST(Arm, GoalRegionOfJoints) {
@@ -455,7 +455,7 @@ TEST(Arm, GoalRegionOfJoints) {
 
 TEST(Arm, StartInSelfContactNamesTheLinks) {
   EXPECT_THAT(complaintOf(armAt(0, 2.45, 2.45)),
-              StartsWith("arm.yaml:4: start is in contact: \"upper\" and \"hand\" (shape "));
+              StartsWith("arm.yaml:4: start: in contact: \"upper\" and \"hand\" (shape "));
   EXPECT_EQ(complaintOf(armAt(0, 3, 0)), "arm.yaml:4: start: elbow = 3 is not in [-2.5, 2.5]");
 }
 

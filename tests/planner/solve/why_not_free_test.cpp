@@ -18,12 +18,12 @@ TEST(WhyNotFree, NamesFloatingPointSettings) {
     std::optional<std::string> why;
     {
       const test::WithFloatingPoint set(setting);
-      why = whyNotFree("start", startOf(problem), checker);
+      why = whyNotFree(startOf(problem), checker);
     }
     if (setting.standard())
       EXPECT_EQ(why, std::nullopt) << setting.name;
     else
-      EXPECT_THAT(why.value_or(""), testing::StartsWith("start: nothing can be proved with these "
+      EXPECT_THAT(why.value_or(""), testing::StartsWith("nothing can be proved with these "
                                                         "floating-point settings: "))
           << setting.name;
   }
