@@ -129,8 +129,8 @@ std::filesystem::path AssimpLimits::assimpProgram() {
       std::filesystem::read_symlink("/proc/self/exe", error).parent_path()};
   for (auto& folder : runPath()) folders.push_back(std::move(folder));
   folders.emplace_back(CORRIDOR_ASSIMP_DIR);
-  for (const auto& folder : folders)
-    if (const auto file = folder / CORRIDOR_ASSIMP_PROGRAM;
+  for (auto& folder : folders)
+    if (auto file = folder / CORRIDOR_ASSIMP_PROGRAM;
         std::filesystem::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0)
       return file;
   return {};

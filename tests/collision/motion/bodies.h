@@ -67,13 +67,22 @@ inline std::string proofName(const testing::TestParamInfo<Proof>& proof) {
          treeName(proof.param.trees);
 }
 
+/// Draws a vector whose coordinates are in [-1, 1]. The order of the calls is fixed. As arguments
+/// of one call they would have another order with another compiler.
+inline Vec3 randomInCube(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> real(-1, 1);
+  const double z = real(random), y = real(random), x = real(random);
+  return {x, y, z};
+}
+
 /// Returns triangles about random points within `spread` of the origin.
 inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, double size) {
-  const auto real = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
-    const Vec3 c = spread * Vec3(real(), real(), real());
-    add(mesh, c, c + size * Vec3(real(), real(), real()), c + size * Vec3(real(), real(), real()));
+    const Vec3 c = spread * randomInCube(random);
+    const Vec3 r = c + size * randomInCube(random);
+    const Vec3 q = c + size * randomInCube(random);
+    add(mesh, c, q, r);
   }
   return mesh;
 }
@@ -81,16 +90,15 @@ inline TriangleMesh blob(std::mt19937_64& random, int count, double spread, doub
 /// Returns two poses within 2 m of the origin, most of them centimetres to metres apart, with
 /// rotations of a similar size in radians.
 inline std::pair<RigidPose, RigidPose> randomEdge(std::mt19937_64& random) {
-  const auto real = [&](double low = -1, double high = 1) {
-    return std::uniform_real_distribution(low, high)(random);
-  };
-  const double length = std::pow(10.0, real(-2, 0.5));
-  const RigidPose a{2 * Vec3(real(), real(), real()),
-                    Eigen::Quaterniond(real(), real(), real(), real()).normalized()};
-  const RigidPose b{a.p + length * Vec3(real(), real(), real()),
-                    Eigen::Quaterniond(Eigen::AngleAxisd(
-                        length * real(), Vec3(real(), real(), real()).normalized())) *
-                        a.q};
+  std::uniform_real_distribution<double> real(-1, 1);
+  const double length = std::pow(10.0, std::uniform_real_distribution(-2.0, 0.5)(random));
+  RigidPose a, b;
+  a.p = 2 * randomInCube(random);
+  const double z = real(random), y = real(random), x = real(random), w = real(random);
+  a.q = Eigen::Quaterniond(w, x, y, z).normalized();
+  b.p = a.p + length * randomInCube(random);
+  const Vec3 axis = randomInCube(random).normalized();
+  b.q = Eigen::Quaterniond(Eigen::AngleAxisd(length * real(random), axis)) * a.q;
   return {a, b};
 }
 
