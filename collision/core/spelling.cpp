@@ -56,10 +56,10 @@ std::string knownWords(const std::vector<std::string>& words) {
   return " (known: " + joinedFirst(words) + ")";
 }
 
-std::string joinedFirst(const std::vector<std::string>& words) {
-  constexpr std::size_t most = 30;
+std::string joinedFirst(const std::vector<std::string>& words, std::size_t most) {
   if (words.size() <= most) return joined(words);
-  const std::vector<std::string> first(words.begin(), words.begin() + most);
+  const std::vector<std::string> first(words.begin(),
+                                       words.begin() + static_cast<std::ptrdiff_t>(most));
   return joined(first) + " and " + std::to_string(words.size() - most) + " more";
 }
 

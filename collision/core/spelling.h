@@ -27,8 +27,9 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 /// Returns ` (known: a, b, c)`, with at most 30 words (`joinedFirst`).
 std::string knownWords(const std::vector<std::string>& words);
 
-/// Returns "a, b, c", or the first 30 words and the number of the others: "a, b, c and 970 more".
-std::string joinedFirst(const std::vector<std::string>& words);
+/// Returns "a, b, c", or the first `most` words and the number of the others: "a, b, c and 970
+/// more".
+std::string joinedFirst(const std::vector<std::string>& words, std::size_t most = 30);
 
 /// Returns all words: "a, b, c".
 std::string joined(const std::vector<std::string>& words);

@@ -47,7 +47,7 @@ std::optional<std::string_view> attributeOf(std::string_view tag, const std::str
 
 }  // namespace
 
-void checkColladaAsset(std::string_view text, MeshFaults& faults) {
+char checkColladaAsset(std::string_view text, MeshFaults& faults) {
   std::string file(text);
   blank(file, "<!--", "-->");
   blank(file, "<![CDATA[", "]]>");
@@ -59,14 +59,18 @@ void checkColladaAsset(std::string_view text, MeshFaults& faults) {
       faults.add(lineOf(asset, at), "<unit meter=" + inQuotes(*meter) +
                                         ">: the unit must be a number of metres above 0");
   }
+  char up = 'y';
   if (const auto at = asset.find("<up_axis"); at != asset.npos) {
     const auto begin = std::min(asset.find('>', at), asset.size() - 1) + 1;
     const std::string_view axis = trimmed(asset.substr(begin, asset.find('<', begin) - begin));
     if (axis != "X_UP" && axis != "Y_UP" && axis != "Z_UP")
       faults.add(lineOf(asset, at),
                  "<up_axis> is " + inQuotes(axis) + "; X_UP, Y_UP or Z_UP is needed");
+    else
+      up = axis.front() == 'X' ? 'x' : axis.front() == 'Y' ? 'y' : 'z';
   }
   faults.throwIfAny();
+  return up;
 }
 
 }  // namespace corridor

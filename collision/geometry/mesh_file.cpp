@@ -37,7 +37,6 @@ void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {
 struct StoredMesh {
   MeshFile file;
   double fileUnit = 0;  ///< metres; 0: the format has none
-  bool isCollada = false;
 };
 
 using Reader = ReadMesh (*)(std::string_view, MeshFaults&);
@@ -103,12 +102,13 @@ std::string notRead(const std::string& extension) {
 constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
 
 /// Checks that need no assimp: size, kind of file, and Collada's unit and up-axis.
-void requireForAssimp(const std::filesystem::path& file, const std::string& extension,
-                      MeshFaults& faults) {
+/// @returns Collada's up-axis; nullopt for other formats.
+std::optional<char> requireForAssimp(const std::filesystem::path& file,
+                                     const std::string& extension, MeshFaults& faults) {
   if (extension == ".dae")
-    checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults);
-  else
-    requireFile(file, kWhat, kMostAssimpBytes);
+    return checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults);
+  requireFile(file, kWhat, kMostAssimpBytes);
+  return std::nullopt;
 }
 
 constexpr const char* floatHint = " (this format is read in float, which ends at 3.4e38)";
@@ -119,7 +119,7 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
     faults.fail(0, "the format has a unit, which assimp does not report; state the unit");
   }
-  requireForAssimp(file, extension, faults);
+  const std::optional<char> up = requireForAssimp(file, extension, faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
   requireSound(import.mesh, faults, floatHint);
   StoredMesh stored;
@@ -127,7 +127,7 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   stored.file.format = std::move(import.format);
   stored.file.floatVertices = true;
   stored.fileUnit = import.fileUnit;
-  stored.isCollada = import.isCollada;
+  stored.file.fileUp = up;
   return stored;
 }
 
@@ -195,7 +195,7 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     }
   }
   result.unitRule = unitRule(options, stored.fileUnit);
-  result.upRule = upRule(options, stored.isCollada);
+  result.upRule = upRule(options, result.fileUp.has_value());
   return result;
 }
 

@@ -23,6 +23,9 @@ struct MeshFile {
   std::string format;  ///< "OBJ", "STL (binary)", "PLY (ASCII)" …, or assimp's name of the format
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
+  /// The up-axis that a Collada file states ('x', 'y' or 'z'; 'y' if it states none). Unset: not
+  /// Collada. It is not applied, which is ROS's rule; set MeshFileOptions::up to apply it.
+  std::optional<char> fileUp = {};
   /// True if assimp read the file, and therefore rounded the vertices to float.
   bool floatVertices = false;
 };

@@ -104,6 +104,15 @@ ordered_json shapeJson(const PlacedShape& shape) {
   return j;
 }
 
+/// Reports a group or state that can't be used. @returns whether it is one.
+bool reportUnusable(const char* kind, const std::string& name, const std::string& why,
+                    const Lines& out, ordered_json& json) {
+  if (why.empty()) return false;
+  json["unusable"].push_back({{"kind", kind}, {"name", name}, {"reason", why}});
+  out.line(kind, quotedWord(name) + ": can't be used: " + why, Tone::bad);
+  return true;
+}
+
 int inspectRobot(const InspectArguments& a) {
   FaultList faults(a.file);
   const auto setup = readRobotFile(a.file, faults);
@@ -116,8 +125,9 @@ int inspectRobot(const InspectArguments& a) {
                     {"joints", ordered_json::array()},
                     {"links", ordered_json::array()},
                     {"allowed", ordered_json::array()},
-                    {"groups", model.groups},
-                    {"states", model.states},
+                    {"groups", ordered_json::object()},
+                    {"states", ordered_json::object()},
+                    {"unusable", ordered_json::array()},
                     {"notes", model.notes}};
   const Lines out(a.json);
   out.line("robot", a.file);
@@ -146,16 +156,18 @@ int inspectRobot(const InspectArguments& a) {
   for (const AllowedPair& pair : model.allowed)
     j["allowed"].push_back({{"a", pair.a}, {"b", pair.b}, {"reason", pair.reason}});
   out.line("pairs allowed to touch", grouped(model.allowed.size()));
-  for (const auto& [group, joints] : model.groups) {
-    std::string names;
-    for (const std::string& joint : joints) names += (names.empty() ? "" : ", ") + joint;
-    out.line("group", "\"" + group + "\": " + names);
+  for (const auto& [name, group] : model.groups) {
+    if (reportUnusable("group", name, group.unusable, out, j)) continue;
+    j["groups"][name] = group.joints;
+    out.line("group", quotedWord(name) + ": " + joined(group.joints));
   }
-  for (const auto& [state, values] : model.states) {
+  for (const auto& [name, state] : model.states) {
+    if (reportUnusable("state", name, state.unusable, out, j)) continue;
+    j["states"][name] = state.values;
     std::string text;
-    for (const auto& [joint, value] : values)
+    for (const auto& [joint, value] : state.values)
       text += (text.empty() ? "" : ", ") + joint + ": " + rounded(value);
-    out.line("state", "\"" + state + "\": {" + text + "}");
+    out.line("state", quotedWord(name) + ": {" + text + "}");
   }
   for (const std::string& note : model.notes) out.line("note", note);
   if (a.json) std::cout << j.dump(2) << '\n';

@@ -77,7 +77,7 @@ ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
                                      const UrdfOptions& options) {
   const std::size_t before = faults_.size();
   std::vector<std::filesystem::path> files;
-  auto model = readUrdf(urdf, options.packages, faults_, files);
+  auto model = readUrdf(urdf, options.rules, faults_, files);
   if (model && !options.srdf.empty()) readSrdf(options.srdf, *model, faults_);
   if (!model || faults_.size() > before) return *this;
   ModelRobot robot;

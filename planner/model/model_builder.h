@@ -18,7 +18,7 @@ struct UrdfOptions {
   std::string name = {};
   RigidPose base = {};              ///< X_WB
   std::filesystem::path srdf = {};  ///< gives pairs of links that may touch; empty: no SRDF
-  PackageMap packages = {};         ///< see readUrdf
+  UrdfRules rules = {};             ///< how the URDF is read
   /// The joints that are planned for; empty: all joints that can move and mimic no other. The
   /// others are held at the value nearest to 0 within their limits, planar and floating joints at
   /// the identity.

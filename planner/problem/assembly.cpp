@@ -1,23 +1,16 @@
 #include "planner/problem/assembly.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "collision/core/error.h"
+#include "collision/core/fault_list.h"
 #include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/problem/shape_yaml.h"
 
 namespace corridor {
 namespace {
-
-/// Returns for example "a ~ b, c ~ d, e ~ f, g ~ h and 3 more".
-std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t most = 4;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, words.size()); ++i) text += (i ? ", " : "") + words[i];
-  return words.size() <= most ? text
-                              : text + " and " + std::to_string(words.size() - most) + " more";
-}
 
 void addNotesOnPairs(Problem& problem) {
   const std::vector<ModelBody>& bodies = problem.model.bodies;
@@ -28,33 +21,54 @@ void addNotesOnPairs(Problem& problem) {
   });
   std::vector<std::string>& notes = problem.source.notes;
   if (!still.empty())
-    notes.push_back("not tested, since they never move against each other: " + listed(still));
+    notes.push_back("not tested, since they never move against each other: " +
+                    joinedFirst(still, 4));
   if (nothingIsTested(problem)) notes.insert(notes.begin(), kNothingTested);
 }
 
 /// Lengths above this one, in metres, are refused: squares of sums of them must be finite.
 constexpr double kLargestLength = 1e100;
 
-void requireFiniteSizes(const Model& model, const std::string& file) {
-  std::vector<Fault> faults;
-  const auto require = [&](const std::string& name, double length) {
-    if (!(length <= kLargestLength) && faults.size() < 100)
-      faults.push_back({file, 0,
-                        name + ": a coordinate of " + shortest(length) +
-                            " m is too large; at most 1e+100 m is allowed"});
-  };
-  for (const ModelBody& body : model.bodies) {
-    double most = 0;
-    for (const PlacedShape& shape : body.shapes) {
-      for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
-        most = std::max(most, p.cwiseAbs().maxCoeff());
-      if (shape.part) most = std::max(most, shape.part->radius);
-    }
-    require(body.name, most);
+/// Returns the largest coordinate of the shapes in their frames.
+double largestCoordinate(const ModelBody& body) {
+  double most = 0;
+  for (const PlacedShape& shape : body.shapes) {
+    for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
+      most = std::max(most, p.cwiseAbs().maxCoeff());
+    if (shape.part) most = std::max(most, shape.part->radius);
   }
+  return most;
+}
+
+/// Returns the largest translation of the frame in its parent, by its fixed pose or by its joint.
+double largestTranslation(const Frame& frame, const ConfigurationSpace& space) {
+  const double fixed = frame.fixed.p.cwiseAbs().maxCoeff();
+  const bool slides =
+      frame.joint == Frame::Joint::prismatic || frame.joint == Frame::Joint::translation;
+  if (!slides) return fixed;
+  if (frame.variable == Frame::noVariable) return std::max(fixed, std::abs(frame.offset));
+  double most = fixed;
+  for (const Coordinate& c : space.coordinates())
+    if (frame.variable <= c.first && c.first < frame.variable + frame.count)
+      most = std::max(most,
+                      std::abs(frame.multiplier) * std::max(std::abs(c.lower), std::abs(c.upper)) +
+                          std::abs(frame.offset));
+  return most;
+}
+
+void requireFiniteSizes(const Model& model, const std::string& file) {
+  FaultList faults(file);
+  const auto require = [&](const std::string& name, double length) {
+    if (!(length <= kLargestLength))
+      faults.add(file, 0,
+                 name + ": a coordinate of " + shortest(length) +
+                     " m is too large; at most 1e+100 m is allowed");
+  };
+  for (const ModelBody& body : model.bodies) require(body.name, largestCoordinate(body));
   for (const Frame& frame : model.tree.frames)
-    require(frame.name.empty() ? "a frame" : frame.name, frame.fixed.p.cwiseAbs().maxCoeff());
-  if (!faults.empty()) throw InputError(std::move(faults));
+    require(frame.name.empty() ? "a frame" : "frame " + frame.name,
+            largestTranslation(frame, model.space));
+  faults.throwIfAny();
 }
 
 }  // namespace

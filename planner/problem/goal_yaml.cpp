@@ -25,12 +25,12 @@ std::string example(const std::string& what, const Problem& problem) {
     state = "{at: [0, 0], yaw_deg: 90}";
   } else {
     const PlannedJoint& planned = first.plannedJoints.front();
-    state = first.model.states.empty()
-                ? "{" + planned.name +
-                      (planned.type == JointType::planar     ? ": {at: [0, 0]}, …}"
-                       : planned.type == JointType::floating ? ": {at: [0, 0, 1]}, …}"
-                                                             : ": 0.5, …}")
-                : first.model.states.begin()->first;
+    const std::vector<std::string> states = usableNames(first.model.states);
+    state = states.empty() ? "{" + planned.name +
+                                 (planned.type == JointType::planar     ? ": {at: [0, 0]}, …}"
+                                  : planned.type == JointType::floating ? ": {at: [0, 0, 1]}, …}"
+                                                                        : ": 0.5, …}")
+                           : states.front();
   }
   return (first.model.mount == JointType::fixed ? "the robot's joint values at the " + what
                                                 : std::string("the robot's pose")) +

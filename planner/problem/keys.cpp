@@ -58,8 +58,8 @@ Keys makeProblemKeys() {
 Keys makeRobotKeys() {
   Keys keys{
       {"",
-       {{"format", "name", "urdf", "srdf", "packages", "group", "joints", "hold", "states", "allow",
-         "rigid", "shapes", "reference", "weights"},
+       {{"format", "name", "urdf", "srdf", "packages", "visuals", "limits", "collada_up", "group",
+         "joints", "hold", "states", "allow", "rigid", "shapes", "reference", "weights"},
         {}}},
       {"weights", {{"joints", "rotation"}, {}}},
   };
@@ -111,6 +111,9 @@ const std::map<std::string, std::vector<std::string>>& problemChoices() {
 const std::map<std::string, std::vector<std::string>>& robotChoices() {
   static const std::map<std::string, std::vector<std::string>> choices{
       {"rigid", {"SE3", "SE2"}},
+      {"visuals", {"ignore", "collide"}},
+      {"limits", {"hard", "soft"}},
+      {"collada_up", {"ignore", "file"}},
       {"shapes[].unit", {"m", "cm", "mm", "in"}},
       {"shapes[].up", {"x", "y", "z"}},
   };

@@ -68,7 +68,8 @@ void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSoun
 /// Returns nullopt if the value of `rigid` is neither SE2 nor SE3.
 std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
                                     const std::filesystem::path& folder, RobotSetup setup) {
-  for (const char* key : {"srdf", "packages", "group", "joints", "hold", "states", "allow"})
+  for (const char* key : {"srdf", "packages", "visuals", "limits", "collada_up", "group", "joints",
+                          "hold", "states", "allow"})
     if (map.find(key)) map.fault(key, "is for robots with joints (urdf: FILE); this one is rigid");
   const auto rigid = map.choice("rigid", robotChoices().at("rigid"));
   const std::size_t before = map.source().faults.size();

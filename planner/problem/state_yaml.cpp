@@ -113,19 +113,18 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
   const RobotModel& model = robots()[robot].model;
   const auto state = model.states.find(name);
   if (state == model.states.end()) {
-    if (const auto why = model.unusable.states.find(name); why != model.unusable.states.end()) {
-      source_.fault(line,
-                    path + ": the state " + quotedWord(name) + " can't be used: " + why->second);
-      return false;
-    }
-    std::vector<std::string> known;
-    for (const auto& [key, values] : model.states) known.push_back(key);
+    const std::vector<std::string> known = usableNames(model.states);
     source_.fault(
         line, path + ": there is no state " + quotedWord(name) + didYouMean(name, known) +
                   (known.empty() ? " (neither robot.yaml nor SRDF names any)" : knownWords(known)));
     return false;
   }
-  for (const auto& [number, value] : state->second) {
+  if (!state->second.unusable.empty()) {
+    source_.fault(line, path + ": the state " + quotedWord(name) +
+                            " can't be used: " + state->second.unusable);
+    return false;
+  }
+  for (const auto& [number, value] : state->second.values) {
     given.numbers[number] = {value, line, path + " (" + name + "): " + number};
     const auto j = findJoint(model, number);
     const auto held = j ? robots()[robot].held.find(*j) : robots()[robot].held.end();

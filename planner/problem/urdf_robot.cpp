@@ -47,12 +47,12 @@ PackageMap readPackages(const YamlMap& file, const std::filesystem::path& folder
 }
 
 /// Reads URDF and SRDF. Returns nullopt if one of them has a fault.
-std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const PackageMap& packages,
+std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const UrdfRules& rules,
                                     const std::optional<std::filesystem::path>& srdf,
                                     FaultList& faults, std::vector<std::filesystem::path>& files) {
   std::vector<Fault> found;
   std::vector<std::filesystem::path> named;
-  auto model = readUrdf(urdf, packages, found, named);
+  auto model = readUrdf(urdf, rules, found, named);
   for (const auto& file : named) addFile(files, file);
   if (srdf) {
     addFile(files, *srdf);
@@ -64,29 +64,38 @@ std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const Pac
 
 using Joints = std::vector<std::size_t>;
 
+/// Lets the problem name the states of the group by their own names: with the group "arm",
+/// "arm/home" is "home", too.
+void addStatesOf(const std::string& group, RobotModel& model) {
+  const std::string prefix = group + "/";
+  std::map<std::string, NamedState> added;
+  for (const auto& [name, state] : model.states)
+    if (state.group == group && name.starts_with(prefix))
+      added.emplace(name.substr(prefix.size()), state);
+  model.states.merge(added);
+}
+
 Joints readGroup(const YamlMap& map, RobotModel& model) {
   Joints active;
   const auto name = map.text("group");
   if (!name) return active;
-  const auto group = model.groups.find(*name);
-  std::vector<std::string> known;
-  for (const auto& [key, value] : model.groups) known.push_back(key);
+  const auto found = model.groups.find(*name);
   if (!map.find("srdf")) {
     map.fault("group", "a group needs an SRDF; add srdf: FILE, or use joints: [NAME, …]");
-  } else if (const auto why = model.unusable.groups.find(*name);
-             why != model.unusable.groups.end()) {
-    map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + why->second);
-  } else if (group == model.groups.end()) {
+  } else if (found == model.groups.end()) {
+    const std::vector<std::string> known = usableNames(model.groups);
     map.fault("group", "there is no group " + quotedWord(*name) + " in the SRDF" +
                            didYouMean(*name, known) + knownWords(known));
+  } else if (const JointGroup& group = found->second; !group.unusable.empty()) {
+    map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + group.unusable);
   } else {
-    for (const std::string& joint : group->second)
+    for (const std::string& joint : group.joints)
       if (const auto j = findJoint(model, joint); j && canMove(model.joints[*j]))
         active.push_back(*j);
-    if (const auto missing = model.missingMembers.find(*name);
-        missing != model.missingMembers.end())
+    if (!group.missing.empty())
       model.notes.push_back("the group " + quotedWord(*name) + " is used without " +
-                            joinedFirst(missing->second) + ", which the URDF lacks");
+                            joinedFirst(group.missing) + ", which the URDF lacks");
+    addStatesOf(*name, model);
     if (active.empty())
       map.fault("group", "the group " + quotedWord(*name) + " has no joint that moves by itself");
   }
@@ -150,22 +159,21 @@ void readStates(const YamlMap& file, RobotModel& model) {
   const YamlMap states(*value, "states", nullptr, file.source());
   for (const YamlValue::Entry* named : states.entries()) {
     const YamlMap map(named->value, states.pathOf(named->key), nullptr, file.source());
-    std::map<std::string, double> state;
+    NamedState state;
     readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
       const JointModel& joint = model.joints[j];
       if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
       if (isPoseJoint(joint.type)) {
         if (const auto pose = readJointPose(entry.value, map.pathOf(entry.key), joint,
                                             file.source(), model.notes))
-          for (const auto& [number, x] : numbersOf(joint, *pose)) state[number] = x;
+          for (const auto& [number, x] : numbersOf(joint, *pose)) state.values[number] = x;
       } else if (const auto number = map.number(entry.key)) {
-        state[joint.name] = degrees ? *number * (std::numbers::pi / 180) : *number;
+        state.values[joint.name] = degrees ? *number * (std::numbers::pi / 180) : *number;
       }
     });
     if (model.states.contains(named->key))
       model.notes.push_back("state " + named->key + ": robot.yaml's is used, not the SRDF's");
     model.states[named->key] = std::move(state);
-    model.stateGroup.erase(named->key);
   }
 }
 
@@ -230,11 +238,14 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
                                         const std::filesystem::path& folder, RobotSetup setup) {
   for (const char* key : {"shapes", "reference"})
     if (map.find(key)) map.fault(key, "is for rigid robots; this one's shapes are in its URDF");
-  const PackageMap packages = readPackages(map, folder);
+  UrdfRules rules{.packages = readPackages(map, folder)};
+  rules.visualsCollide = map.choice("visuals", robotChoices().at("visuals")) == "collide";
+  rules.softLimits = map.choice("limits", robotChoices().at("limits")) == "soft";
+  rules.colladaUp = map.choice("collada_up", robotChoices().at("collada_up")) == "file";
   const auto urdf = readFileName(map, "urdf", folder);
   const auto srdf = readFileName(map, "srdf", folder);
   if (!urdf || (map.find("srdf") && !srdf)) return std::nullopt;
-  auto model = readModel(*urdf, packages, srdf, map.source().faults, setup.files);
+  auto model = readModel(*urdf, rules, srdf, map.source().faults, setup.files);
   if (!model) return std::nullopt;
 
   setup.robot.model = std::move(*model);

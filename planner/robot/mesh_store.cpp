@@ -1,6 +1,8 @@
 #include "planner/robot/mesh_store.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
@@ -15,11 +17,56 @@ MeshStore::Place checked(const std::filesystem::path& file) {
   return {file, why.empty() ? "" : file.string() + ": " + why};
 }
 
+std::vector<std::filesystem::path> foldersIn(const char* variable) {
+  std::vector<std::filesystem::path> folders;
+  const char* const value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): only read
+  std::istringstream all(value ? value : "");
+  for (std::string folder; std::getline(all, folder, ':');)
+    if (!folder.empty()) folders.emplace_back(folder);
+  return folders;
+}
+
+/// Finds a package's file in the folders of AMENT_PREFIX_PATH (PREFIX/share/PACKAGE) and
+/// ROS_PACKAGE_PATH (the folder itself, or PACKAGE up to three levels below it, since a workspace
+/// contains repositories, which contain packages).
+std::optional<std::filesystem::path> findInRosPaths(const std::string& package,
+                                                    const std::filesystem::path& rest) {
+  const auto hasFile = [&](const std::filesystem::path& folder) {
+    return folder.filename() == package && whyNoFile(folder / rest).empty();
+  };
+  for (const auto& prefix : foldersIn("AMENT_PREFIX_PATH"))
+    if (hasFile(prefix / "share" / package)) return prefix / "share" / package / rest;
+  using Walk = std::filesystem::recursive_directory_iterator;
+  constexpr int deepest = 2, mostEntries = 10'000;
+  for (const auto& root : foldersIn("ROS_PACKAGE_PATH")) {
+    if (hasFile(root)) return root / rest;
+    std::error_code error;
+    int entries = 0;
+    Walk walk(root, std::filesystem::directory_options::skip_permission_denied, error);
+    for (; !error && walk != Walk() && entries < mostEntries; walk.increment(error), ++entries) {
+      std::error_code none;
+      if (!walk->is_directory(none)) continue;
+      if (hasFile(walk->path())) return walk->path() / rest;
+      if (walk.depth() >= deepest || walk->path().filename().string().starts_with('.'))
+        walk.disable_recursion_pending();
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-MeshStore::MeshStore(const std::filesystem::path& urdf, const PackageMap& packages,
+MeshStore::MeshStore(const std::filesystem::path& urdf, const UrdfRules& rules,
                      std::vector<std::filesystem::path>& files)
-    : folder_(urdf.parent_path()), packages_(packages), files_(files) {}
+    : folder_(urdf.parent_path()), rules_(rules), files_(files) {}
+
+std::vector<std::string> MeshStore::ignoredUpAxes() const {
+  std::vector<std::string> names;
+  for (const auto& [file, mesh] : meshes_)
+    if (!rules_.colladaUp && mesh && mesh->fileUp.value_or('z') != 'z')
+      names.push_back(file.filename().string());
+  return names;
+}
 
 MeshStore::Place MeshStore::inPackage(const std::string& name) const {
   const std::string inside = name.substr(packageScheme.size());
@@ -29,7 +76,7 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
   const std::string package = inside.substr(0, slash);
   const std::filesystem::path rest =
       std::filesystem::path(inside.substr(slash + 1)).relative_path();
-  if (const auto known = packages_.find(package); known != packages_.end())
+  if (const auto known = rules_.packages.find(package); known != rules_.packages.end())
     return checked((known->second / rest).lexically_normal());
 
   const std::filesystem::path beside = (folder_ / package / rest).lexically_normal();
@@ -40,13 +87,15 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
   for (std::filesystem::path above = absolute; above != above.root_path();
        above = above.parent_path())
     if (above.filename() == package && whyNoFile(above / rest).empty()) return {above / rest, ""};
+  if (const auto found = findInRosPaths(package, rest)) return {*found, ""};
   std::vector<std::string> names;
-  for (const auto& entry : packages_) names.push_back(entry.first);
+  for (const auto& entry : rules_.packages) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);
-  return {beside,
-          beside.string() + " is not a file, and package " + quotedWord(package) +
-              " has no folder" +
-              (near.empty() ? "; add robot.yaml: packages: {" + package + ": FOLDER}" : near)};
+  return {beside, beside.string() + " is not a file, and package " + quotedWord(package) +
+                      " has no folder" +
+                      (near.empty() ? "; add robot.yaml: packages: {" + package +
+                                          ": FOLDER}, or set ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
+                                    : near)};
 }
 
 MeshStore::Place MeshStore::locate(const std::string& name) const {
@@ -69,6 +118,8 @@ MeshStore::Place MeshStore::add(const std::string& name) {
   std::optional<MeshFile>& mesh = meshes_[place.file];
   try {
     mesh = readMeshFile(place.file);
+    if (const char up = mesh->fileUp.value_or('z'); rules_.colladaUp && up != 'z')
+      mesh = readMeshFile(place.file, {.up = up});
   } catch (const InputError& error) {
     place.complaint = error.faults().front().str();
     if (const std::size_t more = error.faults().size() - 1)

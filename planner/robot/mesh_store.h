@@ -22,11 +22,13 @@ class MeshStore {
   };
 
   /// @param files receives each file when it is first named, whether it exists or not.
-  MeshStore(const std::filesystem::path& urdf, const PackageMap& packages,
+  MeshStore(const std::filesystem::path& urdf, const UrdfRules& rules,
             std::vector<std::filesystem::path>& files);
 
   /// Finds and reads the mesh that the URDF calls `name`.
   Place add(const std::string& name);
+  /// Returns the Collada files whose up-axis is not z, and was not applied.
+  std::vector<std::string> ignoredUpAxes() const;
   /// @pre `file` was returned by add(), and it was readable.
   const MeshFile& get(const std::filesystem::path& file) const { return *meshes_.at(file); }
 
@@ -35,7 +37,7 @@ class MeshStore {
   Place inPackage(const std::string& name) const;
 
   std::filesystem::path folder_;
-  const PackageMap& packages_;
+  const UrdfRules& rules_;
   std::vector<std::filesystem::path>& files_;
   std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;  // nullopt: unreadable
 };

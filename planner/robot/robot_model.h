@@ -44,6 +44,30 @@ struct AllowedPair {
   std::string a, b, reason;
 };
 
+/// A group of joints that an SRDF names.
+struct JointGroup {
+  std::vector<std::string> joints;   ///< in the model's order
+  std::vector<std::string> missing;  ///< names of members that the URDF lacks; they are left out
+  std::string unusable;  ///< why it can't be made: "r.srdf:4: group … has no joint"; or ""
+};
+
+/// A named state: values of some joints, in rad and m. A planar joint has the values NAME/x, NAME/y
+/// and NAME/yaw, a floating one NAME/x … NAME/qw.
+struct NamedState {
+  std::map<std::string, double> values;
+  std::string group;     ///< the SRDF's group that it belongs to, or ""
+  std::string unusable;  ///< why it can't be made, with file and line, or ""
+};
+
+/// Returns the names of the groups or states that can be used.
+template <class Named>
+std::vector<std::string> usableNames(const std::map<std::string, Named>& all) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : all)
+    if (value.unusable.empty()) names.push_back(name);
+  return names;
+}
+
 /// One robot, as its robot.yaml, URDF and SRDF describe it. A rigid body is a robot of one link
 /// without joints, whose `mount` is floating (SE3) or planar (SE2).
 struct RobotModel {
@@ -53,15 +77,8 @@ struct RobotModel {
   std::vector<LinkModel> links;
   std::vector<JointModel> joints;  ///< parents come before children
   std::vector<AllowedPair> allowed;
-  std::map<std::string, std::vector<std::string>> groups;  ///< SRDF groups: their joints' names
-  std::map<std::string, std::map<std::string, double>> states;  ///< named states: joint values
-  std::map<std::string, std::string> stateGroup;                ///< SRDF: the group of each state
-  /// SRDF groups from which members are left out: names that the URDF lacks, the first 31.
-  std::map<std::string, std::vector<std::string>> missingMembers;
-  /// SRDF groups and states that can't be made, with the reasons: "r.srdf:4: it has no joint …".
-  struct {
-    std::map<std::string, std::string> groups, states;
-  } unusable;
+  std::map<std::string, JointGroup> groups;  ///< of the SRDF
+  std::map<std::string, NamedState> states;  ///< of the SRDF and of robot.yaml
   std::vector<std::string> notes;
 };
 

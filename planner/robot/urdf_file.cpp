@@ -9,6 +9,7 @@
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/robot/joint_types.h"
 #include "planner/robot/rpy.h"
 #include "planner/robot/urdf_outline.h"
 #include "planner/robot/urdfdom.h"
@@ -69,41 +70,37 @@ MeshFile placedMesh(const MeshFile& source, const Vec3& scale, const Transform& 
   return result;
 }
 
-struct Range {
-  double lower, upper;
-  std::string text() const { return "[" + shortest(lower) + ", " + shortest(upper) + "]"; }
-};
-
 class UrdfBuilder {
  public:
   UrdfBuilder(const UrdfOutline& outline, const urdf::ModelInterface& urdf, const MeshStore& meshes,
               XmlFile& file)
       : outline_(outline), urdf_(urdf), meshes_(meshes), file_(file) {}
 
-  RobotModel build(const std::vector<std::size_t>& order) {
+  /// @param order  the outline's joints in the tree's order.
+  /// @param mimics for each of the outline's joints.
+  RobotModel build(const std::vector<std::size_t>& order,
+                   const std::vector<std::optional<Mimic>>& mimics) {
     model_.name = outline_.name;
     for (std::size_t i = 0; i < outline_.links.size(); ++i) {
       linkIndex_[outline_.links[i].name] = i;
       addLink(outline_.links[i]);
     }
     std::vector<bool> hasParent(model_.links.size(), false);
+    std::vector<std::size_t> place(order.size());  // of each of the outline's joints in the model
+    for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
     for (const std::size_t j : order) {
-      jointIndex_[outline_.joints[j].name] = model_.joints.size();
-      leaders_.push_back(leaderIn(outline_.joints[j]));
       addJoint(outline_.joints[j]);
-      const JointModel& joint = model_.joints.back();
+      JointModel& joint = model_.joints.back();
+      if (mimics[j])
+        joint.mimic = Mimic{place[mimics[j]->joint], mimics[j]->multiplier, mimics[j]->offset};
       hasParent[joint.child] = true;
       // Two links that a planar or floating joint connects can collide, so they are tested.
-      if (joint.type != JointType::planar && joint.type != JointType::floating)
+      if (!isPoseJoint(joint.type))
         model_.allowed.push_back(
             {model_.links[joint.parent].name, model_.links[joint.child].name, "adjacent"});
     }
     model_.root = static_cast<std::size_t>(std::find(hasParent.begin(), hasParent.end(), false) -
                                            hasParent.begin());
-    setMimics();
-    for (std::size_t k = 0; k < order.size(); ++k)
-      noteFollower(outline_.joints[order[k]], model_.joints[k]);
-    noteLostLeaders();
     return std::move(model_);
   }
 
@@ -161,75 +158,10 @@ class UrdfBuilder {
     if (joint.type != JointType::fixed && joint.type != JointType::floating)
       joint.axis = axisOf(source->axis);
     if (joint.type == JointType::revolute || joint.type == JointType::prismatic) {
-      joint.lower = source->limits->lower;
-      joint.upper = source->limits->upper;
+      const UrdfLimit limit = outline.limit.value_or(UrdfLimit());
+      joint.lower = limit.lower.value_or(0);  // 0 as in urdfdom
+      joint.upper = limit.upper.value_or(0);
     }
-  }
-
-  /// Resolves chains of mimics. @pre there is no circle of mimics, and each leader moves.
-  void setMimics() {
-    std::vector<bool> done(model_.joints.size(), false);
-    std::vector<std::size_t> chain;
-    for (std::size_t k = 0; k < model_.joints.size(); ++k) {
-      for (std::size_t j = k; !done[j] && mimicOf(j); j = leaderOf(j)) {
-        done[j] = true;
-        chain.push_back(j);
-      }
-      for (; !chain.empty(); chain.pop_back()) {
-        const urdf::JointMimic& source = *mimicOf(chain.back());
-        Mimic mimic{leaderOf(chain.back()), source.multiplier, source.offset};
-        if (const auto& above = model_.joints[mimic.joint].mimic)
-          mimic = {above->joint, mimic.multiplier * above->multiplier,
-                   mimic.multiplier * above->offset + mimic.offset};
-        model_.joints[chain.back()].mimic = mimic;
-      }
-    }
-  }
-  /// Returns the name in the file. Two names of the file can be the same in urdfdom's model.
-  static std::string leaderIn(const UrdfJoint& joint) {
-    return joint.mimic ? joint.mimic->joint : "";
-  }
-  std::shared_ptr<const urdf::JointMimic> mimicOf(std::size_t j) const {
-    const auto source = urdf_.getJoint(urdfdomName(model_.joints[j].name));
-    const bool follows = source && source->type != urdf::Joint::FIXED && source->mimic;
-    return follows && jointIndex_.contains(leaders_[j]) ? source->mimic : nullptr;
-  }
-  std::size_t leaderOf(std::size_t j) const { return jointIndex_.at(leaders_[j]); }
-
-  /// Adds a note for each joint that mimics a joint which the file lacks.
-  void noteLostLeaders() {
-    std::vector<std::string> names;
-    for (const JointModel& joint : model_.joints) names.push_back(joint.name);
-    int hints = 10;  // the time of a search for similar names grows with their number
-    for (const UrdfJoint& joint : outline_.joints)
-      if (joint.mimic && joint.type != JointType::fixed &&
-          !jointIndex_.contains(joint.mimic->joint))
-        model_.notes.push_back(file_.at(
-            joint.mimic->line, owned("joint", joint.name) + " mimics " +
-                                   quotedWord(joint.mimic->joint) +
-                                   ", which is not a joint of this file; it moves by itself" +
-                                   (hints-- > 0 ? didYouMean(joint.mimic->joint, names) : "")));
-  }
-
-  /// Adds a note if a follower leaves its own limits while its leader stays within its own. Only
-  /// the leader's limits count, as for other users of URDF.
-  void noteFollower(const UrdfJoint& outline, const JointModel& follower) {
-    const bool limited =
-        follower.type == JointType::revolute || follower.type == JointType::prismatic;
-    if (!follower.mimic || !limited || !outline.ranged) return;
-    const auto [index, multiplier, offset] = *follower.mimic;
-    const JointModel& leader = model_.joints[index];
-    const Range own{follower.lower, follower.upper};
-    const bool stands = multiplier == 0;  // 0·∞ is no number
-    const double a = stands ? offset : multiplier * leader.lower + offset;
-    const double b = stands ? offset : multiplier * leader.upper + offset;
-    const Range range{std::min(a, b), std::max(a, b)};
-    const double slack = 0x1p-50 * (std::abs(offset) + std::abs(own.lower) + std::abs(own.upper));
-    if (range.lower >= own.lower - slack && range.upper <= own.upper + slack) return;
-    model_.notes.push_back(file_.at(outline.mimic->line,
-                                    owned("joint", follower.name) + ": its limits, " + own.text() +
-                                        ", are ignored: it mimics " + quotedWord(leader.name) +
-                                        ", whose limits let it move in " + range.text()));
   }
 
   const UrdfOutline& outline_;
@@ -238,27 +170,30 @@ class UrdfBuilder {
   XmlFile& file_;
   RobotModel model_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
-  std::unordered_map<std::string, std::size_t> jointIndex_;
-  std::vector<std::string> leaders_;  // for each joint, the name of the joint that it mimics, or ""
 };
 
 }  // namespace
 
-std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const PackageMap& packages,
+std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
                                    std::vector<Fault>& faults,
                                    std::vector<std::filesystem::path>& files) {
   files.push_back(file);
   XmlFile xml(file, "a robot (URDF)");
-  MeshStore meshes(file, packages, files);
+  MeshStore meshes(file, rules, files);
   std::optional<RobotModel> model;
   std::vector<std::string> notes;
   if (XmlFile::Element* const root = xml.root()) {
-    const UrdfOutline outline = readUrdfOutline(xml, meshes, notes);
+    const UrdfOutline outline = readUrdfOutline(xml, rules, meshes, notes);
     const std::vector<std::size_t> order = checkUrdfTree(outline, xml);
+    const std::vector<std::optional<Mimic>> mimics = resolveMimics(outline, xml, notes);
+    if (const auto ignored = meshes.ignoredUpAxes(); !ignored.empty())
+      notes.push_back(file.string() + ": the up-axis of " + joinedFirst(ignored) +
+                      " is not z; it is not applied (ROS's rule), and collada_up: file in "
+                      "robot.yaml applies it");
     std::vector<std::string> errors;
     if (xml.sound()) {
       if (const auto urdf = parseByUrdfdom(*root, errors))
-        model = UrdfBuilder(outline, *urdf, meshes, xml).build(order);
+        model = UrdfBuilder(outline, *urdf, meshes, xml).build(order, mimics);
       else
         faultErrors(errors, outline, xml);
     }

@@ -13,16 +13,29 @@ namespace corridor {
 
 /// Folders by package name, for names such as `package://NAME/…` in a URDF. If a package is not
 /// listed, the reader tries the folder NAME beside the URDF, then each folder called NAME above the
-/// URDF.
+/// URDF, then the environment variables AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
 using PackageMap = std::map<std::string, std::filesystem::path>;
 
-/// Reads a URDF with its collision geometry, by urdfdom, and checks what urdfdom doesn't. Visuals
-/// are ignored.
+/// How a URDF is read.
+struct UrdfRules {
+  PackageMap packages = {};
+  /// A link without <collision> gets the geometry of its <visual>. Otherwise it has no shape, and a
+  /// note names it.
+  bool visualsCollide = false;
+  /// The soft limits of <safety_controller> narrow the limits of the joint. Otherwise a note names
+  /// the joints whose soft limits are narrower.
+  bool softLimits = false;
+  /// The <up_axis> of Collada files is applied. Otherwise it is ignored, which is ROS's rule, and a
+  /// note names the files whose up-axis is not z.
+  bool colladaUp = false;
+};
+
+/// Reads a URDF with its collision geometry, by urdfdom, and checks what urdfdom doesn't.
 ///
 /// All faults are appended to `faults`, with file and line. The result is nullopt if the URDF has a
 /// fault. `files` receives the URDF and every mesh file, in the order in which they are first
 /// named.
-std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const PackageMap& packages,
+std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
                                    std::vector<Fault>& faults,
                                    std::vector<std::filesystem::path>& files);
 
@@ -31,8 +44,8 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Pack
 ///
 /// Only a file that can't be read at all is a fault. Names that the model lacks and elements that
 /// make no sense are notes, as for other readers of SRDF. A group without its unknown members is
-/// made from the others (`RobotModel::missingMembers`). What can't be made is listed in
-/// `RobotModel::unusable`; it is a fault only for a problem that names it.
+/// made from the others (`JointGroup::missing`). A group or state that can't be made is kept with
+/// the reason (`unusable`); it is a fault only for a problem that names it.
 void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults);
 
 }  // namespace corridor

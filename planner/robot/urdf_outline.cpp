@@ -97,10 +97,17 @@ UrdfCollision readCollision(XmlFile& file, Element& element, MeshStore& meshes,
   return collision;
 }
 
-UrdfLink readLink(XmlFile& file, Element& element, MeshStore& meshes,
-                  std::vector<std::string>& notes) {
+UrdfLink readLink(XmlFile& file, Element& element, const UrdfRules& rules, MeshStore& meshes,
+                  std::vector<std::string>& visible, std::vector<std::string>& notes) {
   UrdfLink link{file.text(element, "name", "").value_or(""), element.GetLineNum(), {}};
   const std::string owner = owned("link", link.name);
+  if (!element.FirstChildElement("collision") && element.FirstChildElement("visual")) {
+    if (rules.visualsCollide)
+      while (Element* const visual = element.FirstChildElement("visual"))
+        visual->SetName("collision");
+    else
+      visible.push_back(link.name);
+  }
   file.checkChildren(element, {"collision"},
                      {"visual", "inertial", "material", "sensor", "contact", "gazebo"}, owner,
                      notes);
@@ -141,59 +148,41 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
                owner + ": the axis is zero; a direction is needed, such as xyz=\"0 0 1\"");
 }
 
-/// @returns whether the joint has a range: lower, upper, or both.
-bool checkLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
-                const std::string& owner, std::vector<std::string>& notes) {
-  Element* limit = file.child(joint, "limit", owner);
-  const bool mimics = joint.FirstChildElement("mimic");
-  const bool needed = type == JointType::revolute || type == JointType::prismatic;
-  if (!limit && needed && mimics) {  // urdfdom needs the element; a mimic's limits are not used
-    limit = joint.InsertNewChildElement("limit");
-    limit->SetAttribute("effort", "0");
-    limit->SetAttribute("velocity", "0");
-    return false;
+/// Reads <limit>, and adds what urdfdom needs there and nothing uses: the element itself, effort
+/// and velocity. What the range means is checked by resolveMimics().
+std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
+                                   const std::string& owner, std::vector<std::string>& notes) {
+  const bool ranged = type == JointType::revolute || type == JointType::prismatic;
+  Element* const element = file.child(joint, "limit", owner);
+  if (!element) {
+    if (!ranged) return std::nullopt;
+    Element* const added = joint.InsertNewChildElement("limit");
+    added->SetAttribute("effort", "0");
+    added->SetAttribute("velocity", "0");
+    return std::nullopt;
   }
-  if (!limit) {
-    if (needed)
-      file.fault(joint.GetLineNum(),
-                 owner + ": <limit lower=\"…\" upper=\"…\"/> is missing" +
-                     (type == JointType::revolute ? "; a joint without limits is of type continuous"
-                                                  : ""));
-    return false;
-  }
-  const Numbers lower = file.numbers(*limit, "lower", 1, owner);
-  const Numbers upper = file.numbers(*limit, "upper", 1, owner);
-  std::vector<std::string> missing;
-  for (const char* name : {"effort", "velocity"}) {
-    if (limit->FindAttribute(name)) {
-      file.numbers(*limit, name, 1, owner);
-      continue;
-    }
-    missing.push_back(name);
-    limit->SetAttribute(name, "0");  // urdfdom needs it; nothing uses it
-  }
-  if (!missing.empty())
-    notes.push_back(file.at(limit->GetLineNum(), owner + ": <limit> has no " + joined(missing)));
-  if (!needed) return false;
-  file.checkAttributes(
-      *limit, {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
-      owner, notes);
-  const auto valueOf = [&](const char* name, const Numbers& numbers) {
-    return numbers ? numbers->front() : limit->FindAttribute(name) ? NAN : 0;
+  UrdfLimit limit;
+  limit.line = element->GetLineNum();
+  const auto read = [&](const char* name) -> std::optional<double> {
+    if (!element->FindAttribute(name)) return std::nullopt;
+    const Numbers numbers = file.numbers(*element, name, 1, owner);
+    return numbers ? numbers->front() : NAN;
   };
-  const double least = valueOf("lower", lower), most = valueOf("upper", upper);
-  if (std::isinf(most - least))
-    file.fault(limit->GetLineNum(), owner + ": the range from " + shortest(least) + " to " +
-                                        shortest(most) + " is larger than any double");
-  if (least > most)
-    file.fault(limit->GetLineNum(), owner + ": the lower limit " + shortest(least) +
-                                        " is above the upper limit " + shortest(most));
-  if (limit->FindAttribute("lower") || limit->FindAttribute("upper")) return true;
-  if (!mimics)
-    notes.push_back(file.at(
-        limit->GetLineNum(),
-        owner + ": <limit> has neither lower nor upper, so both are 0, and the joint cannot move"));
-  return false;
+  limit.lower = read("lower");
+  limit.upper = read("upper");
+  std::vector<std::string> missing;
+  for (const char* name : {"effort", "velocity"})
+    if (!read(name)) {
+      missing.push_back(name);
+      element->SetAttribute(name, "0");
+    }
+  if (!missing.empty())
+    notes.push_back(file.at(limit.line, owner + ": <limit> has no " + joined(missing)));
+  if (ranged)
+    file.checkAttributes(
+        *element, {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"},
+        owner, notes);
+  return limit;
 }
 
 std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::string& owner,
@@ -205,14 +194,33 @@ std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::str
   mimic.line = element->GetLineNum();
   if (const Numbers multiplier = file.numbers(*element, "multiplier", 1, owner))
     mimic.multiplier = multiplier->front();
-  file.numbers(*element, "offset", 1, owner);
+  if (const Numbers offset = file.numbers(*element, "offset", 1, owner))
+    mimic.offset = offset->front();
   const auto name = file.text(*element, "joint", owner);
   if (!name) return std::nullopt;
   mimic.joint = *name;
   return mimic;
 }
 
-UrdfJoint readJoint(XmlFile& file, Element& element, std::vector<std::string>& notes) {
+/// Reads the soft limits of <safety_controller>, and with `apply` narrows the joint's limits by
+/// them. @returns whether they are narrower, and were not applied.
+bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owner,
+            UrdfJoint& joint) {
+  Element* const safety = element.FirstChildElement("safety_controller");
+  if (!safety || !joint.limit) return false;
+  if (joint.type != JointType::revolute && joint.type != JointType::prismatic) return false;
+  const Numbers softLower = file.numbers(*safety, "soft_lower_limit", 1, owner);
+  const Numbers softUpper = file.numbers(*safety, "soft_upper_limit", 1, owner);
+  const double lower = joint.limit->lower.value_or(0), upper = joint.limit->upper.value_or(0);
+  const double least = softLower ? std::max(lower, softLower->front()) : lower;
+  const double most = softUpper ? std::min(upper, softUpper->front()) : upper;
+  if (least == lower && most == upper) return false;
+  if (apply) joint.limit = UrdfLimit{least, most, joint.limit->line};
+  return !apply;
+}
+
+UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
+                    std::vector<std::string>& soft, std::vector<std::string>& notes) {
   UrdfJoint joint;
   joint.name = file.text(element, "name", "").value_or("");
   joint.line = element.GetLineNum();
@@ -225,7 +233,8 @@ UrdfJoint readJoint(XmlFile& file, Element& element, std::vector<std::string>& n
   joint.child = readEnd(file, element, "child", owner);
   joint.rpy = readOrigin(file, element, owner, notes);
   checkAxis(file, element, joint.type, owner);
-  joint.ranged = checkLimit(file, element, joint.type, owner, notes);
+  joint.limit = readLimit(file, element, joint.type, owner, notes);
+  if (narrow(file, element, rules.softLimits, owner, joint)) soft.push_back(joint.name);
   joint.mimic = readMimic(file, element, owner, notes);
   return joint;
 }
@@ -262,6 +271,11 @@ bool addUnique(Named named, const char* kind, std::vector<Named>& all, Lines& li
   }
   all.push_back(std::move(named));
   return true;
+}
+
+/// "1 link is", "3 links are".
+std::string counted(const std::vector<std::string>& names, const std::string& what) {
+  return std::to_string(names.size()) + " " + what + (names.size() == 1 ? " is" : "s are");
 }
 
 /// Reports each count of elements above its limit. @returns whether there is such a count.
@@ -308,11 +322,13 @@ void checkTriangles(const UrdfOutline& outline, const MeshStore& meshes, XmlFile
 
 }  // namespace
 
-UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::string>& notes) {
+UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& meshes,
+                            std::vector<std::string>& notes) {
   UrdfOutline outline;
   Element& root = *file.root();
   if (isXacro(file, root) || isTooLarge(file, root)) return outline;
   Lines links, joints;
+  std::vector<std::string> visible, soft;  // names for the notes
   outline.name = file.text(root, "name", "").value_or("");
   file.checkChildren(root, {"link", "joint"},
                      {"material", "transmission", "gazebo", "sensor", "ros2_control"},
@@ -321,12 +337,24 @@ UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::s
        element = element->NextSiblingElement()) {
     const std::string_view kind = element->Name();
     if (kind == "link")
-      outline.complete &=
-          addUnique(readLink(file, *element, meshes, notes), "link", outline.links, links, file);
+      outline.complete &= addUnique(readLink(file, *element, rules, meshes, visible, notes), "link",
+                                    outline.links, links, file);
     else if (kind == "joint")
-      outline.complete &=
-          addUnique(readJoint(file, *element, notes), "joint", outline.joints, joints, file);
+      outline.complete &= addUnique(readJoint(file, *element, rules, soft, notes), "joint",
+                                    outline.joints, joints, file);
   }
+  if (!visible.empty())
+    notes.push_back(file.at(root.GetLineNum(),
+                            counted(visible, "link") +
+                                " not tested, having a <visual> and no <collision> (visuals: "
+                                "collide in robot.yaml uses the visuals): " +
+                                joinedFirst(visible)));
+  if (!soft.empty())
+    notes.push_back(file.at(root.GetLineNum(),
+                            counted(soft, "joint") +
+                                " used without the soft limits, which are narrower (limits: soft "
+                                "in robot.yaml applies them): " +
+                                joinedFirst(soft)));
   if (!root.FirstChildElement("link"))
     file.fault(root.GetLineNum(), "the robot has no <link>; at least one is needed");
   if (file.sound()) checkTriangles(outline, meshes, file);

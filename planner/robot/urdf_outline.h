@@ -25,19 +25,24 @@ struct UrdfLink {
   std::vector<UrdfCollision> collisions;
 };
 
+struct UrdfLimit {
+  std::optional<double> lower, upper;  ///< NaN: a fault was reported
+  int line = 0;
+};
+
 struct UrdfMimic {
   std::string joint;
-  double multiplier = 1;
+  double multiplier = 1, offset = 0;
   int line = 0;
 };
 
 struct UrdfJoint {
   std::string name;
   int line = 0;
-  std::optional<JointType> type;  ///< nullopt: a fault was reported
-  std::string parent, child;      ///< empty: a fault was reported
-  Vec3 rpy = Vec3::Zero();        ///< rotation of its origin; urdfdom reads the position
-  bool ranged = false;            ///< its <limit> has lower or upper, or both
+  std::optional<JointType> type;   ///< nullopt: a fault was reported
+  std::string parent, child;       ///< empty: a fault was reported
+  Vec3 rpy = Vec3::Zero();         ///< rotation of its origin; urdfdom reads the position
+  std::optional<UrdfLimit> limit;  ///< narrowed by the soft limits, if the rules say so
   std::optional<UrdfMimic> mimic;
 };
 
@@ -50,14 +55,24 @@ struct UrdfOutline {
 };
 
 /// Reads the elements and the mesh files that they name. Numbers in the XML are rewritten in plain
-/// decimals, for urdfdom. @pre file.root() is not null.
-UrdfOutline readUrdfOutline(XmlFile& file, MeshStore& meshes, std::vector<std::string>& notes);
+/// decimals, for urdfdom. If visuals collide, the <visual> of a link without <collision> becomes a
+/// <collision>. @pre file.root() is not null.
+UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& meshes,
+                            std::vector<std::string>& notes);
 
-/// Reports links that don't form a tree with one root, and mimics that are not supported (of a
-/// fixed, planar or floating joint, in a circle, or with a multiplier that would make the joint
-/// jump).
+/// Reports links that don't form a tree with one root.
 /// @returns indices of the joints in the tree's order: depth first, siblings as in the file. Empty
 /// if the file has any fault.
 std::vector<std::size_t> checkUrdfTree(const UrdfOutline& outline, XmlFile& file);
+
+/// Resolves chains of mimics, and checks the limits of the joints that move by themselves. Only
+/// the limits of the leader count, as for other users of URDF; a note is added if a follower's own
+/// limits disagree. A joint whose leader cannot lead (it is not in the file, or it is not a joint
+/// of one variable) moves by itself, with a note. Mimics in a circle and mimics that would make a
+/// joint jump are faults.
+/// @returns the rule of each joint, in the outline's order; `Mimic::joint` is an index in the
+/// outline. nullopt: the joint follows no other.
+std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, XmlFile& file,
+                                                std::vector<std::string>& notes);
 
 }  // namespace corridor

@@ -1,30 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <unordered_map>
 
-#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
-#include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_outline.h"
 
 namespace corridor {
 namespace {
-
-using Indices = std::unordered_map<std::string, std::size_t>;
-
-template <class Named>
-Indices indicesOf(const std::vector<Named>& all) {
-  Indices indices;
-  for (std::size_t i = 0; i < all.size(); ++i) indices[all[i].name] = i;
-  return indices;
-}
-
-template <class Named>
-std::vector<std::string> namesOf(const std::vector<Named>& all) {
-  std::vector<std::string> names;
-  for (const Named& named : all) names.push_back(named.name);
-  return names;
-}
 
 constexpr std::size_t none = SIZE_MAX;
 
@@ -35,12 +16,10 @@ class Tree {
         links_(outline.links),
         joints_(outline.joints),
         file_(file),
-        linkIndex_(indicesOf(links_)),
-        jointIndex_(indicesOf(joints_)),
-        leader_(joints_.size(), none),
-        inCircle_(joints_.size(), false),
         parentJoint_(links_.size(), none),
-        children_(links_.size()) {}
+        children_(links_.size()) {
+    for (std::size_t i = 0; i < links_.size(); ++i) linkIndex_[links_[i].name] = i;
+  }
 
   std::vector<std::size_t> check() {
     bool joined = outline_.complete;
@@ -48,9 +27,6 @@ class Tree {
     // If a joint has a misspelt link, or was left out, its child has no parent. The child would
     // then also be reported as a second root.
     if (joined) checkShape();
-    for (std::size_t j = 0; j < joints_.size(); ++j) findLeader(j);
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      if (leader_[j] != none) checkMimic(j);
     return file_.sound() ? order() : std::vector<std::size_t>();
   }
 
@@ -64,7 +40,7 @@ class Tree {
          {std::pair{"parent", joint.parent}, std::pair{"child", joint.child}}) {
       if (!name.empty() && !linkIndex_.contains(name))
         file_.fault(joint.line, owner + ": its " + what + " " + quotedWord(name) +
-                                    " is not a link of this file" + hint(name, links_));
+                                    " is not a link of this file" + hint(name));
       known &= linkIndex_.contains(name);
     }
     if (!known) return false;
@@ -86,10 +62,12 @@ class Tree {
     return true;
   }
 
-  /// " (did you mean …?)" with the nearest name, or empty.
-  template <class Named>
-  std::string hint(const std::string& name, const std::vector<Named>& all) const {
-    return file_.hints() ? didYouMean(name, namesOf(all)) : "";
+  /// " (did you mean …?)" with the nearest link, or empty.
+  std::string hint(const std::string& name) const {
+    if (!file_.hints()) return "";
+    std::vector<std::string> names;
+    for (const UrdfLink& link : links_) names.push_back(link.name);
+    return didYouMean(name, names);
   }
 
   std::size_t parentOf(std::size_t link) const {
@@ -133,71 +111,6 @@ class Tree {
                 "the links " + joinedFirst(names) + " are joined in a circle; a tree is needed");
   }
 
-  void findLeader(std::size_t j) {
-    const UrdfJoint& joint = joints_[j];
-    if (!joint.mimic) return;
-    const UrdfMimic& mimic = *joint.mimic;
-    const std::string owner = owned("joint", joint.name);
-    const auto found = jointIndex_.find(mimic.joint);
-    if (mimic.joint == joint.name)
-      file_.fault(mimic.line, owner + " mimics itself");
-    else if (found != jointIndex_.end())
-      leader_[j] = found->second;
-    // Otherwise the joint is independent, as for other readers; a note says so (urdf_file.cpp).
-  }
-
-  void faultMimicCircle(std::size_t j) {
-    std::vector<std::string> names{joints_[j].name};
-    for (std::size_t other = j; !inCircle_[other]; other = leader_[other]) {
-      inCircle_[other] = true;  // the circle is reported once
-      names.push_back(joints_[leader_[other]].name);
-    }
-    file_.fault(joints_[j].mimic->line, "the joints " + joinedFirst(names) + " mimic in a circle");
-  }
-
-  void checkMimic(std::size_t j) {
-    const UrdfJoint& joint = joints_[j];
-    const std::string owner = owned("joint", joint.name);
-    const UrdfMimic& mimic = *joint.mimic;
-    if (!joint.type || joint.type == JointType::fixed) return;
-    const auto isPoseJoint = [](JointType type) {
-      return type == JointType::planar || type == JointType::floating;
-    };
-    if (isPoseJoint(*joint.type))
-      return file_.fault(mimic.line, owner + " is " + nameOf(*joint.type) +
-                                         ", and only a joint of one variable can mimic another");
-
-    // Follow the chain of mimics to the joint that moves by itself.
-    double multiplier = mimic.multiplier;
-    std::size_t last = leader_[j];
-    for (std::size_t steps = 0; joints_[last].mimic && joints_[last].type != JointType::fixed;
-         ++steps) {
-      // findLeader() has reported mimics without a valid leader. If this joint leads into a circle
-      // but is not part of it, the circle is reported for its own joints.
-      if (last == j && !inCircle_[j]) faultMimicCircle(j);
-      if (last == j || leader_[last] == none || steps > joints_.size()) return;
-      multiplier *= joints_[last].mimic->multiplier;
-      last = leader_[last];
-    }
-    const UrdfJoint* const leader = &joints_[last];
-    if (!leader->type) return;
-    if (leader->type == JointType::fixed || isPoseJoint(*leader->type))
-      return file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) + ", which is " +
-                                         nameOf(*leader->type) +
-                                         "; a joint of one variable is needed");
-    if (leader->type != JointType::continuous || multiplier == 0) return;
-    if (joint.type == JointType::prismatic)
-      file_.fault(mimic.line, owner + " is prismatic and mimics " + quotedWord(leader->name) +
-                                  ", which is continuous and repeats after a full turn; change the "
-                                  "type of one of them");
-    else if (multiplier != std::round(multiplier))
-      file_.fault(mimic.line, owner + " mimics " + quotedWord(leader->name) +
-                                  ", which is continuous and repeats after a full turn, by the "
-                                  "multiplier " +
-                                  shortest(multiplier) + "; use a whole multiplier or a revolute " +
-                                  quotedWord(leader->name));
-  }
-
   std::vector<std::size_t> order() const {
     std::vector<std::size_t> ordered, open;
     const auto push = [&](std::size_t link) {
@@ -218,9 +131,7 @@ class Tree {
   const std::vector<UrdfLink>& links_;
   const std::vector<UrdfJoint>& joints_;
   XmlFile& file_;
-  Indices linkIndex_, jointIndex_;
-  std::vector<std::size_t> leader_;                 // for each joint: the joint that it mimics
-  std::vector<bool> inCircle_;                      // joints whose circle was reported
+  std::unordered_map<std::string, std::size_t> linkIndex_;
   std::vector<std::size_t> parentJoint_;            // for each link
   std::vector<std::vector<std::size_t>> children_;  // for each link: the joints below it
 };

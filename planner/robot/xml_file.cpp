@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "collision/core/fault_list.h"
 #include "collision/core/read_file.h"
@@ -43,8 +44,13 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
+/// Returns whether ignoring the element would lose collision geometry: it contains a <collision>,
+/// or its name says that it is one ("collision_model") and it contains a <geometry>.
 bool holdsCollision(const XmlFile::Element& element) {
-  if (std::string_view(element.Name()) == "collision") return true;
+  const std::string_view name = element.Name();
+  if (name == "collision") return true;
+  if (lowered(name).find("collision") != std::string::npos && element.FirstChildElement("geometry"))
+    return true;
   for (const XmlFile::Element* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement())
     if (holdsCollision(*child)) return true;
@@ -196,8 +202,10 @@ std::string XmlFile::at(int line, const std::string& text) const {
 void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& read,
                             const std::vector<std::string>& ignored, const std::string& owner,
                             std::vector<std::string>& notes) {
+  constexpr std::size_t mostNames = 100;
   std::vector<std::string> known = read;
   known.insert(known.end(), ignored.begin(), ignored.end());
+  std::set<std::string> noted;
   for (Element* element = parent.FirstChildElement(); element;
        element = element->NextSiblingElement()) {
     const std::string name = element->Name();
@@ -208,8 +216,9 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
     if (near && contains(read, *near))
       fault(element->GetLineNum(), unknown + hint);
     else if (holdsCollision(*element))
-      fault(element->GetLineNum(), unknown + ", and the <collision> in it would be lost" + hint);
-    else if (name.find(':') == name.npos)
+      fault(element->GetLineNum(),
+            unknown + ", and the collision geometry in it would be lost" + hint);
+    else if (name.find(':') == name.npos && noted.size() < mostNames && noted.insert(name).second)
       notes.push_back(at(element->GetLineNum(), unknown + ", and is ignored" + hint));
   }
 }

@@ -52,8 +52,9 @@ class XmlFile {
   /// Returns the first child of that name, or nullptr. Each further child of that name is a fault.
   Element* child(Element& parent, const char* name, const std::string& owner);
   /// Checks for children that are in neither list. Such a child is a fault if something would be
-  /// lost: its name is similar to one in `read`, or it is or contains a <collision>. For other
-  /// children a note is added. Elements of other formats ("drake:joint") are ignored.
+  /// lost: its name is similar to one in `read`, or it has collision geometry. For other children
+  /// one note a name is added, for at most 100 names. Elements of other formats ("drake:joint") are
+  /// ignored.
   void checkChildren(Element& parent, const std::vector<std::string>& read,
                      const std::vector<std::string>& ignored, const std::string& owner,
                      std::vector<std::string>& notes);
@@ -71,6 +72,14 @@ class XmlFile {
   tinyxml2::XMLDocument document_;
   Element* root_ = nullptr;
 };
+
+/// Calls `read` for each child of that name.
+template <class Read>
+void forEach(XmlFile::Element& parent, const char* name, const Read& read) {
+  for (XmlFile::Element* child = parent.FirstChildElement(name); child;
+       child = child->NextSiblingElement(name))
+    read(*child);
+}
 
 /// Formats kind and name: `joint "elbow"`.
 std::string owned(const std::string& kind, std::string_view name);

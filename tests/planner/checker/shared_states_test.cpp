@@ -48,7 +48,8 @@ TEST(SharedStates, LinksThatTouchEachOther) {
     SCOPED_TRACE(file);
     std::vector<Fault> faults;
     std::vector<std::filesystem::path> files;
-    auto model = readUrdf(robots / file, {{"example-robot-data", robots / "example-robot-data"}},
+    auto model = readUrdf(robots / file,
+                          {.packages = {{"example-robot-data", robots / "example-robot-data"}}},
                           faults, files);
     ASSERT_TRUE(model) << InputError(faults).what();
     // The reference excludes only the SRDF's pairs, so here adjacent links must be tested, too.

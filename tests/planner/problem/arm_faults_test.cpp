@@ -119,14 +119,28 @@ TEST_F(ArmFaults, PartsOfAnSrdfThatCannotBeMade) {
   write("arm.srdf", text);
   EXPECT_EQ(start("ready"), "no complaint") << "the problem names none of them";
   EXPECT_EQ(start("odd"),
-            "problem.yaml:5: start: the state \"odd\" can't be used: arm.srdf:7: its value of "
-            "joint \"pan\" is not sound");
+            "problem.yaml:5: start: the state \"odd\" can't be used: arm.srdf:7: state \"odd\": "
+            "joint \"pan\": joint value: a number is needed, not \"x\"");
   EXPECT_EQ(robot("srdf: arm.srdf\ngroup: torso\n"),
-            "arm.yaml:4: group: the group \"torso\" can't be used: arm.srdf:5: it has no joint "
-            "that the URDF has");
+            "arm.yaml:4: group: the group \"torso\" can't be used: arm.srdf:5: group \"torso\" has "
+            "no joint of this robot: the URDF lacks waist");
   EXPECT_THAT(robot("srdf: arm.srdf\ngroup: most\n"),
               testing::HasSubstr("start.lift: is held at 0, and not planned for"))
       << "the group is its joint pan alone";
+}
+
+/// A prismatic joint may move a link as far as the limits of the joint allow.
+TEST_F(ArmFaults, TravelBeyondAllArithmetic) {
+  std::string text = urdf;
+  text.replace(text.find("upper='0.05' effort"), 12, "upper='1e155'");
+  write("arm.urdf", text);
+  write("arm.yaml", "format: corridor-robot-1\nname: a\nurdf: arm.urdf\n");
+  EXPECT_EQ(complaintOf(armHead + "start: {pan: 0, lift: 0, slide: 0.02}\n"
+                                  "goal: {pan: 1, lift: 0, slide: 0.02}\n"),
+            "problem.yaml: frame finger: a coordinate of 1e+155 m is too large; at most 1e+100 m "
+            "is allowed\n"
+            "problem.yaml: frame thumb: a coordinate of 1e+155 m is too large; at most 1e+100 m "
+            "is allowed");
 }
 
 TEST_F(ArmFaults, SizesBeyondAllArithmetic) {

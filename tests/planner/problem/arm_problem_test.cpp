@@ -296,5 +296,16 @@ TEST_F(ArmProblem, FilesInTheOrderOfNaming) {
   EXPECT_THAT(names, ElementsAre("problem.yaml", "arm.yaml", "arm.urdf", "arm.srdf"));
 }
 
+/// Two groups have a state of the same name. The one of the planned group needs no prefix.
+TEST_F(ArmProblem, AStateOfThePlannedGroupNeedsNoPrefix) {
+  std::string text = srdf;
+  text.insert(text.find("<disable_collisions"),
+              "<group_state name='ready' group='nothing'><joint name='slide' "
+              "value='0.02'/></group_state>\n");
+  write("arm.srdf", text);
+  EXPECT_EQ(complaintOf(armHead + armStates), "no complaint");
+  EXPECT_EQ(complaintOf(armHead + "start: arm/ready\ngoal: {pan: 1, lift: 0.3}\n"), "no complaint");
+}
+
 }  // namespace
 }  // namespace corridor::test

@@ -37,7 +37,8 @@ TEST(SharedKinematics, EveryLinkIsWhereTheReferenceHasIt) {
     std::vector<Fault> faults;
     std::vector<std::filesystem::path> files;
     const auto model = readUrdf(
-        robots / file, {{"example-robot-data", robots / "example-robot-data"}}, faults, files);
+        robots / file, {.packages = {{"example-robot-data", robots / "example-robot-data"}}},
+        faults, files);
     ASSERT_TRUE(model) << InputError(faults).what();
     ModelRobot arm;
     arm.model = *model;

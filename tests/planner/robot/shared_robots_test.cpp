@@ -23,9 +23,10 @@ class SharedRobots : public testing::Test {
   RobotModel read(const std::string& file) {
     std::vector<Fault> faults;
     files_.clear();
-    auto model = readUrdf(*data_ / "robots" / file,
-                          {{"example-robot-data", *data_ / "robots" / "example-robot-data"}},
-                          faults, files_);
+    auto model =
+        readUrdf(*data_ / "robots" / file,
+                 {.packages = {{"example-robot-data", *data_ / "robots" / "example-robot-data"}}},
+                 faults, files_);
     EXPECT_TRUE(faults.empty()) << InputError(faults).what();
     return model.value_or(RobotModel());
   }
@@ -129,27 +130,27 @@ TEST_F(SharedRobots, SrdfPairsGroupsAndStates) {
   };
   RobotModel panda = read("panda/panda.urdf");
   readGroups("panda/panda.srdf", panda);
-  EXPECT_EQ(panda.groups.at("panda_arm").front(), "panda_joint1");
-  EXPECT_EQ(panda.groups.at("panda_arm").size(), 8u);
-  EXPECT_EQ(panda.states.at("ready").size(), 7u);
-  EXPECT_EQ(panda.states.at("ready").at("panda_joint4"), -2.356);
-  EXPECT_EQ(panda.stateGroup.at("ready"), "panda_arm");
+  EXPECT_EQ(panda.groups.at("panda_arm").joints.front(), "panda_joint1");
+  EXPECT_EQ(panda.groups.at("panda_arm").joints.size(), 8u);
+  EXPECT_EQ(panda.states.at("ready").values.size(), 7u);
+  EXPECT_EQ(panda.states.at("ready").values.at("panda_joint4"), -2.356);
+  EXPECT_EQ(panda.states.at("ready").group, "panda_arm");
   EXPECT_GT(disabled(panda), 20);
   EXPECT_LE(disabled(panda), 34);
 
   RobotModel ur5 = read("ur5/ur5.urdf");
   readGroups("ur5/ur5.srdf", ur5);
-  EXPECT_EQ(ur5.groups.at("manipulator").size(), 7u);
-  EXPECT_EQ(ur5.groups.at("gripper").size(), 9u);
-  EXPECT_EQ(ur5.states.at("home").at("wrist_1_joint"), -1.57);
+  EXPECT_EQ(ur5.groups.at("manipulator").joints.size(), 7u);
+  EXPECT_EQ(ur5.groups.at("gripper").joints.size(), 9u);
+  EXPECT_EQ(ur5.states.at("home").values.at("wrist_1_joint"), -1.57);
   EXPECT_GT(disabled(ur5), 60);
   EXPECT_LE(disabled(ur5), 88);
 
   RobotModel arm = read(kinova + "robots/kinova.urdf");
   readGroups(kinova + "srdf/kinova.srdf", arm);
   EXPECT_EQ(disabled(arm), 0);
-  EXPECT_EQ(arm.states.at("arm_up").at("j2s6s200_joint_2"), 2.618);
-  EXPECT_FALSE(arm.stateGroup.contains("arm_up"));
+  EXPECT_EQ(arm.states.at("arm_up").values.at("j2s6s200_joint_2"), 2.618);
+  EXPECT_EQ(arm.states.at("arm_up").group, "");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class SrdfFile : public UrdfTest {
   }
   std::string group(const std::string& name) const {
     std::string text;
-    for (const std::string& joint : model_.groups.at(name)) text += joint + " ";
+    for (const std::string& joint : model_.groups.at(name).joints) text += joint + " ";
     return text;
   }
 
@@ -66,15 +66,15 @@ TEST_F(SrdfFile, States) {
 <group_state name="home" group="right"><joint name="right1" value="-1e-1"/></group_state>
 <group_state name="there"><joint name="base" value="1 2 3"/></group_state>)"),
             "no complaint");
-  EXPECT_EQ(model_.states.at("up"), (std::map<std::string, double>{{"left1", 0.5}}));
-  EXPECT_EQ(model_.stateGroup.at("up"), "left");
-  EXPECT_EQ(model_.states.at("left/home").at("left1"), 1);
-  EXPECT_EQ(model_.states.at("right/home").at("right1"), -0.1);
-  EXPECT_EQ(model_.stateGroup.at("right/home"), "right");
+  EXPECT_EQ(model_.states.at("up").values, (std::map<std::string, double>{{"left1", 0.5}}));
+  EXPECT_EQ(model_.states.at("up").group, "left");
+  EXPECT_EQ(model_.states.at("left/home").values.at("left1"), 1);
+  EXPECT_EQ(model_.states.at("right/home").values.at("right1"), -0.1);
+  EXPECT_EQ(model_.states.at("right/home").group, "right");
   EXPECT_FALSE(model_.states.contains("home"));
-  EXPECT_EQ(model_.states.at("there"),
+  EXPECT_EQ(model_.states.at("there").values,
             (std::map<std::string, double>{{"base/x", 1}, {"base/y", 2}, {"base/yaw", 3}}));
-  EXPECT_FALSE(model_.stateGroup.contains("there"));
+  EXPECT_EQ(model_.states.at("there").group, "");
   const std::string file = (folder_ / "r.srdf").string();
   EXPECT_THAT(model_.notes,
               testing::ElementsAre(
@@ -118,7 +118,7 @@ TEST_F(SrdfFile, UnknownElements) {
 r.srdf:2: robot "r": <disable_collision> is not known (did you mean <disable_collisions>?)
 r.srdf:3: group "a": <jont> is not known (did you mean <joint>?)
 )");
-  EXPECT_EQ(group("a"), "left2 ");
+  EXPECT_THAT(model_.groups.at("a").unusable, testing::HasSubstr("<jont> is not known"));
 }
 
 /// Each of forty groups contains the next one three times, so there are 3^40 paths through them.
@@ -149,31 +149,36 @@ TEST_F(SrdfFile, UnknownNamesAreCountedInNotes) {
 <disable_collisions link1="r2" link2="tool"/>)"),
       R"(r.srdf:2: 2 members of groups are left out, because the URDF lacks left3, nowhere
 r.srdf:4: 1 value of a state is left out, because the URDF lacks lft1 (did you mean "left1"?)
-r.srdf:6: 3 pairs name links that the URDF lacks: l3, l4 and 2 more
+r.srdf:6: 3 pairs name links that the URDF lacks: l3, l4, l5 and 1 more
 )");
   EXPECT_EQ(group("a"), "left1 left2 ");
   EXPECT_EQ(group("b"), "left1 left2 ");
-  EXPECT_THAT(model_.missingMembers.at("b"), testing::ElementsAre("nowhere", "left3"));
-  EXPECT_EQ(model_.states.at("s"), (std::map<std::string, double>{{"left1", 1}}));
+  EXPECT_THAT(model_.groups.at("b").missing, testing::ElementsAre("nowhere", "left3"));
+  EXPECT_EQ(model_.states.at("s").values, (std::map<std::string, double>{{"left1", 1}}));
   std::string allowed;
   for (const AllowedPair& pair : model_.allowed) allowed += pair.a + "~" + pair.b + " ";
   EXPECT_THAT(allowed, testing::EndsWith(" l1~r1 ground~tool r2~tool "));
-  EXPECT_TRUE(model_.unusable.groups.empty());
+  EXPECT_EQ(model_.groups.at("a").unusable, "");
 }
 
 TEST_F(SrdfFile, AnSrdfOfAnotherRobotIsNotedFirst) {
   EXPECT_EQ(
-      notesOf(R"(<group name="arm"><joint name="j1"/><joint name="left1"/></group>
-<passive_joint name="j2"/>)",
+      notesOf(R"(<group name="arm"><joint name="j1"/><joint name="left1"/><link name="k1"/></group>
+<passive_joint name="waist"/>
+<disable_collisions link1="k2" link2="k3"/>)",
               "q"),
-      R"(r.srdf:1: 2 of the 3 links and joints that it names are not in the URDF; it seems to be the SRDF of another robot
+      R"(r.srdf:1: 5 of the 6 links and joints that it names are not in the URDF; it seems to be the SRDF of another robot
 r.srdf:1: is for robot "q", and is used for "r"
-r.srdf:2: 1 member of a group is left out, because the URDF lacks j1
-r.srdf:3: 1 passive joint is not in the URDF: j2
+r.srdf:2: 2 members of groups are left out, because the URDF lacks j1, k1
+r.srdf:3: 1 passive joint is not in the URDF: waist
+r.srdf:4: 1 pair names links that the URDF lacks: k2, k3
 )");
+  EXPECT_EQ(notesOf("<passive_joint name=\"nowhere\"/>"),
+            "r.srdf:2: 1 passive joint is not in the URDF: nowhere\n")
+      << "a few unknown names don't make another robot";
 }
 
-TEST_F(SrdfFile, GroupsAndStatesThatCannotBeMade) {
+TEST_F(SrdfFile, GroupsThatCannotBeMade) {
   EXPECT_EQ(notesOf(R"(<group name="b"><group name="aa"/><joint name="left1"/></group>
 <group name="c"><link name="ground"/></group>
 <group name="d"/>
@@ -182,39 +187,112 @@ TEST_F(SrdfFile, GroupsAndStatesThatCannotBeMade) {
 <group name="f"><group name="e"/></group>
 <group name="a"><joint name="left1"/><group name="b"/></group>
 <group name="f"/>
+<group name="g"><joint name="left1"/><group name="e"/></group>
+<group name="h"><joint name="left9"/></group>
+<group name="i"><joint name="left1"/><joint/></group>
+<group name="j"><joint name="left1"/><jont name="left2"/></group>
+<disable_collisions link1="l2"/>
+<group name="up"><chain base_link="tool" tip_link="trunk"/></group>)"),
+            R"(r.srdf:5: <group> has no name
+r.srdf:9: group "f" is already defined on line 7; this definition is ignored
+r.srdf:12: group "i": <joint> has no name
+r.srdf:13: group "j": <jont> is not known (did you mean <joint>?)
+r.srdf:11: 1 member of a group is left out, because the URDF lacks left9 (did you mean "left1"?)
+r.srdf:14: <disable_collisions> has no link2
+)");
+  std::map<std::string, std::string> reasons;
+  for (const auto& [name, group] : model_.groups) {
+    EXPECT_EQ(group.joints.empty(), !group.unusable.empty()) << name;
+    if (!group.unusable.empty()) reasons[name] = group.unusable.substr(folder_.string().size() + 1);
+  }
+  EXPECT_THAT(
+      reasons,
+      testing::ElementsAre(
+          testing::Pair("a",
+                        "r.srdf:2: group \"b\": there is no group \"aa\" in the SRDF (did you "
+                        "mean \"a\"?)"),
+          testing::Pair("b",
+                        "r.srdf:2: group \"b\": there is no group \"aa\" in the SRDF (did you "
+                        "mean \"a\"?)"),
+          testing::Pair("c", "r.srdf:3: group \"c\" has no joint"),
+          testing::Pair("d", "r.srdf:4: group \"d\" has no joint"),
+          testing::Pair("e", "r.srdf:6: group \"e\" contains itself: e, f, e"),
+          testing::Pair("f", "r.srdf:7: group \"f\" contains itself: f, e, f"),
+          testing::Pair("g", "r.srdf:6: group \"e\" contains itself: e, f, e"),
+          testing::Pair("h",
+                        "r.srdf:11: group \"h\" has no joint of this robot: the URDF lacks "
+                        "left9"),
+          testing::Pair("i", "r.srdf:12: group \"i\": <joint> has no name"),
+          testing::Pair("j",
+                        "r.srdf:13: group \"j\": <jont> is not known (did you mean "
+                        "<joint>?)")));
+  EXPECT_EQ(group("up"), "left1 left2 weld ");
+}
+
+TEST_F(SrdfFile, StatesThatCannotBeMade) {
+  EXPECT_EQ(
+      notesOf(R"(<group name="e"><joint name="left1"/></group>
 <group_state name="s" group="g"><joint name="left1" value="x"/></group_state>
 <group_state name="t" group="e"><joint name="left2"/></group_state>
 <group_state name="u" group="e"><joint name="base" value="1"/></group_state>
 <group_state name="v" group="e"><joint name="left1" value="1"/></group_state>
 <group_state name="v" group="e"><joint name="left1" value="2"/></group_state>
 <group_state name="w" group="e"/>
-<disable_collisions link1="l2"/>
-<group name="up"><chain base_link="tool" tip_link="trunk"/></group>)"),
-            R"(r.srdf:9: group "f" is already defined on line 7; this definition is ignored
-r.srdf:14: state "v" is already defined on line 13; that definition is ignored
-r.srdf:5: <group> has no name
-r.srdf:10: state "s": joint "left1": joint value: a number is needed, not "x"
-r.srdf:11: state "t": <joint> has no value
-r.srdf:12: state "u": joint "base": joint value: 3 numbers are needed, not "1"
-r.srdf:16: <disable_collisions> has no link2
+<group_state name="x" group="e"><joint name="left9" value="0"/></group_state>
+<group_state name="home" group="e"><joint name="left1" value="0"/></group_state>
+<group_state name="home" group="f"><joint name="left1" value="1"/></group_state>
+<group_state name="e/home" group="e"><joint name="left1" value="2"/></group_state>)"),
+      R"(r.srdf:3: state "s" names the group "g", which the SRDF lacks; its values are taken as they are
+r.srdf:3: state "s": joint "left1": joint value: a number is needed, not "x"
+r.srdf:4: state "t": joint "left2": <joint> has no value
+r.srdf:5: state "u": joint "base": joint value: 3 numbers are needed, not "1"
+r.srdf:7: state "v" is already defined on line 6; that definition is ignored
+r.srdf:11: state "home" names the group "f", which the SRDF lacks; its values are taken as they are
+r.srdf:12: there is already a state "e/home"; this definition is ignored
+r.srdf:9: 1 value of a state is left out, because the URDF lacks left9 (did you mean "left1"?)
 )");
-  using Reasons = std::map<std::string, std::string>;
-  const std::string at = (folder_ / "r.srdf").string();
-  EXPECT_EQ(model_.unusable.groups,
-            (Reasons{{"a", at + ":8: there is no group \"aa\" in the SRDF (did you mean \"a\"?)"},
-                     {"b", at + ":2: there is no group \"aa\" in the SRDF (did you mean \"a\"?)"},
-                     {"c", at + ":3: it has no joint that the URDF has"},
-                     {"d", at + ":4: it has no joint that the URDF has"},
-                     {"e", at + ":6: it contains itself: e, f, e"},
-                     {"f", at + ":7: it contains itself: f, e, f"}}));
-  EXPECT_EQ(model_.unusable.states,
-            (Reasons{{"s", at + ":10: its value of joint \"left1\" is not sound"},
-                     {"t", at + ":11: its value of joint \"left2\" is not sound"},
-                     {"u", at + ":12: its value of joint \"base\" is not sound"},
-                     {"w", at + ":15: it has no value of a joint that the URDF has"}}));
-  EXPECT_EQ(group("up"), "left1 left2 weld ");
-  EXPECT_EQ(model_.states.at("v").at("left1"), 2) << "the last one counts, as in MoveIt";
-  EXPECT_FALSE(model_.stateGroup.contains("s"));
+  std::map<std::string, std::string> reasons;
+  for (const auto& [name, state] : model_.states)
+    if (!state.unusable.empty()) reasons[name] = state.unusable.substr(folder_.string().size() + 1);
+  EXPECT_THAT(
+      reasons,
+      testing::ElementsAre(
+          testing::Pair("s",
+                        "r.srdf:3: state \"s\": joint \"left1\": joint value: a number is "
+                        "needed, not \"x\""),
+          testing::Pair("t", "r.srdf:4: state \"t\": joint \"left2\": <joint> has no value"),
+          testing::Pair("u",
+                        "r.srdf:5: state \"u\": joint \"base\": joint value: 3 numbers are "
+                        "needed, not \"1\""),
+          testing::Pair("w", "r.srdf:8: state \"w\" has no value"),
+          testing::Pair("x",
+                        "r.srdf:9: state \"x\" has no value of this robot: the URDF lacks "
+                        "left9")));
+  EXPECT_EQ(model_.states.at("v").values.at("left1"), 2) << "the last one counts, as in MoveIt";
+  EXPECT_EQ(model_.states.at("e/home").values.at("left1"), 0);
+}
+
+/// An unreadable <enable_collisions> must not leave a pair untested.
+TEST_F(SrdfFile, DefaultsAreIgnoredIfAnEnabledPairIsLost) {
+  const std::size_t adjacent = model_.allowed.size();
+  const std::string defaults = "<disable_default_collisions link=\"tool\"/>\n";
+  for (const char* const lost : {R"(<enable_collisions link1="tool" link2="grund"/>)",
+                                 R"(<enable_collisions link1="tool"/>)",
+                                 R"(<enable_colisions link1="tool" link2="ground"/>)"}) {
+    EXPECT_THAT(notesOf(defaults + lost),
+                testing::HasSubstr("r.srdf:2: <disable_default_collisions> is ignored, because not "
+                                   "every <enable_collisions> can be read; all of its pairs are "
+                                   "tested"))
+        << lost;
+    EXPECT_EQ(model_.allowed.size(), adjacent) << lost;
+  }
+}
+
+TEST_F(SrdfFile, AVirtualJointHidesNoJointOfTheRobot) {
+  EXPECT_EQ(complaintOfSrdf(R"(<virtual_joint name="left1" child_link="ground" type="fixed"/>
+<group name="a"><joint name="left1"/></group>)"),
+            "no complaint");
+  EXPECT_EQ(group("a"), "left1 ");
 }
 
 TEST_F(SrdfFile, AFileThatCannotBeReadIsAFault) {

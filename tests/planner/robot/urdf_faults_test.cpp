@@ -179,12 +179,6 @@ TEST_F(UrdfFaults, Mimics) {
             "r.urdf:7: joint \"tilt\" mimics itself");
   EXPECT_EQ(complaint("revolute", "revolute", R"(joint="pam" multiplier="x")"),
             "r.urdf:7: joint \"tilt\": mimic multiplier: a number is needed, not \"x\"");
-  EXPECT_EQ(complaint("fixed", "revolute", R"(joint="pan")"),
-            "r.urdf:7: joint \"tilt\" mimics \"pan\", which is fixed; a joint of one variable is "
-            "needed");
-  EXPECT_EQ(complaint("planar", "revolute", R"(joint="pan")"),
-            "r.urdf:7: joint \"tilt\" mimics \"pan\", which is planar; a joint of one variable is "
-            "needed");
   EXPECT_EQ(complaint("revolute", "floating", R"(joint="pan")"),
             "r.urdf:7: joint \"tilt\" is floating, and only a joint of one variable can mimic "
             "another");
@@ -200,6 +194,56 @@ TEST_F(UrdfFaults, Mimics) {
                              joint("k", "revolute", "b", "c", limit + "<mimic joint=\"l\"/>") +
                              joint("l", "revolute", "c", "d", limit + "<mimic joint=\"k\"/>")),
             "r.urdf:7: the joints k, l, k mimic in a circle");
+}
+
+/// The joint f follows c, which would follow a joint that the file lacks. So c moves by itself, and
+/// the rules for followers hold for f.
+TEST_F(UrdfFaults, MimicsBehindALostLeader) {
+  const auto complaint = [&](const std::string& c, const std::string& f,
+                             const std::string& multiplier) {
+    const std::string limits = c == "continuous" ? "" : limit;
+    return complaintOfParts(
+        link("l") + link("m") + link("n") +
+        joint("c", c, "l", "m", limits + "<mimic joint=\"x\"/>") +
+        joint("f", f, "m", "n", limit + "<mimic joint=\"c\" multiplier=\"" + multiplier + "\"/>"));
+  };
+  EXPECT_EQ(complaint("revolute", "revolute", "0.5"), "no complaint");
+  EXPECT_EQ(complaint("continuous", "revolute", "0.5"),
+            "r.urdf:6: joint \"f\" mimics \"c\", which is continuous and repeats after a full "
+            "turn, by the multiplier 0.5; use a whole multiplier or a revolute \"c\"");
+  EXPECT_EQ(complaint("continuous", "prismatic", "1"),
+            "r.urdf:6: joint \"f\" is prismatic and mimics \"c\", which is continuous and repeats "
+            "after a full turn; change the type of one of them");
+  EXPECT_EQ(complaint("planar", "revolute", "1"),
+            "r.urdf:5: joint \"c\" is planar, and only a joint of one variable can mimic another");
+  EXPECT_EQ(
+      complaint("revolute", "floating", "1"),
+      "r.urdf:6: joint \"f\" is floating, and only a joint of one variable can mimic another");
+}
+
+TEST_F(UrdfFaults, AJointWithoutLeaderNeedsLimitsOfItsOwn) {
+  const auto complaint = [&](const std::string& content) {
+    return complaintOfParts(link("l") + link("m") +
+                            joint("c", "revolute", "l", "m", content + "<mimic joint=\"x\"/>"));
+  };
+  const std::string lacking =
+      "r.urdf:4: joint \"c\" mimics \"x\", which is not a joint of this file; and it has no lower "
+      "or upper limit with which it could move by itself";
+  EXPECT_EQ(complaint(""), lacking);
+  EXPECT_EQ(complaint(R"(<limit effort="1" velocity="1"/>)"), lacking);
+  EXPECT_EQ(complaint(R"(<limit lower="2" upper="1"/>)"),
+            "r.urdf:4: joint \"c\": the lower limit 2 is above the upper limit 1");
+  EXPECT_EQ(complaint(R"(<limit lower="1" upper="2"/>)"), "no complaint");
+}
+
+TEST_F(UrdfFaults, ChainsOfMimicsBeyondDoubles) {
+  EXPECT_EQ(
+      complaintOfParts(
+          link("a") + link("b") + link("c") + link("d") + joint("j", "revolute", "a", "b", limit) +
+          joint("k", "revolute", "b", "c", "<mimic joint=\"j\" multiplier=\"1e200\"/>") +
+          joint("l", "revolute", "c", "d", "<mimic joint=\"k\" multiplier=\"-1e200\"/>")),
+      "r.urdf:8: joint \"l\" mimics \"j\" by a multiplier of -inf and an offset of 0, which "
+      "is out of the range of doubles");
 }
 
 TEST_F(UrdfFaults, Geometry) {
@@ -240,10 +284,15 @@ TEST_F(UrdfFaults, ElementsThatWouldBeIgnored) {
                  "r.urdf:3: robot \"r\": <lnk> is not known (did you mean <link>?)");
   EXPECT_EQ(
       complaintOfParts(link("a", "<group>" + collision("<box size=\"1 1 1\"/>") + "</group>")),
-      of + "<group> is not known, and the <collision> in it would be lost");
-  EXPECT_EQ(complaintOfParts(link("a") + collision("<box size=\"1 1 1\"/>")),
-            "r.urdf:3: robot \"r\": <collision> is not known, and the <collision> in it would be "
-            "lost");
+      of + "<group> is not known, and the collision geometry in it would be lost");
+  EXPECT_EQ(
+      complaintOfParts(link("a") + collision("<box size=\"1 1 1\"/>")),
+      "r.urdf:3: robot \"r\": <collision> is not known, and the collision geometry in it would "
+      "be lost");
+  EXPECT_EQ(complaintOfParts(link("a",
+                                  "<collision_model><geometry><box size=\"1 1 1\"/></geometry>"
+                                  "</collision_model>")),
+            of + "<collision_model> is not known, and the collision geometry in it would be lost");
   EXPECT_EQ(complaintOfParts(link("a", "<self_filter><geometry/></self_filter>")), "no complaint")
       << "other geometry is for other programs";
   EXPECT_EQ(
@@ -274,7 +323,7 @@ TEST_F(UrdfFaults, MeshFiles) {
   EXPECT_EQ(complaint("http://x.org/a.stl"),
             of + "\"http://x.org/a.stl\": a file beside the URDF, package://NAME/FILE or "
                  "file:///FILE is needed");
-  packages_["arm_description"] = folder_;
+  rules_.packages["arm_description"] = folder_;
   EXPECT_EQ(complaint("package://arm_description/none.stl"),
             of + "\"package://arm_description/none.stl\": none.stl: no such file");
   EXPECT_EQ(complaint("package://arm_descripton/a.stl"),
@@ -282,7 +331,8 @@ TEST_F(UrdfFaults, MeshFiles) {
                  "package \"arm_descripton\" has no folder (did you mean \"arm_description\"?)");
   EXPECT_EQ(complaint("package://hand/a.stl"),
             of + "\"package://hand/a.stl\": hand/a.stl is not a file, and package \"hand\" has no "
-                 "folder; add robot.yaml: packages: {hand: FOLDER}");
+                 "folder; add robot.yaml: packages: {hand: FOLDER}, or set ROS_PACKAGE_PATH or "
+                 "AMENT_PREFIX_PATH");
   // An unreadable mesh file is reported once, at the place where the URDF names it first.
   write("bad.obj", "v 0 0 0\nv 1 0 nan\n");
   EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"bad.obj\"/>") +
@@ -333,7 +383,7 @@ TEST_F(UrdfFaults, AllKindsAreReportedAtOnceInOrder) {
             "<axis xyz=\"0 0 0\"/><limit lower=\"2\" upper=\"1\"/><mimic joint=\"j\"/>"));
   EXPECT_THAT(text, testing::MatchesRegex(
                         "r.urdf:2: .*bad.obj:1: .*\nr.urdf:3: .*<torus>.*\nr.urdf:4: .*zero.*\n"
-                        "r.urdf:4: .*lower limit.*\nr.urdf:4: .*mimics itself"));
+                        "r.urdf:4: .*mimics itself\nr.urdf:4: .*lower limit.*"));
 }
 
 }  // namespace

@@ -87,21 +87,25 @@ TEST_F(UrdfFile, OnlyTheLeadersLimitsCountForAMimic) {
   };
   const auto ignored = [](const std::string& own, const std::string& reach) {
     return "; r.urdf:7: joint \"tilt\": its limits, " + own +
-           ", are ignored: it mimics \"pan\", whose limits let it move in " + reach;
+           ", are ignored: it mimics \"pan\", which " + reach;
   };
+  const auto within = [](const std::string& reach) { return "moves it in " + reach; };
   const std::string same = "-1.000000 to 2.000000";
   EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", ""), same) << "limits are inclusive";
   EXPECT_EQ(range("revolute", R"(lower="0" upper="3")", R"(multiplier="2" offset="1")"),
-            same + ignored("[0, 3]", "[-1, 5]"));
+            same + ignored("[0, 3]", within("[-1, 5]")));
   EXPECT_EQ(range("revolute", R"(lower="0" upper="0.5")", R"(multiplier="-1")"),
-            same + ignored("[0, 0.5]", "[-2, 1]"));
+            same + ignored("[0, 0.5]", within("[-2, 1]")));
   EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", R"(offset="3.5")"),
-            same + ignored("[-1, 2]", "[2.5, 5.5]"));
+            same + ignored("[-1, 2]", within("[2.5, 5.5]")));
   EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", R"(multiplier="0" offset="-2")"),
-            same + ignored("[-1, 2]", "[-2, -2]"));
+            same + ignored("[-1, 2]", within("[-2, -2]")));
   EXPECT_EQ(range("revolute", R"(lower="-1" upper="2")", R"(multiplier="0" offset="2")"), same);
   EXPECT_EQ(range("continuous", R"(lower="-2" upper="8")", R"(multiplier="2")"),
-            "-inf to inf" + ignored("[-2, 8]", "[-inf, inf]"));
+            "-inf to inf" + ignored("[-2, 8]", "is continuous, without limits"));
+  EXPECT_EQ(range("revolute", R"(lower="3" upper="1")", ""),
+            same + ignored("[3, 1]", within("[-1, 2]")));
+  EXPECT_EQ(range("revolute", R"(lower="-1e308" upper="1e308")", ""), same);
   EXPECT_EQ(range("revolute", "", ""), same) << "no limits of its own";
 }
 
@@ -112,9 +116,11 @@ TEST_F(UrdfFile, EffortAndVelocityMayBeMissing) {
   EXPECT_EQ(model.joints[0].lower, 0);
   EXPECT_EQ(model.joints[0].upper, 2);
   EXPECT_TRUE(model.joints[1].mimic) << "a mimic needs no <limit>";
-  EXPECT_THAT(model.notes,
-              testing::ElementsAre((folder_ / "r.urdf").string() +
-                                   ":5: joint \"j\": <limit> has no effort, velocity"));
+  EXPECT_THAT(
+      model.notes,
+      testing::ElementsAre(
+          (folder_ / "r.urdf").string() + ":5: joint \"j\": <limit> has no effort, velocity",
+          (folder_ / "r.urdf").string() + ":5: joint \"j\": <limit> has no lower, so it is 0"));
 }
 
 TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
@@ -126,6 +132,20 @@ TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
                                (folder_ / "r.urdf").string() +
                                ":6: joint \"tilt\" mimics \"pam\", which is not a joint of this "
                                "file; it moves by itself (did you mean \"pan\"?)"));
+}
+
+TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
+  for (const char* const type : {"fixed", "planar", "floating"}) {
+    const RobotModel model =
+        modelOf(link("a") + link("b") + link("c") + joint("pan", type, "a", "b") +
+                joint("tilt", "revolute", "b", "c", limit + "<mimic joint=\"pan\"/>"));
+    EXPECT_FALSE(model.joints[1].mimic);
+    EXPECT_EQ(model.joints[1].upper, 2);
+    EXPECT_THAT(model.notes,
+                testing::ElementsAre((folder_ / "r.urdf").string() + ":6: joint \"tilt\" mimics " +
+                                     "\"pan\", which is " + type +
+                                     ", not a joint of one variable; it moves by itself"));
+  }
 }
 
 /// urdfdom is given ? instead of %, so that both names below become one.
@@ -198,7 +218,7 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
   write("else/where/in_map.obj", wedge);
   write("beside/in_beside.obj", wedge);
-  packages_["mapped"] = folder_ / "else";
+  rules_.packages["mapped"] = folder_ / "else";
   const std::string above = folder_.filename().string();
   const RobotModel model = modelOf(link(
       "a", collision("<mesh filename=\"package://mapped/where/in_map.obj\"/>") +
@@ -211,11 +231,143 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
+/// Sets an environment variable during its lifetime. No other thread runs.
+class WithVariable {
+ public:
+  WithVariable(const char* name, const std::string& value) : name_(name) {
+    setenv(name, value.c_str(), 1);
+  }
+  ~WithVariable() { unsetenv(name_); }
+  WithVariable(const WithVariable&) = delete;
+  WithVariable& operator=(const WithVariable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+TEST_F(UrdfFile, MeshesAreFoundInTheFoldersOfRos) {
+  const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+  write("installed/share/hand/meshes/a.obj", wedge);
+  write("workspace/src/repository/arm/meshes/b.obj", wedge);
+  write("single/base/c.obj", wedge);
+  write("workspace/.git/arm/meshes/b.obj", "v 0 0 0\n");
+  const WithVariable ament("AMENT_PREFIX_PATH",
+                           (folder_ / "none").string() + ":" + (folder_ / "installed").string());
+  const WithVariable ros("ROS_PACKAGE_PATH", (folder_ / "workspace/src").string() +
+                                                 "::" + (folder_ / "single/base").string());
+  modelOf(link("a", collision("<mesh filename=\"package://hand/meshes/a.obj\"/>") +
+                        collision("<mesh filename=\"package://arm/meshes/b.obj\"/>") +
+                        collision("<mesh filename=\"package://base/c.obj\"/>")));
+  EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "installed/share/hand/meshes/a.obj",
+                                 folder_ / "workspace/src/repository/arm/meshes/b.obj",
+                                 folder_ / "single/base/c.obj"}));
+}
+
+/// Links without <collision> are named, or get the shapes of their visuals.
+TEST_F(UrdfFile, Visuals) {
+  const auto visual = [](const std::string& shape) {
+    return "<visual><origin xyz=\"0 0 1\"/><geometry>" + shape +
+           "</geometry><material name=\"m\"/></visual>";
+  };
+  const std::string parts =
+      link("a", visual("<torus/>") + collision("<box size=\"1 1 1\"/>")) +
+      link("b", visual("<sphere radius=\"2\"/>") + visual("<mesh filename=\"wedge.obj\"/>")) +
+      link("c") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "c");
+  const RobotModel ignored = modelOf(parts);
+  EXPECT_EQ(ignored.links[1].shapes.size(), 0u);
+  EXPECT_THAT(ignored.notes,
+              testing::ElementsAre((folder_ / "r.urdf").string() +
+                                   ":1: 1 link is not tested, having a <visual> and no "
+                                   "<collision> (visuals: collide in robot.yaml uses the visuals): "
+                                   "b"));
+  rules_.visualsCollide = true;
+  const RobotModel used = modelOf(parts);
+  EXPECT_TRUE(used.notes.empty());
+  EXPECT_EQ(used.links[0].shapes.size(), 1u);
+  ASSERT_EQ(used.links[1].shapes.size(), 2u);
+  EXPECT_EQ(used.links[1].shapes[0].part->radius, 2);
+  EXPECT_EQ(used.links[1].shapes[1].mesh->mesh.vertices[0], Vec3(0, 0, 1));
+  EXPECT_EQ(used.links[2].shapes.size(), 0u);
+  EXPECT_EQ(complaintOfParts(link("a", visual("<torus/>"))),
+            "r.urdf:2: link \"a\": unknown geometry <torus>; <box>, <cylinder>, <sphere> or <mesh> "
+            "is needed");
+}
+
+TEST_F(UrdfFile, SoftLimits) {
+  const auto safety = [](const std::string& values) {
+    return limit + "<safety_controller k_velocity=\"1\" " + values + "/>";
+  };
+  const std::string parts =
+      link("a") + link("b") + link("c") + link("d") + link("e") +
+      joint("both", "revolute", "a", "b",
+            safety(R"(soft_lower_limit="-0.5" soft_upper_limit="1")")) +
+      joint("one", "prismatic", "b", "c", safety(R"(soft_upper_limit="1.5")")) +
+      joint("wide", "revolute", "c", "d", safety(R"(soft_lower_limit="-3" soft_upper_limit="3")")) +
+      joint("free", "continuous", "d", "e",
+            R"(<safety_controller k_velocity="1" soft_lower_limit="0"/>)");
+  const RobotModel hard = modelOf(parts);
+  EXPECT_EQ(hard.joints[0].lower, -1);
+  EXPECT_EQ(hard.joints[1].upper, 2);
+  EXPECT_THAT(hard.notes,
+              testing::ElementsAre((folder_ / "r.urdf").string() +
+                                   ":1: 2 joints are used without the soft limits, which are "
+                                   "narrower (limits: soft in robot.yaml applies them): both, "
+                                   "one"));
+  rules_.softLimits = true;
+  const RobotModel soft = modelOf(parts);
+  EXPECT_TRUE(soft.notes.empty());
+  EXPECT_EQ(soft.joints[0].lower, -0.5);
+  EXPECT_EQ(soft.joints[0].upper, 1);
+  EXPECT_EQ(soft.joints[1].lower, -1);
+  EXPECT_EQ(soft.joints[1].upper, 1.5);
+  EXPECT_EQ(soft.joints[2].lower, -1);
+  EXPECT_EQ(soft.joints[2].upper, 2);
+  EXPECT_EQ(soft.joints[3].upper, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(complaintOfParts(link("a") + link("b") +
+                             joint("j", "revolute", "a", "b",
+                                   safety(R"(soft_lower_limit="3" soft_upper_limit="x")"))),
+            "r.urdf:4: joint \"j\": safety_controller soft_upper_limit: a number is needed, not "
+            "\"x\"\n"
+            "r.urdf:4: joint \"j\": the lower limit 3 is above the upper limit 2");
+}
+
+/// ROS's rule ignores the up-axis of Collada files.
+TEST_F(UrdfFile, UpAxesOfColladaFiles) {
+  const auto collada = [](const std::string& up) {
+    return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)" +
+           up + R"(</asset><library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="9">0 0 0  1 0 0  0 2 0</float_array><technique_common>
+<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s">
+<node><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+  };
+  write("y.dae", collada("<up_axis>Y_UP</up_axis>"));
+  write("z.dae", collada("<up_axis>Z_UP</up_axis>"));
+  const std::string parts =
+      link("a", collision("<mesh filename=\"y.dae\"/>") + collision("<mesh filename=\"z.dae\"/>"));
+  const RobotModel ros = modelOf(parts);
+  EXPECT_EQ(ros.links[0].shapes[0].mesh->mesh.vertices[2], Vec3(0, 2, 0));
+  EXPECT_THAT(ros.notes,
+              testing::ElementsAre((folder_ / "r.urdf").string() +
+                                   ": the up-axis of y.dae is not z; it is not applied (ROS's "
+                                   "rule), and collada_up: file in robot.yaml applies it"));
+  rules_.colladaUp = true;
+  const RobotModel file = modelOf(parts);
+  EXPECT_TRUE(file.notes.empty());
+  EXPECT_EQ(file.links[0].shapes[0].mesh->mesh.vertices[2], Vec3(0, 0, 2));
+  EXPECT_EQ(file.links[0].shapes[1].mesh->mesh.vertices[2], Vec3(0, 2, 0));
+}
+
 TEST_F(UrdfFile, ReportsIgnoredElements) {
   const RobotModel model = modelOf(
       "<gazebo reference=\"a\"><x/></gazebo>\n<transmission name=\"t\"/>\n" +
       link("a",
-           "<visual><geometry><torus/></geometry></visual><contact/><drake:x/><vsual/>"
+           "<contact/><drake:x/><vsual/>"
            "<collision_group/>") +
       "<lamp name=\"b\"/>\n" + link("b") +
       joint(

@@ -44,7 +44,7 @@ class UrdfTest : public testing::Test {
 
   std::string complaintOf(const std::string& urdf) {
     std::vector<Fault> faults;
-    const auto model = readUrdf(write("r.urdf", urdf), packages_, faults, files_);
+    const auto model = readUrdf(write("r.urdf", urdf), rules_, faults, files_);
     EXPECT_EQ(model.has_value(), faults.empty());
     return textOf(faults);
   }
@@ -56,14 +56,14 @@ class UrdfTest : public testing::Test {
 
   RobotModel modelOf(const std::string& parts) {
     std::vector<Fault> faults;
-    auto model = readUrdf(write("r.urdf", "<robot name=\"r\">\n" + parts + "\n</robot>\n"),
-                          packages_, faults, files_);
+    auto model = readUrdf(write("r.urdf", "<robot name=\"r\">\n" + parts + "\n</robot>\n"), rules_,
+                          faults, files_);
     EXPECT_EQ(textOf(faults), "no complaint");
     return model.value_or(RobotModel());
   }
 
   std::filesystem::path folder_;
-  PackageMap packages_;
+  UrdfRules rules_;
   std::vector<std::filesystem::path> files_;
 };
 

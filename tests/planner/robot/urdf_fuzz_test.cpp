@@ -111,7 +111,7 @@ TEST_F(UrdfFuzz, Urdf) {
   ASSERT_EQ(complaintOf(urdf), "no complaint");
   attack(urdf, [&](const std::string& text) {
     std::vector<Fault> faults;
-    const auto model = readUrdf(write("r.urdf", text), packages_, faults, files_);
+    const auto model = readUrdf(write("r.urdf", text), rules_, faults, files_);
     EXPECT_EQ(model.has_value(), faults.empty());
     if (model) {
       EXPECT_EQ(model->joints.size() + 1, model->links.size());
@@ -127,7 +127,7 @@ TEST_F(UrdfFuzz, Urdf) {
 
 TEST_F(UrdfFuzz, Srdf) {
   std::vector<Fault> none;
-  const auto model = readUrdf(write("r.urdf", urdf), packages_, none, files_);
+  const auto model = readUrdf(write("r.urdf", urdf), rules_, none, files_);
   ASSERT_TRUE(model);
   attack(srdf, [&](const std::string& text) {
     std::vector<Fault> faults;

@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::readsOrRefuses([&] {
     std::vector<Fault> faults;
     std::vector<std::filesystem::path> files;
-    const auto model = readUrdf(file, {{"p", folder.path()}}, faults, files);
+    const auto model = readUrdf(file, {.packages = {{"p", folder.path()}}}, faults, files);
     fuzz::checkFaults(faults);
     if (model.has_value() != faults.empty()) fuzz::fail("a model and faults, or neither");
     if (!model) return;

@@ -1,0 +1,272 @@
+#include "planner/robot/srdf_groups.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "collision/core/spelling.h"
+#include "planner/robot/joint_types.h"
+
+namespace corridor {
+namespace {
+
+using Element = XmlFile::Element;
+using Joints = std::set<std::size_t>;  // indices, so in the model's order
+
+constexpr std::size_t none = SIZE_MAX;
+
+struct Group {
+  Element* element = nullptr;
+  Joints joints;
+  std::vector<std::size_t> subgroups;
+  UnknownNames missing;  ///< members that the URDF lacks
+  std::string unusable;  ///< the reason why the group can't be made, with file and line, or ""
+};
+
+class GroupReader {
+ public:
+  GroupReader(XmlFile& file, SrdfNames& names, RobotModel& model)
+      : file_(file), names_(names), model_(model), parentJoint_(model.links.size(), none) {
+    for (std::size_t j = 0; j < model.joints.size(); ++j) parentJoint_[model.joints[j].child] = j;
+  }
+
+  void read() {
+    readGroups();
+    readStates();
+    names_.note(unknownMembers_, "member of a group is left out, because the URDF lacks ",
+                "members of groups are left out, because the URDF lacks ", model_.notes);
+    names_.note(unknownValues_, "value of a state is left out, because the URDF lacks ",
+                "values of states are left out, because the URDF lacks ", model_.notes);
+  }
+
+ private:
+  void note(const Element& element, const std::string& text) {
+    model_.notes.push_back(file_.at(element.GetLineNum(), text));
+  }
+  /// Makes notes of the faults that were reported since the last call. Returns the first of them,
+  /// or "".
+  std::string noteFaults() {
+    const std::vector<Fault> faults = file_.takeFaults();
+    for (const Fault& fault : faults) model_.notes.push_back(fault.str());
+    return faults.empty() ? "" : faults.front().str();
+  }
+
+  void readGroups() {
+    forEach(*file_.root(), "group", [&](Element& element) {
+      const auto name = file_.text(element, "name", "");
+      noteFaults();
+      if (!name) return;
+      if (const auto first = groupNames_.find(*name))
+        return note(element, owned("group", *name) + " is already defined on line " +
+                                 std::to_string(groups_[*first].element->GetLineNum()) +
+                                 "; this definition is ignored");
+      groups_.push_back({&element, {}, {}, {}, ""});
+      groupNames_.add(*name);
+    });
+    for (std::size_t i = 0; i < groups_.size(); ++i) readMembers(i);
+    for (std::size_t i = 0; i < groups_.size(); ++i) checkCircle(i);
+    for (std::size_t i = 0; i < groups_.size(); ++i) model_.groups[groupNames_[i]] = made(i);
+    for (const Group& group : groups_) unknownMembers_.add(group.missing);
+  }
+
+  void readMembers(std::size_t index) {
+    Group& group = groups_[index];
+    const std::string owner = owned("group", groupNames_[index]);
+    file_.checkChildren(*group.element, {"joint", "link", "chain", "group"}, {}, owner,
+                        model_.notes);
+    forEach(*group.element, "joint", [&](Element& element) {
+      if (const auto joint = names_.findJoint(element, "name", owner, group.missing))
+        group.joints.insert(*joint);
+    });
+    forEach(*group.element, "link", [&](Element& element) {
+      const auto link = names_.findLink(element, "name", owner, group.missing);
+      if (link && parentJoint_[*link] != none) group.joints.insert(parentJoint_[*link]);
+    });
+    forEach(*group.element, "chain", [&](Element& element) { addChain(element, owner, group); });
+    forEach(*group.element, "group", [&](Element& element) {
+      const auto name = file_.text(element, "name", owner);
+      if (!name) return;
+      if (const auto inner = groupNames_.find(*name))
+        group.subgroups.push_back(*inner);
+      else if (group.unusable.empty())
+        group.unusable = file_.at(element.GetLineNum(), owner + ": there is no " +
+                                                            owned("group", *name) + " in the SRDF" +
+                                                            didYouMean(*name, groupNames_.all()));
+    });
+    if (const std::string fault = noteFaults(); !fault.empty()) group.unusable = fault;
+  }
+
+  Joints jointsAbove(std::size_t link) const {
+    Joints above;
+    for (std::size_t j = parentJoint_[link]; j != none; j = parentJoint_[model_.joints[j].parent])
+      above.insert(j);
+    return above;
+  }
+
+  /// Adds the joints between two links: those above exactly one of the two.
+  void addChain(Element& element, const std::string& owner, Group& group) {
+    const auto base = names_.findLink(element, "base_link", owner, group.missing);
+    const auto tip = names_.findLink(element, "tip_link", owner, group.missing);
+    if (!base || !tip) return;
+    const Joints aboveBase = jointsAbove(*base), aboveTip = jointsAbove(*tip);
+    std::set_symmetric_difference(aboveBase.begin(), aboveBase.end(), aboveTip.begin(),
+                                  aboveTip.end(), std::inserter(group.joints, group.joints.end()));
+  }
+
+  /// Marks the group as unusable if it contains itself.
+  void checkCircle(std::size_t root) {
+    std::vector<std::size_t> above(groups_.size(), none), open{root};
+    for (std::size_t k = 0; k < open.size(); ++k)
+      for (const std::size_t inner : groups_[open[k]].subgroups) {
+        if (inner == root) {
+          groups_[root].unusable =
+              file_.at(groups_[root].element->GetLineNum(),
+                       owned("group", groupNames_[root]) +
+                           " contains itself: " + circleText(root, open[k], above));
+          return;
+        }
+        if (above[inner] != none) continue;
+        above[inner] = open[k];
+        open.push_back(inner);
+      }
+  }
+
+  std::string circleText(std::size_t root, std::size_t last,
+                         const std::vector<std::size_t>& above) const {
+    std::vector<std::string> names{groupNames_[root]};
+    for (std::size_t i = last; i != root; i = above[i]) names.push_back(groupNames_[i]);
+    names.push_back(names.front());
+    std::reverse(names.begin(), names.end());
+    return joinedFirst(names);
+  }
+
+  /// Returns the group with the members of all groups in it, at any depth.
+  JointGroup made(std::size_t root) const {
+    JointGroup result;
+    Joints joints;
+    UnknownNames missing;
+    std::vector<bool> seen(groups_.size(), false);
+    std::vector<std::size_t> open{root};
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const Group& group = groups_[open[k]];
+      joints.insert(group.joints.begin(), group.joints.end());
+      missing.add(group.missing);
+      if (result.unusable.empty()) result.unusable = group.unusable;
+      for (const std::size_t inner : group.subgroups) {
+        if (!seen[inner]) open.push_back(inner);
+        seen[inner] = true;
+      }
+    }
+    result.missing = missing.names();
+    if (result.unusable.empty() && joints.empty())
+      result.unusable =
+          file_.at(groups_[root].element->GetLineNum(),
+                   owned("group", groupNames_[root]) +
+                       (missing.names().empty() ? " has no joint"
+                                                : " has no joint of this robot: the URDF lacks " +
+                                                      joinedFirst(missing.names())));
+    if (result.unusable.empty())
+      for (const std::size_t j : joints) result.joints.push_back(names_.joints()[j]);
+    return result;
+  }
+
+  struct State {
+    std::string name;
+    int line = 0;
+    NamedState made;
+  };
+
+  void readStates() {
+    std::vector<State> states;
+    std::map<std::pair<std::string, std::string>, std::size_t> indices;  // by name and group
+    std::map<std::string, int> count;  // number of states with each name
+    forEach(*file_.root(), "group_state", [&](Element& element) {
+      const auto name = file_.text(element, "name", "");
+      noteFaults();
+      if (!name) return;
+      State state{*name, element.GetLineNum(), readState(element, owned("state", *name))};
+      const auto [first, isNew] =
+          indices.emplace(std::pair{state.name, state.made.group}, states.size());
+      if (isNew) {
+        ++count[state.name];
+        states.push_back(std::move(state));
+        return;
+      }
+      State& before = states[first->second];  // as in MoveIt, the last one counts
+      note(element, owned("state", *name) + " is already defined on line " +
+                        std::to_string(before.line) + "; that definition is ignored");
+      before = std::move(state);
+    });
+    for (State& state : states) {
+      std::string& group = state.made.group;
+      // Two groups may both have a "home".
+      const std::string name =
+          count[state.name] > 1 && !group.empty() ? group + "/" + state.name : state.name;
+      if (!group.empty() && !groupNames_.find(group)) group.clear();
+      if (!model_.states.emplace(name, std::move(state.made)).second)
+        model_.notes.push_back(file_.at(state.line, "there is already a " + owned("state", name) +
+                                                        "; this definition is ignored"));
+    }
+  }
+
+  NamedState readState(Element& element, const std::string& owner) {
+    NamedState state;
+    file_.checkChildren(element, {"joint"}, {}, owner, model_.notes);
+    if (const char* group = element.Attribute("group")) state.group = group;
+    if (state.group.empty())
+      note(element, owner + " names no group; its values are taken as they are");
+    else if (!groupNames_.find(state.group))
+      note(element, owner + " names the group " + quotedWord(state.group) +
+                        ", which the SRDF lacks; its values are taken as they are");
+    std::vector<std::string> ignored;
+    UnknownNames unknown;
+    forEach(element, "joint",
+            [&](Element& joint) { readValue(joint, owner, unknown, state, ignored); });
+    if (!ignored.empty())
+      note(element, owner + ": the values of joints that do not move by themselves are ignored: " +
+                        joined(ignored));
+    unknownValues_.add(unknown);
+    state.unusable = noteFaults();
+    if (state.values.empty() && ignored.empty() && state.unusable.empty())
+      state.unusable = file_.at(
+          element.GetLineNum(),
+          owner + (unknown.names().empty() ? " has no value"
+                                           : " has no value of this robot: the URDF lacks " +
+                                                 joinedFirst(unknown.names())));
+    return state;
+  }
+
+  void readValue(Element& element, const std::string& owner, UnknownNames& unknown,
+                 NamedState& state, std::vector<std::string>& ignored) {
+    const auto index = names_.findJoint(element, "name", owner, unknown);
+    if (!index) return;
+    const JointModel& joint = model_.joints[*index];
+    if (!movesItself(joint)) return ignored.push_back(joint.name);
+    const std::vector<const char*> parts =
+        joint.type == JointType::planar ? std::vector{"/x", "/y", "/yaw"}
+        : joint.type == JointType::floating
+            ? std::vector{"/x", "/y", "/z", "/qx", "/qy", "/qz", "/qw"}
+            : std::vector{""};
+    const std::string of = owner + ": " + owned("joint", joint.name);
+    file_.require(element, "value", of);
+    const auto numbers = file_.numbers(element, "value", parts.size(), of);
+    for (std::size_t i = 0; numbers && i < parts.size(); ++i)
+      state.values[joint.name + parts[i]] = (*numbers)[i];
+  }
+
+  XmlFile& file_;
+  SrdfNames& names_;
+  RobotModel& model_;
+  std::vector<std::size_t> parentJoint_;  // for each link
+  NameIndex groupNames_;
+  std::vector<Group> groups_;
+  UnknownNames unknownMembers_, unknownValues_;
+};
+
+}  // namespace
+
+void readSrdfGroups(XmlFile& file, SrdfNames& names, RobotModel& model) {
+  GroupReader(file, names, model).read();
+}
+
+}  // namespace corridor

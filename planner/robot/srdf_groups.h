@@ -1,0 +1,14 @@
+#pragma once
+
+#include "planner/robot/robot_model.h"
+#include "planner/robot/srdf_names.h"
+#include "planner/robot/xml_file.h"
+
+namespace corridor {
+
+/// Internal to readSrdf(): reads <group> and <group_state> of the root element, as MoveIt does
+/// (srdfdom). Faults within a group or state are taken from the file. They become notes, and the
+/// reason why the group or state is unusable.
+void readSrdfGroups(XmlFile& file, SrdfNames& names, RobotModel& model);
+
+}  // namespace corridor

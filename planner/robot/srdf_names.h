@@ -1,0 +1,92 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "planner/robot/robot_model.h"
+#include "planner/robot/xml_file.h"
+
+/// Internal to readSrdf(): finds the links and joints that an SRDF names.
+namespace corridor {
+
+/// Unique names with their indices.
+class NameIndex {
+ public:
+  void add(const std::string& name) {
+    indices_.emplace(name, names_.size());
+    names_.push_back(name);
+  }
+  /// nullopt: unknown name.
+  std::optional<std::size_t> find(const std::string& name) const {
+    const auto found = indices_.find(name);
+    return found == indices_.end() ? std::nullopt : std::optional(found->second);
+  }
+  const std::vector<std::string>& all() const { return names_; }
+  const std::string& operator[](std::size_t i) const { return names_[i]; }
+  std::size_t size() const { return names_.size(); }
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> indices_;
+};
+
+/// Names in one kind of element that the URDF lacks.
+class UnknownNames {
+ public:
+  void add(const XmlFile::Element& element, const std::string& name);
+  void add(const UnknownNames& other);
+
+  const std::vector<std::string>& names() const { return names_; }  ///< each once
+  std::size_t count() const { return count_; }  ///< number of elements with such a name
+  int line() const { return line_; }            ///< line of the first such element
+
+ private:
+  void addName(const std::string& name);
+
+  std::vector<std::string> names_;
+  std::unordered_set<std::string> seen_;
+  std::size_t count_ = 0;
+  int line_ = 0;
+  const XmlFile::Element* last_ = nullptr;
+};
+
+class SrdfNames {
+ public:
+  SrdfNames(XmlFile& file, const RobotModel& model);
+
+  const NameIndex& links() const { return links_; }
+  const NameIndex& joints() const { return joints_; }
+
+  /// Virtual joints are not found, and are not unknown either. They are ignored, because the
+  /// problem file places the robot in the world.
+  void addVirtual(const std::string& joint);
+
+  /// Return the index of the link or joint that an attribute names. nullopt: the attribute is
+  /// missing (a fault was reported), the name was added to `unknown`, or it is a virtual joint's.
+  std::optional<std::size_t> findLink(const XmlFile::Element& element, const char* attribute,
+                                      const std::string& owner, UnknownNames& unknown);
+  std::optional<std::size_t> findJoint(const XmlFile::Element& element, const char* attribute,
+                                       const std::string& owner, UnknownNames& unknown);
+
+  /// Adds a note that names what is unknown: "3 " + `many` + "a, b and 1 more".
+  void note(const UnknownNames& unknown, const std::string& one, const std::string& many,
+            std::vector<std::string>& notes) const;
+  /// Returns the note that the file seems to be made for another robot, or nullopt. It needs five
+  /// unknown names, and they must be half of all names.
+  std::optional<std::string> noteOnOtherRobot() const;
+
+ private:
+  std::optional<std::size_t> find(const XmlFile::Element& element, const char* attribute,
+                                  const std::string& owner, const NameIndex& known,
+                                  UnknownNames& unknown);
+
+  XmlFile& file_;
+  NameIndex links_, joints_;
+  std::unordered_set<std::string> virtualJoints_;
+  std::unordered_set<std::string> used_, unknown_;  // names of links and joints in the SRDF
+};
+
+}  // namespace corridor

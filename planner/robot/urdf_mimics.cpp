@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
+#include "planner/robot/joint_types.h"
+#include "planner/robot/urdf_outline.h"
+
+namespace corridor {
+namespace {
+
+constexpr std::size_t none = SIZE_MAX;
+
+struct Range {
+  double lower = 0, upper = 0;
+  std::string text() const { return "[" + shortest(lower) + ", " + shortest(upper) + "]"; }
+};
+
+/// Returns the joint's own range; a limit that is not given is 0, as in urdfdom.
+Range rangeOf(const UrdfJoint& joint) {
+  if (!joint.limit) return {};
+  return {joint.limit->lower.value_or(0), joint.limit->upper.value_or(0)};
+}
+
+bool hasRange(const UrdfJoint& joint) {
+  return joint.type == JointType::revolute || joint.type == JointType::prismatic;
+}
+
+class Mimics {
+ public:
+  Mimics(const UrdfOutline& outline, XmlFile& file, std::vector<std::string>& notes)
+      : joints_(outline.joints),
+        file_(file),
+        notes_(notes),
+        leader_(joints_.size(), none),
+        walk_(joints_.size(), none),
+        rules_(joints_.size()) {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      indices_[joints_[j].name] = j;
+      names_.push_back(joints_[j].name);
+    }
+  }
+
+  std::vector<std::optional<Mimic>> resolve() {
+    for (std::size_t j = 0; j < joints_.size(); ++j) findLeader(j);
+    for (std::size_t j = 0; j < joints_.size(); ++j) resolve(j);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (leader_[j] == none) checkRange(joints_[j]);
+      if (rules_[j]) noteFollower(joints_[j], *rules_[j]);
+    }
+    return std::move(rules_);
+  }
+
+ private:
+  void findLeader(std::size_t j) {
+    const UrdfJoint& joint = joints_[j];
+    // Other readers ignore what a fixed joint mimics, too.
+    if (!joint.mimic || !joint.type || joint.type == JointType::fixed) return;
+    const int line = joint.mimic->line;
+    const std::string owner = owned("joint", joint.name);
+    if (isPoseJoint(*joint.type))
+      return file_.fault(line, owner + " is " + nameOf(*joint.type) +
+                                   ", and only a joint of one variable can mimic another");
+    if (joint.mimic->joint == joint.name) return file_.fault(line, owner + " mimics itself");
+    const auto found = indices_.find(joint.mimic->joint);
+    if (found == indices_.end())
+      return addLost(joint, "not a joint of this file",
+                     hints_-- > 0 ? didYouMean(joint.mimic->joint, names_) : "");
+    const UrdfJoint& leader = joints_[found->second];
+    if (!leader.type) return;
+    if (leader.type == JointType::fixed || isPoseJoint(*leader.type))
+      return addLost(joint, nameOf(*leader.type) + ", not a joint of one variable", "");
+    leader_[j] = found->second;
+  }
+
+  /// Handles a joint whose leader cannot lead: it moves by itself, within its own limits.
+  void addLost(const UrdfJoint& joint, const std::string& why, const std::string& hint) {
+    const std::string text = owned("joint", joint.name) + " mimics " +
+                             quotedWord(joint.mimic->joint) + ", which is " + why;
+    const bool needed = hasRange(joint);
+    if (needed && (!joint.limit || (!joint.limit->lower && !joint.limit->upper)))
+      file_.fault(joint.mimic->line,
+                  text + hint +
+                      "; and it has no lower or upper limit with which it could move by "
+                      "itself");
+    else
+      notes_.push_back(file_.at(joint.mimic->line, text + "; it moves by itself" + hint));
+  }
+
+  /// Makes the rules of the joint and of those that lead it.
+  void resolve(std::size_t start) {
+    std::vector<std::size_t> chain;
+    std::size_t j = start;
+    for (; leader_[j] != none && !rules_[j] && walk_[j] == none; j = leader_[j]) {
+      walk_[j] = start;
+      chain.push_back(j);
+    }
+    if (leader_[j] != none && !rules_[j]) {  // a circle; it was reported if an earlier walk met it
+      if (walk_[j] == start && !chain.empty()) faultCircle(j);
+      return;
+    }
+    for (; !chain.empty(); chain.pop_back()) {
+      const std::size_t k = chain.back();
+      const UrdfMimic& mimic = *joints_[k].mimic;
+      Mimic rule{leader_[k], mimic.multiplier, mimic.offset};
+      if (const auto& above = rules_[leader_[k]])
+        rule = {above->joint, mimic.multiplier * above->multiplier,
+                mimic.multiplier * above->offset + mimic.offset};
+      rules_[k] = rule;
+      checkRule(joints_[k], rule);
+    }
+  }
+
+  void faultCircle(std::size_t first) {
+    std::vector<std::string> names{joints_[first].name};
+    for (std::size_t j = leader_[first]; j != first; j = leader_[j])
+      names.push_back(joints_[j].name);
+    names.push_back(joints_[first].name);
+    file_.fault(joints_[first].mimic->line,
+                "the joints " + joinedFirst(names) + " mimic in a circle");
+  }
+
+  void checkRule(const UrdfJoint& joint, const Mimic& rule) {
+    const int line = joint.mimic->line;
+    const UrdfJoint& leader = joints_[rule.joint];
+    if (!std::isfinite(rule.multiplier) || !std::isfinite(rule.offset))
+      return file_.fault(line, owned("joint", joint.name) + " mimics " + quotedWord(leader.name) +
+                                   " by a multiplier of " + shortest(rule.multiplier) +
+                                   " and an offset of " + shortest(rule.offset) +
+                                   ", which is out of the range of doubles");
+    if (leader.type != JointType::continuous || rule.multiplier == 0) return;
+    if (joint.type == JointType::prismatic)
+      file_.fault(line, owned("joint", joint.name) + " is prismatic and mimics " +
+                            quotedWord(leader.name) +
+                            ", which is continuous and repeats after a full turn; change the type "
+                            "of one of them");
+    else if (rule.multiplier != std::round(rule.multiplier))
+      file_.fault(line, owned("joint", joint.name) + " mimics " + quotedWord(leader.name) +
+                            ", which is continuous and repeats after a full turn, by the "
+                            "multiplier " +
+                            shortest(rule.multiplier) + "; use a whole multiplier or a revolute " +
+                            quotedWord(leader.name));
+  }
+
+  /// Checks the range of a joint that moves by itself.
+  void checkRange(const UrdfJoint& joint) {
+    if (!hasRange(joint)) return;
+    const std::string owner = owned("joint", joint.name);
+    if (!joint.limit) {
+      if (!joint.mimic)  // else addLost() has reported it
+        file_.fault(joint.line, owner + ": <limit lower=\"…\" upper=\"…\"/> is missing" +
+                                    (joint.type == JointType::revolute
+                                         ? "; a joint without limits is of type continuous"
+                                         : ""));
+      return;
+    }
+    const auto& [lower, upper, line] = *joint.limit;
+    const Range range = rangeOf(joint);
+    if (std::isinf(range.upper - range.lower))
+      file_.fault(line, owner + ": the range from " + shortest(range.lower) + " to " +
+                            shortest(range.upper) + " is larger than any double");
+    if (range.lower > range.upper)
+      file_.fault(line, owner + ": the lower limit " + shortest(range.lower) +
+                            " is above the upper limit " + shortest(range.upper));
+    if (!lower && !upper && !joint.mimic)
+      notes_.push_back(
+          file_.at(line, owner + ": <limit> has neither lower nor upper, so both are 0, and the "
+                                 "joint cannot move"));
+    else if (!lower != !upper)
+      notes_.push_back(file_.at(
+          line, owner + ": <limit> has no " + (lower ? "upper" : "lower") + ", so it is 0"));
+  }
+
+  /// Adds a note if a follower leaves its own limits while its leader stays within its own.
+  void noteFollower(const UrdfJoint& follower, const Mimic& rule) {
+    if (!hasRange(follower) || !follower.limit) return;
+    if (!follower.limit->lower && !follower.limit->upper) return;
+    const UrdfJoint& leader = joints_[rule.joint];
+    const Range own = rangeOf(follower);
+    const std::string text = owned("joint", follower.name) + ": its limits, " + own.text() +
+                             ", are ignored: it mimics " + quotedWord(leader.name) + ", which ";
+    const bool stands = rule.multiplier == 0;
+    if (!stands && !hasRange(leader))
+      return notes_.push_back(
+          file_.at(follower.mimic->line, text + "is continuous, without limits"));
+    const Range limits = rangeOf(leader);
+    const double a = stands ? rule.offset : rule.multiplier * limits.lower + rule.offset;
+    const double b = stands ? rule.offset : rule.multiplier * limits.upper + rule.offset;
+    const Range range{std::min(a, b), std::max(a, b)};
+    // Values that differ by rounding only don't disagree: two roundings on either side.
+    const double slack =
+        0x1p-50 * (std::abs(rule.offset) + std::abs(own.lower) + std::abs(own.upper));
+    if (range.lower >= own.lower - slack && range.upper <= own.upper + slack) return;
+    notes_.push_back(file_.at(follower.mimic->line, text + "moves it in " + range.text()));
+  }
+
+  const std::vector<UrdfJoint>& joints_;
+  XmlFile& file_;
+  std::vector<std::string>& notes_;
+  std::unordered_map<std::string, std::size_t> indices_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> leader_;  // for each joint: the joint that it mimics
+  std::vector<std::size_t> walk_;    // for each joint: the first joint of the walk that met it
+  std::vector<std::optional<Mimic>> rules_;
+  int hints_ = 10;  // the time of a search for similar names grows with their number
+};
+
+}  // namespace
+
+std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, XmlFile& file,
+                                                std::vector<std::string>& notes) {
+  return Mimics(outline, file, notes).resolve();
+}
+
+}  // namespace corridor
