@@ -34,7 +34,6 @@ struct Body::Impl {
   mutable std::once_flag once, componentsOnce;
   mutable std::atomic<bool> built = false;
   mutable std::optional<Obb4Tree> tree;
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a type has no parentheses
 #define CORRIDOR_LAZY_TREE(Volume) LazyTree<VolumeTree<Volume>>,
   mutable std::tuple<CORRIDOR_EACH_VOLUME(CORRIDOR_LAZY_TREE) std::monostate> volumeTrees;
 #undef CORRIDOR_LAZY_TREE

@@ -21,12 +21,10 @@ std::vector<TriangleContact> contacts(const Posed<VolumeTree<Volume>>& a,
   return all;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): types have no parentheses
 #define CORRIDOR_CONTACTS(kind, Volume, Overlap, volumeName, overlapName) \
   template std::vector<TriangleContact> contacts<Overlap>(                \
       const Posed<VolumeTree<Volume>>&, const Posed<VolumeTree<Volume>>&, QueryContext&);
 CORRIDOR_EACH_OVERLAP(CORRIDOR_CONTACTS)
 #undef CORRIDOR_CONTACTS
-// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace corridor

@@ -7,6 +7,7 @@
 #include "planner/app/commands.h"
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
+#include "planner/problem/assembly.h"
 #include "planner/problem/robot_file.h"
 #include "planner/robot/joint_types.h"
 
@@ -128,7 +129,7 @@ int inspectRobot(const InspectArguments& a) {
                     {"groups", ordered_json::object()},
                     {"states", ordered_json::object()},
                     {"unusable", ordered_json::array()},
-                    {"notes", model.notes}};
+                    {"notes", notesOf(*setup)}};
   const Lines out(a.json);
   out.line("robot", a.file);
   out.line("name", model.name);
@@ -169,7 +170,7 @@ int inspectRobot(const InspectArguments& a) {
       text += (text.empty() ? "" : ", ") + joint + ": " + rounded(value);
     out.line("state", quotedWord(name) + ": {" + text + "}");
   }
-  for (const std::string& note : model.notes) out.line("note", note);
+  for (const std::string& note : notesOf(*setup)) out.line("note", note);
   if (a.json) std::cout << j.dump(2) << '\n';
   return kDone;
 }

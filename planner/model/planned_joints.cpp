@@ -4,7 +4,6 @@
 #include <string>
 
 #include "collision/core/shortest.h"
-#include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
 
 namespace corridor {
@@ -21,25 +20,40 @@ std::vector<std::size_t> allMoving(const ModelRobot& robot) {
   return all;
 }
 
+std::string heldText(const ModelRobot& robot) {
+  std::string text;
+  for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
+    const auto held = robot.held.find(j);
+    const auto pose = robot.heldPoses.find(j);
+    if ((held == robot.held.end() && pose == robot.heldPoses.end()) || robot.heldByFile.contains(j))
+      continue;
+    text += (text.empty() ? "" : ", ") + robot.model.joints[j].name + " ";
+    if (held != robot.held.end())
+      text += shortest(held->second);
+    else if (const RigidPose& X = pose->second;
+             X.p.isZero(0) && X.q.coeffs() == Eigen::Quaterniond::Identity().coeffs())
+      text += "not moved";
+    else
+      text +=
+          "at [" + shortest(X.p.x()) + ", " + shortest(X.p.y()) + ", " + shortest(X.p.z()) + "]";
+  }
+  return text;
+}
+
 void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active) {
   robot.planned = active;
-  RobotModel& model = robot.model;
-  std::string held;
+  const RobotModel& model = robot.model;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const JointModel& joint = model.joints[j];
     if (!movesItself(joint) || robot.held.contains(j) || robot.heldPoses.contains(j) ||
         std::find(active.begin(), active.end(), j) != active.end())
       continue;
-    if (isPoseJoint(joint.type)) {
+    if (isPoseJoint(joint.type))
       robot.heldPoses[j] = {};
-      held += (held.empty() ? "" : ", ") + joint.name + " not moved";
-    } else {
-      const bool ends = joint.type != JointType::continuous;
-      robot.held[j] = ends ? std::clamp(0.0, joint.lower, joint.upper) : 0.0;
-      held += (held.empty() ? "" : ", ") + joint.name + " " + shortest(robot.held[j]);
-    }
+    else
+      robot.held[j] =
+          joint.type == JointType::continuous ? 0.0 : std::clamp(0.0, joint.lower, joint.upper);
   }
-  if (!held.empty()) model.notes.push_back("joints that are not planned for are held: " + held);
 }
 
 }  // namespace corridor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "planner/model/model.h"
@@ -13,9 +14,12 @@ bool canMove(const JointModel& joint);
 /// Returns all joints that can move, except those that are held already.
 std::vector<std::size_t> allMoving(const ModelRobot& robot);
 
+/// Returns "finger 0.02, base not moved": the joints that are held and their values, except those
+/// in `heldByFile`. Returns "" if there are none.
+std::string heldText(const ModelRobot& robot);
+
 /// Sets the joints that are planned for. Other joints without a value in `held` or `heldPoses` get
 /// one: the value nearest to 0 within their limits, or the identity for planar and floating joints.
-/// A note in `robot.model.notes` lists them.
 void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active);
 
 }  // namespace corridor

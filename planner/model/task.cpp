@@ -20,7 +20,14 @@ Configuration tubeOf(const ConfigurationSpace& space, const TubeSpec& asked) {
       const Coordinate& c = space.coordinates()[i];
       const bool line = c.kind == Kind::line;
       const double range = !line ? 2 * std::numbers::pi : isPose ? longest : c.upper - c.lower;
-      const auto& wanted = !isPose ? asked.joints : line ? asked.position : asked.rotation;
+      std::optional<double> wanted = line ? asked.position : asked.rotation;
+      if (!isPose) {
+        const auto named = asked.named.find(c.name);
+        const bool slides = line && !c.angular;
+        wanted = named != asked.named.end()           ? std::optional(named->second)
+                 : slides && asked.slides.has_value() ? asked.slides
+                                                      : asked.joints;
+      }
       tube[static_cast<Eigen::Index>(c.first)] = std::max(wanted.value_or(0), rounding * range);
     }
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/robot/configuration_space.h"
@@ -40,8 +42,11 @@ struct Task {
 /// Unset values stand for rounding only.
 struct TubeSpec {
   std::optional<double> joints;    ///< for each single joint: rad, or m if it is prismatic
+  std::optional<double> slides;    ///< for each prismatic joint, in place of `joints`, m
   std::optional<double> position;  ///< for each coordinate of planar and floating joints, m
   std::optional<double> rotation;  ///< for the rotation of planar and floating joints, rad
+  /// For single joints, by the names of their coordinates ("left/elbow"), in place of the above.
+  std::map<std::string, double> named = {};
 };
 
 /// Returns the half width of the tube that a proof covers, for each number of a configuration (m,

@@ -6,6 +6,7 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/model/planned_joints.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/problem/shape_yaml.h"
 
@@ -73,10 +74,17 @@ void requireFiniteSizes(const Model& model, const std::string& file) {
 
 }  // namespace
 
+std::vector<std::string> notesOf(const RobotSetup& setup) {
+  std::vector<std::string> notes = setup.robot.model.notes;
+  if (const std::string held = heldText(setup.robot); !held.empty())
+    notes.push_back("joints that are not planned for are held: " + held);
+  return notes;
+}
+
 void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& source) {
   for (RobotSetup& setup : robots) {
     const std::string& name = setup.robot.name;
-    for (const std::string& note : setup.robot.model.notes)
+    for (const std::string& note : notesOf(setup))
       source.notes.push_back(name.empty() ? note : name + ": " + note);
     for (const auto& file : setup.files) addFile(source.files, file);
     builder.addRobot(std::move(setup.robot));

@@ -44,7 +44,7 @@ Keys makeProblemKeys() {
       {"goal", {poseKeys + Words{"within"}, {}}},
       {"goal.within", {{"at", "angle_deg", "angle", "joints_deg", "joints"}, {}}},
       {"bounds", {{"at"}, {}}},
-      {"tube", {{"joints_deg", "joints", "position", "rotation_deg", "rotation"}, {}}},
+      {"tube", {{"joints_deg", "joints", "slides", "position", "rotation_deg", "rotation"}, {}}},
       {"planner", {{"name", "time", "stop", "params"}, {}}},
       {"checker",
        {{"edges", "resolution", "tolerance", "volume", "fit", "overlap"},

@@ -8,8 +8,10 @@
 #include "planner/problem/checker_yaml.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/goal_yaml.h"
+#include "planner/problem/hold_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/placement.h"
+#include "planner/problem/tube_yaml.h"
 #include "planner/problem/world_yaml.h"
 
 namespace corridor {
@@ -94,34 +96,6 @@ std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::p
   return known ? std::move(robots) : std::vector<RobotSetup>{};
 }
 
-TubeSpec readTube(const YamlMap& file, const ConfigurationSpace& space, bool known) {
-  TubeSpec tube;
-  const YamlValue* value = file.find("tube");
-  if (!value) return tube;
-  const YamlMap map(*value, "tube", keysOf("tube"), file.source());
-  tube.joints = map.angle("joints", Range::NotNegative);
-  tube.position = map.number("position", Range::NotNegative);
-  tube.rotation = map.angle("rotation", Range::NotNegative);
-  if (!known) return tube;
-  for (const char* key : {"joints", "joints_deg"})
-    if (map.find(key) && !hasJoints(space))
-      map.fault(key,
-                "there are no revolute or prismatic joints here; use position (m) and rotation or "
-                "rotation_deg");
-  for (const char* key : {"position", "rotation", "rotation_deg"})
-    if (map.find(key) && !hasPoseJoints(space))
-      map.fault(key,
-                "there is no rigid body and no planar or floating joint here; use joints (rad, or "
-                "m for prismatic joints)");
-  if (map.find("joints_deg"))
-    for (const CoordinateGroup& group : space.groups())
-      for (const std::size_t i : group.coordinates)
-        if (const Coordinate& c = space.coordinates()[i];
-            group.kind == CoordinateGroup::Kind::joints && !c.angular)
-          map.fault("joints_deg", c.name + " is prismatic; use joints, in radians and metres");
-  return tube;
-}
-
 void readPlanner(const YamlMap& file, PlannerSettings& planner) {
   const YamlValue* value = file.find("planner");
   if (!value) return;
@@ -156,6 +130,7 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   const bool worldNeeded =
       !map.find("robots") && (!map.find("robot") || (known && robots.front().robot.isRigid()));
   ModelBuilder builder;
+  holdAsStart(map, robots);
   addRobots(std::move(robots), builder, problem.source);
   readWorld(map, worldNeeded, builder, problem.source);
   problem.model = builder.buildForReader();

@@ -8,6 +8,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/bounds.h"
+#include "planner/problem/hold_yaml.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/urdf_robot.h"
@@ -111,29 +112,40 @@ bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std
 bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line,
                             const std::string& path, Given& given) {
   const RobotModel& model = robots()[robot].model;
-  const auto state = model.states.find(name);
-  if (state == model.states.end()) {
-    const std::vector<std::string> known = usableNames(model.states);
-    source_.fault(
-        line, path + ": there is no state " + quotedWord(name) + didYouMean(name, known) +
-                  (known.empty() ? " (neither robot.yaml nor SRDF names any)" : knownWords(known)));
-    return false;
-  }
-  if (!state->second.unusable.empty()) {
-    source_.fault(line, path + ": the state " + quotedWord(name) +
-                            " can't be used: " + state->second.unusable);
-    return false;
-  }
-  for (const auto& [number, value] : state->second.values) {
+  const NamedState* const state = findState(model, name, {source_, path, line});
+  if (!state) return false;
+  for (const auto& [number, value] : state->values)
     given.numbers[number] = {value, line, path + " (" + name + "): " + number};
-    const auto j = findJoint(model, number);
-    const auto held = j ? robots()[robot].held.find(*j) : robots()[robot].held.end();
-    if (held != robots()[robot].held.end() && held->second != value)
-      problem_.source.notes.push_back(path + ": " + number + " is held at " +
-                                      shortest(held->second) + ", not at the " + shortest(value) +
-                                      " of state " + name);
+  return checkHeld(robot, *state, name, line, path);
+}
+
+bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const std::string& name,
+                            int line, const std::string& path) {
+  const RobotModel& model = robots()[robot].model;
+  const bool isGoal = path.starts_with("goal");
+  bool sound = true;
+  const auto disagree = [&](std::size_t joint, const std::string& text) {
+    const bool isFault = isGoal && !robots()[robot].heldByFile.contains(joint);
+    if (isFault)
+      source_.fault(line, text + "; it can't move, so the start needs the same value, or hold");
+    else
+      problem_.source.notes.push_back(text);
+    sound &= !isFault;
+  };
+  for (const auto& [j, held] : robots()[robot].held) {
+    const JointModel& joint = model.joints[j];
+    const auto value = state.values.find(joint.name);
+    if (value == state.values.end() || std::abs(value->second - held) <= limitSlack) continue;
+    disagree(j, path + ": " + joint.name + " is held at " + shortest(held) + ", not at the " +
+                    shortest(value->second) + " of state " + name);
   }
-  return true;
+  for (const auto& [j, held] : robots()[robot].heldPoses) {
+    const auto pose = poseIn(state, model.joints[j]);
+    if (!pose || (pose->p == held.p && pose->q.coeffs() == held.q.coeffs())) continue;
+    disagree(j, path + ": " + model.joints[j].name +
+                    " is held at another pose than that of state " + name);
+  }
+  return sound;
 }
 
 bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given,

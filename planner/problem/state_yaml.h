@@ -36,6 +36,11 @@ class StateReader {
                  const std::set<std::string>& others, Configuration& q);
   bool fromNamed(std::size_t robot, const std::string& name, int line, const std::string& path,
                  Given& given);
+  /// Compares a named state with the values of held joints. If they disagree, a value that the
+  /// robot's `hold` gives is a note. Otherwise the start has set the value, and the goal is a
+  /// fault.
+  bool checkHeld(std::size_t robot, const NamedState& state, const std::string& name, int line,
+                 const std::string& path);
   bool readJoints(std::size_t robot, const YamlMap& map, Given& given,
                   const std::set<std::string>& others);
   bool apply(std::size_t robot, const Given& given, int line, const std::string& path,

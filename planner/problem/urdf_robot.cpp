@@ -8,6 +8,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/model/planned_joints.h"
+#include "planner/problem/hold_yaml.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
@@ -123,34 +124,6 @@ Joints readJointList(const YamlMap& map, const RobotModel& model) {
   return active;
 }
 
-/// Reads `hold` into `setup`.
-void readHold(const YamlMap& file, RobotSetup& setup) {
-  const YamlValue* value = file.find("hold");
-  if (!value) return;
-  const RobotModel& model = setup.robot.model;
-  const YamlMap map(*value, "hold", nullptr, file.source());
-  readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
-    const JointModel& joint = model.joints[j];
-    if (!movesItself(joint)) return map.fault(entry.key, whyNotActive(model, j));
-    const std::string path = map.pathOf(entry.key);
-    if (isPoseJoint(joint.type)) {
-      if (const auto pose =
-              readJointPose(entry.value, path, joint, file.source(), setup.robot.model.notes))
-        setup.robot.heldPoses[j] = pose->pose;
-      return;
-    }
-    const auto number = map.number(entry.key);
-    if (!number) return;
-    const double radians = degrees ? *number * (std::numbers::pi / 180) : *number;
-    const auto held =
-        withinLimits(radians, joint.lower, joint.upper, path, setup.robot.model.notes);
-    if (held)
-      setup.robot.held[j] = *held;
-    else
-      map.fault(entry.key, outsideLimits(radians, joint.lower, joint.upper));
-  });
-}
-
 /// Reads `states`: maps of joint values, by the state's name. A state replaces the SRDF's state of
 /// the same name.
 void readStates(const YamlMap& file, RobotModel& model) {
@@ -251,8 +224,12 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   setup.robot.model = std::move(*model);
   setup.robot.model.name = name;
   const std::size_t before = map.source().faults.size();
-  readHold(map, setup);
   readStates(map, setup.robot.model);
+  const std::optional<std::string> heldState = readHold(map, setup);
+  const YamlPlace hold{map.source(), "hold", heldState ? map.find("hold")->line : 0};
+  // Without a choice of joints, all joints of the state that is held are not planned for.
+  const bool isChosen = map.find("group") || map.find("joints");
+  if (heldState && !isChosen) holdState(*heldState, {}, hold, setup);
   readAllow(map, setup.robot.model);
   readWeights(map, setup);
   Joints active;
@@ -268,7 +245,10 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
     if (setup.robot.held.contains(j) || setup.robot.heldPoses.contains(j))
       map.fault("hold", setup.robot.model.joints[j].name +
                             " is planned for, and can't be held; remove it from hold");
+  if (heldState && isChosen) holdState(*heldState, active, hold, setup);
   if (map.source().faults.size() != before) return std::nullopt;
+  for (const auto& [j, value] : setup.robot.held) setup.robot.heldByFile.insert(j);
+  for (const auto& [j, pose] : setup.robot.heldPoses) setup.robot.heldByFile.insert(j);
   chooseJoints(setup.robot, active);
   return setup;
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision/core/shortest.h"
 #include "tests/planner/problem/arm_fixture.h"
 
 namespace corridor::test {
@@ -135,6 +136,81 @@ TEST_F(ArmProblem, JointListKeepsItsOrderAndHoldIsHeld) {
   EXPECT_EQ(skipped(p, "finger", "thumb"), "robot.yaml: allow");
   EXPECT_THAT(p.source.notes,
               Contains("start: lift is held at 1.5707963267948966, not at the 0 of state home"));
+}
+
+/// The joints of a named state that are not planned for are held as `hold` or the start says.
+TEST_F(ArmProblem, NamedStatesHoldJoints) {
+  const std::string robotHead = "format: corridor-robot-1\nurdf: arm.urdf\n";
+  const std::string states =
+      "states: {near: {pan: 1, lift: 0.5, slide: 0.02}, far: {pan: 2, lift: 0.5, slide: 0.04}, "
+      "closed: {slide: 0.03}}\n";
+  const auto heldIn = [&](const std::string& robot, const std::string& ends) {
+    write("arm.yaml", robotHead + robot + states);
+    const Problem p = read(armHead + ends);
+    std::string text;
+    for (const auto& [j, value] : p.model.robots[0].held)
+      text += p.model.robots[0].model.joints[j].name + " " + shortest(value) + "; ";
+    for (const std::string& note : p.source.notes)
+      if (note.find("held") != note.npos) text += note + "; ";
+    return text;
+  };
+  const std::string values = "start: {pan: 0, lift: 0}\ngoal: {pan: 1, lift: 0}\n";
+  EXPECT_EQ(heldIn("joints: [pan, lift]\n", values),
+            "slide 0.01; joints that are not planned for are held: slide 0.01; ");
+  EXPECT_EQ(heldIn("joints: [pan, lift]\nhold: far\n", values), "slide 0.04; ");
+  EXPECT_EQ(
+      heldIn("joints: [pan]\nhold: {from: far, lift: 0.25}\n", "start: {pan: 0}\ngoal: {pan: 1}\n"),
+      "lift 0.25; slide 0.04; ");
+  EXPECT_EQ(heldIn("hold: closed\n", values), "slide 0.03; ")
+      << "without a choice of joints, the others are planned for";
+  const std::string fromStart =
+      "slide 0.02; joints that are not planned for are held: slide 0.02; ";
+  EXPECT_EQ(heldIn("joints: [pan, lift]\n", "start: near\ngoal: {pan: 1, lift: 0}\n"), fromStart);
+  EXPECT_EQ(
+      heldIn("joints: [pan, lift]\n", "start: {from: near, pan: 0}\ngoal: {pan: 1, lift: 0}\n"),
+      fromStart);
+  EXPECT_EQ(heldIn("joints: [pan, lift]\nhold: {slide: 0.05}\n", "start: near\ngoal: far\n"),
+            "slide 0.05; start: slide is held at 0.05, not at the 0.02 of state near; goal: slide "
+            "is held at 0.05, not at the 0.04 of state far; ");
+
+  write("arm.yaml", robotHead + "joints: [pan, lift]\n" + states);
+  EXPECT_EQ(complaintOf(armHead + "start: near\ngoal: far\n"),
+            "problem.yaml:6: goal: slide is held at 0.02, not at the 0.04 of state far; it can't "
+            "move, so the start needs the same value, or hold");
+  write("arm.yaml", robotHead + "joints: [pan, lift]\nhold: fer\n" + states);
+  EXPECT_THAT(complaintOf(armHead + values),
+              testing::StartsWith("arm.yaml:4: hold: there is no state \"fer\" (did you mean "
+                                  "\"far\"?)"));
+}
+
+/// Half widths of the tube for prismatic joints, and for joints by name.
+TEST_F(ArmProblem, TubeOfSingleJoints) {
+  write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\n");
+  const std::string ends =
+      armHead + "start: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 1, lift: 0, slide: 0.02}\n";
+  const auto tube = [&](const std::string& text) {
+    return read(ends + "tube: {" + text + "}\n").task.tube;
+  };
+  EXPECT_EQ(tube("joints: 0.001, slides: 0.0005, lift: 0.002"), numbers({0.001, 0.002, 0.0005}));
+  EXPECT_EQ(tube("joints: 0.001, lift_deg: 90, slide: 0.25"), numbers({0.001, 90 * degree, 0.25}));
+  EXPECT_EQ(tube("joints_deg: 90, slides: 0.5"), numbers({90 * degree, 90 * degree, 0.5}));
+  EXPECT_EQ(tube("joints_deg: 90, slide: 0.5"), numbers({90 * degree, 90 * degree, 0.5}));
+  const auto complaint = [&](const std::string& text) {
+    return complaintOf(ends + "tube: {" + text + "}\n");
+  };
+  EXPECT_EQ(complaint("joints_deg: 1"),
+            "problem.yaml:7: tube.joints_deg: slide is prismatic; add slides, in metres, or use "
+            "joints, in radians and metres");
+  EXPECT_EQ(complaint("lift: -1, slide_deg: 1, pan: 1, pan_deg: 1"),
+            "problem.yaml:7: tube.lift: must be 0 or more, not -1\n"
+            "problem.yaml:7: tube.slide_deg: slide is prismatic; use slide, in metres\n"
+            "problem.yaml:7: tube.pan_deg: pan is given twice, in radians and in degrees");
+  EXPECT_THAT(complaint("lft: 1"),
+              testing::StartsWith("problem.yaml:7: tube.lft: there is no such key, and no joint of "
+                                  "that name that is planned for (did you mean \"lift\"?)"));
+  write("arm.yaml", arm);
+  EXPECT_EQ(complaintOf(armHead + armStates + "tube: {slides: 1}\n"),
+            "problem.yaml:7: tube.slides: there is no prismatic joint here that is planned for");
 }
 
 TEST_F(ArmProblem, AUrdfAloneIsARobot) {

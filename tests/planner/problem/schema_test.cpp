@@ -43,7 +43,7 @@ const Json& schemaOf(const Json& root, const std::string& path) {
 }
 
 /// Maps whose keys may be names of robots and joints.
-const std::set<std::string> open{"start", "goal", "bounds"};
+const std::set<std::string> open{"start", "goal", "bounds", "tube"};
 
 void collectMaps(const Json& schema, std::set<const Json*>& maps) {
   if (schema.is_object() && schema.contains("properties")) maps.insert(&schema);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/problem/robot_file.h"
+#include "planner/problem/yaml_reader.h"
+
+/// Readers of the values of joints that are not planned for.
+namespace corridor {
+
+/// A place in a file, for messages.
+struct YamlPlace {
+  const YamlSource& source;
+  std::string path;  ///< "hold", "start"
+  int line = 0;
+};
+
+/// Reads the values of joints in a robot's `hold`. Returns the name of the state in it (`hold:
+/// NAME` or `from: NAME`), or nullopt.
+std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup);
+
+/// Holds the joints that a named state gives values, except joints that are held already, and those
+/// in `planned`.
+void holdState(const std::string& state, const std::vector<std::size_t>& planned,
+               const YamlPlace& place, RobotSetup& setup);
+
+/// Holds the joints of each robot that the start of a problem gives values by a named state, except
+/// joints that are planned for, and those that the robot's `hold` gives.
+void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots);
+
+/// Returns the named state. If there is none that can be used, adds a fault and returns nullptr.
+const NamedState* findState(const RobotModel& model, const std::string& name,
+                            const YamlPlace& place);
+
+/// Returns the pose of a planar or floating joint in a state; nullopt: the state has none.
+std::optional<RigidPose> poseIn(const NamedState& state, const JointModel& joint);
+
+}  // namespace corridor
