@@ -45,15 +45,15 @@ struct Body::Impl {
 template <class Each>
 void Body::Bounds::around(const Each& each, double grow, const Vec3& reach) {
   each([&](const Vec3& p) {
-    lower = lower.cwiseMin(p - reach);
-    upper = upper.cwiseMax(p + reach);
+    box.lower = box.lower.cwiseMin(p - reach);
+    box.upper = box.upper.cwiseMax(p + reach);
   });
-  center = lower + 0.5 * (upper - lower);
+  center = box.lower + 0.5 * (box.upper - box.lower);
   each([&](const Vec3& p) {
     radius = std::max(radius, roundedUp(p.stableNorm() + grow));
     sphereRadius = std::max(sphereRadius, roundedUp((p - center).stableNorm() + grow));
   });
-  terms = lower.cwiseAbs().sum() + upper.cwiseAbs().sum();
+  box.terms = box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum();
 }
 
 Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& params)

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <string>
 
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_components.h"
 #include "collision/geometry/triangle_mesh.h"
+#include "collision/hierarchy/box_tree.h"
 #include "collision/hierarchy/obb4_tree.h"
 #include "collision/hierarchy/obb_tree.h"
 
@@ -45,17 +45,15 @@ class Body {
   /// A bounding sphere: its centre, and its radius rounded up.
   const Vec3& sphereCenter() const { return bounds_.center; }
   double sphereRadius() const { return bounds_.sphereRadius; }
-  const Vec3& lower() const { return bounds_.lower; }  ///< axis-aligned bounds
-  const Vec3& upper() const { return bounds_.upper; }
-  /// The sum of the magnitudes of all bounds, metres. The rounding of differences with the bounds
-  /// is proportional to it.
-  double boundTerms() const { return bounds_.terms; }
+  const BoundingBox& box() const { return bounds_.box; }
+  const Vec3& lower() const { return bounds_.box.lower; }  ///< of `box`
+  const Vec3& upper() const { return bounds_.box.upper; }
 
  private:
   struct Bounds {
-    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower,
-         center = Vec3::Zero();
-    double radius = 0, sphereRadius = 0, terms = 0;
+    BoundingBox box;
+    Vec3 center = Vec3::Zero();
+    double radius = 0, sphereRadius = 0;
 
     template <class Each>
     void around(const Each& each, double grow, const Vec3& reach);

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "collision/convex/convex_distance.h"
+#include "collision/motion/broad_phase.h"
 #include "collision/motion/interval_test.h"
 #include "collision/motion/motion_answer.h"
 #include "collision/motion/split_rules.h"
@@ -18,8 +20,19 @@ namespace {
 /// Scratch memory of motion queries.
 struct MotionScratch {
   WorkList list;
-  std::vector<Interval> open;  ///< a stack of intervals, the earliest on top
+  std::vector<Interval> open;       ///< a stack of intervals, the earliest on top
+  std::vector<std::uint32_t> near;  ///< the pairs that the broad phase found, or all pairs
 };
+
+/// Returns one more than the largest index of a body that has a sphere in the world.
+std::size_t bodiesOf(const MotionQuery& query) {
+  if (query.broadPhase) return query.broadPhase->bodies();
+  std::size_t bodies = 0;
+  for (const MotionPair& pair : query.pairs)
+    if (pair.worldB != MotionPair::kNone)
+      bodies = std::max({bodies, pair.bodyA + 1, pair.bodyB + 1});
+  return bodies;
+}
 
 /// One query: the loop over time intervals.
 class Certifier {
@@ -27,10 +40,10 @@ class Certifier {
   Certifier(MotionSource& source, const MotionQuery& query)
       : source_(source),
         query_(query),
-        motions_(source, query.pairs, query.context),
+        motions_(source, bodiesOf(query), query.context),
         list_(query.context.scratch.of<MotionScratch>().list),
         open_(query.context.scratch.of<MotionScratch>().open) {
-    list_.begin(query.pairs.size());
+    list_.begin(nearPairs());
     open_.clear();
   }
 
@@ -44,6 +57,19 @@ class Certifier {
   }
 
  private:
+  /// Returns the pairs that may come too close during the motion, in ascending order.
+  std::span<const std::uint32_t> nearPairs() {
+    std::vector<std::uint32_t>& near = query_.context.scratch.of<MotionScratch>().near;
+    if (query_.broadPhase && !query_.certificate) {
+      motions_.select(0.5, 0.5);
+      query_.broadPhase->find(motions_, query_.requiredDistance(), near);
+    } else {
+      near.resize(query_.pairs.size());
+      std::iota(near.begin(), near.end(), std::uint32_t{0});
+    }
+    return near;
+  }
+
   struct KnownContact {
     double time;
     Contact pair;
@@ -241,13 +267,14 @@ Vec3 contactPoint(MotionSource& motion, std::span<const MotionPair> pairs,
 
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,
-                           MotionCertificate* certificate) {
+                           MotionCertificate* certificate, const BroadPhase* broadPhase) {
   if (certificate) *certificate = {};
   return answered(motion, options.earliest, [&] {
     const std::uint64_t before = context.counters.work(),
                         most = std::numeric_limits<std::uint64_t>::max() - before;
-    const MotionQuery query{pairs, options, context, certificate,
-                            before + std::min(options.workLimit, most)};
+    const MotionQuery query{
+        pairs,     options, context, certificate, before + std::min(options.workLimit, most),
+        broadPhase};
     const MotionResult result = Certifier(motion, query).run();
     if (certificate && result.verdict == MotionVerdict::contact)
       certificate->point_A = contactPoint(motion, pairs, result, context.counters);

@@ -53,6 +53,8 @@ struct MotionResult {
   double gap = 0;
 };
 
+class BroadPhase;
+
 /// The parameters of a motion query.
 struct MotionOptions {
   /// Metres, above 0. The caller must set it. A motion whose clearance beyond margin and tube is
@@ -155,8 +157,12 @@ struct MotionCertificate {
 /// @param certificate if not null, receives the certificate, which `checkCertificate`
 /// (check_certificate.h) can prove again. Recording it never changes the verdict; the query then
 /// takes about 1.5 times as long.
+/// @param broadPhase  of these pairs. It finds the pairs that may come close, so that not every
+/// pair is tested. A certificate has an entry for every pair, so a query with a certificate ignores
+/// it.
 MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pairs,
                            const MotionOptions& options, QueryContext& context,
-                           MotionCertificate* certificate = nullptr);
+                           MotionCertificate* certificate = nullptr,
+                           const BroadPhase* broadPhase = nullptr);
 
 }  // namespace corridor

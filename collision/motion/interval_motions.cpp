@@ -1,19 +1,13 @@
 #include "collision/motion/interval_motions.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "collision/motion/split_rules.h"
 
 namespace corridor {
 
-IntervalMotions::IntervalMotions(MotionSource& source, std::span<const MotionPair> pairs,
-                                 QueryContext& context)
+IntervalMotions::IntervalMotions(MotionSource& source, std::size_t bodies, QueryContext& context)
     : source_(source), spheres_(context.scratch.of<SweptSpheres>()), counters_(context.counters) {
-  std::size_t bodies = 0;
-  for (const MotionPair& pair : pairs)
-    if (pair.worldB != MotionPair::kNone)  // other pairs use no sphere in the world
-      bodies = std::max({bodies, pair.bodyA + 1, pair.bodyB + 1});
   spheres_.makeRoom(bodies);
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "collision/core/query_context.h"
 #include "collision/motion/certify_motion.h"
 #include "collision/motion/may_meet.h"
@@ -13,7 +11,8 @@ namespace corridor {
 /// distances of whole bodies. Each motion is computed when it is first needed.
 class IntervalMotions {
  public:
-  IntervalMotions(MotionSource& source, std::span<const MotionPair> pairs, QueryContext& context);
+  /// @param bodies one more than the largest index of a body in the query's pairs.
+  IntervalMotions(MotionSource& source, std::size_t bodies, QueryContext& context);
 
   /// Selects the interval [t − h, t + h].
   void select(double t, double h);
@@ -22,6 +21,11 @@ class IntervalMotions {
   const RelativeMotion& relative(std::size_t motion) {
     if (motion != posed_) compute(motion);
     return relative_;
+  }
+
+  /// Returns the swept sphere of body b of a pair, as seen from the world. @pre worldB is known.
+  const SweptSphere& worldSphere(const MotionPair& pair) {
+    return worldSphere(pair.worldB, *pair.b, pair.bodyB);
   }
 
   struct Separation {

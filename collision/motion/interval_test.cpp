@@ -13,11 +13,6 @@
 namespace corridor {
 namespace {
 
-/// Returns the distance, metres, that two bodies must exceed to be proved free.
-double requiredDistance(const MotionQuery& query) {
-  return roundedUp(query.options.margin + query.options.clearanceSlack);
-}
-
 /// Records in the certificate that all of the group is separated in [t0, t1].
 /// @param clearance of the node pairs that were separated last, beyond margin, clearance slack and
 /// motion, metres. `group` has the clearance of the others.
@@ -36,7 +31,7 @@ struct BodiesAnswer {
 };
 BodiesAnswer testBounds(const MotionQuery& query, double t0, double t1,
                         const WorkList::Group& group, IntervalMotions& motions) {
-  const double asked = requiredDistance(query);
+  const double asked = query.requiredDistance();
   const auto [clearance, far] =
       motions.separation(query.pairs[group.bodies], asked, query.certificate != nullptr);
   if (!(clearance > asked)) return {false, far};

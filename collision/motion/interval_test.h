@@ -6,6 +6,8 @@
 #include <span>
 
 #include "collision/core/query_context.h"
+#include "collision/core/rounding.h"
+#include "collision/motion/broad_phase.h"
 #include "collision/motion/certify_motion.h"
 #include "collision/motion/descend.h"
 #include "collision/motion/interval_motions.h"
@@ -33,6 +35,10 @@ struct MotionQuery {
   QueryContext& context;
   MotionCertificate* certificate;  ///< null if none is requested
   std::uint64_t workEnd;           ///< `Counters::work` at which the query stops
+  const BroadPhase* broadPhase;    ///< of `pairs`; null: each pair is tested
+
+  /// Returns the distance, metres, that two bodies must exceed to be proved free.
+  double requiredDistance() const { return roundedUp(options.margin + options.clearanceSlack); }
 };
 
 /// The result of testing one interval.

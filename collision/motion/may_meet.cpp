@@ -60,15 +60,15 @@ double bent(const SweptSphere& sphere, const Vec3& n) {
 
 }  // namespace
 
-double clearanceBound(const Body& a, const SweptSphere& sphere, double enough) {
+double clearanceBound(const BoundingBox& box, const SweptSphere& sphere, double enough) {
   const Vec3& c = sphere.center;
   const Vec3 zero = Vec3::Zero();
-  const Vec3 outside = (c - a.upper()).cwiseMax(zero) - (a.lower() - c).cwiseMax(zero);
+  const Vec3 outside = (c - box.upper).cwiseMax(zero) - (box.lower - c).cwiseMax(zero);
   // `rootOrZero` returns 0 if squares underflow; such a gap proves nothing. The differences are
   // off by u of both terms, as a length √3 times that. Along n the centre is `gap` beyond the
   // farthest point of the box.
   return remaining(outside, rootOrZero(outside.squaredNorm()), sphere.radius, sphere.isotropic,
-                   4 * kUnit * (c.cwiseAbs().sum() + a.boundTerms()), enough,
+                   4 * kUnit * (c.cwiseAbs().sum() + box.terms), enough,
                    [&](const Vec3& n) { return std::abs(n.dot(sphere.first)) + bent(sphere, n); });
 }
 

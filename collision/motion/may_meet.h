@@ -4,6 +4,7 @@
 
 #include "collision/core/swept_sphere.h"
 #include "collision/hierarchy/body.h"
+#include "collision/hierarchy/box_tree.h"
 #include "collision/motion/relative_motion.h"
 
 namespace corridor {
@@ -12,10 +13,14 @@ namespace corridor {
 /// motion bound of the sphere's centre.
 SweptSphere sweptSphere(const Body& b, const RelativeMotion& relative);
 
-/// Returns a lower bound of the distance of the swept sphere from body a's axis-aligned box, in
-/// metres. Returns 0 if no distance is proved. If the bound exceeds `enough`, the result may be any
-/// proved bound above `enough`.
-double clearanceBound(const Body& a, const SweptSphere& sphere, double enough = HUGE_VAL);
+/// Returns a lower bound of the distance of the swept sphere from the axis-aligned box, in metres.
+/// Returns 0 if no distance is proved. If the bound exceeds `enough`, the result may be any proved
+/// bound above `enough`.
+double clearanceBound(const BoundingBox& box, const SweptSphere& sphere, double enough = HUGE_VAL);
+/// The same, for body a's axis-aligned box.
+inline double clearanceBound(const Body& a, const SweptSphere& sphere, double enough = HUGE_VAL) {
+  return clearanceBound(a.box(), sphere, enough);
+}
 /// Returns a lower bound of the distance of two swept spheres, in the same way. Both must be seen
 /// from the same frame in the same interval.
 double clearanceBound(const SweptSphere& a, const SweptSphere& b, double enough = HUGE_VAL);

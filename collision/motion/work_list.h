@@ -31,12 +31,12 @@ struct WorkList {
   std::vector<NodePair4> nodePairs;
   std::vector<Group> groups;
 
-  /// Fills the list with the roots of both trees, for each of `count` pairs of bodies. Group k is
-  /// pair k.
-  void begin(std::size_t count) {
-    nodePairs.assign(count, kWholeTrees[0]);
+  /// Fills the list with the roots of both trees, for each of these pairs of bodies. Group k is
+  /// pair number pairs[k].
+  void begin(std::span<const std::uint32_t> pairs) {
+    nodePairs.assign(pairs.size(), kWholeTrees[0]);
     groups.clear();
-    for (std::uint32_t k = 0; k < count; ++k) groups.push_back({k, k, k + std::size_t{1}});
+    for (std::size_t k = 0; k < pairs.size(); ++k) groups.push_back({pairs[k], k, k + 1});
   }
   Mark mark() const { return {nodePairs.size(), groups.size()}; }
   void cut(const Mark& mark) {

@@ -43,8 +43,7 @@ class NearestParts : public NearestPairs {
   template <class Tree>
   Distance result(const Tree& a, const Tree& b) {
     const auto measure = [&](std::uint32_t s, std::uint32_t t) {
-      const ConvexDistance d =
-          convexDistance({convexSetOf(a, s), X_WA_}, {convexSetOf(b, t), X_WB_});
+      ConvexDistance d = convexDistance({convexSetOf(a, s), X_WA_}, {convexSetOf(b, t), X_WB_});
       context_.counters.exactTests += d.exact;
       return d;
     };

@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 
 #include "collision/core/rounding.h"
+#include "collision/motion/broad_phase.h"
+#include "collision/motion/interval_motions.h"
 #include "collision/motion/may_meet.h"
 #include "collision/motion/motion_answer.h"
 #include "collision/motion/rigid_motion.h"
@@ -105,7 +107,12 @@ Scene::Scene(std::vector<Placed> bodies, std::vector<Pair> pairs)
     if (a != 0) pair.worldA = motionFromWorld(a);
     motionPairs_.push_back(pair);
   }
+  broadPhase_ = std::make_unique<const BroadPhase>(motionPairs_);
 }
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
 
 double Scene::defaultTolerance(double farthest) const {
   struct Bounds {
@@ -147,22 +154,29 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
     const Placed& placed = bodies_[body];
     return spheres.of(body, [&] { return sweptSphere(placed.body, atRest(X_WF[placed.frame])); });
   };
-  for (std::size_t k = 0; k < motionPairs_.size(); ++k) {
+  const auto visitPair = [&](std::size_t k) {
     const MotionPair& pair = motionPairs_[k];
     const FramePair& frames = framePairs_[pair.motion];
     const Transform &X_WA = X_WF[frames.a], &X_WB = X_WF[frames.b];
     if (X_WA == Transform()) {
-      if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) continue;
+      if (!mayMeet(*pair.a, worldSphere(pair.bodyB), within)) return false;
     } else {
       if (clearanceBound(worldSphere(pair.bodyA), worldSphere(pair.bodyB), within) > within)
-        continue;
+        return false;
       // The sphere and the box are measured in A's frame, whose map need not preserve lengths.
       const double inA =
           within > 0 ? roundedUp(within * (1 + 4 * orthonormalityDefect(X_WA.m))) : within;
-      if (!mayMeet(*pair.a, sweptSphere(*pair.b, atRest(X_WA, X_WB)), inA)) continue;
+      if (!mayMeet(*pair.a, sweptSphere(*pair.b, atRest(X_WA, X_WB)), inA)) return false;
     }
-    if (visit(pair, Posed(*pair.a, X_WA), Posed(*pair.b, X_WB), context.lastPair(k))) return;
+    return visit(pair, Posed(*pair.a, X_WA), Posed(*pair.b, X_WB), context.lastPair(k));
+  };
+  if (X_WF.empty() || X_WF[0] == Transform()) {
+    broadPhase_->forEach([&](const MotionPair& pair) { return worldSphere(pair.bodyB); }, within,
+                         visitPair);
+    return;
   }
+  for (std::size_t k = 0; k < motionPairs_.size(); ++k)  // the world itself is moved
+    if (visitPair(k)) return;
 }
 
 std::optional<Contact> Scene::interference(std::span<const Transform> X_WF, QueryContext& context,
@@ -208,19 +222,42 @@ std::optional<Transform> poseApart(const MotionPair& pair, MotionSource& motion,
   return std::nullopt;
 }
 
+/// Reports whether containment can't change the answer, since nothing is proved free.
+bool isDecided(const MotionResult& result) {
+  return result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0);
+}
+
+/// Scratch memory: the pairs that are near each other at the start of a motion.
+struct NearPairs {
+  std::vector<std::uint32_t> pairs;
+};
+
 }  // namespace
 
-MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
-                                 const MotionOptions& options, QueryContext& context,
-                                 EdgeMethod method, MotionCertificate* certificate) const {
-  MotionResult result = certificate ? certifyMotion(motion, pairs, options, context, certificate)
-                                    : runEdgeMethod(method, motion, pairs, options, context);
-  if (!solidMeshes_) return result;
-  if (result.verdict != MotionVerdict::free && !(result.certifiedUntil > 0)) return result;
+MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& options,
+                                 QueryContext& context, EdgeMethod method,
+                                 MotionCertificate* certificate) const {
+  const bool isDefault = method == EdgeMethod::directional;
+  MotionResult result = isDefault ? certifyMotion(motion, motionPairs_, options, context,
+                                                  certificate, broadPhase_.get())
+                                  : runEdgeMethod(method, motion, motionPairs_, options, context);
+  if (!solidMeshes_ || isDecided(result)) return result;
+  IntervalMotions motions(motion, broadPhase_->bodies(), context);
+  motions.select(0, 0);
+  std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
+  broadPhase_->find(motions, 0, near);
+  return withContainment(std::move(result), near, motion, context, certificate);
+}
+
+MotionResult Scene::withContainment(MotionResult result, std::span<const std::uint32_t> pairs,
+                                    MotionSource& motion, QueryContext& context,
+                                    MotionCertificate* certificate) const {
+  if (isDecided(result)) return result;
   const double until = result.verdict == MotionVerdict::free ? 1 : result.certifiedUntil;
   // The surfaces do not meet on [0, until], so one pose decides containment for this whole
   // interval. The rounding of that pose must be too small to move a point through a surface.
-  for (const MotionPair& pair : pairs) {
+  for (const std::uint32_t k : pairs) {
+    const MotionPair& pair = motionPairs_[k];
     // No test is needed for a convex part: it is solid, so the motion query finds bodies inside it.
     if (!isSolidMesh(*pair.a) && !isSolidMesh(*pair.b)) continue;
     if (!mayMeet(*pair.a, sweptSphere(*pair.b, motion.relativeMotion(pair.motion, 0, 0)), 0))
@@ -249,7 +286,7 @@ MotionResult Scene::certifyPairs(std::span<const MotionPair> pairs, MotionSource
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, EdgeMethod method) const {
   require(options);
-  const MotionResult result = certifyPairs(motionPairs_, motion, options, context, method);
+  const MotionResult result = certifyPairs(motion, options, context, method);
   count(motion, result, context.counters);
   return result;
 }
@@ -258,7 +295,7 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, MotionCertificate& certificate) const {
   require(options);
   const MotionResult result =
-      certifyPairs(motionPairs_, motion, options, context, EdgeMethod::directional, &certificate);
+      certifyPairs(motion, options, context, EdgeMethod::directional, &certificate);
   count(motion, result, context.counters);
   return result;
 }
@@ -271,7 +308,9 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   MotionResult counted;  // counts as one query, which is undecided if any pair is
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     MotionResult& result = results[order_[i]];
-    result = certifyPairs({&motionPairs_[i], 1}, motion, options, context, EdgeMethod::directional);
+    result = certifyMotion(motion, {&motionPairs_[i], 1}, options, context);
+    const auto k = static_cast<std::uint32_t>(i);
+    if (solidMeshes_) result = withContainment(result, {&k, 1}, motion, context, nullptr);
     if (result.verdict == MotionVerdict::undecided) counted = result;
   }
   count(motion, counted, context.counters);

@@ -39,6 +39,9 @@ class Scene {
   /// constructor exchanges the two bodies of a pair if necessary.
   /// @throws std::invalid_argument if a pair names a body that does not exist.
   Scene(std::vector<Placed> bodies, std::vector<Pair> pairs);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
 
   const std::vector<Placed>& bodies() const { return bodies_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
@@ -90,9 +93,14 @@ class Scene {
                                             QueryContext& context) const;
 
  private:
-  MotionResult certifyPairs(std::span<const MotionPair> pairs, MotionSource& motion,
-                            const MotionOptions& options, QueryContext& context, EdgeMethod method,
+  MotionResult certifyPairs(MotionSource& motion, const MotionOptions& options,
+                            QueryContext& context, EdgeMethod method,
                             MotionCertificate* certificate = nullptr) const;
+  /// Corrects the answer about the surfaces of these pairs (indices of `motionPairs_`) if a body is
+  /// inside a solid mesh.
+  MotionResult withContainment(MotionResult result, std::span<const std::uint32_t> pairs,
+                               MotionSource& motion, QueryContext& context,
+                               MotionCertificate* certificate) const;
   template <class Visit>
   void forNearPairs(std::span<const Transform> X_WF, const double& within, QueryContext& context,
                     Visit visit) const;
@@ -102,6 +110,7 @@ class Scene {
   std::vector<std::size_t> order_;  // indices of `pairs_`; pairs of the same motion are adjacent
   std::vector<MotionPair> motionPairs_;  // in that order
   std::vector<FramePair> framePairs_;
+  std::unique_ptr<const BroadPhase> broadPhase_;  // of `motionPairs_`
   bool solidMeshes_ = false;  // a pair has a solid mesh, so containment must be decided
 };
 

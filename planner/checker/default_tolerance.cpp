@@ -103,12 +103,14 @@ double roundingTolerance(const Model& model) {
     const Share share = shareOf(model, frame), parent = chains[frame.parent];
     chains[f] = {parent.length + share.length, parent.roundings + share.roundings};
   }
+  std::vector<double> farthest;  // for each body
+  for (const ModelBody& body : model.bodies) farthest.push_back(farthestPoint(body));
   double largest = 0;
   forEachTestedPair(model, [&](std::size_t a, std::size_t b) {
     double size = 0, roundings = kLeaves;
     for (const std::size_t i : {a, b}) {
       const ModelBody& body = model.bodies[i];
-      size += chains[body.frame].length + farthestPoint(body);
+      size += chains[body.frame].length + farthest[i];
       roundings += 2 * chains[body.frame].roundings;
     }
     const double error = kUnit * size * roundings;

@@ -46,12 +46,21 @@ inline std::vector<ConvexPart> parts(std::mt19937_64& random, int count, double 
   std::vector<ConvexPart> all;
   for (int i = 0; i < count; ++i) {
     const double r = size * real(random), l = size * real(random);
-    Primitive p = Sphere{r};
-    if (i % 5 == 1) p = Capsule{r, l};
-    if (i % 5 == 2) p = Cylinder{r, l};
-    if (i % 5 == 3) p = Box{Vec3(r, l, size)};
-    if (i % 5 == 4) p = Convex{{Vec3(0, 0, 0), Vec3(r, 0, l), Vec3(0, l, 0), Vec3(0, r, r)}};
-    all.push_back(placed(p, anyPose(random, 0.5)));
+    const auto shape = [&]() -> Primitive {
+      switch (i % 5) {
+        case 1:
+          return Capsule{r, l};
+        case 2:
+          return Cylinder{r, l};
+        case 3:
+          return Box{Vec3(r, l, size)};
+        case 4:
+          return Convex{{Vec3(0, 0, 0), Vec3(r, 0, l), Vec3(0, l, 0), Vec3(0, r, r)}};
+        default:
+          return Sphere{r};
+      }
+    };
+    all.push_back(placed(shape(), anyPose(random, 0.5)));
   }
   return all;
 }

@@ -1,0 +1,62 @@
+#include "collision/motion/broad_phase.h"
+
+#include <algorithm>
+
+namespace corridor {
+namespace {
+
+/// Below this number of pairs, tests of all pairs are as fast as the walk of a tree: it was
+/// measured between 8 and 32 pairs.
+constexpr std::size_t kLeastPairs = 16;
+
+bool haveSameBodiesA(std::span<const MotionPair> x, std::span<const MotionPair> y) {
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                    [](const MotionPair& p, const MotionPair& q) { return p.a == q.a; });
+}
+
+}  // namespace
+
+BroadPhase::BroadPhase(std::span<const MotionPair> pairs) : pairs_(pairs) {
+  for (const MotionPair& pair : pairs)
+    if (pair.worldB != MotionPair::kNone)
+      bodies_ = std::max({bodies_, pair.bodyA + 1, pair.bodyB + 1});
+  const auto isTested = [&](const MotionPair& pair) {
+    return pair.worldA == MotionPair::kNone && pair.worldB == pair.motion;
+  };
+  std::size_t lastTree = runs_.size();  // the index of the last run with a tree
+  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
+    const MotionPair& first = pairs[begin];
+    for (end = begin + 1; end < pairs.size(); ++end)
+      if (pairs[end].motion != first.motion || pairs[end].bodyB != first.bodyB) break;
+    std::shared_ptr<const BoxTree> tree;
+    if (isTested(first) && end - begin >= kLeastPairs) {
+      const auto own = pairs.subspan(begin, end - begin);
+      const Run* const last = lastTree < runs_.size() ? &runs_[lastTree] : nullptr;
+      if (last && haveSameBodiesA(own, pairs.subspan(last->begin, last->end - last->begin))) {
+        tree = last->tree;
+      } else {
+        std::vector<BoundingBox> boxes;
+        for (const MotionPair& pair : own) boxes.push_back(pair.a->box());
+        tree = std::make_shared<const BoxTree>(boxes);
+      }
+      lastTree = runs_.size();
+    }
+    if (!tree && !runs_.empty() && !runs_.back().tree)
+      runs_.back().end = end;
+    else
+      runs_.push_back({begin, end, std::move(tree)});
+  }
+}
+
+void BroadPhase::find(IntervalMotions& motions, double within,
+                      std::vector<std::uint32_t>& found) const {
+  found.clear();
+  forEach([&](const MotionPair& pair) { return motions.worldSphere(pair); }, within,
+          [&](std::size_t k) {
+            found.push_back(static_cast<std::uint32_t>(k));
+            return false;
+          });
+  std::sort(found.begin(), found.end());
+}
+
+}  // namespace corridor

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "collision/hierarchy/box_tree.h"
+#include "collision/motion/certify_motion.h"
+#include "collision/motion/interval_motions.h"
+#include "collision/motion/may_meet.h"
+
+namespace corridor {
+
+/// Finds the pairs of bodies that may come close to each other, without a test of each pair. Pairs
+/// of one moving body with many bodies at rest in the world are found by a tree of the boxes of the
+/// latter. Moving bodies with the same partners share one tree. Other pairs are always found.
+///
+/// Const after construction, so threads may share it.
+class BroadPhase {
+ public:
+  /// @param pairs of a scene, in its order: pairs with the same motion are adjacent, and among
+  /// these the pairs with the same b. They must outlive the object and stay where they are.
+  explicit BroadPhase(std::span<const MotionPair> pairs);
+
+  /// Calls visit(k) for each pair k that may come closer than `within` metres, and for some that do
+  /// not. Stops if `visit` returns true; `visit` may lower `within`.
+  /// @param sphereOf returns the swept sphere of body b of a pair, as seen from the world.
+  template <class SphereOf, class Visit>
+  void forEach(const SphereOf& sphereOf, const double& within, const Visit& visit) const {
+    for (const Run& run : runs_) {
+      if (run.tree) {
+        const SweptSphere sphere = sphereOf(pairs_[run.begin]);
+        const auto bound = [&](const BoundingBox& box) {
+          return clearanceBound(box, sphere, within);
+        };
+        if (run.tree->walk(bound, within, [&](std::size_t i) { return visit(run.begin + i); }))
+          return;
+        continue;
+      }
+      for (std::size_t k = run.begin; k < run.end; ++k)
+        if (visit(k)) return;
+    }
+  }
+
+  /// Finds the pairs that may come closer than `within` metres in the selected interval, in
+  /// ascending order.
+  void find(IntervalMotions& motions, double within, std::vector<std::uint32_t>& found) const;
+
+  /// Returns one more than the largest index of a body.
+  std::size_t bodies() const { return bodies_; }
+
+ private:
+  /// Adjacent pairs. With a tree, they have the same body b, and item i of the tree is the box of
+  /// body a of pair begin + i.
+  struct Run {
+    std::size_t begin = 0, end = 0;
+    std::shared_ptr<const BoxTree> tree;
+  };
+
+  std::span<const MotionPair> pairs_;
+  std::vector<Run> runs_;
+  std::size_t bodies_ = 0;
+};
+
+}  // namespace corridor

@@ -1,0 +1,167 @@
+// The broad phase changes no answer: scenes of many bodies against the same queries without it.
+#include "collision/motion/broad_phase.h"
+
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/queries/distance.h"
+#include "collision/queries/interference.h"
+#include "collision/world/body_queries.h"
+#include "collision/world/rigid_scene.h"
+#include "tests/collision/motion/bodies.h"
+#include "tests/support/soups.h"
+#include "tests/support/support.h"
+
+namespace corridor::test {
+namespace {
+
+Body translated(const TriangleMesh& mesh, const Vec3& by, bool solid) {
+  TriangleMesh moved = mesh;
+  for (Vec3& vertex : moved.vertices) vertex += by;
+  return Body("", std::move(moved), solid);
+}
+
+/// Returns a scene of two moving bodies among many obstacles: blobs, boxes (solid on request) and
+/// convex parts.
+RigidScene crowd(std::mt19937_64& random, int count, bool solids) {
+  std::vector<Body> moving, fixed;
+  moving.push_back(bodyOf(blob(random, 20, 0.2, 0.2)));
+  moving.push_back(
+      translated(box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1)), Vec3(0.4, 0, 0), solids));
+  const TriangleMesh cube = box(Vec3(-0.15, -0.1, -0.05), Vec3(0.15, 0.1, 0.05));
+  const TriangleMesh hall = box(Vec3(-0.9, -0.9, -0.9), Vec3(0.9, 0.9, 0.9));
+  const std::vector<ConvexPart> shapes = parts(random, count, 0.2);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 where = 4 * randomInCube(random);
+    if (i % 3 == 0) fixed.push_back(bodyOf(blob(random, 5, 0.1, 0.1)));
+    if (i % 3 == 1) fixed.push_back(translated(i % 12 == 1 ? hall : cube, where, solids));
+    if (i % 3 == 2) {
+      ConvexPart part = shapes.at(static_cast<std::size_t>(i));
+      for (Vec3& p : part.points) p += where;
+      fixed.emplace_back("", std::move(part));
+    }
+  }
+  return RigidScene(std::move(moving), std::move(fixed));
+}
+
+bool sameAnswer(const MotionResult& a, const MotionResult& b) {
+  return a.verdict == b.verdict && a.reason == b.reason && a.certifiedUntil == b.certifiedUntil &&
+         a.contactTime == b.contactTime && a.grazing == b.grazing && a.gap == b.gap &&
+         a.pair.has_value() == b.pair.has_value() &&
+         (!a.pair || (a.pair->bodyA == b.pair->bodyA && a.pair->bodyB == b.pair->bodyB));
+}
+
+TEST(BroadPhase, MotionsHaveTheSameAnswers) {
+  std::mt19937_64 random(testSeed(242));
+  std::map<MotionVerdict, int> verdicts;
+  for (const int count : {5, 20, 200}) {
+    const RigidScene scene = crowd(random, count, false);
+    for (int n = 0; n < 300; ++n) {
+      const auto [from, to] = randomEdge(random);
+      MotionOptions options;
+      options.tolerance = 1e-4;
+      options.clearanceSlack = n % 2 ? 1e-4 : 0;
+      options.margin = n % 4 == 0 ? 0.01 : 0;
+      options.earliest = n % 3 == 0;
+      RigidEdge edge(RigidMotion::spatial(from, to, {.position = 1e-6, .rotation = 1e-6}));
+      QueryContext one, other;
+      const MotionResult with = scene.scene().certify(edge, options, one);
+      const MotionResult without = certifyMotion(edge, scene.scene().motionPairs(), options, other);
+      EXPECT_TRUE(sameAnswer(with, without)) << count << " obstacles, edge " << n;
+      // A box around several bodies may be separated where the bound of one of them is too weak.
+      EXPECT_LE(one.counters.boxTests, other.counters.boxTests);
+      ++verdicts[with.verdict];
+      MotionCertificate certificate;
+      const MotionResult proved = scene.scene().certify(edge, options, one, certificate);
+      EXPECT_EQ(proved.verdict, with.verdict);
+      if (with.verdict == MotionVerdict::free) {
+        EXPECT_GE(certificate.free.size(), scene.scene().motionPairs().size());
+      }
+    }
+  }
+  EXPECT_GT(verdicts[MotionVerdict::free], 20);
+  EXPECT_GT(verdicts[MotionVerdict::contact], 20);
+}
+
+/// Containment is decided for the pairs that the broad phase finds at the start.
+TEST(BroadPhase, FindsBodiesInsideSolids) {
+  std::mt19937_64 random(testSeed(243));
+  int inside = 0, free = 0;
+  for (int scenes = 0; scenes < 4; ++scenes) {
+    const RigidScene scene = crowd(random, 60, true);
+    for (int n = 0; n < 300; ++n) {
+      const auto [from, to] = randomEdge(random);
+      MotionOptions options;
+      options.tolerance = 1e-4;
+      RigidEdge edge(RigidMotion::spatial(from, n % 2 ? to : from, {}));
+      QueryContext context;
+      const MotionResult all = scene.scene().certify(edge, options, context);
+      MotionVerdict expected = MotionVerdict::free;
+      for (const MotionResult& one : scene.scene().certifyEachPair(edge, options, context))
+        if (one.verdict != MotionVerdict::free && expected != MotionVerdict::contact)
+          expected = one.verdict;
+      EXPECT_EQ(all.verdict, expected) << "scene " << scenes << ", edge " << n;
+      free += all.verdict == MotionVerdict::free;
+      inside += all.verdict == MotionVerdict::contact &&
+                certifyMotion(edge, scene.scene().motionPairs(), options, context).verdict ==
+                    MotionVerdict::free;
+    }
+  }
+  EXPECT_GT(inside, 5) << "a body inside a solid, whose surfaces don't touch";
+  EXPECT_GT(free, 20);
+}
+
+/// Interference and clearance of states, also if the frame of the world has a pose of its own.
+TEST(BroadPhase, StatesHaveTheSameAnswers) {
+  std::mt19937_64 random(testSeed(244));
+  int contacts = 0, apart = 0;
+  for (const bool solids : {false, true}) {
+    const RigidScene crowded = crowd(random, 150, solids);
+    const Scene& scene = crowded.scene();
+    for (int n = 0; n < 120; ++n) {
+      const Transform X_WB = anyPose(random, 1.5);
+      const Transform X_WW = n % 4 == 0 ? anyPose(random, 0.5) : Transform();
+      const Transform X_WF[] = {X_WW, X_WB};
+      QueryContext context;
+      bool touches = false;
+      double least = std::numeric_limits<double>::infinity();
+      for (const Scene::Pair& pair : scene.pairs()) {
+        const Posed a(scene.bodies()[pair.a].body, X_WW), b(scene.bodies()[pair.b].body, X_WB);
+        touches = touches || interference(a, b, context).has_value();
+        least = std::min(least, distance(a, b, {}, context).distance);
+      }
+      EXPECT_EQ(scene.interference(X_WF, context).has_value(), touches) << n;
+      EXPECT_NEAR(scene.clearance(X_WF, context), least, 1e-12) << n;
+      ++(touches ? contacts : apart);
+    }
+  }
+  EXPECT_GT(contacts, 20);
+  EXPECT_GT(apart, 20);
+}
+
+/// With thousands of obstacles out of reach, hardly any is looked at.
+TEST(BroadPhase, TakesLogarithmicTime) {
+  std::vector<Body> moving, fixed;
+  const TriangleMesh cube = box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1));
+  moving.push_back(bodyOf(cube));
+  for (int i = 0; i < 3000; ++i)
+    fixed.push_back(translated(cube, Vec3(i % 50, 10 + (i / 50) % 60, 0), false));
+  const RigidScene scene(std::move(moving), std::move(fixed));
+  RigidEdge edge(RigidMotion::spatial(at(Vec3(0, 0, 0)), at(Vec3(1, 1, 1)), {}));
+  QueryContext context;
+  IntervalMotions motions(edge, scene.scene().bodies().size(), context);
+  motions.select(0.5, 0.5);
+  const BroadPhase broadPhase(scene.scene().motionPairs());
+  std::vector<std::uint32_t> found;
+  broadPhase.find(motions, 1, found);
+  EXPECT_TRUE(found.empty());
+  broadPhase.find(motions, 10, found);
+  EXPECT_GT(found.size(), 2u);
+  EXPECT_LT(found.size(), 200u);
+  EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+}
+
+}  // namespace
+}  // namespace corridor::test
