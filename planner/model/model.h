@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -59,6 +60,8 @@ class PairFilter {
   /// earlier one.
   /// @param reason not empty: "adjacent", "SRDF: Never", "allow", …
   void skip(std::size_t a, std::size_t b, std::string reason);
+  /// Tests a pair again that was excluded by a reason.
+  void test(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
   /// Excludes pairs of bodies that never move against each other.
   /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
   /// mover stand still relative to each other.

@@ -102,12 +102,14 @@ void readGoals(const YamlValue& value, StateReader& reader, Problem& problem, Ya
 
 }  // namespace
 
-void readStartAndGoals(const YamlMap& file, Problem& problem) {
+void readStartAndGoals(const YamlMap& file, bool optional, Problem& problem) {
   StateReader reader(problem, file.source());
-  if (const YamlValue* start = file.require("start", example("start", problem)))
+  const auto find = [&](const char* key) {
+    return optional ? file.find(key) : file.require(key, example(key, problem));
+  };
+  if (const YamlValue* start = find("start"))
     if (auto q = reader.read(*start, "start")) problem.task.start = std::move(*q);
-  if (const YamlValue* goal = file.require("goal", example("goal", problem)))
-    readGoals(*goal, reader, problem, file.source());
+  if (const YamlValue* goal = find("goal")) readGoals(*goal, reader, problem, file.source());
 }
 
 }  // namespace corridor

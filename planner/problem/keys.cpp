@@ -34,9 +34,10 @@ void addShape(Keys& keys, const std::string& path, const Words& more) {
 Keys makeProblemKeys() {
   Keys keys{
       {"",
-       {{"format", "robot", "robots", "base", "world", "allow", "start", "goal", "bounds", "margin",
-         "tube", "planner", "sampler", "simplify", "checker", "seed"},
+       {{"format", "robot", "robots", "base", "world", "allow", "start", "goal", "moveit", "bounds",
+         "margin", "tube", "planner", "sampler", "simplify", "checker", "seed"},
         {}}},
+      {"moveit", {{"scene", "request"}, {}}},
       {"robots.*", {{"file", "base"}, {}}},
       {"base", {placementKeys, {}}},
       {"start", {poseKeys, {}}},

@@ -10,7 +10,10 @@
 #include "planner/problem/goal_yaml.h"
 #include "planner/problem/hold_yaml.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/moveit_request.h"
+#include "planner/problem/moveit_scene.h"
 #include "planner/problem/placement.h"
+#include "planner/problem/shape_yaml.h"
 #include "planner/problem/tube_yaml.h"
 #include "planner/problem/world_yaml.h"
 
@@ -30,8 +33,10 @@ class RobotFiles {
  public:
   explicit RobotFiles(FaultList& faults) : faults_(faults) {}
 
+  /// @param group see readRobotFile.
   std::optional<RobotSetup> read(const YamlMap& map, const char* key,
-                                 const std::filesystem::path& folder) {
+                                 const std::filesystem::path& folder,
+                                 const std::string& group = "") {
     const auto name = map.text(key);
     if (!name) return std::nullopt;
     const std::filesystem::path path = folder / *name;
@@ -40,8 +45,9 @@ class RobotFiles {
       return std::nullopt;
     }
     const auto known = read_.find(path);
-    return known != read_.end() ? known->second
-                                : read_.emplace(path, readRobotFile(path, faults_)).first->second;
+    return known != read_.end()
+               ? known->second
+               : read_.emplace(path, readRobotFile(path, faults_, group)).first->second;
   }
 
  private:
@@ -62,14 +68,16 @@ void readBase(const YamlMap& map, std::optional<RobotSetup>& robot) {
 
 /// Reads `robot` or `robots`. Returns an empty list if there are no robots, or if `readRobotFile`
 /// returned nullopt for one of them.
-std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::path& folder) {
+/// @param group the group of a single robot whose file chooses no joints; empty: none.
+std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::path& folder,
+                                   const std::string& group) {
   std::vector<RobotSetup> robots;
   RobotFiles files(file.source().faults);
   const auto key = file.requireOne({"robot", "robots"}, "one of robot and robots",
                                    "the robot's file, such as robot: "
                                    "../../robots/piano/robot.yaml");
   if (key == "robot") {
-    auto robot = files.read(file, "robot", folder);
+    auto robot = files.read(file, "robot", folder, group);
     readBase(file, robot);
     if (robot) robots.push_back(std::move(*robot));
   }
@@ -111,6 +119,33 @@ void readPlanner(const YamlMap& file, PlannerSettings& planner) {
     if (const auto text = paramMap.text(entry->key)) planner.params[entry->key] = *text;
 }
 
+/// Reads `moveit: {scene: FILE, request: FILE}`.
+std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> readMoveit(
+    const YamlMap& problem, const std::filesystem::path& folder,
+    std::vector<std::filesystem::path>& files) {
+  std::pair<std::optional<MoveitScene>, std::optional<MoveitRequest>> found;
+  const YamlValue* const value = problem.find("moveit");
+  if (!value) return found;
+  const YamlMap map(*value, "moveit", keysOf("moveit"), problem.source());
+  if (problem.find("robots"))
+    problem.fault("moveit", "a scene or request of MoveIt is for one robot; use robot: FILE");
+  const auto read = [&](const char* key, auto& message) {
+    const auto name = map.text(key);
+    if (!name) return;
+    const std::filesystem::path file = folder / *name;
+    if (const std::string why = whyNoFile(file); !why.empty())
+      return map.fault(key, file.string() + ": " + why);
+    addFile(files, file);
+    FaultList& faults = problem.source().faults;
+    faults.collect([&] { message.emplace(file, faults); });
+  };
+  read("scene", found.first);
+  read("request", found.second);
+  if (map.entries().empty())
+    problem.fault("moveit", "scene: FILE, request: FILE, or both are needed");
+  return found;
+}
+
 }  // namespace
 
 Problem readProblemYaml(const std::filesystem::path& file) {
@@ -125,15 +160,25 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   problem.source.file = file;
   problem.source.name = nameOfFile(file, "problem");
   problem.source.files = {file};
-  std::vector<RobotSetup> robots = readRobots(map, file.parent_path());
+  auto [scene, request] = readMoveit(map, file.parent_path(), problem.source.files);
+  std::vector<RobotSetup> robots =
+      readRobots(map, file.parent_path(), request ? request->group() : "");
   const bool known = !robots.empty();
-  const bool worldNeeded =
-      !map.find("robots") && (!map.find("robot") || (known && robots.front().robot.isRigid()));
+  const bool worldNeeded = !scene && !map.find("robots") &&
+                           (!map.find("robot") || (known && robots.front().robot.isRigid()));
   ModelBuilder builder;
   holdAsStart(map, robots);
+  if (request && known && robots.front().robot.isRigid()) {
+    map.fault("moveit", "a request is for a robot with joints; this one is rigid");
+    request.reset();
+  }
+  if (request && known) request->hold(robots.front());
+  const RobotModel first = known ? robots.front().robot.model : RobotModel();
   addRobots(std::move(robots), builder, problem.source);
   readWorld(map, worldNeeded, builder, problem.source);
+  if (scene && known) scene->addWorld(first, builder);
   problem.model = builder.buildForReader();
+  if (scene && known) scene->applyAllowed(problem.model);
   AllowedBodies allowed;
   if (known && faults.size() == 0) allowed = readAllow(map, problem.model);
   problem.task.margin = map.number("margin", Range::NotNegative).value_or(problem.task.margin);
@@ -148,7 +193,9 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   problem.settings.seed = map.wholeNumber("seed").value_or(problem.settings.seed);
   if (known) {  // the form of states and bounds depends on the robots
     readBounds(map, problem);
-    readStartAndGoals(map, problem);
+    if (request && !map.find("start")) request->readStart(problem);
+    if (request && !map.find("goal")) request->readGoals(problem);
+    readStartAndGoals(map, request.has_value(), problem);
     if (faults.size() == 0) setDefaultBounds(problem, source);
   }
   faults.throwIfAny();

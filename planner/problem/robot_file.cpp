@@ -92,7 +92,8 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
 
 }  // namespace
 
-std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults) {
+std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
+                                        const std::string& group) {
   RobotSetup setup;
   if (file.extension() == ".urdf") return readBareUrdf(file, faults);
 
@@ -111,7 +112,7 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   const auto kind = map.requireOne({"rigid", "urdf"}, "one of rigid and urdf",
                                    "rigid: SE3 (moves and rotates freely), rigid: SE2 (moves in x "
                                    "and y, rotates about z), or urdf: arm.urdf (has joints)");
-  if (kind == "urdf") return readUrdfRobot(map, name, file.parent_path(), std::move(setup));
+  if (kind == "urdf") return readUrdfRobot(map, name, group, file.parent_path(), std::move(setup));
   if (kind == "rigid") return readRigid(map, name, file.parent_path(), std::move(setup));
   return std::nullopt;
 }

@@ -21,6 +21,9 @@ struct RobotSetup {
 /// files that it names, are added to `faults`. Returns nullopt if faults leave unknown which joints
 /// the robot has, or in which space (SE2 or SE3) a rigid robot moves. A rigid robot is returned
 /// even if shapes have faults; these shapes are left out.
-std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults);
+/// @param group the group that is planned for if the file has an SRDF, and neither `group` nor
+/// `joints`; empty: none.
+std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
+                                        const std::string& group = "");
 
 }  // namespace corridor

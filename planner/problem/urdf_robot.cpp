@@ -76,9 +76,10 @@ void addStatesOf(const std::string& group, RobotModel& model) {
   model.states.merge(added);
 }
 
-Joints readGroup(const YamlMap& map, RobotModel& model) {
+/// @param byDefault the group's name if the file has no key `group`.
+Joints readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& model) {
   Joints active;
-  const auto name = map.text("group");
+  const auto name = map.find("group") ? map.text("group") : std::optional(byDefault);
   if (!name) return active;
   const auto found = model.groups.find(*name);
   if (!map.find("srdf")) {
@@ -208,6 +209,7 @@ std::optional<double> withinLimits(double value, double lower, double upper,
 }
 
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
+                                        const std::string& group,
                                         const std::filesystem::path& folder, RobotSetup setup) {
   for (const char* key : {"shapes", "reference"})
     if (map.find(key)) map.fault(key, "is for rigid robots; this one's shapes are in its URDF");
@@ -228,15 +230,16 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   const std::optional<std::string> heldState = readHold(map, setup);
   const YamlPlace hold{map.source(), "hold", heldState ? map.find("hold")->line : 0};
   // Without a choice of joints, all joints of the state that is held are not planned for.
-  const bool isChosen = map.find("group") || map.find("joints");
+  const bool hasDefault = !group.empty() && srdf && !map.find("joints");
+  const bool isChosen = map.find("group") || map.find("joints") || hasDefault;
   if (heldState && !isChosen) holdState(*heldState, {}, hold, setup);
   readAllow(map, setup.robot.model);
   readWeights(map, setup);
   Joints active;
   if (map.find("group") && map.find("joints"))
     map.fault("joints", "one of group and joints is needed, not both");
-  else if (map.find("group"))
-    active = readGroup(map, setup.robot.model);
+  else if (map.find("group") || hasDefault)
+    active = readGroup(map, group, setup.robot.model);
   else if (map.find("joints"))
     active = readJointList(map, setup.robot.model);
   else if ((active = allMoving(setup.robot)).empty())

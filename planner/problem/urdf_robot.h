@@ -10,8 +10,10 @@ namespace corridor {
 
 /// Reads a robot with joints: the keys of its robot.yaml, and the URDF and SRDF that it names.
 /// Returns nullopt if one of these files has a fault.
+/// @param group see readRobotFile.
 /// @param setup its `files` contain the robot.yaml; the result has the other members, too.
 std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& name,
+                                        const std::string& group,
                                         const std::filesystem::path& folder, RobotSetup setup);
 
 /// Reads a URDF without a robot.yaml: all its moving joints are planned for. Returns nullopt if the

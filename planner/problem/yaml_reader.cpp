@@ -10,6 +10,21 @@
 
 namespace corridor {
 
+bool isEmpty(const YamlMap& map, std::string_view key) {
+  const YamlValue* const value = map.find(key);
+  return !value || (value->items.empty() && value->entries.empty() && value->text.empty());
+}
+
+std::vector<const YamlValue*> itemsOf(const YamlMap& map, std::string_view key) {
+  std::vector<const YamlValue*> items;
+  const YamlValue* const value = map.find(key);
+  if (!value || value->kind == YamlValue::Kind::Null) return items;
+  if (value->kind != YamlValue::Kind::List)
+    map.fault(key, "a list is needed, not " + described(*value));
+  for (const YamlValue& item : value->items) items.push_back(&item);
+  return items;
+}
+
 std::string described(const YamlValue& value) {
   switch (value.kind) {
     case YamlValue::Kind::Scalar:

@@ -123,6 +123,13 @@ std::optional<std::vector<std::string>> readWords(const YamlValue& value, const 
 std::optional<std::vector<double>> readNumbers(const YamlValue& value, std::size_t count,
                                                const std::string& path, const YamlSource& source);
 
+/// Returns whether a key is absent, or its value is an empty list, map or text.
+bool isEmpty(const YamlMap& map, std::string_view key);
+
+/// Returns the items of a list; none if the key is absent or has no value. Another value is a
+/// fault.
+std::vector<const YamlValue*> itemsOf(const YamlMap& map, std::string_view key);
+
 /// Returns a value's description for messages: `"text"`, `a list`, `a map` or `nothing`.
 std::string described(const YamlValue& value);
 

@@ -14,7 +14,8 @@ class ProblemFaults : public ProblemTest {
 };
 
 constexpr const char* topKeys =
-    " (known: format, robot, robots, base, world, allow, start, goal, bounds, margin, tube, "
+    " (known: format, robot, robots, base, world, allow, start, goal, moveit, bounds, margin, "
+    "tube, "
     "planner, sampler, simplify, checker, seed)";
 
 TEST_F(ProblemFaults, Files) {

@@ -1,0 +1,128 @@
+#include "planner/problem/moveit_request.h"
+
+#include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
+#include "planner/problem/joint_yaml.h"
+#include "planner/problem/state_yaml.h"
+#include "planner/problem/urdf_robot.h"
+#include "planner/robot/joint_types.h"
+
+namespace corridor {
+namespace {
+
+/// Returns the values of a message sensor_msgs/JointState by their joints' names.
+std::map<std::string, double> jointValues(const YamlMap& request) {
+  std::map<std::string, double> values;
+  const YamlValue* const start = request.find("start_state");
+  if (!start) return values;
+  const YamlMap state(*start, "start_state", nullptr, request.source());
+  if (!isEmpty(state, "attached_collision_objects"))
+    state.fault("attached_collision_objects", "is not supported; add the objects to the robot");
+  const YamlValue* const joints = state.find("joint_state");
+  if (!joints) return values;
+  const YamlMap map(*joints, "start_state.joint_state", nullptr, request.source());
+  if (!map.find("name")) return values;
+  const auto names = readWords(*map.find("name"), "such as [pan, lift]",
+                               "start_state.joint_state.name", request.source());
+  if (!names) return values;
+  const auto positions = map.numbers("position", names->size());
+  if (!positions && !map.find("position")) map.fault("position", "is missing");
+  for (std::size_t i = 0; positions && i < names->size(); ++i)
+    values[(*names)[i]] = (*positions)[i];
+  return values;
+}
+
+}  // namespace
+
+MoveitRequest::MoveitRequest(const std::filesystem::path& file, FaultList& faults)
+    : document_(parseYaml(file.string(), readTextFile(file, "a motion plan request of MoveIt"))),
+      source_{file.string(), faults, {}} {
+  const std::size_t before = faults.size();
+  start_ = jointValues(root());
+  startIsRead_ = faults.size() == before;
+  if (const YamlValue* const start = root().find("start_state")) startLine_ = start->line;
+}
+
+std::string MoveitRequest::group() {
+  return root().text("group_name").value_or("");
+}
+
+void MoveitRequest::hold(RobotSetup& setup) {
+  ModelRobot& robot = setup.robot;
+  for (const auto& [name, value] : start_) {
+    const auto j = findJoint(robot.model, name);
+    if (!j || !robot.held.contains(*j) || robot.heldByFile.contains(*j)) continue;
+    const JointModel& joint = robot.model.joints[*j];
+    const std::string path = "start_state: " + name;
+    if (const auto held = withinLimits(value, joint.lower, joint.upper, path, robot.model.notes))
+      robot.held[*j] = *held;
+    else
+      source_.fault(startLine_, path + ": " + outsideLimits(value, joint.lower, joint.upper));
+  }
+}
+
+std::optional<Configuration> MoveitRequest::read(const std::map<std::string, double>& values,
+                                                 int line, const std::string& path,
+                                                 Problem& problem) {
+  Configuration q = Configuration::Zero(static_cast<Eigen::Index>(problem.model.space.size()));
+  std::vector<std::string> missing;
+  bool sound = true;
+  for (const PlannedJoint& planned : problem.model.robots.front().plannedJoints) {
+    const auto value = values.find(planned.name);
+    if (value == values.end()) {
+      missing.push_back(planned.name);
+      continue;
+    }
+    const Coordinate& c = problem.model.space.coordinates()[planned.coordinate];
+    std::string why;
+    const auto stored =
+        coordinateValue(c, value->second, path + ": " + planned.name, problem.source.notes, why);
+    sound &= stored.has_value();
+    if (stored)
+      q[static_cast<Eigen::Index>(c.first)] = *stored;
+    else
+      source_.fault(line, why);
+  }
+  if (!missing.empty())
+    source_.fault(line, path + ": has no value for " + joinedFirst(missing) +
+                            "; all joints that are planned for need one");
+  return sound && missing.empty() ? std::optional(std::move(q)) : std::nullopt;
+}
+
+void MoveitRequest::readStart(Problem& problem) {
+  if (!startIsRead_) return;
+  if (auto q = read(start_, startLine_, "start_state", problem)) problem.task.start = std::move(*q);
+}
+
+void MoveitRequest::readGoals(Problem& problem) {
+  const YamlMap request = root();
+  if (const YamlValue* const path = request.find("path_constraints")) {
+    const YamlMap map(*path, "path_constraints", nullptr, source_);
+    for (const char* const key : {"joint_constraints", "position_constraints",
+                                  "orientation_constraints", "visibility_constraints"})
+      if (!isEmpty(map, key)) map.fault(key, "constraints of the path are not supported");
+  }
+  const auto goals = itemsOf(request, "goal_constraints");
+  if (goals.empty()) request.fault("goal_constraints", "at least one goal is needed");
+  for (std::size_t g = 0; g < goals.size(); ++g) {
+    const YamlMap goal(*goals[g], "goal_constraints[" + std::to_string(g) + "]", nullptr, source_);
+    for (const char* const key :
+         {"position_constraints", "orientation_constraints", "visibility_constraints"})
+      if (!isEmpty(goal, key))
+        goal.fault(key, "only goals by joint values are supported (joint_constraints)");
+    const std::string path = goal.pathOf("joint_constraints");
+    std::map<std::string, double> values;
+    for (const YamlValue* const item : itemsOf(goal, "joint_constraints")) {
+      const YamlMap one(*item, path, nullptr, source_);
+      one.require("joint_name", "the joint's name");
+      one.require("position", "the joint's value");
+      const auto name = one.text("joint_name");
+      const auto position = one.number("position");
+      if (name && position) values[*name] = *position;
+    }
+    if (auto q = read(values, goals[g]->line, path, problem))
+      problem.task.goals.push_back(std::move(*q));
+  }
+}
+
+}  // namespace corridor

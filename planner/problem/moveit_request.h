@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "planner/problem/problem.h"
+#include "planner/problem/robot_file.h"
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+
+/// A message moveit_msgs/MotionPlanRequest, written as YAML. Its parts are read by the members,
+/// which add faults to the problem's list.
+///
+/// Read are the group, the start state, and goals by joint values. Faults, because a plan without
+/// them would be wrong, are attached objects, goals by positions or orientations of links, and path
+/// constraints. Everything else is ignored.
+class MoveitRequest {
+ public:
+  /// @throws InputError if the file is not YAML.
+  MoveitRequest(const std::filesystem::path& file, FaultList& faults);
+
+  /// Returns the name of the request's group, or "".
+  std::string group();
+  /// Holds the joints of the robot that are not planned for at their values in the start state,
+  /// except those that the robot's `hold` gives.
+  void hold(RobotSetup& setup);
+  /// Read the start and the goals of the single robot.
+  void readStart(Problem& problem);
+  void readGoals(Problem& problem);
+
+ private:
+  YamlMap root() { return {document_, "", nullptr, source_}; }
+  /// Reads the values of the planned joints. Returns nullopt if a fault was added.
+  std::optional<Configuration> read(const std::map<std::string, double>& values, int line,
+                                    const std::string& path, Problem& problem);
+
+  YamlValue document_;
+  YamlSource source_;
+  std::map<std::string, double> start_;  // the values of the start state by joint
+  int startLine_ = 0;
+  bool startIsRead_ = false;  // without a fault
+};
+
+}  // namespace corridor

@@ -1,0 +1,264 @@
+#include "planner/problem/moveit_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
+#include "planner/problem/placement.h"
+
+namespace corridor {
+namespace {
+
+using Kind = YamlValue::Kind;
+
+/// Reads numbers from a list, or from a map by their names: [1, 2, 3] or {x: 1, y: 2, z: 3}.
+std::optional<std::vector<double>> readNamed(const YamlMap& map, const char* key,
+                                             const std::vector<std::string>& names) {
+  const YamlValue* const value = map.find(key);
+  if (!value || value->kind != Kind::Map) return map.numbers(key, names.size());
+  const YamlMap inner(*value, map.pathOf(key), nullptr, map.source());
+  std::vector<double> numbers;
+  for (const std::string& name : names) {
+    const auto number = inner.number(name);
+    if (!number) {
+      if (!inner.find(name)) inner.fault(name, "is missing");
+      return std::nullopt;
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+/// Reads a message geometry_msgs/Pose. Returns nullopt if a fault was added.
+std::optional<Placement> readPose(const YamlValue& value, const std::string& path,
+                                  YamlSource& source) {
+  const YamlMap map(value, path, nullptr, source);
+  Placement placement;
+  if (map.find("position")) {
+    const auto p = readNamed(map, "position", {"x", "y", "z"});
+    if (!p) return std::nullopt;
+    placement.pose.p = Vec3((*p)[0], (*p)[1], (*p)[2]);
+  }
+  Orientation orientation;
+  if (map.find("orientation")) {
+    const auto q = readNamed(map, "orientation", {"x", "y", "z", "w"});
+    if (!q) return std::nullopt;
+    orientation.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
+    if (!(orientation.q.coeffs().stableNorm() > 0)) {
+      map.fault("orientation", "zeros are no rotation");
+      return std::nullopt;
+    }
+    orientation.R =
+        Eigen::Quaterniond(orientation.q.coeffs().stableNormalized()).toRotationMatrix();
+  }
+  placement.pose.q = orientation.q;
+  placement.X = {orientation.R, placement.pose.p};
+  return placement;
+}
+
+/// Reads a message shape_msgs/SolidPrimitive. Its type is a word, or the number of the message.
+std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string& path,
+                                       YamlSource& source) {
+  const YamlMap map(value, path, nullptr, source);
+  const std::map<std::string, std::string> numbered{
+      {"1", "box"}, {"2", "sphere"}, {"3", "cylinder"}, {"4", "cone"}};
+  auto type = map.text("type");
+  if (!type) {
+    if (!map.find("type")) map.fault("type", "is missing");
+    return std::nullopt;
+  }
+  if (const auto number = numbered.find(*type); number != numbered.end()) type = number->second;
+  *type = lowered(*type);
+  const std::map<std::string, std::size_t> counts{{"box", 3}, {"sphere", 1}, {"cylinder", 2}};
+  const auto count = counts.find(*type);
+  if (count == counts.end()) {
+    map.fault("type", "one of box, sphere, cylinder is needed, not " + quotedWord(*type));
+    return std::nullopt;
+  }
+  const auto d = map.numbers("dimensions", count->second);
+  if (!d) {
+    if (!map.find("dimensions")) map.fault("dimensions", "is missing");
+    return std::nullopt;
+  }
+  const Primitive primitive = *type == "box"      ? Primitive(Box{Vec3((*d)[0], (*d)[1], (*d)[2])})
+                              : *type == "sphere" ? Primitive(Sphere{(*d)[0]})
+                                                  : Primitive(Cylinder{(*d)[1], (*d)[0]});
+  if (const auto why = checkPrimitive(primitive)) {
+    map.fault("dimensions", *why);
+    return std::nullopt;
+  }
+  return primitive;
+}
+
+/// Reads a message shape_msgs/Mesh.
+std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& path,
+                                     YamlSource& source) {
+  const std::size_t before = source.faults.size();
+  const YamlMap map(value, path, nullptr, source);
+  TriangleMesh mesh;
+  const auto vertices = itemsOf(map, "vertices"), triangles = itemsOf(map, "triangles");
+  for (std::size_t i = 0; i < vertices.size() && source.faults.size() == before; ++i) {
+    // A vertex has the form of a map's value: {x: 1, y: 2, z: 3} or [1, 2, 3].
+    YamlValue holder;
+    holder.kind = Kind::Map;
+    holder.line = vertices[i]->line;
+    holder.entries.push_back({"vertex", vertices[i]->line, *vertices[i]});
+    const YamlMap one(holder, map.pathOf("vertices[" + std::to_string(i) + "]"), nullptr, source);
+    if (const auto p = readNamed(one, "vertex", {"x", "y", "z"}))
+      mesh.vertices.emplace_back((*p)[0], (*p)[1], (*p)[2]);
+  }
+  for (std::size_t i = 0; i < triangles.size() && source.faults.size() == before; ++i) {
+    const YamlMap one(*triangles[i], map.pathOf("triangles[" + std::to_string(i) + "]"), nullptr,
+                      source);
+    const auto corners = one.numbers("vertex_indices", 3);
+    if (!corners) {
+      if (!one.find("vertex_indices")) one.fault("vertex_indices", "is missing");
+      continue;
+    }
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double corner = (*corners)[k];
+      if (!(corner >= 0 && corner < static_cast<double>(mesh.vertices.size()) &&
+            corner == std::floor(corner))) {
+        one.fault("vertex_indices", "the mesh has no vertex " + shortest(corner));
+        break;
+      }
+      triangle[k] = static_cast<std::uint32_t>(corner);
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  if (source.faults.size() != before) return std::nullopt;
+  if (mesh.triangles.empty()) {
+    map.fault("triangles", "a mesh needs at least one triangle");
+    return std::nullopt;
+  }
+  return mesh;
+}
+
+}  // namespace
+
+MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
+    : document_(parseYaml(file.string(), readTextFile(file, "a planning scene of MoveIt"))),
+      source_{file.string(), faults, {}} {}
+
+void MoveitScene::addWorld(const RobotModel& robot, ModelBuilder& builder) {
+  const YamlMap scene = root();
+  const YamlValue* const value = scene.find("world");
+  if (const YamlValue* const state = scene.find("robot_state")) {
+    const YamlMap map(*state, "robot_state", nullptr, source_);
+    if (!isEmpty(map, "attached_collision_objects"))
+      map.fault("attached_collision_objects", "is not supported; add the objects to the robot");
+  }
+  if (!value) return;
+  const YamlMap world(*value, "world", nullptr, source_);
+  if (const YamlValue* const octomap = world.find("octomap")) {
+    const YamlMap outer(*octomap, "world.octomap", nullptr, source_);
+    const YamlValue* const inner = outer.find("octomap");
+    const YamlMap map(inner ? *inner : *octomap, "world.octomap", nullptr, source_);
+    if (!isEmpty(map, "data")) map.fault("data", "an octomap in a scene is not supported");
+  }
+  const std::string root = robot.links[robot.root].name;
+  for (const YamlValue* const item : itemsOf(world, "collision_objects")) {
+    const YamlMap nameless(*item, "world.collision_objects", nullptr, source_);
+    const auto id = nameless.text("id");
+    if (!id) {
+      nameless.require("id", "the object's name");
+      continue;
+    }
+    const YamlMap object(*item, "object " + quotedWord(*id), nullptr, source_);
+    if (const YamlValue* const header = object.find("header")) {
+      const YamlMap map(*header, object.pathOf("header"), nullptr, source_);
+      const std::string frame = map.text("frame_id").value_or("");
+      if (!frame.empty() && frame != "world" && frame != "map" && frame != root)
+        map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
+                                  ", or \"world\" is needed, not " + quotedWord(frame));
+    }
+    for (const char* const key : {"planes", "plane_poses"})
+      if (!isEmpty(object, key)) object.fault(key, "planes are not supported; use a flat box");
+    Placement outer;
+    if (const YamlValue* const pose = object.find("pose"))
+      outer = readPose(*pose, object.pathOf("pose"), source_).value_or(Placement());
+    std::vector<PlacedShape> shapes;
+    const auto readAll = [&](const char* key, const char* poseKey, const auto& make) {
+      const auto items = itemsOf(object, key), poses = itemsOf(object, poseKey);
+      if (items.size() != poses.size() && !poses.empty())
+        return object.fault(poseKey, std::to_string(items.size()) +
+                                         " are needed, one for each of " + key + ", not " +
+                                         std::to_string(poses.size()));
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        const std::string place = "[" + std::to_string(i) + "]";
+        const auto inner = poses.empty()
+                               ? std::optional(Placement())
+                               : readPose(*poses[i], object.pathOf(poseKey) + place, source_);
+        if (inner) make(*items[i], object.pathOf(key) + place, outer * *inner);
+      }
+    };
+    readAll("primitives", "primitive_poses",
+            [&](const YamlValue& shape, const std::string& path, const Placement& at) {
+              if (const auto primitive = readPrimitive(shape, path, source_))
+                shapes.push_back(shapeOf(*id, *primitive, at.pose));
+            });
+    readAll("meshes", "mesh_poses",
+            [&](const YamlValue& shape, const std::string& path, const Placement& at) {
+              auto mesh = readMesh(shape, path, source_);
+              if (!mesh) return;
+              if (!at.isIdentity())
+                for (Vec3& vertex : mesh->vertices) vertex = at.X * vertex;
+              shapes.push_back(shapeOf(*id, std::move(*mesh)));
+            });
+    if (shapes.empty() && isEmpty(object, "primitives") && isEmpty(object, "meshes"))
+      object.fault("primitives", "the object has neither primitives nor meshes");
+    builder.addObstacle(*id, std::move(shapes));
+  }
+}
+
+void MoveitScene::applyAllowed(Model& model) {
+  const YamlValue* const value = root().find("allowed_collision_matrix");
+  if (!value || value->kind != Kind::Map) return;
+  const YamlMap map(*value, "allowed_collision_matrix", nullptr, source_);
+  if (isEmpty(map, "entry_names")) return;
+  const auto names = readWords(*map.find("entry_names"), "such as [hand, table]",
+                               "allowed_collision_matrix.entry_names", source_);
+  const auto rows = itemsOf(map, "entry_values");
+  if (!names) return;
+  std::map<std::string, std::size_t> bodies;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name] = b;
+  if (rows.size() != names->size())
+    return map.fault("entry_values", std::to_string(names->size()) + " rows are needed, not " +
+                                         std::to_string(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    // A row is a list, or a message with the list `enabled`.
+    const YamlValue* row = rows[i];
+    if (row->kind == Kind::Map)
+      for (const YamlValue::Entry& entry : row->entries)
+        if (entry.key == "enabled") row = &entry.value;
+    const auto words =
+        readWords(*row, "such as [true, false]",
+                  "allowed_collision_matrix.entry_values[" + std::to_string(i) + "]", source_);
+    if (!words) continue;
+    if (words->size() != names->size()) {
+      source_.fault(row->line, "allowed_collision_matrix.entry_values[" + std::to_string(i) +
+                                   "]: " + std::to_string(names->size()) +
+                                   " values are needed, not " + std::to_string(words->size()));
+      continue;
+    }
+    const auto a = bodies.find((*names)[i]);
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto b = bodies.find((*names)[k]);
+      if (a == bodies.end() || b == bodies.end()) continue;
+      const std::string& word = (*words)[k];
+      const bool isAllowed = word == "true" || word == "1" || word == "True";
+      const std::string_view why = model.filter.whyNotTested(a->second, b->second);
+      if (isAllowed && why.empty())
+        model.filter.skip(a->second, b->second, "allowed_collision_matrix");
+      else if (!isAllowed && why.starts_with("SRDF"))
+        model.filter.test(a->second, b->second);
+    }
+  }
+}
+
+}  // namespace corridor

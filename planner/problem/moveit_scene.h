@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+
+#include "planner/model/model_builder.h"
+#include "planner/problem/yaml_reader.h"
+
+namespace corridor {
+
+/// A message moveit_msgs/PlanningScene, written as YAML. Its parts are read by the members, which
+/// add faults to the problem's list.
+///
+/// Read are the collision objects (primitives and meshes) and the allowed collision matrix. Faults,
+/// because a plan without them would be wrong, are attached objects, planes, octomaps, and objects
+/// on other frames than the robot's root. Everything else is ignored.
+class MoveitScene {
+ public:
+  /// @throws InputError if the file is not YAML.
+  MoveitScene(const std::filesystem::path& file, FaultList& faults);
+
+  /// Adds the collision objects. Each object is an obstacle.
+  void addWorld(const RobotModel& robot, ModelBuilder& builder);
+  /// Excludes pairs of bodies from the tests as the allowed collision matrix says. A pair that the
+  /// matrix does not allow is tested even if the SRDF allows it. Adjacent links are never tested.
+  void applyAllowed(Model& model);
+
+ private:
+  YamlMap root() { return {document_, "", nullptr, source_}; }
+
+  YamlValue document_;
+  YamlSource source_;
+};
+
+}  // namespace corridor

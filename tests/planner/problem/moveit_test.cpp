@@ -1,0 +1,280 @@
+// Tests of problems that name messages of MoveIt.
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "planner/problem/problem.h"
+#include "tests/planner/problem/arm_fixture.h"
+#include "tests/support/support.h"
+#include "tests/support/workload.h"
+
+namespace corridor::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Moveit : public ArmTest {
+ protected:
+  void SetUp() override {
+    ArmTest::SetUp();
+    write("arm.yaml", "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\n");
+    write("scene.yaml", scene);
+    write("request.yaml", request);
+  }
+  static constexpr const char* head =
+      "format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: scene.yaml, request: "
+      "request.yaml}\n";
+  inline static const std::string scene = R"(name: ""
+world:
+  collision_objects:
+    - id: crate
+      pose: {position: [1, 0, 0], orientation: [0, 0, 1, 1]}
+      primitives:
+        - type: box
+          dimensions: [0.2, 0.1, 0.4]
+        - {type: 3, dimensions: [0.5, 0.03]}
+      primitive_poses:
+        - position: [0, 1, 0]
+          orientation: [0, 0, 0, 2]
+        - {position: {x: 0, y: 0, z: 2}, orientation: {x: 0, y: 0, z: 0, w: 1}}
+    - id: wedge
+      header: {frame_id: base}
+      meshes:
+        - vertices: [{x: 0, y: 0, z: 0}, [1, 0, 0], [0, 1, 0]]
+          triangles: [{vertex_indices: [0, 1, 2]}]
+      mesh_poses: [{position: [0, 0, 3]}]
+robot_state: {joint_state: {name: [pan], position: [9]}}
+allowed_collision_matrix:
+  entry_names: [base, lower, crate, finger]
+  entry_values:
+    - [false, false, false, true]
+    - {enabled: [false, false, false, false]}
+    - [false, false, false, true]
+    - [true, false, true, false]
+)";
+  inline static const std::string request = R"(group_name: arm
+planner_id: RRTConnect
+start_state:
+  joint_state:
+    name: [pan, lift, slide, follow, unknown]
+    position: [0.5, -0.25, 0.04, 7, 7]
+goal_constraints:
+  - joint_constraints:
+      - {joint_name: pan, position: 1, tolerance_above: 0.001}
+      - {joint_name: lift, position: 0.75}
+  - joint_constraints:
+      - {joint_name: lift, position: 0}
+      - {joint_name: pan, position: -1}
+)";
+  static Configuration numbers(double a, double b) { return Eigen::Vector2d(a, b); }
+};
+
+TEST_F(Moveit, SceneAndRequest) {
+  const Problem p = read(head);
+  EXPECT_EQ(p.model.space.size(), 2) << "the group of the request";
+  EXPECT_EQ(p.task.start, numbers(0.5, -0.25));
+  ASSERT_EQ(p.task.goals.size(), 2u);
+  EXPECT_EQ(p.task.goals[0], numbers(1, 0.75));
+  EXPECT_EQ(p.task.goals[1], numbers(-1, 0));
+  const ModelRobot& robot = p.model.robots.front();
+  for (const auto& [j, value] : robot.held)
+    EXPECT_EQ(value, robot.model.joints[j].name == "slide" ? 0.04 : 0) << "of the start state";
+  const ModelBody& crate = p.model.bodies.at(p.model.bodies.size() - 2);
+  EXPECT_EQ(crate.name, "crate");
+  ASSERT_EQ(crate.shapes.size(), 2u);
+  // The pose of the object, a quarter turn about z, moves its primitives along.
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& point : crate.shapes[0].part->points) centre += point / 8;
+  EXPECT_LT((centre - Vec3(0, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((crate.shapes[0].part->points[0].cwiseAbs() - Vec3(0.05, 0.1, 0.2)).norm(), 1e-15);
+  EXPECT_LT((crate.shapes[1].part->points[0] - Vec3(1, 0, 1.75)).norm(), 1e-15);
+  EXPECT_EQ(crate.shapes[1].part->radius, 0.03);
+  const ModelBody& wedge = p.model.bodies.back();
+  EXPECT_EQ(wedge.name, "wedge");
+  EXPECT_EQ(wedge.shapes.at(0).mesh->mesh.vertices.at(1), Vec3(1, 0, 3));
+  EXPECT_EQ(skipped(p, "finger", "crate"), "allowed_collision_matrix");
+  EXPECT_EQ(skipped(p, "base", "lower"), "") << "false in the matrix replaces the SRDF";
+  EXPECT_EQ(skipped(p, "lower", "crate"), "");
+  EXPECT_EQ(skipped(p, "base", "upper"), "adjacent");
+  EXPECT_THAT(p.source.files, testing::Contains(folder_ / "scene.yaml"));
+  EXPECT_THAT(p.source.files, testing::Contains(folder_ / "request.yaml"));
+}
+
+TEST_F(Moveit, TheProblemsOwnKeysCount) {
+  const Problem p = read(head + std::string("start: {pan: 0, lift: 0}\nworld: {post: {sphere: 1, "
+                                            "at: [9, 9, 9]}}\nmargin: 0.01\n"));
+  EXPECT_EQ(p.task.start, numbers(0, 0));
+  EXPECT_EQ(p.task.goals.size(), 2u);
+  EXPECT_EQ(p.task.margin, 0.01);
+  EXPECT_EQ(p.model.bodies.at(p.model.bodies.size() - 3).name, "post");
+  const Problem sceneOnly = read(
+      "format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: scene.yaml}\n"
+      "start: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 1, lift: 0, slide: 0.02}\n");
+  EXPECT_EQ(sceneOnly.model.bodies.back().name, "wedge");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: "
+                        "scene.yaml}\n")
+                .find("problem.yaml: missing key \"start\""),
+            0u);
+}
+
+TEST_F(Moveit, FaultsOfTheScene) {
+  const auto complaint = [&](const std::string& text) {
+    write("scene.yaml", text);
+    return complaintOf(head);
+  };
+  const auto object = [](const std::string& content) {
+    return "world:\n  collision_objects:\n    - {id: a, " + content + "}\n";
+  };
+  const std::string a = "scene.yaml:3: object \"a\"";
+  EXPECT_EQ(complaint(object("primitives: [{type: cone, dimensions: [1, 2]}]")),
+            a + ".primitives[0].type: one of box, sphere, cylinder is needed, not \"cone\"");
+  EXPECT_EQ(complaint(object("primitives: [{type: box, dimensions: [1, 2]}]")),
+            a + ".primitives[0].dimensions: a list of 3 numbers is needed, not a list of 2");
+  EXPECT_THAT(complaint(object("primitives: [{type: box, dimensions: [1, 2, 0]}]")),
+              HasSubstr("primitives[0].dimensions: "));
+  EXPECT_EQ(complaint(object("primitives: [{type: sphere, dimensions: [1]}], primitive_poses: "
+                             "[{position: [0, 0, 0]}, {position: [0, 0, 0]}]")),
+            a + ".primitive_poses: 1 are needed, one for each of primitives, not 2");
+  EXPECT_EQ(complaint(object("primitives: [{type: sphere, dimensions: [1]}], pose: {orientation: "
+                             "[0, 0, 0, 0]}")),
+            a + ".pose.orientation: zeros are no rotation");
+  EXPECT_EQ(complaint(object("header: {frame_id: hand}, primitives: [{type: sphere, dimensions: "
+                             "[1]}]")),
+            a + ".header.frame_id: the frame of the robot's root, \"base\", or \"world\" is "
+                "needed, not \"hand\"");
+  EXPECT_EQ(complaint(object("planes: [{coef: [0, 0, 1, 0]}], primitives: [{type: sphere, "
+                             "dimensions: [1]}]")),
+            a + ".planes: planes are not supported; use a flat box");
+  EXPECT_EQ(complaint(object("operation: 0")),
+            a + ".primitives: the object has neither primitives nor meshes");
+  EXPECT_EQ(complaint(object("meshes: [{vertices: [[0, 0, 0]], triangles: [{vertex_indices: [0, 0, "
+                             "1]}]}]")),
+            a + ".meshes[0].triangles[0].vertex_indices: the mesh has no vertex 1");
+  EXPECT_EQ(complaint("robot_state: {attached_collision_objects: [{link_name: hand}]}\n"),
+            "scene.yaml:1: robot_state.attached_collision_objects: is not supported; add the "
+            "objects to the robot");
+  EXPECT_EQ(complaint("world: {octomap: {octomap: {id: OcTree, data: [1, 2]}}}\n"),
+            "scene.yaml:1: world.octomap.data: an octomap in a scene is not supported");
+  EXPECT_EQ(complaint("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true, "
+                      "true]]}\n"),
+            "scene.yaml:1: allowed_collision_matrix.entry_values: 2 rows are needed, not 1");
+  EXPECT_EQ(complaint("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true], "
+                      "[true, true]]}\n"),
+            "scene.yaml:1: allowed_collision_matrix.entry_values[0]: 2 values are needed, not 1");
+  EXPECT_THAT(complaint("{"), HasSubstr("scene.yaml:"));
+}
+
+TEST_F(Moveit, FaultsOfTheRequest) {
+  const auto complaint = [&](const std::string& text) {
+    write("request.yaml", text);
+    return complaintOf(head);
+  };
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = request;
+    text.replace(text.find(from), from.size(), to);
+    return complaint(text);
+  };
+  EXPECT_EQ(changed("group_name: arm", "group_name: amr"),
+            "arm.yaml:1: group: there is no group \"amr\" in the SRDF (did you mean \"arm\"?) "
+            "(known: arm, nothing)");
+  EXPECT_EQ(changed("[pan, lift,", "[pan, lft,"),
+            "request.yaml:4: start_state: has no value for lift; all joints that are planned for "
+            "need one");
+  EXPECT_EQ(changed("-0.25", "4"),
+            "request.yaml:4: start_state: lift: 4 is outside of its limits, [-3.14159, 3.14159]");
+  EXPECT_EQ(changed("0.04", "4"),
+            "request.yaml:4: start_state: slide: 4 is outside of its limits, [0.01, 0.05]");
+  EXPECT_EQ(changed("position: [0.5, ", "position: ["),
+            "request.yaml:6: start_state.joint_state.position: a list of 5 numbers is needed, not "
+            "a list of 4");
+  EXPECT_EQ(changed("joint_name: lift, position: 0.75", "joint_name: lft"),
+            "request.yaml:8: goal_constraints[0].joint_constraints: has no value for lift; all "
+            "joints that are planned for need one\n"
+            "request.yaml:10: missing key \"position\" in goal_constraints[0].joint_constraints: "
+            "the joint's value");
+  EXPECT_EQ(complaint("start_state: {joint_state: {name: [pan, lift, slide], position: [0, 0, "
+                      "0.02]}}\n"),
+            "request.yaml:1: goal_constraints: at least one goal is needed");
+  EXPECT_EQ(changed("goal_constraints:\n",
+                    "path_constraints: {orientation_constraints: "
+                    "[{weight: 1}]}\ngoal_constraints:\n"),
+            "request.yaml:7: path_constraints.orientation_constraints: constraints of the path are "
+            "not supported");
+  EXPECT_EQ(changed("  - joint_constraints:\n",
+                    "  - position_constraints: [{weight: 1}]\n    "
+                    "joint_constraints:\n"),
+            "request.yaml:8: goal_constraints[0].position_constraints: only goals by joint values "
+            "are supported (joint_constraints)");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: "
+                        "none.yaml}\nstart: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 0, lift: "
+                        "0, slide: 0.02}\n"),
+            "problem.yaml:3: moveit.scene: none.yaml: no such file");
+  EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {}\nstart: {pan: 0, "
+                        "lift: 0, slide: 0.02}\ngoal: {pan: 0, lift: 0, slide: 0.02}\n"),
+            "problem.yaml:3: moveit: scene: FILE, request: FILE, or both are needed");
+}
+
+TEST_F(Moveit, ARequestNeedsJoints) {
+  write("rigid.yaml", "format: corridor-robot-1\nrigid: SE3\nshapes: [{sphere: 1}]\n");
+  EXPECT_EQ(
+      complaintOf(
+          "format: corridor-problem-1\nrobot: rigid.yaml\nmoveit: "
+          "{request: request.yaml}\nworld: {a: {sphere: 1}}\nstart: {at: [9, 9, 9]}\ngoal: {at: "
+          "[9, 9, 8]}\n"),
+      "problem.yaml:3: moveit: a request is for a robot with joints; this one is rigid");
+}
+
+/// The messages of MotionBenchMaker give the same models, starts and goals as the set made of them.
+TEST(SharedMoveit, IsTheSameProblemAsTheSet) {
+  const auto data = dataFolder();
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
+  const std::filesystem::path folder = newFolder();
+  int compared = 0;
+  for (const std::string robot : {"panda", "ur5"}) {
+    const std::filesystem::path robots = *data / "robots" / robot / robot;
+    std::ofstream(folder / "robot.yaml") << "format: corridor-robot-1\nurdf: " << robots.string()
+                                         << ".urdf\nsrdf: " << robots.string() << ".srdf\n";
+    for (const auto& entry : std::filesystem::directory_iterator(*data / "mbm/raw" / robot)) {
+      const std::string name = entry.path().filename().string();
+      const std::string scene = name.substr(0, name.size() - robot.size() - 1);
+      std::ofstream(folder / "problem.yaml")
+          << "format: corridor-problem-1\nrobot: robot.yaml\nmoveit: {scene: "
+          << (entry.path() / "scene0001.yaml").string()
+          << ", request: " << (entry.path() / "request0001.yaml").string() << "}\n";
+      const Problem raw = readProblem(folder / "problem.yaml");
+      const Problem set = readProblem((*data / "mbm" / robot / (scene + ".json")).string() + "#1");
+      SCOPED_TRACE(name);
+      EXPECT_EQ(raw.task.start, set.task.start);
+      EXPECT_EQ(raw.task.goals, set.task.goals);
+      ASSERT_EQ(raw.model.bodies.size(), set.model.bodies.size());
+      std::map<std::string, const ModelBody*> bodies;
+      for (const ModelBody& body : set.model.bodies) bodies[body.name] = &body;
+      for (const ModelBody& body : raw.model.bodies) {
+        ASSERT_TRUE(bodies.contains(body.name)) << body.name;
+        const auto& shapes = bodies[body.name]->shapes;
+        ASSERT_EQ(body.shapes.size(), shapes.size());
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+          if (!shapes[i].part) continue;
+          ASSERT_EQ(body.shapes[i].part->points.size(), shapes[i].part->points.size());
+          for (std::size_t k = 0; k < shapes[i].part->points.size(); ++k)
+            EXPECT_LT((body.shapes[i].part->points[k] - shapes[i].part->points[k]).norm(), 1e-12);
+        }
+      }
+      const auto pairsOf = [](const Problem& p) {
+        std::set<std::string> tested;
+        forEachTestedPair(p.model, [&](std::size_t a, std::size_t b) {
+          const auto [x, y] = std::minmax(p.model.bodies[a].name, p.model.bodies[b].name);
+          tested.insert(x + "~" + y);
+        });
+        return tested;
+      };
+      EXPECT_EQ(pairsOf(raw), pairsOf(set));
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 14);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace corridor::test
