@@ -41,6 +41,7 @@ std::uint32_t BoxTree::build(std::span<const BoundingBox> boxes, std::span<std::
                  y = boxes[b].lower[axis] + boxes[b].upper[axis];
     return x < y || (x == y && a < b);  // one order with every library
   });
+  box.terms = std::max(box.terms, box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum());
   nodes_[index].box = box;
   build(boxes, items.first(items.size() / 2));
   nodes_[index].right = build(boxes, items.subspan(items.size() / 2));

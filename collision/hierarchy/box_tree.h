@@ -60,7 +60,7 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::size_t kMaxDepth = 33;  ///< of 2^32 items
+  static constexpr std::size_t kMaxDepth = 32;  ///< of 2^31 items
 
   struct Node {
     BoundingBox box;

@@ -1,6 +1,7 @@
 #include "collision/motion/broad_phase.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace corridor {
 namespace {
@@ -40,6 +41,7 @@ BroadPhase::BroadPhase(std::span<const MotionPair> pairs) : pairs_(pairs) {
         tree = std::make_shared<const BoxTree>(boxes);
       }
       lastTree = runs_.size();
+      hasTrees_ = true;
     }
     if (!tree && !runs_.empty() && !runs_.back().tree)
       runs_.back().end = end;
@@ -51,6 +53,11 @@ BroadPhase::BroadPhase(std::span<const MotionPair> pairs) : pairs_(pairs) {
 void BroadPhase::find(IntervalMotions& motions, double within,
                       std::vector<std::uint32_t>& found) const {
   found.clear();
+  if (!hasTrees_) {
+    found.resize(pairs_.size());
+    std::iota(found.begin(), found.end(), std::uint32_t{0});
+    return;
+  }
   forEach([&](const MotionPair& pair) { return motions.worldSphere(pair); }, within,
           [&](std::size_t k) {
             found.push_back(static_cast<std::uint32_t>(k));

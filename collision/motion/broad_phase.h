@@ -49,6 +49,8 @@ class BroadPhase {
 
   /// Returns one more than the largest index of a body.
   std::size_t bodies() const { return bodies_; }
+  /// Returns whether there is a tree. Otherwise all pairs are found.
+  bool hasTrees() const { return hasTrees_; }
 
  private:
   /// Adjacent pairs. With a tree, they have the same body b, and item i of the tree is the box of
@@ -61,6 +63,7 @@ class BroadPhase {
   std::span<const MotionPair> pairs_;
   std::vector<Run> runs_;
   std::size_t bodies_ = 0;
+  bool hasTrees_ = false;
 };
 
 }  // namespace corridor

@@ -139,7 +139,7 @@ int checkEnds(const Problem& problem, const CheckArguments& a) {
   const std::vector<Configuration> goals = goalsOf(problem);
   for (std::size_t i = 0; i < goals.size(); ++i)
     all &= checkEnd(goals.size() == 1 ? "goal" : "goal " + std::to_string(i + 1), goals[i]);
-  for (const std::string& note : problem.source.notes) out.line("note", note);
+  for (const std::string& note : condensed(problem.source.notes)) out.line("note", note);
   if (a.json)
     std::cout << ordered_json{{"format", "corridor-check-report-2"},
                               {"problem", a.problem},

@@ -7,7 +7,7 @@
 #include "planner/app/output.h"
 #include "planner/checker/edge_costs.h"
 #include "planner/checker/problem_goal.h"
-#include "planner/checker/reach.h"
+#include "planner/model/reach.h"
 #include "planner/problem/digest.h"
 #include "planner/solve/state_rows.h"
 #include "planner/solve/why_not_free.h"

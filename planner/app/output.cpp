@@ -1,11 +1,13 @@
 #include "planner/app/output.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <system_error>
 #include <unistd.h>
 
@@ -125,6 +127,35 @@ VerifyReport verifyWithWarning(const Problem& problem, const Solution& solution,
     warn(solutionFile +
          ": it claims a larger tube than the problem's; it is verified with the problem's");
   return report;
+}
+
+std::vector<std::string> condensed(const std::vector<std::string>& notes) {
+  // Leaves out what is in quotes, and numbers. Digits after a letter belong to a name.
+  const auto kindOf = [](const std::string& note) {
+    std::string kind;
+    bool quoted = false;
+    for (const char c : note) {
+      if (c == '"') quoted = !quoted;
+      const bool isDigit = std::isdigit(static_cast<unsigned char>(c));
+      const bool inName =
+          isDigit && !kind.empty() &&
+          (std::isalnum(static_cast<unsigned char>(kind.back())) || kind.back() == '_');
+      if (!quoted && (!isDigit || inName)) kind += c;
+    }
+    return kind;
+  };
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& note : notes) ++counts[kindOf(note)];
+  std::vector<std::string> lines;
+  for (const std::string& note : notes) {
+    std::size_t& count = counts[kindOf(note)];
+    if (count == 0) continue;  // counted with an earlier one
+    lines.push_back(note + (count == 1 ? ""
+                                       : " (and " + std::to_string(count - 1) +
+                                             " more like this; inspect lists all)"));
+    count = 0;
+  }
+  return lines;
 }
 
 void requireWritable(const std::optional<std::string>& file, const char* option) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,10 @@ class Lines {
  private:
   bool quiet_;
 };
+
+/// Returns the notes for people to read. If notes differ in names and numbers only, it returns the
+/// first of them, with the number of the others.
+std::vector<std::string> condensed(const std::vector<std::string>& notes);
 
 /// Prints a warning on stderr. Callers warn before they print results on stdout.
 void warn(const std::string& text);

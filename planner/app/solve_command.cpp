@@ -99,14 +99,20 @@ const char* nameOf(SolveOutcome outcome) {
   return "";
 }
 
+/// Returns whether the standard output has the solution or the picture, and so no report.
+bool printsFile(const SolveArguments& a) {
+  return a.output == "-" || a.picture == "-";
+}
+
 void print(const SolveReport& r, const Problem& p, const std::string& problem,
            const SolveArguments& a) {
   const bool solved = r.outcome == SolveOutcome::solved;
-  const Lines out(a.quiet);
+  if (printsFile(a) && !solved) warn(std::string(nameOf(r.outcome)) + ": " + r.why);
+  const Lines out(a.quiet || printsFile(a));
   out.line("problem", problem);
   out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);
   if (!solved) out.line("why", r.why);
-  for (const std::string& note : p.source.notes) out.line("note", note);
+  for (const std::string& note : condensed(p.source.notes)) out.line("note", note);
   out.line("planner", r.planner);
   out.line("seed", std::to_string(r.seed));
   out.line("time", rounded(r.time) + " s, of which " + rounded(r.planningTime) +
@@ -125,6 +131,15 @@ void print(const SolveReport& r, const Problem& p, const std::string& problem,
   if (a.picture) out.line("picture", *a.picture);
 }
 
+/// Returns the seconds of each phase of a solve.
+ordered_json phasesJson(const SolveReport& r) {
+  const bool finished = r.outcome == SolveOutcome::solved;
+  return {{"set_up_s", r.setUpTime},
+          {"search_s", r.planningTime - r.setUpTime},
+          {"simplify_s", finished ? r.time - r.planningTime - r.certificationTime : 0},
+          {"certify_s", r.certificationTime}};
+}
+
 ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& problem) {
   ordered_json j = {{"problem", problem},
                     {"result", nameOf(r.outcome)},
@@ -133,6 +148,7 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
                     {"repeats", r.repeats},
                     {"time_s", r.time},
                     {"planning_time_s", r.planningTime},
+                    {"phases", phasesJson(r)},
                     {"states_checked", r.counters.states},
                     {"edges_checked", r.counters.edges},
                     {"undecided", r.counters.undecided},
@@ -149,11 +165,15 @@ ordered_json jsonOf(const SolveReport& r, const Problem& p, const std::string& p
     for (const Fault& fault : r.warnings) j["warnings"].push_back(fault.text);
   }
   if (r.outcome == SolveOutcome::solved) {
+    ordered_json rows = ordered_json::array();
+    for (const Configuration& q : r.path) rows.push_back(numbersJson(q));
+    j["numbers"] = p.model.space.numberNames();
     j["path"] = {{"states", r.path.size()},
                  {"length_m", r.length.metres},
                  {"rotation_rad", r.length.radians},
                  {"raw_states", r.rawStates},
-                 {"version", r.version}};
+                 {"version", r.version},
+                 {"rows", rows}};
   } else {
     j["why"] = r.why;
   }
@@ -187,8 +207,14 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
   if (report.outcome == SolveOutcome::solved) {
-    if (a.output) writeSolution(makeSolution(problem, report, digest), *a.output);
-    if (a.picture) writeWhole(*a.picture, svgPicture(problem, report.path));
+    if (a.output == "-")
+      std::cout << solutionText(makeSolution(problem, report, digest));
+    else if (a.output)
+      writeSolution(makeSolution(problem, report, digest), *a.output);
+    if (a.picture == "-")
+      std::cout << svgPicture(problem, report.path);
+    else if (a.picture)
+      writeWhole(*a.picture, svgPicture(problem, report.path));
   }
   return {std::move(problem), std::move(report)};
 }
@@ -198,8 +224,13 @@ int solveCommand(const SolveArguments& a) {
     throw InputError(
         Fault{a.output ? "--output" : "--picture", 0,
               "names one file, but there are " + counted(a.problems.size(), "problem")});
-  requireWritable(a.output, "--output");
-  requireWritable(a.picture, "--picture");
+  if (a.output != "-") requireWritable(a.output, "--output");
+  if (a.picture != "-") requireWritable(a.picture, "--picture");
+  if (a.json && printsFile(a))
+    throw InputError(Fault{a.output == "-" ? "--output" : "--picture", 0,
+                           "the standard output has the report of --json already; name a file"});
+  if (a.output == "-" && a.picture == "-")
+    throw InputError(Fault{"--picture", 0, "the standard output has the solution already"});
   const std::atomic<bool>& interrupted = listenForInterrupts();
   int status = kDone;
   ordered_json results = ordered_json::array();
@@ -286,9 +317,14 @@ void addSolve(CLI::App& program, int& status) {
       ->check(isResolution())
       ->group(checking);
   const char* results = "Results";
-  command->add_option("-o,--output", a.output, "write the solution to this file (YAML)")
+  command
+      ->add_option("-o,--output", a.output,
+                   "write the solution to this file (YAML; -: standard output, without the "
+                   "report)")
       ->group(results);
-  command->add_option("--picture", a.picture, "write an SVG of the scene and the path to this file")
+  command
+      ->add_option("--picture", a.picture,
+                   "write an SVG of the scene and the path to this file (-: standard output)")
       ->group(results);
   addJson(*command, a.json, results);
   addQuiet(*command, a.quiet, results);

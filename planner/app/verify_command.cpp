@@ -82,7 +82,7 @@ void print(const VerifyReport& r, const Problem& problem, const VerifyArguments&
   out.line("solution", a.solution);
   out.line("verdict", verdictName(r), r.verdict == PathVerdict::proved ? Tone::good : Tone::bad);
   if (r.otherProblem) return;
-  for (const std::string& note : problem.source.notes) out.line("note", note);
+  for (const std::string& note : condensed(problem.source.notes)) out.line("note", note);
   out.line("edges proved",
            std::to_string(r.motion.edgesProved) + " of " + std::to_string(r.motion.edges));
   if (r.motion.verdict == PathVerdict::proved)

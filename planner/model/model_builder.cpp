@@ -110,6 +110,10 @@ ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type
 }
 
 ModelBuilder& ModelBuilder::addObstacle(std::string name, std::vector<PlacedShape> shapes) {
+  const bool isLink =
+      std::any_of(model_.bodies.begin(), model_.bodies.end(),
+                  [&](const ModelBody& body) { return body.robot && body.name == name; });
+  if (isLink) name.insert(0, "world/");
   if (!shapes.empty())
     model_.bodies.push_back({std::move(name), 0, std::nullopt, std::move(shapes)});
   return *this;
@@ -171,6 +175,9 @@ std::vector<std::array<std::size_t, 2>> ModelBuilder::allowedBodies() {
               knownWords(names));
       else if (std::find(found + 1, names.end(), name) != names.end())
         fault("allow: two bodies have the name " + quotedWord(name));
+      else if (std::find(names.begin(), names.end(), "world/" + name) != names.end())
+        fault("allow: " + quotedWord(name) + " names a link and the obstacle " +
+              quotedWord("world/" + name) + "; rename the obstacle");
       else
         bodies.push_back(static_cast<std::size_t>(found - names.begin()));
     }

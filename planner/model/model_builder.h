@@ -39,7 +39,7 @@ class ModelBuilder {
   ModelBuilder& addRigidBody(const std::string& name, JointType type,
                              std::vector<PlacedShape> shapes, const Corners& bounds);
   /// Adds an obstacle. Its shapes (`shapeOf`) are in world coordinates. Without shapes, adds
-  /// nothing.
+  /// nothing. If a link has the same name, the obstacle's becomes "world/NAME".
   ModelBuilder& addObstacle(std::string name, std::vector<PlacedShape> shapes);
   ModelBuilder& addObstacle(const std::string& name, const Primitive& primitive,
                             const RigidPose& at = {});

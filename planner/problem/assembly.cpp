@@ -7,11 +7,30 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/model/planned_joints.h"
+#include "planner/model/reach.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/problem/shape_yaml.h"
 
 namespace corridor {
 namespace {
+
+/// Returns whether there are obstacles, and none can be reached by a body of a robot.
+bool hasObstaclesOutOfReachOnly(const Problem& problem) {
+  const Model& model = problem.model;
+  const std::vector<ReachBox> reach = reachOf(model);
+  const auto isReached = [&](std::size_t obstacle) {
+    for (std::size_t b = 0; b < model.bodies.size() && model.bodies[b].robot; ++b)
+      if (!outOfReach(problem.task, reach[obstacle], reach[b])) return true;
+    return false;
+  };
+  std::size_t obstacles = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].robot) continue;
+    if (isReached(b)) return false;
+    ++obstacles;
+  }
+  return obstacles > 0;
+}
 
 void addNotesOnPairs(Problem& problem) {
   const std::vector<ModelBody>& bodies = problem.model.bodies;
@@ -21,6 +40,8 @@ void addNotesOnPairs(Problem& problem) {
       still.push_back(bodies[a].name + " ~ " + bodies[b].name);
   });
   std::vector<std::string>& notes = problem.source.notes;
+  if (hasObstaclesOutOfReachOnly(problem))
+    notes.push_back("no obstacle is within reach; are all lengths in metres?");
   if (!still.empty())
     notes.push_back("not tested, since they never move against each other: " +
                     joinedFirst(still, 4));
@@ -95,8 +116,8 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   requireFewPairs(problem.model, problem.source.file.string());
   requireFiniteSizes(problem.model, problem.source.file.string());
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
-  addNotesOnPairs(problem);
   problem.task.tube = tubeOf(problem.model.space, tube);
+  addNotesOnPairs(problem);
 }
 
 }  // namespace corridor

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "collision/core/spelling.h"
-#include "planner/model/planned_joints.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/urdf_robot.h"
 #include "planner/robot/joint_types.h"
@@ -25,14 +24,14 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
     const std::string path = map.pathOf(entry.key);
     if (isPoseJoint(joint.type)) {
       if (const auto pose = readJointPose(entry.value, path, joint, file.source(), notes))
-        setup.robot.heldPoses[j] = pose->pose;
+        setup.robot.heldPoses[j] = pose->pose, setup.robot.heldByFile.insert(j);
       return;
     }
     const auto number = map.number(entry.key);
     if (!number) return;
     const double radians = degrees ? *number * (std::numbers::pi / 180) : *number;
     if (const auto held = withinLimits(radians, joint.lower, joint.upper, path, notes))
-      setup.robot.held[j] = *held;
+      setup.robot.held[j] = *held, setup.robot.heldByFile.insert(j);
     else
       map.fault(entry.key, outsideLimits(radians, joint.lower, joint.upper));
   };
@@ -78,7 +77,7 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
   if (!state) return;
   for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
     const JointModel& joint = robot.model.joints[j];
-    if (!movesItself(joint) || robot.held.contains(j) || robot.heldPoses.contains(j)) continue;
+    if (!movesItself(joint) || robot.heldByFile.contains(j)) continue;
     if (std::find(planned.begin(), planned.end(), j) != planned.end()) continue;
     if (isPoseJoint(joint.type)) {
       const auto pose = poseIn(*state, joint);
@@ -117,14 +116,8 @@ void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots) {
     const auto state = setup.robot.model.states.find(value->text);
     // StateReader reports unknown states.
     if (state == setup.robot.model.states.end() || !state->second.unusable.empty()) continue;
-    // The defaults of joints that `hold` doesn't give are replaced.
-    std::erase_if(setup.robot.held,
-                  [&](const auto& held) { return !setup.robot.heldByFile.contains(held.first); });
-    std::erase_if(setup.robot.heldPoses,
-                  [&](const auto& held) { return !setup.robot.heldByFile.contains(held.first); });
     holdState(value->text, setup.robot.planned,
               {problem.source(), robot.empty() ? "start" : "start." + robot, value->line}, setup);
-    chooseJoints(setup.robot, setup.robot.planned);
   }
 }
 

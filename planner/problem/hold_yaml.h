@@ -21,8 +21,7 @@ struct YamlPlace {
 /// NAME` or `from: NAME`), or nullopt.
 std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup);
 
-/// Holds the joints that a named state gives values, except joints that are held already, and those
-/// in `planned`.
+/// Holds the joints that a named state gives values, except those in `heldByFile` and in `planned`.
 void holdState(const std::string& state, const std::vector<std::size_t>& planned,
                const YamlPlace& place, RobotSetup& setup);
 

@@ -197,9 +197,11 @@ class MbmReader {
     if (const auto why = checkPrimitive(primitive)) return fault(id + ": " + *why);
     const auto p = numbers(field(object, "position"), 3, id + ".position");
     const auto q = numbers(field(object, "orientation_xyzw"), 4, id + ".orientation_xyzw");
-    const RigidPose at{{p[0], p[1], p[2]}, Eigen::Quaterniond(q[3], q[0], q[1], q[2])};
+    RigidPose at{{p[0], p[1], p[2]}, Eigen::Quaterniond(q[3], q[0], q[1], q[2])};
     const double norm = at.q.coeffs().stableNorm();
     if (!(norm > 0)) return fault(id + ".orientation_xyzw: zeros are no rotation");
+    // Squares of components of other sizes might over- or underflow.
+    if (!(0.5 < norm && norm < 2)) at.q = Eigen::Quaterniond(at.q.coeffs().stableNormalized());
     builder_.addObstacle(id, primitive, at);
   }
 

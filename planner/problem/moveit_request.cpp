@@ -1,6 +1,10 @@
 #include "planner/problem/moveit_request.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/joint_yaml.h"
 #include "planner/problem/state_yaml.h"
@@ -10,6 +14,15 @@
 namespace corridor {
 namespace {
 
+/// Returns whether a message geometry_msgs/Transform is the identity, or was faulty.
+bool isIdentity(const YamlMap& transform) {
+  const auto p = readNamed(transform, "translation", {"x", "y", "z"});
+  const auto q = readNamed(transform, "rotation", {"x", "y", "z", "w"});
+  const auto isZero = [](double value) { return value == 0; };
+  return (!p || std::all_of(p->begin(), p->end(), isZero)) &&
+         (!q || std::all_of(q->begin(), q->begin() + 3, isZero));
+}
+
 /// Returns the values of a message sensor_msgs/JointState by their joints' names.
 std::map<std::string, double> jointValues(const YamlMap& request) {
   std::map<std::string, double> values;
@@ -18,6 +31,14 @@ std::map<std::string, double> jointValues(const YamlMap& request) {
   const YamlMap state(*start, "start_state", nullptr, request.source());
   if (!isEmpty(state, "attached_collision_objects"))
     state.fault("attached_collision_objects", "is not supported; add the objects to the robot");
+  if (const YamlValue* const poses = state.find("multi_dof_joint_state")) {
+    const YamlMap map(*poses, "start_state.multi_dof_joint_state", nullptr, request.source());
+    for (const YamlValue* const item : itemsOf(map, "transforms"))
+      if (!isIdentity({*item, map.pathOf("transforms"), nullptr, request.source()}))
+        map.fault("transforms",
+                  "a pose that is not the identity is not supported; give it by base, or by start "
+                  "in the problem");
+  }
   const YamlValue* const joints = state.find("joint_state");
   if (!joints) return values;
   const YamlMap map(*joints, "start_state.joint_state", nullptr, request.source());
@@ -28,7 +49,8 @@ std::map<std::string, double> jointValues(const YamlMap& request) {
   const auto positions = map.numbers("position", names->size());
   if (!positions && !map.find("position")) map.fault("position", "is missing");
   for (std::size_t i = 0; positions && i < names->size(); ++i)
-    values[(*names)[i]] = (*positions)[i];
+    if (!values.emplace((*names)[i], (*positions)[i]).second)
+      map.fault("name", quotedWord((*names)[i]) + " is named twice");
   return values;
 }
 
@@ -49,8 +71,10 @@ std::string MoveitRequest::group() {
 
 void MoveitRequest::hold(RobotSetup& setup) {
   ModelRobot& robot = setup.robot;
+  std::vector<std::string> unknown;
   for (const auto& [name, value] : start_) {
     const auto j = findJoint(robot.model, name);
+    if (!j) unknown.push_back(name);
     if (!j || !robot.held.contains(*j) || robot.heldByFile.contains(*j)) continue;
     const JointModel& joint = robot.model.joints[*j];
     const std::string path = "start_state: " + name;
@@ -58,6 +82,24 @@ void MoveitRequest::hold(RobotSetup& setup) {
       robot.held[*j] = *held;
     else
       source_.fault(startLine_, path + ": " + outsideLimits(value, joint.lower, joint.upper));
+  }
+  if (!unknown.empty())
+    robot.model.notes.push_back(source_.file + ": start_state: the robot has no joint " +
+                                joinedFirst(unknown) + "; the values are not used");
+}
+
+void MoveitRequest::checkHeld(const std::map<std::string, double>& values, int line,
+                              const std::string& path, const ModelRobot& robot) {
+  for (const auto& [name, value] : values) {
+    const auto j = findJoint(robot.model, name);
+    if (!j) {
+      source_.fault(line, path + ": " + noSuchJoint(name, robot.model));
+      continue;
+    }
+    const auto held = robot.held.find(*j);
+    if (held != robot.held.end() && std::abs(held->second - value) > limitSlack)
+      source_.fault(line, path + ": " + name + " is held at " + shortest(held->second) +
+                              ", and can't get to " + shortest(value));
   }
 }
 
@@ -102,6 +144,11 @@ void MoveitRequest::readGoals(Problem& problem) {
                                   "orientation_constraints", "visibility_constraints"})
       if (!isEmpty(map, key)) map.fault(key, "constraints of the path are not supported");
   }
+  if (const YamlValue* const all = request.find("trajectory_constraints")) {
+    const YamlMap map(*all, "trajectory_constraints", nullptr, source_);
+    if (!isEmpty(map, "constraints"))
+      map.fault("constraints", "constraints of the path are not supported");
+  }
   const auto goals = itemsOf(request, "goal_constraints");
   if (goals.empty()) request.fault("goal_constraints", "at least one goal is needed");
   for (std::size_t g = 0; g < goals.size(); ++g) {
@@ -118,8 +165,10 @@ void MoveitRequest::readGoals(Problem& problem) {
       one.require("position", "the joint's value");
       const auto name = one.text("joint_name");
       const auto position = one.number("position");
-      if (name && position) values[*name] = *position;
+      if (name && position && !values.emplace(*name, *position).second)
+        one.fault("joint_name", quotedWord(*name) + " is named twice");
     }
+    checkHeld(values, goals[g]->line, path, problem.model.robots.front());
     if (auto q = read(values, goals[g]->line, path, problem))
       problem.task.goals.push_back(std::move(*q));
   }

@@ -14,8 +14,9 @@ namespace corridor {
 /// which add faults to the problem's list.
 ///
 /// Read are the group, the start state, and goals by joint values. Faults, because a plan without
-/// them would be wrong, are attached objects, goals by positions or orientations of links, and path
-/// constraints. Everything else is ignored.
+/// them would be wrong, are attached objects, poses of joints with several variables, goals by
+/// positions or orientations of links, goals that move a held joint, and constraints of the path.
+/// Everything else is ignored; the tolerances of goals, too.
 class MoveitRequest {
  public:
   /// @throws InputError if the file is not YAML.
@@ -35,6 +36,10 @@ class MoveitRequest {
   /// Reads the values of the planned joints. Returns nullopt if a fault was added.
   std::optional<Configuration> read(const std::map<std::string, double>& values, int line,
                                     const std::string& path, Problem& problem);
+
+  /// Adds a fault for each value that a held joint does not have, and for unknown joints.
+  void checkHeld(const std::map<std::string, double>& values, int line, const std::string& path,
+                 const ModelRobot& robot);
 
   YamlValue document_;
   YamlSource source_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
@@ -14,24 +15,6 @@ namespace corridor {
 namespace {
 
 using Kind = YamlValue::Kind;
-
-/// Reads numbers from a list, or from a map by their names: [1, 2, 3] or {x: 1, y: 2, z: 3}.
-std::optional<std::vector<double>> readNamed(const YamlMap& map, const char* key,
-                                             const std::vector<std::string>& names) {
-  const YamlValue* const value = map.find(key);
-  if (!value || value->kind != Kind::Map) return map.numbers(key, names.size());
-  const YamlMap inner(*value, map.pathOf(key), nullptr, map.source());
-  std::vector<double> numbers;
-  for (const std::string& name : names) {
-    const auto number = inner.number(name);
-    if (!number) {
-      if (!inner.find(name)) inner.fault(name, "is missing");
-      return std::nullopt;
-    }
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
 
 /// Reads a message geometry_msgs/Pose. Returns nullopt if a fault was added.
 std::optional<Placement> readPose(const YamlValue& value, const std::string& path,
@@ -48,12 +31,15 @@ std::optional<Placement> readPose(const YamlValue& value, const std::string& pat
     const auto q = readNamed(map, "orientation", {"x", "y", "z", "w"});
     if (!q) return std::nullopt;
     orientation.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (!(orientation.q.coeffs().stableNorm() > 0)) {
-      map.fault("orientation", "zeros are no rotation");
+    const double norm = orientation.q.coeffs().stableNorm();
+    if (!(norm > 0)) {
+      map.fault("orientation", "a quaternion of zeros is no rotation");
       return std::nullopt;
     }
-    orientation.R =
-        Eigen::Quaterniond(orientation.q.coeffs().stableNormalized()).toRotationMatrix();
+    // Squares of components of other sizes might over- or underflow.
+    if (!(0.5 < norm && norm < 2))
+      orientation.q = Eigen::Quaterniond(orientation.q.coeffs().stableNormalized());
+    orientation.R = orientation.q.normalized().toRotationMatrix();
   }
   placement.pose.q = orientation.q;
   placement.X = {orientation.R, placement.pose.p};
@@ -139,14 +125,30 @@ std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& 
   return mesh;
 }
 
+Placement onBase(const RigidPose& base) {
+  return {base, {base.q.normalized().toRotationMatrix(), base.p}};
+}
+
+/// Adds a fault for each link that the scene pads or scales.
+void requirePlainLinks(const YamlMap& scene) {
+  for (const auto& [key, number, plain] :
+       {std::tuple{"link_padding", "padding", 0.0}, std::tuple{"link_scale", "scale", 1.0}})
+    for (const YamlValue* const item : itemsOf(scene, key)) {
+      const YamlMap map(*item, key, nullptr, scene.source());
+      if (map.number(number).value_or(plain) != plain)
+        map.fault(number, "links are tested as they are; use margin for a distance to keep");
+    }
+}
+
 }  // namespace
 
 MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
     : document_(parseYaml(file.string(), readTextFile(file, "a planning scene of MoveIt"))),
       source_{file.string(), faults, {}} {}
 
-void MoveitScene::addWorld(const RobotModel& robot, ModelBuilder& builder) {
+void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
   const YamlMap scene = root();
+  requirePlainLinks(scene);
   const YamlValue* const value = scene.find("world");
   if (const YamlValue* const state = scene.find("robot_state")) {
     const YamlMap map(*state, "robot_state", nullptr, source_);
@@ -161,7 +163,7 @@ void MoveitScene::addWorld(const RobotModel& robot, ModelBuilder& builder) {
     const YamlMap map(inner ? *inner : *octomap, "world.octomap", nullptr, source_);
     if (!isEmpty(map, "data")) map.fault("data", "an octomap in a scene is not supported");
   }
-  const std::string root = robot.links[robot.root].name;
+  const std::string root = robot.model.links[robot.model.root].name;
   for (const YamlValue* const item : itemsOf(world, "collision_objects")) {
     const YamlMap nameless(*item, "world.collision_objects", nullptr, source_);
     const auto id = nameless.text("id");
@@ -170,18 +172,20 @@ void MoveitScene::addWorld(const RobotModel& robot, ModelBuilder& builder) {
       continue;
     }
     const YamlMap object(*item, "object " + quotedWord(*id), nullptr, source_);
+    Placement outer;
     if (const YamlValue* const header = object.find("header")) {
       const YamlMap map(*header, object.pathOf("header"), nullptr, source_);
       const std::string frame = map.text("frame_id").value_or("");
-      if (!frame.empty() && frame != "world" && frame != "map" && frame != root)
+      if (frame == root)
+        outer = onBase(robot.base);
+      else if (!frame.empty() && frame != "world")
         map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
                                   ", or \"world\" is needed, not " + quotedWord(frame));
     }
     for (const char* const key : {"planes", "plane_poses"})
       if (!isEmpty(object, key)) object.fault(key, "planes are not supported; use a flat box");
-    Placement outer;
     if (const YamlValue* const pose = object.find("pose"))
-      outer = readPose(*pose, object.pathOf("pose"), source_).value_or(Placement());
+      outer = outer * readPose(*pose, object.pathOf("pose"), source_).value_or(Placement());
     std::vector<PlacedShape> shapes;
     const auto readAll = [&](const char* key, const char* poseKey, const auto& make) {
       const auto items = itemsOf(object, key), poses = itemsOf(object, poseKey);
@@ -225,40 +229,43 @@ void MoveitScene::applyAllowed(Model& model) {
                                "allowed_collision_matrix.entry_names", source_);
   const auto rows = itemsOf(map, "entry_values");
   if (!names) return;
-  std::map<std::string, std::size_t> bodies;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name] = b;
   if (rows.size() != names->size())
     return map.fault("entry_values", std::to_string(names->size()) + " rows are needed, not " +
                                          std::to_string(rows.size()));
+  std::vector<std::vector<bool>> allowed;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     // A row is a list, or a message with the list `enabled`.
     const YamlValue* row = rows[i];
     if (row->kind == Kind::Map)
       for (const YamlValue::Entry& entry : row->entries)
         if (entry.key == "enabled") row = &entry.value;
-    const auto words =
-        readWords(*row, "such as [true, false]",
-                  "allowed_collision_matrix.entry_values[" + std::to_string(i) + "]", source_);
-    if (!words) continue;
-    if (words->size() != names->size()) {
-      source_.fault(row->line, "allowed_collision_matrix.entry_values[" + std::to_string(i) +
-                                   "]: " + std::to_string(names->size()) +
-                                   " values are needed, not " + std::to_string(words->size()));
-      continue;
-    }
-    const auto a = bodies.find((*names)[i]);
-    for (std::size_t k = 0; k < i; ++k) {
-      const auto b = bodies.find((*names)[k]);
-      if (a == bodies.end() || b == bodies.end()) continue;
-      const std::string& word = (*words)[k];
-      const bool isAllowed = word == "true" || word == "1" || word == "True";
-      const std::string_view why = model.filter.whyNotTested(a->second, b->second);
-      if (isAllowed && why.empty())
-        model.filter.skip(a->second, b->second, "allowed_collision_matrix");
-      else if (!isAllowed && why.starts_with("SRDF"))
-        model.filter.test(a->second, b->second);
-    }
+    const std::string path = "allowed_collision_matrix.entry_values[" + std::to_string(i) + "]";
+    const auto words = readWords(*row, "such as [true, false]", path, source_);
+    if (!words) return;
+    if (words->size() != names->size())
+      return source_.fault(row->line, path + ": " + std::to_string(names->size()) +
+                                          " values are needed, not " +
+                                          std::to_string(words->size()));
+    std::vector<bool>& values = allowed.emplace_back();
+    for (const std::string& word : *words) values.push_back(lowered(word) == "true" || word == "1");
+    for (std::size_t k = 0; k < i; ++k)
+      if (values[k] != allowed[k][i])
+        return source_.fault(
+            row->line, path + ": the matrix is not symmetric: " + quotedWord((*names)[i]) +
+                           " and " + quotedWord((*names)[k]) + " are allowed in one order only");
   }
+  std::map<std::string, std::size_t> bodies;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) bodies[model.bodies[b].name] = b;
+  for (std::size_t a = 0; a < model.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < model.bodies.size() && model.bodies[b].robot; ++b)
+      if (model.filter.whyNotTested(a, b).starts_with("SRDF")) model.filter.test(a, b);
+  for (std::size_t i = 0; i < names->size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto a = bodies.find((*names)[i]), b = bodies.find((*names)[k]);
+      if (!allowed[i][k] || a == bodies.end() || b == bodies.end()) continue;
+      if (model.filter.whyNotTested(a->second, b->second).empty())
+        model.filter.skip(a->second, b->second, "allowed_collision_matrix");
+    }
 }
 
 }  // namespace corridor

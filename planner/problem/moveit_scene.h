@@ -11,17 +11,19 @@ namespace corridor {
 /// add faults to the problem's list.
 ///
 /// Read are the collision objects (primitives and meshes) and the allowed collision matrix. Faults,
-/// because a plan without them would be wrong, are attached objects, planes, octomaps, and objects
-/// on other frames than the robot's root. Everything else is ignored.
+/// because a plan without them would be wrong, are attached objects, planes, octomaps, padded or
+/// scaled links, and objects on other frames than the world and the robot's root. Everything else
+/// is ignored.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
   MoveitScene(const std::filesystem::path& file, FaultList& faults);
 
-  /// Adds the collision objects. Each object is an obstacle.
-  void addWorld(const RobotModel& robot, ModelBuilder& builder);
-  /// Excludes pairs of bodies from the tests as the allowed collision matrix says. A pair that the
-  /// matrix does not allow is tested even if the SRDF allows it. Adjacent links are never tested.
+  /// Adds the collision objects. Each object is an obstacle. Objects on the robot's root are moved
+  /// by its base.
+  void addWorld(const ModelRobot& robot, ModelBuilder& builder);
+  /// Excludes pairs of bodies from the tests as the allowed collision matrix says. As in MoveIt, a
+  /// matrix replaces the SRDF's pairs. Its default entries are not read; their pairs are tested.
   void applyAllowed(Model& model);
 
  private:

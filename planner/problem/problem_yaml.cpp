@@ -167,13 +167,13 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   const bool worldNeeded = !scene && !map.find("robots") &&
                            (!map.find("robot") || (known && robots.front().robot.isRigid()));
   ModelBuilder builder;
-  holdAsStart(map, robots);
   if (request && known && robots.front().robot.isRigid()) {
     map.fault("moveit", "a request is for a robot with joints; this one is rigid");
     request.reset();
   }
   if (request && known) request->hold(robots.front());
-  const RobotModel first = known ? robots.front().robot.model : RobotModel();
+  holdAsStart(map, robots);
+  const ModelRobot first = known ? robots.front().robot : ModelRobot();
   addRobots(std::move(robots), builder, problem.source);
   readWorld(map, worldNeeded, builder, problem.source);
   if (scene && known) scene->addWorld(first, builder);

@@ -135,13 +135,19 @@ bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const st
   for (const auto& [j, held] : robots()[robot].held) {
     const JointModel& joint = model.joints[j];
     const auto value = state.values.find(joint.name);
-    if (value == state.values.end() || std::abs(value->second - held) <= limitSlack) continue;
+    if (value == state.values.end()) continue;
+    const bool turns = joint.type == JointType::continuous;
+    const double off =
+        turns ? std::remainder(value->second - held, 2 * std::numbers::pi) : value->second - held;
+    if (std::abs(off) <= limitSlack) continue;
     disagree(j, path + ": " + joint.name + " is held at " + shortest(held) + ", not at the " +
                     shortest(value->second) + " of state " + name);
   }
   for (const auto& [j, held] : robots()[robot].heldPoses) {
     const auto pose = poseIn(state, model.joints[j]);
-    if (!pose || (pose->p == held.p && pose->q.coeffs() == held.q.coeffs())) continue;
+    if (!pose || ((pose->p - held.p).norm() <= limitSlack &&
+                  pose->q.normalized().angularDistance(held.q.normalized()) <= limitSlack))
+      continue;
     disagree(j, path + ": " + model.joints[j].name +
                     " is held at another pose than that of state " + name);
   }

@@ -30,11 +30,15 @@ void readNamed(const YamlMap& map, const ConfigurationSpace& space, TubeSpec& tu
   for (const Coordinate* joint : joints) known.push_back(joint->name);
   for (const YamlValue::Entry* entry : map.entries()) {
     const std::vector<std::string>& legal = problemKeys().at("tube").legal;
-    if (std::find(legal.begin(), legal.end(), entry->key) != legal.end()) continue;
     const auto find = [&](const std::string& name) {
       return std::find_if(joints.begin(), joints.end(),
                           [&](const Coordinate* joint) { return joint->name == name; });
     };
+    if (std::find(legal.begin(), legal.end(), entry->key) != legal.end()) {
+      if (find(entry->key) != joints.end())
+        map.fault(entry->key, "is also the name of a joint; rename the joint");
+      continue;
+    }
     auto joint = find(entry->key);
     const bool degrees = joint == joints.end() && entry->key.ends_with("_deg");
     if (degrees) joint = find(entry->key.substr(0, entry->key.size() - 4));

@@ -24,7 +24,9 @@ using BodiesByName = std::unordered_map<std::string, std::vector<std::size_t>>;
 std::vector<std::size_t> bodiesCalled(const std::string& name, const Model& model,
                                       const BodiesByName& bodies) {
   std::vector<std::size_t> found;
-  if (const auto same = bodies.find(name); same != bodies.end()) found = same->second;
+  for (const std::string& called : {name, "world/" + name})
+    if (const auto same = bodies.find(called); same != bodies.end())
+      found.insert(found.end(), same->second.begin(), same->second.end());
   // Links of a single robot have no prefix. A link's name with the robot's name before it is also
   // accepted: it distinguishes the link from an obstacle of the same name.
   const ModelRobot& first = model.robots.front();
@@ -100,7 +102,11 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
       if (found.size() == 1)
         bodies.push_back(found.front());
       else if (found.size() > 1)
-        fault(quotedWord(name) + " names a link and an obstacle; rename the obstacle");
+        fault(quotedWord(name) + " names a link and an obstacle; write " +
+              (model.robots.front().name.empty()
+                   ? quotedWord(model.robots.front().model.name + "/" + name) + " or "
+                   : "") +
+              quotedWord("world/" + name));
       else if (!isBareLink(name, model))
         fault("there is no body " + quotedWord(name) + didYouMean(name, names) + knownWords(names));
     }

@@ -25,6 +25,23 @@ std::vector<const YamlValue*> itemsOf(const YamlMap& map, std::string_view key) 
   return items;
 }
 
+std::optional<std::vector<double>> readNamed(const YamlMap& map, const char* key,
+                                             const std::vector<std::string>& names) {
+  const YamlValue* const value = map.find(key);
+  if (!value || value->kind != YamlValue::Kind::Map) return map.numbers(key, names.size());
+  const YamlMap inner(*value, map.pathOf(key), nullptr, map.source());
+  std::vector<double> numbers;
+  for (const std::string& name : names) {
+    const auto number = inner.number(name);
+    if (!number) {
+      if (!inner.find(name)) inner.fault(name, "is missing");
+      return std::nullopt;
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::string described(const YamlValue& value) {
   switch (value.kind) {
     case YamlValue::Kind::Scalar:

@@ -130,6 +130,11 @@ bool isEmpty(const YamlMap& map, std::string_view key);
 /// fault.
 std::vector<const YamlValue*> itemsOf(const YamlMap& map, std::string_view key);
 
+/// Reads numbers from a list, or from a map by their names: [1, 2, 3] or {x: 1, y: 2, z: 3}.
+/// Returns nullopt if the key is absent, or if a fault was added.
+std::optional<std::vector<double>> readNamed(const YamlMap& map, const char* key,
+                                             const std::vector<std::string>& names);
+
 /// Returns a value's description for messages: `"text"`, `a list`, `a map` or `nothing`.
 std::string described(const YamlValue& value);
 

@@ -141,7 +141,7 @@ class GroupReader {
   }
 
   /// Returns the group with the members of all groups in it, at any depth.
-  JointGroup made(std::size_t root) const {
+  JointGroup made(std::size_t root) {
     JointGroup result;
     Joints joints;
     UnknownNames missing;
@@ -151,7 +151,14 @@ class GroupReader {
       const Group& group = groups_[open[k]];
       joints.insert(group.joints.begin(), group.joints.end());
       missing.add(group.missing);
+      expanded_ += group.joints.size() + group.missing.names().size();
       if (result.unusable.empty()) result.unusable = group.unusable;
+      if (expanded_ > mostExpanded) {
+        result.unusable = file_.at(groups_[root].element->GetLineNum(),
+                                   "the groups up to this one have more than " +
+                                       std::to_string(mostExpanded) + " members in all");
+        return result;
+      }
       for (const std::size_t inner : group.subgroups) {
         if (!seen[inner]) open.push_back(inner);
         seen[inner] = true;
@@ -260,6 +267,8 @@ class GroupReader {
   std::vector<std::size_t> parentJoint_;  // for each link
   NameIndex groupNames_;
   std::vector<Group> groups_;
+  static constexpr std::size_t mostExpanded = 1'000'000;
+  std::size_t expanded_ = 0;  // number of members of all groups, with those of their subgroups
   UnknownNames unknownMembers_, unknownValues_;
 };
 

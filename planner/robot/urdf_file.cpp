@@ -137,10 +137,26 @@ class UrdfBuilder {
       shape.solid = true;
       for (const Vec3& point : shape.part->points) finite &= point.allFinite();
     }
+    if (shape.mesh && finite) noteLargeMesh(*shape.mesh, shape.name, outline.line);
     if (!finite)
       file_.fault(outline.line, owned("shape", shape.name) +
                                     ": its origin, size or scale is out of the range of doubles");
     model_.links.back().shapes.push_back(std::move(shape));
+  }
+
+  /// Adds a note for a mesh that is probably in millimetres: links of robots are at least 2 cm
+  /// long.
+  void noteLargeMesh(const MeshFile& file, const std::string& shape, int line) {
+    constexpr double longest = 20;
+    Vec3 lower = file.mesh.vertices.front(), upper = lower;
+    for (const Vec3& vertex : file.mesh.vertices) {
+      lower = lower.cwiseMin(vertex);
+      upper = upper.cwiseMax(vertex);
+    }
+    if (const double length = (upper - lower).maxCoeff(); length > longest)
+      model_.notes.push_back(file_.at(line, owned("shape", shape) + " is " + shortest(length) +
+                                                " m long; if its mesh is in millimetres, it needs "
+                                                "scale=\"0.001 0.001 0.001\""));
   }
 
   void addJoint(const UrdfJoint& outline) {

@@ -85,7 +85,12 @@ class Mimics {
                       "; and it has no lower or upper limit with which it could move by "
                       "itself");
     else
-      notes_.push_back(file_.at(joint.mimic->line, text + "; it moves by itself" + hint));
+      notes_.push_back(
+          file_.at(joint.mimic->line, text +
+                                          (needed && rangeOf(joint).lower == rangeOf(joint).upper
+                                               ? "; it can't move, since its own limits are equal"
+                                               : "; it moves by itself") +
+                                          hint));
   }
 
   /// Makes the rules of the joint and of those that lead it.

@@ -215,7 +215,12 @@ bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owne
   const double least = softLower ? std::max(lower, softLower->front()) : lower;
   const double most = softUpper ? std::min(upper, softUpper->front()) : upper;
   if (least == lower && most == upper) return false;
-  if (apply) joint.limit = UrdfLimit{least, most, joint.limit->line};
+  if (apply && least > most && lower <= upper)
+    file.fault(safety->GetLineNum(), owner + ": its soft limits leave no range: from " +
+                                         shortest(least) + " to " + shortest(most));
+  else if (apply && least != lower)
+    joint.limit->lower = least;
+  if (apply && least <= most && most != upper) joint.limit->upper = most;
   return !apply;
 }
 
@@ -279,7 +284,7 @@ std::string counted(const std::vector<std::string>& names, const std::string& wh
 }
 
 /// Reports each count of elements above its limit. @returns whether there is such a count.
-bool isTooLarge(XmlFile& file, const Element& root) {
+bool isTooLarge(XmlFile& file, const UrdfRules& rules, const Element& root) {
   constexpr std::size_t mostLinks = 10'000, mostShapes = 100'000;
   std::size_t links = 0, joints = 0, shapes = 0;
   for (const Element* element = root.FirstChildElement(); element;
@@ -288,8 +293,10 @@ bool isTooLarge(XmlFile& file, const Element& root) {
     links += kind == "link";
     joints += kind == "joint";
     if (kind != "link") continue;
-    for (const Element* shape = element->FirstChildElement("collision"); shape;
-         shape = shape->NextSiblingElement("collision"))
+    const char* const shapeName =
+        rules.visualsCollide && !element->FirstChildElement("collision") ? "visual" : "collision";
+    for (const Element* shape = element->FirstChildElement(shapeName); shape;
+         shape = shape->NextSiblingElement(shapeName))
       ++shapes;
   }
   const std::size_t before = file.faultCount();
@@ -326,7 +333,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
                             std::vector<std::string>& notes) {
   UrdfOutline outline;
   Element& root = *file.root();
-  if (isXacro(file, root) || isTooLarge(file, root)) return outline;
+  if (isXacro(file, root) || isTooLarge(file, rules, root)) return outline;
   Lines links, joints;
   std::vector<std::string> visible, soft;  // names for the notes
   outline.name = file.text(root, "name", "").value_or("");

@@ -205,14 +205,28 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
   return solution;
 }
 
-void writeSolution(const Solution& solution, const std::filesystem::path& file) {
+namespace {
+
+/// Returns the text of a solution file in the folder, from which the problem's file is named.
+std::string textIn(const std::filesystem::path& folder, const Solution& solution) {
   Solution placed = solution;
   std::error_code failure;
-  const auto folder = std::filesystem::absolute(file, failure).parent_path();
   const auto relative = std::filesystem::proximate(
       std::filesystem::absolute(solution.problem, failure), folder, failure);
   if (!failure && !relative.empty()) placed.problem = relative.generic_string();
-  writeWhole(file, yamlOf(placed));
+  return yamlOf(placed);
+}
+
+}  // namespace
+
+void writeSolution(const Solution& solution, const std::filesystem::path& file) {
+  std::error_code failure;
+  writeWhole(file, textIn(std::filesystem::absolute(file, failure).parent_path(), solution));
+}
+
+std::string solutionText(const Solution& solution) {
+  std::error_code failure;
+  return textIn(std::filesystem::current_path(failure), solution);
 }
 
 Solution readSolution(const std::filesystem::path& file, const ConfigurationSpace& space) {

@@ -33,6 +33,8 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
 /// written whole or not at all.
 /// @throws InputError if it can't be written.
 void writeSolution(const Solution& solution, const std::filesystem::path& file);
+/// Returns the text of a solution file in the current folder.
+std::string solutionText(const Solution& solution);
 
 /// Reads a solution file strictly, or an OMPL.app `.path` file, which has one state per line.
 /// @throws InputError with all faults: wrong format; unknown, missing or repeated keys; states of

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/yaml_reader.h"
 
 namespace corridor {
@@ -37,25 +39,81 @@ std::optional<std::string> rowFault(const std::vector<double>& row,
   return std::nullopt;
 }
 
+namespace {
+
+/// Returns the words of a line: without a comment, separated by blanks or commas.
+std::vector<std::string> wordsOf(std::string line) {
+  line.resize(std::min(line.size(), line.find('#')));
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream words(line);
+  std::vector<std::string> all;
+  for (std::string word; words >> word;) all.push_back(word);
+  return all;
+}
+
+/// Returns for each column of a header the index of its number. Adds a fault for a name that is
+/// unknown or repeated, and for names that are missing.
+std::vector<std::size_t> readHeader(const std::vector<std::string>& header,
+                                    const std::vector<std::string>& names, const std::string& file,
+                                    int line, FaultList& faults) {
+  std::vector<std::size_t> columns;
+  std::vector<std::string> missing = names;
+  for (const std::string& word : header) {
+    const auto name = std::find(names.begin(), names.end(), word);
+    const auto left = std::find(missing.begin(), missing.end(), word);
+    if (name == names.end())
+      faults.add(file, line,
+                 "the header names " + quotedWord(word) + ", which is no number of a state" +
+                     didYouMean(word, names) + knownWords(names));
+    else if (left == missing.end())
+      faults.add(file, line, "the header names " + quotedWord(word) + " twice");
+    else
+      missing.erase(left);
+    columns.push_back(static_cast<std::size_t>(name - names.begin()));
+  }
+  if (!missing.empty()) faults.add(file, line, "the header lacks " + joinedFirst(missing));
+  return columns;
+}
+
+}  // namespace
+
 std::vector<StateRow> readStateRows(const std::filesystem::path& file,
                                     const ConfigurationSpace& space) {
   std::vector<StateRow> rows;
   FaultList faults(file.string());
+  const std::vector<std::string> names = space.numberNames();
+  std::vector<std::size_t> columns;  // of a header
+  bool isFirst = true;
   std::istringstream lines(readTextStream(file, "a file of states, one per line,"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    line.resize(std::min(line.size(), line.find('#')));
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
+    const std::vector<std::string> words = wordsOf(line);
+    if (words.empty()) continue;
+    // Names may be numbers, too; a line of numbers is a state.
+    double number0 = 0;
+    const bool isHeader =
+        std::any_of(words.begin(), words.end(),
+                    [&](const std::string& word) {
+                      return !parseNumber(word, Range::Any, number0).empty();
+                    }) &&
+        std::find_first_of(words.begin(), words.end(), names.begin(), names.end()) != words.end();
+    if (std::exchange(isFirst, false) && isHeader) {
+      columns = readHeader(words, names, file.string(), number, faults);
+      faults.throwIfAny();
+      continue;
+    }
     std::vector<double> values;
-    std::string word, complaint;
-    while (words >> word) {
+    std::string complaint;
+    for (const std::string& word : words) {
       double value = 0;
       const std::string wrong = parseNumber(word, Range::Any, value);
       if (complaint.empty()) complaint = wrong;
       values.push_back(value);
     }
-    if (values.empty()) continue;
+    if (values.size() == columns.size()) {
+      const std::vector<double> given = values;
+      for (std::size_t i = 0; i < columns.size(); ++i) values[columns[i]] = given[i];
+    }
     if (complaint.empty()) complaint = rowFault(values, space).value_or("");
     if (complaint.empty())
       rows.push_back(

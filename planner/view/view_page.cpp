@@ -10,7 +10,7 @@
 
 #include "planner/checker/checker.h"
 #include "planner/checker/problem_goal.h"
-#include "planner/checker/reach.h"
+#include "planner/model/reach.h"
 #include "planner/view/closest_pairs.h"
 #include "planner/view/display_scene.h"
 #include "planner/view/page_buffers.h"

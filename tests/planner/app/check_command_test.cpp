@@ -79,6 +79,42 @@ TEST_F(CheckCommand, CheckOfStatesFromAPipe) {
             "-: is empty; a file of states, one per line, is needed\n");
 }
 
+TEST_F(CheckCommand, StatesMayHaveAHeader) {
+  write("states.csv", "# recorded\nelbow,shoulder\n0,1.5708\n2.5,0\n");
+  EXPECT_EQ(run("check arm.yaml --states states.csv").out,
+            "state,valid,pairs\n0,0,lower~post\n1,0,bounds:elbow\n");
+  const auto fault = [&](const std::string& text) {
+    write("states.csv", text);
+    const Result checked = run("check arm.yaml --states states.csv");
+    EXPECT_EQ(checked.status, 2);
+    return checked.err;
+  };
+  EXPECT_EQ(fault("elbow shoulder time\n0 0 0\n"),
+            "states.csv:1: the header names \"time\", which is no number of a state (known: "
+            "shoulder, elbow)\n");
+  EXPECT_EQ(fault("elbow elbow\n0 0\n"),
+            "states.csv:1: the header names \"elbow\" twice\n"
+            "states.csv:1: the header lacks shoulder\n");
+  EXPECT_EQ(fault("shoulder elbow\n0 0 0\n"),
+            "states.csv:2: a state has 2 numbers (shoulder elbow), not 3\n");
+  EXPECT_EQ(fault("shoulder elbow\n"), "states.csv: no states\n");
+}
+
+/// Notes that differ only in names are counted. inspect and --json list all.
+TEST_F(CheckCommand, RepeatedNotesAreCounted) {
+  std::string urdf = read("arm.urdf");
+  for (const std::string effort : {" effort=\"1\"", " effort=\"1\""})
+    if (const auto at = urdf.find(effort); at != urdf.npos) urdf.erase(at, effort.size());
+  write("arm.urdf", urdf);
+  const Result checked = run("check arm.yaml");
+  EXPECT_THAT(checked.out, HasSubstr("note: arm.urdf:"));
+  EXPECT_THAT(checked.out, HasSubstr("joint \"shoulder\": <limit> has no effort (and 1 more like "
+                                     "this; inspect lists all)\n"));
+  EXPECT_THAT(checked.out, testing::Not(HasSubstr("joint \"elbow\"")));
+  EXPECT_THAT(run("inspect arm.yaml").out, HasSubstr("joint \"elbow\": <limit> has no effort"));
+  EXPECT_EQ(nlohmann::json::parse(run("check arm.yaml --json").out)["notes"].size(), 2u);
+}
+
 TEST_F(CheckCommand, CheckQuotesNamesWithCommas) {
   write("commas.yaml",
         "format: corridor-problem-1\nrobot: arm.urdf\nworld: {'post \"a\", b': {sphere: 0.1, at: "

@@ -48,6 +48,40 @@ TEST_F(SolveArm, SolveThenVerify) {
   EXPECT_THAT(refuted.out, HasSubstr("; at shoulder = "));
 }
 
+TEST_F(SolveArm, WritesTheSolutionToStandardOutput) {
+  const Result solved = run("solve arm.yaml -o -");
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_THAT(solved.out, StartsWith("# "));
+  write("piped.yaml", solved.out);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "-"));
+  EXPECT_THAT(run("verify arm.yaml piped.yaml").out, HasSubstr("verdict: proved\n"));
+  EXPECT_THAT(run("solve arm.yaml --picture -").out, StartsWith("<svg"));
+  const Result none = run("solve arm.yaml -o - --planner RRT --time 1e-9");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_EQ(none.out, "");
+  EXPECT_THAT(none.err, HasSubstr("not found"));
+  EXPECT_EQ(run("solve arm.yaml -o - --json").err,
+            "--output: the standard output has the report of --json already; name a file\n");
+  EXPECT_EQ(run("solve arm.yaml -o - --picture -").err,
+            "--picture: the standard output has the solution already\n");
+}
+
+TEST_F(SolveArm, JsonHasThePathAndThePhases) {
+  const Result solved = run("solve arm.yaml --json");
+  const auto report = nlohmann::json::parse(solved.out)["problems"][0];
+  EXPECT_EQ(report["numbers"], (std::vector<std::string>{"shoulder", "elbow"}));
+  const auto rows = report["path"]["rows"].get<std::vector<std::vector<double>>>();
+  ASSERT_EQ(rows.size(), report["path"]["states"].get<std::size_t>());
+  EXPECT_EQ(rows.front(), (std::vector<double>{0, 0}));
+  EXPECT_EQ(rows.back(), (std::vector<double>{2.8, 0.5}));
+  double sum = 0;
+  for (const char* const phase : {"set_up_s", "search_s", "simplify_s", "certify_s"}) {
+    EXPECT_GE(report["phases"][phase], 0) << phase;
+    sum += report["phases"][phase].get<double>();
+  }
+  EXPECT_NEAR(sum, report["time_s"], 1e-9);
+}
+
 /// Joints may have any names: the joints' types decide whether a problem has a rigid body.
 TEST_F(SolveArm, AnArmOfJointsCalledXYAndYawIsNoRigidBody) {
   std::string urdf = "<robot name=\"arm\">\n<link name=\"l0\"/>\n", parent = "l0";

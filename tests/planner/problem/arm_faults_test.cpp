@@ -103,7 +103,8 @@ TEST_F(ArmFaults, AllowAndTube) {
           "format: corridor-problem-1\nrobot: arm.yaml\nworld: {upper: {sphere: 1, at: [0, 0, "
           "9]}}\n" +
           armStates + "allow: [[upper, base]]\n"),
-      "problem.yaml:6: allow: \"upper\" names a link and an obstacle; rename the obstacle");
+      "problem.yaml:6: allow: \"upper\" names a link and an obstacle; write \"arm7/upper\" or "
+      "\"world/upper\"");
   EXPECT_EQ(with("tube: {position: 0.1}\n"),
             "problem.yaml:7: tube.position: there is no rigid body and no planar or floating joint "
             "here; use joints (rad, or m for prismatic joints)");

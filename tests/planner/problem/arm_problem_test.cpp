@@ -372,6 +372,21 @@ TEST_F(ArmProblem, FilesInTheOrderOfNaming) {
   EXPECT_THAT(names, ElementsAre("problem.yaml", "arm.yaml", "arm.urdf", "arm.srdf"));
 }
 
+/// An obstacle may have the name of a link.
+TEST_F(ArmProblem, AnObstacleWithTheNameOfALink) {
+  const std::string problem =
+      "format: corridor-problem-1\nrobot: arm.yaml\nworld: {lower: {sphere: 0.1, at: [0.5, 0.5, "
+      "9]}}\n" +
+      armStates;
+  const Problem p = read(problem + "allow: [[upper, world/lower], [arm7/lower, base]]\n");
+  EXPECT_EQ(p.model.bodies.back().name, "world/lower");
+  EXPECT_EQ(skipped(p, "upper", "world/lower"), "allow");
+  EXPECT_EQ(skipped(p, "lower", "world/lower"), "");
+  EXPECT_THAT(p.source.notes, Contains("no obstacle is within reach; are all lengths in metres?"));
+  EXPECT_THAT(read(armHead + armStates).source.notes,
+              testing::Not(Contains(testing::HasSubstr("within reach"))));
+}
+
 /// Two groups have a state of the same name. The one of the planned group needs no prefix.
 TEST_F(ArmProblem, AStateOfThePlannedGroupNeedsNoPrefix) {
   std::string text = srdf;

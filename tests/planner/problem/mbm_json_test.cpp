@@ -34,7 +34,7 @@ TEST_F(MbmJson, ReadsTheProblemOfAnIndex) {
   ASSERT_EQ(p.model.bodies.size(), 8u);
   EXPECT_EQ(p.model.bodies[5].name, "can");
   EXPECT_TRUE(p.model.bodies[5].shapes[0].part->flatEnds);
-  EXPECT_EQ(p.model.bodies[6].name, "base");
+  EXPECT_EQ(p.model.bodies[6].name, "world/base") << "a link has the name base, too";
   EXPECT_EQ(skipped(p, "upper", "can"), "");
   EXPECT_EQ(p.source.files,
             (std::vector{folder_ / "sets/box.json", folder_ / "arm.urdf", folder_ / "arm.srdf"}));

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "planner/problem/problem.h"
+#include "planner/robot/joint_types.h"
 #include "tests/planner/problem/arm_fixture.h"
 #include "tests/support/support.h"
 #include "tests/support/workload.h"
@@ -137,7 +138,7 @@ TEST_F(Moveit, FaultsOfTheScene) {
             a + ".primitive_poses: 1 are needed, one for each of primitives, not 2");
   EXPECT_EQ(complaint(object("primitives: [{type: sphere, dimensions: [1]}], pose: {orientation: "
                              "[0, 0, 0, 0]}")),
-            a + ".pose.orientation: zeros are no rotation");
+            a + ".pose.orientation: a quaternion of zeros is no rotation");
   EXPECT_EQ(complaint(object("header: {frame_id: hand}, primitives: [{type: sphere, dimensions: "
                              "[1]}]")),
             a + ".header.frame_id: the frame of the robot's root, \"base\", or \"world\" is "
@@ -161,6 +162,17 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_EQ(complaint("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true], "
                       "[true, true]]}\n"),
             "scene.yaml:1: allowed_collision_matrix.entry_values[0]: 2 values are needed, not 1");
+  EXPECT_EQ(complaint("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[false, "
+                      "false], [true, false]]}\n"),
+            "scene.yaml:1: allowed_collision_matrix.entry_values[1]: the matrix is not symmetric: "
+            "\"b\" and \"a\" are allowed in one order only");
+  EXPECT_EQ(complaint("link_padding: [{link_name: hand, padding: 0}, {link_name: arm, padding: "
+                      "0.1}]\nlink_scale: [{link_name: hand, scale: 1}, {link_name: arm, scale: "
+                      "2}]\n"),
+            "scene.yaml:1: link_padding.padding: links are tested as they are; use margin for a "
+            "distance to keep\n"
+            "scene.yaml:2: link_scale.scale: links are tested as they are; use margin for a "
+            "distance to keep");
   EXPECT_THAT(complaint("{"), HasSubstr("scene.yaml:"));
 }
 
@@ -205,6 +217,26 @@ TEST_F(Moveit, FaultsOfTheRequest) {
                     "joint_constraints:\n"),
             "request.yaml:8: goal_constraints[0].position_constraints: only goals by joint values "
             "are supported (joint_constraints)");
+  EXPECT_EQ(
+      changed("{joint_name: lift, position: 0}",
+              "{joint_name: lift, position: 0}\n      - "
+              "{joint_name: slide, position: 0.02}\n"
+              "      - {joint_name: lft, position: 0}\n"
+              "      - {joint_name: lift, position: 1}"),
+      "request.yaml:11: goal_constraints[1].joint_constraints: there is no joint \"lft\" (did "
+      "you mean \"lift\"?) (known: pan, lift, slide)\n"
+      "request.yaml:11: goal_constraints[1].joint_constraints: slide is held at 0.04, and "
+      "can't get to 0.02\n"
+      "request.yaml:15: goal_constraints[1].joint_constraints.joint_name: \"lift\" is named "
+      "twice");
+  EXPECT_EQ(changed("[pan, lift, slide, follow,", "[pan, lift, slide, lift,"),
+            "request.yaml:5: start_state.joint_state.name: \"lift\" is named twice");
+  EXPECT_EQ(
+      changed("start_state:\n",
+              "start_state:\n  multi_dof_joint_state: {joint_names: "
+              "[virtual], transforms: [{translation: [0, 0, 0.5], rotation: [0, 0, 0, 1]}]}\n"),
+      "request.yaml:4: start_state.multi_dof_joint_state.transforms: a pose that is not the "
+      "identity is not supported; give it by base, or by start in the problem");
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {scene: "
                         "none.yaml}\nstart: {pan: 0, lift: 0, slide: 0.02}\ngoal: {pan: 0, lift: "
                         "0, slide: 0.02}\n"),
@@ -212,6 +244,43 @@ TEST_F(Moveit, FaultsOfTheRequest) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: arm.yaml\nmoveit: {}\nstart: {pan: 0, "
                         "lift: 0, slide: 0.02}\ngoal: {pan: 0, lift: 0, slide: 0.02}\n"),
             "problem.yaml:3: moveit: scene: FILE, request: FILE, or both are needed");
+}
+
+/// Objects on the robot's root move with its base.
+TEST_F(Moveit, ObjectsOnTheRoot) {
+  const Problem p = read(head + std::string("base: {at: [0, 0, 5]}\n"));
+  EXPECT_EQ(p.model.bodies.back().name, "wedge");
+  EXPECT_EQ(p.model.bodies.back().shapes.at(0).mesh->mesh.vertices.at(1), Vec3(1, 0, 8));
+  const ModelBody& crate = p.model.bodies.at(p.model.bodies.size() - 2);
+  EXPECT_LT((crate.shapes[1].part->points[0] - Vec3(1, 0, 1.75)).norm(), 1e-15) << "in the world";
+}
+
+/// Rotations of any length are those of their directions.
+TEST_F(Moveit, TinyQuaternions) {
+  for (const std::string size : {"1e-170", "1e170", "1"}) {
+    write("scene.yaml",
+          "world: {collision_objects: [{id: a, primitives: [{type: box, dimensions: "
+          "[2, 4, 6]}], primitive_poses: [{orientation: [0, 0, " +
+              size + ", " + size + "]}]}]}\n");
+    const Problem p = read(head);
+    const Vec3 corner = p.model.bodies.back().shapes.at(0).part->points.at(0).cwiseAbs();
+    EXPECT_LT((corner - Vec3(2, 1, 3)).norm(), 1e-14) << size;
+  }
+}
+
+/// The start of the problem counts before that of the request, for held joints, too.
+TEST_F(Moveit, HeldJointsFollowTheProblemsStart) {
+  write("arm.yaml",
+        "format: corridor-robot-1\nurdf: arm.urdf\nsrdf: arm.srdf\nstates: {near: {pan: 0, lift: "
+        "0, slide: 0.02}}\n");
+  const auto slide = [&](const std::string& more) {
+    const Problem p = read(head + more);
+    const ModelRobot& robot = p.model.robots.front();
+    return robot.held.at(*findJoint(robot.model, "slide"));
+  };
+  EXPECT_EQ(slide(""), 0.04);
+  EXPECT_EQ(slide("start: near\n"), 0.02);
+  EXPECT_EQ(slide("start: {pan: 0, lift: 0}\n"), 0.04);
 }
 
 TEST_F(Moveit, ARequestNeedsJoints) {

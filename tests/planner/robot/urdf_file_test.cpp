@@ -263,6 +263,17 @@ TEST_F(UrdfFile, MeshesAreFoundInTheFoldersOfRos) {
                                  folder_ / "single/base/c.obj"}));
 }
 
+TEST_F(UrdfFile, MeshesInMillimetresAreNoted) {
+  write("big.obj", "v 0 0 0\nv 1000 0 0\nv 0 200 0\nf 1 2 3\n");
+  const RobotModel model = modelOf(link("a", collision("<mesh filename=\"big.obj\"/>")));
+  EXPECT_THAT(model.notes,
+              testing::ElementsAre((folder_ / "r.urdf").string() +
+                                   ":2: shape \"a\" is 1000 m long; if its mesh is in "
+                                   "millimetres, it needs scale=\"0.001 0.001 0.001\""));
+  EXPECT_TRUE(modelOf(link("a", collision("<mesh filename=\"big.obj\" scale=\"1e-3 1e-3 1e-3\"/>")))
+                  .notes.empty());
+}
+
 /// Links without <collision> are named, or get the shapes of their visuals.
 TEST_F(UrdfFile, Visuals) {
   const auto visual = [](const std::string& shape) {
@@ -328,7 +339,7 @@ TEST_F(UrdfFile, SoftLimits) {
                                    safety(R"(soft_lower_limit="3" soft_upper_limit="x")"))),
             "r.urdf:4: joint \"j\": safety_controller soft_upper_limit: a number is needed, not "
             "\"x\"\n"
-            "r.urdf:4: joint \"j\": the lower limit 3 is above the upper limit 2");
+            "r.urdf:4: joint \"j\": its soft limits leave no range: from 3 to 2");
 }
 
 /// ROS's rule ignores the up-axis of Collada files.

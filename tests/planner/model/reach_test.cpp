@@ -1,5 +1,5 @@
 // In no random configuration may a body leave its computed box of reach.
-#include "planner/checker/reach.h"
+#include "planner/model/reach.h"
 
 #include <gtest/gtest.h>
 #include <ompl/util/RandomNumbers.h>

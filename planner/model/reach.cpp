@@ -1,4 +1,4 @@
-#include "planner/checker/reach.h"
+#include "planner/model/reach.h"
 
 #include <algorithm>
 #include <cmath>
