@@ -1,9 +1,11 @@
 #include "collision/core/read_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -83,6 +85,8 @@ class OrdinaryFile : public OpenFile {
     if (size_ > most)
       fail(name, "has " + std::to_string(size_) + " bytes, more than " + std::to_string(most) +
                      ", the limit for " + what);
+    if (isLfsPointer())
+      fail(name, "is a pointer of Git LFS, not the file itself; git lfs pull fetches the file");
   }
   std::uint64_t size() const { return size_; }
 
@@ -90,6 +94,15 @@ class OrdinaryFile : public OpenFile {
   static const std::filesystem::path& looked(const std::filesystem::path& file) {
     if (const std::string why = whyNoFile(file); !why.empty()) fail(file.string(), why);
     return file;
+  }
+
+  /// Repositories with large meshes are often cloned without them.
+  bool isLfsPointer() const {
+    constexpr std::string_view begin = "version https://git-lfs.github.com/spec/";
+    std::array<char, begin.size()> bytes{};
+    const ssize_t n = ::pread(descriptor(), bytes.data(), bytes.size(), 0);
+    return n == static_cast<ssize_t>(bytes.size()) &&
+           std::string_view(bytes.data(), bytes.size()) == begin;
   }
 
   std::uint64_t size_ = 0;

@@ -21,7 +21,8 @@ std::string whyNoFile(const std::filesystem::path& file);
 
 /// Requires a readable, non-empty, ordinary file of at most `most` bytes.
 /// @param what  the kind of input for messages: "a mesh file".
-/// @throws InputError: no such file, not an ordinary file, unreadable, empty, or too large.
+/// @throws InputError: no such file, not an ordinary file, unreadable, empty, too large, or a
+/// pointer of Git LFS in place of the file.
 void requireFile(const std::filesystem::path& file, const std::string& what,
                  std::uint64_t most = kMostFileBytes);
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/core/floating_point.h"
 #include "collision/core/rounding.h"
 #include "collision/motion/broad_phase.h"
 #include "collision/motion/interval_motions.h"
@@ -306,11 +307,21 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   std::vector<MotionResult> results;
   results.resize(pairs_.size());
   MotionResult counted;  // counts as one query, which is undecided if any pair is
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+  std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
+  const bool isCurve = standardFloatingPoint() && !motion.ambiguous();
+  if (isCurve && broadPhase_->hasTrees()) {  // the other pairs are free
+    IntervalMotions motions(motion, broadPhase_->bodies(), context);
+    motions.select(0.5, 0.5);
+    broadPhase_->find(motions, roundedUp(options.margin + options.clearanceSlack), near);
+  } else {
+    near.resize(pairs_.size());
+    std::iota(near.begin(), near.end(), std::uint32_t{0});
+  }
+  const std::vector<std::uint32_t> tested = near;  // queries below use the scratch memory
+  for (const std::uint32_t i : tested) {
     MotionResult& result = results[order_[i]];
     result = certifyMotion(motion, {&motionPairs_[i], 1}, options, context);
-    const auto k = static_cast<std::uint32_t>(i);
-    if (solidMeshes_) result = withContainment(result, {&k, 1}, motion, context, nullptr);
+    if (solidMeshes_) result = withContainment(result, {&i, 1}, motion, context, nullptr);
     if (result.verdict == MotionVerdict::undecided) counted = result;
   }
   count(motion, counted, context.counters);

@@ -21,6 +21,7 @@ void addView(CLI::App& program, int& status);
 void addBenchmark(CLI::App& program, int& status);
 void addCheck(CLI::App& program, int& status);
 void addInspect(CLI::App& program, int& status);
+void addPose(CLI::App& program, int& status);
 void addQuery(CLI::App& program, int& status);
 
 }  // namespace corridor::app

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
                  kExitStatus);
   int status = kDone;
   for (const auto add :
-       {addSolve, addVerify, addView, addBenchmark, addCheck, addInspect, addQuery})
+       {addSolve, addVerify, addView, addBenchmark, addCheck, addInspect, addPose, addQuery})
     add(program, status);
   refuseEmptyValues(program);
   try {

@@ -107,7 +107,10 @@ bool printsFile(const SolveArguments& a) {
 void print(const SolveReport& r, const Problem& p, const std::string& problem,
            const SolveArguments& a) {
   const bool solved = r.outcome == SolveOutcome::solved;
-  if (printsFile(a) && !solved) warn(std::string(nameOf(r.outcome)) + ": " + r.why);
+  if (printsFile(a)) {
+    if (!solved) warn(std::string(nameOf(r.outcome)) + ": " + r.why);
+    for (const std::string& note : condensed(p.source.notes)) std::cerr << "note: " << note << '\n';
+  }
   const Lines out(a.quiet || printsFile(a));
   out.line("problem", problem);
   out.line("result", nameOf(r.outcome), solved ? Tone::good : Tone::bad);

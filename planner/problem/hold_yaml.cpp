@@ -33,7 +33,9 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
     if (const auto held = withinLimits(radians, joint.lower, joint.upper, path, notes))
       setup.robot.held[j] = *held, setup.robot.heldByFile.insert(j);
     else
-      map.fault(entry.key, outsideLimits(radians, joint.lower, joint.upper));
+      map.fault(entry.key,
+                outsideLimits(radians, joint.lower, joint.upper,
+                              joint.type == JointType::revolute && !degrees ? joint.name : ""));
   };
   readJointValues(map, model, read, {"from"});
   return map.text("from");
@@ -75,12 +77,14 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
   ModelRobot& robot = setup.robot;
   const NamedState* const state = findState(robot.model, name, place);
   if (!state) return;
+  bool holds = false;
   for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
     const JointModel& joint = robot.model.joints[j];
     if (!movesItself(joint) || robot.heldByFile.contains(j)) continue;
     if (std::find(planned.begin(), planned.end(), j) != planned.end()) continue;
     if (isPoseJoint(joint.type)) {
       const auto pose = poseIn(*state, joint);
+      holds |= pose.has_value();
       if (pose && pose->q.squaredNorm() > 0)
         robot.heldPoses[j] = *pose;
       else if (pose)
@@ -90,6 +94,7 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
     }
     const auto value = state->values.find(joint.name);
     if (value == state->values.end()) continue;
+    holds = true;
     const std::string path = place.path + " (" + name + "): " + joint.name;
     if (const auto held =
             withinLimits(value->second, joint.lower, joint.upper, path, robot.model.notes))
@@ -98,6 +103,9 @@ void holdState(const std::string& name, const std::vector<std::size_t>& planned,
       place.source.fault(place.line,
                          path + ": " + outsideLimits(value->second, joint.lower, joint.upper));
   }
+  if (!holds && place.path == "hold")
+    robot.model.notes.push_back("hold: the state " + quotedWord(name) +
+                                " gives no joint that is held");
 }
 
 void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots) {

@@ -1,5 +1,8 @@
 #include "planner/problem/joint_yaml.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/keys.h"
@@ -20,9 +23,15 @@ std::string whyNotActive(const RobotModel& model, std::size_t j) {
   return "";
 }
 
-std::string outsideLimits(double value, double lower, double upper) {
+std::string outsideLimits(double value, double lower, double upper, const std::string& angle) {
   return shortest(value) + " is outside of its limits, [" + shortest(lower) + ", " +
-         shortest(upper) + "]";
+         shortest(upper) + "]" + (angle.empty() ? "" : degreesHint(value, lower, upper, angle));
+}
+
+std::string degreesHint(double value, double lower, double upper, const std::string& joint) {
+  const double radians = value * (std::numbers::pi / 180);
+  if (std::abs(value) <= 2 * std::numbers::pi || radians < lower || radians > upper) return "";
+  return "; in degrees, write " + joint.substr(joint.rfind('/') + 1) + "_deg: " + shortest(value);
 }
 
 void readJointValues(const YamlMap& map, const RobotModel& model,
@@ -39,7 +48,10 @@ void readJointValues(const YamlMap& map, const RobotModel& model,
     const std::string name = degrees ? key.substr(0, key.size() - 4) : key;
     const auto j = findJoint(model, name);
     if (!j)
-      map.fault(key, noSuchJoint(name, model));
+      map.fault(key, noSuchJoint(name, model) +
+                         (name == "pose" || name == "position" || name == "at"
+                              ? "; poses of links are not supported: give the joints' values"
+                              : ""));
     else if (map.find(name))
       map.fault(key, "say " + name + " (radians) or " + key + " (degrees), not both");
     else if (const JointType type = model.joints[*j].type;

@@ -16,7 +16,15 @@ namespace corridor {
 std::string noSuchJoint(const std::string& name, const RobotModel& model);
 /// Returns why a joint has no value of its own ("is fixed", "follows pan (mimic)"), or "".
 std::string whyNotActive(const RobotModel& model, std::size_t joint);
-std::string outsideLimits(double value, double lower, double upper);
+/// Returns "60 is outside of its limits, [-2, 2]".
+/// @param angle the name of a joint whose value is an angle in radians, or "". If the value is
+/// plainly in degrees, the message says how to write them.
+std::string outsideLimits(double value, double lower, double upper, const std::string& angle = "");
+
+/// Returns "; in degrees, write pan_deg: 60" if a value in radians is plainly meant in degrees (it
+/// is more than a turn, and within the limits in degrees), or "".
+/// @param joint may have a robot's name before it: "left/pan".
+std::string degreesHint(double value, double lower, double upper, const std::string& joint);
 
 /// Calls `read` for each entry of the map whose key is a joint's name, or a joint's name followed
 /// by "_deg" (then `degrees` is true). Adds a fault for every other key that is not in `others`.

@@ -14,6 +14,24 @@
 namespace corridor {
 namespace {
 
+// The fields of the messages. Unknown keys are faults, because a misspelt one may change the plan.
+const MapKeys kRequest{
+    {"workspace_parameters", "start_state", "goal_constraints", "path_constraints",
+     "trajectory_constraints", "reference_trajectories", "pipeline_id", "planner_id", "group_name",
+     "num_planning_attempts", "allowed_planning_time", "max_velocity_scaling_factor",
+     "max_acceleration_scaling_factor", "cartesian_speed_limited_link",
+     "cartesian_speed_end_effector_link", "max_cartesian_speed"},
+    {}};
+const MapKeys kState{
+    {"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"}, {}};
+const MapKeys kJointState{{"header", "name", "position", "velocity", "effort"}, {}};
+const MapKeys kTransform{{"translation", "rotation"}, {}};
+const MapKeys kConstraints{{"name", "joint_constraints", "position_constraints",
+                            "orientation_constraints", "visibility_constraints"},
+                           {}};
+const MapKeys kJointConstraint{
+    {"joint_name", "position", "tolerance_above", "tolerance_below", "weight"}, {}};
+
 /// Returns whether a message geometry_msgs/Transform is the identity, or was faulty.
 bool isIdentity(const YamlMap& transform) {
   const auto p = readNamed(transform, "translation", {"x", "y", "z"});
@@ -28,20 +46,20 @@ std::map<std::string, double> jointValues(const YamlMap& request) {
   std::map<std::string, double> values;
   const YamlValue* const start = request.find("start_state");
   if (!start) return values;
-  const YamlMap state(*start, "start_state", nullptr, request.source());
+  const YamlMap state(*start, "start_state", &kState, request.source());
   if (!isEmpty(state, "attached_collision_objects"))
     state.fault("attached_collision_objects", "is not supported; add the objects to the robot");
   if (const YamlValue* const poses = state.find("multi_dof_joint_state")) {
     const YamlMap map(*poses, "start_state.multi_dof_joint_state", nullptr, request.source());
     for (const YamlValue* const item : itemsOf(map, "transforms"))
-      if (!isIdentity({*item, map.pathOf("transforms"), nullptr, request.source()}))
+      if (!isIdentity({*item, map.pathOf("transforms"), &kTransform, request.source()}))
         map.fault("transforms",
                   "a pose that is not the identity is not supported; give it by base, or by start "
                   "in the problem");
   }
   const YamlValue* const joints = state.find("joint_state");
   if (!joints) return values;
-  const YamlMap map(*joints, "start_state.joint_state", nullptr, request.source());
+  const YamlMap map(*joints, "start_state.joint_state", &kJointState, request.source());
   if (!map.find("name")) return values;
   const auto names = readWords(*map.find("name"), "such as [pan, lift]",
                                "start_state.joint_state.name", request.source());
@@ -60,7 +78,7 @@ MoveitRequest::MoveitRequest(const std::filesystem::path& file, FaultList& fault
     : document_(parseYaml(file.string(), readTextFile(file, "a motion plan request of MoveIt"))),
       source_{file.string(), faults, {}} {
   const std::size_t before = faults.size();
-  start_ = jointValues(root());
+  start_ = jointValues(YamlMap(document_, "", &kRequest, source_));
   startIsRead_ = faults.size() == before;
   if (const YamlValue* const start = root().find("start_state")) startLine_ = start->line;
 }
@@ -139,7 +157,7 @@ void MoveitRequest::readStart(Problem& problem) {
 void MoveitRequest::readGoals(Problem& problem) {
   const YamlMap request = root();
   if (const YamlValue* const path = request.find("path_constraints")) {
-    const YamlMap map(*path, "path_constraints", nullptr, source_);
+    const YamlMap map(*path, "path_constraints", &kConstraints, source_);
     for (const char* const key : {"joint_constraints", "position_constraints",
                                   "orientation_constraints", "visibility_constraints"})
       if (!isEmpty(map, key)) map.fault(key, "constraints of the path are not supported");
@@ -152,7 +170,8 @@ void MoveitRequest::readGoals(Problem& problem) {
   const auto goals = itemsOf(request, "goal_constraints");
   if (goals.empty()) request.fault("goal_constraints", "at least one goal is needed");
   for (std::size_t g = 0; g < goals.size(); ++g) {
-    const YamlMap goal(*goals[g], "goal_constraints[" + std::to_string(g) + "]", nullptr, source_);
+    const YamlMap goal(*goals[g], "goal_constraints[" + std::to_string(g) + "]", &kConstraints,
+                       source_);
     for (const char* const key :
          {"position_constraints", "orientation_constraints", "visibility_constraints"})
       if (!isEmpty(goal, key))
@@ -160,7 +179,7 @@ void MoveitRequest::readGoals(Problem& problem) {
     const std::string path = goal.pathOf("joint_constraints");
     std::map<std::string, double> values;
     for (const YamlValue* const item : itemsOf(goal, "joint_constraints")) {
-      const YamlMap one(*item, path, nullptr, source_);
+      const YamlMap one(*item, path, &kJointConstraint, source_);
       one.require("joint_name", "the joint's name");
       one.require("position", "the joint's value");
       const auto name = one.text("joint_name");

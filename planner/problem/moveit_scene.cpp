@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "collision/core/read_file.h"
@@ -16,10 +17,28 @@ namespace {
 
 using Kind = YamlValue::Kind;
 
+// The fields of the messages. Unknown keys are faults, because a misspelt one may move an obstacle.
+const MapKeys kScene{
+    {"name", "robot_state", "robot_model_name", "fixed_frame_transforms",
+     "allowed_collision_matrix", "link_padding", "link_scale", "object_colors", "world", "is_diff"},
+    {}};
+const MapKeys kWorld{{"collision_objects", "octomap"}, {}};
+const MapKeys kObject{
+    {"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
+     "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"},
+    {}};
+const MapKeys kPose{{"position", "orientation"}, {}};
+const MapKeys kPrimitive{{"type", "dimensions", "polygon"}, {}};
+const MapKeys kMesh{{"triangles", "vertices"}, {}};
+const MapKeys kTriangle{{"vertex_indices"}, {}};
+const MapKeys kMatrix{
+    {"entry_names", "entry_values", "default_entry_names", "default_entry_values"}, {}};
+const MapKeys kHeader{{"seq", "stamp", "frame_id"}, {}};
+
 /// Reads a message geometry_msgs/Pose. Returns nullopt if a fault was added.
 std::optional<Placement> readPose(const YamlValue& value, const std::string& path,
                                   YamlSource& source) {
-  const YamlMap map(value, path, nullptr, source);
+  const YamlMap map(value, path, &kPose, source);
   Placement placement;
   if (map.find("position")) {
     const auto p = readNamed(map, "position", {"x", "y", "z"});
@@ -49,7 +68,7 @@ std::optional<Placement> readPose(const YamlValue& value, const std::string& pat
 /// Reads a message shape_msgs/SolidPrimitive. Its type is a word, or the number of the message.
 std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string& path,
                                        YamlSource& source) {
-  const YamlMap map(value, path, nullptr, source);
+  const YamlMap map(value, path, &kPrimitive, source);
   const std::map<std::string, std::string> numbered{
       {"1", "box"}, {"2", "sphere"}, {"3", "cylinder"}, {"4", "cone"}};
   auto type = map.text("type");
@@ -84,7 +103,7 @@ std::optional<Primitive> readPrimitive(const YamlValue& value, const std::string
 std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& path,
                                      YamlSource& source) {
   const std::size_t before = source.faults.size();
-  const YamlMap map(value, path, nullptr, source);
+  const YamlMap map(value, path, &kMesh, source);
   TriangleMesh mesh;
   const auto vertices = itemsOf(map, "vertices"), triangles = itemsOf(map, "triangles");
   for (std::size_t i = 0; i < vertices.size() && source.faults.size() == before; ++i) {
@@ -98,7 +117,7 @@ std::optional<TriangleMesh> readMesh(const YamlValue& value, const std::string& 
       mesh.vertices.emplace_back((*p)[0], (*p)[1], (*p)[2]);
   }
   for (std::size_t i = 0; i < triangles.size() && source.faults.size() == before; ++i) {
-    const YamlMap one(*triangles[i], map.pathOf("triangles[" + std::to_string(i) + "]"), nullptr,
+    const YamlMap one(*triangles[i], map.pathOf("triangles[" + std::to_string(i) + "]"), &kTriangle,
                       source);
     const auto corners = one.numbers("vertex_indices", 3);
     if (!corners) {
@@ -147,7 +166,8 @@ MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
       source_{file.string(), faults, {}} {}
 
 void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
-  const YamlMap scene = root();
+  const YamlMap scene(document_, "", &kScene, source_);
+  scene.require("world", "the collision objects of a planning scene of MoveIt");
   requirePlainLinks(scene);
   const YamlValue* const value = scene.find("world");
   if (const YamlValue* const state = scene.find("robot_state")) {
@@ -156,7 +176,7 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
       map.fault("attached_collision_objects", "is not supported; add the objects to the robot");
   }
   if (!value) return;
-  const YamlMap world(*value, "world", nullptr, source_);
+  const YamlMap world(*value, "world", &kWorld, source_);
   if (const YamlValue* const octomap = world.find("octomap")) {
     const YamlMap outer(*octomap, "world.octomap", nullptr, source_);
     const YamlValue* const inner = outer.find("octomap");
@@ -164,6 +184,7 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
     if (!isEmpty(map, "data")) map.fault("data", "an octomap in a scene is not supported");
   }
   const std::string root = robot.model.links[robot.model.root].name;
+  std::set<std::string> ids;
   for (const YamlValue* const item : itemsOf(world, "collision_objects")) {
     const YamlMap nameless(*item, "world.collision_objects", nullptr, source_);
     const auto id = nameless.text("id");
@@ -171,10 +192,10 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
       nameless.require("id", "the object's name");
       continue;
     }
-    const YamlMap object(*item, "object " + quotedWord(*id), nullptr, source_);
+    const YamlMap object(*item, "object " + quotedWord(*id), &kObject, source_);
     Placement outer;
     if (const YamlValue* const header = object.find("header")) {
-      const YamlMap map(*header, object.pathOf("header"), nullptr, source_);
+      const YamlMap map(*header, object.pathOf("header"), &kHeader, source_);
       const std::string frame = map.text("frame_id").value_or("");
       if (frame == root)
         outer = onBase(robot.base);
@@ -182,6 +203,11 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
         map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
                                   ", or \"world\" is needed, not " + quotedWord(frame));
     }
+    if (!ids.insert(*id).second) object.fault("id", "another object has this name");
+    if (const auto operation = object.text("operation");
+        operation && lowered(*operation) != "add" && *operation != "0" && *operation != "2")
+      object.fault("operation",
+                   "only objects that are added are read (0), not " + quotedWord(*operation));
     for (const char* const key : {"planes", "plane_poses"})
       if (!isEmpty(object, key)) object.fault(key, "planes are not supported; use a flat box");
     if (const YamlValue* const pose = object.find("pose"))
@@ -220,10 +246,33 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
   }
 }
 
+std::vector<std::string> MoveitScene::notesOn(const Model& model) {
+  std::vector<std::string> notes;
+  const RobotModel& robot = model.robots.front().model;
+  const auto name = root().text("robot_model_name");
+  if (name && !name->empty() && *name != robot.name && *name != robot.urdfName)
+    notes.push_back(source_.file + ": is for robot " + quotedWord(*name) + ", and is used for " +
+                    quotedWord(robot.urdfName.empty() ? robot.name : robot.urdfName));
+  const YamlValue* const matrix = root().find("allowed_collision_matrix");
+  if (!matrix || matrix->kind != Kind::Map) return notes;
+  const YamlMap map(*matrix, "allowed_collision_matrix", nullptr, source_);
+  std::set<std::string> known;
+  for (const LinkModel& link : robot.links) known.insert(link.name);
+  for (const ModelBody& body : model.bodies) known.insert(body.name);
+  std::vector<std::string> unknown;
+  for (const YamlValue* const item : itemsOf(map, "entry_names"))
+    if (!known.contains(item->text)) unknown.push_back(item->text);
+  if (!unknown.empty())
+    notes.push_back(source_.file + ": its allowed_collision_matrix names " +
+                    std::to_string(unknown.size()) +
+                    " that are neither links nor obstacles: " + joinedFirst(unknown, 3));
+  return notes;
+}
+
 void MoveitScene::applyAllowed(Model& model) {
   const YamlValue* const value = root().find("allowed_collision_matrix");
   if (!value || value->kind != Kind::Map) return;
-  const YamlMap map(*value, "allowed_collision_matrix", nullptr, source_);
+  const YamlMap map(*value, "allowed_collision_matrix", &kMatrix, source_);
   if (isEmpty(map, "entry_names")) return;
   const auto names = readWords(*map.find("entry_names"), "such as [hand, table]",
                                "allowed_collision_matrix.entry_names", source_);

@@ -13,7 +13,7 @@ namespace corridor {
 /// Read are the collision objects (primitives and meshes) and the allowed collision matrix. Faults,
 /// because a plan without them would be wrong, are attached objects, planes, octomaps, padded or
 /// scaled links, and objects on other frames than the world and the robot's root. Everything else
-/// is ignored.
+/// is ignored. Unknown keys are faults.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
@@ -25,6 +25,8 @@ class MoveitScene {
   /// Excludes pairs of bodies from the tests as the allowed collision matrix says. As in MoveIt, a
   /// matrix replaces the SRDF's pairs. Its default entries are not read; their pairs are tested.
   void applyAllowed(Model& model);
+  /// Returns notes on a scene that seems to be of another robot.
+  std::vector<std::string> notesOn(const Model& model);
 
  private:
   YamlMap root() { return {document_, "", nullptr, source_}; }

@@ -178,7 +178,11 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   readWorld(map, worldNeeded, builder, problem.source);
   if (scene && known) scene->addWorld(first, builder);
   problem.model = builder.buildForReader();
-  if (scene && known) scene->applyAllowed(problem.model);
+  if (scene && known) {
+    scene->applyAllowed(problem.model);
+    const std::vector<std::string> notes = scene->notesOn(problem.model);
+    problem.source.notes.insert(problem.source.notes.end(), notes.begin(), notes.end());
+  }
   AllowedBodies allowed;
   if (known && faults.size() == 0) allowed = readAllow(map, problem.model);
   problem.task.margin = map.number("margin", Range::NotNegative).value_or(problem.task.margin);
@@ -195,7 +199,7 @@ Problem readProblemYaml(const std::filesystem::path& file) {
     readBounds(map, problem);
     if (request && !map.find("start")) request->readStart(problem);
     if (request && !map.find("goal")) request->readGoals(problem);
-    readStartAndGoals(map, request.has_value(), problem);
+    readStartAndGoals(map, source.lines.contains("moveit.request"), problem);
     if (faults.size() == 0) setDefaultBounds(problem, source);
   }
   faults.throwIfAny();

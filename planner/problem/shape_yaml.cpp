@@ -51,6 +51,10 @@ std::optional<MeshFile> readMesh(const YamlMap& map, const char* key,
 }
 
 std::optional<Primitive> readBox(const YamlMap& map) {
+  if (map.find("box")->kind == YamlValue::Kind::Map) {
+    map.fault("box", "three edge lengths are needed, such as box: [0.4, 0.4, 0.5], not a map");
+    return std::nullopt;
+  }
   const auto size = map.numbers("box", 3);
   if (!size) return std::nullopt;
   return Box{{(*size)[0], (*size)[1], (*size)[2]}};

@@ -29,16 +29,23 @@ struct StateReader::Given {
 std::optional<double> coordinateValue(const Coordinate& coordinate, double value,
                                       const std::string& path, std::vector<std::string>& notes,
                                       std::string& why) {
+  const std::string angle =
+      path.ends_with("_deg") ? "" : coordinate.name;  // a value in degrees needs no hint
   if (coordinate.kind == Coordinate::Kind::circle) {
     if (-std::numbers::pi < value && value <= std::numbers::pi) return value;
     double wrapped = wrappedYaw(value);
     if (wrapped <= -std::numbers::pi) wrapped = std::numbers::pi;
     notes.push_back(path + ": " + shortest(value) + " is read as " + shortest(wrapped) +
-                    ", the same angle up to full turns");
+                    ", the same angle up to full turns" +
+                    (angle.empty()
+                         ? ""
+                         : degreesHint(value, -2 * std::numbers::pi, 2 * std::numbers::pi, angle)));
     return wrapped;
   }
   const auto within = withinLimits(value, coordinate.lower, coordinate.upper, path, notes);
-  if (!within) why = path + ": " + outsideLimits(value, coordinate.lower, coordinate.upper);
+  if (!within)
+    why = path + ": " +
+          outsideLimits(value, coordinate.lower, coordinate.upper, coordinate.angular ? angle : "");
   return within;
 }
 
@@ -127,7 +134,10 @@ bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const st
   const auto disagree = [&](std::size_t joint, const std::string& text) {
     const bool isFault = isGoal && !robots()[robot].heldByFile.contains(joint);
     if (isFault)
-      source_.fault(line, text + "; it can't move, so the start needs the same value, or hold");
+      source_.fault(line,
+                    text +
+                        "; it is not planned for, so start and goal need one value: start from a "
+                        "state with this value, or set it in hold");
     else
       problem_.source.notes.push_back(text);
     sound &= !isFault;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <numbers>
 
 #include "planner/model/settings.h"
@@ -79,6 +80,25 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
   return "";
 }
 
+namespace {
+
+/// Returns the legal key that a user meant: a similar one, or the one that other programs call so.
+std::optional<std::string> meantBy(const std::string& key, const std::vector<std::string>& legal) {
+  static const std::map<std::string, std::string> others{
+      {"pos", "at"},           {"position", "at"},          {"xyz", "at"},
+      {"origin", "at"},        {"translation", "at"},       {"pose", "at"},
+      {"quat", "quat_xyzw"},   {"quaternion", "quat_xyzw"}, {"orientation", "quat_xyzw"},
+      {"obstacles", "world"},  {"scene", "world"},          {"file", "mesh"},
+      {"clearance", "margin"}, {"timeout", "time"}};
+  if (const auto near = mostSimilar(key, legal)) return near;
+  const auto other = others.find(key);
+  if (other == others.end() || std::find(legal.begin(), legal.end(), other->second) == legal.end())
+    return std::nullopt;
+  return other->second;
+}
+
+}  // namespace
+
 YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, YamlSource& source)
     : path_(std::move(path)), source_(&source), line_(value.line) {
   if (value.kind != YamlValue::Kind::Map) {
@@ -103,9 +123,10 @@ YamlMap::YamlMap(const YamlValue& value, std::string path, const MapKeys* keys, 
         explainsMissing_ = true;
         continue;
       }
-      if (const auto near = mostSimilar(entry.key, keys->legal)) missed_.insert(*near);
+      const auto near = meantBy(entry.key, keys->legal);
+      if (near) missed_.insert(*near);
       source.fault(entry.line, "unknown key " + quotedWord(entry.key) + in +
-                                   didYouMean(entry.key, keys->legal) +
+                                   (near ? " (did you mean " + quotedWord(*near) + "?)" : "") +
                                    " (known: " + joined(keys->legal) + ")");
       continue;
     }

@@ -114,6 +114,18 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
+/// @param line counted from 0
+bool isIndentedByTab(const std::string& text, int line) {
+  std::size_t begin = 0;
+  for (int i = 0; i < line; ++i) {
+    begin = text.find('\n', begin);
+    if (begin == text.npos) return false;
+    ++begin;
+  }
+  const std::size_t end = text.find_first_not_of(" \t", begin);
+  return text.substr(begin, end - begin).find('\t') != std::string::npos;
+}
+
 }  // namespace
 
 YamlValue parseYaml(const std::string& file, const std::string& text, const YamlLimits& limits) {
@@ -126,7 +138,10 @@ YamlValue parseYaml(const std::string& file, const std::string& text, const Yaml
       throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
     return first.take();
   } catch (const YAML::Exception& error) {
-    throw InputError(Fault{file, error.mark.line + 1, "is not YAML: " + error.msg});
+    const bool tab = isIndentedByTab(text, error.mark.line);
+    throw InputError(Fault{file, error.mark.line + 1,
+                           tab ? "is not YAML: the line is indented by a tab; use blanks"
+                               : "is not YAML: " + error.msg});
   }
 }
 

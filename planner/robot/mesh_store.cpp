@@ -26,32 +26,41 @@ std::vector<std::filesystem::path> foldersIn(const char* variable) {
   return folders;
 }
 
-/// Finds a package's file in the folders of AMENT_PREFIX_PATH (PREFIX/share/PACKAGE) and
-/// ROS_PACKAGE_PATH (the folder itself, or PACKAGE up to three levels below it, since a workspace
-/// contains repositories, which contain packages).
-std::optional<std::filesystem::path> findInRosPaths(const std::string& package,
-                                                    const std::filesystem::path& rest) {
-  const auto hasFile = [&](const std::filesystem::path& folder) {
-    return folder.filename() == package && whyNoFile(folder / rest).empty();
+/// A package's folder, and whether it has the file.
+struct Found {
+  std::filesystem::path folder;  ///< empty: there is no such package
+  bool hasFile = false;
+};
+
+/// Finds a package in the folders of AMENT_PREFIX_PATH (PREFIX/share/PACKAGE) and ROS_PACKAGE_PATH
+/// (the folder itself, or PACKAGE up to three levels below it, since a workspace contains
+/// repositories, which contain packages). A package that has the file comes first.
+Found findInRosPaths(const std::string& package, const std::filesystem::path& rest) {
+  Found found;
+  const auto look = [&](const std::filesystem::path& folder) {
+    std::error_code none;
+    if (folder.filename() != package || !std::filesystem::is_directory(folder, none)) return;
+    const bool hasFile = whyNoFile(folder / rest).empty();
+    if (found.folder.empty() || (hasFile && !found.hasFile)) found = {folder, hasFile};
   };
-  for (const auto& prefix : foldersIn("AMENT_PREFIX_PATH"))
-    if (hasFile(prefix / "share" / package)) return prefix / "share" / package / rest;
+  for (const auto& prefix : foldersIn("AMENT_PREFIX_PATH")) look(prefix / "share" / package);
   using Walk = std::filesystem::recursive_directory_iterator;
   constexpr int deepest = 2, mostEntries = 10'000;
   for (const auto& root : foldersIn("ROS_PACKAGE_PATH")) {
-    if (hasFile(root)) return root / rest;
+    look(root);
     std::error_code error;
     int entries = 0;
     Walk walk(root, std::filesystem::directory_options::skip_permission_denied, error);
-    for (; !error && walk != Walk() && entries < mostEntries; walk.increment(error), ++entries) {
+    for (; !error && walk != Walk() && !found.hasFile && entries < mostEntries;
+         walk.increment(error), ++entries) {
       std::error_code none;
       if (!walk->is_directory(none)) continue;
-      if (hasFile(walk->path())) return walk->path() / rest;
+      look(walk->path());
       if (walk.depth() >= deepest || walk->path().filename().string().starts_with('.'))
         walk.disable_recursion_pending();
     }
   }
-  return std::nullopt;
+  return found;
 }
 
 }  // namespace
@@ -87,7 +96,11 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
   for (std::filesystem::path above = absolute; above != above.root_path();
        above = above.parent_path())
     if (above.filename() == package && whyNoFile(above / rest).empty()) return {above / rest, ""};
-  if (const auto found = findInRosPaths(package, rest)) return {*found, ""};
+  const Found found = findInRosPaths(package, rest);
+  if (found.hasFile) return {found.folder / rest, ""};
+  if (!found.folder.empty())
+    return {found.folder / rest, "package " + quotedWord(package) + " is found at " +
+                                     found.folder.string() + ", but has no " + rest.string()};
   std::vector<std::string> names;
   for (const auto& entry : rules_.packages) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);

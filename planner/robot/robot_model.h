@@ -72,6 +72,7 @@ std::vector<std::string> usableNames(const std::map<std::string, Named>& all) {
 /// without joints, whose `mount` is floating (SE3) or planar (SE2).
 struct RobotModel {
   std::string name;
+  std::string urdfName;                ///< the name in the URDF; "" for a rigid body
   JointType mount = JointType::fixed;  ///< the joint between the robot's base and its root link
   std::size_t root = 0;
   std::vector<LinkModel> links;

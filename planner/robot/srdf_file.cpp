@@ -144,6 +144,9 @@ void readAll(XmlFile& file, RobotModel& model) {
                       "disable_collisions", "enable_collisions", "disable_default_collisions"},
                      {"end_effector", "joint_property", "link_sphere_approximation"},
                      owned("robot", model.name), model.notes);
+  if (const Element* const link = root.FirstChildElement("link"))
+    model.notes.push_back(
+        file.at(link->GetLineNum(), "it has <link> elements; it seems to be a URDF, not an SRDF"));
   SrdfNames names(file, model);
   forEach(root, "virtual_joint", [&](Element& element) {
     if (const char* joint = element.Attribute("name")) names.addVirtual(joint);

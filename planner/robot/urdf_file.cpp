@@ -80,7 +80,7 @@ class UrdfBuilder {
   /// @param mimics for each of the outline's joints.
   RobotModel build(const std::vector<std::size_t>& order,
                    const std::vector<std::optional<Mimic>>& mimics) {
-    model_.name = outline_.name;
+    model_.name = model_.urdfName = outline_.name;
     for (std::size_t i = 0; i < outline_.links.size(); ++i) {
       linkIndex_[outline_.links[i].name] = i;
       addLink(outline_.links[i]);

@@ -47,7 +47,11 @@ std::vector<std::string> wordsOf(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
   std::istringstream words(line);
   std::vector<std::string> all;
-  for (std::string word; words >> word;) all.push_back(word);
+  for (std::string word; words >> word;) {
+    if (word.size() > 2 && word.front() == '"' && word.back() == '"')
+      word = word.substr(1, word.size() - 2);
+    all.push_back(word);
+  }
   return all;
 }
 
@@ -87,6 +91,14 @@ std::vector<StateRow> readStateRows(const std::filesystem::path& file,
   std::istringstream lines(readTextStream(file, "a file of states, one per line,"));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
+    // numpy.savetxt writes its header as a comment.
+    if (isFirst && line.starts_with('#')) {
+      std::vector<std::string> words = wordsOf(line.substr(1)), sorted = names;
+      std::sort(words.begin(), words.end());
+      std::sort(sorted.begin(), sorted.end());
+      if (words == sorted) line.erase(0, 1);
+    }
     const std::vector<std::string> words = wordsOf(line);
     if (words.empty()) continue;
     // Names may be numbers, too; a line of numbers is a state.

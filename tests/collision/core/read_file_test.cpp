@@ -92,6 +92,15 @@ TEST_F(ReadFile, TheSizeIsTestedFirst) {
             large.string() + ": has 268435457 bytes, more than 268435456, the limit for a thing");
 }
 
+TEST_F(ReadFile, APointerOfGitLfsIsNotTheFile) {
+  expectRefused(write("pointer.stl",
+                      "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n"
+                      "size 12345\n"),
+                "is a pointer of Git LFS, not the file itself; git lfs pull fetches the file");
+  EXPECT_EQ(readFile(write("short", "version https://git-lfs"), "a thing"),
+            "version https://git-lfs");
+}
+
 TEST_F(ReadFile, TextHasNoByte0) {
   const auto file = write("a", std::string("one\ntwo\n\0three\n", 15));
   EXPECT_EQ(readFile(file, "a thing").size(), 15u);

@@ -73,6 +73,12 @@ TEST(BroadPhase, MotionsHaveTheSameAnswers) {
       // A box around several bodies may be separated where the bound of one of them is too weak.
       EXPECT_LE(one.counters.boxTests, other.counters.boxTests);
       ++verdicts[with.verdict];
+      std::map<MotionVerdict, int> each, alone;
+      for (const MotionResult& result : scene.scene().certifyEachPair(edge, options, one))
+        ++each[result.verdict];
+      for (const MotionPair& pair : scene.scene().motionPairs())
+        ++alone[certifyMotion(edge, {&pair, 1}, options, other).verdict];
+      EXPECT_EQ(each, alone) << "the answers of single pairs";
       MotionCertificate certificate;
       const MotionResult proved = scene.scene().certify(edge, options, one, certificate);
       EXPECT_EQ(proved.verdict, with.verdict);
@@ -98,11 +104,25 @@ TEST(BroadPhase, FindsBodiesInsideSolids) {
       RigidEdge edge(RigidMotion::spatial(from, n % 2 ? to : from, {}));
       QueryContext context;
       const MotionResult all = scene.scene().certify(edge, options, context);
-      MotionVerdict expected = MotionVerdict::free;
-      for (const MotionResult& one : scene.scene().certifyEachPair(edge, options, context))
-        if (one.verdict != MotionVerdict::free && expected != MotionVerdict::contact)
-          expected = one.verdict;
-      EXPECT_EQ(all.verdict, expected) << "scene " << scenes << ", edge " << n;
+      const auto each = scene.scene().certifyEachPair(edge, options, context);
+      ASSERT_EQ(each.size(), scene.scene().pairs().size());
+      MotionVerdict worst = MotionVerdict::free;
+      for (const MotionResult& one : each)
+        if (one.verdict != MotionVerdict::free && worst != MotionVerdict::contact)
+          worst = one.verdict;
+      EXPECT_EQ(all.verdict, worst) << "scene " << scenes << ", edge " << n;
+      // At the start, each pair of bodies on its own.
+      const Transform X_WB = RigidMotion::spatial(from, from, {}).at(0);
+      bool touches = false;
+      for (const Scene::Pair& pair : scene.scene().pairs())
+        touches = touches || interference(Posed(scene.scene().bodies()[pair.a].body),
+                                          Posed(scene.scene().bodies()[pair.b].body, X_WB), context)
+                                 .has_value();
+      if (all.verdict == MotionVerdict::free) {
+        EXPECT_FALSE(touches) << n;
+      } else if (n % 2 == 0) {
+        EXPECT_EQ(all.verdict == MotionVerdict::contact, touches) << n;
+      }
       free += all.verdict == MotionVerdict::free;
       inside += all.verdict == MotionVerdict::contact &&
                 certifyMotion(edge, scene.scene().motionPairs(), options, context).verdict ==

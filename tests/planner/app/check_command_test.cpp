@@ -83,6 +83,10 @@ TEST_F(CheckCommand, StatesMayHaveAHeader) {
   write("states.csv", "# recorded\nelbow,shoulder\n0,1.5708\n2.5,0\n");
   EXPECT_EQ(run("check arm.yaml --states states.csv").out,
             "state,valid,pairs\n0,0,lower~post\n1,0,bounds:elbow\n");
+  write("states.csv", "# elbow shoulder\n0 1.5708\n");  // as numpy.savetxt writes it
+  EXPECT_EQ(run("check arm.yaml --states states.csv").out, "state,valid,pairs\n0,0,lower~post\n");
+  write("states.csv", "\xEF\xBB\xBF\"elbow\",\"shoulder\"\n0,1.5708\n");  // as Excel does
+  EXPECT_EQ(run("check arm.yaml --states states.csv").out, "state,valid,pairs\n0,0,lower~post\n");
   const auto fault = [&](const std::string& text) {
     write("states.csv", text);
     const Result checked = run("check arm.yaml --states states.csv");

@@ -102,6 +102,8 @@ const std::vector<Use>& uses() {
        "check hall.yaml --states states.txt --json",
        {},
        "check hall.yaml --states - --json"},
+      {"Pose", "pose arm.urdf", {}, "pose vast.urdf"},
+      {"PoseJson", "pose arm.urdf --json", {}, "pose vast.urdf --json"},
       {"InspectMesh", "inspect cube.obj", {}, "inspect vast.obj --self-intersections"},
       {"InspectMeshJson", "inspect cube.obj --json", {}, "inspect vast.obj --json"},
       {"InspectRobot", "inspect arm.urdf", {}, "inspect vast.urdf"},

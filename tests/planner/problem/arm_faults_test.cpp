@@ -110,6 +110,26 @@ TEST_F(ArmFaults, AllowAndTube) {
             "here; use joints (rad, or m for prismatic joints)");
 }
 
+/// Values that are plainly in degrees.
+TEST_F(ArmFaults, AnglesInDegrees) {
+  const auto complaint = [&](const std::string& values) {
+    return complaintOf(armHead + "start: {pan: 0, " + values + "}\ngoal: ready\n");
+  };
+  EXPECT_EQ(complaint("lift: 60"),
+            "problem.yaml:5: start.lift: 60 is outside of its limits, [-3.14159, 3.14159]; in "
+            "degrees, write lift_deg: 60");
+  EXPECT_EQ(complaint("lift: 4"),
+            "problem.yaml:5: start.lift: 4 is outside of its limits, [-3.14159, 3.14159]");
+  EXPECT_EQ(complaint("lift_deg: 400"),
+            "problem.yaml:5: start.lift_deg: 6.981317007977318 is outside of its limits, "
+            "[-3.14159, 3.14159]");
+  EXPECT_THAT(read(armHead + "start: {pan: 90, lift: 0}\ngoal: ready\n").source.notes,
+              testing::Contains("start.pan: 90 is read as 2.035405699485789, the same angle up to "
+                                "full turns; in degrees, write pan_deg: 90"));
+  EXPECT_THAT(complaintOf(armHead + "start: ready\ngoal: {pose: {at: [0, 0, 1]}}\n"),
+              testing::HasSubstr("; poses of links are not supported: give the joints' values"));
+}
+
 /// Only what the problem names must be there.
 TEST_F(ArmFaults, PartsOfAnSrdfThatCannotBeMade) {
   std::string text = srdf;

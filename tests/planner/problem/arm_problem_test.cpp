@@ -175,8 +175,9 @@ TEST_F(ArmProblem, NamedStatesHoldJoints) {
 
   write("arm.yaml", robotHead + "joints: [pan, lift]\n" + states);
   EXPECT_EQ(complaintOf(armHead + "start: near\ngoal: far\n"),
-            "problem.yaml:6: goal: slide is held at 0.02, not at the 0.04 of state far; it can't "
-            "move, so the start needs the same value, or hold");
+            "problem.yaml:6: goal: slide is held at 0.02, not at the 0.04 of state far; it is "
+            "not planned for, so start and goal need one value: start from a state with this "
+            "value, or set it in hold");
   write("arm.yaml", robotHead + "joints: [pan, lift]\nhold: fer\n" + states);
   EXPECT_THAT(complaintOf(armHead + values),
               testing::StartsWith("arm.yaml:4: hold: there is no state \"fer\" (did you mean "

@@ -54,7 +54,8 @@ TEST_F(MbmJson, Faults) {
             "sets/box.json: start: a list of 1 numbers is needed");
   EXPECT_EQ(
       complaintOfSet(set(R"({"index": 1, "start": [9, 0], "goals": [], "objects": []})"), "#1"),
-      "sets/box.json: start.lift: 9 is outside of its limits, [-3.14159, 3.14159]\n"
+      "sets/box.json: start.lift: 9 is outside of its limits, [-3.14159, 3.14159]; in "
+      "degrees, write lift_deg: 9\n"
       "sets/box.json: goals: at least one is needed");
   EXPECT_EQ(
       complaintOfSet(

@@ -151,28 +151,44 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_EQ(complaint(object("meshes: [{vertices: [[0, 0, 0]], triangles: [{vertex_indices: [0, 0, "
                              "1]}]}]")),
             a + ".meshes[0].triangles[0].vertex_indices: the mesh has no vertex 1");
-  EXPECT_EQ(complaint("robot_state: {attached_collision_objects: [{link_name: hand}]}\n"),
-            "scene.yaml:1: robot_state.attached_collision_objects: is not supported; add the "
+  EXPECT_EQ(complaint("world: {}\nrobot_state: {attached_collision_objects: [{link_name: "
+                      "hand}]}\n"),
+            "scene.yaml:2: robot_state.attached_collision_objects: is not supported; add the "
             "objects to the robot");
   EXPECT_EQ(complaint("world: {octomap: {octomap: {id: OcTree, data: [1, 2]}}}\n"),
             "scene.yaml:1: world.octomap.data: an octomap in a scene is not supported");
-  EXPECT_EQ(complaint("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true, "
-                      "true]]}\n"),
-            "scene.yaml:1: allowed_collision_matrix.entry_values: 2 rows are needed, not 1");
-  EXPECT_EQ(complaint("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true], "
-                      "[true, true]]}\n"),
-            "scene.yaml:1: allowed_collision_matrix.entry_values[0]: 2 values are needed, not 1");
-  EXPECT_EQ(complaint("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[false, "
-                      "false], [true, false]]}\n"),
-            "scene.yaml:1: allowed_collision_matrix.entry_values[1]: the matrix is not symmetric: "
+  EXPECT_EQ(complaint("world: {}\nallowed_collision_matrix: {entry_names: [a, b], "
+                      "entry_values: [[true, true]]}\n"),
+            "scene.yaml:2: allowed_collision_matrix.entry_values: 2 rows are needed, not 1");
+  EXPECT_EQ(complaint("world: {}\nallowed_collision_matrix: {entry_names: [a, b], "
+                      "entry_values: [[true], [true, true]]}\n"),
+            "scene.yaml:2: allowed_collision_matrix.entry_values[0]: 2 values are needed, not 1");
+  EXPECT_EQ(complaint("world: {}\nallowed_collision_matrix: {entry_names: [a, b], "
+                      "entry_values: [[false, false], [true, false]]}\n"),
+            "scene.yaml:2: allowed_collision_matrix.entry_values[1]: the matrix is not symmetric: "
             "\"b\" and \"a\" are allowed in one order only");
   EXPECT_EQ(complaint("link_padding: [{link_name: hand, padding: 0}, {link_name: arm, padding: "
                       "0.1}]\nlink_scale: [{link_name: hand, scale: 1}, {link_name: arm, scale: "
-                      "2}]\n"),
+                      "2}]\nworld: {}\n"),
             "scene.yaml:1: link_padding.padding: links are tested as they are; use margin for a "
             "distance to keep\n"
             "scene.yaml:2: link_scale.scale: links are tested as they are; use margin for a "
             "distance to keep");
+  EXPECT_THAT(complaint("wrld: {}\n"),
+              HasSubstr("scene.yaml:1: unknown key \"wrld\" (did you mean \"world\"?)"));
+  EXPECT_EQ(complaint("name: empty\n"),
+            "scene.yaml: missing key \"world\": the collision objects of a planning scene of "
+            "MoveIt");
+  EXPECT_THAT(complaint(object("primitives: [{type: sphere, dimensions: [1]}], primitive_poses: "
+                               "[{postion: [0, 0, 9]}]")),
+              HasSubstr("unknown key \"postion\" in object \"a\".primitive_poses[0] (did you mean "
+                        "\"position\"?)"));
+  EXPECT_EQ(complaint(object("operation: 1, primitives: [{type: sphere, dimensions: [1]}]")),
+            a + ".operation: only objects that are added are read (0), not \"1\"");
+  EXPECT_EQ(complaint("world:\n  collision_objects:\n    - {id: a, primitives: [{type: sphere, "
+                      "dimensions: [1]}]}\n    - {id: a, primitives: [{type: sphere, dimensions: "
+                      "[1]}]}\n"),
+            "scene.yaml:4: object \"a\".id: another object has this name");
   EXPECT_THAT(complaint("{"), HasSubstr("scene.yaml:"));
 }
 
@@ -281,6 +297,20 @@ TEST_F(Moveit, HeldJointsFollowTheProblemsStart) {
   EXPECT_EQ(slide(""), 0.04);
   EXPECT_EQ(slide("start: near\n"), 0.02);
   EXPECT_EQ(slide("start: {pan: 0, lift: 0}\n"), 0.04);
+}
+
+TEST_F(Moveit, ASceneOfAnotherRobotIsNoted) {
+  std::string text = scene;
+  text += "robot_model_name: fetch\n";
+  text.replace(text.find("[base, lower, crate, finger]"), 28, "[base, lower, crate, fingre]");
+  write("scene.yaml", text);
+  const Problem p = read(head);
+  EXPECT_THAT(p.source.notes,
+              testing::Contains(testing::EndsWith(
+                  "scene.yaml: is for robot \"fetch\", and is used for \"armbot\"")));
+  EXPECT_THAT(p.source.notes,
+              testing::Contains(testing::EndsWith("names 1 that are neither links nor obstacles: "
+                                                  "fingre")));
 }
 
 TEST_F(Moveit, ARequestNeedsJoints) {

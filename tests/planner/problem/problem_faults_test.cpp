@@ -52,6 +52,8 @@ TEST_F(ProblemFaults, Syntax) {
   EXPECT_EQ(with("margin: &m 1\nseed: *m\n"),
             "problem.yaml:9: aliases (*name) are not read here; write the value out");
   EXPECT_EQ(with("[1]: 2\n"), "problem.yaml:8: a key must be a word");
+  EXPECT_EQ(with("planner:\n\tname: RRT\n"),
+            "problem.yaml:9: is not YAML: the line is indented by a tab; use blanks");
   EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");
 }
 
@@ -63,6 +65,16 @@ TEST_F(ProblemFaults, UnknownAndDuplicateKeys) {
   EXPECT_EQ(with("checker: {edges: discrete, rezolution: 0.1}\n"),
             "problem.yaml:8: unknown key \"rezolution\" in checker (did you mean \"resolution\"?) "
             "(known: edges, resolution, tolerance, volume, fit, overlap)");
+  EXPECT_EQ(with("clearance: 0.1\n"),
+            std::string("problem.yaml:8: unknown key \"clearance\" (did you mean \"margin\"?)") +
+                topKeys);
+  EXPECT_THAT(complaintOf("format: corridor-problem-1\nrobot: robot.yaml\nworld: {a: {box: {size: "
+                          "[1, 1, 1]}, pos: [9, 9, 9]}}\n" +
+                          poses),
+              testing::AllOf(testing::HasSubstr("unknown key \"pos\" in world.a (did you mean "
+                                                "\"at\"?)"),
+                             testing::HasSubstr("world.a.box: three edge lengths are needed, such "
+                                                "as box: [0.4, 0.4, 0.5], not a map")));
   EXPECT_EQ(with("seed: 1\nmargin: 0\nseed: 2\n"),
             "problem.yaml:10: duplicate key \"seed\", first on line 8");
   EXPECT_EQ(with("planner:\n  params:\n    range: 1\n    range: 2\n"),

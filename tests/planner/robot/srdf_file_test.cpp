@@ -272,6 +272,12 @@ r.srdf:9: 1 value of a state is left out, because the URDF lacks left9 (did you 
   EXPECT_EQ(model_.states.at("e/home").values.at("left1"), 0);
 }
 
+TEST_F(SrdfFile, AUrdfIsNoSrdf) {
+  EXPECT_THAT(notesOf("<link name=\"trunk\"/>"),
+              testing::HasSubstr("r.srdf:2: it has <link> elements; it seems to be a URDF, not an "
+                                 "SRDF"));
+}
+
 /// An unreadable <enable_collisions> must not leave a pair untested.
 TEST_F(SrdfFile, DefaultsAreIgnoredIfAnEnabledPairIsLost) {
   const std::size_t adjacent = model_.allowed.size();

@@ -261,6 +261,9 @@ TEST_F(UrdfFile, MeshesAreFoundInTheFoldersOfRos) {
   EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "installed/share/hand/meshes/a.obj",
                                  folder_ / "workspace/src/repository/arm/meshes/b.obj",
                                  folder_ / "single/base/c.obj"}));
+  EXPECT_EQ(complaintOfParts(link("a", collision("<mesh filename=\"package://arm/none.obj\"/>"))),
+            "r.urdf:2: link \"a\": mesh \"package://arm/none.obj\": package \"arm\" is found at "
+            "workspace/src/repository/arm, but has no none.obj");
 }
 
 TEST_F(UrdfFile, MeshesInMillimetresAreNoted) {
