@@ -12,9 +12,10 @@
 
 namespace corridor {
 
-/// Finds the pairs of bodies that may come close to each other, without a test of each pair. Pairs
-/// of one moving body with many bodies at rest in the world are found by a tree of the boxes of the
-/// latter. Moving bodies with the same partners share one tree. Other pairs are always found.
+/// Finds the pairs of bodies that may come close to each other, without a test of each pair. If a
+/// moving body has many partners at rest in the world, a tree of the partners' boxes gives the
+/// pairs that its swept sphere may reach. Moving bodies with the same partners share one tree. All
+/// other pairs are always found.
 ///
 /// Const after construction, so threads may share it.
 class BroadPhase {

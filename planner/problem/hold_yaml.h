@@ -33,7 +33,7 @@ void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots);
 const NamedState* findState(const RobotModel& model, const std::string& name,
                             const YamlPlace& place);
 
-/// Returns the pose of a planar or floating joint in a state; nullopt: the state has none.
+/// Returns the pose of a planar or floating joint in a state, or nullopt if the state has none.
 std::optional<RigidPose> poseIn(const NamedState& state, const JointModel& joint);
 
 }  // namespace corridor

@@ -10,13 +10,13 @@
 
 namespace corridor {
 
-/// A message moveit_msgs/MotionPlanRequest, written as YAML. Its parts are read by the members,
-/// which add faults to the problem's list.
+/// A message moveit_msgs/MotionPlanRequest, written as YAML. The members read its parts, and add
+/// faults to the problem's list.
 ///
-/// Read are the group, the start state, and goals by joint values. Faults, because a plan without
-/// them would be wrong, are attached objects, poses of joints with several variables, goals by
-/// positions or orientations of links, goals that move a held joint, and constraints of the path.
-/// Everything else is ignored; the tolerances of goals, too.
+/// They read the group, the start state, and goals by joint values. A plan without the following
+/// would be wrong, so they are faults: attached objects, poses of joints with several variables,
+/// goals by positions or orientations of links, goals that move a held joint, constraints of the
+/// path, and unknown keys. All other fields are ignored, and so are the tolerances of goals.
 class MoveitRequest {
  public:
   /// @throws InputError if the file is not YAML.

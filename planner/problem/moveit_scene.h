@@ -7,20 +7,20 @@
 
 namespace corridor {
 
-/// A message moveit_msgs/PlanningScene, written as YAML. Its parts are read by the members, which
-/// add faults to the problem's list.
+/// A message moveit_msgs/PlanningScene, written as YAML. The members read its parts, and add faults
+/// to the problem's list.
 ///
-/// Read are the collision objects (primitives and meshes) and the allowed collision matrix. Faults,
-/// because a plan without them would be wrong, are attached objects, planes, octomaps, padded or
-/// scaled links, and objects on other frames than the world and the robot's root. Everything else
-/// is ignored. Unknown keys are faults.
+/// They read the collision objects (primitives and meshes) and the allowed collision matrix. A plan
+/// without the following would be wrong, so they are faults: attached objects, planes, octomaps,
+/// padded or scaled links, objects on other frames than the world and the robot's root, and unknown
+/// keys. All other fields are ignored.
 class MoveitScene {
  public:
   /// @throws InputError if the file is not YAML.
   MoveitScene(const std::filesystem::path& file, FaultList& faults);
 
-  /// Adds the collision objects. Each object is an obstacle. Objects on the robot's root are moved
-  /// by its base.
+  /// Adds the collision objects. Each object is an obstacle. The robot's base moves the objects
+  /// that are given in the frame of its root.
   void addWorld(const ModelRobot& robot, ModelBuilder& builder);
   /// Excludes pairs of bodies from the tests as the allowed collision matrix says. As in MoveIt, a
   /// matrix replaces the SRDF's pairs. Its default entries are not read; their pairs are tested.
