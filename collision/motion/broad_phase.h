@@ -50,8 +50,6 @@ class BroadPhase {
 
   /// Returns one more than the largest index of a body.
   std::size_t bodies() const { return bodies_; }
-  /// Returns whether there is a tree. Otherwise all pairs are found.
-  bool hasTrees() const { return hasTrees_; }
 
  private:
   /// Adjacent pairs. With a tree, they have the same body b, and item i of the tree is the box of

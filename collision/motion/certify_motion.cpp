@@ -60,7 +60,7 @@ class Certifier {
   /// Returns the pairs that may come too close during the motion, in ascending order.
   std::span<const std::uint32_t> nearPairs() {
     std::vector<std::uint32_t>& near = query_.context.scratch.of<MotionScratch>().near;
-    if (query_.broadPhase && query_.broadPhase->hasTrees() && !query_.certificate) {
+    if (query_.broadPhase && !query_.certificate) {
       motions_.select(0.5, 0.5);
       query_.broadPhase->find(motions_, query_.requiredDistance(), near);
     } else {

@@ -309,7 +309,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
   MotionResult counted;  // counts as one query, which is undecided if any pair is
   std::vector<std::uint32_t>& near = context.scratch.of<NearPairs>().pairs;
   const bool isCurve = standardFloatingPoint() && !motion.ambiguous();
-  if (isCurve && broadPhase_->hasTrees()) {  // the other pairs are free
+  if (isCurve) {  // pairs that are not found are free
     IntervalMotions motions(motion, broadPhase_->bodies(), context);
     motions.select(0.5, 0.5);
     broadPhase_->find(motions, roundedUp(options.margin + options.clearanceSlack), near);

@@ -165,7 +165,7 @@ MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
     : document_(parseYaml(file.string(), readTextFile(file, "a planning scene of MoveIt"))),
       source_{file.string(), faults, {}} {}
 
-void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
+void MoveitScene::addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder) {
   const YamlMap scene(document_, "", &kScene, source_);
   scene.require("world", "the collision objects of a planning scene of MoveIt");
   requirePlainLinks(scene);
@@ -183,7 +183,6 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
     const YamlMap map(inner ? *inner : *octomap, "world.octomap", nullptr, source_);
     if (!isEmpty(map, "data")) map.fault("data", "an octomap in a scene is not supported");
   }
-  const std::string root = robot.model.links[robot.model.root].name;
   std::set<std::string> ids;
   for (const YamlValue* const item : itemsOf(world, "collision_objects")) {
     const YamlMap nameless(*item, "world.collision_objects", nullptr, source_);
@@ -198,7 +197,7 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
       const YamlMap map(*header, object.pathOf("header"), &kHeader, source_);
       const std::string frame = map.text("frame_id").value_or("");
       if (frame == root)
-        outer = onBase(robot.base);
+        outer = onBase(base);
       else if (!frame.empty() && frame != "world")
         map.fault("frame_id", "the frame of the robot's root, " + quotedWord(root) +
                                   ", or \"world\" is needed, not " + quotedWord(frame));
@@ -249,11 +248,11 @@ void MoveitScene::addWorld(const ModelRobot& robot, ModelBuilder& builder) {
 std::vector<std::string> MoveitScene::notesOn(const Model& model) {
   std::vector<std::string> notes;
   const RobotModel& robot = model.robots.front().model;
-  const auto name = root().text("robot_model_name");
+  const auto name = message().text("robot_model_name");
   if (name && !name->empty() && *name != robot.name && *name != robot.urdfName)
     notes.push_back(source_.file + ": is for robot " + quotedWord(*name) + ", and is used for " +
                     quotedWord(robot.urdfName.empty() ? robot.name : robot.urdfName));
-  const YamlValue* const matrix = root().find("allowed_collision_matrix");
+  const YamlValue* const matrix = message().find("allowed_collision_matrix");
   if (!matrix || matrix->kind != Kind::Map) return notes;
   const YamlMap map(*matrix, "allowed_collision_matrix", nullptr, source_);
   std::set<std::string> known;
@@ -270,7 +269,7 @@ std::vector<std::string> MoveitScene::notesOn(const Model& model) {
 }
 
 void MoveitScene::applyAllowed(Model& model) {
-  const YamlValue* const value = root().find("allowed_collision_matrix");
+  const YamlValue* const value = message().find("allowed_collision_matrix");
   if (!value || value->kind != Kind::Map) return;
   const YamlMap map(*value, "allowed_collision_matrix", &kMatrix, source_);
   if (isEmpty(map, "entry_names")) return;

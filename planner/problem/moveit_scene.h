@@ -21,7 +21,8 @@ class MoveitScene {
 
   /// Adds the collision objects. Each object is an obstacle. The robot's base moves the objects
   /// that are given in the frame of its root.
-  void addWorld(const ModelRobot& robot, ModelBuilder& builder);
+  /// @param root the name of the robot's root link.
+  void addWorld(const std::string& root, const RigidPose& base, ModelBuilder& builder);
   /// Excludes pairs of bodies from the tests as the allowed collision matrix says. As in MoveIt, a
   /// matrix replaces the SRDF's pairs. Its default entries are not read; their pairs are tested.
   void applyAllowed(Model& model);
@@ -29,7 +30,7 @@ class MoveitScene {
   std::vector<std::string> notesOn(const Model& model);
 
  private:
-  YamlMap root() { return {document_, "", nullptr, source_}; }
+  YamlMap message() { return {document_, "", nullptr, source_}; }
 
   YamlValue document_;
   YamlSource source_;

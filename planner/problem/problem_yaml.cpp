@@ -173,10 +173,16 @@ Problem readProblemYaml(const std::filesystem::path& file) {
   }
   if (request && known) request->hold(robots.front());
   holdAsStart(map, robots);
-  const ModelRobot first = known ? robots.front().robot : ModelRobot();
+  std::string root;  // of the robot that a scene is for
+  RigidPose base;
+  if (scene && known) {
+    const ModelRobot& robot = robots.front().robot;
+    root = robot.model.links[robot.model.root].name;
+    base = robot.base;
+  }
   addRobots(std::move(robots), builder, problem.source);
   readWorld(map, worldNeeded, builder, problem.source);
-  if (scene && known) scene->addWorld(first, builder);
+  if (scene && known) scene->addWorld(root, base, builder);
   problem.model = builder.buildForReader();
   if (scene && known) {
     scene->applyAllowed(problem.model);

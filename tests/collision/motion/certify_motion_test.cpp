@@ -331,5 +331,26 @@ TEST(CertifyMotion, FarBodiesGetNoTree) {
   for (const Body& body : far) EXPECT_FALSE(body.treeBuilt());
 }
 
+/// The bounding sphere of the cube does not touch the wall, but it is closer than the margin.
+TEST(CertifyMotion, AMarginLargerThanTheGapOfSpheres) {
+  const Body wall = test::bodyOf(test::box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
+             cube = test::bodyOf(test::box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1)));
+  const RigidMotion motion =
+      RigidMotion::spatial(test::at(Vec3(0, 0, 0)), test::at(Vec3(0.01, 0, 0)), {});
+  QueryContext context;
+  MotionOptions options;
+  options.tolerance = 1e-6;
+  for (const test::Proof& proof :
+       {test::Proof(EdgeMethod::directional), test::Proof(EdgeMethod::directional, TreeKind::rss),
+        test::Proof(EdgeMethod::adaptive)}) {
+    options.margin = 1;
+    EXPECT_EQ(test::certify(cube, wall, motion, options, context, proof).verdict,
+              MotionVerdict::contact);
+    options.margin = 0.5;
+    EXPECT_EQ(test::certify(cube, wall, motion, options, context, proof).verdict,
+              MotionVerdict::free);
+  }
+}
+
 }  // namespace
 }  // namespace corridor

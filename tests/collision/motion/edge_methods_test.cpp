@@ -215,17 +215,6 @@ TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   }
 }
 
-/// The bounding sphere of the cube does not touch the wall, but it is closer than the margin.
-TEST_P(EdgeMethods, AMarginLargerThanTheGapOfSpheres) {
-  const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
-             cube = bodyOf(box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1)));
-  const RigidMotion motion = RigidMotion::spatial(at(Vec3(0, 0, 0)), at(Vec3(0.01, 0, 0)), {});
-  options_.margin = 1;
-  EXPECT_EQ(ask(cube, wall, motion).verdict, MotionVerdict::contact);
-  options_.margin = 0.5;
-  EXPECT_EQ(ask(cube, wall, motion).verdict, MotionVerdict::free);
-}
-
 TEST_P(EdgeMethods, AmbiguousHalfTurn) {
   const Body far = bodyOf(box(Vec3(100, 0, 0), Vec3(101, 1, 1))),
              cube = bodyOf(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));

@@ -184,7 +184,7 @@ TEST(BroadPhase, StatesHaveTheSameAnswers) {
   EXPECT_GT(apart, 20);
 }
 
-/// With thousands of obstacles out of reach, hardly any is looked at.
+/// Among thousands of obstacles, the tree gives only those near the motion.
 TEST(BroadPhase, TakesLogarithmicTime) {
   std::vector<Body> moving, fixed;
   const TriangleMesh cube = box(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.1));
