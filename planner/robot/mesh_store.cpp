@@ -26,22 +26,15 @@ std::vector<std::filesystem::path> foldersIn(const char* variable) {
   return folders;
 }
 
-/// A package's folder, and whether it has the file.
-struct Found {
-  std::filesystem::path folder;  ///< empty: there is no such package
-  bool hasFile = false;
-};
-
-/// Finds a package in the folders of AMENT_PREFIX_PATH (PREFIX/share/PACKAGE) and ROS_PACKAGE_PATH
-/// (the folder itself, or PACKAGE up to three levels below it, since a workspace contains
-/// repositories, which contain packages). A package that has the file comes first.
-Found findInRosPaths(const std::string& package, const std::filesystem::path& rest) {
-  Found found;
+/// Returns the folders of a package by AMENT_PREFIX_PATH (PREFIX/share/PACKAGE) and
+/// ROS_PACKAGE_PATH (the folder itself, or PACKAGE up to three levels below it, since a workspace
+/// contains repositories, which contain packages).
+std::vector<std::filesystem::path> foldersOfPackage(const std::string& package) {
+  std::vector<std::filesystem::path> found;
   const auto look = [&](const std::filesystem::path& folder) {
     std::error_code none;
-    if (folder.filename() != package || !std::filesystem::is_directory(folder, none)) return;
-    const bool hasFile = whyNoFile(folder / rest).empty();
-    if (found.folder.empty() || (hasFile && !found.hasFile)) found = {folder, hasFile};
+    if (folder.filename() == package && std::filesystem::is_directory(folder, none))
+      found.push_back(folder);
   };
   for (const auto& prefix : foldersIn("AMENT_PREFIX_PATH")) look(prefix / "share" / package);
   using Walk = std::filesystem::recursive_directory_iterator;
@@ -51,13 +44,15 @@ Found findInRosPaths(const std::string& package, const std::filesystem::path& re
     std::error_code error;
     int entries = 0;
     Walk walk(root, std::filesystem::directory_options::skip_permission_denied, error);
-    for (; !error && walk != Walk() && !found.hasFile && entries < mostEntries;
-         walk.increment(error), ++entries) {
+    for (; !error && walk != Walk() && entries < mostEntries; walk.increment(error), ++entries) {
       std::error_code none;
       if (!walk->is_directory(none)) continue;
-      look(walk->path());
-      if (walk.depth() >= deepest || walk->path().filename().string().starts_with('.'))
+      if (walk->path().filename().string().starts_with('.')) {
         walk.disable_recursion_pending();
+        continue;
+      }
+      look(walk->path());
+      if (walk.depth() >= deepest) walk.disable_recursion_pending();
     }
   }
   return found;
@@ -77,7 +72,7 @@ std::vector<std::string> MeshStore::ignoredUpAxes() const {
   return names;
 }
 
-MeshStore::Place MeshStore::inPackage(const std::string& name) const {
+MeshStore::Place MeshStore::inPackage(const std::string& name) {
   const std::string inside = name.substr(packageScheme.size());
   const std::size_t slash = inside.find('/');
   if (slash == 0 || slash == inside.npos || slash + 1 == inside.size())
@@ -96,11 +91,15 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
   for (std::filesystem::path above = absolute; above != above.root_path();
        above = above.parent_path())
     if (above.filename() == package && whyNoFile(above / rest).empty()) return {above / rest, ""};
-  const Found found = findInRosPaths(package, rest);
-  if (found.hasFile) return {found.folder / rest, ""};
-  if (!found.folder.empty())
-    return {found.folder / rest, "package " + quotedWord(package) + " is found at " +
-                                     found.folder.string() + ", but has no " + rest.string()};
+  auto known = rosFolders_.find(package);
+  if (known == rosFolders_.end())
+    known = rosFolders_.emplace(package, foldersOfPackage(package)).first;
+  for (const std::filesystem::path& folder : known->second)
+    if (whyNoFile(folder / rest).empty()) return {folder / rest, ""};
+  if (!known->second.empty())
+    return {known->second.front() / rest, "package " + quotedWord(package) + " is found at " +
+                                              known->second.front().string() + ", but has no " +
+                                              rest.string()};
   std::vector<std::string> names;
   for (const auto& entry : rules_.packages) names.push_back(entry.first);
   const std::string near = didYouMean(package, names);
@@ -111,7 +110,7 @@ MeshStore::Place MeshStore::inPackage(const std::string& name) const {
                                     : near)};
 }
 
-MeshStore::Place MeshStore::locate(const std::string& name) const {
+MeshStore::Place MeshStore::locate(const std::string& name) {
   if (name.starts_with(packageScheme)) return inPackage(name);
   if (name.starts_with(fileScheme)) {
     const std::filesystem::path file = name.substr(fileScheme.size());

@@ -33,13 +33,14 @@ class MeshStore {
   const MeshFile& get(const std::filesystem::path& file) const { return *meshes_.at(file); }
 
  private:
-  Place locate(const std::string& name) const;
-  Place inPackage(const std::string& name) const;
+  Place locate(const std::string& name);
+  Place inPackage(const std::string& name);
 
   std::filesystem::path folder_;
   const UrdfRules& rules_;
   std::vector<std::filesystem::path>& files_;
-  std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;  // nullopt: unreadable
+  std::map<std::string, std::vector<std::filesystem::path>> rosFolders_;  // by package, once found
+  std::map<std::filesystem::path, std::optional<MeshFile>> meshes_;       // nullopt: unreadable
 };
 
 }  // namespace corridor
