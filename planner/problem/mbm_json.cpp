@@ -198,10 +198,9 @@ class MbmReader {
     const auto p = numbers(field(object, "position"), 3, id + ".position");
     const auto q = numbers(field(object, "orientation_xyzw"), 4, id + ".orientation_xyzw");
     RigidPose at{{p[0], p[1], p[2]}, Eigen::Quaterniond(q[3], q[0], q[1], q[2])};
-    const double norm = at.q.coeffs().stableNorm();
-    if (!(norm > 0)) return fault(id + ".orientation_xyzw: zeros are no rotation");
-    // Squares of components of other sizes might over- or underflow.
-    if (!(0.5 < norm && norm < 2)) at.q = Eigen::Quaterniond(at.q.coeffs().stableNormalized());
+    if (!(at.q.coeffs().stableNorm() > 0))
+      return fault(id + ".orientation_xyzw: zeros are no rotation");
+    at.q = ofOrdinarySize(at.q);
     builder_.addObstacle(id, primitive, at);
   }
 

@@ -50,14 +50,11 @@ std::optional<Placement> readPose(const YamlValue& value, const std::string& pat
     const auto q = readNamed(map, "orientation", {"x", "y", "z", "w"});
     if (!q) return std::nullopt;
     orientation.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    const double norm = orientation.q.coeffs().stableNorm();
-    if (!(norm > 0)) {
+    if (!(orientation.q.coeffs().stableNorm() > 0)) {
       map.fault("orientation", "a quaternion of zeros is no rotation");
       return std::nullopt;
     }
-    // Squares of components of other sizes might over- or underflow.
-    if (!(0.5 < norm && norm < 2))
-      orientation.q = Eigen::Quaterniond(orientation.q.coeffs().stableNormalized());
+    orientation.q = ofOrdinarySize(orientation.q);
     orientation.R = orientation.q.normalized().toRotationMatrix();
   }
   placement.pose.q = orientation.q;

@@ -81,6 +81,11 @@ Orientation fromRpy(const Vec3& radians) {
   return {quaternionFromRpy(radians), matrixFromRpy(radians)};
 }
 
+Eigen::Quaterniond ofOrdinarySize(const Eigen::Quaterniond& q) {
+  const double norm = q.coeffs().stableNorm();
+  return 0.5 < norm && norm < 2 ? q : Eigen::Quaterniond(q.coeffs().stableNormalized());
+}
+
 double wrappedYaw(double radians) {
   return intoCircle(radians);
 }

@@ -20,6 +20,10 @@ struct Orientation {
 Orientation fromRpyDegrees(const Vec3& degrees);
 Orientation fromRpy(const Vec3& radians);
 
+/// Returns the quaternion, normalised if its norm is outside of [0.5, 2]: squares of such
+/// components may over- or underflow. @pre it is not zero.
+Eigen::Quaterniond ofOrdinarySize(const Eigen::Quaterniond& q);
+
 /// Returns the angle minus whole turns, a double in [−π, π] (collision/core/circle.h).
 double wrappedYaw(double radians);
 /// Returns the angle brought into (-180, 180] degrees, without rounding.
