@@ -8,6 +8,7 @@
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_process.h"
 #include "collision/geometry/collada_asset.h"
+#include "collision/geometry/file_frame.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/geometry/mesh_readers.h"
 #include "collision/geometry/vertex_welder.h"
@@ -19,18 +20,6 @@ constexpr const char* kWhat = "a mesh file";
 
 std::string lowerExtension(const std::filesystem::path& file) {
   return lowered(file.extension().string());
-}
-
-void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {
-  if (options.metresPerUnit &&
-      !(std::isfinite(*options.metresPerUnit) && *options.metresPerUnit > 0)) {
-    faults.add(0, "metres per unit must be a finite number above 0, not " +
-                      shortest(*options.metresPerUnit));
-  }
-  if (options.up && *options.up != 'x' && *options.up != 'y' && *options.up != 'z') {
-    faults.add(0, "the up-axis must be x, y or z, not " + inQuotes(std::string(1, *options.up)));
-  }
-  faults.throwIfAny();
 }
 
 /// A mesh as read, without scale or rotation.
@@ -131,19 +120,6 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   return stored;
 }
 
-/// Rotates p so that the up-axis becomes z. As in Collada, its "right" axis becomes x and its "in"
-/// axis -y.
-Vec3 turned(char up, const Vec3& p) {
-  switch (up) {
-    case 'x':
-      return {-p.y(), -p.z(), p.x()};
-    case 'y':
-      return {p.x(), -p.z(), p.y()};
-    default:
-      return p;
-  }
-}
-
 std::string unitRule(const MeshFileOptions& options, double fileUnit) {
   if (options.metresPerUnit) {
     return shortest(*options.metresPerUnit) + " m per unit, as requested" +
@@ -174,6 +150,18 @@ std::string upRule(const MeshFileOptions& options, bool isCollada) {
 
 }  // namespace
 
+void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {
+  if (options.metresPerUnit &&
+      !(std::isfinite(*options.metresPerUnit) && *options.metresPerUnit > 0)) {
+    faults.add(0, "metres per unit must be a finite number above 0, not " +
+                      shortest(*options.metresPerUnit));
+  }
+  if (options.up && *options.up != 'x' && *options.up != 'y' && *options.up != 'z') {
+    faults.add(0, "the up-axis must be x, y or z, not " + inQuotes(std::string(1, *options.up)));
+  }
+  faults.throwIfAny();
+}
+
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options) {
   MeshFaults faults(file.string());
   checkOptions(options, faults);
@@ -185,13 +173,12 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
   MeshFile result = std::move(stored.file);
   requireSound(result.mesh, faults);
 
-  const double scale = options.metresPerUnit.value_or(stored.fileUnit > 0 ? stored.fileUnit : 1);
-  const char up = options.up.value_or('z');
-  if (scale != 1 || up != 'z') {
-    for (Vec3& vertex : result.mesh.vertices) vertex = turned(up, scale * vertex);
+  const FileFrame frame(options, stored.fileUnit > 0 ? stored.fileUnit : 1);
+  if (!frame.isIdentity()) {
+    for (Vec3& vertex : result.mesh.vertices) vertex = frame * vertex;
     if (checkMesh(result.mesh)) {
-      faults.fail(
-          0, "its coordinates times " + shortest(scale) + " m per unit are too large for a double");
+      faults.fail(0, "its coordinates times " + shortest(frame.scale()) +
+                         " m per unit are too large for a double");
     }
   }
   result.unitRule = unitRule(options, stored.fileUnit);

@@ -33,7 +33,8 @@ void MeshFaults::failCount(std::uint64_t count, std::string_view what, int line)
                  std::to_string(kMaxMeshElements) + " are read: use a coarser mesh, or split it");
 }
 
-std::optional<std::string> parseCoordinate(std::string_view word, double& value) {
+std::optional<std::string> parseCoordinate(std::string_view word, double& value,
+                                           bool notFiniteToo) {
   const auto complaint = [&](const char* text) { return "coordinate " + inQuotes(word) + text; };
   const char* const end = word.data() + word.size();
   const char* const begin =
@@ -48,7 +49,7 @@ std::optional<std::string> parseCoordinate(std::string_view word, double& value)
     stream.imbue(std::locale::classic());
     if (!(stream >> value)) return complaint(" is too large for a double");
   }
-  if (!std::isfinite(value)) return complaint(" is not finite");
+  if (!notFiniteToo && !std::isfinite(value)) return complaint(" is not finite");
   return std::nullopt;
 }
 

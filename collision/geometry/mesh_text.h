@@ -46,7 +46,9 @@ class MeshFaults {
 
 /// Reads a whole word as a finite coordinate into `value`. Numbers too small for a double become 0,
 /// the nearest double. @returns a complaint, or nullopt on success.
-std::optional<std::string> parseCoordinate(std::string_view word, double& value);
+/// @param notFiniteToo  "nan" and "inf" are no fault, as for points without a measurement.
+std::optional<std::string> parseCoordinate(std::string_view word, double& value,
+                                           bool notFiniteToo = false);
 
 /// Reads a whole word as a decimal integer of 64 bits. @returns false if the word is not one.
 bool parseInteger(std::string_view word, std::int64_t& value);

@@ -34,8 +34,8 @@ std::optional<PlyType> typeOf(std::string_view word) {
 
 class HeaderReader {
  public:
-  HeaderReader(std::string_view bytes, MeshFaults& faults)
-      : cursor_(bytes), bytes_(bytes), faults_(faults) {}
+  HeaderReader(std::string_view bytes, bool isMesh, MeshFaults& faults)
+      : cursor_(bytes), bytes_(bytes), isMesh_(isMesh), faults_(faults) {}
 
   PlyHeader read() {
     if (cursor_.wordInLine() != "ply") fail("a PLY file must begin with the line \"ply\"");
@@ -150,6 +150,7 @@ class HeaderReader {
         faults_.fail(0, "element \"vertex\" needs one property \"" + std::string(axis) + "\"");
       }
     }
+    if (!isMesh_) return;
     const auto& face = find("face").properties;
     const auto corners = [](const PlyProperty& p) {
       return isCornerList(p) && p.countType && isInteger(p.type);
@@ -165,6 +166,7 @@ class HeaderReader {
 
   TextCursor cursor_;
   std::string_view bytes_;
+  bool isMesh_;
   MeshFaults& faults_;
   PlyHeader header_;
 };
@@ -189,8 +191,8 @@ int plySize(PlyType type) {
   return 0;
 }
 
-PlyHeader readPlyHeader(std::string_view bytes, MeshFaults& faults) {
-  return HeaderReader(bytes, faults).read();
+PlyHeader readPlyHeader(std::string_view bytes, bool isMesh, MeshFaults& faults) {
+  return HeaderReader(bytes, isMesh, faults).read();
 }
 
 }  // namespace corridor

@@ -39,8 +39,9 @@ struct PlyHeader {
   int lines = 0;
 };
 
-/// Reads the header. Checks that vertices have scalar x, y, z, and faces a list of integer indices.
-PlyHeader readPlyHeader(std::string_view bytes, MeshFaults& faults);
+/// Reads the header. Checks that vertices have scalar x, y, z; for a mesh, also that there are
+/// faces, with a list of integer indices.
+PlyHeader readPlyHeader(std::string_view bytes, bool isMesh, MeshFaults& faults);
 
 /// True for the two common names of the list of a face's corners.
 inline bool isCornerList(const PlyProperty& property) {

@@ -6,6 +6,7 @@
 
 #include "collision/geometry/mesh_readers.h"
 #include "collision/geometry/ply_header.h"
+#include "collision/geometry/point_readers.h"
 
 namespace corridor {
 namespace {
@@ -34,7 +35,8 @@ class AsciiBody {
 
   double coordinate(PlyType) {
     double value = 0;
-    if (const auto complaint = parseCoordinate(word(), value)) add(*complaint);
+    const std::string_view text = word();
+    if (const auto complaint = parseCoordinate(text, value, !isMesh)) add(*complaint);
     return value;
   }
 
@@ -62,6 +64,7 @@ class AsciiBody {
   }
 
   Place place;
+  bool isMesh = true;  // false: coordinates need not be finite
 
  private:
   std::string_view word() {
@@ -90,7 +93,7 @@ class BinaryBody {
   double coordinate(PlyType type) {
     if (isInteger(type)) return static_cast<double>(integer(type));
     const double value = type == PlyType::Float32 ? take<float>() : take<double>();
-    if (!std::isfinite(value)) add("a coordinate is not finite");
+    if (isMesh && !std::isfinite(value)) add("a coordinate is not finite");
     return value;
   }
 
@@ -126,6 +129,7 @@ class BinaryBody {
   [[noreturn]] void fail(const std::string& text) { faults_.fail(0, where() + text); }
 
   Place place;
+  bool isMesh = true;  // false: coordinates need not be finite
 
  private:
   std::string where() const {
@@ -152,8 +156,10 @@ class BinaryBody {
 template <class Body>
 class BodyReader {
  public:
-  BodyReader(const PlyHeader& header, Body body, MeshFaults& faults)
-      : header_(header), body_(std::move(body)), faults_(faults) {}
+  BodyReader(const PlyHeader& header, bool isMesh, Body body, MeshFaults& faults)
+      : header_(header), isMesh_(isMesh), body_(std::move(body)), faults_(faults) {
+    body_.isMesh = isMesh;
+  }
 
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
@@ -164,7 +170,7 @@ class BodyReader {
     for (const PlyElement& element : header_.elements) {
       if (!hasRoom(element)) continue;
       if (element.name == "vertex") mesh_.vertices.reserve(element.count);
-      if (element.name == "face") mesh_.triangles.reserve(element.count);
+      if (isMesh_ && element.name == "face") mesh_.triangles.reserve(element.count);
       for (std::uint64_t i = 0; i < element.count; ++i) {
         body_.place = {&element, i};
         readElement(element);
@@ -192,7 +198,7 @@ class BodyReader {
 
   void readElement(const PlyElement& element) {
     const bool isVertex = element.name == "vertex";
-    const bool isFace = element.name == "face";
+    const bool isFace = isMesh_ && element.name == "face";
     Vec3 vertex = Vec3::Zero();
     for (const PlyProperty& p : element.properties) {
       if (p.countType) {
@@ -231,6 +237,7 @@ class BodyReader {
   }
 
   const PlyHeader& header_;
+  bool isMesh_;
   Body body_;
   MeshFaults& faults_;
   std::uint64_t vertexCount_ = 0;
@@ -238,24 +245,34 @@ class BodyReader {
 };
 
 template <class Body>
-TriangleMesh readBody(std::string_view body, const PlyHeader& header, MeshFaults& faults) {
-  return BodyReader<Body>(header, Body(body, header, faults), faults).read();
+TriangleMesh readBody(std::string_view body, const PlyHeader& header, bool isMesh,
+                      MeshFaults& faults) {
+  return BodyReader<Body>(header, isMesh, Body(body, header, faults), faults).read();
+}
+
+ReadMesh readPly(std::string_view bytes, bool isMesh, MeshFaults& faults) {
+  const PlyHeader header = readPlyHeader(bytes, isMesh, faults);
+  const std::string_view body = bytes.substr(header.size);
+  switch (header.encoding) {
+    case PlyEncoding::Ascii:
+      return {readBody<AsciiBody>(body, header, isMesh, faults), "PLY (ASCII)"};
+    case PlyEncoding::LittleEndian:
+      return {readBody<BinaryBody>(body, header, isMesh, faults), "PLY (binary, little endian)"};
+    case PlyEncoding::BigEndian:
+      break;
+  }
+  return {readBody<BinaryBody>(body, header, isMesh, faults), "PLY (binary, big endian)"};
 }
 
 }  // namespace
 
 ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
-  const PlyHeader header = readPlyHeader(bytes, faults);
-  const std::string_view body = bytes.substr(header.size);
-  switch (header.encoding) {
-    case PlyEncoding::Ascii:
-      return {readBody<AsciiBody>(body, header, faults), "PLY (ASCII)"};
-    case PlyEncoding::LittleEndian:
-      return {readBody<BinaryBody>(body, header, faults), "PLY (binary, little endian)"};
-    case PlyEncoding::BigEndian:
-      break;
-  }
-  return {readBody<BinaryBody>(body, header, faults), "PLY (binary, big endian)"};
+  return readPly(bytes, true, faults);
+}
+
+PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults) {
+  ReadMesh read = readPly(bytes, false, faults);
+  return {std::move(read.mesh.vertices), std::move(read.format)};
 }
 
 }  // namespace corridor

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "collision/core/transform.h"
+#include "collision/geometry/mesh_file.h"
+#include "collision/geometry/mesh_text.h"
+
+namespace corridor {
+
+/// Maps the coordinates of a file to metres, with z up (`MeshFileOptions`).
+class FileFrame {
+ public:
+  /// @param metresPerUnit  if the options don't state a unit.
+  FileFrame(const MeshFileOptions& options, double metresPerUnit)
+      : scale_(options.metresPerUnit.value_or(metresPerUnit)), up_(options.up.value_or('z')) {}
+
+  bool isIdentity() const { return scale_ == 1 && up_ == 'z'; }
+  double scale() const { return scale_; }
+  /// Rotates so that the up-axis becomes z. As in Collada, its "right" axis becomes x and its "in"
+  /// axis -y.
+  Vec3 operator*(const Vec3& p) const {
+    const Vec3 q = scale_ * p;
+    switch (up_) {
+      case 'x':
+        return {-q.y(), -q.z(), q.x()};
+      case 'y':
+        return {q.x(), -q.z(), q.y()};
+      default:
+        return q;
+    }
+  }
+
+ private:
+  double scale_;
+  char up_;
+};
+
+/// Adds a fault for each option that is out of range, and throws if there is one.
+void checkOptions(const MeshFileOptions& options, MeshFaults& faults);
+
+}  // namespace corridor

@@ -1,0 +1,274 @@
+#include "collision/geometry/occupancy_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
+#include "collision/geometry/mesh_text.h"
+
+namespace corridor {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "OctoMap stores little-endian numbers");
+
+constexpr int kDepth = 16;                      ///< levels below the root, as in OctoMap
+constexpr std::size_t kMostCubes = 10'000'000;  ///< some 300 bytes each as an obstacle
+constexpr const char* kBinary = "# Octomap OcTree binary file";
+constexpr const char* kFull = "# Octomap OcTree file";
+
+enum class NodeKind { none, free, occupied, inner };
+
+/// Reads nodes from the data of a file, depth first. Recursion is at most 17 deep.
+class MapReader {
+ public:
+  MapReader(std::string_view bytes, const OccupancyRules& rules, const std::string& file)
+      : cursor_(bytes), bytes_(bytes), rules_(rules), faults_(file) {}
+
+  OccupancyMap read() {
+    if (!(rules_.threshold > 0 && rules_.threshold < 1))
+      faults_.fail(0, "threshold: a probability above 0 and below 1 is needed, not " +
+                          shortest(rules_.threshold));
+    readHeader();
+    constexpr std::int32_t half = 1 << (kDepth - 1);
+    const OccupancyMap::Cube root{{-half, -half, -half}, 1 << kDepth};
+    if (promised_ > 0) {
+      nodes_ = 1;
+      if (binary_)
+        readChildren(root, 0);
+      else
+        readNode(root, 0);
+    }
+    if (at_ != bytes_.size())
+      faults_.fail(0, std::to_string(bytes_.size() - at_) +
+                          " bytes come after the last node: the file is damaged");
+    if (nodes_ != promised_)
+      faults_.fail(0, "the header promises " + std::to_string(promised_) +
+                          " nodes, but the data have " + std::to_string(nodes_) +
+                          ": the file is damaged");
+    if (rules_.unknownIsOccupied) addUnknown();
+    return std::move(map_);
+  }
+
+ private:
+  using Cube = OccupancyMap::Cube;
+
+  void readHeader() {
+    const std::size_t end = std::min(bytes_.find('\n'), bytes_.size());
+    std::string_view first = bytes_.substr(0, end);
+    if (first.ends_with('\r')) first.remove_suffix(1);
+    binary_ = first.starts_with(kBinary);
+    if (!binary_ && !first.starts_with(kFull))
+      faults_.fail(1, "a map of OctoMap begins with \"" + std::string(kBinary) + "\" or \"" +
+                          std::string(kFull) + "\"");
+    map_.format = binary_ ? "OctoMap (.bt)" : "OctoMap (.ot)";
+    std::string id;
+    std::optional<std::int64_t> size;
+    for (;;) {
+      if (!cursor_.nextLine()) faults_.fail(cursor_.line(), "the header has no line \"data\"");
+      const std::string_view word = cursor_.wordInLine();
+      if (word.empty() || word.front() == '#') continue;
+      if (word == "data") break;
+      const std::string_view value = cursor_.wordInLine();
+      std::int64_t number = 0;
+      if (word == "id") {
+        id = value;
+      } else if (word == "size") {
+        if (!parseInteger(value, number) || number < 0)
+          faults_.fail(cursor_.line(), "size: " + inQuotes(value) + " is no number of nodes");
+        size = number;
+      } else if (word == "res") {
+        if (const auto why = parseCoordinate(value, map_.resolution))
+          faults_.fail(cursor_.line(), "res: " + *why);
+      } else {
+        faults_.fail(cursor_.line(), inQuotes(word) + " is no line of OctoMap's header");
+      }
+    }
+    if (id != "OcTree" && (binary_ || id != "ColorOcTree"))
+      faults_.fail(0, "trees of type " + inQuotes(id) + " are not read; " +
+                          (binary_ ? "OcTree is" : "OcTree and ColorOcTree are"));
+    color_ = id == "ColorOcTree";
+    // The largest coordinate, 2^15 times the resolution, must be finite.
+    if (!(map_.resolution > 0 && map_.resolution < 1e100))
+      faults_.fail(0, "res: the edge length of a cell, in metres, must be positive");
+    if (!size) faults_.fail(0, "the header has no line \"size\"");
+    promised_ = *size;
+    at_ = bytes_.size() - cursor_.bytesLeft();
+    // The line ends with its line feed; everything after it is data.
+    const std::size_t feed = bytes_.find('\n', at_);
+    at_ = feed == bytes_.npos ? bytes_.size() : feed + 1;
+  }
+
+  template <class T>
+  T take() {
+    if (bytes_.size() - at_ < sizeof(T))
+      faults_.fail(0, "the file ends within its nodes: it is cut short");
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+
+  static Cube childOf(const Cube& cube, int child) {
+    Cube own = cube;
+    own.size /= 2;
+    for (int axis = 0; axis < 3; ++axis)
+      if (child >> axis & 1) own.corner[static_cast<std::size_t>(axis)] += own.size;
+    return own;
+  }
+
+  void requireDepth(int depth) {
+    if (depth == kDepth) faults_.fail(0, "the tree is deeper than 16 levels: the file is damaged");
+  }
+
+  /// .bt: an inner node has two bits for each child, and then its inner children follow.
+  /// @returns whether the whole cube is occupied; then it is one cube.
+  bool readChildren(const Cube& cube, int depth) {
+    requireDepth(depth);
+    const auto bits = take<std::uint16_t>();
+    const std::size_t before = map_.cubes.size();
+    int full = 0;
+    for (int child = 0; child < 8; ++child) {
+      const Cube own = childOf(cube, child);
+      const NodeKind kind = kindOf(bits, child);
+      nodes_ += kind != NodeKind::none;
+      if (kind == NodeKind::occupied) {
+        addOccupied(own);
+        ++full;
+      } else if (kind == NodeKind::free) {
+        addFree(own);
+      } else if (kind == NodeKind::none) {
+        missing_.push_back(own);
+      } else if (readChildren(own, depth + 1)) {
+        ++full;
+      }
+    }
+    return joined(cube, full, before);
+  }
+
+  static NodeKind kindOf(std::uint16_t bits, int child) {
+    switch (bits >> 2 * child & 3) {
+      case 1:
+        return NodeKind::free;
+      case 2:
+        return NodeKind::occupied;
+      case 3:
+        return NodeKind::inner;
+      default:
+        return NodeKind::none;
+    }
+  }
+
+  /// .ot: a node has its log-odds, its colour in a ColorOcTree, and a bit for each child.
+  /// @returns whether the whole cube is occupied; then it is one cube.
+  bool readNode(const Cube& cube, int depth) {
+    const auto logOdds = take<float>();
+    if (color_)
+      for (int i = 0; i < 3; ++i) take<std::uint8_t>();
+    const auto children = take<std::uint8_t>();
+    if (children == 0) {
+      // NaN counts as occupied.
+      const bool isFree = logOdds < std::log(rules_.threshold / (1 - rules_.threshold));
+      if (isFree)
+        addFree(cube);
+      else
+        addOccupied(cube);
+      return !isFree;
+    }
+    requireDepth(depth);
+    const std::size_t before = map_.cubes.size();
+    int full = 0;
+    nodes_ += std::popcount(children);
+    for (int child = 0; child < 8; ++child) {
+      if (children >> child & 1)
+        full += readNode(childOf(cube, child), depth + 1);
+      else
+        missing_.push_back(childOf(cube, child));
+    }
+    return joined(cube, full, before);
+  }
+
+  bool joined(const Cube& cube, int full, std::size_t before) {
+    if (full < 8) return false;
+    map_.cubes.resize(before);
+    map_.cubes.push_back(cube);
+    return true;
+  }
+
+  void addOccupied(const Cube& cube) {
+    add(cube);
+    measured(cube);
+  }
+  void addFree(const Cube& cube) {
+    ++map_.free;
+    measured(cube);
+  }
+  void add(const Cube& cube) {
+    if (map_.cubes.size() == kMostCubes)
+      faults_.fail(0, "has more than " + std::to_string(kMostCubes) +
+                          " occupied cubes; use a coarser resolution");
+    map_.cubes.push_back(cube);
+  }
+  void measured(const Cube& cube) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low_[k] = std::min(low_[k], cube.corner[k]);
+      high_[k] = std::max(high_[k], cube.corner[k] + cube.size);
+    }
+  }
+
+  /// Adds the unknown cubes, as far as they are inside the box of all measured cells.
+  void addUnknown() {
+    std::vector<Cube> open = std::move(missing_);
+    while (!open.empty()) {
+      const Cube cube = open.back();
+      open.pop_back();
+      bool inside = true, outside = false;
+      for (std::size_t k = 0; k < 3; ++k) {
+        inside = inside && low_[k] <= cube.corner[k] && cube.corner[k] + cube.size <= high_[k];
+        outside = outside || high_[k] <= cube.corner[k] || cube.corner[k] + cube.size <= low_[k];
+      }
+      if (outside) continue;
+      if (inside)
+        add(cube);
+      else  // not a single cell: the box consists of whole cells
+        for (int child = 0; child < 8; ++child) open.push_back(childOf(cube, child));
+    }
+  }
+
+  TextCursor cursor_;
+  std::string_view bytes_;
+  const OccupancyRules& rules_;
+  MeshFaults faults_;
+  OccupancyMap map_;
+  std::vector<Cube> missing_;  // children that inner nodes don't have
+  std::array<std::int32_t, 3> low_{INT32_MAX, INT32_MAX, INT32_MAX},
+      high_{INT32_MIN, INT32_MIN, INT32_MIN};
+  std::size_t at_ = 0;
+  std::int64_t promised_ = 0, nodes_ = 0;
+  bool binary_ = false, color_ = false;
+};
+
+}  // namespace
+
+Vec3 OccupancyMap::centerOf(const Cube& cube) const {
+  Vec3 center;
+  for (int k = 0; k < 3; ++k)
+    center[k] = (cube.corner[static_cast<std::size_t>(k)] + 0.5 * cube.size) * resolution;
+  return center;
+}
+
+OccupancyMap parseOccupancyMap(std::string_view bytes, const OccupancyRules& rules,
+                               const std::string& name) {
+  return MapReader(bytes, rules, name).read();
+}
+
+OccupancyMap readOccupancyMap(const std::filesystem::path& file, const OccupancyRules& rules) {
+  return parseOccupancyMap(readFile(file, "a map of OctoMap"), rules, file.string());
+}
+
+}  // namespace corridor

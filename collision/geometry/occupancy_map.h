@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "collision/core/transform.h"
+
+namespace corridor {
+
+/// Which cells of a map are obstacles.
+struct OccupancyRules {
+  /// Cells of which the file has no measurement are obstacles, too, as far as the box around all
+  /// measured cells reaches.
+  bool unknownIsOccupied = false;
+  /// A cell is occupied if its probability is at least this one, in (0, 1). Files of .bt have no
+  /// probabilities: their cells are either free or occupied.
+  double threshold = 0.5;
+};
+
+/// The obstacles of an octree map of OctoMap (Hornung, Wurm, Bennewitz, Stachniss, Burgard 2013).
+struct OccupancyMap {
+  /// A cube of cells. Its corner nearest to −∞ is at `corner` times the resolution, and its edges
+  /// are `size` times the resolution long.
+  struct Cube {
+    std::array<std::int32_t, 3> corner{};
+    std::int32_t size = 1;
+  };
+  double resolution = 0;    ///< edge length of the smallest cell, metres
+  std::vector<Cube> cubes;  ///< occupied, or unknown if requested. Eight equal cubes are joined
+  std::size_t free = 0;     ///< number of free cubes
+  std::string format;       ///< "OctoMap (.bt)", "OctoMap (.ot)"
+
+  Vec3 centerOf(const Cube& cube) const;
+  double sizeOf(const Cube& cube) const { return cube.size * resolution; }
+};
+
+/// Reads an octree map: .bt (OcTree), or .ot (OcTree and ColorOcTree).
+/// @throws InputError that names the file: unreadable, another format, cut short, deeper than 16
+/// levels, more than 10^7 cubes, a threshold that is not in (0, 1).
+OccupancyMap readOccupancyMap(const std::filesystem::path& file, const OccupancyRules& rules = {});
+
+/// The same for the bytes of a file. @param name  of the file, for messages.
+OccupancyMap parseOccupancyMap(std::string_view bytes, const OccupancyRules& rules,
+                               const std::string& name);
+
+}  // namespace corridor

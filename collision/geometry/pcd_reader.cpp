@@ -1,0 +1,281 @@
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision/geometry/point_readers.h"
+
+namespace corridor {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "PCD stores little-endian numbers");
+
+struct Field {
+  std::string name;
+  std::uint64_t size = 4, count = 1;  ///< bytes of a number; numbers per point
+  char type = 'F';                    ///< F, I (signed), U
+  std::uint64_t offset = 0;           ///< bytes before the field in a point
+  std::uint64_t bytes() const { return size * count; }
+};
+
+struct Header {
+  std::vector<Field> fields;
+  std::uint64_t points = 0;
+  std::uint64_t pointBytes = 0;
+  std::string data;      ///< ascii, binary, binary_compressed
+  std::size_t size = 0;  ///< bytes before the data
+  int lines = 0;
+  std::array<std::size_t, 3> xyz{};  ///< fields
+};
+
+/// Reads the header: lines of a keyword and words, until the line DATA.
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view bytes, MeshFaults& faults)
+      : cursor_(bytes), bytes_(bytes), faults_(faults) {}
+
+  Header read() {
+    std::uint64_t width = 0, height = 1;
+    std::optional<std::uint64_t> points;
+    do {
+      const std::string_view keyword = cursor_.wordInLine();
+      if (keyword.empty() || keyword.front() == '#') continue;
+      if (keyword == "FIELDS" || keyword == "COLUMNS") {
+        header_.fields.clear();
+        for (const std::string& name : words()) header_.fields.push_back({.name = name});
+      } else if (keyword == "SIZE") {
+        forEachField(keyword, [&](Field& f, const std::string& w) { f.size = size(w); });
+      } else if (keyword == "TYPE") {
+        forEachField(keyword, [&](Field& f, const std::string& w) {
+          if (w != "F" && w != "I" && w != "U") fail("TYPE " + inQuotes(w) + " is not F, I or U");
+          f.type = w[0];
+        });
+      } else if (keyword == "COUNT") {
+        forEachField(keyword,
+                     [&](Field& f, const std::string& w) { f.count = number(w, 100'000); });
+      } else if (keyword == "WIDTH") {
+        width = number(one(keyword), kMaxMeshElements);
+      } else if (keyword == "HEIGHT") {
+        height = number(one(keyword), kMaxMeshElements);
+      } else if (keyword == "POINTS") {
+        points = number(one(keyword), kMaxMeshElements);
+      } else if (keyword == "DATA") {
+        header_.data = one(keyword);
+      } else if (keyword != "VERSION" && keyword != "VIEWPOINT") {
+        fail(inQuotes(keyword) + " is no line of a PCD header");
+      }
+    } while (header_.data.empty() && cursor_.nextLine());
+    if (header_.data.empty()) fail("the header has no line DATA; a PCD file needs one");
+    finish(points.value_or(width * height));
+    return std::move(header_);
+  }
+
+ private:
+  std::vector<std::string> words() {
+    std::vector<std::string> all;
+    for (std::string_view w = cursor_.wordInLine(); !w.empty(); w = cursor_.wordInLine()) {
+      if (all.size() == 1000) fail("more than 1000 words");
+      all.emplace_back(w);
+    }
+    return all;
+  }
+  std::string one(std::string_view keyword) {
+    const std::vector<std::string> all = words();
+    if (all.size() != 1) fail(std::string(keyword) + " needs one value");
+    return all[0];
+  }
+  template <class Set>
+  void forEachField(std::string_view keyword, const Set& set) {
+    const std::vector<std::string> all = words();
+    if (all.size() != header_.fields.size())
+      fail(std::string(keyword) + " has " + std::to_string(all.size()) + " values for " +
+           std::to_string(header_.fields.size()) + " FIELDS");
+    for (std::size_t i = 0; i < all.size(); ++i) set(header_.fields[i], all[i]);
+  }
+  std::uint64_t number(const std::string& word, std::uint64_t most) {
+    std::int64_t value = 0;
+    if (!parseInteger(word, value) || value < 0 || static_cast<std::uint64_t>(value) > most)
+      fail(inQuotes(word) + " is not an integer from 0 to " + std::to_string(most));
+    return static_cast<std::uint64_t>(value);
+  }
+  std::uint64_t size(const std::string& word) {
+    const std::uint64_t bytes = number(word, 8);
+    if (bytes != 1 && bytes != 2 && bytes != 4 && bytes != 8)
+      fail("SIZE " + inQuotes(word) + " is not 1, 2, 4 or 8");
+    return bytes;
+  }
+
+  void finish(std::uint64_t points) {
+    faults_.requireFew(points, "points", 0);
+    header_.points = points;
+    for (Field& field : header_.fields) {
+      if (field.type == 'F' && field.size < 4)
+        faults_.fail(0, "field " + inQuotes(field.name) + ": a number of TYPE F has SIZE 4 or 8");
+      field.offset = header_.pointBytes;
+      header_.pointBytes += field.bytes();
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::size_t found = header_.fields.size();
+      for (std::size_t i = 0; i < header_.fields.size(); ++i)
+        if (header_.fields[i].name == std::string(1, "xyz"[axis])) found = i;
+      if (found == header_.fields.size() || header_.fields[found].count != 1)
+        faults_.fail(0,
+                     "FIELDS needs one field \"" + std::string(1, "xyz"[axis]) + "\" of COUNT 1");
+      header_.xyz[axis] = found;
+    }
+    header_.size = bytes_.size() - cursor_.bytesLeft();
+    if (const std::size_t end = bytes_.find('\n', header_.size); end != bytes_.npos)
+      header_.size = end + 1;
+    else
+      header_.size = bytes_.size();
+    header_.lines = cursor_.line();
+  }
+
+  [[noreturn]] void fail(const std::string& text) { faults_.fail(cursor_.line(), text); }
+
+  TextCursor cursor_;
+  std::string_view bytes_;
+  MeshFaults& faults_;
+  Header header_;
+};
+
+template <class T>
+double loaded(const char* from) {
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  return static_cast<double>(value);
+}
+
+double valueAt(const char* from, const Field& field) {
+  switch (field.type) {
+    case 'F':
+      return field.size == 4 ? loaded<float>(from) : loaded<double>(from);
+    case 'I':
+      return field.size == 1   ? loaded<std::int8_t>(from)
+             : field.size == 2 ? loaded<std::int16_t>(from)
+             : field.size == 4 ? loaded<std::int32_t>(from)
+                               : loaded<std::int64_t>(from);
+    default:
+      return field.size == 1   ? loaded<std::uint8_t>(from)
+             : field.size == 2 ? loaded<std::uint16_t>(from)
+             : field.size == 4 ? loaded<std::uint32_t>(from)
+                               : loaded<std::uint64_t>(from);
+  }
+}
+
+/// Fails unless `available` bytes hold all points.
+void requireBytes(const Header& header, std::uint64_t available, MeshFaults& faults) {
+  if (header.pointBytes > 0 && header.points <= available / header.pointBytes) return;
+  faults.fail(0, "the header promises " + std::to_string(header.points) + " points of " +
+                     std::to_string(header.pointBytes) + " bytes, but " +
+                     std::to_string(available) + " bytes are left: the file is cut short");
+}
+
+std::vector<Vec3> readAscii(std::string_view body, const Header& header, MeshFaults& faults) {
+  std::uint64_t words = 0;
+  for (const Field& field : header.fields) words += field.count;
+  if (header.points > (body.size() + 1) / (2 * words))  // a digit and a blank per number
+    faults.fail(0, "the header promises " + std::to_string(header.points) + " points of " +
+                       std::to_string(words) + " numbers; the file is cut short");
+  TextCursor cursor(body, header.lines + 1);
+  std::vector<Vec3> points(header.points);
+  for (std::uint64_t i = 0; i < header.points; ++i)
+    for (std::size_t f = 0; f < header.fields.size(); ++f)
+      for (std::uint64_t k = 0; k < header.fields[f].count; ++k) {
+        const std::string_view word = cursor.word();
+        if (word.empty())
+          faults.fail(cursor.line(), "point " + std::to_string(i + 1) + " of " +
+                                         std::to_string(header.points) +
+                                         ": the file ends here: it is cut short");
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (header.xyz[axis] == f)
+            if (const auto why =
+                    parseCoordinate(word, points[i][static_cast<Eigen::Index>(axis)], true))
+              faults.add(cursor.line(), *why);
+      }
+  return points;
+}
+
+/// The points one after another, each with all of its fields.
+std::vector<Vec3> readBinary(std::string_view body, const Header& header, MeshFaults& faults) {
+  requireBytes(header, body.size(), faults);
+  std::vector<Vec3> points(header.points);
+  for (std::uint64_t i = 0; i < header.points; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Field& field = header.fields[header.xyz[axis]];
+      points[i][static_cast<Eigen::Index>(axis)] =
+          valueAt(body.data() + i * header.pointBytes + field.offset, field);
+    }
+  return points;
+}
+
+/// Expands LZF (liblzf's format). A control byte c below 32 is followed by c + 1 literal bytes.
+/// Otherwise a copy of (c >> 5) + 2 bytes of the output follows, from the distance in its low 5
+/// bits and the next byte, plus 1. If c >> 5 is 7, a byte before that one adds to the length.
+/// @returns nullopt if the data are not sound or give another size.
+std::optional<std::string> expanded(std::string_view in, std::uint64_t size) {
+  std::string out;
+  out.reserve(size);
+  for (std::size_t at = 0; at < in.size();) {
+    const auto byte = [&] { return static_cast<unsigned char>(in[at++]); };
+    const std::size_t control = byte();
+    if (control < 32) {
+      if (in.size() - at < control + 1 || size - out.size() < control + 1) return std::nullopt;
+      out.append(in.substr(at, control + 1));
+      at += control + 1;
+      continue;
+    }
+    std::size_t length = control >> 5;
+    if (length == 7) {
+      if (at == in.size()) return std::nullopt;
+      length += byte();
+    }
+    length += 2;
+    if (at == in.size()) return std::nullopt;
+    const std::size_t back = ((control & 31) << 8 | byte()) + 1;
+    if (back > out.size() || size - out.size() < length) return std::nullopt;
+    for (std::size_t k = 0; k < length; ++k) out.push_back(out[out.size() - back]);
+  }
+  return out.size() == size ? std::optional(std::move(out)) : std::nullopt;
+}
+
+/// Compressed data: two sizes, then all values of the first field, of the second field, ….
+std::vector<Vec3> readCompressed(std::string_view body, const Header& header, MeshFaults& faults) {
+  if (body.size() < 8) faults.fail(0, "the file ends before its data: it is cut short");
+  std::uint32_t packed = 0, size = 0;
+  std::memcpy(&packed, body.data(), 4);
+  std::memcpy(&size, body.data() + 4, 4);
+  body.remove_prefix(8);
+  requireBytes(header, size, faults);
+  // A copy of 3 bytes makes at most 264 of them.
+  if (packed > body.size() || size / 264 > packed)
+    faults.fail(0, "the data's sizes do not fit the file: it is cut short");
+  const auto data = expanded(body.substr(0, packed), size);
+  if (!data) faults.fail(0, "the compressed data are damaged");
+  std::vector<Vec3> points(header.points);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Field& field = header.fields[header.xyz[axis]];
+    const char* column = data->data() + field.offset * header.points;
+    for (std::uint64_t i = 0; i < header.points; ++i)
+      points[i][static_cast<Eigen::Index>(axis)] = valueAt(column + i * field.size, field);
+  }
+  return points;
+}
+
+}  // namespace
+
+PointCloud readPcd(std::string_view bytes, MeshFaults& faults) {
+  const Header header = HeaderReader(bytes, faults).read();
+  const std::string_view body = bytes.substr(header.size);
+  if (header.data == "ascii") return {readAscii(body, header, faults), "PCD (ASCII)"};
+  if (header.data == "binary") return {readBinary(body, header, faults), "PCD (binary)"};
+  if (header.data == "binary_compressed")
+    return {readCompressed(body, header, faults), "PCD (compressed)"};
+  faults.fail(header.lines,
+              "DATA " + inQuotes(header.data) + " is not ascii, binary or binary_compressed");
+}
+
+}  // namespace corridor

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "collision/core/transform.h"
+#include "collision/geometry/mesh_file.h"
+
+namespace corridor {
+
+/// Points in space, such as a sensor's measurements. As obstacles they are taken as the union of
+/// balls about them (`Body` of many spheres).
+struct PointCloud {
+  std::vector<Vec3> points;  ///< metres
+  std::string format;        ///< "PLY (ASCII)", "PCD (binary)", …
+  /// Number of points that were left out because a coordinate is NaN or infinite. Sensors mark
+  /// directions without a measurement in this way.
+  std::size_t notFinite = 0;
+};
+
+/// Reads the points of a file: the vertices of PLY; PCD (ASCII, binary and compressed); or a text
+/// file (.xyz, .txt, .asc, .pts) with three numbers or more in each line, of which the first three
+/// are x, y and z. Normals, colours and faces are not read. The viewpoint of a PCD file is not
+/// applied, as in PCL.
+/// @throws InputError that names the file and the line or byte: unreadable, no points, truncated,
+/// counts that do not fit the file, unknown extension, …
+PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptions& options = {});
+
+}  // namespace corridor

@@ -1,0 +1,215 @@
+#include "collision/geometry/point_cloud.h"
+
+#include <cmath>
+#include <random>
+
+#include "tests/collision/geometry/mesh_fixture.h"
+
+namespace corridor::test {
+namespace {
+
+class PointCloudTest : public MeshFileTest {
+ protected:
+  PointCloud read(const std::string& name, const std::string& bytes,
+                  const MeshFileOptions& options = {}) const {
+    return readPointCloud(write(name, bytes), options);
+  }
+  std::string complaint(const std::string& name, const std::string& bytes,
+                        const MeshFileOptions& options = {}) const {
+    try {
+      readPointCloud(write(name, bytes), options);
+    } catch (const InputError& error) {
+      std::string text = error.what();
+      const std::string prefix = folder_.string() + '/';
+      for (auto at = text.find(prefix); at != text.npos; at = text.find(prefix))
+        text.erase(at, prefix.size());
+      return text;
+    }
+    return "no complaint";
+  }
+};
+
+using Points = std::vector<Vec3>;
+const Points kThree{{1, 2, 3}, {-0.5, 0, 4e-3}, {7, 8, 9}};
+
+std::string pcdHeader(const std::string& points, const std::string& data) {
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS rgb x y z n\n"
+         "SIZE 1 4 8 4 2\nTYPE U F F F I\nCOUNT 1 1 1 1 2\nWIDTH " +
+         points + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA " + data + "\n";
+}
+
+/// The point's bytes in the order of the header above.
+std::string pcdPoint(const Vec3& p) {
+  return std::string("\x05", 1) + bytesOf(static_cast<float>(p[0])) + bytesOf(p[1]) +
+         bytesOf(static_cast<float>(p[2])) + bytesOf(std::int16_t{1}) + bytesOf(std::int16_t{2});
+}
+
+TEST_F(PointCloudTest, Ply) {
+  const std::string properties =
+      "element vertex 3\nproperty float nx\nproperty double x\nproperty double y\n"
+      "property double z\nend_header\n";
+  const PointCloud text =
+      read("a.ply", "ply\nformat ascii 1.0\n" + properties + "0 1 2 3\n0 -0.5 0 4e-3\n0 7 8 9\n");
+  EXPECT_EQ(text.points, kThree);
+  EXPECT_EQ(text.format, "PLY (ASCII)");
+  for (const bool big : {false, true}) {
+    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                        "_endian 1.0\n" + properties;
+    for (const Vec3& p : kThree)
+      bytes += bytesOf(0.0F, big) + bytesOf(p[0], big) + bytesOf(p[1], big) + bytesOf(p[2], big);
+    EXPECT_EQ(read("b.ply", bytes).points, kThree);
+  }
+  // A mesh's faces are skipped.
+  EXPECT_EQ(read("c.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                 "end_header\n1 2 3\n4 5 6\n7 8 9\n3 0 1 2\n")
+                .points.size(),
+            3u);
+}
+
+TEST_F(PointCloudTest, Pcd) {
+  std::string text;
+  for (const Vec3& p : kThree)
+    text += "5 " + std::to_string(p[0]) + ' ' + std::to_string(p[1]) + ' ' + std::to_string(p[2]) +
+            " 1 2\n";
+  const PointCloud ascii = read("a.pcd", pcdHeader("3", "ascii") + text);
+  EXPECT_EQ(ascii.format, "PCD (ASCII)");
+  EXPECT_EQ(ascii.points, kThree);
+  std::string bytes;
+  for (const Vec3& p : kThree) bytes += pcdPoint(p);
+  const PointCloud binary = read("b.pcd", pcdHeader("3", "binary") + bytes);
+  ASSERT_EQ(binary.points.size(), 3u);
+  EXPECT_EQ(binary.points[1], Vec3(-0.5, 0, 4e-3F)) << "x and z are floats, y is a double";
+  // Without COUNT, and with POINTS derived from WIDTH and HEIGHT.
+  EXPECT_EQ(read("c.pcd",
+                 "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 3\nHEIGHT 2\nDATA ascii\n"
+                 "1 2 3\n4 5 6\n7 8 9\nnan nan nan\n1 1 1\n-inf 0 0")
+                .points.size(),
+            4u);
+}
+
+/// Packs bytes as liblzf does: literals, and copies of up to 264 bytes from 8 KiB back at most.
+std::string packed(const std::string& bytes) {
+  std::string out, literal;
+  const auto flush = [&] {
+    if (literal.empty()) return;
+    out += static_cast<char>(literal.size() - 1);
+    out += literal;
+    literal.clear();
+  };
+  for (std::size_t at = 0; at < bytes.size();) {
+    std::size_t best = 0, from = 0;
+    for (std::size_t start = at > 600 ? at - 600 : 0; start < at; ++start) {
+      std::size_t length = 0;  // the copy may overlap its own output
+      while (at + length < bytes.size() && length < 264 &&
+             bytes[start + length] == bytes[at + length])
+        ++length;
+      if (length > best) best = length, from = start;
+    }
+    if (best < 3) {
+      literal += bytes[at++];
+      if (literal.size() == 32) flush();
+      continue;
+    }
+    flush();
+    const std::size_t back = at - from - 1, length = best - 2;
+    out += static_cast<char>(std::min<std::size_t>(length, 7) << 5 | back >> 8);
+    if (length >= 7) out += static_cast<char>(length - 7);
+    out += static_cast<char>(back & 255);
+    at += best;
+  }
+  flush();
+  return out;
+}
+
+TEST_F(PointCloudTest, CompressedPcd) {
+  std::mt19937_64 random(testSeed(310));
+  Points points;
+  for (int i = 0; i < 700; ++i)
+    points.emplace_back(static_cast<float>(i % 30), static_cast<double>(random() % 5),
+                        i < 300 ? 1 : static_cast<float>(random() % 1000));
+  std::string columns(points.size(), '\x05');
+  for (const Vec3& p : points) columns += bytesOf(static_cast<float>(p[0]));
+  for (const Vec3& p : points) columns += bytesOf(p[1]);
+  for (const Vec3& p : points) columns += bytesOf(static_cast<float>(p[2]));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    columns += bytesOf(std::int16_t{1}) + bytesOf(std::int16_t{2});
+  const std::string data = packed(columns);
+  ASSERT_LT(data.size(), columns.size() / 2);
+  const auto file = [&](const std::string& packedData, std::size_t size) {
+    return pcdHeader("700", "binary_compressed") +
+           bytesOf(static_cast<std::uint32_t>(packedData.size())) +
+           bytesOf(static_cast<std::uint32_t>(size)) + packedData;
+  };
+  const PointCloud cloud = read("a.pcd", file(data, columns.size()));
+  EXPECT_EQ(cloud.points, points);
+  EXPECT_EQ(cloud.format, "PCD (compressed)");
+  // Damaged data are refused, or read as other points; nothing is read out of bounds.
+  int refused = 0;
+  for (int n = 0; n < 300; ++n) {
+    std::string damaged = data;
+    damaged[random() % damaged.size()] = static_cast<char>(random());
+    if (n % 2) damaged.resize(random() % damaged.size());
+    refused += complaint("d.pcd", file(damaged, columns.size())) != "no complaint";
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_EQ(complaint("e.pcd", file(data, columns.size()).substr(0, 400)),
+            "e.pcd: the data's sizes do not fit the file: it is cut short");
+  EXPECT_EQ(complaint("f.pcd", file(data + '\x00', columns.size())),
+            "f.pcd: the compressed data are damaged");
+}
+
+TEST_F(PointCloudTest, Text) {
+  for (const char* name : {"a.xyz", "a.txt", "a.asc", "a.pts"})
+    EXPECT_EQ(read(name, "# x y z\n// comment\n1 2 3 255 0 0\n\n-0.5,0,4e-3\r\n7;8; 9").points,
+              kThree)
+        << name;
+  EXPECT_EQ(read("b.pts", "3\n1 2 3\n-0.5 0 4e-3\n7 8 9\n").points, kThree);
+}
+
+TEST_F(PointCloudTest, UnitUpAndPointsThatAreNotFinite) {
+  const PointCloud cloud = read("a.xyz", "1 2 3\nnan nan nan\n1 inf 2\n", {0.5, 'y'});
+  EXPECT_EQ(cloud.points, Points({{0.5, -1.5, 1}}));
+  EXPECT_EQ(cloud.notFinite, 2u);
+  EXPECT_EQ(complaint("b.xyz", "nan nan nan\n"), "b.xyz: none of its 1 points is finite");
+  EXPECT_EQ(complaint("c.xyz", "1e308 0 0\n", {1000, {}}),
+            "c.xyz: its coordinates in metres are too large for a double");
+}
+
+TEST_F(PointCloudTest, Faults) {
+  EXPECT_EQ(complaint("a.xyz", "1 2\n1 2 x\n"),
+            "a.xyz:1: a point has 3 coordinates, found 2\na.xyz:2: coordinate \"x\" is not a "
+            "number; write decimal numbers such as -1.25e-3");
+  EXPECT_EQ(complaint("b.xyz", "# nothing\n"), "b.xyz: it has no points");
+  EXPECT_EQ(complaint("c.obj", "v 1 2 3\n"),
+            "c.obj: points are read from .ply, .pcd, .xyz, .txt, .asc and .pts, not from "
+            "\".obj\"");
+  EXPECT_EQ(complaint("d.pcd", "VERSION 0.7\nFIELDS x y\nDATA ascii\n1 2\n"),
+            "d.pcd: FIELDS needs one field \"z\" of COUNT 1");
+  EXPECT_EQ(complaint("e.pcd", "FIELDS x y z\nSIZE 4 4\n"),
+            "e.pcd:2: SIZE has 2 values for 3 FIELDS");
+  EXPECT_EQ(complaint("f.pcd", "FIELDS x y z\nTYPE F F Q\n"),
+            "f.pcd:2: TYPE \"Q\" is not F, I or U");
+  EXPECT_EQ(complaint("g.pcd", "FIELDS x y z\nSIZE 4 4 3\n"),
+            "g.pcd:2: SIZE \"3\" is not 1, 2, 4 or 8");
+  EXPECT_EQ(complaint("h.pcd", "FIELDS x y z\nPOINTS -1\n"),
+            "h.pcd:2: \"-1\" is not an integer from 0 to 100000000");
+  EXPECT_EQ(complaint("i.pcd", "FIELDS x y z\nPOINTS 1\n"),
+            "i.pcd:3: the header has no line DATA; a PCD file needs one");
+  EXPECT_EQ(complaint("j.pcd", "FIELDS x y z\nPOINTS 1\nDATA zip\n1 2 3\n"),
+            "j.pcd:3: DATA \"zip\" is not ascii, binary or binary_compressed");
+  EXPECT_EQ(complaint("k.pcd", pcdHeader("2", "binary") + pcdPoint({1, 2, 3})),
+            "k.pcd: the header promises 2 points of 21 bytes, but 21 bytes are left: the file is "
+            "cut short");
+  EXPECT_EQ(complaint("l.pcd", "FIELDS x y z\nPOINTS 2\nDATA ascii\n1.5 2.5 3.5\n1.5 2.5"),
+            "l.pcd:5: point 2 of 2: the file ends here: it is cut short");
+  EXPECT_EQ(complaint("m.pcd", "FIELDS x y z\nPOINTS 90000000\nDATA ascii\n1 2 3\n"),
+            "m.pcd: the header promises 90000000 points of 3 numbers; the file is cut short");
+  EXPECT_EQ(complaint("n.pcd", "hello\n"), "n.pcd:1: \"hello\" is no line of a PCD header");
+  EXPECT_EQ(complaint("o.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n"),
+            "o.ply: the header has no element \"vertex\"");
+}
+
+}  // namespace
+}  // namespace corridor::test
