@@ -15,10 +15,13 @@
 ///   line.
 /// * `ConvexPart`: a convex solid that is never tessellated: `placed(Box{size}, X)`, and Sphere,
 ///   Capsule, Cylinder, Convex.
-/// * `Body`: a named mesh (its surface, or with `solid` also what it encloses) or convex part. Its
-///   trees are built when a query first needs them. The constructor throws std::invalid_argument
-///   for a mesh without triangles, for an index out of range, for a coordinate that is not finite,
-///   for a solid mesh that is not watertight, and for a convex part that is not valid.
+/// * `Body`: a named mesh (its surface, or with `solid` also what it encloses), a convex part, or
+///   the union of many of them. Its trees are built when a query first needs them. The constructor
+///   throws std::invalid_argument for a mesh without triangles, for an index out of range, for a
+///   coordinate that is not finite, for a solid mesh that is not watertight, and for a convex part
+///   that is not valid.
+/// * `readPointCloud` and `readOccupancyMap` read the points of a scan, and the occupied cubes of a
+///   map of OctoMap. Balls about the points, and the cubes, are the parts of a `Body`.
 /// * `Posed`: a body or tree with its pose: `Posed(cup, X_WCup)`. `Posed(table)` is at the origin.
 /// * `QueryContext`: counters and scratch memory. Each thread needs its own.
 /// * `LastPair`: the pair of triangles that decided the last query of two bodies. If the bodies are
@@ -108,6 +111,8 @@
 #include "collision/core/error.h"
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_file.h"
+#include "collision/geometry/occupancy_map.h"
+#include "collision/geometry/point_cloud.h"
 #include "collision/queries/contacts.h"
 #include "collision/queries/distance.h"
 #include "collision/queries/distance_obb4.h"

@@ -28,32 +28,77 @@ struct LazyTree {
 struct Body::Impl {
   std::string name;
   TriangleMesh mesh;
-  std::optional<ConvexPart> part;
+  /// Shared with the 4-wide tree, which refers to the parts by number.
+  std::shared_ptr<const std::vector<ConvexPart>> parts = noParts();
   bool solid = false;
   TreeParams params;
-  mutable std::once_flag once, componentsOnce;
+  mutable std::once_flag once, componentsOnce, boxesOnce;
   mutable std::atomic<bool> built = false;
   mutable std::optional<Obb4Tree> tree;
 #define CORRIDOR_LAZY_TREE(Volume) LazyTree<VolumeTree<Volume>>,
   mutable std::tuple<CORRIDOR_EACH_VOLUME(CORRIDOR_LAZY_TREE) std::monostate> volumeTrees;
 #undef CORRIDOR_LAZY_TREE
   mutable MeshComponents components;
+  mutable std::optional<BoxTree> partBoxes;
+
+  static std::shared_ptr<const std::vector<ConvexPart>> noParts() {
+    return std::make_shared<const std::vector<ConvexPart>>();
+  }
 };
 
-/// Extends the bounds so that they contain spheres of radius `grow` about the points that `each`
-/// visits. The axis-aligned bounds extend `reach` beyond the points instead.
+namespace {
+
+void require(const ConvexPart& part, const std::string& name) {
+  if (part.points.empty()) throw std::invalid_argument("body " + name + " has no points");
+  if (part.flatEnds && part.points.size() != 2)
+    throw std::invalid_argument("body " + name + " is a cylinder without two ends");
+  if (!(std::isfinite(part.radius) && part.radius >= 0))
+    throw std::invalid_argument("body " + name + ": the radius must be finite and not negative");
+  for (const Vec3& q : part.points)
+    if (!q.allFinite())
+      throw std::invalid_argument("body " + name + " has a point that is not finite");
+}
+
+/// Returns how far a part extends beyond its points along each coordinate axis, rounded up.
+Vec3 reachOf(const ConvexPart& part) {
+  Vec3 reach = Vec3::Constant(part.radius);
+  const auto& points = part.points;
+  const Vec3 a = part.flatEnds ? (points[1] - points[0]).stableNormalized() : Vec3(Vec3::Zero());
+  // Along coordinate axis i, a disc of normal a reaches √(1 − a_i²) times its radius. If rounding
+  // leaves no usable normal, the whole radius is taken (as in `ConvexSet`).
+  if (std::abs(a.norm() - 1) < 0x1p-20) {
+    for (int i = 0; i < 3; ++i)
+      reach[i] *= std::min(1.0, std::hypot(a[(i + 1) % 3], a[(i + 2) % 3]) + 16 * kUnit);
+  }
+  double largest = part.radius;
+  for (const Vec3& q : points) largest = std::max(largest, q.cwiseAbs().maxCoeff());
+  if (part.radius > 0)
+    reach.array() += 4 * kUnit * largest;  // rounding of the sums and differences
+  return reach;
+}
+
+void extend(BoundingBox& box, const Vec3& point, const Vec3& reach) {
+  box.lower = box.lower.cwiseMin(point - reach);
+  box.upper = box.upper.cwiseMax(point + reach);
+}
+
+void setTerms(BoundingBox& box) {
+  box.terms = box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum();
+}
+
+}  // namespace
+
+/// Sets the bounds. `each` visits points, each with the radius of a sphere about it, and with what
+/// the box extends beyond it.
 template <class Each>
-void Body::Bounds::around(const Each& each, double grow, const Vec3& reach) {
-  each([&](const Vec3& p) {
-    box.lower = box.lower.cwiseMin(p - reach);
-    box.upper = box.upper.cwiseMax(p + reach);
-  });
+void Body::Bounds::around(const Each& each) {
+  each([&](const Vec3& p, double, const Vec3& reach) { extend(box, p, reach); });
   center = box.lower + 0.5 * (box.upper - box.lower);
-  each([&](const Vec3& p) {
+  each([&](const Vec3& p, double grow, const Vec3&) {
     radius = std::max(radius, roundedUp(p.stableNorm() + grow));
     sphereRadius = std::max(sphereRadius, roundedUp((p - center).stableNorm() + grow));
   });
-  box.terms = box.lower.cwiseAbs().sum() + box.upper.cwiseAbs().sum();
+  setTerms(box);
 }
 
 Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& params)
@@ -70,44 +115,28 @@ Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& pa
       if (!component.watertight)
         throw std::invalid_argument("body " + impl_->name + " is not watertight; a solid must be");
   impl_->params = params;
-  bounds_.around(
-      [&](auto take) {
-        for (std::size_t t = 0; t < impl_->mesh.triangles.size(); ++t)
-          for (int i = 0; i < 3; ++i) take(impl_->mesh.corner(t, i));
-      },
-      0, Vec3::Zero());
+  bounds_.around([&](auto take) {
+    for (std::size_t t = 0; t < impl_->mesh.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) take(impl_->mesh.corner(t, i), 0, Vec3::Zero());
+  });
 }
 
-Body::Body(std::string name, ConvexPart part) : impl_(std::make_unique<Impl>()) {
+Body::Body(std::string name, ConvexPart part)
+    : Body(std::move(name), std::vector<ConvexPart>{std::move(part)}) {}
+
+Body::Body(std::string name, std::vector<ConvexPart> parts) : impl_(std::make_unique<Impl>()) {
   requireStandardFloatingPoint();
-  if (part.points.empty()) throw std::invalid_argument("body " + name + " has no points");
-  if (part.flatEnds && part.points.size() != 2)
-    throw std::invalid_argument("body " + name + " is a cylinder without two ends");
-  if (!(std::isfinite(part.radius) && part.radius >= 0))
-    throw std::invalid_argument("body " + name + ": the radius must be finite and not negative");
-  for (const Vec3& q : part.points)
-    if (!q.allFinite())
-      throw std::invalid_argument("body " + name + " has a point that is not finite");
+  if (parts.empty()) throw std::invalid_argument("body " + name + " has no parts");
+  for (const ConvexPart& part : parts) require(part, name);
   impl_->name = std::move(name);
   impl_->solid = true;
-  impl_->part = std::move(part);
-  const ConvexPart& p = *impl_->part;
-  Vec3 reach = Vec3::Constant(p.radius);
-  const Vec3 a = p.flatEnds ? (p.points[1] - p.points[0]).stableNormalized() : Vec3(Vec3::Zero());
-  // Along coordinate axis i, a disc of normal a reaches √(1 − a_i²) times its radius. If rounding
-  // leaves no usable normal, the whole radius is taken (as in `ConvexSet`).
-  if (std::abs(a.norm() - 1) < 0x1p-20) {
-    for (int i = 0; i < 3; ++i)
-      reach[i] *= std::min(1.0, std::hypot(a[(i + 1) % 3], a[(i + 2) % 3]) + 16 * kUnit);
-  }
-  double largest = p.radius;
-  for (const Vec3& q : p.points) largest = std::max(largest, q.cwiseAbs().maxCoeff());
-  if (p.radius > 0) reach.array() += 4 * kUnit * largest;  // rounding of the sums and differences
-  bounds_.around(
-      [&](auto take) {
-        for (const Vec3& q : p.points) take(q);
-      },
-      p.radius, reach);
+  impl_->parts = std::make_shared<const std::vector<ConvexPart>>(std::move(parts));
+  bounds_.around([&](auto take) {
+    for (const ConvexPart& part : *impl_->parts) {
+      const Vec3 reach = reachOf(part);
+      for (const Vec3& q : part.points) take(q, part.radius, reach);
+    }
+  });
 }
 
 Body::~Body() = default;
@@ -120,8 +149,8 @@ const std::string& Body::name() const {
 const TriangleMesh& Body::mesh() const {
   return impl_->mesh;
 }
-const ConvexPart* Body::part() const {
-  return impl_->part ? &*impl_->part : nullptr;
+const std::vector<ConvexPart>& Body::parts() const {
+  return *impl_->parts;
 }
 bool Body::solid() const {
   return impl_->solid;
@@ -136,13 +165,27 @@ const MeshComponents& Body::components() const {
   return impl_->components;
 }
 
+const BoxTree& Body::partBoxes() const {
+  std::call_once(impl_->boxesOnce, [this] {
+    std::vector<BoundingBox> boxes;
+    boxes.reserve(parts().size());
+    for (const ConvexPart& part : parts()) {
+      const Vec3 reach = reachOf(part);
+      BoundingBox& box = boxes.emplace_back();
+      for (const Vec3& q : part.points) extend(box, q, reach);
+      setTerms(box);
+    }
+    impl_->partBoxes.emplace(boxes);
+  });
+  return *impl_->partBoxes;
+}
+
 const Obb4Tree& Body::tree() const {
   std::call_once(impl_->once, [this] {
-    if (impl_->part) {
-      impl_->tree.emplace(*impl_->part);
-    } else {
+    if (isMesh())
       impl_->tree.emplace(impl_->mesh, impl_->params.fit);
-    }
+    else
+      impl_->tree.emplace(impl_->parts);
     impl_->built = true;
   });
   return *impl_->tree;
@@ -153,8 +196,8 @@ const VolumeTree<Volume>& Body::volumeTree() const {
   using Tree = VolumeTree<Volume>;
   auto& lazy = std::get<LazyTree<Tree>>(impl_->volumeTrees);
   std::call_once(lazy.once, [&] {
-    lazy.tree = impl_->part ? std::make_unique<const Tree>(*impl_->part)
-                            : std::make_unique<const Tree>(impl_->mesh, impl_->params);
+    lazy.tree = isMesh() ? std::make_unique<const Tree>(impl_->mesh, impl_->params)
+                         : std::make_unique<const Tree>(*impl_->parts, impl_->params);
     impl_->built = true;
   });
   return *lazy.tree;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_components.h"
@@ -12,8 +13,9 @@
 
 namespace corridor {
 
-/// A named mesh or convex part, in the coordinates of the frame that it is fixed to. Each tree is
-/// built when a query first needs it; this is thread-safe. Otherwise a body is immutable.
+/// A named mesh, or a union of convex parts, in the coordinates of the frame that it is fixed to.
+/// Each tree is built when a query first needs it; this is thread-safe. Otherwise a body is
+/// immutable.
 class Body {
  public:
   /// A mesh: its surface, or with `solid` also everything that it encloses.
@@ -24,22 +26,29 @@ class Body {
   /// @throws std::invalid_argument if the part has no point, or a point that is not finite; if its
   /// radius is negative or not finite; or if it has flat ends and not exactly two points.
   Body(std::string name, ConvexPart part);
+  /// The union of many parts, such as the balls about the points of a cloud. They may overlap. One
+  /// tree holds all of them.
+  /// @throws std::invalid_argument as above for each part, and if there are none.
+  Body(std::string name, std::vector<ConvexPart> parts);
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
 
   const std::string& name() const;
-  const TriangleMesh& mesh() const;  ///< empty for a convex part
-  const ConvexPart* part() const;    ///< null for a mesh
-  bool solid() const;                ///< true for convex parts
-  const Obb4Tree& tree() const;      ///< builds the tree if necessary
+  bool isMesh() const { return parts().empty(); }
+  const TriangleMesh& mesh() const;              ///< empty for convex parts
+  const std::vector<ConvexPart>& parts() const;  ///< empty for a mesh
+  bool solid() const;                            ///< true for convex parts
+  const Obb4Tree& tree() const;                  ///< builds the tree if necessary
   /// Returns the binary tree of one kind of volume. Builds it if necessary.
   template <BoundingVolume Volume>
   const VolumeTree<Volume>& volumeTree() const;
   /// The binary OBB tree, for queries that have no 4-wide variant.
   const ObbTree& binaryTree() const { return volumeTree<Obb>(); }
   const MeshComponents& components() const;  ///< only for a mesh; found at the first call
-  bool treeBuilt() const;                    ///< true if any tree has been built
+  /// The boxes of the parts, in their order; only for parts. Built at the first call.
+  const BoxTree& partBoxes() const;
+  bool treeBuilt() const;  ///< true if any tree has been built
   /// Largest distance of a point from the frame's origin, metres, rounded up.
   double radius() const { return bounds_.radius; }
   /// A bounding sphere: its centre, and its radius rounded up.
@@ -56,7 +65,7 @@ class Body {
     double radius = 0, sphereRadius = 0;
 
     template <class Each>
-    void around(const Each& each, double grow, const Vec3& reach);
+    void around(const Each& each);
   };
   struct Impl;
   Bounds bounds_;

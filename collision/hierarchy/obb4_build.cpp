@@ -15,7 +15,7 @@
 // Highway requires this include after foreach_target.h.
 #include "hwy/highway.h"
 
-#include "collision/hierarchy/primitive_references-inl.h"
+#include "collision/hierarchy/obb4_items-inl.h"
 #include "collision/volumes/principal_axes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,7 +30,7 @@ constexpr float kFlat = 0.6F;
 /// enough for a core's caches.
 constexpr std::uint32_t kPiece = 1024;
 
-/// Triangles [first, first + count) with their mean and axes.
+/// References [first, first + count) with their mean and axes.
 struct Cluster {
   std::uint32_t first = 0, count = 0;
   float mean[3] = {};
@@ -52,100 +52,6 @@ bool isNode(std::uint32_t child) {
   return !Obb4Tree::isLeaf(child);
 }
 
-/// Data that all threads read, and the records, of which each thread reorders its own range.
-struct Shared {
-  const TriangleMesh& mesh;
-  ObbFit fit;
-  double scale;
-  std::vector<Vec3> own;  // vertices in the tree's frame and unit
-  PrimitiveReferences records;
-};
-
-/// Sets the tree's origin and unit. The origin is the middle of the bounds. The unit is the power
-/// of two that brings all points into [−1, 1].
-void place(const TriangleMesh& mesh, unsigned threads, Obb4Layout& tree) {
-  Vec3 lower = mesh.corner(0, 0), upper = lower;
-  std::mutex mutex;
-  inParts(threads, mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
-    Vec3 low = mesh.corner(begin, 0), high = low;
-    for (std::size_t i = begin; i < end; ++i)
-      for (const std::uint32_t v : mesh.triangles[i])
-        for (int k = 0; k < 3; ++k) {
-          const double x = mesh.vertices[v][k];
-          low[k] = std::min(low[k], x);
-          high[k] = std::max(high[k], x);
-        }
-    const std::lock_guard lock(mutex);
-    lower = lower.cwiseMin(low);
-    upper = upper.cwiseMax(high);
-  });
-  tree.origin = 0.5 * lower + 0.5 * upper;
-  const double size = std::max((upper - tree.origin).maxCoeff(), (tree.origin - lower).maxCoeff());
-  // Above 2^1000 m some points are outside [−1, 1], and boxes may be too small. No query uses such
-  // boxes (`Obb4TreePose`).
-  const bool usable = size > 0 && std::isfinite(size);
-  tree.length = usable ? std::ldexp(1.0, std::clamp(std::ilogb(size) + 1, -1000, 1000)) : 1;
-}
-
-/// Fills the records [begin, end). Returns the largest |p|² of their corners.
-double record(Shared& shared, std::size_t begin, std::size_t end) {
-  const hn::CappedTag<double, 8> d;
-  const hn::Rebind<float, decltype(d)> f;
-  using V = hn::Vec<decltype(d)>;
-  const auto add3 = [](V a, V b, V c) { return hn::Add(hn::Add(a, b), c); };
-  const bool byVertices = shared.fit == ObbFit::vertices;
-  V largest = hn::Zero(d);
-  for (std::size_t i = begin; i < end; i += 8) {
-    const std::size_t count = std::min<std::size_t>(end - i, 8);
-    alignas(64) double corner[3][3][8];  // unused lanes repeat the last triangle
-    for (std::size_t l = 0; l < 8; ++l) {
-      const auto& t = shared.mesh.triangles[i + std::min(l, count - 1)];
-      for (int k = 0; k < 3; ++k)
-        for (int c = 0; c < 3; ++c) corner[k][c][l] = shared.own[t[k]][c];
-    }
-    alignas(64) float columns[PrimitiveReferences::kTriangle][8];
-    for (std::size_t at = 0; at < 8; at += hn::Lanes(d)) {
-      V p[3][3], mean[3];
-      for (int k = 0; k < 3; ++k) {
-        for (int c = 0; c < 3; ++c) p[k][c] = hn::Load(d, corner[k][c] + at);
-        largest = hn::Max(largest, add3(hn::Mul(p[k][0], p[k][0]), hn::Mul(p[k][1], p[k][1]),
-                                        hn::Mul(p[k][2], p[k][2])));
-      }
-      V q[3], r[3];
-      for (int c = 0; c < 3; ++c) {
-        mean[c] = hn::Mul(add3(p[0][c], p[1][c], p[2][c]), hn::Set(d, 1.0 / 3));
-        q[c] = hn::Sub(p[1][c], p[0][c]);
-        r[c] = hn::Sub(p[2][c], p[0][c]);
-        hn::StoreU(hn::DemoteTo(f, mean[c]), f, columns[PrimitiveReferences::kX + c] + at);
-        for (int k = 0; k < 3; ++k) p[k][c] = hn::Sub(p[k][c], mean[c]);
-      }
-      const V nx = hn::Sub(hn::Mul(q[1], r[2]), hn::Mul(q[2], r[1])),
-              ny = hn::Sub(hn::Mul(q[2], r[0]), hn::Mul(q[0], r[2])),
-              nz = hn::Sub(hn::Mul(q[0], r[1]), hn::Mul(q[1], r[0]));
-      const V area = hn::Mul(hn::Set(d, 0.5),
-                             hn::Sqrt(add3(hn::Mul(nx, nx), hn::Mul(ny, ny), hn::Mul(nz, nz))));
-      const V weight = byVertices ? hn::Set(d, 1.0) : area;
-      hn::StoreU(hn::DemoteTo(f, weight), f, columns[PrimitiveReferences::kWeight] + at);
-      // The second moments of a triangle's area have the factor 1/12, those of its corners alone
-      // 1/3.
-      const V share = hn::Mul(weight, hn::Set(d, byVertices ? 1.0 / 3 : 1.0 / 12));
-      int column = PrimitiveReferences::kXX;
-      for (int k = 0; k < 3; ++k)
-        for (int l = k; l < 3; ++l)
-          hn::StoreU(hn::DemoteTo(f, hn::Mul(share, add3(hn::Mul(p[0][k], p[0][l]),
-                                                         hn::Mul(p[1][k], p[1][l]),
-                                                         hn::Mul(p[2][k], p[2][l])))),
-                     f, columns[column++] + at);
-    }
-    for (int k = 0; k < PrimitiveReferences::kTriangle; ++k)
-      std::copy_n(columns[k], count, shared.records.column(k) + i);
-    for (std::size_t l = 0; l < count; ++l)
-      shared.records.column(PrimitiveReferences::kTriangle)[i + l] =
-          std::bit_cast<float>(static_cast<std::uint32_t>(i + l));
-  }
-  return hn::GetLane(hn::MaxOfLanes(d, largest));
-}
-
 /// Builds pieces. There is one worker per thread.
 class Worker {
  public:
@@ -154,7 +60,7 @@ class Worker {
     Piece* piece;
   };
 
-  explicit Worker(Shared& shared) : shared_(shared), spare_(0) {}
+  explicit Worker(BuildItems& items) : items_(items), spare_(0) {}
 
   /// Builds a piece. If the cluster is too large for one piece, builds only its first node, and
   /// appends the tasks below that node to `more`.
@@ -169,9 +75,10 @@ class Worker {
       for (std::size_t i = base; i < nodes_.size(); ++i) {
         Obb4Tree::Node& node = nodes_[i];
         std::fill_n(node.child, kWidth, Obb4Tree::kNone);
-        const Parts& parts = parts_[i - base];
+        Parts& parts = parts_[i - base];
         for (std::uint32_t lane = 0; lane < kWidth && parts[lane].count > 0; ++lane) {
           const Cluster& part = parts[lane];
+          if (items_.areParts() && part.count == 1) alignWithPart(parts[lane]);
           setBox(node, lane, part);
           if (isLeaf(part, node, lane)) {
             node.child[lane] = 0x80000000U | part.first << 2 | (part.count - 1);
@@ -194,11 +101,11 @@ class Worker {
   }
 
   /// Sets a lane of the node to the smallest box with the cluster's axes, rounded outward. The box
-  /// contains the triangles in real arithmetic.
+  /// contains the leaf primitives in real arithmetic.
   void setBox(Obb4Tree::Node& node, std::uint32_t lane, const Cluster& cluster) const {
     const auto& u = cluster.axes;
     alignas(32) double low[4], high[4];
-    extents(cluster, low, high);
+    items_.extents(cluster.first, cluster.count, u, low, high);
     double middle[3], reach[3], center[3];
     for (int j = 0; j < 3; ++j) middle[j] = 0.5 * (low[j] + high[j]);
     for (int k = 0; k < 3; ++k)
@@ -216,7 +123,7 @@ class Worker {
     // The last term of the pad covers flush-to-zero: a difference from the origin that is flushed
     // loses less than 2^-1022 m.
     const double pad = 2 * 2.1 * 0x1p-24 * (reach[0] + reach[1] + reach[2]) + 32 * kUnit +
-                       0x1p-1020 * shared_.scale;
+                       0x1p-1020 * items_.scale;
     // The longest side comes first, so that this side alone gives the size of a box.
     int order[3] = {0, 1, 2};
     if (reach[order[0]] < reach[order[1]]) std::swap(order[0], order[1]);
@@ -246,8 +153,8 @@ class Worker {
         // otherwise stay empty, so this costs nothing.
         const bool leavesOnly =
             std::all_of(parts.begin(), parts.begin() + count,
-                        [](const Cluster& c) { return c.count <= Obb4Tree::kLeafSize; });
-        const std::uint32_t least = leavesOnly ? 1 : Obb4Tree::kLeafSize;
+                        [&](const Cluster& c) { return c.count <= items_.mostPerLeaf(); });
+        const std::uint32_t least = leavesOnly ? 1 : items_.mostPerLeaf();
         std::uint32_t best = count;
         for (std::uint32_t i = 0; i < count; ++i)
           if (parts[i].count > least && (best == count || parts[i].size > parts[best].size))
@@ -265,15 +172,15 @@ class Worker {
     }
   }
 
-  /// Reorders a cluster so that the triangles below a plane through the mean come first. Returns
-  /// the number of these triangles. The plane is orthogonal to the axis of largest variance. If
-  /// this plane separates nothing, the other axes are tried. If no axis separates anything, the
-  /// cluster is cut into halves.
+  /// Reorders a cluster so that the leaf primitives below a plane through the mean come first.
+  /// Returns their number. The plane is orthogonal to the axis of largest variance. If this plane
+  /// separates nothing, the other axes are tried. If no axis separates anything, the cluster is cut
+  /// into halves.
   std::uint32_t split(const Cluster& cluster) {
     for (const auto& n : cluster.axes) {
       const float offset = n[0] * cluster.mean[0] + n[1] * cluster.mean[1] + n[2] * cluster.mean[2];
       const std::size_t below =
-          shared_.records.partition(cluster.first, cluster.count, n, offset, spare_);
+          items_.records.partition(cluster.first, cluster.count, n, offset, spare_);
       if (below > 0 && below < cluster.count) return static_cast<std::uint32_t>(below);
     }
     return cluster.count / 2;
@@ -285,7 +192,7 @@ class Worker {
     for (std::size_t i = 0; i < fits_.size(); ++i) {
       Cluster& cluster = *fits_[i];
       double m[6];
-      shared_.records.moments(cluster.first, cluster.count, cluster.mean, m);
+      items_.records.moments(cluster.first, cluster.count, cluster.mean, m);
       cluster.size = static_cast<float>(m[0] + m[3] + m[5]);
       for (int k = 0; k < 6; ++k) covariances_[i / 8].entry[k][i % 8] = m[k];
     }
@@ -297,54 +204,35 @@ class Worker {
           for (int k = 0; k < 3; ++k)
             fits_[i + l]->axes[j][k] = static_cast<float>(found.axes[j][k][l]);
     }
-    if (shared_.fit == ObbFit::hull)
+    if (items_.fit == ObbFit::hull)
       for (Cluster* cluster : fits_) fitHull(*cluster);
   }
 
   void fitHull(Cluster& cluster) {
     triangles_.clear();
-    for (std::uint32_t i = cluster.first; i < cluster.first + cluster.count; ++i) {
-      const auto& t = shared_.mesh.triangles[shared_.records.triangle(i)];
-      triangles_.push_back({shared_.own[t[0]], shared_.own[t[1]], shared_.own[t[2]]});
-    }
-    const ObbFrame frame = fitFrame(triangles_, shared_.fit);
+    for (std::uint32_t i = cluster.first; i < cluster.first + cluster.count; ++i)
+      triangles_.push_back(items_.triangle(i));
+    const ObbFrame frame = fitFrame(triangles_, items_.fit);
     for (int j = 0; j < 3; ++j) {
       cluster.mean[j] = static_cast<float>(frame.mean[j]);
       for (int k = 0; k < 3; ++k) cluster.axes[j][k] = static_cast<float>(frame.axes(k, j));
     }
   }
 
-  /// Reports whether a cluster becomes a leaf: one triangle, or a few in a flat box. Triangles
-  /// around a corner are separated better by boxes of their own.
-  static bool isLeaf(const Cluster& cluster, const Obb4Tree::Node& node, std::uint32_t lane) {
-    if (cluster.count > Obb4Tree::kLeafSize) return false;
-    return cluster.count == 1 || node.half[2][lane] < kFlat * node.half[1][lane];
+  /// Gives the cluster of one part the axes of the part's own box.
+  void alignWithPart(Cluster& cluster) const {
+    const ConvexPart& part = items_.part(cluster.first);
+    if (part.points.size() < 2) return;  // a ball
+    const Obb box = enclosingObb(part);
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) cluster.axes[j][k] = static_cast<float>(box.axes(k, j));
   }
 
-  /// Computes the least and the largest u_j·x over the corners of a cluster, for each axis u_j.
-  void extents(const Cluster& cluster, double (&low)[4], double (&high)[4]) const {
-    const hn::CappedTag<double, 4> d;
-    alignas(32) double axes[3][4] = {};
-    for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 3; ++k) axes[k][j] = cluster.axes[j][k];
-    for (std::size_t at = 0; at < 4; at += hn::Lanes(d)) {
-      const auto ux = hn::Load(d, axes[0] + at), uy = hn::Load(d, axes[1] + at),
-                 uz = hn::Load(d, axes[2] + at);
-      auto lo = hn::Set(d, std::numeric_limits<double>::infinity()), hi = hn::Neg(lo);
-      const auto project = [&](const Vec3& p) {
-        return hn::Add(hn::Add(hn::Mul(ux, hn::Set(d, p[0])), hn::Mul(uy, hn::Set(d, p[1]))),
-                       hn::Mul(uz, hn::Set(d, p[2])));
-      };
-      for (std::uint32_t i = cluster.first; i < cluster.first + cluster.count; ++i) {
-        const auto& t = shared_.mesh.triangles[shared_.records.triangle(i)];
-        const auto p = project(shared_.own[t[0]]), q = project(shared_.own[t[1]]),
-                   r = project(shared_.own[t[2]]);
-        lo = hn::Min(lo, hn::Min(hn::Min(p, q), r));
-        hi = hn::Max(hi, hn::Max(hn::Max(p, q), r));
-      }
-      hn::Store(lo, d, low + at);
-      hn::Store(hi, d, high + at);
-    }
+  /// Reports whether a cluster becomes a leaf: one triangle, or a few in a flat box. Triangles
+  /// around a corner are separated better by boxes of their own.
+  bool isLeaf(const Cluster& cluster, const Obb4Tree::Node& node, std::uint32_t lane) const {
+    if (cluster.count > items_.mostPerLeaf()) return false;
+    return cluster.count == 1 || node.half[2][lane] < kFlat * node.half[1][lane];
   }
 
   /// Copies `nodes_` to `nodes`, in depth-first order.
@@ -366,7 +254,7 @@ class Worker {
     }
   }
 
-  Shared& shared_;
+  BuildItems& items_;
   PrimitiveReferences spare_;
   std::vector<Obb4Tree::Node> nodes_;  // the nodes of the current piece, level by level
   std::vector<Cluster> wholes_;
@@ -406,41 +294,37 @@ std::vector<Obb4Tree::Node> join(Piece& root) {
   return nodes;
 }
 
-Obb4Layout layOut(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
+Obb4Layout layOut(BuildItems& items, unsigned threads) {
   Obb4Layout tree;
-  const std::size_t n = mesh.triangles.size();
-  place(mesh, threads, tree);
-  const double scale = 1 / tree.length;
-  Shared shared = {mesh, fit, scale, std::vector<Vec3>(mesh.vertices.size()),
-                   PrimitiveReferences(n)};
-  inParts(threads, mesh.vertices.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      shared.own[i] = (mesh.vertices[i] - tree.origin) * scale;
-  });
-  double square = 0;
-  std::mutex mutex;
-  inParts(threads, n, [&](std::size_t begin, std::size_t end) {
-    const double part = record(shared, begin, end);
-    const std::lock_guard lock(mutex);
-    square = std::max(square, part);
-  });
-  tree.radius = roundedUp(std::sqrt(square) / scale);
-
+  tree.origin = items.origin;
+  tree.length = items.length;
+  tree.radius = items.radius;
+  const std::size_t n = items.size();
   Piece root;
   {
     Cluster whole = {0, static_cast<std::uint32_t>(n)};
-    Worker worker(shared);
+    Worker worker(items);
     worker.fitAxes(whole);
     Obb4Tree::Node box;
     worker.setBox(box, 0, whole);
     tree.root = boxOf(box, 0);
     const auto share = static_cast<unsigned>(std::min<std::size_t>(threads, n / kPiece + 1));
-    runTasks(share, Worker::Task{whole, &root}, [&] { return Worker(shared); });
+    runTasks(share, Worker::Task{whole, &root}, [&] { return Worker(items); });
   }
   tree.nodes = join(root);
   tree.order.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) tree.order[i] = shared.records.triangle(i);
+  for (std::uint32_t i = 0; i < n; ++i) tree.order[i] = items.number(i);
   return tree;
+}
+
+Obb4Layout layOutMesh(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
+  BuildItems items(mesh, fit, threads);
+  return layOut(items, threads);
+}
+
+Obb4Layout layOutParts(std::span<const ConvexPart> parts, unsigned threads) {
+  BuildItems items(parts, threads);
+  return layOut(items, threads);
 }
 
 }  // namespace corridor::HWY_NAMESPACE
@@ -449,10 +333,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace corridor {
 
-HWY_EXPORT(layOut);
+HWY_EXPORT(layOutMesh);
+HWY_EXPORT(layOutParts);
 
 Obb4Layout layOutObb4(const TriangleMesh& mesh, ObbFit fit, unsigned threads) {
-  return HWY_DYNAMIC_DISPATCH(layOut)(mesh, fit, threads);
+  return HWY_DYNAMIC_DISPATCH(layOutMesh)(mesh, fit, threads);
+}
+
+Obb4Layout layOutObb4(std::span<const ConvexPart> parts, unsigned threads) {
+  return HWY_DYNAMIC_DISPATCH(layOutParts)(parts, threads);
 }
 
 }  // namespace corridor

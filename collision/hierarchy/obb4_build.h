@@ -1,14 +1,16 @@
 #pragma once
 
+#include <span>
+
 #include "collision/hierarchy/obb4_tree.h"
 
 namespace corridor {
 
-/// The result of building: all data of an `Obb4Tree` except the mesh.
+/// The result of building: all data of an `Obb4Tree` except the mesh or the parts.
 struct Obb4Layout {
   Obb1 root;
   std::vector<Obb4Tree::Node> nodes;
-  std::vector<std::uint32_t> order;  ///< the mesh's triangles in leaf order
+  std::vector<std::uint32_t> order;  ///< the mesh's triangles, or the parts, in leaf order
   Vec3 origin = Vec3::Zero();
   double length = 1;  ///< length of the tree's unit, metres
   double radius = 0;
@@ -17,5 +19,9 @@ struct Obb4Layout {
 /// Returns the layout of the tree over `mesh`. The layout is the same for any number of threads and
 /// any instruction set.
 Obb4Layout layOutObb4(const TriangleMesh& mesh, ObbFit fit, unsigned threads);
+/// Returns the layout of the tree over convex parts. Each leaf holds one part. @pre not empty.
+Obb4Layout layOutObb4(std::span<const ConvexPart> parts, unsigned threads);
+/// Returns the layout of a tree of one box, which holds the part.
+Obb4Layout layOutObb4(const ConvexPart& part);
 
 }  // namespace corridor

@@ -1,6 +1,7 @@
 #include "collision/hierarchy/obb4_tree.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "collision/core/parallel.h"
 #include "collision/core/rounding.h"
@@ -8,6 +9,11 @@
 #include "collision/hierarchy/obb4_build.h"
 
 namespace corridor {
+namespace {
+
+constexpr std::size_t kMostItems = (std::size_t{1} << 29) - 1;
+
+}  // namespace
 
 Obb4Tree::Obb4Tree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
     : vertices_(mesh.vertices) {
@@ -15,16 +21,27 @@ Obb4Tree::Obb4Tree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
   const std::size_t n = mesh.triangles.size();
   if (n == 0) throw std::invalid_argument("a tree needs at least one triangle");
   if (const auto complaint = checkMesh(mesh)) throw std::invalid_argument(*complaint);
-  if (n >= (1U << 29) - 1)
-    throw std::length_error("a tree must have fewer than 2^29 - 1 triangles");
-  Obb4Layout layout = layOutObb4(mesh, fit, threads);
-  root_ = layout.root;
-  nodes_ = std::move(layout.nodes);
-  meshTriangle_ = std::move(layout.order);
+  if (n >= kMostItems) throw std::length_error("a tree must have fewer than 2^29 - 1 triangles");
+  take(layOutObb4(mesh, fit, threads));
   triangles_.resize(n);
   inParts(threads, n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) triangles_[i] = mesh.triangles[meshTriangle_[i]];
   });
+}
+
+Obb4Tree::Obb4Tree(std::shared_ptr<const std::vector<ConvexPart>> parts, unsigned threads)
+    : parts_(std::move(parts)) {
+  requireStandardFloatingPoint();
+  if (!parts_ || parts_->empty()) throw std::invalid_argument("a tree needs at least one part");
+  if (parts_->size() >= kMostItems)
+    throw std::length_error("a tree must have fewer than 2^29 - 1 parts");
+  take(parts_->size() == 1 ? layOutObb4(parts_->front()) : layOutObb4(*parts_, threads));
+}
+
+void Obb4Tree::take(Obb4Layout layout) {
+  root_ = layout.root;
+  nodes_ = std::move(layout.nodes);
+  meshTriangle_ = std::move(layout.order);
   origin_ = layout.origin;
   length_ = layout.length;
   radius_ = layout.radius;
@@ -32,9 +49,13 @@ Obb4Tree::Obb4Tree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
 }
 
 std::size_t Obb4Tree::bytes() const {
+  std::size_t parts = 0;
+  if (parts_)
+    for (const ConvexPart& part : *parts_)
+      parts += sizeof(part) + part.points.capacity() * sizeof(Vec3);
   return sizeof(*this) + nodes_.capacity() * sizeof(Node) + vertices_.capacity() * sizeof(Vec3) +
          triangles_.capacity() * sizeof(triangles_[0]) +
-         meshTriangle_.capacity() * sizeof(std::uint32_t);
+         meshTriangle_.capacity() * sizeof(std::uint32_t) + parts;
 }
 
 }  // namespace corridor

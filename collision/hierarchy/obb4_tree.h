@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "collision/volumes/obb4.h"
 
 namespace corridor {
+
+struct Obb4Layout;
 
 /// The 4-wide OBB tree: the OBBTree of Gottschalk, Lin, Manocha 1996, laid out for SIMD. A node has
 /// four oriented boxes in float, and sixteen pairs of boxes are tested at a time. A leaf has at
@@ -50,18 +53,25 @@ class Obb4Tree {
   /// @throws std::invalid_argument if the mesh has no triangle or `checkMesh` finds a fault,
   /// std::length_error for 2^29 − 1 triangles or more.
   explicit Obb4Tree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles, unsigned threads = 1);
-  /// A tree of one box, which holds a convex part. The part is its only leaf primitive, number 0.
-  /// @pre The part is valid: it was made of a primitive in which `checkPrimitive` finds no fault.
-  explicit Obb4Tree(const ConvexPart& part);
+  /// A tree over convex parts, which may overlap. Each leaf holds one part. The tree shares the
+  /// parts with the caller. @pre All parts are valid: they were made of primitives in which
+  /// `checkPrimitive` finds no fault.
+  /// @throws std::invalid_argument if there are no parts, std::length_error for 2^29 − 1 or more.
+  explicit Obb4Tree(std::shared_ptr<const std::vector<ConvexPart>> parts, unsigned threads = 1);
+  /// A tree of one box, which holds one part.
+  explicit Obb4Tree(const ConvexPart& part)
+      : Obb4Tree(std::make_shared<const std::vector<ConvexPart>>(1, part)) {}
 
-  /// Returns the convex part, or null if the leaves hold triangles.
-  const ConvexPart* part() const { return part_ ? &*part_ : nullptr; }
+  bool hasParts() const { return parts_ != nullptr; }  ///< false: the leaves hold triangles
+  /// The i-th part in leaf order. @pre `hasParts()`.
+  const ConvexPart& part(std::uint32_t i) const { return (*parts_)[meshTriangle_[i]]; }
 
   /// The nodes, in depth-first order. Node 0 is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
-  std::size_t triangleCount() const { return triangles_.size(); }
+  std::size_t triangleCount() const { return triangles_.size(); }  ///< 0 for parts
+  std::size_t itemCount() const { return meshTriangle_.size(); }   ///< triangles or parts
   /// Return corner k of the i-th triangle in leaf order, the whole triangle, and its number in the
-  /// mesh.
+  /// mesh. `meshTriangle` is also the number of a part in the list of parts.
   const Vec3& corner(std::uint32_t i, int k) const { return vertices_[triangles_[i][k]]; }
   Triangle triangle(std::uint32_t i) const { return {corner(i, 0), corner(i, 1), corner(i, 2)}; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return meshTriangle_[i]; }
@@ -76,19 +86,21 @@ class Obb4Tree {
 
   std::size_t bytes() const;
 
-  /// Proves these invariants in rational arithmetic. Every box contains every triangle below it (or
-  /// the convex part). Each triangle is in exactly one leaf. Every node except the root is the
+  /// Proves these invariants in rational arithmetic. Every box contains every triangle or part
+  /// below it. Each triangle or part is in exactly one leaf. Every node except the root is the
   /// child of exactly one box. Also checks that boxes are as obb4.h assumes. Returns the first
   /// violation, or nothing.
   std::optional<std::string> check() const;
 
  private:
+  void take(Obb4Layout layout);
+
   Obb1 root_ = {};
   std::vector<Node> nodes_;
   std::vector<Vec3> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::uint32_t> meshTriangle_;
-  std::optional<ConvexPart> part_;
+  std::shared_ptr<const std::vector<ConvexPart>> parts_;
   Vec3 origin_ = Vec3::Zero();
   double length_ = 1;
   double radius_ = 0, reach_ = 0;

@@ -1,6 +1,7 @@
+#include <algorithm>
+
 #include "collision/hierarchy/exact_volume.h"
 #include "collision/hierarchy/obb4_tree.h"
-#include "collision/hierarchy/volume_tree.h"
 #include "collision/volumes/part_obb.h"
 
 namespace corridor {
@@ -29,40 +30,62 @@ std::string named(const char* what, std::size_t i) {
   return std::string(what) + " " + std::to_string(i);
 }
 
+using Volume = exact::ExactVolume<Obb>;
+
+/// Tests whether the volume, in the tree's frame and unit, contains a triangle. `own` maps a point
+/// to this frame.
+template <class Own>
+bool contains(const Volume& volume, const Triangle& triangle, const Own& own) {
+  return std::all_of(triangle.begin(), triangle.end(), [&](const Vec3& corner) {
+    return volume.contains(own(exact::row(corner)), 0);
+  });
+}
+
+/// The same for a part: the spheres about its points, or the discs of a cylinder. If a volume does
+/// not contain the discs by themselves, it must contain the part's own box, which contains them.
+template <class Own>
+bool contains(const Volume& volume, const ConvexPart& part, const Own& own,
+              const exact::Rational& unit) {
+  if (!part.flatEnds)
+    return std::all_of(part.points.begin(), part.points.end(), [&](const Vec3& p) {
+      return volume.contains(own(exact::row(p)), exact::Rational(part.radius) / unit);
+    });
+  const exact::Row ends[2] = {exact::row(part.points[0]), exact::row(part.points[1])},
+                   axis = exact::minus(ends[1], ends[0]);
+  const exact::Rational radius(part.radius), ownRadius = radius / unit;
+  if (volume.contains(own(ends[0]), ownRadius, axis) &&
+      volume.contains(own(ends[1]), ownRadius, axis))
+    return true;
+  const Volume box(enclosingObb(part));
+  if (!box.contains(ends[0], radius, axis) || !box.contains(ends[1], radius, axis)) return false;
+  const auto corners = box.corners();
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](const exact::Row& corner) { return volume.contains(own(corner), 0); });
+}
+
 }  // namespace
 
 std::optional<std::string> Obb4Tree::check() const {
   using exact::Rational;
   using exact::Row;
-  if (part_) {
-    // Proves that the part is inside its enclosing box, and that this box is inside the boxes in
-    // float.
-    if (auto complaint = VolumeTree<Obb>(*part_).check()) return complaint;
-    const exact::ExactVolume<Obb> around(inDouble(boxOf(nodes_[0], 0))), root(inDouble(root_));
-    for (Row corner : exact::ExactVolume<Obb>(enclosingObb(*part_)).corners()) {
-      corner = exact::minus(corner, exact::row(origin_));
-      for (Rational& x : corner) x /= Rational(length_);
-      if (!around.contains(corner, 0) || !root.contains(corner, 0))
-        return "the box does not contain the part";
-    }
-    return std::nullopt;
-  }
   const Rational unit(length_);
   const Row origin = exact::row(origin_);
-  const auto own = [&](std::uint32_t triangle, int k) {
-    Row p = exact::minus(exact::row(corner(triangle, k)), origin);
+  const auto own = [&](Row p) {
+    p = exact::minus(p, origin);
     for (Rational& x : p) x /= unit;
     return p;
   };
+  const std::size_t count = meshTriangle_.size();
+  const char* const kind = hasParts() ? "part" : "triangle";
   // Each item is a node, with all boxes above it.
-  std::vector<int> visited(nodes_.size(), 0), seen(triangles_.size(), 0);
+  std::vector<int> visited(nodes_.size(), 0), seen(count, 0);
   struct Item {
     std::uint32_t node;
-    std::vector<exact::ExactVolume<Obb>> above;
+    std::vector<Volume> above;
   };
   if (auto complaint = complaintOf(inDouble(root_))) return *complaint + " (root box)";
   std::vector<Item> stack;
-  stack.push_back({0, {exact::ExactVolume<Obb>(inDouble(root_))}});
+  stack.push_back({0, {Volume(inDouble(root_))}});
   while (!stack.empty()) {
     const Item item = std::move(stack.back());
     stack.pop_back();
@@ -74,26 +97,26 @@ std::optional<std::string> Obb4Tree::check() const {
       if (child == kNone) continue;
       const Obb box = inDouble(boxOf(node, lane));
       if (auto complaint = complaintOf(box)) return *complaint + named(" in node", item.node);
-      std::vector<exact::ExactVolume<Obb>> boxes = item.above;
+      std::vector<Volume> boxes = item.above;
       boxes.emplace_back(box);
       if (!isLeaf(child)) {
         stack.push_back({child, std::move(boxes)});
         continue;
       }
       for (std::uint32_t t = leafFirst(child); t < leafFirst(child) + leafCount(child); ++t) {
-        if (t >= triangles_.size() || seen[t]++)
-          return named("triangle", t) + " (leaf order) is not in exactly one leaf";
-        for (int k = 0; k < 3; ++k)
-          for (const auto& around : boxes)
-            if (!around.contains(own(t, k), 0))
-              return "a box above does not contain " + named("triangle", meshTriangle_[t]);
+        if (t >= count || seen[t]++)
+          return named(kind, t) + " (leaf order) is not in exactly one leaf";
+        for (const auto& around : boxes)
+          if (!(hasParts() ? contains(around, part(t), own, unit)
+                           : contains(around, triangle(t), own)))
+            return "a box above does not contain " + named(kind, meshTriangle_[t]);
       }
     }
   }
-  std::vector<int> ids(triangles_.size(), 0);
-  for (std::size_t t = 0; t < triangles_.size(); ++t)
+  std::vector<int> ids(count, 0);
+  for (std::size_t t = 0; t < count; ++t)
     if (!seen[t] || meshTriangle_[t] >= ids.size() || ids[meshTriangle_[t]]++)
-      return named("triangle", t) + " (leaf order) is in no leaf, or has the number of another";
+      return named(kind, t) + " (leaf order) is in no leaf, or has the number of another";
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (!visited[i]) return named("node", i) + " is the child of no box";
   return std::nullopt;

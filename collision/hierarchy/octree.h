@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/geometry/convex_part.h"
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/predicates/triangle.h"
 #include "collision/volumes/aabb.h"
@@ -48,7 +47,7 @@ class Octree {
   /// `meshTriangle` is its number in the mesh.
   const std::vector<Triangle>& triangles() const { return triangles_; }
   std::uint32_t meshTriangle(std::uint32_t i) const { return numbers_[i]; }
-  const ConvexPart* part(std::uint32_t = 0) const { return nullptr; }
+  static constexpr bool hasParts() { return false; }
 
   const VolumeBounds& bounds() const { return bounds_; }
   /// Largest |x|₂ of all points, rounded up.

@@ -55,10 +55,8 @@ double TreePrimitives::side(std::uint32_t i, const Vec3& mean, const Vec3& norma
 
 std::vector<Ball> TreePrimitives::ballsOfParts(std::uint32_t first, std::uint32_t count) const {
   std::vector<Ball> balls;
-  for (std::uint32_t i = first; i < first + count; ++i) {
-    const std::vector<Ball> own = ballsOf(parts[i]);
-    balls.insert(balls.end(), own.begin(), own.end());
-  }
+  balls.reserve(count);
+  for (std::uint32_t i = first; i < first + count; ++i) addBallsOf(parts[i], balls);
   return balls;
 }
 

@@ -46,10 +46,9 @@ class VolumeTree {
   /// std::invalid_argument if the list is empty.
   explicit VolumeTree(std::vector<ConvexPart> parts, const TreeParams& params = {});
 
-  /// Returns the i-th part, or null if the leaves hold triangles.
-  const ConvexPart* part(std::uint32_t i = 0) const {
-    return items_.parts.empty() ? nullptr : &items_.parts[i];
-  }
+  bool hasParts() const { return !items_.parts.empty(); }  ///< false: the leaves hold triangles
+  /// The i-th part, in leaf order. @pre `hasParts()`.
+  const ConvexPart& part(std::uint32_t i) const { return items_.parts[i]; }
 
   /// The nodes, in depth-first order. Node 0 is the root.
   const std::vector<Node>& nodes() const { return nodes_; }

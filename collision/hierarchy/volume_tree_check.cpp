@@ -51,8 +51,8 @@ std::optional<std::string> VolumeTree<Volume>::check() const {
     const ExactVolume<Volume> volume(node.box);
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
       bool inside = true;
-      if (const ConvexPart* own = part(t)) {
-        inside = containsPart(volume, *own);
+      if (hasParts()) {
+        inside = containsPart(volume, part(t));
       } else {
         for (const Vec3& p : items_.triangles[t]) inside = inside && volume.contains(row(p), 0);
       }

@@ -249,16 +249,17 @@ Vec3 contactPoint(MotionSource& motion, std::span<const MotionPair> pairs,
   });
   const auto cornersOf = [](const Body& body, std::size_t i) {
     const TriangleMesh& mesh = body.mesh();
-    return body.part() ? Triangle()
-                       : Triangle{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
+    return body.isMesh() ? Triangle{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}
+                         : Triangle();
   };
   const Triangle a = cornersOf(*pair->a, contact.triangleA),
                  b = cornersOf(*pair->b, contact.triangleB);
-  const auto setOf = [](const Body& body, const Triangle& corners) {
-    return body.part() ? ConvexSet(*body.part()) : ConvexSet(corners);
+  const auto setOf = [](const Body& body, std::size_t i, const Triangle& corners) {
+    return body.isMesh() ? ConvexSet(corners) : ConvexSet(body.parts()[i]);
   };
   const Transform X_AB = motion.relativeMotion(pair->motion, result.contactTime, 0).X_AB;
-  const ConvexDistance found = convexDistance({setOf(*pair->a, a), {}}, {setOf(*pair->b, b), X_AB});
+  const ConvexDistance found = convexDistance({setOf(*pair->a, contact.triangleA, a), {}},
+                                              {setOf(*pair->b, contact.triangleB, b), X_AB});
   counters.addTest(found.exact);
   return found.p_WA;
 }

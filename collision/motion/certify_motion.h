@@ -13,7 +13,8 @@
 namespace corridor {
 
 /// Two bodies that touch, by their indices in the scene, and the two triangles that touch, by their
-/// numbers in the meshes. For a body that is a convex part, the number of the triangle is 0.
+/// numbers in the meshes. For a body of convex parts, the number of the triangle is that of the
+/// part.
 struct Contact {
   std::size_t bodyA = 0, bodyB = 0;
   std::uint32_t triangleA = 0, triangleB = 0;

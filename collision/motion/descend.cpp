@@ -68,8 +68,8 @@ class Moving {
 
   bool leaves(const Item& item, const Node& na, const Node& nb, unsigned pairs, const float*) {
     unsigned open = 0;
-    const bool stop =
-        a_.part() || b_.part() ? solids(na, nb, pairs, open) : triangles(na, nb, pairs, open);
+    const bool stop = a_.hasParts() || b_.hasParts() ? solids(na, nb, pairs, open)
+                                                     : triangles(na, nb, pairs, open);
     if (!stop) leave(item, open);
     return stop;
   }
@@ -104,11 +104,10 @@ class Moving {
             return false;
           }
           const double margin = options_.margin;
-          const ConvexPart *pa = a_.part(), *pb = b_.part();
           const MovingPairAnswer answer =
-              !pa  ? decideMovingParts(a_.triangle(s), *pb, relative_, margin)
-              : pb ? decideMovingParts(*pa, *pb, relative_, margin)
-                   : decideMovingParts(*pa, b_.triangle(t), relative_, margin);
+              !a_.hasParts()  ? decideMovingParts(a_.triangle(s), b_.part(t), relative_, margin)
+              : b_.hasParts() ? decideMovingParts(a_.part(s), b_.part(t), relative_, margin)
+                              : decideMovingParts(a_.part(s), b_.triangle(t), relative_, margin);
           counters_.addTest(answer.exact);
           return take(answer, s, t, leaves, open);
         });

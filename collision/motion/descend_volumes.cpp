@@ -117,11 +117,11 @@ class MovingVolumes {
   }
 
   MovingPairAnswer decide(std::uint32_t s, std::uint32_t t) {
-    const ConvexPart *pa = a_.part(s), *pb = b_.part(t);
+    const bool partsA = a_.hasParts(), partsB = b_.hasParts();
     const double margin = options_.margin;
-    if (pa && pb) return decideMovingParts(*pa, *pb, relative_, margin);
-    if (pa) return decideMovingParts(*pa, b_.triangle(t), relative_, margin);
-    if (pb) return decideMovingParts(a_.triangle(s), *pb, relative_, margin);
+    if (partsA && partsB) return decideMovingParts(a_.part(s), b_.part(t), relative_, margin);
+    if (partsA) return decideMovingParts(a_.part(s), b_.triangle(t), relative_, margin);
+    if (partsB) return decideMovingParts(a_.triangle(s), b_.part(t), relative_, margin);
     return decideMovingTriangles(a_.triangle(s), b_.triangle(t), relative_, margin);
   }
 

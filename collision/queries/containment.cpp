@@ -142,16 +142,50 @@ std::optional<PrimitivePair> findEnclosed(const Posed<MeshWithComponents>& solid
   return std::nullopt;
 }
 
+namespace {
+
+/// Finds a part that is inside the solid mesh. `around` is the mesh of the body `solid`. Parts
+/// whose boxes are away from the mesh's box are left out, many at a time.
+std::optional<PrimitivePair> findEnclosedPart(const Posed<MeshWithComponents>& around,
+                                              const Body& solid, const Posed<Body>& inner,
+                                              QueryContext& context) {
+  const std::vector<ConvexPart>& parts = inner.shape.parts();
+  const Transform X_SP = rigidInverse(around.X_W) * inner.X_W;
+  const double reach = inner.shape.radius();
+  // The centre of a box and the product with its half extents: as in `containing`, for points that
+  // are at most √3·reach from the origin.
+  const double error = roundedUp(relativePoseError(around.X_W, X_SP, inner.X_W, 2 * reach) +
+                                 32 * kUnit * (X_SP.m.norm() * reach + X_SP.t.norm()) +
+                                 4 * kUnit * (solid.lower().norm() + solid.upper().norm()));
+  const Mat3 extents = X_SP.m.cwiseAbs();
+  const auto bound = [&](const BoundingBox& box) {
+    const Vec3 half = 0.5 * (box.upper - box.lower), center_S = X_SP * Vec3(box.lower + half);
+    const Vec3 reach_S = extents * half;
+    const Vec3 apart =
+        (solid.lower() - (center_S + reach_S)).cwiseMax(center_S - reach_S - solid.upper());
+    return apart.maxCoeff() - error;
+  };
+  std::optional<PrimitivePair> found;
+  const double touching = 0;
+  inner.shape.partBoxes().walk(bound, touching, [&](std::size_t i) {
+    found = findEnclosed(around, Posed(parts[i], inner.X_W), context);
+    if (found) found->b = static_cast<std::uint32_t>(i);
+    return found.has_value();
+  });
+  return found;
+}
+
+}  // namespace
+
 std::optional<PrimitivePair> findEnclosed(const Posed<Body>& solid, const Posed<Body>& inner,
                                           QueryContext& context) {
-  if (!solid.shape.solid() || solid.shape.part()) return std::nullopt;
+  if (!solid.shape.solid() || !solid.shape.isMesh()) return std::nullopt;
   const auto meshOf = [](const Body& body) {
     return MeshWithComponents{body.binaryTree(), body.components()};
   };
   const MeshWithComponents around = meshOf(solid.shape);
   const Posed posed(around, solid.X_W);
-  if (inner.shape.part())
-    return findEnclosed(posed, Posed(*inner.shape.part(), inner.X_W), context);
+  if (!inner.shape.isMesh()) return findEnclosedPart(posed, solid.shape, inner, context);
   const MeshWithComponents within = meshOf(inner.shape);
   return findEnclosed(posed, Posed(within, inner.X_W), context);
 }

@@ -150,16 +150,16 @@ bool closer(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>&
 template <BoundingVolume Volume>
 Distance distance(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b,
                   const DistanceOptions& options, QueryContext& context) {
-  return a.shape.part() || b.shape.part() ? nearest<Parts>(a, b, options, context)
-                                          : nearest<Triangles>(a, b, options, context);
+  return a.shape.hasParts() || b.shape.hasParts() ? nearest<Parts>(a, b, options, context)
+                                                  : nearest<Triangles>(a, b, options, context);
 }
 
 template <BoundingVolume Volume>
 bool closerThan(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volume>>& b, double d,
                 QueryContext& context) {
   if (d == 0) return interference(a, b, context).has_value();
-  return a.shape.part() || b.shape.part() ? closer<Parts>(a, b, d, context)
-                                          : closer<Triangles>(a, b, d, context);
+  return a.shape.hasParts() || b.shape.hasParts() ? closer<Parts>(a, b, d, context)
+                                                  : closer<Triangles>(a, b, d, context);
 }
 
 #define CORRIDOR_DISTANCE(Volume)                                                                \

@@ -257,7 +257,7 @@ bool provedCloser(const Triangle& a, const Transform& X_WA, const Triangle& b,
 
 Distance distance(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
                   const DistanceOptions& options, QueryContext& context, LastPair* last) {
-  assert(!a.shape.part() && !b.shape.part());
+  assert(!a.shape.hasParts() && !b.shape.hasParts());
   const Obb4TreePose pose(a.shape, a.X_W, b.shape, b.X_W, HUGE_VAL);
   // First, search for contact only. If the trees touch, this ends far sooner than the search below,
   // which would visit all pairs that may touch.
@@ -273,7 +273,7 @@ bool closerThan(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, double d, Qu
                 LastPair* last) {
   if (d == 0) return interference(a, b, context, last).has_value();
   const Obb4Tree &treeA = a.shape, &treeB = b.shape;
-  assert(!treeA.part() && !treeB.part());
+  assert(!treeA.hasParts() && !treeB.hasParts());
   const Obb4TreePose pose(treeA, a.X_W, treeB, b.X_W, d);
   if (pose.apart) {
     ++context.counters.boxTests;

@@ -24,8 +24,8 @@ struct ItemSet {
   Triangle corners;
   ConvexSet set;
   ItemSet(const Obb4Tree& tree, std::uint32_t item)
-      : corners(tree.part() ? Triangle() : tree.triangle(item)),
-        set(tree.part() ? ConvexSet(*tree.part()) : ConvexSet(corners)) {}
+      : corners(tree.hasParts() ? Triangle() : tree.triangle(item)),
+        set(tree.hasParts() ? ConvexSet(tree.part(item)) : ConvexSet(corners)) {}
   ItemSet(const ItemSet&) = delete;
   ItemSet& operator=(const ItemSet&) = delete;
 };
@@ -59,7 +59,7 @@ class Touching {
 
   bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
               const float*) {
-    if (a_.part() || b_.part())
+    if (a_.hasParts() || b_.hasParts())
       return forEachLeafPrimitivePair(
           na, nb, pairs, [&](unsigned, std::uint32_t s, std::uint32_t t) {
             const ItemSet setA(a_, s), setB(b_, t);

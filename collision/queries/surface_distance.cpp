@@ -15,7 +15,7 @@ namespace {
 template <class Query>
 auto onTrees(TreeKind trees, const Posed<Body>& a, const Posed<Body>& b, LastPair* last,
              const Query& query) {
-  const bool convex = a.shape.part() || b.shape.part();
+  const bool convex = !a.shape.isMesh() || !b.shape.isMesh();
   return withTrees(trees == TreeKind::obb4 && convex ? TreeKind::obbBinary : trees, a.shape,
                    b.shape, [&]<class Tree>(auto, const Tree& ta, const Tree& tb) {
                      const Posed posedA(ta, a.X_W), posedB(tb, b.X_W);
@@ -60,7 +60,7 @@ double distanceLowerBound(const Posed<Body>& a, const Posed<Body>& b, const Dist
   const double above = measured.distance - options.absolute - errorOf(a, b);
   const double lower = roundedDown(above / (1 + options.relative + kShare));
   if (!(lower > 0)) return 0;
-  const bool convex = a.shape.part() || b.shape.part();
+  const bool convex = !a.shape.isMesh() || !b.shape.isMesh();
   return convex && surfacesCloserThan(a, b, lower, context, trees) ? 0 : lower;
 }
 

@@ -28,7 +28,9 @@ PairTest<Volume, Overlap> pairTestOf(const Posed<TreeA>& a, const Posed<TreeB>& 
 /// convex part or a triangle.
 template <class Tree>
 ConvexSet convexSetOf(const Tree& tree, std::uint32_t item) {
-  return tree.part(item) ? ConvexSet(*tree.part(item)) : ConvexSet(tree.triangles()[item]);
+  if constexpr (requires { tree.part(item); })
+    if (tree.hasParts()) return ConvexSet(tree.part(item));
+  return ConvexSet(tree.triangles()[item]);
 }
 
 /// The query that `traverse` (hierarchy/traverse.h) runs to find touching leaf primitives of two
@@ -70,7 +72,7 @@ class TouchingPairs {
   /// Tests one pair of leaf primitives, numbered in leaf order.
   bool touch(std::uint32_t s, std::uint32_t t) const {
     const PredicateResult result =
-        a_.part() || b_.part()
+        a_.hasParts() || b_.hasParts()
             ? convexSetsTouch({convexSetOf(a_, s), X_WA_}, {convexSetOf(b_, t), X_WB_})
             : trianglesTouch(a_.triangles()[s], X_WA_, b_.triangles()[t], X_WB_);
     counters_.addTest(result.exact);

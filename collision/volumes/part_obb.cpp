@@ -1,5 +1,6 @@
 #include "collision/volumes/part_obb.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -31,6 +32,14 @@ const Obb& smaller(const Obb& a, const Obb& b) {
   return a.half.sum() <= b.half.sum() ? a : b;
 }
 
+/// Reports whether all points are corners of the box, up to rounding: no box is smaller then.
+bool isCornersOf(const Obb& box, const std::vector<Vec3>& points) {
+  return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
+    const Vec3 x = (box.axes.transpose() * (p - box.center)).cwiseAbs();
+    return (x.array() >= (1 - 0x1p-20) * box.half.array()).all();
+  });
+}
+
 }  // namespace
 
 Obb enclosingObb(const ConvexPart& part) {
@@ -41,7 +50,7 @@ Obb enclosingObb(const ConvexPart& part) {
     return i < points.size() ? Vec3(points[i] - points[0]) : Vec3::Zero();
   };
   Obb box = enclosingObb(corners, axesAlong(edge(1), edge(2)));
-  if (points.size() > 2)
+  if (points.size() > 2 && !isCornersOf(box, points))
     box = smaller(box, enclosingObb(corners, fitFrame(corners, ObbFit::hull).axes));
   if (part.radius == 0) return box;
 
@@ -61,9 +70,14 @@ Obb enclosingObb(const ConvexPart& part) {
 
 std::vector<Ball> ballsOf(const ConvexPart& part) {
   std::vector<Ball> balls;
+  addBallsOf(part, balls);
+  return balls;
+}
+
+void addBallsOf(const ConvexPart& part, std::vector<Ball>& balls) {
   if (!part.flatEnds) {
     for (const Vec3& p : part.points) balls.push_back({p, part.radius});
-    return balls;
+    return;
   }
   const Obb box = enclosingObb(part);
   // Each coordinate of a corner c ± Σ half_k u_k takes 6 roundings of numbers below |c|₁ + 2·Σhalf.
@@ -72,7 +86,6 @@ std::vector<Ball> ballsOf(const ConvexPart& part) {
     const Vec3 x(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
     balls.push_back({box.center + box.axes * x.cwiseProduct(box.half), error});
   }
-  return balls;
 }
 
 }  // namespace corridor

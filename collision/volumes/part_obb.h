@@ -9,12 +9,15 @@ namespace corridor {
 
 /// Returns a tight box around a convex part, rounded outward: it contains the part in real
 /// arithmetic. Capsules and cylinders get a box along their axis. Other parts get the smaller of
-/// two boxes. One is along the edges at the first corner: for a box, these are its own axes. The
+/// two boxes. One is along the edges at the first corner: for a box, these are its own axes, and no
+/// other box is tried. The
 /// other has its axes from the moments of the hull's surface.
 Obb enclosingObb(const ConvexPart& part);
 
 /// Returns solid spheres whose hull contains the part: spheres of its radius about its points. A
 /// cylinder has discs instead of spheres, so it gets the corners of its box.
 std::vector<Ball> ballsOf(const ConvexPart& part);
+/// Appends these spheres to `balls`.
+void addBallsOf(const ConvexPart& part, std::vector<Ball>& balls);
 
 }  // namespace corridor

@@ -25,7 +25,8 @@ void require(double x, const char* what) {
 /// Returns a point of the component or convex part of `inner` that `findEnclosed` found.
 Vec3 pointOf(const Posed<Body>& inner, std::uint32_t number) {
   const Body& body = inner.shape;
-  return inner.X_W * (body.part() ? body.part()->points[0] : body.mesh().corner(number, 0));
+  return inner.X_W *
+         (body.isMesh() ? body.mesh().corner(number, 0) : body.parts()[number].points[0]);
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ std::optional<PrimitivePair> interference(const Posed<Body>& a, const Posed<Body
 std::vector<TriangleContact> contacts(const Posed<Body>& a, const Posed<Body>& b,
                                       QueryContext& context, TreeKind trees) {
   require(a, b);
-  if (a.shape.part() || b.shape.part())
+  if (!a.shape.isMesh() || !b.shape.isMesh())
     throw std::invalid_argument("contacts are between triangles; a convex part has none");
   return withTrees(trees, a.shape, b.shape, [&](auto overlap, const auto& ta, const auto& tb) {
     return contacts<decltype(overlap)>(Posed(ta, a.X_W), Posed(tb, b.X_W), context);

@@ -54,7 +54,7 @@ RelativeMotion atRest(const Transform& X_WA, const Transform& X_WB) {
 }
 
 bool isSolidMesh(const Body& body) {
-  return body.solid() && !body.part();
+  return body.solid() && body.isMesh();
 }
 
 /// Checks the numbers of every motion query. With a negative margin, for example, `free` would be

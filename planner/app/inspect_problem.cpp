@@ -147,8 +147,8 @@ class ProblemReport {
   void reportTrees() {
     std::size_t built = 0, meshes = 0;
     for (const Scene::Placed& placed : checker_.scene().bodies()) {
-      built += !placed.body.part() && placed.body.treeBuilt();
-      meshes += !placed.body.part();
+      built += placed.body.isMesh() && placed.body.treeBuilt();
+      meshes += placed.body.isMesh();
     }
     json_["trees_built"] = built;
     out_.line("trees built", std::to_string(built) + " of " + std::to_string(meshes) +

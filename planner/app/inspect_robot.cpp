@@ -54,8 +54,8 @@ std::string shapesText(const LinkModel& link) {
 double radiusOf(const LinkModel& link) {
   double radius = 0;
   for (const PlacedShape& shape : link.shapes)
-    for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
-      radius = std::max(radius, p.norm() + (shape.part ? shape.part->radius : 0));
+    forEachPoint(shape,
+                 [&](const Vec3& p, double own) { radius = std::max(radius, p.norm() + own); });
   return radius;
 }
 
@@ -89,19 +89,23 @@ std::vector<double> reachOfLinks(const RobotModel& model) {
 }  // namespace
 
 std::string shapeText(const PlacedShape& shape) {
-  if (!shape.mesh) return shape.primitive ? nameOf(*shape.primitive) : "convex";
+  if (!shape.mesh && shape.primitive) return nameOf(*shape.primitive);
+  if (!shape.mesh)
+    return counted(shape.parts.size(), shape.parts.front().radius > 0 ? "ball" : "cube") + ", " +
+           shape.file.string();
   return counted(shape.mesh->mesh.triangles.size(), "triangle") +
          (shape.solid ? " (solid), " : ", ") + shape.file.string();
 }
 
 ordered_json shapeJson(const PlacedShape& shape) {
-  ordered_json j =
-      shape.mesh
-          ? meshJson(*shape.mesh)
-          : ordered_json{{"primitive", shape.primitive ? nameOf(*shape.primitive) : "convex"}};
+  ordered_json j = shape.mesh ? meshJson(*shape.mesh) : ordered_json{};
+  if (shape.primitive)
+    j["primitive"] = nameOf(*shape.primitive);
+  else if (!shape.mesh)
+    j[shape.parts.front().radius > 0 ? "balls" : "cubes"] = shape.parts.size();
   j["name"] = shape.name;
-  if (shape.mesh) j["file"] = shape.file.string();
-  j["solid"] = shape.solid || shape.part.has_value();
+  if (!shape.primitive) j["file"] = shape.file.string();
+  j["solid"] = shape.solid || !shape.mesh;
   return j;
 }
 

@@ -25,7 +25,7 @@ using nlohmann::ordered_json;
 std::string sideText(const std::string& name, std::uint32_t triangle, const Problem& problem) {
   bool meshes = false;
   for (const ModelBody& body : problem.model.bodies)
-    if (body.name == name) meshes = !body.shapes.front().part;
+    if (body.name == name) meshes = body.shapes.front().mesh.has_value();
   return "\"" + name + "\"" + (meshes ? " (triangle " + std::to_string(triangle) + ")" : "");
 }
 

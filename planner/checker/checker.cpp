@@ -57,8 +57,8 @@ Scene makeScene(const Model& model, ObbFit fit) {
   for (const ModelBody& body : model.bodies) {
     firstShape.push_back(placed.size());
     for (const PlacedShape& shape : body.shapes)
-      placed.push_back({shape.part ? Body(shape.name, *shape.part)
-                                   : Body(shape.name, shape.mesh->mesh, shape.solid, params),
+      placed.push_back({shape.mesh ? Body(shape.name, shape.mesh->mesh, shape.solid, params)
+                                   : Body(shape.name, shape.parts),
                         body.frame});
   }
   firstShape.push_back(placed.size());

@@ -73,25 +73,21 @@ Share shareOf(const Model& model, const Frame& frame) {
   return share;
 }
 
-/// Returns the largest distance of a vertex from the origin, metres.
-double farthestVertex(const std::vector<Vec3>& vertices) {
-  double square = 0;
-  for (const Vec3& p : vertices) square = std::max(square, p.squaredNorm());
-  // Squares of such lengths neither overflow nor vanish.
-  if (0x1p-400 < square && square < 0x1p1000) return std::sqrt(square);
-  double farthest = 0;
-  for (const Vec3& p : vertices) farthest = std::max(farthest, p.stableNorm());
-  return farthest;
-}
-
+/// Returns the largest distance of a point of the body from its frame's origin, metres.
 double farthestPoint(const ModelBody& body) {
+  double square = 0, largestRadius = 0;
+  const auto each = [&](const auto& visit) {
+    for (const PlacedShape& shape : body.shapes) forEachPoint(shape, visit);
+  };
+  each([&](const Vec3& p, double radius) {
+    square = std::max(square, p.squaredNorm());
+    largestRadius = std::max(largestRadius, radius);
+  });
+  // Squares of such lengths neither overflow nor vanish.
+  if (0x1p-400 < square && square < 0x1p1000) return std::sqrt(square) + largestRadius;
   double farthest = 0;
-  for (const PlacedShape& shape : body.shapes) {
-    const auto& vertices = shape.part ? shape.part->points : shape.mesh->mesh.vertices;
-    const double radius = shape.part ? shape.part->radius : 0;
-    farthest = std::max(farthest, farthestVertex(vertices) + radius);
-  }
-  return farthest;
+  each([&](const Vec3& p, double) { farthest = std::max(farthest, p.stableNorm()); });
+  return farthest + largestRadius;
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ std::optional<Corners> boundsOfWorld(const Model& model) {
   for (const ModelBody& body : model.bodies) {
     if (body.robot) continue;
     for (const PlacedShape& shape : body.shapes) {
-      if (shape.part) include(*shape.part, box);
+      for (const ConvexPart& part : shape.parts) include(part, box);
       if (shape.mesh) include(shape.mesh->mesh, box);
     }
   }

@@ -221,7 +221,7 @@ PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPos
   shape.name = std::move(name);
   shape.primitive = primitive;
   shape.at = at;
-  shape.part = placed(primitive, {at.q.normalized().toRotationMatrix(), at.p});
+  shape.parts.push_back(placed(primitive, {at.q.normalized().toRotationMatrix(), at.p}));
   return shape;
 }
 

@@ -97,11 +97,10 @@ ReachBox boundsOf(const ModelBody& body) {
   ReachBox box{Vec3::Constant(std::numeric_limits<double>::infinity()),
                Vec3::Constant(-std::numeric_limits<double>::infinity())};
   for (const PlacedShape& shape : body.shapes) {
-    const double radius = shape.part ? shape.part->radius : 0;
-    for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
+    forEachPoint(shape, [&](const Vec3& p, double radius) {
       box.lower = box.lower.cwiseMin(p - Vec3::Constant(radius));
       box.upper = box.upper.cwiseMax(p + Vec3::Constant(radius));
-    }
+    });
   }
   return box;
 }

@@ -45,6 +45,9 @@ void addNotesOnPairs(Problem& problem) {
   if (!still.empty())
     notes.push_back("not tested, since they never move against each other: " +
                     joinedFirst(still, 4));
+  for (const ModelBody& body : problem.model.bodies)
+    for (const PlacedShape& shape : body.shapes)
+      if (!shape.note.empty()) notes.push_back(shape.note);
   if (nothingIsTested(problem)) notes.insert(notes.begin(), kNothingTested);
 }
 
@@ -55,9 +58,9 @@ constexpr double kLargestLength = 1e100;
 double largestCoordinate(const ModelBody& body) {
   double most = 0;
   for (const PlacedShape& shape : body.shapes) {
-    for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices)
-      most = std::max(most, p.cwiseAbs().maxCoeff());
-    if (shape.part) most = std::max(most, shape.part->radius);
+    forEachPoint(shape, [&](const Vec3& p, double radius) {
+      most = std::max({most, p.cwiseAbs().maxCoeff(), radius});
+    });
   }
   return most;
 }

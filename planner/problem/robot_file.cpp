@@ -20,7 +20,8 @@ Vec3 centroid(const std::vector<PlacedShape>& shapes) {
   std::vector<std::array<double, 3>> points;
   const auto add = [&](const Vec3& p) { points.push_back({p.x(), p.y(), p.z()}); };
   for (const PlacedShape& shape : shapes) {
-    if (shape.part) std::for_each(shape.part->points.begin(), shape.part->points.end(), add);
+    for (const ConvexPart& part : shape.parts)
+      std::for_each(part.points.begin(), part.points.end(), add);
     if (!shape.mesh) continue;
     for (const auto& triangle : shape.mesh->mesh.triangles)
       for (const std::uint32_t i : triangle) add(shape.mesh->mesh.vertices[i]);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "collision/core/rigid_pose.h"
 #include "collision/geometry/convex_part.h"
@@ -15,13 +16,24 @@ namespace corridor {
 /// points.
 struct PlacedShape {
   std::string name;  ///< "table"; if a link has several shapes, "hand/2"
-  /// Exactly one of `mesh` and `part` is set.
-  std::optional<MeshFile> mesh;  ///< with how the file was read; vertices in final coordinates
-  std::optional<ConvexPart> part;
-  std::filesystem::path file;          ///< mesh only
-  std::optional<Primitive> primitive;  ///< part only: as the user wrote it
-  RigidPose at;                        ///< part only: its pose as the user wrote it
+  /// Either `mesh` is set, or there are parts.
+  std::optional<MeshFile> mesh;   ///< with how the file was read; vertices in final coordinates
+  std::vector<ConvexPart> parts;  ///< one for a primitive; many for a point cloud or an octree
+  std::filesystem::path file;     ///< of a mesh, a cloud or an octree
+  std::optional<Primitive> primitive;  ///< of one part: as the user wrote it
+  RigidPose at;                        ///< parts only: their pose as the user wrote it
   bool solid = false;                  ///< mesh only; a part is always solid
+  std::string note = {};               ///< for the user, about how the file was read; "": none
 };
+
+/// Calls visit(p, radius) for each vertex of the mesh, with radius 0, and for each point of the
+/// parts, with the part's radius.
+template <class Visit>
+void forEachPoint(const PlacedShape& shape, const Visit& visit) {
+  if (shape.mesh)
+    for (const Vec3& p : shape.mesh->mesh.vertices) visit(p, 0.0);
+  for (const ConvexPart& part : shape.parts)
+    for (const Vec3& p : part.points) visit(p, part.radius);
+}
 
 }  // namespace corridor

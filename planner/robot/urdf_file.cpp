@@ -133,9 +133,9 @@ class UrdfBuilder {
       for (const Vec3& vertex : shape.mesh->mesh.vertices) finite &= vertex.allFinite();
     } else {
       shape.primitive = primitiveOf(*source.geometry);
-      shape.part = placed(*shape.primitive, X);
+      shape.parts.push_back(placed(*shape.primitive, X));
       shape.solid = true;
-      for (const Vec3& point : shape.part->points) finite &= point.allFinite();
+      for (const Vec3& point : shape.parts.front().points) finite &= point.allFinite();
     }
     if (shape.mesh && finite) noteLargeMesh(*shape.mesh, shape.name, outline.line);
     if (!finite)

@@ -144,14 +144,22 @@ void checkBounds(const Problem& problem, const Path& path, std::vector<std::stri
   }
 }
 
-/// Returns half the diagonal of the shape's bounding box, plus the radius of a convex part.
+/// Returns half the diagonal of the shape's bounding box, plus the largest radius of its parts.
 double sizeOf(const VerifyBody& body) {
   Vec3 lower = Vec3::Constant(HUGE_VAL), upper = -lower;
-  for (const Vec3& p : body.mesh ? body.mesh->vertices : body.part->points) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
+  double radius = 0;
+  const auto include = [&](const std::vector<Vec3>& points) {
+    for (const Vec3& p : points) {
+      lower = lower.cwiseMin(p);
+      upper = upper.cwiseMax(p);
+    }
+  };
+  if (body.mesh) include(body.mesh->vertices);
+  for (const ConvexPart& part : body.parts) {
+    include(part.points);
+    radius = std::max(radius, part.radius);
   }
-  return 0.5 * (upper - lower).norm() + (body.part ? body.part->radius : 0);
+  return 0.5 * (upper - lower).norm() + radius;
 }
 
 /// Returns a tenth of the checker's tolerance, so that the verifier can decide paths that the
@@ -187,8 +195,8 @@ PathProblem plainProblem(const Model& model, const Task& task,
     parts.emplace_back();
     for (const PlacedShape& shape : body.shapes) {
       parts.back().push_back(plain.bodies.size());
-      plain.bodies.push_back({body.name, shape.mesh ? &shape.mesh->mesh : nullptr,
-                              shape.part ? &*shape.part : nullptr, shape.solid, body.frame});
+      plain.bodies.push_back({body.name, shape.mesh ? &shape.mesh->mesh : nullptr, shape.parts,
+                              shape.solid, body.frame});
     }
   }
   forEachTestedPair(model, [&](std::size_t i, std::size_t j) {

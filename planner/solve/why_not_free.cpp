@@ -46,7 +46,7 @@ std::string described(const Checker& checker, std::size_t shape, std::uint32_t t
     while (first > 0 && checker.bodyOf(first - 1) == owner) --first;
     details = "shape " + std::to_string(shape - first + 1);
   }
-  if (!checker.scene().bodies()[shape].body.part())
+  if (checker.scene().bodies()[shape].body.isMesh())
     details += (details.empty() ? "" : ", ") + ("triangle " + std::to_string(triangle));
   return quotedWord(body.name) + (details.empty() ? "" : " (" + details + ")");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -12,6 +13,23 @@ namespace {
 /// share is below 1 so that ties are pruned: many triangles share the closest vertex or edge, and
 /// their bounds may round up or down.
 constexpr Real kSame = 1 - 0x1p-30L;
+
+void extend(BoxTree::Node& node, const Piece& piece) {
+  if (!piece.part) {
+    for (const Vec3& corner : piece.corners) {
+      node.lower = node.lower.cwiseMin(corner);
+      node.upper = node.upper.cwiseMax(corner);
+    }
+    return;
+  }
+  for (const Vec3& point : piece.part->points)
+    for (int i = 0; i < 3; ++i) {  // rounded outward; a disc is within its sphere
+      node.lower[i] =
+          std::min(node.lower[i], std::nextafter(point[i] - piece.part->radius, -HUGE_VAL));
+      node.upper[i] =
+          std::max(node.upper[i], std::nextafter(point[i] + piece.part->radius, HUGE_VAL));
+    }
+}
 
 }  // namespace
 
@@ -30,43 +48,36 @@ BoxTree::BoxTree(const TriangleMesh& mesh) {
     pieces_.push_back(piece);
   }
   radius_ *= 1 + 0x1p-60L;
+  build();
+}
+
+BoxTree::BoxTree(std::span<const ConvexPart> parts) {
+  for (const ConvexPart& part : parts) {
+    Piece piece;
+    piece.part = &part;
+    piece.triangle = static_cast<std::uint32_t>(pieces_.size());
+    pieces_.push_back(piece);
+    Real farthest = 0;
+    for (const Vec3& point : part.points) farthest = std::max(farthest, point.cast<Real>().norm());
+    radius_ = std::max(radius_, (farthest + part.radius) * (1 + 0x1p-60L));
+  }
+  build();
+}
+
+void BoxTree::build() {
   nodes_.reserve(2 * pieces_.size());
   std::vector<std::uint32_t> order(pieces_.size());
   std::iota(order.begin(), order.end(), 0u);
   build(order, 0, order.size());
 }
 
-BoxTree::BoxTree(const ConvexPart& part) {
-  Piece piece;
-  piece.part = &part;
-  pieces_.push_back(piece);
-  Node node;
-  node.leaf = 0;
-  node.lower = node.upper = part.points[0];
-  for (const Vec3& point : part.points) {
-    node.lower = node.lower.cwiseMin(point);
-    node.upper = node.upper.cwiseMax(point);
-    radius_ = std::max(radius_, point.cast<Real>().norm());
-  }
-  for (int i = 0; i < 3; ++i) {  // rounded outward; a disc is within its sphere
-    node.lower[i] = std::nextafter(node.lower[i] - part.radius, -HUGE_VAL);
-    node.upper[i] = std::nextafter(node.upper[i] + part.radius, HUGE_VAL);
-  }
-  radius_ = (radius_ + part.radius) * (1 + 0x1p-60L);
-  nodes_.push_back(node);
-}
-
 std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begin,
                              std::size_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   Node node;
-  node.lower = node.upper = pieces_[order[begin]].corners[0];
-  for (std::size_t i = begin; i < end; ++i) {
-    for (const Vec3& corner : pieces_[order[i]].corners) {
-      node.lower = node.lower.cwiseMin(corner);
-      node.upper = node.upper.cwiseMax(corner);
-    }
-  }
+  node.lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+  node.upper = -node.lower;
+  for (std::size_t i = begin; i < end; ++i) extend(node, pieces_[order[i]]);
   nodes_.push_back(node);
   if (end - begin == 1) {
     nodes_[index].leaf = order[begin];
@@ -75,6 +86,11 @@ std::uint32_t BoxTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   int axis = 0;
   (0.5 * node.upper - 0.5 * node.lower).maxCoeff(&axis);
   const auto key = [&](std::uint32_t i) {
+    if (const ConvexPart* part = pieces_[i].part) {
+      Real sum = 0;
+      for (const Vec3& point : part->points) sum += point[axis];
+      return sum / static_cast<Real>(part->points.size());
+    }
     const Corners& c = pieces_[i].corners;
     return Real(c[0][axis]) + c[1][axis] + c[2][axis];
   };
@@ -96,8 +112,8 @@ void BodyDistance::place(const BoxTree& a, const BoxTree& b, const Placement& X_
   extents_ = X_AB.rotation.cwiseAbs();
   partA_.reset();
   partB_.reset();
-  if (a.piece(0).part) partA_ = placed(*a.piece(0).part, Placement{});
-  if (b.piece(0).part) partB_ = placed(*b.piece(0).part, X_AB);
+  if (a.hasParts() && a.size() == 1) partA_ = placed(*a.piece(0).part, Placement{});
+  if (b.hasParts() && b.size() == 1) partB_ = placed(*b.piece(0).part, X_AB);
   lookAlong(RealVec::Zero());
   ++stamp_;
   if (boxesB_.size() < b.size()) boxesB_.resize(b.size());
@@ -118,7 +134,7 @@ const BodyDistance::PlacedBox& BodyDistance::boxB(std::uint32_t node) {
   box.centre = X_AB_.rotation * ((lower + upper) / 2) + X_AB_.position;
   box.half = (upper - lower) / 2;
   const std::uint32_t leaf = b_->node(node).leaf;
-  if (leaf != BoxTree::noLeaf && !partB_) {
+  if (leaf != BoxTree::noLeaf && !b_->hasParts()) {
     const auto t = cornersB(leaf);
     const RealVec least = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
     const RealVec most = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
@@ -157,9 +173,9 @@ Real BodyDistance::boxGap(std::uint32_t a, std::uint32_t b, Real enough) {
   if (gap >= enough) return gap;
   // For a long triangle that is not along the axes, the slab along its normal is a better bound
   // than its box.
-  if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !partA_)
+  if (const std::uint32_t leaf = a_->node(a).leaf; leaf != BoxTree::noLeaf && !a_->hasParts())
     gap = std::max(gap, planeGap(a_->piece(leaf).normal, cornersA(leaf), boxOfB.around));
-  if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !partB_)
+  if (const std::uint32_t leaf = b_->node(b).leaf; leaf != BoxTree::noLeaf && !b_->hasParts())
     gap = std::max(gap, planeGap(X_AB_.rotation * b_->piece(leaf).normal, cornersB(leaf), boxOfA));
   return gap;
 }
@@ -188,18 +204,20 @@ std::array<RealVec, 3> BodyDistance::cornersB(std::uint32_t piece) const {
 
 ConvexSet BodyDistance::setA(std::uint32_t piece) const {
   if (partA_) return *partA_;
+  if (a_->hasParts()) return placed(*a_->piece(piece).part, Placement{});
   const auto corners = cornersA(piece);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
 ConvexSet BodyDistance::setB(std::uint32_t piece) const {
   if (partB_) return *partB_;
+  if (b_->hasParts()) return placed(*b_->piece(piece).part, X_AB_);
   const auto corners = cornersB(piece);
   return {{corners.begin(), corners.end()}, 0, false, RealVec::Zero()};
 }
 
 TriangleGap BodyDistance::gap(PiecePair pair, const RealVec& guess, Real enough) const {
-  if (partA_ || partB_) return convexGap(setA(pair.a), setB(pair.b), guess, enough);
+  if (a_->hasParts() || b_->hasParts()) return convexGap(setA(pair.a), setB(pair.b), guess, enough);
   return triangleGap(cornersA(pair.a).data(), cornersB(pair.b).data());
 }
 
@@ -219,7 +237,8 @@ BodyGap BodyDistance::measure(PiecePair guess, Real doubt, Real stop,
   Real enough = stop;
   const auto test = [&](PiecePair pair) {
     TriangleGap found;
-    if (!partA_ && !partB_) {  // slabs are tried first: they cost less than the distance
+    if (!a_->hasParts() &&
+        !b_->hasParts()) {  // slabs are tried first: they cost less than the distance
       const auto a = cornersA(pair.a), b = cornersB(pair.b);
       const RealVec normals[2] = {a_->piece(pair.a).normal,
                                   X_AB_.rotation * b_->piece(pair.b).normal};

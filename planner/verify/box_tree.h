@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "planner/verify/convex_gap.h"
@@ -12,17 +13,17 @@
 
 namespace corridor::verify {
 
-/// A leaf primitive of a body: a triangle of its mesh, or its convex part.
+/// A leaf primitive of a body: a triangle of its mesh, or one of its convex parts.
 struct Piece {
   Corners corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< triangle only
   RealVec normal = RealVec::Zero();  ///< triangle only: unit, rounded; 0 if degenerate
-  std::uint32_t triangle = 0;
+  std::uint32_t triangle = 0;        ///< number of the triangle or part
   const ConvexPart* part = nullptr;
 };
 
 /// A binary tree of axis-aligned boxes over a body's leaf primitives. Each leaf has one leaf
 /// primitive. Nodes are split at the median centroid along the longest axis. Boxes of triangles are
-/// exact: minima and maxima of stored doubles.
+/// exact: minima and maxima of stored doubles. Boxes of parts are rounded outward.
 class BoxTree {
  public:
   static constexpr std::uint32_t noLeaf = UINT32_MAX;
@@ -34,15 +35,18 @@ class BoxTree {
 
   /// @pre the mesh has a triangle.
   explicit BoxTree(const TriangleMesh& mesh);
-  explicit BoxTree(const ConvexPart& part);
+  /// @pre there is a part, and each has a point.
+  explicit BoxTree(std::span<const ConvexPart> parts);
 
   const Node& node(std::uint32_t i) const { return nodes_[i]; }  ///< 0 is the root
   std::size_t size() const { return nodes_.size(); }
   const Piece& piece(std::uint32_t i) const { return pieces_[i]; }
+  bool hasParts() const { return pieces_[0].part != nullptr; }
   /// Returns the distance of the farthest point from the origin, rounded up.
   Real radius() const { return radius_; }
 
  private:
+  void build();
   std::uint32_t build(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end);
 
   std::vector<Piece> pieces_;
@@ -139,9 +143,9 @@ class BodyDistance {
   const BoxTree* b_ = nullptr;
   Placement X_AB_;
   RealMat extents_ = RealMat::Identity();   ///< |X_AB_.rotation|
-  std::optional<ConvexSet> partA_, partB_;  ///< set if the body is a convex part
+  std::optional<ConvexSet> partA_, partB_;  ///< set if the body is a single convex part
   RealVec direction_ = RealVec::Zero();     ///< unit or zero; boxGap() tries a slab along it
-  Real endOfA_ = 0, startOfB_ = 0;          ///< ends of the convex parts along `direction_`
+  Real endOfA_ = 0, startOfB_ = 0;          ///< ends of the single parts along `direction_`
   std::vector<PlacedBox> boxesB_;
   std::uint64_t stamp_ = 0;
   std::vector<Item> stack_;

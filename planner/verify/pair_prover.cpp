@@ -26,9 +26,11 @@ void require(const PathProblem& problem, const std::vector<Configuration>& state
   if (!problem.tube.allFinite() || (problem.tube.array() < 0).any())
     refuse("tube must be finite and not negative");
   for (const VerifyBody& body : problem.bodies)
-    if ((body.mesh == nullptr) == (body.part == nullptr) ||
-        (body.mesh && body.mesh->triangles.empty()) || (body.part && body.part->points.empty()))
-      refuse("body " + body.name + " needs a mesh or a part");
+    if ((body.mesh == nullptr) == body.parts.empty() ||
+        (body.mesh && body.mesh->triangles.empty()) ||
+        std::any_of(body.parts.begin(), body.parts.end(),
+                    [](const ConvexPart& part) { return part.points.empty(); }))
+      refuse("body " + body.name + " needs a mesh or parts");
   for (const VerifyPair& pair : problem.pairs)
     if (pair.a >= problem.bodies.size() || pair.b >= problem.bodies.size())
       refuse("a pair names a body that does not exist");
@@ -41,7 +43,7 @@ PairProver::PairProver(const PathProblem& problem, const std::vector<Configurati
   require(problem, states);
   trees_.reserve(problem.bodies.size());
   for (const VerifyBody& body : problem.bodies)
-    body.mesh ? trees_.emplace_back(*body.mesh) : trees_.emplace_back(*body.part);
+    body.mesh ? trees_.emplace_back(*body.mesh) : trees_.emplace_back(body.parts);
   for (const VerifyPair& pair : problem.pairs) {
     const std::size_t fa = problem.bodies[pair.a].frame, fb = problem.bodies[pair.b].frame;
     const std::size_t base = commonAncestor(*problem.tree, fa, fb);
@@ -256,9 +258,8 @@ std::optional<Vec3> PairProver::pointInside(std::size_t solid, std::size_t other
   if (!s.mesh || !s.solid) return std::nullopt;
   const auto shells = componentsOf(*s.mesh);
   std::vector<Vec3> points;
-  if (o.part) {
-    points.push_back(o.part->points[0]);
-  } else {
+  for (const ConvexPart& part : o.parts) points.push_back(part.points[0]);
+  if (o.mesh) {
     for (const auto& component : componentsOf(*o.mesh))
       points.push_back(o.mesh->corner(component[0], 0));
   }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,10 @@ namespace corridor {
 
 struct VerifyBody {
   std::string name;
-  /// Exactly one of `mesh` and `part` is set. Not owned; must outlive the call. Its vertices or
+  /// Either `mesh` is set, or there are parts. Not owned; must outlive the call. The vertices or
   /// points are in the frame's coordinates.
   const TriangleMesh* mesh = nullptr;
-  const ConvexPart* part = nullptr;
+  std::span<const ConvexPart> parts = {};
   bool solid = false;  ///< mesh only: its interior counts, too (a part is always solid)
   std::size_t frame = 0;
 };
@@ -84,7 +85,7 @@ struct PathFinding {
   /// The state at t. A contact is exact at a pose that differs from this state's by rounding only.
   Configuration configuration;
   std::string a, b;  ///< the two bodies that touch, or could not be decided there; empty: none
-  std::uint32_t triangleA = 0, triangleB = 0;  ///< numbers in their meshes; 0 for parts
+  std::uint32_t triangleA = 0, triangleB = 0;  ///< numbers in their meshes or parts
   Vec3 point = Vec3::Zero();  ///< the contact, or the closest point of `b`; metres, world
   double gap = 0;             ///< distance of the two bodies at t, metres; 0: contact
   std::string reason;         ///< a few words: "contact", "ambiguous half turn", …
@@ -114,7 +115,7 @@ struct PathReport {
 /// undecided.
 /// @throws std::invalid_argument if there are no states; if a pointer is null; if margin, tube or
 /// tolerance is negative or not finite, or the tolerance is 0; if the tube has another length than
-/// a configuration; if a body has neither a mesh nor a part, or both, or an empty one; or if a pair
+/// a configuration; if a body has neither a mesh nor parts, or both, or an empty one; or if a pair
 /// names a body that does not exist.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 

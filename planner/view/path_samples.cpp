@@ -22,13 +22,11 @@ class Travel {
     for (const ModelBody& body : problem.model.bodies) {
       if (body.frame == 0) continue;
       Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-      for (const PlacedShape& shape : body.shapes) {
-        const double radius = shape.part ? shape.part->radius : 0;
-        for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
+      for (const PlacedShape& shape : body.shapes)
+        forEachPoint(shape, [&](const Vec3& p, double radius) {
           lower = lower.cwiseMin(Vec3(p.array() - radius));
           upper = upper.cwiseMax(Vec3(p.array() + radius));
-        }
-      }
+        });
       for (int corner = 0; corner < 8; ++corner) {
         const Vec3 p(corner & 1 ? upper.x() : lower.x(), corner & 2 ? upper.y() : lower.y(),
                      corner & 4 ? upper.z() : lower.z());

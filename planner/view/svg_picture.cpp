@@ -50,7 +50,7 @@ std::vector<Triangle3> distinctTriangles(const ModelBody& body, double cell) {
   std::set<std::array<std::array<double, 3>, 3>> seen;
   std::vector<Triangle3> triangles;
   for (const PlacedShape& shape : body.shapes) {
-    TriangleMesh mesh = shape.part ? view::tessellated(*shape.part) : shape.mesh->mesh;
+    TriangleMesh mesh = shape.mesh ? shape.mesh->mesh : view::tessellated(shape.parts);
     if (body.frame != 0 && mesh.triangles.size() > kFewTriangles)
       mesh = view::coarsened(mesh, cell);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -113,11 +113,11 @@ double sceneSize(const Problem& problem, const Configuration& q) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes)
-      for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
+      forEachPoint(shape, [&](const Vec3& p, double) {
         const Vec3 x = poses[body.frame] * p;
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
-      }
+      });
   return (high - low).norm();
 }
 

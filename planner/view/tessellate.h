@@ -9,6 +9,11 @@ namespace corridor::view {
 /// farthest point in one of many directions. The directions form a grid on a sphere, and the
 /// vertices are joined like neighbours in this grid.
 TriangleMesh tessellated(const ConvexPart& part);
+/// Returns the surfaces of many parts. Round parts of long lists are coarse: balls become
+/// octahedra. If there are more than `kMostParts`, only some are shown, evenly spread over the
+/// list.
+TriangleMesh tessellated(const std::vector<ConvexPart>& parts);
+constexpr std::size_t kMostParts = 20'000;
 
 /// Returns a coarser mesh, for pictures in which triangles would be smaller than a pixel: in each
 /// cell of a grid of size `cell`, the first vertex replaces all others.

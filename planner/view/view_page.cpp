@@ -147,7 +147,7 @@ class PageData {
         all.push_back({{"counts", boxes.counts},
                        {"boxes", jsonOf(buffers_.add(boxes.numbers))},
                        {"leaves", jsonOf(buffers_.add(boxes.leaves))},
-                       {"whole", boxes.counts.size() > 1 || tree.part()}});
+                       {"whole", boxes.counts.size() > 1 || tree.hasParts()}});
       }
       trees.push_back({{"mesh", mesh}, {"shapes", all}});
     }

@@ -42,7 +42,7 @@ class FclMotions {
   /// Returns nullptr if not all bodies are meshes.
   static std::shared_ptr<const FclMotions> of(const Scene& scene) {
     for (const Scene::Placed& placed : scene.bodies())
-      if (placed.body.part()) return nullptr;
+      if (!placed.body.isMesh()) return nullptr;
     return std::make_shared<const FclMotions>(scene);
   }
   /// @pre all bodies are meshes.

@@ -149,14 +149,14 @@ TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
     PathProblem problem;
     problem.tree = &robot.tree;
     problem.space = &robot.space;
-    problem.bodies.push_back({"world", &c.fixed, nullptr, false, 0});
+    problem.bodies.push_back({"world", &c.fixed, {}, false, 0});
     std::vector<Scene::Placed> bodies;
     std::vector<Scene::Pair> pairs;
     bodies.push_back({Body("world", c.fixed), 0});
     for (const std::size_t frame : robot.frames) {
       pairs.push_back({0, bodies.size()});
       if (bodies.size() > 2) pairs.push_back({bodies.size() - 2, bodies.size()});
-      problem.bodies.push_back({"robot", &c.moving, nullptr, false, frame});
+      problem.bodies.push_back({"robot", &c.moving, {}, false, frame});
       bodies.push_back({Body("robot", c.moving), frame});
     }
     for (const Scene::Pair& pair : pairs) problem.pairs.push_back({pair.a, pair.b});

@@ -78,7 +78,7 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
       for (const double tolerance : {0.0, 0.01, 0.3})
         answers.addVerdict(closerThan(Posed(a, X_WA), Posed(b, X_WB), tolerance, context, trees));
       addPair(findOneInsideOther(Posed(a, X_WA), Posed(b, X_WB), context));
-      if (a.part() || b.part()) continue;
+      if (!a.isMesh() || !b.isMesh()) continue;
       for (const TriangleContact& contact :
            contacts(Posed(a, X_WA), Posed(b, X_WB), context, trees)) {
         answers.add(contact.a);
@@ -88,7 +88,7 @@ Answers askStill(const std::vector<Body>& bodies, TreeKind trees) {
       }
     }
   for (const Body& body : bodies)
-    if (!body.part())
+    if (body.isMesh())
       for (const PrimitivePair& pair : selfIntersections(body.mesh(), context)) {
         answers.add(pair.a);
         answers.add(pair.b);
@@ -141,7 +141,7 @@ TEST(Threads, TreesAreBuiltOnce) {
           seen[k].push_back(body.volumeTree<Volume>().nodes().data());
         });
         if (k % 2 == 0) seen[k].insert(seen[k].end() - 1, &body.tree().nodes()[0]);
-        if (!body.part()) seen[k].push_back(body.components().components.data());
+        if (body.isMesh()) seen[k].push_back(body.components().components.data());
         EXPECT_TRUE(body.treeBuilt());
       }
     });

@@ -70,10 +70,11 @@ TEST(Obb4Tree, ContainsItsConvexPartInRationals) {
     for (const Primitive& primitive : primitives) {
       const Obb4Tree tree(placed(primitive, n % 3 ? X : Transform()));
       ASSERT_EQ(tree.check(), std::nullopt) << nameOf(primitive) << ' ' << n;
-      ASSERT_NE(tree.part(), nullptr);
-      for (const Vec3& p : tree.part()->points) {
+      ASSERT_TRUE(tree.hasParts());
+      const ConvexPart& part = tree.part(0);
+      for (const Vec3& p : part.points) {
         // A disc's rim is farther from the origin than its axis, but by less than its radius.
-        const double ball = tree.part()->flatEnds ? 0 : tree.part()->radius;
+        const double ball = part.flatEnds ? 0 : part.radius;
         ASSERT_LE((p - tree.origin()).norm() + ball, tree.radius() * (1 + 1e-15));
         ASSERT_LE(p.norm() + ball, tree.reach() * (1 + 1e-15));
       }

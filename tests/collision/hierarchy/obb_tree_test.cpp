@@ -127,7 +127,7 @@ TEST(ObbTree, OfAConvexPart) {
     EXPECT_EQ(tree.check(), std::nullopt) << nameOf(p) << " " << n;
     ASSERT_EQ(tree.nodes().size(), 1U);
     EXPECT_TRUE(tree.node(0).isLeaf());
-    ASSERT_NE(tree.part(), nullptr);
+    ASSERT_TRUE(tree.hasParts());
     EXPECT_TRUE(tree.triangles().empty());
     for (const Vec3& q : part.points) EXPECT_GE(tree.reach(), q.norm() + part.radius);
     EXPECT_LE(tree.node(0).box.half.sum(), wanted * (1 + 1e-9) + 1e-14 * offset) << nameOf(p);

@@ -219,7 +219,7 @@ TEST(DefaultTolerance, IsNeverMoreThanAThousandTimesTheUsualOne) {
   frame.variable = problem.model.space.coordinates()[problem.model.space.add(c)].first;
   const std::size_t link = problem.model.tree.add(frame);
   PlacedShape ball;
-  ball.part = ConvexPart{{Vec3(1, 0, 0)}, 0.1, false};
+  ball.parts = {ConvexPart{{Vec3(1, 0, 0)}, 0.1, false}};
   problem.model.bodies = {{"ball", link, 0, {ball}}, {"post", 0, {}, {ball}}};
   EXPECT_GT(roundingTolerance(problem.model), 1);
   EXPECT_DOUBLE_EQ(defaultTolerance(problem.model, 1e-8), 1e-5);

@@ -162,7 +162,7 @@ inline Problem armProblem() {
   const Capsule capsule{0.1, 0.8};
   PlacedShape upper = partShape("upper", capsule), lower = partShape("lower", capsule);
   for (PlacedShape* shape : {&upper, &lower})  // along x
-    shape->part->points = {{0.1, 0, 0}, {0.9, 0, 0}};
+    shape->parts.at(0).points = {{0.1, 0, 0}, {0.9, 0, 0}};
   problem.model.bodies = {
       {"upper", 1, 0, {upper}},
       {"lower", 2, 0, {lower}},

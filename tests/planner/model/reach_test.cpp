@@ -22,7 +22,7 @@ void expectInside(const Problem& problem) {
     const std::vector<Transform> poses = framePoses(problem.model.tree, space->read(state.get()));
     for (std::size_t b = 0; b < boxes.size(); ++b)
       for (const PlacedShape& shape : problem.model.bodies[b].shapes)
-        for (const Vec3& p : shape.part ? shape.part->points : shape.mesh->mesh.vertices) {
+        for (const Vec3& p : shape.mesh ? shape.mesh->mesh.vertices : shape.parts.at(0).points) {
           const Vec3 x = poses[problem.model.bodies[b].frame] * p;
           ASSERT_TRUE((x.array() >= boxes[b].lower.array() - 1e-9).all() &&
                       (x.array() <= boxes[b].upper.array() + 1e-9).all())

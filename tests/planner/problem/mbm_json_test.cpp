@@ -33,7 +33,7 @@ TEST_F(MbmJson, ReadsTheProblemOfAnIndex) {
   EXPECT_EQ(p.task.goals.at(0), numbers({3.14159, 0}));
   ASSERT_EQ(p.model.bodies.size(), 8u);
   EXPECT_EQ(p.model.bodies[5].name, "can");
-  EXPECT_TRUE(p.model.bodies[5].shapes[0].part->flatEnds);
+  EXPECT_TRUE(p.model.bodies[5].shapes[0].parts.at(0).flatEnds);
   EXPECT_EQ(p.model.bodies[6].name, "world/base") << "a link has the name base, too";
   EXPECT_EQ(skipped(p, "upper", "can"), "");
   EXPECT_EQ(p.source.files,

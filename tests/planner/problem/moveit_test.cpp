@@ -85,11 +85,12 @@ TEST_F(Moveit, SceneAndRequest) {
   ASSERT_EQ(crate.shapes.size(), 2u);
   // The pose of the object, a quarter turn about z, moves its primitives along.
   Vec3 centre = Vec3::Zero();
-  for (const Vec3& point : crate.shapes[0].part->points) centre += point / 8;
+  for (const Vec3& point : crate.shapes[0].parts.at(0).points) centre += point / 8;
   EXPECT_LT((centre - Vec3(0, 0, 0)).norm(), 1e-15);
-  EXPECT_LT((crate.shapes[0].part->points[0].cwiseAbs() - Vec3(0.05, 0.1, 0.2)).norm(), 1e-15);
-  EXPECT_LT((crate.shapes[1].part->points[0] - Vec3(1, 0, 1.75)).norm(), 1e-15);
-  EXPECT_EQ(crate.shapes[1].part->radius, 0.03);
+  EXPECT_LT((crate.shapes[0].parts.at(0).points[0].cwiseAbs() - Vec3(0.05, 0.1, 0.2)).norm(),
+            1e-15);
+  EXPECT_LT((crate.shapes[1].parts.at(0).points[0] - Vec3(1, 0, 1.75)).norm(), 1e-15);
+  EXPECT_EQ(crate.shapes[1].parts.at(0).radius, 0.03);
   const ModelBody& wedge = p.model.bodies.back();
   EXPECT_EQ(wedge.name, "wedge");
   EXPECT_EQ(wedge.shapes.at(0).mesh->mesh.vertices.at(1), Vec3(1, 0, 3));
@@ -268,7 +269,8 @@ TEST_F(Moveit, ObjectsOnTheRoot) {
   EXPECT_EQ(p.model.bodies.back().name, "wedge");
   EXPECT_EQ(p.model.bodies.back().shapes.at(0).mesh->mesh.vertices.at(1), Vec3(1, 0, 8));
   const ModelBody& crate = p.model.bodies.at(p.model.bodies.size() - 2);
-  EXPECT_LT((crate.shapes[1].part->points[0] - Vec3(1, 0, 1.75)).norm(), 1e-15) << "in the world";
+  EXPECT_LT((crate.shapes[1].parts.at(0).points[0] - Vec3(1, 0, 1.75)).norm(), 1e-15)
+      << "in the world";
 }
 
 /// Rotations of any length are those of their directions.
@@ -279,7 +281,7 @@ TEST_F(Moveit, TinyQuaternions) {
           "[2, 4, 6]}], primitive_poses: [{orientation: [0, 0, " +
               size + ", " + size + "]}]}]}\n");
     const Problem p = read(head);
-    const Vec3 corner = p.model.bodies.back().shapes.at(0).part->points.at(0).cwiseAbs();
+    const Vec3 corner = p.model.bodies.back().shapes.at(0).parts.at(0).points.at(0).cwiseAbs();
     EXPECT_LT((corner - Vec3(2, 1, 3)).norm(), 1e-14) << size;
   }
 }
@@ -353,10 +355,12 @@ TEST(SharedMoveit, IsTheSameProblemAsTheSet) {
         const auto& shapes = bodies[body.name]->shapes;
         ASSERT_EQ(body.shapes.size(), shapes.size());
         for (std::size_t i = 0; i < shapes.size(); ++i) {
-          if (!shapes[i].part) continue;
-          ASSERT_EQ(body.shapes[i].part->points.size(), shapes[i].part->points.size());
-          for (std::size_t k = 0; k < shapes[i].part->points.size(); ++k)
-            EXPECT_LT((body.shapes[i].part->points[k] - shapes[i].part->points[k]).norm(), 1e-12);
+          if (shapes[i].mesh) continue;
+          ASSERT_EQ(body.shapes[i].parts.at(0).points.size(), shapes[i].parts.at(0).points.size());
+          for (std::size_t k = 0; k < shapes[i].parts.at(0).points.size(); ++k)
+            EXPECT_LT(
+                (body.shapes[i].parts.at(0).points[k] - shapes[i].parts.at(0).points[k]).norm(),
+                1e-12);
         }
       }
       const auto pairsOf = [](const Problem& p) {

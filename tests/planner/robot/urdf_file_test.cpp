@@ -177,12 +177,12 @@ TEST_F(UrdfFile, PrimitivesStandWhereTheirOriginSays) {
   for (const PlacedShape& shape : shapes) {
     EXPECT_TRUE(shape.solid);
     EXPECT_FALSE(shape.mesh);
-    ASSERT_TRUE(shape.part && shape.primitive);
+    ASSERT_TRUE(!shape.parts.empty() && shape.primitive);
   }
   EXPECT_EQ(std::get<Box>(*shapes[0].primitive).size, Vec3(2, 4, 6));
   EXPECT_EQ(shapes[0].at.p, Vec3(1, 2, 3));
-  Vec3 min = shapes[0].part->points[0], max = min;
-  for (const Vec3& p : shapes[0].part->points) {
+  Vec3 min = shapes[0].parts.at(0).points[0], max = min;
+  for (const Vec3& p : shapes[0].parts.at(0).points) {
     min = min.cwiseMin(p);
     max = max.cwiseMax(p);
   }
@@ -299,7 +299,7 @@ TEST_F(UrdfFile, Visuals) {
   EXPECT_TRUE(used.notes.empty());
   EXPECT_EQ(used.links[0].shapes.size(), 1u);
   ASSERT_EQ(used.links[1].shapes.size(), 2u);
-  EXPECT_EQ(used.links[1].shapes[0].part->radius, 2);
+  EXPECT_EQ(used.links[1].shapes[0].parts.at(0).radius, 2);
   EXPECT_EQ(used.links[1].shapes[1].mesh->mesh.vertices[0], Vec3(0, 0, 1));
   EXPECT_EQ(used.links[2].shapes.size(), 0u);
   EXPECT_EQ(complaintOfParts(link("a", visual("<torus/>"))),

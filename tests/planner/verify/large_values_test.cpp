@@ -97,8 +97,8 @@ struct Sweep {
     problem.space = &space;
     problem.tolerance = 1e-8;
     problem.tube = Configuration::Zero(static_cast<Eigen::Index>(space.size()));
-    problem.bodies = {{"post", nullptr, &post, false, 0},
-                      {"rod", nullptr, &rod, false, tree.frames.size() - 1}};
+    problem.bodies = {{"post", nullptr, {&post, 1}, false, 0},
+                      {"rod", nullptr, {&rod, 1}, false, tree.frames.size() - 1}};
     problem.pairs = {{0, 1}};
   }
   Sweep(const Sweep&) = delete;

@@ -45,9 +45,9 @@ struct Chain {
     problem.space = &space;
     problem.tolerance = 1e-8;
     problem.tube = Configuration::Zero(joints);
-    problem.bodies.push_back({"obstacle", nullptr, &obstacle, false, 0});
+    problem.bodies.push_back({"obstacle", nullptr, {&obstacle, 1}, false, 0});
     for (std::size_t j = 0; j < rods.size(); ++j) {
-      problem.bodies.push_back({"rod" + std::to_string(j + 1), nullptr, &rods[j], false, j + 1});
+      problem.bodies.push_back({"rod" + std::to_string(j + 1), nullptr, {&rods[j], 1}, false, j + 1});
       problem.pairs.push_back({0, j + 1});
       for (std::size_t i = 0; i + 1 < j; ++i) problem.pairs.push_back({i + 1, j + 1});
     }
@@ -253,7 +253,7 @@ PathVerdict still(const TriangleMesh& a, bool solidA, const TriangleMesh& b, boo
   problem.tree = &tree;
   problem.space = &space;
   problem.tolerance = 1e-8;
-  problem.bodies = {{"a", &a, nullptr, solidA, 0}, {"b", &b, nullptr, solidB, 0}};
+  problem.bodies = {{"a", &a, {}, solidA, 0}, {"b", &b, {}, solidB, 0}};
   problem.pairs = {{0, 1}};
   return verifyPath(problem, {Configuration()}).verdict;
 }

@@ -49,8 +49,9 @@ PathProblem Case::problem() const {
   problem.tree = &edge.tree;
   problem.space = &edge.space;
   const auto add = [&](const Shape& shape, const char* which, std::size_t frame) {
-    problem.bodies.push_back({which, shape.isMesh ? &shape.mesh : nullptr,
-                              shape.isMesh ? nullptr : &shape.part, false, frame});
+    problem.bodies.push_back(
+        {which, shape.isMesh ? &shape.mesh : nullptr,
+         shape.isMesh ? std::span<const ConvexPart>() : std::span(&shape.part, 1), false, frame});
   };
   add(graze.tip(), "tip", graze.tipFrame());
   add(rest, "rest", graze.restFrame());

@@ -35,10 +35,13 @@ const std::vector<Kind>& everyKind() {
 std::optional<Body> decodeBody(Decoder& in) {
   const std::size_t kind = in.below(4);
   if (kind == 0) {
-    ConvexPart part = in.part();
-    for (const Vec3& p : part.points)
-      if (!p.allFinite()) return std::nullopt;
-    return Body("part", std::move(part));
+    std::vector<ConvexPart> parts;
+    for (std::size_t n = in.oneIn(2) ? 1 : 1 + in.below(9); n > 0; --n) {
+      parts.push_back(in.part());
+      for (const Vec3& p : parts.back().points)
+        if (!p.allFinite()) return std::nullopt;
+    }
+    return Body("parts", std::move(parts));
   }
   TreeParams params;
   params.fit = static_cast<ObbFit>(in.below(3));
@@ -63,8 +66,8 @@ double reachOf(const Body& body, const Transform& X) {
         (X.m.cwiseAbs() * (v.cwiseAbs() + Vec3::Constant(radius)) + X.t.cwiseAbs()).maxCoeff();
     most = std::max(most, reach);
   };
-  if (const ConvexPart* part = body.part())
-    for (const Vec3& p : part->points) add(p, part->radius);
+  for (const ConvexPart& part : body.parts())
+    for (const Vec3& p : part.points) add(p, part.radius);
   for (const Vec3& v : body.mesh().vertices) add(v, 0);
   return most;
 }
@@ -84,7 +87,7 @@ std::string number(double value) {
 void compare(const Case& c, double asked) {
   const double S = std::max(reachOf(c.a, c.X_WA), reachOf(c.b, c.X_WB));
   if (!std::isfinite(S)) return;
-  const bool meshes = !c.a.part() && !c.b.part();
+  const bool meshes = c.a.isMesh() && c.b.isMesh();
   // With primitives, contact is exact only outside a band of 2^-44 of the largest coordinate. The
   // comparison allows 2^-42.
   const double band = meshes ? 0 : 0x1p-42 * S;
@@ -152,7 +155,7 @@ Pairs pairsOf(const Contacts& contacts) {
 }
 
 void compareContacts(const Case& c) {
-  if (c.a.part() || c.b.part()) return;
+  if (!c.a.isMesh() || !c.b.isMesh()) return;
   QueryContext context;
   const Pairs wide = pairsOf(contacts(Posed(c.a, c.X_WA), Posed(c.b, c.X_WB), context));
   for (const Kind& kind : everyKind()) {

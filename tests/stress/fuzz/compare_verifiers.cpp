@@ -14,7 +14,7 @@ namespace {
 
 struct Shape {
   TriangleMesh mesh;
-  std::optional<ConvexPart> part;
+  std::vector<ConvexPart> parts;  ///< empty: a mesh
   bool solid = false;
   std::size_t frame = 0;
 };
@@ -118,7 +118,8 @@ std::optional<Robot> decodeRobot(Decoder& in) {
     const std::size_t kind = in.below(4);
     shape.solid = kind == 1;
     if (kind == 0)
-      shape.part = in.part();
+      for (std::size_t count = in.oneIn(2) ? 1 : 1 + in.below(5); count > 0; --count)
+        shape.parts.push_back(in.part());
     else
       shape.mesh = shape.solid ? in.closedMesh() : in.mesh();
     if (kind != 0 && checkMesh(shape.mesh)) return std::nullopt;
@@ -126,10 +127,13 @@ std::optional<Robot> decodeRobot(Decoder& in) {
   }
   const auto length = [](const Vec3& v) { return v.stableNorm(); };
   for (const Shape& shape : robot.shapes) {
-    double most = 0;
-    for (const Vec3& v : shape.part ? shape.part->points : shape.mesh.vertices)
-      most = std::max(most, length(v));
-    robot.size += most + (shape.part ? shape.part->radius : 0);
+    double most = 0, radius = 0;
+    for (const Vec3& v : shape.mesh.vertices) most = std::max(most, length(v));
+    for (const ConvexPart& part : shape.parts) {
+      for (const Vec3& v : part.points) most = std::max(most, length(v));
+      radius = std::max(radius, part.radius);
+    }
+    robot.size += most + radius;
   }
   for (const Frame& frame : robot.tree.frames) {
     robot.size += length(frame.fixed.p);
@@ -168,12 +172,13 @@ void compare(const Robot& robot, Decoder& in) {
   std::vector<Scene::Placed> bodies;
   for (const Shape& shape : robot.shapes) {
     problem.bodies.push_back({"body " + std::to_string(bodies.size()),
-                              shape.part ? nullptr : &shape.mesh,
-                              shape.part ? &*shape.part : nullptr, shape.solid, shape.frame});
+                              shape.parts.empty() ? &shape.mesh : nullptr, shape.parts, shape.solid,
+                              shape.frame});
     const std::string name = problem.bodies.back().name;
     try {
-      bodies.push_back({shape.part ? Body(name, *shape.part) : Body(name, shape.mesh, shape.solid),
-                        shape.frame});
+      bodies.push_back(
+          {shape.parts.empty() ? Body(name, shape.mesh, shape.solid) : Body(name, shape.parts),
+           shape.frame});
     } catch (const std::invalid_argument&) {
       if (!shape.solid) throw;
       return;  // corners coincide, so the surface is not closed
